@@ -11,14 +11,14 @@ namespace pt {
 
 namespace {
 
-// As far as the target is left behind by what tiles know, each by itself, nothing else is asked: all that the image's
-// error knows beyond that, and its bounds, made it 0.93 to 1.12 times as large in most scenes of cli/scenes, and up to
-// 5 times in the others.
+// Until the error that tiles know by themselves is within this factor of the target, the image's own error is not
+// looked at. That one knows more and has bounds; in most scenes of cli/scenes it was 0.93 to 1.12 times as large, in
+// the others up to 5 times.
 constexpr double near_target = 1.2;
 
 } // namespace
 
-// Tiles that were interrupted on their way to a level go there first, as far as they may.
+// Tiles that were interrupted on their way to a level are completed first, as far as the limit allows.
 std::optional<TileStep> AdaptivePlan::next(const TileSamples &samples, AdaptiveRound &round) const {
     if (round.number == AdaptiveRound::none && samples.most() <= next_check(samples.least()))
         return next_together(samples, round);
@@ -27,8 +27,8 @@ std::optional<TileStep> AdaptivePlan::next(const TileSamples &samples, AdaptiveR
     return next_apart(samples, round);
 }
 
-// As long as tiles are not told apart: the error is looked at as with even samples, and before that at each level
-// whether it pays to. Some may be on their way from one of these counts to the next.
+// While all tiles are treated alike, the error is checked as for even samples, and before that, at each level, whether
+// it pays to tell tiles apart. Some tiles may be on the way from one of these counts to the next.
 std::optional<TileStep> AdaptivePlan::next_together(const TileSamples &samples, AdaptiveRound &round) const {
     const std::uint64_t count = samples.least();
     if (samples.even() && is_level(count) && are_worth_telling_apart(tile_gains(samples, squares_())))
@@ -44,7 +44,8 @@ std::optional<TileStep> AdaptivePlan::next_together(const TileSamples &samples, 
     return step;
 }
 
-// Where a limit holds a tile up, on its way to a level or at one, the round stays, and the others come to rest in it.
+// If the limit on samples holds a tile back, at a level or on its way to one, the round stays, and the other tiles come
+// to rest in it.
 std::optional<TileStep> AdaptivePlan::next_apart(const TileSamples &samples, AdaptiveRound &round) const {
     const std::span<const double> squares = squares_();
     const std::vector<double> gains = tile_gains(samples, squares);

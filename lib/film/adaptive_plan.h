@@ -16,7 +16,7 @@
 
 namespace pt {
 
-// Tiles that are to take samples, ascending, and by tile how many a pixel is to have then.
+// Tiles that are to take samples, in ascending order, and the number of samples that each is to have then.
 struct TileStep {
     std::vector<std::uint32_t> tiles;
     std::function<std::uint64_t(std::uint32_t)> goal;
@@ -24,7 +24,7 @@ struct TileStep {
 
 class AdaptivePlan {
 public:
-    // What a film says about that of its image.
+    // What a film says about the error of its image.
     struct Error {
         double high;          // upper bound of the relative error
         bool sees_too_little; // PT_UNCERTAIN_UNSEEN
@@ -34,15 +34,16 @@ public:
     using LookAtTiles =
         std::function<std::span<const double>()>; // their squares (region_errors.h), valid until the next
 
-    // most: samples of any pixel. Looks are at the samples of the time, and take some time.
+    // most: the largest number of samples for any pixel. error and squares look at the samples as they are at that
+    // moment, which takes time.
     AdaptivePlan(double target_error, std::uint64_t most, LookAtImage error, LookAtTiles squares) :
         target_error_(target_error),
         most_(most),
         error_(std::move(error)),
         squares_(std::move(squares)) {}
 
-    // Nothing if the film has the target error; no tile if none may take more. The goals are those of these samples,
-    // which must outlive them. Moves the round on where it is over.
+    // Nothing if the film has the target error; no tiles if none may take more. The goals refer to these samples, which
+    // must outlive them. Moves on to the next round where one is over.
     std::optional<TileStep> next(const TileSamples &samples, AdaptiveRound &round) const;
 
 private:

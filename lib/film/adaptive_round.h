@@ -17,7 +17,7 @@ struct AdaptiveRound {
     bool operator==(const AdaptiveRound &) const = default;
 };
 
-// Of films that are added.
+// The round of two films that are added.
 inline AdaptiveRound later_of(const AdaptiveRound &a, const AdaptiveRound &b) {
     return {std::max(a.number, b.number), std::max(a.floor, b.floor)};
 }

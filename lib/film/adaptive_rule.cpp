@@ -12,8 +12,9 @@ namespace {
 
 constexpr std::uint64_t first_level = 16; // of fewer samples the difference of the film's parts says too little
 
-// Every tile holds half of the mean or more: what its samples have not met yet they can only meet by being taken.
-// On scenes where tiles differ 2 to 3 times in what they need this costs a fiftieth of what uneven films gain.
+// Every tile takes at least half of the mean number of samples: light that a tile has not met yet can be found only by
+// more samples. In scenes where tiles differ 2 to 3 times in what they need, this costs a fiftieth of what uneven films
+// gain.
 constexpr std::uint64_t floor_share = 2;
 
 constexpr double root_of_half = 0.70710678118654752440;
@@ -28,14 +29,14 @@ double bound_of(std::int32_t round) {
     return power_of_halves(round);
 }
 
-// The last round whose bound a gain > 0 does not exceed: -2 log2(gain), rounded down.
+// The last round whose bound is not below a gain > 0: -2 log2(gain), rounded down.
 std::int32_t last_content_round(double gain) {
     int exponent = 0;
     const double fraction = std::frexp(gain, &exponent); // in [1/2, 1)
     return -2 * exponent + (fraction <= 0.5 ? 2 : fraction <= root_of_half ? 1 : 0);
 }
 
-// The squares of tiles by the last round that asks nothing of them.
+// The squares of tiles, grouped by the last round that asks nothing of them.
 using SquaresByRound = std::map<std::int32_t, double>;
 
 SquaresByRound by_content_round(std::span<const double> gains, std::span<const double> squares) {
@@ -82,8 +83,8 @@ std::vector<std::uint32_t> unfinished_tiles(const TileSamples &samples) {
     return tiles;
 }
 
-// Half of the square for each sample, but for that half. Row by row, since a division for each tile takes longer than
-// all that is done with it.
+// The expected gain per sample: half of the square over the number of samples, without that constant half. Row by row,
+// because a division for each tile would take longer than all the rest.
 std::vector<double> tile_gains(const TileSamples &samples, std::span<const double> squares) {
     std::vector<double> shares; // of the sets
     for (const SampleSet &set : samples.sets())

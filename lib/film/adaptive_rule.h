@@ -17,24 +17,24 @@
 
 namespace pt {
 
-// The least number of samples of a tile above this one: 16 times a power of two.
+// The next level of a tile above this number of samples: 16 times a power of two.
 std::uint64_t next_level(std::uint64_t sample_count);
 bool is_level(std::uint64_t sample_count);
 
-// The tiles that were interrupted on their way to a level, or have not begun.
+// Tiles that were interrupted on their way to a level, or have not begun.
 std::vector<std::uint32_t> unfinished_tiles(const TileSamples &samples);
 
 // By tile, what as many samples again are expected to lessen its square by, for each sample of a pixel that they cost;
 // 0 if that is unknown. squares: what is expected of the sum of the squares of its values' relative errors.
 std::vector<double> tile_gains(const TileSamples &samples, std::span<const double> squares);
 
-// The image's error as far as its tiles know it, each by itself; those that know nothing do not count.
+// The error of the image as far as each tile knows its own part; tiles that know nothing do not count.
 double error_of(const TileSamples &samples, std::span<const double> squares);
 
 // Whether tiles of a film with the same samples everywhere differ so much that it pays to tell them apart.
 bool are_worth_telling_apart(std::span<const double> gains);
 
-// The tiles that are to take as many samples again in this round, all of them being at a level.
+// The tiles that are to double their samples in this round. All tiles are at a level.
 std::vector<std::uint32_t> wanting_tiles(const TileSamples &samples, std::span<const double> gains,
                                          const AdaptiveRound &round);
 

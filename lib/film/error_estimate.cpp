@@ -13,14 +13,14 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Of the normal distribution: 95% lie within.
+// For the normal distribution, 95% lie within this many standard deviations.
 constexpr double normal_95 = 1.96;
 
-// An estimate that comes from fewer pixels is uncertain: its root is off by 1 / (2 sqrt(8)) = 18% or more as a rule.
+// An estimate from fewer pixels is uncertain: its root is typically off by 1 / (2 sqrt(8)) = 18% or more.
 constexpr double few_pixels = 8.0;
 
-// Nor is it certain if light that no sample has met is expected to add more than this share, a fortieth of the root:
-// calibrated.
+// It is uncertain as well if light that no sample has met is expected to add more than this share to the square, a
+// fortieth of the root. Calibrated.
 constexpr double much_unseen = 0.05;
 
 // Squares scatter: the root of a sum that rests on n pixels is by a share of about 1 / (2 sqrt(n)) too small as often
@@ -30,21 +30,21 @@ double share_added(double pixel_count) {
     return 0.6 / std::sqrt(pixel_count);
 }
 
-// Plain Halton points are the same in every pixel, so that errors of neighbours are not independent, and scatter more:
-// calibrated.
+// Plain Halton points are the same in every pixel, so the errors of neighbours are not independent and scatter more.
+// Calibrated.
 double margin(std::uint32_t sampler) {
     return sampler == PT_SAMPLER_HALTON ? 1.2 : 1.0;
 }
 
-// Numbers of quasi-random points at which the error falls more slowly than as N^-1/2, by a tenth or more, are not rare,
-// and the parts of a film tell too little of it there (exaggeration()): so much more is stated, within the bounds; of
-// what is uncertain the bounds are wide enough. Calibrated.
+// Numbers of quasi-random points at which the error falls by a tenth or more too slowly, compared with N^-1/2, are not
+// rare, and the parts of a film show too little of that (exaggeration()). So this much more is stated, but never beyond
+// the bounds; for uncertain errors the bounds are wide enough anyway. Calibrated.
 double margin_of_sequence(std::uint32_t sampler) {
     return sampler == PT_SAMPLER_RANDOM ? 1.0 : 1.125;
 }
 
-// How many pixels with equal errors would make a sum as uncertain: their squares are each a share of 1 / n of the sum,
-// and the sum of the squares of the shares is 1 / n.
+// How many pixels with equal errors would make a sum equally uncertain: each of n such squares is a share 1 / n of the
+// sum, and the squares of these shares add up to 1 / n.
 double pixel_count(const ErrorSquares &squares) {
     return squares.sum > 0.0 ? squared(squares.sum) / squares.of_pixels : infinity;
 }
@@ -68,9 +68,9 @@ double square_by_meetings(double met_once, double met_again) {
     return std::max(1.0, 1.0 / squared(meetings));
 }
 
-// With values met once: by what is known without them, or by how many were met again, if that is less. Where lamps are
-// found by chance, rare samples are of all kinds, and how many of the less rare were met again says nothing of the
-// others.
+// Values met once count by what is known without them, or by how many were met again if that gives less. Where lamps
+// are found by chance there are rare samples of all kinds, and how often the less rare ones were met again tells
+// nothing about the others.
 ErrorSquares relative_squares(const RegionErrors &all, bool finds_lamps_by_chance) {
     constexpr double channels = 3.0;
     const double factor = square_by_meetings(all.as_lamps.sum / channels, all.met_again / channels);

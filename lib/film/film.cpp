@@ -14,7 +14,8 @@ namespace pt {
 
 namespace {
 
-// Of a tile in memory, but for one long row: 7 MB, so that little is there twice while another film's tiles cut it.
+// The largest tile in memory, 7 MB, unless a single row is longer. So little is held twice while another film's tiles
+// cut it.
 constexpr std::uint32_t most_tile_pixels = 1U << 16;
 
 [[noreturn]] void refuse(const std::string &field, const std::string &value, const std::string &rule) {
@@ -26,7 +27,7 @@ std::string where(const Rectangle &pixels) {
            std::to_string(pixels.x) + ", " + std::to_string(pixels.y) + ")";
 }
 
-// Index of a pixel of the image among those of a rectangle.
+// The index of a pixel of the image within a rectangle.
 std::size_t index_in(const Rectangle &pixels, std::uint32_t x, std::uint32_t y) {
     return std::size_t{y - pixels.y} * pixels.width + (x - pixels.x);
 }
@@ -39,7 +40,7 @@ PixelSums part_of(const PixelSums &sums, const Rectangle &pixels, const Rectangl
     return cut;
 }
 
-// Brings the sums of samples to the split of more samples, which may put all of them on one side.
+// Moves the sums to the split that a larger set of samples has. That may put all of them on one side.
 void split_for(PixelSums &sums, const SampleSet &samples, std::uint64_t split) noexcept {
     const std::uint64_t own = split_of(samples.hull());
     if (own != split)
@@ -78,7 +79,7 @@ std::vector<FilmTile> Film::list() const {
     return tiles;
 }
 
-// Throws PT_ERROR_INCOMPATIBLE if a pixel has a sample here and in others, whose map is given.
+// Throws PT_ERROR_INCOMPATIBLE if a pixel has a sample both here and in others, whose map is given.
 void Film::require_disjoint(const std::vector<FilmTile> &others, const TileMap &map) const {
     for (const Tile &own : tiles_)
         for (const TileMap::Piece &piece : map.cut(own.pixels)) {
@@ -93,7 +94,8 @@ void Film::require_disjoint(const std::vector<FilmTile> &others, const TileMap &
         }
 }
 
-// Tile by tile, so that no more than one is there twice. Each lies in one tile of the map then, or in none.
+// Cuts tile by tile, so that only one tile at a time is held twice. Afterwards each tile lies within one tile of the
+// map, or outside all of them.
 void Film::cut_along(const TileMap &map) {
     const std::size_t count = tiles_.size();
     for (std::size_t i = 0; i < count; ++i) {
@@ -109,7 +111,7 @@ void Film::cut_along(const TileMap &map) {
     }
 }
 
-// What of them is in no tile of a map.
+// The parts of these tiles that lie outside all tiles of a map.
 std::vector<Film::Tile> Film::outside(const TileMap &map, std::vector<Tile> tiles) {
     std::vector<Tile> found;
     for (Tile &tile : tiles)
@@ -123,8 +125,8 @@ std::vector<Film::Tile> Film::outside(const TileMap &map, std::vector<Tile> tile
     return found;
 }
 
-// Adds to a tile what another has in its pixels. samples: of both together. Of a film that is brought to another split
-// all samples are on one side of it.
+// Adds the pixels that another tile shares with this one. samples: of both together. If a film has to move to another
+// split, all its samples are on one side of that.
 void Film::add_to(Tile &tile, const Tile &other, SampleSet samples) noexcept {
     const std::uint64_t split = split_of(samples.hull());
     const std::uint64_t others_split = split_of(other.samples.hull());
@@ -164,7 +166,7 @@ void Film::add(Film other) {
     FilmHeader header{header_.identity, canonical_tiles(sum), later_of(header_.round, other.header_.round)};
     const Rectangle bounds = bounds_of(header.tiles);
     tiles_.reserve(tiles_.size() + added.size());
-    // From here on nothing can fail.
+    // Nothing below can fail.
     for (const auto &[tile, others_tile] : meetings)
         add_to(tiles_[tile], other.tiles_[others_tile], std::move(sum[tile].samples));
     std::ranges::move(added, std::back_inserter(tiles_));
@@ -192,7 +194,8 @@ void Film::stream(const FilmStream::Receive &receive) const {
     stream.end();
 }
 
-// Of a tile whose pixels the pieces are, each in one tile of those in memory: row by row, as its bytes are.
+// One plane of a tile in the bytes, whose pixels are in these pieces, each from one tile in memory: row by row, in the
+// order of the bytes.
 void Film::stream_plane(const std::vector<TileMap::Piece> &pieces, std::uint32_t part, std::size_t plane,
                         FilmStream &stream) const {
     for (auto first = pieces.begin(); first != pieces.end();) {
@@ -260,8 +263,8 @@ void Film::read_rows_from(std::uint32_t first_row, PixelSums &sums) const {
                       index_in(rows, tile.pixels.x, y));
 }
 
-// As a context states it for a film with these samples; of one whose tiles no context has, as if all pixels had the
-// fewest, which do not tell what has changed.
+// The error as a context states it for a film with these samples. If no context can have such tiles, all pixels are
+// treated as if they had the fewest samples, and nothing is known about what has changed.
 ErrorEstimate Film::error(bool may_miss_lamps) const {
     if (sample_count() < min_estimate_samples)
         return unknown_error();

@@ -1,5 +1,5 @@
-// A film as a value on the host: what its header says, and the exact sums of its tiles. Opened from bytes, added to,
-// read as an image and written again, without a device. Behind pt_film.
+// A film as a value on the host: its header, and the exact sums of its tiles. It is opened from bytes, added to, read
+// as an image and written again, without a device. Behind pt_film.
 #pragma once
 
 #include "lib/film/adaptive_plan.h"
@@ -21,33 +21,34 @@ namespace pt {
 
 class Film {
 public:
-    // Throws PT_ERROR_INCOMPATIBLE if the bytes are no film, are damaged, or say what no picture has.
+    // Throws PT_ERROR_INCOMPATIBLE if the bytes are not a film, are damaged, or claim what no picture can have.
     explicit Film(std::span<const std::byte> bytes);
 
     const FilmFacts &facts() const { return facts_; }
 
-    // In their canonical form.
+    // With its tiles in canonical form.
     const FilmHeader &header() const { return header_; }
 
-    // The smallest rectangle of the image with all of its pixels.
+    // The smallest rectangle of the image that contains all pixels of the film.
     const Rectangle &bounds() const { return bounds_; }
 
-    // Adds the samples of another, in place: besides the other it takes little memory. Throws PT_ERROR_INCOMPATIBLE if
-    // it is of another picture or a pixel has a sample in both; then, and where memory is lacking, nothing has changed.
+    // Adds the samples of another film in place; beyond that film it takes little memory. Throws PT_ERROR_INCOMPATIBLE
+    // if that is of another picture or a pixel has the same sample in both. If it throws, or memory is lacking, nothing
+    // has changed.
     void add(Film other);
 
-    // Of the layout's size of header().
+    // Writes into memory of the size that the layout of header() asks for.
     void write(std::span<std::byte> bytes) const;
 
-    // The same bytes, piece by piece.
+    // Hands out the same bytes, piece by piece.
     void stream(const FilmStream::Receive &receive) const;
 
-    // The fewest samples of a pixel within the bounds: 0 if there is one without any.
+    // The fewest samples of any pixel within the bounds; 0 if some pixel has none.
     std::uint64_t sample_count() const;
     std::uint64_t max_sample_count() const;
     std::uint64_t total_samples() const; // of all pixels together
 
-    // What is said of consecutive pixels of one row.
+    // Estimates for consecutive pixels of one row.
     struct RowPart {
         std::uint32_t x, y; // of the image
         std::uint64_t sample_count;
@@ -58,20 +59,21 @@ public:
     void read(const Rectangle &pixels, bool with_standard_error,
               const std::function<void(const RowPart &)> &receive) const;
 
-    // Of the image within the bounds. may_miss_lamps: error_estimate.h.
+    // The error of the image within the bounds. may_miss_lamps: see error_estimate.h.
     ErrorEstimate error(bool may_miss_lamps) const;
 
-    // Left out of all pixels.
+    // Samples left out of all pixels.
     std::uint64_t rejected_samples() const;
 
-    // Its samples by tile of a grid over its bounds. Throws PT_ERROR_INCOMPATIBLE if its tiles cut those of the grid.
+    // The samples by tile of a grid over the bounds. Throws PT_ERROR_INCOMPATIBLE if the tiles of the film cut those of
+    // the grid.
     TileSamples samples_by_tile() const;
 
-    // What they are to take next (adaptive_plan.h): moves the round on where it is over.
+    // What the tiles are to take next (adaptive_plan.h). Moves on to the next round where one is over.
     std::optional<TileStep> plan(const TileSamples &samples, double target_error, std::uint64_t most,
                                  bool may_miss_lamps);
 
-    // Squares of tiles over its bounds, as samples_by_tile() has them.
+    // The number of tiles in the grid over the bounds, as in samples_by_tile().
     std::size_t tile_count() const { return TileGrid{bounds_.width, bounds_.height}.count(); }
 
 private:

@@ -14,14 +14,14 @@
 
 namespace pt {
 
-// Where the sums of a tile's parts are in a film's bytes.
+// Where the sums of each tile and part are in the bytes of a film.
 class FilmLayout {
 public:
     explicit FilmLayout(const FilmHeader &header);
 
     std::uint64_t size_bytes() const { return size_bytes_; }
 
-    // Where the first pixel's word is in a plane of a part of a tile. Parts without samples are not there.
+    // The position of the first pixel's word in a plane of a part of a tile. Parts without samples are not stored.
     std::uint64_t plane_offset(std::size_t tile, std::uint32_t part, std::size_t plane) const;
     bool has_part(std::size_t tile, std::uint32_t part) const { return tiles_[tile].counts[part] > 0; }
     const PartCounts &counts(std::size_t tile) const { return tiles_[tile].counts; }
@@ -40,7 +40,7 @@ private:
 // Throws PT_ERROR_INVALID_ARGUMENT if a caller's memory is too small for a film.
 void require_room(std::uint64_t size_bytes, std::uint64_t needed);
 
-// Writes a film to memory of the layout's size: the sums of each tile in any pieces, then end().
+// Writes a film into memory of the size of its layout: the sums of each tile in any pieces, then end().
 class FilmWriter {
 public:
     FilmWriter(const FilmHeader &header, std::span<std::byte> bytes);
@@ -81,7 +81,7 @@ public:
 
     const FilmHeader &header() const { return header_; }
 
-    // Sets the sums of as many consecutive pixels of a tile. Throws PT_ERROR_INCOMPATIBLE if no samples have such sums.
+    // Reads the sums of consecutive pixels of a tile. Throws PT_ERROR_INCOMPATIBLE if no samples can have such sums.
     void read(std::size_t tile, std::uint64_t first_pixel, PixelSums &sums) const;
 
 private:

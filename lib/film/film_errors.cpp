@@ -21,10 +21,10 @@ bool has_changed(const TileSamples &samples, const TileSamples &before, const Re
     return changed;
 }
 
-// What the samples of a rectangle's pixels show, which is a region at most.
+// What the samples of a rectangle, which is at most a region, show.
 class Estimates {
 public:
-    // rows: of the film, which begin with the rectangle's first.
+    // rows: rows of the film that begin with the first row of the rectangle.
     RegionPixels of(const Rectangle &pixels, const TileSamples &samples, double unit, const PixelSums &rows) {
         const std::uint64_t rejected =
             rows.estimate({pixels.x, pixels.width, pixels.height, samples.grid().width}, unit,
@@ -50,7 +50,7 @@ private:
 
 } // namespace
 
-// A row of rectangles is read once one of them has changed.
+// A row of rectangles is read only if one of them has changed.
 template <typename Fact>
 void FilmErrors::update(Known<Fact> &known, std::uint32_t side, const TileSamples &samples, double unit,
                         const ReadRows &read, Fact (*fact_of)(const RegionPixels &)) {

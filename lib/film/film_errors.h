@@ -1,5 +1,5 @@
-// What the tiles and the regions of a film say about its error, on the host. Kept from look to look: a tile is looked
-// at again when it has other samples than before, and a region when one of its tiles has.
+// What the tiles and regions of a film say about its error, on the host. Results are kept between looks: a tile is
+// looked at again only when its samples have changed, and a region when those of one of its tiles have.
 #pragma once
 
 #include "lib/film/pixel_sums.h"
@@ -15,20 +15,20 @@ namespace pt {
 
 class FilmErrors {
 public:
-    // Sets the sums of as many pixels, which are whole rows of the film from this one on.
+    // Reads the sums of whole rows of the film, from first_row on, as many pixels as rows has.
     using ReadRows = std::function<void(std::uint32_t first_row, PixelSums &rows)>;
 
-    // Of a film of this unit that has these samples, by tile (own_square_of in region_errors.h).
+    // For each tile of a film with this unit and these samples (own_square_of in region_errors.h).
     std::span<const double> tile_squares(const TileSamples &samples, double unit, const ReadRows &read);
 
-    // Row by row.
+    // For each region, row by row.
     std::span<const RegionErrors> regions(const TileSamples &samples, double unit, const ReadRows &read);
 
-    // The film is another one.
+    // To be called when the film is replaced.
     void forget() noexcept;
 
 private:
-    // What is known of rectangles of a film, each of one size but at its edges: tiles, or regions.
+    // What is known about the rectangles of a film, tiles or regions: all of one size, except at the edges.
     template <typename Fact>
     struct Known {
         TileSamples samples; // of the last look

@@ -30,7 +30,7 @@ std::optional<Number> number_in(const std::string &text) {
     return is_whole && std::to_string(number) == text ? std::optional(number) : std::nullopt;
 }
 
-// Gathers what is wrong with the facts that are asked for.
+// Collects what is wrong with the facts that are asked for.
 class FactReader {
 public:
     explicit FactReader(const FilmIdentity &identity) : identity_(identity) {}

@@ -1,4 +1,4 @@
-// What a film's identity says in numbers, for those who have nothing but the film.
+// The identity of a film as numbers, for callers that have nothing but the film.
 #pragma once
 
 #include "lib/film/film_header.h"
@@ -19,7 +19,7 @@ struct FilmFacts {
     std::string device;
 };
 
-// Throws PT_ERROR_INCOMPATIBLE if a fact is not there, or is not what pt_save_film could have written.
+// Throws PT_ERROR_INCOMPATIBLE if a fact is missing, or is something that pt_save_film cannot have written.
 FilmFacts facts_of(const FilmIdentity &identity);
 
 // Throws PT_ERROR_INCOMPATIBLE with a rule for each fact in which two identities differ: a film's, and that of what it

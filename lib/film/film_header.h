@@ -12,7 +12,7 @@
 
 namespace pt {
 
-// All that decides the bits of a picture's samples, as names and values. Films add up only if these are equal.
+// Everything that decides the bits of the samples, as names and values. Films can be added only if these are equal.
 struct FilmFact {
     std::string name;
     std::string value;
@@ -45,7 +45,7 @@ struct FilmHeader {
     bool operator==(const FilmHeader &) const = default;
 };
 
-// Ends with an empty line.
+// The text ends with an empty line.
 std::string text_of(const FilmHeader &header);
 
 // Reads what text_of has written. Throws PT_ERROR_INCOMPATIBLE if a letter differs from that, or the version.

@@ -10,7 +10,8 @@ Rectangle shifted(const Rectangle &pixels, const Rectangle &origin) {
     return {pixels.x + origin.x, pixels.y + origin.y, pixels.width, pixels.height};
 }
 
-// The samples that all pixels of a rectangle have (no samples, if no tile has the pixels); nothing if they differ.
+// The samples of the pixels of a rectangle, if all have the same: none if no tile has these pixels. Nothing if they
+// differ.
 std::optional<SampleSet> samples_of(const TileMap &map, const std::vector<FilmTile> &tiles, const Rectangle &pixels) {
     const SampleSet none;
     const auto samples_in = [&](const TileMap::Piece &piece) -> const SampleSet & {

@@ -1,4 +1,4 @@
-// How the tiles of a film's bytes and those of a film in memory follow from each other.
+// Converts between the tiles in a film's bytes and the tiles of a film in memory.
 #pragma once
 
 #include "lib/film/film_header.h"
@@ -9,11 +9,10 @@
 
 namespace pt {
 
-// The tiles of a film of these pixels of an image, as few as may be.
+// The tiles of a film with these pixels of an image, as few as possible.
 std::vector<FilmTile> film_tiles(const TileSamples &samples, const Rectangle &pixels);
 
-// The samples, by tile of a grid over these pixels of an image, of the film's tiles in them; nothing if these cut tiles
-// of the grid.
+// The samples by tile of a grid over these pixels of an image; nothing if the tiles of the film cut those of the grid.
 std::optional<TileSamples> tile_samples(const std::vector<FilmTile> &tiles, const Rectangle &pixels);
 
 } // namespace pt

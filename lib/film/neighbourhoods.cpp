@@ -10,7 +10,7 @@ namespace {
 
 using gpu::more_of;
 
-// About each pixel of a row: the values left of it, in it and right of it; those missing come first.
+// For each pixel of a row, the values to its left, in it and to its right, sorted. Missing ones come first.
 struct SortedRow {
     std::array<float, region_size> low;
     std::array<float, region_size> middle;
@@ -32,7 +32,7 @@ void sort_row(const PixelPlane &region, std::size_t y, SortedRow &to) {
     }
 }
 
-// Of a single row or column.
+// For a region of a single row or column.
 void find_in_line(const PixelPlane &line, Neighbourhoods &to) {
     const bool is_row = line.height == 1;
     const std::size_t count = is_row ? line.width : line.height;
@@ -48,7 +48,7 @@ void find_in_line(const PixelPlane &line, Neighbourhoods &to) {
 
 } // namespace
 
-// Row by row, each of which is sorted once.
+// Row by row, so that each row is sorted once.
 void find_neighbourhoods(const PixelPlane &region, Neighbourhoods &to) {
     if (region.width == 1 || region.height == 1) {
         find_in_line(region, to);
@@ -77,7 +77,7 @@ void find_neighbourhoods(const PixelPlane &region, Neighbourhoods &to) {
     }
 }
 
-// By columns first: what touches a pixel is three of those in a row.
+// By columns first: what touches a pixel is three neighbouring columns of three pixels.
 std::array<float, tile_size * tile_size> largest_in_tile(const PixelPlane &tile) {
     std::array<std::array<float, tile_size + 2>, tile_size + 2> values{}; // with those beyond the edges
     for (std::size_t y = 0; y < tile.height; ++y)

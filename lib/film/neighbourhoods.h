@@ -1,4 +1,4 @@
-// What the pixels about each pixel of a region show in one channel: of those of the region that touch it, and itself.
+// What surrounds each pixel of a region, in one channel: the pixel itself and those of the region that touch it.
 #pragma once
 
 #include "shaders/gpu_layout.h"
@@ -19,7 +19,8 @@ struct PixelPlane {
     const float *values;
 };
 
-// Of the pixels of a region; rows are region_size apart, whatever its width. Of pixels outside it any numbers.
+// A number for each pixel of a region. Rows are region_size apart, whatever the width; numbers outside the region are
+// undefined.
 using RegionFloats = std::array<float, region_size * region_size>;
 
 struct Neighbourhoods { // gpu::Neighbourhood
@@ -29,7 +30,7 @@ struct Neighbourhoods { // gpu::Neighbourhood
 
 void find_neighbourhoods(const PixelPlane &region, Neighbourhoods &to);
 
-// The largest alone, of the pixels of a tile; rows are tile_size apart.
+// Only the largest, for the pixels of one tile. Rows are tile_size apart.
 std::array<float, tile_size * tile_size> largest_in_tile(const PixelPlane &tile);
 
 } // namespace pt

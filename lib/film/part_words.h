@@ -1,4 +1,4 @@
-// Adds the exact sums of consecutive pixels in a part of a film to those of another part, and takes them off again.
+// Adds the exact sums of consecutive pixels in one part of a film to those in another part, and subtracts them again.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +6,7 @@
 
 namespace pt {
 
-// Plane by plane, as in gpu_layout.h. Word: std::uint32_t, or const.
+// The words of a part, plane by plane, as in gpu_layout.h. Word: std::uint32_t, or const.
 template <typename Word>
 struct PartWords {
     Word *first;        // of the first pixel's

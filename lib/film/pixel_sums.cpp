@@ -16,7 +16,7 @@ namespace pt {
 
 namespace {
 
-// One pixel of one part.
+// The sums of one pixel in one part.
 class PartPixel {
 public:
     PartPixel(const PixelSums &sums, std::uint32_t part, std::size_t pixel) : sums_(sums), part_(part), pixel_(pixel) {}
@@ -39,7 +39,7 @@ private:
     std::size_t pixel_;
 };
 
-// Estimates of pixels next to each other, in blocks.
+// Estimates adjacent pixels, in blocks.
 class Estimation {
 public:
     Estimation(const PixelSums &sums, double unit, const EstimatePlanes &to) :
@@ -50,7 +50,7 @@ public:
     // Samples left out.
     std::uint64_t rejected() const { return rejected_; }
 
-    // to_first: where the pixels go.
+    // to_first: the index of the first result.
     void estimate(std::size_t first, std::size_t count, std::size_t to_first) {
         if (count == block_pixels && estimate_alike(first, to_first))
             return;
@@ -68,7 +68,7 @@ private:
         return sums_.plane(part, plane).subspan(pixel).data();
     }
 
-    // For a block whose pixels have the same samples, none left out, as in nearly all blocks.
+    // For a block whose pixels all have the same samples and none was left out, which is nearly every block.
     bool estimate_alike(std::size_t first, std::size_t to_first) {
         const std::uint32_t *const a = words(older_part, gpu::FILM_ACCEPTED, first);
         const std::uint32_t *const b = words(newer_part, gpu::FILM_ACCEPTED, first);
@@ -107,7 +107,7 @@ private:
                     estimate_one(first + i, to_first + i, channel);
     }
 
-    // By quotient.h, whatever the sums.
+    // By quotient.h, which works for any sums.
     void estimate_one(std::size_t pixel, std::size_t to, std::size_t channel) {
         const PartPixel a(sums_, older_part, pixel);
         const PartPixel b(sums_, newer_part, pixel);
@@ -191,7 +191,7 @@ bool PixelSums::holds(const PartCounts &expected) const {
     return true;
 }
 
-// By blocks whose planes stay in the fastest cache.
+// In blocks whose planes fit into the fastest cache.
 PixelEstimates PixelSums::estimates(double unit, bool with_standard_error) const {
     constexpr std::size_t most = 256;
     std::array<float, 9 * most> planes;

@@ -19,7 +19,7 @@ struct PixelEstimates {
                                        // and with up to 8 samples; nothing if it was not asked for
 };
 
-// Rows of some of a number of consecutive pixels.
+// A rectangle within consecutive pixels.
 struct PixelRows {
     std::size_t first;
     std::size_t width;
@@ -42,7 +42,7 @@ public:
 
     std::size_t pixel_count() const { return pixel_count_; }
 
-    // The sums are to be set afterwards.
+    // Afterwards the sums are undefined until they are set.
     void resize(std::size_t pixel_count) {
         words_.resize(pixel_count * words_per_pixel);
         pixel_count_ = pixel_count;
@@ -60,7 +60,7 @@ public:
 
     void add(const PixelSums &other) noexcept;
 
-    // Adds a part of consecutive pixels of others to a part of as many from to_first on.
+    // Adds one part of consecutive pixels of another object to a part of the pixels from to_first on.
     void add_part(std::uint32_t to_part, std::size_t to_first, const PixelSums &from, std::uint32_t from_part,
                   std::size_t first, std::size_t count) noexcept;
 
@@ -68,16 +68,16 @@ public:
     void fold_into(std::uint32_t part) noexcept { fold_into(part, 0, pixel_count_); }
     void fold_into(std::uint32_t part, std::size_t first, std::size_t count) noexcept;
 
-    // Sets consecutive pixels to those of others.
+    // Copies consecutive pixels of another object.
     void copy(const PixelSums &from, std::size_t first, std::size_t count, std::size_t to_first) noexcept;
 
     // Samples of a pixel in each part, accepted or rejected.
     PartCounts samples_of(std::size_t pixel) const;
 
-    // Whether so many samples can have these sums: each of those accepted is below 2^FILM_MAX_EXPONENT.
+    // Whether this many samples can have such sums: each accepted sample is below 2^FILM_MAX_EXPONENT.
     bool holds(const PartCounts &expected) const;
 
-    // Radiance is the mean in units, a power of two; rounded as quotient.h says.
+    // The mean radiance, in units of a power of two, rounded as quotient.h says.
     PixelEstimates estimates(double unit, bool with_standard_error) const;
 
     // The same for some pixels; returns the samples left out of them.

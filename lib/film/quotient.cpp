@@ -14,7 +14,7 @@ gpu::uvec4 words_of(WideSum sum) {
             static_cast<std::uint32_t>(sum >> 64), static_cast<std::uint32_t>(sum >> 96)};
 }
 
-// As a double, for exponents within its range.
+// As a double; the exponent must be within its range.
 double power_of_two(int exponent) {
     return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52);
 }
@@ -31,7 +31,7 @@ std::optional<float> rounded_alike(double approximate) {
     return std::nullopt;
 }
 
-// Within 2^-52 of itself: the upper half is rounded, and so is the sum of both.
+// Off by at most a 2^52th of itself: the upper half is rounded, and so is the sum of the two halves.
 double nearly(WideSum number) {
     return static_cast<double>(static_cast<std::uint64_t>(number >> 64)) * 0x1p64 +
            static_cast<double>(static_cast<std::uint64_t>(number));
@@ -39,7 +39,7 @@ double nearly(WideSum number) {
 
 } // namespace
 
-// Tries double first, with three roundings.
+// Tries double precision first, with three roundings.
 float mean_of(WideSum sum, std::uint32_t count, int exponent) {
     if (sum == 0 || count == 0)
         return 0.0F;

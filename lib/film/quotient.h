@@ -13,7 +13,7 @@ __extension__ using WideSum = unsigned __int128;
 // sum * 2^exponent / count, rounded once, to nearest; 0 without samples.
 float mean_of(WideSum sum, std::uint32_t count, int exponent);
 
-// What the sums of two parts show, each with at least one sample.
+// What the sums of two parts say, each with at least one sample.
 struct PartDifference {
     float standard_error; // of the mean of all
     bool first_is_less;   // the mean of the first part is below that of the second
@@ -22,7 +22,7 @@ struct PartDifference {
 // For sums of a and b samples: the standard error that gpu::ErrorDivisor derives, times 2^exponent.
 class PartWeights {
 public:
-    // At least one sample in each.
+    // Both parts have at least one sample.
     PartWeights(std::uint32_t a, std::uint32_t b) : a_(a), b_(b), divisor_(gpu::error_divisor(a, b)) {}
 
     bool are_of(std::uint32_t a, std::uint32_t b) const { return a == a_ && b == b_; }

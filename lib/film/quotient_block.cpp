@@ -23,7 +23,7 @@ struct WideNumber {
     WideNumber(double high, double low) : value(0x1p32 * high + low), lost(low - (value - 0x1p32 * high)) {}
 };
 
-// Far more than the few roundings of a quotient, each of a 2^53th.
+// Far more than the few roundings of a quotient, each at most a 2^53th.
 constexpr double margin_of_roundings = 0x1p-50;
 
 double margin(const WideNumber &number, double margin_if_exact) {

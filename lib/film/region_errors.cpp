@@ -13,7 +13,7 @@ using gpu::more_of;
 
 constexpr std::size_t channel_count = 3;
 
-// > 0 wherever there is unseen light.
+// Positive wherever light may be unseen.
 double brighter_beside(double mean, double largest_beside, double sample_count) {
     return largest_beside * (1.0 + 0x1p-40) - mean * sample_count;
 }
@@ -21,7 +21,7 @@ double brighter_beside(double mean, double largest_beside, double sample_count) 
 // Numbers of a row of a tile.
 using TileRow = std::array<double, tile_size>;
 
-// Those beyond the edge of an image are 0.
+// Pixels beyond the edge of the image count as 0.
 void take(TileRow &to, const float *from, std::size_t count) {
     if (count < tile_size) {
         to.fill(0.0);
@@ -64,7 +64,7 @@ double largest_of(const TileRow &row) {
     return more_of(more_of(largest[0], largest[1]), more_of(largest[2], largest[3]));
 }
 
-// Few values need a logarithm, or stand out.
+// Only few values need a logarithm or stand out; the others are handled without branches.
 void find_row_errors(const RowValues &row, const TileRow &around, const float *largest_beside, double sample_count,
                      RowErrors &to) {
     TileRow special; // > 0 where one is
@@ -99,7 +99,7 @@ void find_row_errors(const RowValues &row, const TileRow &around, const float *l
     }
 }
 
-// The mean about each pixel (gpu::level_about). Few tiles do not tell.
+// The mean around each pixel (gpu::level_about). Only few tiles cannot tell.
 void find_levels(const TileRow &mean, const gpu::ValueSet &tile, const gpu::ValueSet &region, TileRow &level) {
     TileRow lacking;
     for (std::size_t i = 0; i < tile_size; ++i) {
@@ -112,7 +112,7 @@ void find_levels(const TileRow &mean, const gpu::ValueSet &tile, const gpu::Valu
         level[i] = gpu::level_about(mean[i], tile, region);
 }
 
-// The means of the channels.
+// One set of means for each channel.
 using ValueSets = std::array<gpu::ValueSet, channel_count>;
 
 struct SetsOfRegion {
@@ -124,7 +124,7 @@ std::size_t tile_columns(const RegionValues &region) {
     return (region.width + tile_size - 1) / tile_size;
 }
 
-// The channels side by side, since each sum waits for the one before.
+// The channels are summed side by side, because each sum has to wait for its previous addition.
 SetsOfRegion sets_of(const RegionValues &region) {
     SetsOfRegion sets{};
     std::array<double, channel_count> sums{};

@@ -1,6 +1,6 @@
-// What the pixels of a region say about the error of an image, on the host, by shaders/pixel_error.h: what is expected
-// of the squares of their errors, summed up, and how they lie; estimate.comp says the same on devices. It depends on
-// nothing outside the region, so regions can be looked at in any order and anywhere.
+// What the pixels of a region say about the error of an image, on the host, by shaders/pixel_error.h: the expected
+// squares of their errors, their sums, and how they are distributed. estimate.comp computes the same on devices. A
+// region depends on nothing outside it, so regions can be looked at in any order and anywhere.
 #pragma once
 
 #include "lib/film/neighbourhoods.h"
@@ -18,8 +18,8 @@ inline constexpr double relative_offset = 0.01;
 
 using gpu::squared;
 
-// The pixels of a region, row by row, at the right and bottom edges of an image smaller ones, in planes: R of all
-// pixels, then G, then B.
+// The pixels of a region, row by row, smaller at the right and bottom edges of an image, in planes: R of all pixels,
+// then G, then B.
 struct RegionValues {
     std::size_t width;
     std::size_t height;
@@ -30,8 +30,8 @@ struct RegionValues {
     const float *lesser;         // the smaller of the means of the film's two parts
 };
 
-// What is expected of pixels' values x with the limits r, summed over channels, row by row; rows are region_size apart,
-// whatever the region's width.
+// The expected squares of the errors of pixels with values x and limits r, summed over channels, row by row. Rows are
+// region_size apart, whatever the width of the region.
 struct PixelErrors {
     using Numbers = std::array<double, region_size * region_size>;
 
@@ -43,11 +43,11 @@ struct PixelErrors {
     Numbers unseen; // the same of light beside the pixel that may be in it too, but that none of its samples met
 };
 
-// sample_counts: of a pixel, for each tile of the region, row by row.
+// sample_counts: samples of a pixel, for each tile of the region, row by row.
 void find_pixel_errors(const RegionValues &region, std::span<const double> sample_counts, PixelErrors &to);
 
-// The sum of relative_square, as_lamps and unseen over the values of a tile, by what that tile alone knows; infinite if
-// it is unknown.
+// The sum of relative_square, as_lamps and unseen over the values of a tile, from the samples of that tile alone;
+// infinite if it is unknown.
 double own_square(const RegionValues &tile, double sample_count);
 
 // The squares that are expected of errors, summed over pixels and channels, and how they lie.

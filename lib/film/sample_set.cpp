@@ -38,7 +38,7 @@ std::optional<SampleRange> SampleSet::overlap(const SampleRange &range) const {
     return SampleRange{std::max(own->first, range.first), std::min(own->end, range.end)};
 }
 
-// One pass along both, since a film's header may have a great many ranges.
+// A single pass along both sets, since the header of a film may have a great many ranges.
 std::optional<SampleRange> SampleSet::overlap(const SampleSet &other) const {
     auto own = ranges_.begin();
     for (const SampleRange &range : other.ranges_) {

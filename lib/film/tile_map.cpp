@@ -35,7 +35,8 @@ struct RangesBefore {
     static std::pair<std::uint64_t, std::uint64_t> ends(const SampleRange &range) { return {range.first, range.end}; }
 };
 
-// For each tile the first one with equal samples: comparing these numbers is faster than comparing sets of many ranges.
+// For each tile, the first one with equal samples: comparing these indices is faster than comparing sets of many
+// ranges.
 std::vector<std::size_t> first_equals(const std::vector<FilmTile> &tiles) {
     std::map<const SampleSet *, std::size_t, RangesBefore> known;
     std::vector<std::size_t> firsts;
@@ -45,7 +46,7 @@ std::vector<std::size_t> first_equals(const std::vector<FilmTile> &tiles) {
     return firsts;
 }
 
-// Neighbours in a band that have equal samples, as one; tile: the first with these samples.
+// Neighbours in a band with equal samples become one span; its tile is the first with these samples.
 std::vector<TileMap::Span> runs_of(const TileMap::Band &band, const std::vector<std::size_t> &firsts) {
     std::vector<TileMap::Span> runs;
     for (const TileMap::Span &span : band.spans) {
@@ -76,7 +77,8 @@ std::vector<TileMap::Piece> cut_rows(const std::vector<TileMap::Span> &spans, co
     return pieces;
 }
 
-// Whether pieces lie below others in the same columns and tiles; both rows are as wide.
+// Whether these pieces continue others that lie above them, in the same columns and tiles. Both rows have the same
+// width.
 bool continue_below(std::span<const TileMap::Piece> pieces, std::span<const TileMap::Piece> below) {
     return std::ranges::equal(pieces, below, [](const TileMap::Piece &a, const TileMap::Piece &b) {
         return a.pixels.x == b.pixels.x && a.tile == b.tile;

@@ -23,8 +23,8 @@ struct ElementaryFunction {
 
 std::span<const ElementaryFunction> elementary_functions();
 
-// As many for each function, always the same: both ends of its range, its special places and their neighbours, and
-// numbers spread evenly over the range and, for the other half, over its exponents.
+// Number of arguments for each function, always the same ones: both ends of its range, its special places and their
+// neighbours, then numbers spread evenly, half of them over the range and half over its exponents.
 constexpr std::uint32_t arguments_per_function = 16384;
 std::vector<float> accuracy_arguments(const ElementaryFunction &function);
 

@@ -13,7 +13,7 @@ constexpr std::uint64_t most_pixel_bytes = pixel_bytes(PT_FORMAT_RGBA32F);
 
 } // namespace
 
-// A binding begins at a multiple of the alignment, up to as many bytes before the piece.
+// A binding must begin at a multiple of the alignment, so it may begin that many bytes before the piece.
 BufferWriter::PieceLimits BufferWriter::piece_limits(const vulkan::Limits &limits) {
     const std::uint64_t bytes = limits.max_storage_buffer_range - limits.storage_buffer_alignment;
     const std::uint64_t dispatched = std::uint64_t{limits.max_workgroup_count} * gpu::WORKGROUP_SIZE;
@@ -72,7 +72,7 @@ void BufferWriter::write(const ImageQuery &query, const BufferTarget &target) {
         finish();
 }
 
-// Row by row of pieces, of which a long row may have several.
+// Pieces follow the rows; a long row may take several.
 std::vector<BufferWriter::Piece> BufferWriter::pieces(const ImageQuery &query, const BufferTarget &target) const {
     const Rectangle &all = query.pixels;
     const auto width = static_cast<std::uint32_t>(std::min<std::uint64_t>(all.width, limits_.pixels));

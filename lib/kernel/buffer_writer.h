@@ -1,5 +1,5 @@
-// Resolves a film into a buffer of the caller's, on the device: no pixel passes the host. Owned by RenderDevice; bound
-// to its film.
+// Resolves a film into a buffer that the caller owns. Everything happens on the device; no pixel passes through the
+// host. Owned by RenderDevice; bound to its film.
 #pragma once
 
 #include "lib/kernel/resolve.h"
@@ -21,27 +21,27 @@ struct BufferTarget {
 
 class BufferWriter {
 public:
-    // As much of an image as is resolved in one dispatch.
+    // The largest part of an image that one dispatch resolves.
     struct PieceLimits {
         std::uint64_t pixels; // at least one, and whatever their format, they fit the bytes
         std::uint64_t bytes;  // of the buffer, gaps between rows included
     };
     static PieceLimits piece_limits(const vulkan::Limits &limits);
 
-    // All must outlive it.
+    // The arguments must outlive the writer.
     BufferWriter(vulkan::Device &device, ResolvePipelines &pipelines, DeviceFilm &film, const PieceLimits &limits);
-    // Waits for what is under way.
+    // Waits for the device to finish.
     ~BufferWriter();
     BufferWriter(const BufferWriter &) = delete;
     BufferWriter &operator=(const BufferWriter &) = delete;
 
-    // Returns when the device has written the pixels or, with a semaphore to signal, when it has been told to. What is
-    // under way of the call before is waited for first. Throws PT_ERROR_INTERNAL if a driver lost work, in a call that
-    // has not waited too: then it has written nothing.
+    // Returns when the device has written the pixels. With a semaphore to signal, it returns as soon as the work is
+    // submitted; the next call waits for that work first. Throws PT_ERROR_INTERNAL if a driver lost work; if the lost
+    // work was that of an earlier call, nothing has been written.
     void write(const ImageQuery &query, const BufferTarget &target);
 
 private:
-    // A rectangle of the image, and where it is in a binding.
+    // A rectangle of the image, and its place in a binding.
     struct Piece {
         Rectangle pixels; // of the film
         vulkan::BufferRange range;

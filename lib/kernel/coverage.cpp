@@ -30,7 +30,7 @@ constexpr std::uint64_t most_covered_pixels = 1U << 18; // of a piece
 constexpr std::uint64_t count_bytes = sizeof(std::uint32_t);
 constexpr glm::uvec2 no_samples(1, 0);
 
-// The first block of a sample's numbers is all that its camera ray takes.
+// A camera ray takes only the first block of its sample's numbers.
 PointLayout camera_layout(const Features &features) {
     return {{camera_dimensions(features)}, 1, 1};
 }
@@ -52,7 +52,7 @@ gpu::CoverageConstants coverage_constants(const gpu::FrameConstants &frame) {
     return constants;
 }
 
-// The most ranges that the samples of a tile are made up of.
+// The largest number of ranges in the samples of any tile.
 std::size_t most_ranges(const TileSamples &samples) {
     std::size_t most = 0;
     for (std::size_t tile = 0, count = samples.even() ? 1 : samples.grid().count(); tile < count; ++tile)
@@ -60,7 +60,7 @@ std::size_t most_ranges(const TileSamples &samples) {
     return most;
 }
 
-// One of those of each tile, as the kernel reads them.
+// For each tile one of its ranges, as the kernel reads it.
 std::vector<glm::uvec2> tile_ranges(const TileSamples &samples, std::size_t index) {
     std::vector<glm::uvec2> ranges;
     for (std::size_t tile = 0; tile < samples.grid().count(); ++tile) {
@@ -71,7 +71,7 @@ std::vector<glm::uvec2> tile_ranges(const TileSamples &samples, std::size_t inde
     return ranges;
 }
 
-// From the first of them to the last.
+// From the first sample of all ranges to the last.
 SampleRange hull_of_ranges(const std::vector<glm::uvec2> &ranges) {
     SampleRange hull;
     for (const glm::uvec2 &range : ranges)
@@ -116,7 +116,7 @@ Coverage::Buffers &Coverage::buffers(std::uint64_t pixels, std::size_t tiles) {
     return buffers_.emplace(std::move(made));
 }
 
-// As many as the time, the table of points and the driver's patience with loops allow.
+// As many samples as fit the time, the table of points, and the number of loop trips that drivers put up with.
 std::uint64_t Coverage::samples_in_dispatch(double affordable) const {
     const std::uint64_t rows = device_.limits().max_uniform_range / sizeof(PointBlock);
     const std::uint64_t loops = device_.limits().loop_trip_budget / (1 + loop_trips_per_walk(features_));
@@ -152,7 +152,7 @@ void Coverage::read(const CoverageQuery &query, double tests_per_submission, con
     }
 }
 
-// A piece: range by range of its tiles' samples, and each in dispatches.
+// Counts a piece: one range of its tiles after the other, each in as many dispatches as it needs.
 void Coverage::count(const CoverageQuery &query, gpu::CoverageConstants constants, double tests_per_submission,
                      Buffers &buffers) {
     const std::uint64_t bytes = (1 + std::uint64_t{constants.pixel_count}) * count_bytes;

@@ -1,5 +1,5 @@
-// Counts the camera rays of samples that meet a surface (shaders/coverage.comp), by taking the same rays again: so that
-// the path tracer's film needs no fourth channel. Owned by RenderDevice, once it has been asked for.
+// Counts how many camera rays meet a surface (shaders/coverage.comp), by tracing the camera rays of the samples again.
+// So the film needs no fourth channel. Owned by RenderDevice, which makes it when it is first asked for.
 #pragma once
 
 #include "lib/film/film_header.h"
@@ -28,20 +28,20 @@ struct CoverageQuery {
 
 class Coverage {
 public:
-    // Both must outlive it.
+    // Both arguments must outlive the object.
     Coverage(vulkan::Device &device, std::span<const std::uint32_t> code);
 
-    // Takes a scene over, unless it has it; see SceneKernel::show().
+    // Takes over a scene, unless it has that one already; see SceneKernel::show().
     void show(const std::shared_ptr<const GpuScene> &scene, const vulkan::Buffer *tree);
 
-    // Of the scene that is shown: calls receive(counts) for consecutive pieces of the pixels, row by row.
-    // tests_per_submission: that are worth one, between rays and surfaces. Throws PT_ERROR_INTERNAL if a driver lost
-    // work.
+    // Calls receive(counts) for consecutive pieces of the pixels, row by row, of the scene that is shown.
+    // tests_per_submission: how many tests of rays against surfaces one submission should take. Throws
+    // PT_ERROR_INTERNAL if a driver lost work.
     using Receive = std::function<void(std::span<const std::uint32_t>)>;
     void read(const CoverageQuery &query, double tests_per_submission, const Receive &receive);
 
 private:
-    // What a piece takes.
+    // The buffers that one piece needs.
     struct Buffers {
         vulkan::Buffer covered; // rays that were lost, then the counts
         vulkan::Buffer host;    // the same

@@ -1,5 +1,5 @@
-// Specialization constants that say nothing of a scene, but what a device does well. Set by whatever runs the shaders
-// that trace rays, and by what measures their functions.
+// Specialization constants that depend on the device alone, not on the scene. Set for every kernel that traces rays,
+// and for the kernels that measure its functions.
 #pragma once
 
 #include "lib/vulkan/device.h"

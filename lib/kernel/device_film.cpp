@@ -10,7 +10,7 @@ namespace pt {
 
 namespace {
 
-// Pixels that a range and a strip have in common.
+// The pixels that a range and a strip have in common.
 struct Overlap {
     std::uint32_t first;
     std::uint32_t count;
@@ -23,20 +23,20 @@ struct Overlap {
     }
 };
 
-// The largest strip that is whole rows of regions, or whatever fits if a row does not.
+// The largest strip that is whole rows of regions, or, if not even one row fits, as many pixels as do.
 std::uint32_t strip_pixels(std::uint32_t width, std::uint32_t most) {
     const std::uint64_t row_of_regions = std::uint64_t{width} * gpu::REGION_SIZE;
     return row_of_regions > most ? most : static_cast<std::uint32_t>(most / row_of_regions * row_of_regions);
 }
 
-// Of a pixel's word in the buffer of a strip, in bytes.
+// Where a pixel's word begins in the buffer of a strip, in bytes.
 std::uint64_t word_offset(const DeviceFilm::Strip &strip, std::uint32_t part, std::size_t plane, std::uint32_t pixel) {
     const std::uint64_t words =
         (std::uint64_t{part} * gpu::FILM_WORDS + plane) * strip.pixel_count + (pixel - strip.first_pixel);
     return words * sizeof(std::uint32_t);
 }
 
-// To words that are, or are to be, those of a strip.
+// Writes sums into words that belong to a strip, or will.
 void write_sums(const DeviceFilm::Strip &strip, vulkan::Buffer &words, std::uint32_t first_pixel,
                 const PixelSums &sums) {
     const Overlap pixels(strip, first_pixel, sums.pixel_count());
@@ -168,7 +168,7 @@ void for_each_piece(std::uint32_t pixel_count, std::uint32_t most_pixels,
 
 namespace {
 
-// Of pixels next to each other, all of which are to hold the same.
+// Requires that adjacent pixels all hold the same number of samples.
 void require_all(const PixelSums &sums, std::size_t first, std::size_t count, const PartCounts &expected) {
     std::uint64_t others = 0; // bits in which numbers of samples differ from these
     for (std::uint32_t part = 0; part < gpu::FILM_PARTS; ++part) {
@@ -181,7 +181,7 @@ void require_all(const PixelSums &sums, std::size_t first, std::size_t count, co
         require_samples(sums.samples_of(first + i), expected);
 }
 
-// Of consecutive pixels of a film.
+// The same for consecutive pixels of a film.
 void require_all(const PixelSums &sums, std::uint32_t first_pixel, const TileSamples &samples) {
     std::vector<PartCounts> expected;
     for (const SampleSet &set : samples.sets())
@@ -195,7 +195,7 @@ void require_all(const PixelSums &sums, std::uint32_t first_pixel, const TileSam
                                     });
 }
 
-// others: of one film at a time, kept from call to call.
+// others: receives one film at a time; kept from call to call so that its memory is reused.
 void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, std::uint32_t first_pixel,
                 PixelSums &sums, PixelSums &others) {
     films.front()->read(first_pixel, sums);

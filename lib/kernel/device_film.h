@@ -32,7 +32,7 @@ public:
 
     static constexpr std::uint64_t bytes_per_pixel = PixelSums::words_per_pixel * sizeof(std::uint32_t);
 
-    // Its memory has to be cleared before it is used. Throws PT_ERROR_OUT_OF_DEVICE_MEMORY, or PT_ERROR_UNSUPPORTED for
+    // The memory has to be cleared before it is used. Throws PT_ERROR_OUT_OF_DEVICE_MEMORY, or PT_ERROR_UNSUPPORTED for
     // sizes beyond the device.
     DeviceFilm(vulkan::Device &device, std::uint32_t width, std::uint32_t height, std::uint32_t max_strip_pixels);
 
@@ -42,35 +42,37 @@ public:
     std::vector<Strip> &strips() { return strips_; }
     const std::vector<Strip> &strips() const { return strips_; }
 
-    // Whether the host sees its memory, in place.
+    // Whether the host can read and write the film in place.
     bool is_host_memory() const;
 
-    // Records that all sums become 0.
+    // Records commands that set all sums to 0.
     void clear(const vk::raii::CommandBuffer &commands) const;
 
-    // Whether its strips are whole rows of regions, as estimates of its error want them (gpu_layout.h).
+    // Whether its strips consist of whole rows of regions, which the kernel that estimates the error needs
+    // (gpu_layout.h).
     bool has_whole_regions() const;
 
-    // Records that the words of consecutive pixels become those of a buffer: planes without gaps, part by part.
+    // Records commands that copy the words of consecutive pixels into a buffer: planes without gaps, one part after the
+    // other.
     void copy_to(const vk::raii::CommandBuffer &commands, const PixelRange &pixels, const vulkan::Buffer &to) const;
 
-    // Sets the sums of its first pixels.
+    // Sets the sums of the first pixels, as many as there are in sums.
     void write(const PixelSums &sums);
 
-    // Receives the sums of as many consecutive pixels.
+    // Reads the sums of consecutive pixels, as many as there is room for.
     void read(std::uint32_t first_pixel, PixelSums &sums);
 
-    // Sums of all pixels that are to replace those of a film: in memory of their own, so that whatever fails before
-    // leaves the film as it was.
+    // New sums for all pixels of a film, in memory of their own: if anything fails before replace(), the film is as it
+    // was.
     class NewSums {
     public:
         // Throws PT_ERROR_OUT_OF_DEVICE_MEMORY.
         NewSums(vulkan::Device &device, DeviceFilm &film);
 
-        // Sets those of consecutive pixels.
+        // Sets the sums of consecutive pixels.
         void write(std::uint32_t first_pixel, const PixelSums &sums);
 
-        // In a single submission, once all have been written.
+        // Takes the place of the film in a single submission, once all sums have been written.
         void replace();
 
     private:
@@ -79,7 +81,7 @@ public:
         std::vector<vulkan::Buffer> words_; // of each strip
     };
 
-    // Over both parts and all pixels.
+    // The sum over both parts and all pixels.
     std::uint64_t rejected_samples();
 
 private:
@@ -88,17 +90,17 @@ private:
     std::vector<Strip> strips_;
 };
 
-// Reads the sum of films of one size, which together hold these samples, in pieces of so many consecutive pixels of a
-// range. Throws PT_ERROR_INTERNAL if a driver lost work.
+// Reads the sum of films of one size, which together hold these samples, piece by piece. Throws PT_ERROR_INTERNAL if a
+// driver lost work.
 void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, const PixelRange &pixels,
                 std::uint32_t most_pixels, const std::function<void(const PixelSums &)> &receive);
 
-// Likewise, sets the sums of as many consecutive pixels.
+// Reads the sums of consecutive pixels, as many as there is room for. Throws likewise.
 void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, std::uint32_t first_pixel,
                 PixelSums &sums);
 
-// Pixels of the pieces in which films are read and written, so that a large image is not held twice. Were planes a
-// power of two apart, the words of a pixel would contend for one set of the processor's cache.
+// How many pixels of films are read or written at a time, so that a large image is not held twice. Not a power of two:
+// planes a power of two apart would put the words of a pixel into the same set of the processor's cache.
 inline constexpr std::uint32_t piece_pixels = 130'000;
 
 // Calls function(first pixel, number of pixels) for consecutive pieces.

@@ -21,19 +21,19 @@ std::uint64_t region_bytes(const DeviceFilm &film, const DeviceFilm::Strip &stri
            sizeof(gpu::RegionError);
 }
 
-// The strips are of one size, but for the last, which is no larger.
+// All strips have the size of the first, except the last one, which may be smaller.
 std::uint64_t most_region_bytes(DeviceFilm &film) {
     return region_bytes(film, film.strips().front());
 }
 
-// How the kernel measures relative errors, so that all squares are normal floats.
+// The units in which the kernel measures relative errors: chosen so that all squares are normal floats.
 struct RelativeUnits {
     float offset;  // in film units
     float scale;   // an error is below 2^FILM_MAX_EXPONENT, and scaled and divided by the offset below 2^60
     double factor; // of the squares, because the offset is another
 
-    // An offset far above all that a film holds is the limit of all pixels: a smaller one, far above too, makes all
-    // squares larger by the same factor.
+    // If the offset is far above everything that a film can hold, it alone is the denominator of all pixels. A smaller
+    // offset that is still far above makes all squares larger by one factor, which is divided out afterwards.
     explicit RelativeUnits(double unit) {
         constexpr double far_above = 1e13;
         const double exact = std::sqrt(relative_offset) / unit;
@@ -51,7 +51,7 @@ ErrorSquares squares_of(const gpu::ErrorSquares &found, double factor) {
             sum * static_cast<double>(found.part_share) * values_of_tile};
 }
 
-// The sum of the squares of pieces of so many pixels, the last of which may be shorter.
+// The sum of squares of the sizes of pieces, of which the last may be shorter.
 double squares_of_pieces(std::uint32_t pixels, std::uint32_t piece) {
     const double rest = pixels % piece;
     const std::uint32_t whole = pixels / piece;
@@ -112,7 +112,7 @@ ErrorReader::ErrorReader(vulkan::Device &device, const vulkan::ComputePipeline &
     }
 }
 
-// The host writes in place, so no work that reads them may be under way.
+// The host writes into memory that the kernel reads, so no such work may be under way.
 void ErrorReader::list_counts(const TileSamples &samples) {
     if (samples.even())
         return;
@@ -124,7 +124,7 @@ void ErrorReader::list_counts(const TileSamples &samples) {
         counts[tile] = of_sets[samples.set_of(tile)];
 }
 
-// In film units the kernel divides by another offset and scales (RelativeUnits).
+// The kernel computes in film units, with another offset and scale; this undoes them (RelativeUnits).
 void ErrorReader::collect_tiles(const ErrorQuery &query) const {
     const RelativeUnits units(query.unit);
     const double factor = 1.0 / (static_cast<double>(units.scale) * static_cast<double>(units.scale) * units.factor);

@@ -16,7 +16,7 @@
 
 namespace pt {
 
-// Of which samples the error is asked for.
+// Which samples the error is asked for.
 struct ErrorQuery {
     double unit;                 // of the film, a power of two, in radiance
     const TileSamples &samples;  // that the film has
@@ -25,7 +25,8 @@ struct ErrorQuery {
 
 class ErrorReader {
 public:
-    // All must outlive it. estimate: of estimate_pipeline(). The film's strips must be whole rows of regions.
+    // All arguments must outlive the reader. estimate: from estimate_pipeline(). The strips of the film must be whole
+    // rows of regions.
     ErrorReader(vulkan::Device &device, const vulkan::ComputePipeline &estimate, DeviceFilm &film);
 
     using Receive = std::function<void(const RegionErrors &)>;
@@ -34,8 +35,8 @@ public:
     // driver lost work.
     void read(const ErrorQuery &query, const Receive &receive);
 
-    // The same in two steps, where the film is one strip: records it behind the commands that make the film what it is
-    // asked about, while no other such commands are under way; and takes it in, once these have ended.
+    // The same in two steps, for a film of one strip. record() adds the look behind commands that take samples; no
+    // other such commands may be under way. collect() reads the result once they have ended.
     void record(const vk::raii::CommandBuffer &commands, const ErrorQuery &query);
     void collect(const ErrorQuery &query, const Receive &receive) const;
 

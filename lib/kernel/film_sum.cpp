@@ -10,8 +10,8 @@ namespace pt {
 
 namespace {
 
-// Pixels of a piece, 3.5 MiB: large enough for a bus to be busy with one, small enough to wait little for the first and
-// to be in the processor's cache when it is copied.
+// Pixels of a piece, 3.5 MiB: large enough to keep a bus busy, and small enough that the first one arrives soon and is
+// still in the processor's cache when it is copied.
 constexpr std::uint32_t most_piece_pixels = 1U << 15;
 
 std::uint64_t words_bytes(std::uint32_t pixel_count) {
@@ -75,7 +75,8 @@ void FilmSum::add_own(const vk::raii::CommandBuffer &commands, std::uint32_t fir
     }
 }
 
-// While the host copies a piece, its device copies the next, and the first device adds the one before.
+// Three steps overlap: the host copies a piece, its device copies the next one, and the first device adds the previous
+// one.
 void FilmSum::add_others(vulkan::SubmissionsUnderWay &at_home, std::uint32_t first_pixel, const PixelRange &wanted) {
     const auto piece = [&](std::uint32_t index) -> PixelRange {
         const std::uint32_t first = index * piece_pixels_;
@@ -119,7 +120,7 @@ void FilmSum::add_others(vulkan::SubmissionsUnderWay &at_home, std::uint32_t fir
         }
 }
 
-// The wanted pixels that are added, strip by strip.
+// Adds the pixels that are wanted, strip by strip.
 void FilmSum::add(const vk::raii::CommandBuffer &commands, std::uint32_t first_pixel, const PixelRange &wanted,
                   const Added &added) const {
     gpu::AddConstants constants{};

@@ -23,25 +23,25 @@ public:
         DeviceFilm &film;
     };
 
-    // All must outlive it. sources: films of one size; the sum is on the device of the first. add: of add_pipeline(),
-    // on that device. Throws PT_ERROR_OUT_OF_DEVICE_MEMORY.
+    // All arguments must outlive the object. sources: films of one size; the sum lives on the device of the first. add:
+    // from add_pipeline(), on that device. Throws PT_ERROR_OUT_OF_DEVICE_MEMORY.
     FilmSum(const std::vector<Source> &sources, const vulkan::ComputePipeline &add, std::uint32_t row_count);
 
-    // Of so many rows.
+    // The sum, of as many rows as were asked for.
     DeviceFilm &film() { return film_; }
 
-    // Makes it the sum of the films' rows from one on. Of pixels that are not wanted, which are counted as in the
-    // films, it says nothing.
+    // Sums up the rows of the films from first_row on. wanted: pixels of the films; the sums of all others are
+    // undefined.
     void gather(std::uint32_t first_row, const PixelRange &wanted);
 
 private:
-    // A film of another device on its way, in pieces of consecutive pixels.
+    // A film of another device, which arrives in pieces of consecutive pixels.
     struct Distant {
         Source source;
         std::vector<vulkan::Buffer> slots; // that the host reads
     };
 
-    // Words of consecutive pixels of a film that are to be added, and where they are.
+    // Words of consecutive pixels that are to be added, and where they are.
     struct Added {
         PixelRange pixels;                           // of the films
         std::uint32_t stride;                        // words of a plane

@@ -25,7 +25,7 @@ constexpr std::array first_hit_bindings = {
 static_assert(gpu::BINDING_SCENE_UNIFORM == 0 && gpu::BINDING_SCENE_STORAGE == 1 && gpu::BINDING_RESOLVED == 3 &&
               gpu::BINDING_FINDINGS == 4 && gpu::BINDING_TREE_NODES == 5 && gpu::BINDING_TREE_SPHERES == 6);
 
-// Little beside the image in the caller's memory, and enough for a submission.
+// Little compared with the image in the caller's memory, and enough for one submission.
 constexpr std::uint64_t most_first_hit_pixels = 1U << 18;
 
 std::uint32_t rays_of_pixel(std::uint32_t quantity) {
@@ -55,7 +55,7 @@ void FirstHits::show(const std::shared_ptr<const GpuScene> &scene, const vulkan:
     constants_ = first_hit_constants(*scene);
 }
 
-// As many as a submission should take, and as the buffers hold.
+// As many as one submission should take and the buffers can hold.
 std::uint64_t FirstHits::pixels_in_piece(const FirstHitQuery &query, double tests_per_submission) const {
     const std::uint32_t rays = rays_of_pixel(query.quantity);
     const std::uint64_t dispatched = std::uint64_t{device_.limits().max_workgroup_count} * gpu::WORKGROUP_SIZE / rays;

@@ -30,21 +30,21 @@ struct FirstHitQuery {
 
 class FirstHits {
 public:
-    // Both must outlive it.
+    // Both arguments must outlive the object.
     FirstHits(vulkan::Device &device, std::span<const std::uint32_t> code);
 
-    // Takes a scene over, unless it has it. tree: the buffer of the scene's, NULL if it has none; it must stay until
-    // another scene is shown. Throws PT_ERROR_SHADER if the driver refuses the kernel.
+    // Takes over a scene, unless it has that one already. tree: the buffer of the scene's tree, NULL if it has none; it
+    // must stay until another scene is shown. Throws PT_ERROR_SHADER if the driver refuses the kernel.
     void show(const std::shared_ptr<const GpuScene> &scene, const vulkan::Buffer *tree);
 
-    // Of the scene that is shown: calls receive(bytes) for consecutive pieces of the pixels, row by row. Of objects
-    // they have the numbers that kernels give to surfaces. tests_per_submission: that are worth one, between rays and
-    // surfaces. Throws PT_ERROR_INTERNAL if a driver lost work.
+    // Calls receive(bytes) for consecutive pieces of the pixels, row by row, of the scene that is shown. Objects come
+    // as the numbers by which kernels know surfaces. tests_per_submission: how many tests of rays against surfaces one
+    // submission should take. Throws PT_ERROR_INTERNAL if a driver lost work.
     using Receive = std::function<void(std::span<const std::byte>)>;
     void read(const FirstHitQuery &query, double tests_per_submission, const Receive &receive);
 
 private:
-    // Where a piece is found, and then read by the host.
+    // Memory in which the device writes a piece and the host then reads it.
     struct Slot {
         vulkan::Buffer found;
         vulkan::Buffer findings;

@@ -35,7 +35,7 @@ float specular_probability(const Material &material) {
     return std::clamp(specular / (specular + diffuse), 1e-3F, 1.0F - 1e-3F);
 }
 
-// Writes the words of the surface with a kernel index.
+// Writes the words of a surface with a given number in kernels.
 class Writer {
 public:
     Writer(std::vector<glm::vec4> &words, const Features &features) :
@@ -48,7 +48,7 @@ public:
             write_emission(emission_word(surface), material);
     }
 
-    // Of a surface, or of a material of the table.
+    // Writes the reflection of a surface, or of a material of the table.
     void reflection(std::uint32_t index, const Material &material) {
         // The constants of the two parts of f are in the words, for the kernel to spare them.
         const double lobe = (material.glossiness + 2.0) / (2.0 * std::numbers::pi);
@@ -116,8 +116,8 @@ private:
     const SceneBlocks blocks_;
 };
 
-// All lamps in the order of the tree of lamps: those among the surfaces, and those in the tree of spheres, which come
-// last by number.
+// All lamps, in the order of the tree of lamps: those that are single surfaces, and those in the tree of spheres, which
+// have the last numbers.
 std::vector<TreeLamp> tree_lamps(const KernelSurfaces &surfaces, const PreparedScene &scene, const Camera &camera) {
     constexpr std::uint32_t no_lamp = 0xffffffff;
     const auto sphere_count = static_cast<std::uint32_t>(scene.scene.spheres.size());
@@ -196,7 +196,7 @@ gpu::FrameConstants frame_constants(const Camera &camera, const RenderSettings &
     return constants;
 }
 
-// Numbers of the surfaces in the caller's scene, where planes follow all spheres.
+// The indices of the surfaces in the caller's scene, where planes follow all spheres.
 std::vector<std::uint32_t> objects_of(const KernelSurfaces &surfaces, const PreparedScene &scene) {
     const Scene &held = scene.scene;
     const std::size_t sphere_count = scene.tree ? scene.tree->scene_sphere_count() : held.spheres.size();

@@ -7,14 +7,14 @@ namespace pt {
 
 namespace {
 
-// So that float32 has no doubt either.
+// Adds a margin, so that float32 cannot see it differently.
 double with_margin(double length) {
     return length * (1.0 + side_margin);
 }
 
 } // namespace
 
-// Both move evenly, so that one passes the other on a straight line, on which it is farthest away at an end.
+// Both move evenly, so one passes the other on a straight line, and the greatest distance is at one of its ends.
 bool lies_apart(const MovingBall &ball, const MovingBall &surface) {
     const glm::dvec3 from = ball.open - surface.open;
     const glm::dvec3 way = ball.way - surface.way;

@@ -1,4 +1,4 @@
-// What surfaces that the camera does not see (PT_MATERIAL_HIDDEN_FROM_CAMERA) mean for where paths may be. Used by
+// What surfaces that the camera does not see (PT_MATERIAL_HIDDEN_FROM_CAMERA) mean for where paths can go. Used by
 // scene_features.
 #pragma once
 

@@ -1,5 +1,6 @@
-// A fold of a film's parts on the host, where the device's memory is the host's too: lavapipe's kernel, which reads and
-// writes for one invocation after the other, takes many times as long. Made by Kernel for the submission that follows.
+// Folds a film's parts on the host, for devices whose memory is the host's too. lavapipe's kernel reads and writes
+// memory for one invocation after the other, so there the host is many times as fast. Kernel makes one for the
+// submission that follows.
 #pragma once
 
 #include "lib/film/part_words.h"
@@ -12,20 +13,20 @@ namespace pt {
 
 class HostFold {
 public:
-    // Of the other part in memory into this one. The film must outlive it.
+    // Folds the other part into this one. The film must outlive the object.
     HostFold(DeviceFilm &film, std::uint32_t into) : film_(film), into_(into) {}
 
-    // The film is as it was before, unless keep() was called.
+    // Undoes the fold, unless keep() was called.
     ~HostFold();
     HostFold(const HostFold &) = delete;
     HostFold &operator=(const HostFold &) = delete;
 
-    // Once, where the host sees the film's memory, and while no submission is under way. The other part's words stay,
-    // for the submission to overwrite as what a kernel knows to be empty. Such a kernel takes the rare words
-    // (film.glsl) to be 0, so where one of them is not, nothing is folded, and this is false.
+    // Call it once, while the host can see the film's memory and no submission is under way. The words of the other
+    // part stay: the submission that follows takes the part as empty and overwrites it. It assumes that the rare words
+    // (film.glsl) of that part are 0; if one is not, nothing is folded and the result is false.
     bool fold(std::vector<PixelRange> pixels);
 
-    // The submission has been made.
+    // To be called when the submission has been made.
     void keep() noexcept { folded_.clear(); }
 
 private:

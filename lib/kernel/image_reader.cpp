@@ -8,7 +8,7 @@ namespace pt {
 
 namespace {
 
-// Large enough for a bus to be busy with one, small enough to wait little for the first: 3 MiB.
+// Large enough to keep a bus busy, and small enough that the first piece arrives soon: 3 MiB.
 constexpr std::uint32_t read_pixels = 1U << 18;
 
 void require_no_loss(std::span<const std::byte> findings) {
@@ -36,7 +36,7 @@ gpu::ResolveConstants ImageReader::constants_of(const ImageQuery &query, const P
     return constants;
 }
 
-// The device resolves a piece, and copies it, while the host takes the one before.
+// While the host takes a piece, the device resolves and copies the next.
 void ImageReader::read(const ImageQuery &query, const std::function<void(std::span<const std::byte>)> &receive) {
     const Pieces pieces(query);
     const std::size_t slot_count = std::min<std::uint64_t>(device_.policy().queue_depth, pieces.count());
@@ -64,7 +64,7 @@ void ImageReader::read(const ImageQuery &query, const std::function<void(std::sp
     }
 }
 
-// In one submission, since the host has nothing to do meanwhile.
+// In a single submission, since the host has nothing else to do.
 std::span<std::byte> ImageReader::map(const ImageQuery &query) {
     const Pieces pieces(query);
     const std::uint64_t image_bytes = pieces.total * pieces.bytes_of_pixel;
@@ -106,7 +106,7 @@ ImageReader::Slot &ImageReader::slot(std::size_t index, std::uint64_t bytes, std
     return slots_[index];
 }
 
-// After a barrier, because what was resolved before may be on its way still.
+// After a barrier, because the previous piece may still be in transit.
 void ImageReader::record(const vk::raii::CommandBuffer &commands, const Slot &slot, std::uint32_t format,
                          const gpu::ResolveConstants &constants, const vulkan::Buffer &to, std::uint64_t offset) const {
     vulkan::barrier_between_commands(commands);

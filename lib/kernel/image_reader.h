@@ -18,7 +18,7 @@ namespace pt {
 
 class ImageReader {
 public:
-    // All must outlive it.
+    // All arguments must outlive the reader.
     ImageReader(vulkan::Device &device, ResolvePipelines &pipelines, DeviceFilm &film) :
         device_(device),
         pipelines_(pipelines),
@@ -28,12 +28,12 @@ public:
     // work.
     void read(const ImageQuery &query, const std::function<void(std::span<const std::byte>)> &receive);
 
-    // All of them in memory that the device writes to, without gaps. They stay as long as this object, or until the
-    // next call of it. Throws likewise.
+    // Leaves all pixels, without gaps, in memory that the device writes to. They stay until the next call or the end of
+    // this object. Throws likewise.
     std::span<std::byte> map(const ImageQuery &query);
 
 private:
-    // Where a piece is resolved, and then read by the host.
+    // Memory in which the device resolves a piece and the host then reads it.
     struct Slot {
         vulkan::Buffer resolved;
         vulkan::Buffer findings;
@@ -41,7 +41,7 @@ private:
         std::vector<vulkan::DescriptorSet> sets; // one per strip of the film
     };
 
-    // Pixels of an image, of which the device makes so many rows at a time.
+    // The pixels of an image, and how many rows the device makes at a time.
     struct Pieces {
         explicit Pieces(const ImageQuery &query);
         std::uint64_t count() const { return (total + most - 1) / most; }

@@ -14,7 +14,7 @@ namespace pt {
 
 namespace {
 
-// Tables of points for one slice, 4 MiB at the most: one for each dispatch. The film's split cuts a slice once more.
+// Tables of points for one slice, at most 4 MiB: one for each dispatch. The split of the film may add one more cut.
 constexpr std::uint32_t max_tables = 64;
 constexpr std::uint32_t max_full_dispatches = max_tables - 1;
 
@@ -27,7 +27,8 @@ std::uint64_t checked_scene_bytes(const vulkan::Device &device, std::size_t word
     return bytes;
 }
 
-// Samples that a dispatch may take in a pixel: some drivers bound its loop trips, and its points must fit into a table.
+// How many samples of a pixel one dispatch may take: some drivers limit its loop trips, and its points must fit into a
+// table.
 std::uint32_t samples_of_dispatch(const vulkan::Device &device, const Features &features, const PointLayout &layout,
                                   std::uint32_t table_bytes) {
     const std::uint64_t trips = loop_trips_per_sample(features);
@@ -45,7 +46,7 @@ std::uint32_t samples_of_dispatch(const vulkan::Device &device, const Features &
     return static_cast<std::uint32_t>(std::min<std::uint64_t>({budget / trips, rows, gpu::FILM_MAX_GATHERED}));
 }
 
-// Row by row; those of tiles side by side, and then of rows of the film, at once.
+// Row by row. Adjacent tiles are joined, and then adjacent rows of the film.
 std::vector<PixelRange> pixels_of_tiles(const TileGrid &grid, std::span<const std::uint32_t> tiles) {
     std::vector<PixelRange> ranges;
     const auto add = [&](const PixelRange &next) {
@@ -98,7 +99,7 @@ void Kernel::bind_film(const vulkan::ComputePipeline &trace) {
     sets_ = std::move(sets);
 }
 
-// What reads the tree is not in the kernel of a scene without one, but its bindings are.
+// A kernel for scenes without a tree does not read one, but it still has the binding.
 vulkan::DescriptorSet Kernel::bound(const vulkan::ComputePipeline &trace, const DeviceFilm::Strip &strip) const {
     const vulkan::Buffer &tree = tree_ ? *tree_ : scene_;
     const std::uint64_t node_bytes = tree_ ? gpu_scene_->tree->node_words().size_bytes() : vulkan::texel_bytes;
@@ -148,8 +149,8 @@ std::uint32_t Kernel::max_samples() const {
     return max_dispatch_samples_ * max_full_dispatches;
 }
 
-// One dispatch each, of one part of the film as the slice leaves it. Their tables are free: slices end in the order in
-// which they were started, and there is room for all that are under way.
+// One dispatch for each batch, all in one part of the film as the slice leaves it. The tables are free: slices end in
+// the order in which they were started, and there is room for all that are under way.
 std::vector<Kernel::Batch> Kernel::next_batches(const TileSlice &slice) {
     const std::uint64_t split = slice.split();
     SampleRange before = slice.before;
@@ -178,20 +179,20 @@ void Kernel::upload_points(const std::vector<Batch> &batches) {
     }
 }
 
-// Where nothing is under way that may read the film, slices or an image for a caller who does not wait for it, and what
-// is emptied will be overwritten.
+// Possible while nothing under way may read the film, neither slices nor an image for a caller that does not wait, and
+// if the emptied part will be overwritten.
 bool Kernel::folds_on_host() const {
     return !overlap_ && film_.is_host_memory() && device_.is_at_rest();
 }
 
-// Invocations that share the samples of a pixel, so that a few tiles keep the device busy.
+// How many invocations share the samples of a pixel, so that even a few tiles keep the device busy.
 std::uint32_t Kernel::sharers_of(std::size_t tile_count, std::uint32_t sample_count) const {
     constexpr std::uint32_t least_samples = 4; // of each, which makes its adding to the film worth it
     const std::size_t wanted = device_.policy().invocations / (tile_count * gpu::WORKGROUP_SIZE);
     return static_cast<std::uint32_t>(std::clamp<std::size_t>(wanted, 1, std::max(sample_count / least_samples, 1U)));
 }
 
-// Over the tiles that each strip has a part of.
+// Dispatches over the tiles that each strip has part of.
 void Kernel::dispatch(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline,
                       std::span<const std::uint32_t> tiles, gpu::FrameConstants frame,
                       std::uint32_t table_offset) const {
@@ -220,7 +221,8 @@ void Kernel::dispatch(const vk::raii::CommandBuffer &commands, const vulkan::Com
     }
 }
 
-// A scene of usual size comes with the commands; for others there is a transfer of their own. Idle, or no change.
+// A scene of usual size is sent along with the commands; a larger one has a transfer of its own. Only while no work is
+// under way, or if nothing has changed.
 void Kernel::upload_scene() {
     if (scene_is_old_ && !scene_fits_commands()) {
         scene_.upload(std::as_bytes(std::span(gpu_scene_->words)), 0);
@@ -232,7 +234,7 @@ bool Kernel::scene_fits_commands() const {
     return gpu_scene_->words.size() * sizeof(glm::vec4) <= vulkan::max_recorded_bytes;
 }
 
-// Where the split moves, all samples so far are on one side of it.
+// If the split moves, all samples so far are on one side of it.
 vulkan::Device::Ticket Kernel::start(const TileSlice &slice, bool on_cleared_film, const Behind &behind) {
     const std::vector<Batch> batches = slice.takes ? next_batches(slice) : std::vector<Batch>();
     upload_points(batches);

@@ -25,42 +25,43 @@ namespace pt {
 
 class Kernel {
 public:
-    // device, pipelines, film and tree must outlive the kernel. tree: the buffer of the scene's, NULL if it has none.
-    // Throws PT_ERROR_UNSUPPORTED for scenes beyond the device.
+    // device, pipelines, film and tree must outlive the kernel. tree: the buffer of the scene's tree, NULL if it has
+    // none. Throws PT_ERROR_UNSUPPORTED for scenes beyond the device.
     Kernel(vulkan::Device &device, TracePipelines &pipelines, DeviceFilm &film, vulkan::Buffer *tree,
            std::shared_ptr<const GpuScene> scene, const RenderSettings &settings);
 
     const Features &features() const { return features_; }
 
-    // The scene that is rendered next; those that show() takes have as much in common with it as a kernel asks for.
-    // Idle.
+    // The scene that is rendered next. show() takes scenes that have the same features. Only while no work is under
+    // way.
     const GpuScene &scene() const { return *gpu_scene_; }
     bool can_show(const GpuScene &scene) const;
     void show(std::shared_ptr<const GpuScene> scene, const RenderSettings &settings);
 
-    // Builds what this kernel runs of pipelines of the same device, be they other ones than its own. Throws
-    // PT_ERROR_SHADER if the driver refuses that.
+    // Builds the pipelines that this kernel runs, in its own cache or in another one of the same device. Throws
+    // PT_ERROR_SHADER if the driver refuses one.
     void build(TracePipelines &pipelines) const;
 
-    // Dispatches no work at all: some drivers compile a kernel no sooner than it is dispatched. None may be under way.
+    // Dispatches zero workgroups: some drivers compile a kernel only when it is first dispatched. No work may be under
+    // way.
     void dispatch_nothing();
 
-    // The samples that one submission may add to a pixel.
+    // How many samples one submission may add to a pixel.
     std::uint32_t max_samples() const;
 
-    // Records what follows the samples in their submission.
+    // Records commands that follow the samples in their submission.
     using Behind = std::function<void(const vk::raii::CommandBuffer &)>;
 
-    // Starts to take the samples of a slice. At most the device's queue_depth of slices may be under way.
+    // Starts to take the samples of a slice. At most queue_depth slices of the device may be under way.
     // on_cleared_film: all pixels of the film are cleared first.
     vulkan::Device::Ticket start(const TileSlice &slice, bool on_cleared_film, const Behind &behind = {});
 
-    // Waits for a slice of start() and returns the seconds it took, or where these are not known what comes nearest to
-    // those expected.
+    // Waits for a slice that start() began and returns the seconds that it took. Where the device cannot tell, it
+    // returns the nearest estimate to what was expected.
     double finish(vulkan::Device::Ticket ticket, double expected_seconds = 0.0);
 
 private:
-    // Samples that a dispatch takes, all of one part of the film, and where the table of their points is.
+    // The samples of one dispatch, all for one part of the film, and where their points begin in the table.
     struct Batch {
         std::uint32_t first_sample;
         std::uint32_t sample_count;
@@ -82,7 +83,8 @@ private:
     std::uint32_t sharers_of(std::size_t tile_count, std::uint32_t sample_count) const;
     bool folds_on_host() const;
 
-    // Whether a dispatch need not read the part that it adds to. Those that overlap add by atomic operations.
+    // Whether a dispatch may overwrite its part instead of adding to it. Dispatches that overlap add with atomic
+    // operations.
     std::uint32_t overwrites(bool part_is_empty) const { return part_is_empty && !overlap_ ? 1 : 0; }
 
     vulkan::Device &device_;

@@ -10,8 +10,8 @@ namespace pt {
 
 namespace {
 
-// Whether a sphere holds the camera while the shutter is open, with a margin for float32. Of one that moves on a
-// straight line both ends tell.
+// Whether a sphere contains the camera while the shutter is open, with a margin for float32. It moves on a straight
+// line, so checking both ends is enough.
 bool holds_camera(const SeenSphere &sphere) {
     constexpr double margin = 1.0 - side_margin;
     return sphere.distance < sphere.radius * margin && glm::length(sphere.close()) < sphere.radius * margin;

@@ -12,7 +12,7 @@
 
 namespace pt {
 
-// Of surfaces that the camera does not see, none of which is in the tree.
+// How many surfaces of each kind the camera does not see. None of them is in the tree.
 struct HiddenCounts {
     std::uint32_t lamps;
     std::uint32_t skies;
@@ -37,7 +37,7 @@ struct KernelSurfaces {
     HiddenCounts hidden;
 };
 
-// tree: NULL if there is none.
+// tree: NULL if the scene has none.
 KernelSurfaces kernel_surfaces(const SeenScene &distinct, const SphereTree *tree, const Camera &camera);
 
 } // namespace pt

@@ -13,14 +13,13 @@ namespace pt {
 
 namespace {
 
-// What the kernel takes of a lamp or node, at the rounding that it does: nodes hold their lamps as the kernel sees
-// them.
+// A lamp or node as the kernel sees it, after rounding: nodes contain their lamps as the kernel sees them.
 struct Ball {
     glm::vec3 open;
     glm::vec3 way{0.0F};
     float radius = 0.0F;
 
-    // As the shutter opens, and as it closes.
+    // Its centres as the shutter opens and as it closes.
     std::array<glm::dvec3, 2> ends() const { return {glm::dvec3(open), glm::dvec3(open) + glm::dvec3(way)}; }
 };
 
@@ -86,7 +85,7 @@ Node node_of(std::span<const Lamp> lamps) {
             spreads[end] += lamp.power * (distance * distance + 3.0 * lamp_radius * lamp_radius);
         }
     }
-    // Between the ends the kernel rounds places to 2^-24 of their size.
+    // Between the two ends the kernel rounds places to 2^-24 of their size.
     radius += 0x1p-21 * (std::max(glm::length(middles[0]), glm::length(middles[1])) + radius);
     const double spread = std::max(
         {spreads[0] / node.power, spreads[1] / node.power, radius * radius / gpu::LAMP_TREE_BALL * (1.0 + 0x1p-20)});

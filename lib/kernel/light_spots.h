@@ -11,7 +11,7 @@
 
 namespace pt {
 
-// By kernel indices of lamp and surface.
+// The lamp and the surface, by their numbers in kernels.
 struct LightSpot {
     std::uint32_t lamp;
     std::uint32_t surface;
@@ -19,9 +19,9 @@ struct LightSpot {
     float glossiness;  // of a mirror image; -1 for a glow
 };
 
-// None where paths are too short to go by way of one, or lamps are many; nor where there are more than SPOT_LIMIT, as
-// what they cost grows with their number. What the camera sees does not matter: a camera that moves keeps its kernel.
-// features: of the surfaces, without spots.
+// None where paths are too short to use one or where there are many lamps; none either if there would be more than
+// SPOT_LIMIT, since their cost grows with their number. The camera does not matter, so a moving camera keeps its
+// kernel. features: of the surfaces, without spots.
 std::vector<LightSpot> light_spots(const KernelSurfaces &surfaces, const std::vector<Material> &materials,
                                    const Features &features);
 

@@ -11,7 +11,7 @@
 
 namespace pt {
 
-// Dimensions that a sequence has. Paths that need more take hashed random numbers for the rest.
+// Dimensions of a sequence. Paths that need more numbers take hashed random ones for the rest.
 inline constexpr std::uint32_t sequence_dimensions = 64;
 
 // Coordinate of the point with an index in the Sobol sequence with the direction numbers of Joe and Kuo, as a
@@ -25,8 +25,7 @@ std::uint32_t prime_base(std::uint32_t dimension);
 // 2^-32 not above it.
 std::uint32_t radical_inverse(std::uint64_t index, std::uint32_t dimension);
 
-// What a row of the point table consists of (gpu_layout.h, row_blocks): blocks of up to four dimensions, dealt in
-// order.
+// How a row of the point table is divided (gpu_layout.h, row_blocks): into blocks of up to four dimensions, in order.
 struct PointLayout {
     std::vector<std::uint32_t> block_dimensions; // how many each block has: the shared blocks, then those of a branch
     std::uint32_t shared_blocks;
@@ -35,7 +34,7 @@ struct PointLayout {
     std::uint32_t block_count() const { return static_cast<std::uint32_t>(block_dimensions.size()); }
     std::uint32_t row_blocks() const { return gpu::row_blocks(block_count(), shared_blocks, branches); }
 
-    // Dimensions of the shared blocks, and of all.
+    // The dimensions of the shared blocks, and of all blocks.
     std::uint32_t shared_dimensions() const;
     std::uint32_t dimensions() const;
 };

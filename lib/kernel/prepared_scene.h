@@ -1,5 +1,5 @@
-// A scene with what is known of it wherever the camera is: made once by pt_set_scene, held by Renderer, read by
-// gpu_scene.
+// A scene with everything about it that does not depend on the camera. Made once by pt_set_scene, held by Renderer,
+// read by gpu_scene.
 #pragma once
 
 #include "lib/base/work_progress.h"
@@ -14,9 +14,9 @@
 
 namespace pt {
 
-// From so many spheres on, all but a few are in a tree. On lavapipe that is where loops are no longer unrolled
-// (DevicePolicy::unrolled); on an H200 a tree is as fast as testing each from 160 spheres on with three vertices, from
-// 115 with six.
+// From this many spheres on, nearly all of them are in a tree. On lavapipe loops are no longer unrolled from there on
+// (DevicePolicy::unrolled). On an H200 a tree is as fast as testing each sphere from 160 on with three vertices, and
+// from 115 on with six.
 inline constexpr std::uint32_t default_tree_from = 113;
 
 struct PreparedScene {
@@ -36,17 +36,17 @@ struct PreparedScene {
     // Without a tree.
     explicit PreparedScene(Scene of);
 
-    // With a tree from so many spheres on that the camera may see. Of the caller's memory nothing is read after that.
+    // With a tree if the camera may see at least tree_from spheres. Nothing of the caller's memory is read afterwards.
     PreparedScene(CheckedScene checked, std::uint32_t tree_from);
 
-    // The same, with the shape that the tree had before, if there was one and it will do. before may be NULL.
+    // The same, but the tree keeps the shape of the one before, if there was one and it still fits. before may be NULL.
     PreparedScene(CheckedScene checked, std::uint32_t tree_from, const PreparedScene *before, WorkProgress &progress);
 
-    // The spheres that emit, those in the tree too.
+    // All spheres that emit, including those in the tree.
     std::vector<Sphere> lamps() const;
 
-    // Of the scene (scene_digest.h), and of the tree. Computed when it is first asked for, and kept: most scenes are
-    // never in a film.
+    // The digest of the scene (scene_digest.h) and its tree. Computed on first use and kept, since most scenes are
+    // never part of a film.
     const std::string &digest() const;
 
 private:

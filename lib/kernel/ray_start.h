@@ -1,4 +1,4 @@
-// Where camera rays start in narrow views of what is far away, and parallel ones in any view.
+// Where camera rays start: ahead of the camera in narrow views of distant things, and in any view with parallel rays.
 #pragma once
 
 #include "lib/scene/camera.h"
@@ -8,12 +8,11 @@
 
 namespace pt {
 
-// The camera with its position moved ahead, along its axis, to where the first surface in view may be, if the view is
-// so narrow that the rounding of directions and of far coordinates would show. The kernel's coordinates begin there,
-// and its rays on the plane across the view there: the same rays, known to the rounding of what is in view instead of
-// that of its distance. Parallel rays start on such a plane in any case, on the disc about the image there
-// (start_radius). tree: over further spheres, or NULL. Throws
-// PT_ERROR_UNSUPPORTED if a view of parallel rays is too wide.
+// The camera, moved ahead along its axis to the first surface that may be in view, if the view is so narrow that the
+// rounding of directions and of distant coordinates would show. The kernel's coordinates begin there, and its rays
+// start on the plane across the view there. They are the same rays, but known to the rounding of what is in view rather
+// than of its distance. Parallel rays start on such a plane anyway, on the disc around the image (start_radius). tree:
+// holds further spheres, or NULL. Throws PT_ERROR_UNSUPPORTED if a view with parallel rays is too wide.
 Camera starting_ahead(const Scene &scene, const SphereTree *tree, const Camera &camera, const RenderSettings &settings);
 
 } // namespace pt

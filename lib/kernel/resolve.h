@@ -31,10 +31,11 @@ inline constexpr std::uint64_t findings_bytes = sizeof(std::uint32_t);
 
 class ResolvePipelines {
 public:
-    // Both must outlive it.
+    // Both arguments must outlive the object.
     ResolvePipelines(vulkan::Device &device, std::span<const std::uint32_t> code) : device_(device), code_(code) {}
 
-    // Built when it is first asked for. Buffers that are bound to one may be used with all: their layouts are the same.
+    // The pipeline of a format, built when it is first asked for. Buffers bound for one format can be used with all,
+    // since the layouts are the same.
     const vulkan::ComputePipeline &of(std::uint32_t format);
 
 private:
@@ -43,10 +44,10 @@ private:
     std::array<std::optional<vulkan::ComputePipeline>, format_count> pipelines_;
 };
 
-// But for the strip and for where the image is.
+// All constants, except for the strip and the place of the image.
 gpu::ResolveConstants resolve_constants(const ImageQuery &query, const DeviceFilm &film);
 
-// Records that the pixels which the constants name are resolved. sets: the buffers of each strip of the film.
+// Records commands that resolve the pixels named by the constants. sets: the buffers of each strip of the film.
 void resolve(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline, DeviceFilm &film,
              std::span<const vulkan::DescriptorSet> sets, gpu::ResolveConstants constants);
 

@@ -8,10 +8,11 @@
 
 namespace pt {
 
-// All in words of four floats, and in 64 bits: the 2^30 surfaces that a scene may have can take over 5 words each.
+// All positions count words of four floats, in 64 bits: the 2^30 surfaces that a scene may have can take more than 5
+// words each.
 struct SceneBlocks {
     std::uint64_t emission;
-    // Reflection, of surface i or of material i of the table: this + i * reflection_step.
+    // Reflection of surface i, or of material i of the table: at this + i * reflection_step.
     std::uint64_t diffuse;
     std::uint64_t specular;
     std::uint64_t reflection_step;

@@ -53,14 +53,14 @@ struct Features {
     std::uint32_t walked_lamps() const { return lamp_count - tree_lamps; }
 };
 
-// All but spot_count (light_spots.h).
+// All features but spot_count (light_spots.h).
 Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfaces, const PreparedScene &scene,
                      const Camera &camera, const RenderSettings &render);
 
-// Whether the estimator does, and paths are long enough.
+// Whether the estimator samples lamps and paths are long enough for it.
 bool samples_lamps(const Features &features);
 
-// Numbers that a camera ray consumes.
+// How many numbers a camera ray consumes.
 std::uint32_t camera_dimensions(const Features &features);
 
 // Branches in which a path leaves its first vertex. Where light comes over several vertices, so does most of the noise,
@@ -72,26 +72,27 @@ std::uint32_t camera_dimensions(const Features &features);
 // they do not branch: some drivers stop a kernel after 65535 loop trips.
 std::uint32_t branch_count(const Features &features);
 
-// What the point table holds of each sample: the dimensions that its paths consume, up to those that the sequences
-// have; none without a sequence.
+// What the point table holds for each sample: the dimensions that its paths consume, as far as the sequences have them;
+// nothing for samplers without a sequence.
 PointLayout point_layout(const Features &features);
 
 // Values of the specialization constants, by constant_id.
 std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Features &features);
 
-// Upper bound of the loop trips that the kernel needs for one sample, with no loop unrolled.
+// An upper bound of the loop trips that one sample takes, with no loop unrolled.
 std::uint64_t loop_trips_per_sample(const Features &features);
 
-// The same of a walk over the surfaces, for one ray or for two that leave a vertex.
+// The same for one walk over the surfaces, with one ray or with two that leave the same vertex.
 std::uint64_t loop_trips_per_walk(const Features &features);
 
-// Ray-surface tests of a path of full length: its cost, to within a small factor. tree: NULL if there is none.
+// How many tests of a ray against a surface a path of full length takes: its cost, to within a small factor. tree: NULL
+// if there is none.
 double surface_tests_per_path(const Features &features, const SphereTree *tree);
 
-// The same of one ray. tree: likewise.
+// The same for a single ray. tree: likewise.
 double surface_tests_per_ray(const Features &features, const SphereTree *tree);
 
-// PT_FEATURE_* bits.
+// The features as PT_FEATURE_* bits.
 std::uint32_t feature_bits(const Features &features);
 
 } // namespace pt

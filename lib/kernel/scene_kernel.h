@@ -24,23 +24,23 @@ public:
         std::uint32_t push_constant_bytes;
     };
 
-    // The device, and what the code refers to, must outlive it.
+    // The device, and the code that is referred to, must outlive the object.
     SceneKernel(vulkan::Device &device, const Code &code) : device_(device), code_(code) {}
 
-    // Whether this is the scene that it looks at.
+    // Whether it is showing this scene.
     bool shows(const std::shared_ptr<const GpuScene> &scene) const { return scene_.lock() == scene; }
 
-    // Takes another scene over; what has been bound before is void. tree: the buffer of the scene's, NULL if it has
-    // none; it must stay until the next scene. constants: the kernel's, by constant_id. Throws PT_ERROR_SHADER if the
-    // driver refuses the kernel.
+    // Takes over another scene; earlier bindings are void. tree: the buffer of the scene's tree, NULL if it has none;
+    // it must stay until the next scene. constants: the kernel's, by constant_id. Throws PT_ERROR_SHADER if the driver
+    // refuses the kernel.
     void show(const std::shared_ptr<const GpuScene> &scene, const vulkan::Buffer *tree,
               std::span<const std::uint32_t> constants);
 
-    // Of the scene that it looks at: the pipeline, and its buffers where the bindings want them.
+    // For the scene that it shows: the pipeline, and its buffers at the bindings that they belong to.
     const vulkan::ComputePipeline &pipeline() const { return *pipeline_; }
     void bind_scene(std::span<vulkan::BufferRange> ranges) const;
 
-    // How many rays are worth so many tests between rays and surfaces: one at least.
+    // How many rays amount to this many tests of rays against surfaces; at least one.
     double rays_for(double tests) const;
 
 private:

@@ -22,13 +22,13 @@ struct KernelCode {
     std::span<const std::uint32_t> coverage;
     std::shared_ptr<const std::vector<std::vector<std::uint32_t>>> words; // what these refer to
 
-    // The same words, wherever they are.
+    // Equal if the words are, wherever they are stored.
     bool operator==(const KernelCode &other) const;
 };
 
 KernelCode embedded_code();
 
-// Of the words that make pixels.
+// Of the code that makes pixels.
 std::string digest_of(const KernelCode &code);
 
 class ShaderSource {

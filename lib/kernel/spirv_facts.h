@@ -12,7 +12,7 @@
 
 namespace pt::spirv {
 
-// Of an id, each as far as it is one of such.
+// What is known of an id; each member only for ids of its kind.
 struct Fact {
     std::optional<std::uint32_t> value; // of a constant of 32 bits, or a Boolean
     std::optional<std::uint32_t> spec_id;
@@ -30,7 +30,7 @@ public:
 
     const Fact &of(std::uint32_t id) const { return facts_[place_of(id)]; }
 
-    // Of a constant.
+    // The value of a constant.
     std::uint32_t value(std::uint32_t id) const {
         if (const std::optional<std::uint32_t> value = of(id).value)
             return *value;
@@ -39,7 +39,7 @@ public:
 
     bool is_boolean(std::uint32_t type) const { return type == boolean_type_; }
 
-    // Calls use(instruction) for all that is kept, in functions with the block that it is in, else with 0.
+    // Calls use(instruction) for every instruction that is kept, with its block inside functions, and with 0 outside.
     template <typename Use>
     void for_each_kept(Use &&use) const {
         bool keeps_function = true;

@@ -1,4 +1,4 @@
-// The tiles that dispatches have, as their kernels read them: the first pixel of each, in the film. Owned by Kernel.
+// Lists of tiles for dispatches, as kernels read them: the first pixel of each tile, in the film. Owned by Kernel.
 #pragma once
 
 #include "lib/film/tile_grid.h"
@@ -12,13 +12,13 @@ namespace pt {
 
 class TileLists {
 public:
-    // The device must outlive it.
+    // The device must outlive the lists.
     TileLists(vulkan::Device &device, const TileGrid &grid);
 
     const vulkan::Buffer &buffer() const { return entries_; }
 
-    // The number of the first entry of these tiles, which ascend. It holds as long as no more slices begin than the
-    // device's queue_depth.
+    // The number of the first entry for these tiles, which ascend. It is valid until as many more slices have begun as
+    // the device has in its queue (queue_depth).
     std::uint32_t first_entry(std::span<const std::uint32_t> tiles);
 
 private:

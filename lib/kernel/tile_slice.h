@@ -1,4 +1,4 @@
-// Samples of some tiles of a film, as much as goes into one submission.
+// Samples of some tiles of a film: as many as go into one submission.
 #pragma once
 
 #include "lib/film/film_parts.h"
@@ -16,7 +16,7 @@ struct TileSlice {
 
     std::uint64_t split() const { return split_of(hull_of(before, samples)); }
 
-    // Whether the tiles' parts are folded first.
+    // Whether the parts of these tiles are folded first.
     bool moves_split() const { return !before.empty() && split_of(before) != split(); }
 };
 

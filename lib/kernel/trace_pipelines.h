@@ -19,17 +19,18 @@
 
 namespace pt {
 
-// All have the same bindings, so a descriptor set of one does for the others.
+// All pipelines have the same bindings, so one descriptor set serves for all.
 class TracePipelines {
 public:
-    // Kernels of pathtrace.comp that are kept: lamps on and off, a sphere more or less, a camera in a ball and out,
-    // each with a kernel of one scene's own perhaps. Work under way uses the last two at most.
+    // How many kernels of pathtrace.comp are kept: for lamps switched on and off, a sphere more or less, a camera
+    // inside a ball and outside, each perhaps with a kernel for one scene. Work under way uses at most the last two.
     static constexpr std::size_t most_kept = 8;
 
     // The device must outlive the pipelines.
     explicit TracePipelines(vulkan::Device &device, KernelCode code = embedded_code());
 
-    // What the driver's kernels of this code on this device are kept by. To be taken once, which cannot fail.
+    // The key under which the driver's kernels for this code and device are kept. It can be taken once; that never
+    // fails.
     std::string take_kernel_key() noexcept { return std::move(kernel_key_); }
 
     // The kernel for scenes with these features, or where that is faster for this scene alone. Both give the same bits.
@@ -39,7 +40,8 @@ public:
     // neither. The reference holds until the next call.
     const vulkan::ComputePipeline &trace(const Features &features, std::span<const glm::vec4> words, double seconds);
 
-    // While it is there, every scene gets a kernel of its own at once: whoever prepares kernels has the time.
+    // While one of these exists, every scene gets a kernel of its own at once: whoever prepares kernels ahead has the
+    // time.
     class Ahead {
     public:
         explicit Ahead(TracePipelines &pipelines) : pipelines_(pipelines) { pipelines_.ahead_ = true; }
@@ -51,20 +53,20 @@ public:
         TracePipelines &pipelines_;
     };
 
-    // Whether scenes wait for kernels of their own until this is taken back: polls build nothing.
+    // Until this is taken back, no scene gets a kernel of its own: polls build nothing.
     void keep_kernels_as_they_are(bool keep) { as_they_are_ = keep; }
 
     // The kernel that adds one part of the film to the other.
     const vulkan::ComputePipeline &fold();
 
 private:
-    // A pipeline and what it is specialised to.
+    // A pipeline, and the constants that it is specialised to.
     struct Specialised {
         std::vector<std::uint32_t> constants;
         vulkan::ComputePipeline pipeline;
     };
 
-    // Of the last scene that was given a kernel of its own, until another takes its place.
+    // The last kernel that was built for one scene alone.
     struct OwnKernel {
         std::vector<std::uint32_t> constants;
         double last_seconds; // of the scene

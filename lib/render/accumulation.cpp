@@ -34,9 +34,9 @@ bool Accumulation::set(TileTasks tasks, std::optional<double> unit_of_error) {
     return !tasks_.empty();
 }
 
-// Where the time is over, what has ended by now is taken in before anything is dealt, and what is dealt is left to the
-// next call: so a call comes to an end however short the slices are, and one that finds nothing under way waits for
-// nothing.
+// When the time is over, slices that have ended by now are still taken in before anything is dealt, and what is dealt
+// is left to the next call. So a call returns however short the slices are, and a call that finds nothing under way
+// waits for nothing.
 bool Accumulation::run(Clock::time_point until) {
     const bool begins = !is_under_way();
     for (const auto &device : devices_)
@@ -53,7 +53,7 @@ bool Accumulation::run(Clock::time_point until) {
     return !is_under_way();
 }
 
-// Starts what there is room for. A cancellation may be asked for at any time, and counts from here on.
+// Starts as many slices as there is room for. A cancellation that comes during this counts from here on.
 void Accumulation::deal() {
     if (cancellation_.is_asked())
         stop();
@@ -90,14 +90,14 @@ bool Accumulation::deal_to(RenderDevice &device) {
     return true;
 }
 
-// All devices may have to make room for the samples that one of them takes.
+// To take the samples of one slice, every device may have to make room.
 bool Accumulation::has_room_for(const TileSlice &slice, const RenderDevice &taker) const {
     return taker.has_room() && (!slice.moves_split() ||
                                 std::ranges::all_of(devices_, [](const auto &device) { return device->has_room(); }));
 }
 
-// One device takes the samples of the slice. The others fold, so that the films of all have the same samples in each
-// part, and add up part by part.
+// One device takes the samples of the slice. The others fold, so that all films have the same samples in each part and
+// can be added part by part.
 void Accumulation::start_begun() {
     const ErrorQuery estimate{unit_of_error_.value_or(1.0), begun_->samples};
     for (; begun_->next_device < devices_.size(); ++begun_->next_device) {
@@ -134,8 +134,8 @@ double Accumulation::fraction() const {
     return std::min(static_cast<double>(done_) / static_cast<double>(wanted_), 1.0);
 }
 
-// The device whose slice ends first, if one does by that time. Of several it is the first that is seen to be done, for
-// Vulkan waits for no more than one.
+// The device whose slice ends first, if one ends by that time. With several devices it is the first that is seen to be
+// done, since Vulkan can wait for only one.
 RenderDevice *Accumulation::next_to_finish(Clock::time_point until) const {
     constexpr std::chrono::microseconds pause{50}; // a thousandth of a slice
     if (devices_.size() == 1)

@@ -1,6 +1,6 @@
-// Samples on their way into the films of a context's devices: dealt out in slices of tiles, none left out once it is
-// begun. Whoever calls run() deals; between its calls what has been dealt goes on on the devices alone. One per call of
-// pt_accumulate or pt_start, owned by Renderer.
+// Takes samples into the films of a context's devices: they are dealt out in slices of tiles, and every sample that has
+// been begun is completed. The caller of run() deals; between its calls the devices go on alone with what they have.
+// One for each call of pt_accumulate or pt_start, owned by Renderer.
 #pragma once
 
 #include "lib/film/tile_samples.h"
@@ -26,7 +26,7 @@ struct Progress {
     void *user;
 };
 
-// Submissions that have been waited for, of all devices.
+// Totals for all submissions that have been waited for, on all devices.
 struct DeviceWork {
     std::uint64_t submit_count = 0;
     double seconds = 0.0;
@@ -37,45 +37,45 @@ public:
     using Devices = std::vector<std::unique_ptr<RenderDevice>>;
     using Clock = std::chrono::steady_clock;
 
-    // Devices, cancellation and work must outlive it. samples: those that the films hold. wanted: how many are to be
-    // added to them, at the most, tiles times samples, which the progress is about.
+    // Devices, cancellation and work must outlive it. samples: those already in the films. wanted: at most how many
+    // will be added, tiles times samples, for the progress.
     Accumulation(const Devices &devices, TileSamples samples, std::uint32_t first_sample, std::uint64_t wanted,
                  const Progress &progress, const Cancellation &cancellation, DeviceWork &work);
     Accumulation(const Accumulation &) = delete;
     Accumulation &operator=(const Accumulation &) = delete;
 
-    // Set what is to be done next (TileTasks). False if no tile has fewer samples than it is to have. unit_of_error: of
-    // the films, if their error is to be looked at next. Nothing may be under way.
+    // Sets the next goal (TileTasks). False if no tile has fewer samples than it is to have. unit_of_error: the unit of
+    // the films, if their error is to be looked at afterwards. Only while nothing is under way.
     bool set_goal(std::span<const std::uint32_t> tiles, const TileTasks::Goal &goal);
     bool set_goal_of_all(std::span<const std::uint32_t> all_tiles, std::uint64_t goal,
                          std::optional<double> unit_of_error);
 
-    // Takes these samples, or fewer if it was stopped. False if they are still under way at a time; it is to be called
+    // Takes the samples, or fewer if it is stopped. Returns false if they are still under way at this time; call it
     // again then.
     bool run(Clock::time_point until);
 
     bool is_under_way() const;
 
-    // Nothing is begun from here on, but for what completes samples that some of the tiles have begun.
+    // From here on nothing new is begun, except to complete samples that some tiles have begun.
     void stop() { stopped_ = true; }
     bool stopped() const { return stopped_; }
 
-    // After a call has thrown: completes what has been begun, so that the films hold whole samples. False where that
-    // fails too; then they are void, and nothing is under way.
+    // To be called after a call has thrown: completes what has been begun, so that the films hold whole samples.
+    // Returns false if that fails too; then the films are void, and nothing is under way.
     bool complete() noexcept;
 
-    // Share of the wanted samples that are done, in [0, 1].
+    // The share of the wanted samples that is done, in [0, 1].
     double fraction() const;
 
-    // Those that the films hold. Nothing may be under way.
+    // The samples in the films. Only while nothing is under way.
     const TileSamples &samples() const { return samples_; }
 
-    // Whether the error of the films was estimated in the submission with the last samples, which saves one: where the
-    // only device does that.
+    // Whether the submission with the last samples has estimated the error too, which saves a submission. Only a single
+    // device does that.
     bool has_estimate() const { return has_estimate_; }
 
 private:
-    // A slice that the devices start one after the other. Where one fails to, complete() goes on from there.
+    // A slice that the devices start one after the other. If one of them fails to, complete() continues from there.
     struct Begun {
         TileSlice slice;
         const RenderDevice *taker; // of its samples

@@ -9,8 +9,8 @@
 
 namespace pt {
 
-// Both numbers are below 2^32, so that the quotient of doubles is that of floats when it is rounded to one, but for
-// halves of their last bits that are nearer than 2^-53.
+// Both numbers are below 2^32, so the quotient in double, rounded to float, is the correctly rounded one, except within
+// 2^-53 of the middle of two floats.
 void read_coverage(const Image &image, const TileSamples &samples, const RenderSettings &settings,
                    const std::shared_ptr<const GpuScene> &scene, RenderDevice &device) {
     const Rectangle &pixels = image.layout.pixels;

@@ -13,12 +13,12 @@
 
 namespace pt {
 
-// Raised by whoever changes the bits of any sample, in the kernel or in what the host prepares for it, or which samples
-// a target error takes.
+// To be raised whenever a change affects the bits of any sample, in the kernel or in what the host prepares for it, or
+// which samples a target error takes.
 inline constexpr std::uint32_t estimator_version = 6;
 
-// Where a picture's samples are taken, and how fast, is not part of it: rows, ranges, submissions, the number of equal
-// devices, and whether kernels have the scene's numbers as constants (trace_pipelines.h) leave every bit as it is.
+// Where and how fast samples are taken is not part of it: rows, ranges, submissions, the number of equal devices, and
+// whether kernels have the numbers of the scene as constants (trace_pipelines.h) do not change a bit.
 FilmIdentity identity_of(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings,
                          const KernelCode &code, const std::vector<pt_device_info> &devices);
 

@@ -9,7 +9,7 @@ namespace pt {
 
 namespace {
 
-// Pixels of a band, 56 MiB: many times what is on its way between two devices, and little beside a large film.
+// Pixels of a band, 56 MiB: many times what is in transit between two devices, and little beside a large film.
 constexpr std::uint32_t most_band_pixels = 1U << 19;
 
 std::vector<float> values_of(const PixelSums &sums, const ImageQuery &query) {
@@ -29,7 +29,7 @@ std::vector<DeviceFilm *> FilmView::films(const Devices &devices) {
     return films;
 }
 
-// As few bands of whole rows of regions as there may be, all of one size but for the last.
+// As few bands of whole rows of regions as possible, all of one size except the last.
 std::vector<FilmView::Band> FilmView::bands() const {
     const std::uint32_t width = home().film().width();
     const std::uint32_t row_count = home().film().pixel_count() / width;
@@ -97,7 +97,7 @@ std::optional<std::span<std::byte>> FilmView::map(const ImageQuery &query) {
     return home().image_reader().map(query);
 }
 
-// Of the rows that the image has a part of.
+// Reads only the rows that the image covers.
 void FilmView::read_on_host(const Image &image, const ImageQuery &query, const TileSamples &samples) const {
     ImageRows rows(image);
     const std::uint32_t width = home().film().width();
@@ -109,12 +109,13 @@ void FilmView::read_on_host(const Image &image, const ImageQuery &query, const T
     });
 }
 
-// A device's kernel looks at whole regions.
+// The kernels of a device need whole regions.
 bool FilmView::reads_on_device() const {
     return home().device().policy().resolve_on_device && home().film().has_whole_regions();
 }
 
-// Regions come in one order, whoever sums them up: an image has the same estimate on one device and on several.
+// Regions always come in the same order, whoever computes them, so an image has the same estimate on one device and on
+// several.
 void FilmView::estimate(ErrorEstimator &estimator, const ErrorQuery &query, bool is_recorded) {
     const auto add = [&](const RegionErrors &region) { estimator.add(region); };
     if (!reads_on_device()) {
@@ -139,7 +140,7 @@ FilmErrors::ReadRows FilmView::reader_of(const TileSamples &samples) const {
     };
 }
 
-// Each band is a film of its own, with tiles of its own.
+// Each band is a film of its own, with its own tiles.
 void FilmView::estimate_bands(const ErrorQuery &query, const ErrorReader::Receive &receive) {
     films(devices_);
     const TileGrid &grid = query.samples.grid();

@@ -1,5 +1,5 @@
-// What the films of a context's devices say together: the image of their samples, and its error. On the first device,
-// if it is of those whose kernels do so, else on the host. Owned by Renderer.
+// The image in the films of a context's devices together, and its error. Found on the first device if its kernels do
+// that, otherwise on the host. Owned by Renderer.
 #pragma once
 
 #include "lib/film/error_estimate.h"
@@ -30,36 +30,38 @@ public:
     // The devices must outlive it.
     explicit FilmView(const Devices &devices) : devices_(devices) {}
 
-    // Of the films' samples, pixels as an image wants them. Throws PT_ERROR_INTERNAL if a driver lost work.
+    // Reads the image of the films' samples, in the format that it asks for. Throws PT_ERROR_INTERNAL if a driver lost
+    // work.
     void read(const Image &image, const ImageQuery &query, const TileSamples &samples);
 
-    // Likewise, without gaps, in memory of the first device, where that makes the image; it stays until the film is
-    // replaced, or the next call. Elsewhere none.
+    // The same, without gaps, in memory of the first device, if that device makes images. The memory stays until the
+    // film is replaced, or the next call. Otherwise nothing.
     std::optional<std::span<std::byte>> map(const ImageQuery &query);
 
-    // Gives the estimator all that is known of the films' error, and where a kernel finds both at once what the query
-    // asks of tiles. is_recorded: it is there already, of a submission that took the samples on the only device.
-    // Throws likewise.
+    // Gives the estimator everything that is known about the error of the films. If a kernel finds both at once, it
+    // also answers what the query asks about tiles. is_recorded: the only device has done this already, in the
+    // submission that took the samples. Throws likewise.
     void estimate(ErrorEstimator &estimator, const ErrorQuery &query, bool is_recorded);
 
-    // Whether the host finds what is expected of tiles, without the error of the image: it takes less time.
+    // Whether the host can find what is expected of tiles alone, which takes less time than with the error of the
+    // image.
     bool finds_tile_squares_alone() const { return !reads_on_device(); }
     std::span<const double> tile_squares(double unit, const TileSamples &samples);
 
-    // What was known of the films' samples is void.
+    // Forgets what is known, because the samples have changed.
     void forget_samples() noexcept { errors_.forget(); }
 
-    // Builds what it needs of kernels beside those of each device.
+    // Builds the kernels that it needs beyond those of each device.
     void prepare();
 
-    // Films or kernels are about to be replaced.
+    // To be called before films or kernels are replaced.
     void drop() noexcept { sums_.clear(); }
 
-    // Brought up to date.
+    // The films of the devices, brought up to date.
     static std::vector<DeviceFilm *> films(const Devices &devices);
 
 private:
-    // A sum of some rows of the films, and what reads it.
+    // The sum of some rows of the films, with its readers.
     struct Sum {
         Sum(const std::vector<FilmSum::Source> &sources, RenderDevice &home, std::uint32_t row_count);
 
@@ -68,7 +70,7 @@ private:
         std::optional<ErrorReader> error;
     };
 
-    // Rows of the films that meet on the first device at a time.
+    // Rows of the films that are summed on the first device at one time.
     struct Band {
         std::uint32_t first_row;
         std::uint32_t row_count;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint32_t buffer_word_bytes = 4; // what a kernel writes
 
-// Of an image of width x height pixels, the part that is asked for.
+// The part of an image of width x height pixels that is asked for.
 template <typename Source>
 Rectangle rectangle_of(const Source &source, std::uint32_t width, std::uint32_t height) {
     if (source.x == 0 && source.y == 0 && source.width == 0 && source.height == 0)
@@ -21,7 +21,7 @@ Rectangle rectangle_of(const Source &source, std::uint32_t width, std::uint32_t 
     return {source.x, source.y, source.width, source.height};
 }
 
-// A rectangle's columns, or its rows: whether there are some, all within the image.
+// Checks the columns or the rows of a rectangle: at least one, all within the image.
 bool check_extent(const Subject &image, const char *name, std::uint32_t extent, const Member &begin,
                   std::uint32_t first, std::uint32_t limit) {
     image.require(extent >= 1, name, extent, "must be >= 1, but where x, y, width and height are all 0");
@@ -31,7 +31,7 @@ bool check_extent(const Subject &image, const char *name, std::uint32_t extent, 
     return within && extent >= 1;
 }
 
-// Numbers of objects are not floats, and nothing else is a whole number.
+// Only object numbers are whole numbers, so they have a format of their own.
 void check_quantity(const Subject &image, std::uint32_t quantity, std::uint32_t format, ImageSource of) {
     const bool is_known = quantity <= PT_QUANTITY_COVERAGE;
     image.require(is_known, "quantity", quantity, "must be a PT_QUANTITY_* of pt.h");
@@ -45,8 +45,7 @@ void check_quantity(const Subject &image, std::uint32_t quantity, std::uint32_t 
                                                  : "PT_FORMAT_R32UI is for PT_QUANTITY_OBJECT alone");
 }
 
-// The rules that images have in common, whatever the memory. alignment: of rows, in bytes. offset: of the image in its
-// memory.
+// The rules for images in any kind of memory. alignment: of rows, in bytes. offset: of the image in its memory.
 template <typename Source>
 ImageLayout checked_layout(const Subject &image, const Source &source, std::uint32_t alignment, std::uint64_t offset,
                            std::uint32_t width, std::uint32_t height, ImageSource of) {

@@ -1,4 +1,4 @@
-// Where a caller wants an image, in memory or in a buffer of the device, checked against its size.
+// Where a caller wants an image: in memory or in a buffer of the device, checked against its size.
 #pragma once
 
 #include "lib/film/film_header.h"
@@ -32,13 +32,13 @@ struct BufferImage {
     std::uint64_t signal_semaphore; // likewise
 };
 
-// Whose quantities there are: a context knows all of its scene, films and lent buffers those of samples.
+// Which quantities can be read: a context has all of them, films and lent buffers only those of samples.
 enum class ImageSource { Context, Samples };
 
 // Checks an image whose struct_size is settled, of width x height pixels that are rendered, both >= 1. Throws
 // PT_ERROR_INVALID_ARGUMENT with all broken rules.
 Image validated_image(const pt_image &source, std::uint32_t width, std::uint32_t height, ImageSource of);
-// The same of an image that the library has memory for: without gaps.
+// The same for an image in memory of the library: without gaps.
 ImageLayout validated_mapped_layout(const pt_image &source, std::uint32_t width, std::uint32_t height);
 BufferImage validated_image(const pt_buffer_image &source, std::uint32_t width, std::uint32_t height);
 

@@ -13,11 +13,11 @@ class ImageRows {
 public:
     explicit ImageRows(const Image &image);
 
-    // Takes the next pixels, as the image wants them.
+    // Takes the next pixels, in the format of the image.
     void put(std::span<const std::byte> pixels);
 
-    // Takes those that the rectangle has of consecutive pixels, from one on, of an image of this width. R, G, B of
-    // each.
+    // Takes consecutive pixels of an image of this width, from first_pixel on, and keeps those within the rectangle. R,
+    // G and B for each.
     void put_part(std::uint64_t first_pixel, std::uint32_t width, std::span<const float> values);
 
 private:

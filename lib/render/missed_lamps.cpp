@@ -11,8 +11,9 @@ namespace pt {
 
 namespace {
 
-// The share of directions that the narrowest lobe covers, about, for estimators that find lobes by chance: of n + 1
-// uniform ones over a hemisphere one is nearer to the mirror's than half of a lobe of glossiness n reaches.
+// Roughly the share of directions that the narrowest lobe covers, for estimators that find lobes by chance: of n + 1
+// uniform directions over a hemisphere, one lies within the half-width of a lobe of glossiness n around the mirror
+// direction.
 double smallest_lobe_share(const PreparedScene &scene, std::uint32_t estimator) {
     double share = 1.0;
     if (estimator == PT_ESTIMATOR_UNIFORM || estimator == PT_ESTIMATOR_COSINE)

@@ -1,4 +1,4 @@
-// Whether an estimate of the error can know of all lamps. Used by Renderer.
+// Whether an estimate of the error can know about all lamps. Used by Renderer.
 #pragma once
 
 #include "lib/film/error_estimate.h"
@@ -10,13 +10,12 @@
 
 namespace pt {
 
-// Whether some lamp or lobe is found by chance alone, and so small that few of so many samples, of all pixels, have met
-// it, if any.
+// Whether some lamp or lobe is found only by chance and is so small that few of all these samples, if any, have met it.
 bool may_miss_lamps(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings,
                     std::uint64_t samples);
 
-// States at least the error that is expected of lamps in view which samples have hardly met, given as means over the
-// image's values. An error for which that is more than the samples show is uncertain.
+// Raises the stated error to at least what is expected of lamps in view that samples have hardly met, given as means
+// over the values of the image. If that is more than the samples show, the error is uncertain.
 void take_in_unmet_lamps(ErrorEstimate &error, const UnmetSquares &unmet);
 
 } // namespace pt

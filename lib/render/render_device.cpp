@@ -12,7 +12,7 @@ namespace pt {
 
 namespace {
 
-// With another kernel tests may take longer than those that were measured.
+// How much of a learnt rate to trust for another kernel, whose tests may take longer than the measured ones.
 constexpr double share_assumed_of_learnt = 0.125;
 
 } // namespace
@@ -28,14 +28,14 @@ RenderDevice::RenderDevice(vulkan::Instance &instance, const vk::raii::PhysicalD
     under_way_.reserve(device_.policy().queue_depth);
 }
 
-// Waits for work in flight before what it uses is destroyed; if the device hangs, that is leaked
+// Waits for work under way before destroying what that work uses. If the device hangs, that is leaked
 // (vulkan/device_object.h).
 RenderDevice::~RenderDevice() {
     if (!device_.comes_to_rest())
         device_.abandon();
 }
 
-// A film that it replaces does not count: that is freed before this one is touched.
+// The film that it replaces does not count, because that is freed before this one is touched.
 DeviceFilm RenderDevice::make_film(const RenderSettings &settings) {
     const std::uint64_t bytes = std::uint64_t{settings.width} * settings.row_count * DeviceFilm::bytes_per_pixel;
     if (!device_.has_memory(bytes))
@@ -104,8 +104,8 @@ void RenderDevice::save_kernels() noexcept {
         device_.pipeline_cache().save(device_.log());
 }
 
-// The schedule goes on where it was if the kernel does: what a sample costs is much the same. For another kernel it
-// begins with what this device manages, as far as that is known.
+// If the kernel stays, so does the schedule, since a sample costs about the same. For another kernel the schedule
+// starts from what this device is known to manage.
 void RenderDevice::prepare(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings) {
     pipelines_->keep_kernels_as_they_are(false);
     if (kernel_ && &kernel_->scene() == scene.get())
@@ -125,7 +125,7 @@ void RenderDevice::prepare(const std::shared_ptr<const GpuScene> &scene, const R
     schedule_.emplace(limits);
 }
 
-// A tree is uploaded once, whatever kernels come to use it.
+// A tree is uploaded once, for all kernels that will use it.
 void RenderDevice::plant(const std::shared_ptr<const SphereTree> &tree) {
     if (tree == tree_)
         return;
@@ -187,7 +187,8 @@ BufferWriter &RenderDevice::buffer_writer() {
     return *buffer_writer_;
 }
 
-// The kernel of paths is made ready too, as what it refuses is beyond the device, and the tree is planted for both.
+// The path tracer's kernel is prepared as well: it decides whether the scene is beyond the device, and the tree is
+// uploaded for both.
 void RenderDevice::read_first_hits(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings,
                                    const FirstHitQuery &query, const FirstHits::Receive &receive) {
     prepare(scene, settings);
@@ -235,7 +236,7 @@ ErrorReader &RenderDevice::bound_error_reader() {
     return *error_reader_;
 }
 
-// A void film has nothing to make room in. It is cleared with the first samples that it takes.
+// A void film has nothing to make room in. It is cleared together with the first samples that it takes.
 void RenderDevice::start(const TileSlice &slice, const ErrorQuery *estimate) {
     if (!slice.takes && film_is_void_)
         return;

@@ -1,5 +1,5 @@
-// One device's share of the rendering: its film, its kernel, and the slices that it has under way. Owned by Renderer,
-// which deals samples to its devices; since the film's sums are exact, it does not matter which device takes which.
+// One device's share of the rendering: its film, its kernel, and its slices under way. Owned by Renderer, which deals
+// samples to its devices. The sums of the film are exact, so it does not matter which device takes which sample.
 #pragma once
 
 #include "lib/kernel/buffer_writer.h"
@@ -28,11 +28,11 @@ namespace pt {
 
 class RenderDevice {
 public:
-    // The instance must outlive it. target_seconds: aim for the time of a slice.
+    // The instance must outlive it. target_seconds: how long a slice should take.
     RenderDevice(vulkan::Instance &instance, const vk::raii::PhysicalDevice &physical_device,
                  vulkan::LogicalDevice logical_device, const vulkan::DevicePolicy &policy, const KernelCode &code,
                  double target_seconds);
-    // Waits for what is under way, as long as the device's patience allows.
+    // Waits for work under way, for as long as the patience of the device allows.
     ~RenderDevice();
     RenderDevice(const RenderDevice &) = delete;
     RenderDevice &operator=(const RenderDevice &) = delete;
@@ -40,23 +40,24 @@ public:
     vulkan::Device &device() { return device_; }
     const vulkan::Device &device() const { return device_; }
 
-    // With the samples that this device has taken. Idle.
+    // The film with the samples that this device has taken. Only while no work is under way.
     DeviceFilm &film();
 
-    // Of the film.
+    // Reads the film.
     ImageReader &image_reader();
     BufferWriter &buffer_writer();
     ErrorReader &error_reader();
 
-    // Pixels of what camera rays meet first, of the image; see FirstHits::read(). Idle.
+    // Pixels of what camera rays meet first; see FirstHits::read(). Only while no work is under way.
     void read_first_hits(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings,
                          const FirstHitQuery &query, const FirstHits::Receive &receive);
 
-    // Of pixels of the film's samples how many meet something; see Coverage::read(). Idle.
+    // How many camera rays of the samples meet a surface, by pixel; see Coverage::read(). Only while no work is under
+    // way.
     void read_coverage(const std::shared_ptr<const GpuScene> &scene, const CoverageQuery &query,
                        const Coverage::Receive &receive);
 
-    // Kernels for other films than this device's own.
+    // The kernels, for use with films other than this device's own.
     ResolvePipelines &resolve_pipelines();
     const vulkan::ComputePipeline &estimate_pipeline();
     const vulkan::ComputePipeline &add_pipeline();
@@ -65,25 +66,26 @@ public:
     void keep_kernels(const vulkan::KernelStore &store);
     void save_kernels() noexcept;
 
-    // What the film of these settings takes of this device. Throws PT_ERROR_UNSUPPORTED if it has not so much.
+    // Makes a film for these settings on this device. Throws PT_ERROR_UNSUPPORTED if the device is too small for it.
     DeviceFilm make_film(const RenderSettings &settings);
     void set_film(DeviceFilm film);
 
-    // What the film holds is void.
+    // The film is void from here on.
     void discard_samples() noexcept;
 
-    // Pipelines of other code, built as far as the kernel needs them if there is one. Throws PT_ERROR_SHADER if the
-    // driver refuses the code.
+    // Pipelines for other code, built as far as the present kernel needs them. Throws PT_ERROR_SHADER if the driver
+    // refuses the code.
     std::unique_ptr<TracePipelines> make_pipelines(const KernelCode &code);
     void set_pipelines(const KernelCode &code, std::unique_ptr<TracePipelines> pipelines) noexcept;
 
-    // Makes the kernel, or shows it this scene, unless it has it. After set_film. Idle.
+    // Makes a kernel for this scene, or shows the scene to the one that is there. After set_film, and only while no
+    // work is under way.
     void prepare(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings);
 
-    // The same, with all that the kernel will need, as fast as it can be.
+    // The same, and builds everything that the kernel will need, in its fastest form.
     void prepare_ahead(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings);
 
-    // Builds all that samples of the scene need from here on, until the next prepare(), and what looks at errors.
+    // Builds everything that samples of the scene need until the next prepare(), and what looks at errors.
     void prepare_for_polls(bool with_errors);
 
     bool has_room() const { return under_way_.size() < device_.policy().queue_depth; }
@@ -94,18 +96,19 @@ public:
     // Whether the error of the film can be estimated in the submission that takes samples.
     bool estimates_behind() const { return device_.policy().resolve_on_device && film_->strips().size() == 1; }
 
-    // Starts a slice. has_room() must hold. estimate: if it is given, the error of the film with these samples is
-    // estimated behind them, for error_reader().collect(); estimates_behind() must hold.
+    // Starts a slice. has_room() must hold. estimate: if given, the error of the film with these samples is estimated
+    // after them, for error_reader().collect(); estimates_behind() must hold.
     void start(const TileSlice &slice, const ErrorQuery *estimate = nullptr);
 
-    // Whether finish() would not wait, having waited for that until a time. Not idle.
+    // Whether finish() would return at once, after waiting for that until a given time. Only while work is under way.
     bool is_done(vulkan::Device::Clock::time_point until) { return device_.is_done(under_way_.front().ticket, until); }
 
-    // Looks which slices have ended while nobody waited for them. Without, a slice is taken to end when it is seen to.
+    // Notes which slices have ended while nobody waited for them. Without this, a slice counts as ended when somebody
+    // looks.
     void look() { device_.look(); }
 
-    // Waits for the slice that was started first. seconds: where nobody saw it end, what comes nearest to what was
-    // expected of it.
+    // Waits for the slice that was started first. seconds: its duration, or if nobody saw it end, the nearest estimate
+    // to what was expected.
     struct Finished {
         std::uint64_t tile_samples; // tiles times samples; 0 where another device took them
         double seconds;

@@ -56,7 +56,7 @@ struct CreateSettings {
 // All Vulkan devices of this machine.
 std::vector<pt_device_info> list_devices();
 
-// What pt_accumulate is asked for.
+// What pt_accumulate was asked for.
 struct SamplesWanted {
     std::uint32_t count;                // more in every pixel, or with a target error at most
     double target_error;                // relative; 0: none
@@ -64,8 +64,9 @@ struct SamplesWanted {
     std::vector<std::uint32_t> by_tile; // more in each tile, without a target error; empty: in all alike
 };
 
-// Methods throw pt::Error. A failed one has changed nothing, except that a lost device stays lost, and that those
-// that take samples keep whole ones. While samples are under way poll(), cancel() and what is const may be called.
+// Methods throw pt::Error. A method that fails has changed nothing, except that a lost device stays lost, and that
+// methods that take samples keep whole ones. While samples are under way, only poll(), cancel() and const methods may
+// be called.
 class Renderer {
 public:
     explicit Renderer(const CreateSettings &settings);
@@ -73,11 +74,11 @@ public:
     const Log &log() const { return instance_.log(); }
     const pt_device_info &device() const { return devices_.front()->device().info(); }
 
-    // Of what is rendered and read back: the image's columns, and those of its rows that the settings ask for.
+    // The size of what is rendered and read back: all columns of the image, and the rows that the settings ask for.
     std::uint32_t width() const { return settings_ ? settings_->width : 0; }
     std::uint32_t row_count() const { return settings_ ? settings_->row_count : 0; }
 
-    // Whether it works on a device that the caller has lent.
+    // Whether the caller has lent it its device.
     bool is_on_lent_device() const { return devices_.front()->device().is_borrowed(); }
 
     // Each setter discards the samples so far.
@@ -85,19 +86,19 @@ public:
     void set_camera(const Camera &camera);
     void set_render(const RenderSettings &settings);
 
-    // Compiles the kernels anew. Those that differ discard the samples so far.
+    // Compiles the kernels again. If any has changed, the samples so far are discarded.
     void reload_shaders();
 
-    // Replaces the kernels on all devices or, if a driver refuses them, on none.
+    // Replaces the kernels on all devices, or on none if a driver refuses them.
     void set_code(const KernelCode &code);
 
-    // Builds what accumulate() needs.
+    // Builds what accumulate() will need.
     void prepare();
 
     // Takes samples: PT_OK, PT_CANCELLED or PT_TARGET_REACHED.
     pt_result accumulate(const SamplesWanted &wanted, const Progress &progress);
 
-    // The same, without waiting for any: PT_PENDING where they are under way then, or PT_TARGET_REACHED.
+    // The same, without waiting: PT_PENDING if samples are under way when it returns, or PT_TARGET_REACHED.
     pt_result start(const SamplesWanted &wanted);
 
     struct Advance {
@@ -105,11 +106,12 @@ public:
         double fraction;  // of the samples
     };
 
-    // Takes in samples that are under way and deals out the next, for so long at the most. If it throws, none are under
+    // Takes in samples that are done and deals out the next, for at most this long. If it throws, no samples are under
     // way any more.
     Advance poll(std::uint64_t nanoseconds);
 
-    // No more samples are begun; poll() says when those under way have ended. False if none are. From any thread.
+    // Begins no more samples; poll() tells when those under way have ended. False if there are none. May be called by
+    // any thread.
     bool cancel() noexcept { return cancellation_.ask(); }
     static constexpr const char *nothing_under_way = "no samples are under way: call pt_start first";
 
@@ -118,26 +120,25 @@ public:
     void readback(const Image &image);
     void readback(const BufferImage &image);
 
-    // The same as of an image without gaps, in memory that stays until the next call, set_render() or
-    // reload_shaders().
+    // The same for an image without gaps, in memory that stays until the next call, set_render() or reload_shaders().
     std::span<std::byte> map(const ImageLayout &layout);
 
-    // Of the film of the samples so far.
+    // The film of the samples so far.
     FilmHeader film_header() const;
     void save_film(const FilmHeader &header, std::span<std::byte> bytes) const; // of the size of its FilmLayout
     void add_film(std::span<const std::byte> bytes);
 
     pt_stats stats() const;
 
-    // Of the image, with the lamps in view that no sample has met: said, but no bound that ends a rendering, since
-    // films that are added elsewhere do not know of lamps.
+    // The error of the image, including lamps in view that no sample has met. Those are stated but do not end a
+    // rendering, because films that are added elsewhere do not know about lamps.
     ErrorEstimate error_with_lamps();
 
-    // Of the kernel's elementary functions on the first device; leaves the samples alone.
+    // The accuracy of the kernel's elementary functions on the first device. Leaves the samples alone.
     std::vector<pt_function_accuracy> accuracy();
 
 private:
-    // Samples that are to be taken.
+    // The samples that are being taken.
     struct Job {
         SamplesWanted wanted;
         std::uint64_t most;               // that a pixel is to have

@@ -18,7 +18,8 @@
 
 namespace pt {
 
-// Parallel rays may come from anywhere far away: lamps are as large as they are where the kernel's coordinates begin.
+// Parallel rays may come from anywhere far away, so the size of a lamp is judged from where the kernel's coordinates
+// begin.
 Camera Renderer::ray_start() {
     Camera start = *camera_;
     if (start.is_orthographic())
@@ -101,7 +102,7 @@ void Renderer::readback(const Image &image) {
     view_.read(image, query(image.layout), samples_);
 }
 
-// Where no device has it in memory that the host reads, the host makes it in its own.
+// If no device makes the image in memory that the host can read, the host makes it in its own.
 std::span<std::byte> Renderer::map(const ImageLayout &layout) {
     require_settings();
     if (layout.quantity <= PT_QUANTITY_SAMPLE_COUNT) {
@@ -152,7 +153,7 @@ void Renderer::save_film(const FilmHeader &header, std::span<std::byte> bytes) c
     save(FilmView::films(devices_), samples_, header, pixels(), bytes);
 }
 
-// All samples are in the first device's film afterwards.
+// Afterwards all samples are in the first device's film.
 void Renderer::add_film(std::span<const std::byte> bytes) {
     require_settings();
     const FilmReader film(bytes);

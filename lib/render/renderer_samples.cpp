@@ -23,7 +23,7 @@ Error too_many_samples(std::uint32_t sample_count, const std::string &reason, st
                                                   .rule = reason + std::to_string(number) + ")"}};
 }
 
-// Tiles times samples, the most that there may be.
+// The largest possible amount: tiles times samples.
 std::uint64_t amount_of(const SamplesWanted &wanted, const TileGrid &grid) {
     return wanted.by_tile.empty() ? std::uint64_t{wanted.count} * grid.count()
                                   : std::accumulate(wanted.by_tile.begin(), wanted.by_tile.end(), std::uint64_t{0});
@@ -31,7 +31,7 @@ std::uint64_t amount_of(const SamplesWanted &wanted, const TileGrid &grid) {
 
 } // namespace
 
-// The next sample is the first from first_sample on that the film lacks.
+// The next sample is the first one, from first_sample on, that the film lacks.
 void Renderer::require_room_for(std::uint32_t sample_count) const {
     const std::uint64_t first = settings_->first_sample;
     for (const SampleSet &samples : samples_.sets()) {
@@ -67,7 +67,7 @@ void Renderer::begin(const SamplesWanted &wanted, const Progress &progress, bool
     }
 }
 
-// Of samples that are polled all kernels are built here, of others when they are needed.
+// If samples will be polled, all kernels are built here; otherwise when they are needed.
 void Renderer::make_job(const SamplesWanted &wanted, const Progress &progress, bool is_polled) {
     require_settings();
     require_tiles(wanted);
@@ -102,7 +102,7 @@ void Renderer::end_job() noexcept {
     cancellation_.end();
 }
 
-// A look takes the time of more samples where paths are short.
+// Where paths are short, a look takes the time of more samples, so tiles are told apart later.
 std::uint64_t Renderer::adaptive_from() const {
     const std::uint64_t samples = devices_.front()->device().policy().adaptive_from;
     return settings_->max_path_length > 2 ? samples : 4 * samples;
@@ -163,7 +163,7 @@ pt_result Renderer::advance(Accumulation::Clock::time_point until) {
     }
 }
 
-// Decides what is done next, or that nothing is.
+// Decides what to do next, or that everything is done.
 std::optional<pt_result> Renderer::next_step() {
     const auto unless_done = [](bool goes_on) { return goes_on ? std::nullopt : std::optional<pt_result>(PT_OK); };
     if (job_->is_together && samples_.of(0).count() < job_->together_to)
@@ -189,7 +189,7 @@ std::optional<pt_result> Renderer::next_step() {
     return unless_done(job_->accumulation.set_goal(step->tiles, step->goal));
 }
 
-// With a target error from each number of samples at which the error is looked at to the next.
+// With a target error: from one sample count at which the error is checked to the next.
 std::optional<pt_result> Renderer::next_step_together() {
     const std::uint64_t count = samples_.of(0).count();
     if (is_on_target(job_->wanted.target_error))
@@ -212,7 +212,7 @@ void Renderer::forget_error() noexcept {
     rejected_samples_.reset();
 }
 
-// What has been begun is completed, so that the films hold whole samples. Where that fails too, they are void.
+// Completes what has been begun, so that the films hold whole samples. If that fails as well, the films are void.
 void Renderer::give_up() noexcept {
     try {
         if (job_->accumulation.complete())

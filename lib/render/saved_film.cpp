@@ -39,15 +39,15 @@ SampleSet united(const SampleSet &present, const SampleSet &added) {
     return all;
 }
 
-// Brings the sums of consecutive pixels with these samples to the split of more samples, which may put all of them on
-// one side.
+// Moves the sums of consecutive pixels to the split that a larger set of samples has. That may put all of them on one
+// side.
 void split_for(PixelSums &sums, std::size_t first, std::size_t count, const SampleSet &samples, std::uint64_t split) {
     const std::uint64_t own = split_of(samples.hull());
     if (!samples.empty() && own != split)
         sums.fold_into(own < split ? older_part : newer_part, first, count);
 }
 
-// Whole rows of a film at a time.
+// How many whole rows of a film are handled at a time.
 std::uint32_t rows_of_piece(std::uint32_t width) {
     return std::max(piece_pixels / width, 1U);
 }
@@ -64,7 +64,7 @@ struct RowsInTile {
     std::uint32_t count() const { return end - first; }
 };
 
-// Copies the pixels of a tile's rows between them alone and the rows of the film from first_row on.
+// Copies the pixels of a tile's rows between memory that holds them alone and the rows of the film from first_row on.
 template <typename Copy>
 void for_each_row(const Rectangle &tile, const RowsInTile &rows, std::uint32_t first_row, std::uint32_t width,
                   const Copy &copy) {

@@ -9,8 +9,8 @@ namespace pt {
 
 namespace {
 
-// Of a submission over one that has been measured. A wrong guess must not run into the seconds after which drivers kill
-// one.
+// How many times larger a submission may be than the largest measured one. A wrong guess must not run into the seconds
+// after which drivers kill a submission.
 constexpr double max_growth = 2.0;
 
 constexpr double paths_of_tile = gpu::WORKGROUP_SIZE; // with one sample
@@ -31,8 +31,8 @@ std::uint64_t Schedule::samples(std::size_t tile_count, std::uint64_t most) cons
                                      std::min<std::uint64_t>(most, limits_.max_samples));
 }
 
-// One of as few equal shares as the budget allows. Equal ones, since a small last one would waste the overhead of a
-// submission: they are larger than half of the budget wherever one does not do.
+// One of as few equal shares as the budget allows. They are equal because a small last share would waste the overhead
+// of a submission. If one share is not enough, each is larger than half of the budget.
 std::size_t Schedule::tiles(std::size_t left, std::uint64_t sample_count) const {
     const auto affordable = static_cast<std::size_t>(std::clamp(budget_ / paths_of(1, sample_count), 1.0, 0x1p32));
     const std::size_t shares = (left + affordable - 1) / affordable;

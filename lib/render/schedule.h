@@ -1,5 +1,5 @@
-// How much work goes into one submission to the device, such that each takes about the same time. No clock and no
-// device in here: RenderDevice asks how much, runs it, and reports how long it took.
+// How much work goes into one submission, so that each takes about the same time. It knows neither a clock nor a
+// device: RenderDevice asks how much, runs it, and reports how long it took.
 #pragma once
 
 #include <cstddef>
@@ -17,13 +17,13 @@ class Schedule {
 public:
     explicit Schedule(const ScheduleLimits &limits);
 
-    // Samples that each of so many tiles may take in one submission: 1 to most.
+    // How many samples each of this many tiles may take in one submission: from 1 to most.
     std::uint64_t samples(std::size_t tile_count, std::uint64_t most) const;
 
-    // Of the tiles that are left, how many go into the next submission if each takes so many samples: 1 at least.
+    // How many of the remaining tiles go into the next submission if each takes this many samples: at least 1.
     std::size_t tiles(std::size_t left, std::uint64_t sample_count) const;
 
-    // Paths that are expected to take the time of a submission.
+    // How many paths should take the time of one submission.
     double budget() const { return budget_; }
 
     double expected_seconds(double paths) const;
@@ -36,7 +36,7 @@ private:
     double budget_; // paths expected to take target_seconds
 };
 
-// Paths of tiles that take so many samples each, as if all were whole.
+// Paths of this many tiles with so many samples each, counting every tile as whole.
 double paths_of(std::size_t tile_count, std::uint64_t sample_count);
 
 } // namespace pt

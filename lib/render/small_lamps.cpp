@@ -12,7 +12,7 @@ namespace pt {
 
 namespace {
 
-// Of the samples of a pixel: a root that rests on 8 is off by a third. Calibrated.
+// Expected meetings with the samples of a pixel: a standard error from 8 of them is off by a third. Calibrated.
 constexpr double enough_meetings = 8.0;
 
 constexpr double largest_size = enough_meetings / min_estimate_samples; // pixels
@@ -38,8 +38,8 @@ double ahead(double way) {
     return never;
 }
 
-// How far from the origin a ray along a unit vector enters a ball, or leaves it if it begins inside; infinity if it
-// does not meet it.
+// The distance from the origin, along a unit vector, at which a ray enters a ball, or leaves it if it begins inside;
+// infinity if it misses.
 double way_to(const MovingBall &ball, const glm::dvec3 &direction) {
     const double along = glm::dot(ball.open, direction);
     const double beside = glm::length(ball.open - along * direction);
@@ -55,7 +55,8 @@ double way_to(const Plane &plane, const Camera &camera, const glm::dvec3 &direct
     return ahead(-height / glm::dot(plane.normal, direction));
 }
 
-// To the first surface that the camera sees. start: the camera, or of parallel rays where one begins.
+// The distance to the first surface that the camera sees. start: the camera or, for parallel rays, where this ray
+// begins.
 double way_to_first(const PreparedScene &prepared, const Camera &start, const glm::dvec3 &direction) {
     const Scene &scene = prepared.scene;
     double first = never;
@@ -82,7 +83,8 @@ bool is_hidden(const SeenSphere &lamp, const PreparedScene &scene, const Camera 
     return way_to_first(scene, start, glm::normalize(way)) < glm::length(way) - 2.0 * lamp.radius;
 }
 
-// Adds the pixels of a disc: of each of its thin lines what lies in each pixel.
+// Adds the pixels of a disc: the disc is cut into thin lines, and each line is divided among the pixels that it
+// crosses.
 void add_pieces(std::vector<LampPiece> &pieces, const Disc &disc, std::uint32_t width, std::uint32_t row_count) {
     constexpr int lines = 256;
     const std::size_t first = pieces.size();

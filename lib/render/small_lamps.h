@@ -1,5 +1,5 @@
-// Lamps in view that are smaller than a pixel: how their light is spread over pixels, which tells what samples that
-// have not met them yet are expected to do.
+// Lamps in view that are smaller than a pixel: how their light is spread over pixels. That tells how far off an image
+// is whose samples have not met them yet.
 #pragma once
 
 #include "lib/kernel/prepared_scene.h"
@@ -13,7 +13,7 @@
 
 namespace pt {
 
-// What one pixel has of a lamp.
+// The part of a lamp that lies in one pixel.
 struct LampPiece {
     std::uint32_t x; // among the rows
     std::uint32_t y;
@@ -22,8 +22,9 @@ struct LampPiece {
     glm::dvec3 emission;
 };
 
-// In so many rows of an image: of the spheres that emit, lie in view, cover less than half a pixel, do not move, and
-// whose centres nothing hides. 16 samples, with which an error is first stated, should meet larger ones 8 times.
+// The lamps in these rows of an image: emitting spheres in view that cover less than half a pixel, do not move, and
+// whose centres nothing hides. Of larger ones 16 samples, the fewest with which an error is stated, should meet 8
+// times.
 std::vector<LampPiece> small_lamps_in_view(const PreparedScene &scene, const Camera &camera, std::uint32_t width,
                                            std::uint32_t height, std::uint32_t first_row, std::uint32_t row_count);
 

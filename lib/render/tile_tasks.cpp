@@ -4,7 +4,7 @@
 
 namespace pt {
 
-// Tiles with fewer samples come first, since they are the most: a device is busiest with them.
+// Tiles with fewer samples come first: there are more of them, and they keep a device busiest.
 TileTasks::TileTasks(const TileSamples &present, std::uint32_t first_sample, std::span<const std::uint32_t> tiles,
                      const Goal &goal) {
     for (const std::uint32_t tile : tiles) {
@@ -52,7 +52,7 @@ bool TileTasks::ends_all(std::size_t tile_count) const {
     return tasks_.size() == 1 && ends_samples(tile_count) && tasks_.back().chunk.end == tasks_.back().samples.end;
 }
 
-// Goes to the tiles behind these, or to the next samples of all.
+// Moves on to the tiles after these, or to the next samples of all.
 void TileTasks::leave_behind(std::size_t tile_count) noexcept {
     Task &task = tasks_.back();
     task.next_tile += tile_count;

@@ -1,5 +1,5 @@
-// What tiles take on the way to the samples that they are to have, slice by slice. No device in here: Accumulation asks
-// for the next slice and has a device take it.
+// The work of tiles on the way to the samples that they are to have, slice by slice. It knows no device: Accumulation
+// asks for the next slice and has a device take it.
 #pragma once
 
 #include "lib/film/tile_samples.h"
@@ -16,16 +16,16 @@ namespace pt {
 
 class TileTasks {
 public:
-    // By tile how many samples a pixel is to have.
+    // How many samples a pixel of a tile is to have.
     using Goal = std::function<std::uint64_t(std::uint32_t)>;
 
-    // From first_sample on, those of the tiles, which ascend, that have fewer samples than they are to have take the
-    // next that they have not, as far as these are consecutive: some may have fewer than that afterwards, and are to be
-    // set again.
+    // Tiles, in ascending order, that have fewer samples than their goal take the next ones that they lack, from
+    // first_sample on, as far as those are consecutive. So some may still have too few afterwards, and a new goal has
+    // to be set for them.
     TileTasks(const TileSamples &present, std::uint32_t first_sample, std::span<const std::uint32_t> tiles,
               const Goal &goal);
 
-    // The same of all tiles, which have the same samples; the list of them must outlive it. So it takes no longer for
+    // The same for all tiles when all have the same samples; the list of tiles must outlive it. It takes no longer for
     // many tiles.
     TileTasks(const SampleSet &present, std::uint32_t first_sample, std::span<const std::uint32_t> all_tiles,
               std::uint64_t goal);
@@ -34,21 +34,21 @@ public:
 
     bool empty() const { return tasks_.empty(); }
 
-    // Whether some tiles have begun samples that others, which had the same until then, have still to begin.
+    // Whether some tiles have begun samples that others, which had the same samples before, have not begun yet.
     bool is_within_samples() const { return !empty() && tasks_.back().next_tile > 0; }
 
-    // As much of what is next as the schedule of the device that takes it allows. There is something.
+    // The next slice, as large as the schedule of its device allows. Must not be empty().
     TileSlice next(const Schedule &schedule);
 
-    // Whether a slice of so many tiles is the last of its samples, or of all.
+    // Whether a slice with this many tiles is the last one for its samples, or for all.
     bool ends_samples(std::size_t tile_count) const;
     bool ends_all(std::size_t tile_count) const;
 
-    // It has been begun.
+    // The slice has been begun.
     void leave_behind(std::size_t tile_count) noexcept;
 
 private:
-    // Tiles with equal samples that take the same ones.
+    // Tiles with equal samples, which take the same ones.
     struct Task {
         std::uint32_t set;    // that they have, by TileSamples
         std::uint64_t wanted; // samples that they are to have

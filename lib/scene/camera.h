@@ -27,7 +27,7 @@ struct Camera {
 // Takes over a camera whose struct_size is settled. Throws PT_ERROR_INVALID_ARGUMENT with all broken rules.
 Camera validated_camera(const pt_camera &source);
 
-// Tells cameras apart, in films.
+// A digest of the camera, by which films tell cameras apart.
 std::string digest_of(const Camera &camera);
 
 } // namespace pt

@@ -15,10 +15,10 @@ namespace pt {
 
 namespace {
 
-// Indices of surfaces, and a few times their number in words of the scene buffer, are 32-bit numbers.
+// Surface indices, and positions in the scene buffer, which are a few times as many, are 32-bit numbers.
 constexpr std::uint64_t max_surface_count = std::uint64_t{1} << 30;
 
-// Of pt_set_scene, where spheres are so many that it takes long: measured, 8% of a million floats with colors.
+// The share of pt_set_scene when there are many spheres: measured, 8% for a million with float colors.
 constexpr double share_of_checks = 0.08;
 
 glm::vec3 color(const float (&components)[3]) {
@@ -115,7 +115,7 @@ private:
     std::string material_rule_;
 };
 
-// The elements of one of the scene's arrays; none, and a violation, if the array is missing.
+// The elements of one of the arrays of the scene. A missing array is a violation and has no elements.
 template <typename Element>
 std::span<const Element> elements(const Element *array, std::uint32_t count, const std::string &name,
                                   Violations &violations) {
@@ -167,7 +167,7 @@ CheckedScene checked_scene(const pt_scene &scene, WorkProgress &progress) {
     const Subject whole(violations, "scene");
     check_counts(whole, scene, arrays);
     whole.require(scene.reserved == 0, "reserved", scene.reserved, "must be 0");
-    // With counts like these the arrays are hardly there: they are not read.
+    // If these counts are wrong the arrays probably do not exist, so they are not read.
     violations.throw_if_any(PT_ERROR_INVALID_SCENE);
 
     const auto materials = elements(scene.materials, scene.material_count, "material", violations);

@@ -1,4 +1,4 @@
-// A scene that obeys the rules of pt.h and whose spheres are still where the caller has them.
+// A scene that obeys the rules of pt.h. Its spheres still lie in the caller's memory.
 #pragma once
 
 #include "lib/base/work_progress.h"
@@ -17,10 +17,10 @@ struct CheckedScene {
     std::vector<Plane> planes;
 };
 
-// Of a scene whose struct_size is settled. Throws PT_ERROR_INVALID_SCENE with all broken rules.
+// Checks a scene whose struct_size is settled. Throws PT_ERROR_INVALID_SCENE with all broken rules.
 CheckedScene checked_scene(const pt_scene &scene);
 
-// The same, as the first stage of a work.
+// The same, with its share of the progress of a longer call.
 CheckedScene checked_scene(const pt_scene &scene, WorkProgress &progress);
 
 } // namespace pt

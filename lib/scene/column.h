@@ -1,5 +1,4 @@
-// Reading the elements of a pt_column. What type they have is decided once for all that a caller of these functions
-// does with them, and so not in its loops.
+// Reads the elements of a pt_column. The type of the elements is decided once per call, not in the loops of the caller.
 #pragma once
 
 #include "lib/scene/srgb.h"
@@ -19,7 +18,7 @@ inline bool is_there(const pt_column &column) {
     return column.data != nullptr;
 }
 
-// An element as its bytes are, wherever they lie.
+// Copies an element byte by byte, so it may lie at any address.
 template <typename Element>
 Element element(const pt_column &column, std::size_t index) {
     static_assert(std::is_trivially_copyable_v<Element>);
@@ -38,7 +37,7 @@ decltype(auto) with_numbers(const pt_column &column, Use use) {
     return use([&column](std::size_t index) { return element<double>(column, index); });
 }
 
-// The same of elements with three components: a vec3 or a dvec3.
+// The same for elements with three components: a vec3 or a dvec3.
 template <typename Use>
 decltype(auto) with_vectors(const pt_column &column, Use use) {
     if (column.type == PT_TYPE_FLOAT32)
@@ -46,7 +45,7 @@ decltype(auto) with_vectors(const pt_column &column, Use use) {
     return use([&column](std::size_t index) { return element<glm::dvec3>(column, index); });
 }
 
-// The same of colors, whose bytes are decoded.
+// The same for colors, whose bytes are decoded.
 template <typename Use>
 decltype(auto) with_colors(const pt_column &column, Use use) {
     if (column.type != PT_TYPE_SRGB8)

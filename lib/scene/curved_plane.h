@@ -9,8 +9,8 @@
 
 namespace pt {
 
-// Held by its point nearest to the camera, -offset * normal relative to the camera: with x relative to the camera and
-// y = x + offset * normal, the surface is dot(normal, y) + curvature / 2 * dot(y, y) = 0, as the shutter opens.
+// Described by its point nearest to the camera, -offset * normal relative to the camera. With x relative to the camera
+// and y = x + offset * normal, the surface is dot(normal, y) + curvature / 2 * dot(y, y) = 0, as the shutter opens.
 struct CurvedPlane {
     glm::dvec3 normal;      // unit vector there; outward for a sphere
     double offset;          // signed distance of the camera from the surface, positive on the side of the normal
@@ -21,11 +21,11 @@ struct CurvedPlane {
     bool hidden = false;    // from the camera
 };
 
-// With its normal towards the camera. index: into Scene::planes.
+// A plane, with its normal turned towards the camera. index: into Scene::planes.
 CurvedPlane curved_plane(const Plane &plane, const Material &of_plane, const Camera &camera, std::uint32_t index = 0);
 
-// Of a sphere that is_flat: in float32, its centre and radius would put its surface off by 2^-24 of the radius, this
-// does by 2^-24 of what the scene measures.
+// A sphere that is_flat. Held by centre and radius in float32, its surface would be off by 2^-24 of the radius; held
+// like this it is off by 2^-24 of the size of the scene.
 CurvedPlane curved_plane(const SeenSphere &sphere);
 
 } // namespace pt

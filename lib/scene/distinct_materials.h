@@ -1,4 +1,4 @@
-// Materials that are told apart by what they are. Used for the colors of spheres, and for digests.
+// Tells materials apart by their values. Used for the colors of spheres, and for digests.
 #pragma once
 
 #include "lib/scene/scene.h"
@@ -9,13 +9,15 @@
 
 namespace pt {
 
-// A hash table of indices: 16 to 32 bytes a material.
+// A hash table of indices; it takes 16 to 32 bytes for each material.
 class DistinctMaterials {
 public:
-    // Of none at first. The materials may grow, but what was looked at stays as it is.
+    // Knows no material at first. More may be appended to the vector later, but those that were looked at must not
+    // change.
     explicit DistinctMaterials(const std::vector<Material> &materials) : materials_(materials) {}
 
-    // The index of the first that was looked at and equals materials[index]: its own, if it is the first.
+    // Among the materials looked at so far, the index of the first that equals materials[index]; index itself if there
+    // is none.
     std::uint32_t first_equal(std::uint32_t index);
 
 private:

@@ -10,7 +10,7 @@ namespace pt {
 
 namespace {
 
-// Of the lamps' light; what less would be missed hardly shows.
+// The share of the light of all lamps below which a lamp is not missed.
 constexpr double least_light = 0.01;
 
 struct Lamp {

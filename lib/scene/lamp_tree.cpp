@@ -26,7 +26,8 @@ int widest_axis(std::span<const Place> places) {
     return width.x >= width.y && width.x >= width.z ? 0 : width.y >= width.z ? 1 : 2;
 }
 
-// Puts the lamps of a range of slots into order: across their widest extent, in two parts that are whole nodes each.
+// Sorts the lamps of a range of slots: divides them along their widest extent into two parts, each a whole number of
+// nodes.
 void split(const LampTreeShape &shape, std::span<Place> places, std::uint64_t first_slot, std::uint64_t slot_count) {
     if (slot_count == 1)
         return;

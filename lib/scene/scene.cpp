@@ -11,8 +11,7 @@ namespace pt {
 
 namespace {
 
-// Gives spheres with colors of their own a material for each color, which is one of those that are there already if
-// it is equal.
+// Makes a material for each sphere color, or reuses an equal one that exists already.
 class ColoredMaterials {
 public:
     explicit ColoredMaterials(std::vector<Material> &materials) : materials_(materials), distinct_(materials) {

@@ -61,13 +61,13 @@ Scene validated_scene(const pt_scene &scene);
 
 struct CheckedScene;
 
-// Takes all over, ...
+// Takes over all spheres, ...
 Scene owned_scene(CheckedScene checked);
 
-// ... or of the spheres just some, by their indices in ascending order.
+// ... or only some of them, by their indices in ascending order.
 Scene owned_scene_of(const CheckedScene &checked, const std::vector<std::uint32_t> &spheres);
 
-// Where the caller has a sphere, as the members of a BrokenRule.
+// Where a sphere is in the caller's scene, as the members of a BrokenRule.
 struct SpherePlace {
     const char *subject;
     std::int64_t index;

@@ -9,7 +9,8 @@ namespace pt {
 
 namespace {
 
-// Adds the surfaces' materials: each by its number, which is followed by all of it where it is met for the first time.
+// Adds the material of each surface as a number. When a number occurs for the first time, the whole material follows
+// it.
 class MaterialDigest {
 public:
     MaterialDigest(Digest &digest, const std::vector<Material> &materials) :
@@ -28,7 +29,7 @@ public:
 private:
     static constexpr std::uint32_t unknown = ~std::uint32_t{0};
 
-    // Whether the number is a new one: that no equal material was met before.
+    // Adds the number of a material; returns whether it is new, that is, no equal material came before.
     bool number(std::uint32_t index) {
         const std::uint32_t first = distinct_.first_equal(index);
         numbers_[index] = first == index ? met_++ : numbers_[first];

@@ -11,12 +11,12 @@
 
 namespace pt {
 
-// In the scene's order.
+// In the order of the scene.
 struct SeenScene {
     std::vector<SeenSphere> spheres;
     std::vector<CurvedPlane> planes; // flat ones
 
-    // Whether some surface is so, whatever its kind.
+    // Whether some sphere or plane has this property.
     template <typename Is>
     bool any_surface(const Is &is) const {
         return std::ranges::any_of(spheres, is) || std::ranges::any_of(planes, is);
@@ -25,8 +25,8 @@ struct SeenScene {
 
 SeenScene seen_scene(const Scene &scene, const Camera &camera);
 
-// Throws PT_ERROR_UNSUPPORTED if some sphere would have to be held as a plane but moves too far for it. The scene: what
-// is seen, by the camera, which is where rays start (ray_start.h).
+// Throws PT_ERROR_UNSUPPORTED if a sphere would have to be held as a plane but moves too far for that. scene and
+// camera: those from which seen was made; the camera is where rays start (ray_start.h).
 void require_held_motions(const SeenScene &seen, const Scene &scene, const Camera &camera);
 
 } // namespace pt

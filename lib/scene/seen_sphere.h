@@ -9,7 +9,7 @@
 
 namespace pt {
 
-// From the shutter's opening to its closing, relative to the camera.
+// The ball from when the shutter opens until it closes, relative to the camera.
 inline MovingBall seen_ball(const Sphere &sphere, const Camera &camera) {
     return {sphere.center + camera.shutter_open * sphere.motion - camera.position,
             (camera.shutter_close - camera.shutter_open) * sphere.motion, sphere.radius};
@@ -25,12 +25,12 @@ struct SeenSphere : MovingBall {
 
     SeenSphere(const Sphere &sphere, const Material &of_sphere, const Camera &camera, std::uint32_t of_index = 0);
 
-    // Of the camera above the surface as the shutter opens, negative inside.
+    // Height of the camera above the surface as the shutter opens; negative inside.
     double height() const { return distance - radius; }
 };
 
-// Whether its surface is so near that it has to be held as a plane, and yet it moves too far for that. The camera: the
-// one by which it is seen, where rays start.
+// Whether its surface is so near that it has to be held as a plane, although it moves too far for that. camera: the one
+// that sees it, placed where rays start.
 bool moves_too_far(const SeenSphere &sphere, const Camera &camera);
 
 } // namespace pt

@@ -12,13 +12,13 @@ namespace pt {
 
 namespace {
 
-// So many that none is missed, and so few that a count which nobody has set is noticed before the arrays are read.
+// Enough for every use, and few enough that an uninitialised count is noticed before the arrays are read.
 constexpr std::uint32_t max_array_count = 65536;
 
-// Negative strides, which NumPy has and C has not, are noticed as well.
+// This refuses negative strides too, which NumPy has and C does not.
 constexpr std::uint32_t max_stride = (std::uint32_t{1} << 31) - 1;
 
-// A column's place in its array, and what it may be.
+// Where a column is in its array, and which types it may have.
 struct ColumnKind {
     const char *name;
     pt_column pt_sphere_array::*column;
@@ -68,7 +68,7 @@ std::string member(const ColumnKind &kind, const char *name) {
     return std::string(kind.name) + '.' + name;
 }
 
-// Whether a column can be read, or is rightly missing.
+// Whether a column can be read, or may be missing and is.
 bool check_layout(const Subject &array, const pt_column &column, std::uint32_t count, const ColumnKind &kind) {
     const auto refuse = [&](const char *name, const std::string &value, const std::string &rule) {
         array.refuse(member(kind, name).c_str(), value, rule);
@@ -110,7 +110,7 @@ void check_elements(std::size_t count, WorkProgress &progress, Read read, Holds 
     }
 }
 
-// What the first component that breaks it says of the rule.
+// The rule that the first bad component breaks.
 template <typename Vector>
 const char *broken(const Vector &value, Rule rule) {
     const char *x = rule(value.x);
@@ -118,7 +118,7 @@ const char *broken(const Vector &value, Rule rule) {
     return x ? x : y ? y : rule(value.z);
 }
 
-// The columns of one array, all of which can be read.
+// Checks the columns of one array, all of which can be read.
 class ColumnChecker {
 public:
     ColumnChecker(const Subject &subject, std::size_t count, WorkProgress &progress) :
@@ -155,7 +155,7 @@ public:
     }
 
 private:
-    // One value for all is looked at once.
+    // A single value for all spheres is looked at once.
     std::size_t elements(const pt_column &column) const { return column.stride_bytes == 0 ? 1 : count_; }
 
     const Subject &subject_;

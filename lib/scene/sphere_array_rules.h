@@ -13,18 +13,18 @@
 
 namespace pt {
 
-// Of all arrays together: what the spheres' indices and the memory of a scene are made for.
+// The limit for all arrays together, for which indices of spheres and the memory of a scene are designed.
 constexpr std::uint64_t max_sphere_count = std::uint64_t{1} << 26;
 
-// The elements as this library knows them, if there can be so many. Throws PT_ERROR_INVALID_ARGUMENT or
-// PT_ERROR_UNSUPPORTED if their sizes are not those of a struct.
+// The arrays as structs of this version of the library, if their number is possible at all. Throws
+// PT_ERROR_INVALID_ARGUMENT or PT_ERROR_UNSUPPORTED for a bad struct_size.
 std::vector<pt_sphere_array> copied_sphere_arrays(const pt_scene &scene, Violations &violations);
 
-// Elements of columns that are to be looked at, at the most.
+// At most how many elements of columns have to be looked at.
 double elements_of(std::span<const pt_sphere_array> arrays);
 
-// Checks columns and what is in them: each element is a unit of work. Of an array whose columns cannot be read nothing
-// else is checked.
+// Checks the columns and their contents; each element is a unit of work. If the columns of an array cannot be read,
+// nothing else of that array is checked.
 void check_sphere_arrays(std::span<const pt_sphere_array> arrays, std::uint32_t material_count, Violations &violations,
                          WorkProgress &progress);
 

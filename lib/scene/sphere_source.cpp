@@ -7,7 +7,7 @@ namespace pt {
 
 namespace {
 
-// A member of the structs, which lie one after the other.
+// A column that consists of one member of consecutive structs.
 pt_column column_of(const void *first, std::uint32_t type) {
     return {first, sizeof(pt_sphere), type};
 }
@@ -126,7 +126,7 @@ void SphereSource::read_colors(std::span<const std::uint32_t> indices, std::span
     read_parts(indices, colors, read_own_colors);
 }
 
-// The last that begins there or before: of empty ones and the part behind them, which begin alike, that part.
+// The last part that begins at or before an index. Empty parts begin where the next one does; that next one is meant.
 std::size_t SphereSource::part_of(std::size_t index) const {
     const auto after = std::ranges::upper_bound(starts_, index);
     return static_cast<std::size_t>(after - starts_.begin()) - 1;

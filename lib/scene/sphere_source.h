@@ -1,4 +1,4 @@
-// The spheres that pt_set_scene was given, structs and columns alike, read where the caller has them.
+// The spheres that were given to pt_set_scene, as structs or by columns, read in the caller's memory.
 #pragma once
 
 #include "lib/base/work_progress.h"
@@ -17,30 +17,32 @@
 
 namespace pt {
 
-// Refers to the caller's memory, and so is valid during the call that was given it. Several threads may read.
+// Refers to the caller's memory, so it is valid only during the call. Several threads may read it.
 class SphereSource {
 public:
-    // In this order, which is the scene's. What is in them obeys the rules (sphere_array_rules.h).
+    // The structs come first, then the arrays, as in the scene. Their contents obey the rules (sphere_array_rules.h).
     SphereSource(std::span<const pt_sphere> spheres, std::span<const pt_sphere_array> arrays);
 
     std::size_t size() const { return starts_.back(); }
 
-    // Whether spheres may have a color of their own: else all colors are 1.
+    // Whether spheres may have colors of their own; otherwise all colors are 1.
     bool has_colors() const { return has_colors_; }
 
-    // One sphere, and by what its material's diffuse is multiplied. For many the functions below are faster.
+    // One sphere, with the factor for its material's diffuse. For many spheres the functions below are faster.
     Sphere operator[](std::size_t index) const;
     glm::vec3 color(std::size_t index) const;
 
-    // As many as there is room for, from the first on.
+    // Reads consecutive spheres from first on, as many as there is room for.
     void read(std::size_t first, std::span<Sphere> spheres) const;
     void read_colors(std::size_t first, std::span<glm::vec3> colors) const;
 
-    // Those of the indices, as many: their memory, which may be anywhere, is waited for once for all.
+    // Reads the spheres with these indices. Their memory may be anywhere, so all of it is requested before the first is
+    // used.
     void read(std::span<const std::uint32_t> indices, std::span<Sphere> spheres) const;
     void read_colors(std::span<const std::uint32_t> indices, std::span<glm::vec3> colors) const;
 
-    // Marks the materials that spheres have. Each sphere is a unit of work, or all that have one material for all.
+    // Marks the materials that spheres have. A unit of work is a sphere, or an array with one material for all its
+    // spheres.
     void mark_materials(std::vector<bool> &used, WorkProgress &progress) const;
 
     // Calls use(index, sphere, color) for each, in order.
@@ -50,14 +52,15 @@ public:
         for_each(nobody, use);
     }
 
-    // The same; each is a unit of work.
+    // The same; each sphere is a unit of work.
     template <typename Use>
     void for_each(WorkProgress &progress, Use use) const {
         for_each_read(
             size(), progress, [](std::size_t first, std::size_t) { return first; }, use);
     }
 
-    // The same for the spheres of some indices, in their order: use(i, sphere, color) for that of indices[i].
+    // The same for chosen spheres, in the order of the indices: use(i, sphere, color) is called for the sphere
+    // indices[i].
     template <typename Use>
     void for_each(std::span<const std::uint32_t> indices, WorkProgress &progress, Use use) const {
         for_each_read(
@@ -71,7 +74,7 @@ public:
 private:
     static constexpr std::size_t chunk_size = 256; // 19 KiB, which stay in the first cache
 
-    // Some at a time, from the first of them to the last: from(first, count) says from where to read so many.
+    // Reads blocks of spheres: from(first, count) says where to read so many.
     template <typename From, typename Use>
     void for_each_read(std::size_t all, WorkProgress &progress, From from, Use use) const {
         std::array<Sphere, chunk_size> spheres;
@@ -90,8 +93,8 @@ private:
 
     std::size_t part_of(std::size_t index) const;
 
-    // Calls read_part(columns, at, elements) for those in a row that lie in one array: at(i) is where the i-th is in
-    // it.
+    // Calls read_part(columns, at, elements) for each run of spheres that lie in one array; at(i) is the row of the
+    // i-th of them.
     template <typename Element, typename Read>
     void read_parts(std::size_t first, std::span<Element> elements, Read read_part) const;
     template <typename Element, typename Read>

@@ -1,5 +1,5 @@
-// The sRGB encoding of colors in bytes (IEC 61966-2-1), as a table that is computed while the library is compiled, so
-// that no library of functions has a say in a scene's bits.
+// The sRGB encoding of colors in bytes (IEC 61966-2-1), as a table computed at compile time, so that the bits of a
+// scene do not depend on a maths library.
 #pragma once
 
 #include <array>
@@ -41,7 +41,7 @@ inline constexpr std::array<float, 256> table = decoded_bytes();
 
 } // namespace srgb
 
-// In [0, 1].
+// The linear value, in [0, 1].
 constexpr float linear_from_srgb(std::uint8_t byte) {
     return srgb::table[byte];
 }

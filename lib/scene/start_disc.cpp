@@ -5,9 +5,10 @@
 
 namespace pt {
 
-// The points of the disc are between two distances from a centre that lies a before its plane and c from its axis: the
-// root of a^2 + max(c - radius, 0)^2 and that of a^2 + (c + radius)^2. A ball that moves is taken for all within half
-// its way. Float32 tells sides to a share of what the ball or, of a huge one, its distance measures.
+// Let the centre of a ball lie at a distance a before the plane of the disc and c from its axis. The points of the disc
+// have distances between the roots of a^2 + max(c - radius, 0)^2 and a^2 + (c + radius)^2 from it. A moving ball counts
+// as everything within half its way. Float32 can tell the sides apart up to a share of the size of the ball or, for a
+// huge ball, of its distance.
 bool divides_start(const MovingBall &ball, const Camera &camera, double slack) {
     if (camera.start_radius == 0.0)
         return false;

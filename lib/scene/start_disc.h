@@ -1,4 +1,4 @@
-// Where parallel camera rays start: on a disc, which surfaces may divide.
+// Parallel camera rays start on a disc. A surface may cut that disc in two.
 #pragma once
 
 #include "lib/scene/camera.h"
@@ -7,9 +7,9 @@
 
 namespace pt {
 
-// Whether rays may start on either side of a surface, or so near to it that float32 cannot tell; slack: how much
-// farther still. Relative to the camera, which has a start_radius. Of a point, on which perspective rays start, nothing
-// is said: not divided.
+// Whether rays may start on both sides of a surface, or so close to it that float32 cannot tell; slack: how much
+// farther away still counts. Relative to a camera with a start_radius. Perspective rays start at a point, which is
+// never divided.
 bool divides_start(const MovingBall &ball, const Camera &camera, double slack = 0.0);
 bool divides_start(const CurvedPlane &flat, const Camera &camera);
 

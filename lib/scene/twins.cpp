@@ -13,11 +13,11 @@ namespace pt {
 
 namespace {
 
-// Relative differences that count as none: 64 times the rounding of float32, as a distance along a ray is off by a
-// dozen roundings of its length, and paths look at a surface from a few times as far away as the camera. Of a sphere's
-// own size.
+// Relative to a sphere's own size, differences up to this count as none. It is 64 times the rounding of float32: a
+// distance along a ray is off by a dozen roundings of its length, and paths look at a surface from a few times as far
+// away as the camera.
 constexpr double same_size = 0x1p-18;
-// Of its distance from the camera: four times the spacing of the numbers that hold its centre.
+// The same relative to the distance from the camera: four times the spacing of the numbers that hold the centre.
 constexpr double same_place = 0x1p-21;
 // Planes that differ by more than this share are told apart by their vertices, whose places are known to 2^-22 of their
 // distance. Planes at this angle to each other are nearer than that in a band of 2^-22 / 2^-8 = 2^-14 of the distance
@@ -30,7 +30,7 @@ constexpr double two_planes = 0x1p-8;
 // the roots of 2 and 3, over that of 6.
 constexpr glm::dvec3 generic_direction(0.40824829046386307, 0.5773502691896258, 0.7071067811865476);
 
-// By how much the centre of a twin may be elsewhere.
+// How far the centre of a twin may be away.
 double tolerance(const SeenSphere &sphere) {
     return std::min(same_size * sphere.radius + same_place * sphere.distance, two_spheres * sphere.radius);
 }
@@ -73,10 +73,10 @@ double reach(const CurvedPlane &) {
     return same_size;
 }
 
-// Indices of elements in the order of their places on a line, which are nearly equal for elements that are alike.
+// Indices of elements, sorted by their positions on a line, which are nearly equal for similar elements.
 class Line {
 public:
-    // From any order of the indices, best nearly the right one.
+    // Sorts the indices from any order; nearly sorted ones are fastest.
     template <typename Element>
     Line(const std::vector<Element> &elements, const std::vector<std::uint32_t> &order) {
         points_.reserve(order.size());
@@ -89,7 +89,7 @@ public:
     std::size_t size() const { return points_.size(); }
     std::uint32_t index(std::size_t i) const { return points_[i].index; }
 
-    // Whether some other element within reach of the i-th has a property.
+    // Whether some other element within reach of the i-th one has a property.
     template <typename Property>
     bool any_near(std::size_t i, double reach, Property &&property) const {
         for (std::size_t k = i; k > 0 && points_[i].place - points_[k - 1].place <= reach; --k)
@@ -109,7 +109,8 @@ private:
     std::vector<Point> points_;
 };
 
-// Marks the elements that are twins of an earlier one that is not. Few have any other within reach.
+// Marks the elements that are twins of an earlier one that is not itself a twin. Few elements have another within
+// reach.
 template <typename Element>
 std::vector<bool> twins_of_earlier(const std::vector<Element> &elements, const Line &line) {
     std::vector<std::pair<std::uint32_t, std::size_t>> crowded; // their indices, and where on the line they are

@@ -1,4 +1,4 @@
-// Surfaces so near to each other that float32 cannot tell, or all but cannot tell, which of them a ray meets first.
+// Surfaces so close to each other that float32 can hardly tell which of them a ray meets first.
 #pragma once
 
 #include "lib/scene/scene.h"
@@ -9,20 +9,20 @@
 
 namespace pt {
 
-// Indices of spheres in the order of their places along the line by which near ones are found. Sorting is most of the
-// work, and what the camera sees has nearly the same order, whatever the camera.
+// Indices of spheres, sorted along the line on which near ones are found. Sorting is most of the work, and the order is
+// nearly the same for every camera.
 std::vector<std::uint32_t> order_along_line(const std::vector<Sphere> &spheres);
 
-// A scene with twins taken for one surface: of spheres, or of planes, that float32 cannot tell apart as the camera sees
-// them the first of the array stands for all. Otherwise rounding would choose among them, differently for the rays of
-// one path, and count light twice or never.
+// A scene in which twins are merged. Among spheres, or planes, that float32 cannot tell apart from where the camera is,
+// the first in the array stands for all. Otherwise rounding would choose among them, differently for each ray of a
+// path, and light would be counted twice or never.
 struct DistinctScene {
     SeenScene seen;
     bool close_lamps;  // some emitting sphere and another one differ by less than a quarter of their radii
     bool close_planes; // some planes differ by less than a 2^8th in direction and distance
 };
 
-// order: by order_along_line, of the spheres seen.
+// order: from order_along_line, for the spheres that are seen.
 DistinctScene without_twins(SeenScene seen, const std::vector<std::uint32_t> &order);
 
 } // namespace pt

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int most_bins = 16;
 
-// More bins, for fewer spheres, change only the time.
+// With fewer spheres more bins would change only the time.
 int bins_for(std::size_t spheres) {
     return spheres > 64 ? most_bins : 8;
 }
@@ -31,7 +31,7 @@ public:
         return std::min(static_cast<int>((item.centre_radius[axis_] - low_) * scale_), count_ - 1);
     }
 
-    // Whether it is in a bin before this one, which is not the first.
+    // Whether an item lies in a bin before this one, which is not the first.
     bool is_before(const TreeItem &item, int bin) const {
         return (item.centre_radius[axis_] - low_) * scale_ < static_cast<float>(bin);
     }
@@ -43,7 +43,7 @@ private:
     float scale_;
 };
 
-// Where to divide a part: before a bin.
+// A cut of a part: everything before this bin, and the rest.
 struct BinCut {
     float cost = std::numeric_limits<float>::infinity(); // none, then
     int bin = 0;
@@ -51,7 +51,7 @@ struct BinCut {
     float second_surface = 0.0F;
 };
 
-// What is in the bins.
+// How many items each bin has, and their boxes.
 struct BinContents {
     std::array<Box, most_bins> balls;
     std::array<std::size_t, most_bins> counts{};
@@ -89,7 +89,7 @@ BinCut best_cut(const BinContents &contents, const Bins &bins) {
     return best;
 }
 
-// By all spheres, if those of the sample are in one bin.
+// Uses all spheres if those of the sample are in a single bin.
 BinCut best_cut(const Part &part, const Bins &bins) {
     BinContents sample;
     for_each_or_sample(part.items, [&](const TreeItem &item) { sample.add(item, bins); });
@@ -104,7 +104,7 @@ BinCut best_cut(const Part &part, const Bins &bins) {
 
 } // namespace
 
-// Without branches: every other one would be mispredicted.
+// Without branches, since every other one would be mispredicted.
 Halves binned_halves(const Part &part) {
     const Bins bins(part);
     const BinCut cut = best_cut(part, bins);

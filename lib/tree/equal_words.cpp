@@ -23,8 +23,8 @@ std::uint64_t hash_of(const glm::uvec4 &word) {
     return mixed(mixed(two(word.x, word.y)) ^ two(word.z, word.w));
 }
 
-// A slot has the place of a word and some further bits of its hash, so other words are hardly ever looked at. At most
-// three quarters of the slots are filled.
+// A slot holds the place of a word and some further bits of its hash, so words that differ are hardly ever compared. At
+// most three quarters of the slots are filled.
 class Slots {
 public:
     explicit Slots(std::span<const glm::uvec4> words) :
@@ -33,7 +33,7 @@ public:
 
     void fetch(std::uint64_t hash) const { __builtin_prefetch(&slots_[hash & (slots_.size() - 1)]); }
 
-    // False if it finds an equal one, or no room within so many slots.
+    // Returns false if there is an equal word, or no free slot within this many.
     bool add(std::uint32_t place, std::uint64_t hash) {
         constexpr std::size_t most_looks = 1000;
         const std::uint32_t tag = static_cast<std::uint32_t>(hash >> 32) % tag_count << place_bits;
@@ -56,7 +56,7 @@ private:
 
 } // namespace
 
-// Several at a time, so that memory is fetched for one while others are compared.
+// Handles several words at a time, so that memory is fetched for one while others are compared.
 bool has_equal_words(std::span<const glm::uvec4> words, WorkProgress &progress) {
     Slots slots(words);
     std::array<std::uint64_t, 32> hashes;

@@ -9,8 +9,8 @@
 
 namespace pt {
 
-// Takes up to 11 bytes a word for the time of the call; 2^26 words at the most. Each is a unit of work. Also true where
-// it would take long to tell, which does not happen by chance.
+// Takes up to 11 bytes for each word during the call; at most 2^26 words. Each word is a unit of work. Also true where
+// finding out would take long, which does not happen by chance.
 bool has_equal_words(std::span<const glm::uvec4> words, WorkProgress &progress);
 
 } // namespace pt

@@ -11,7 +11,7 @@
 namespace pt {
 
 struct Grid {
-    // The largest coordinate of a box, in steps. A camera may be twice as far away, and differences still fit into 32
+    // The largest coordinate of a box, in steps. The camera may be twice as far away, and differences still fit into 32
     // bits.
     static constexpr double reach = gpu::TREE_REACH;
 
@@ -22,14 +22,14 @@ struct Grid {
     // The finest grid that reaches a distance from its middle, along each axis.
     Grid(const glm::dvec3 &middle_of, double distance);
 
-    // The place nearest to a point that the grid reaches.
+    // The grid place nearest to a point, which the grid must reach.
     glm::ivec3 place(const glm::dvec3 &point) const;
 
     // Where a place is.
     glm::dvec3 point(const glm::ivec3 &at) const { return middle + step * glm::dvec3(at); }
 };
 
-// A box of places, both ends included; none holds nothing.
+// A box of places that includes both ends. A default box is empty.
 struct GridBox {
     glm::ivec3 low{INT32_MAX};
     glm::ivec3 high{INT32_MIN};
@@ -48,7 +48,7 @@ struct GridBox {
 
     glm::vec3 extent() const { return glm::vec3(high) - glm::vec3(low); }
 
-    // Half of it.
+    // Half of its surface area.
     double surface() const {
         const glm::dvec3 sides = glm::dvec3(high) - glm::dvec3(low);
         return sides.x * sides.y + sides.y * sides.z + sides.z * sides.x;

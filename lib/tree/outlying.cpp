@@ -10,15 +10,16 @@ namespace pt {
 
 namespace {
 
-// Every ray tests each of them. With so many that takes as long as a walk through a tree (default_tree_from), so
-// a picture takes twice as long at most. Inside the tree they would cost more: its boxes grow by 2^-19 of its reach,
-// and rays test all spheres that are closer together than that.
+// Every ray tests each of these spheres. Testing this many takes as long as a walk through a tree (default_tree_from),
+// so a picture takes at most twice as long. In the tree they would cost more: its boxes grow by 2^-19 of its reach, and
+// rays test all spheres that are closer together than that.
 constexpr std::size_t most_outlying = 50;
 
-// Nearer ones stay in the tree and cost its grid up to four of 29 bits, which leaves more than float32 has.
+// Spheres nearer than this stay in the tree. They cost its grid up to four of 29 bits, which leaves more than float32
+// has.
 constexpr double much_farther = 16.0;
 
-// Medians of the coordinates of a thousand spheres or so.
+// The medians of the coordinates of about a thousand spheres.
 glm::dvec3 middle_of(const SphereSource &spheres) {
     constexpr std::size_t enough = 1000;
     const std::size_t step = spheres.size() / enough + 1;
@@ -47,7 +48,7 @@ std::vector<std::uint32_t> outlying_spheres(const SphereSource &spheres, WorkPro
     const std::size_t few = std::min(most_outlying, spheres.size() / 2);
     const glm::dvec3 middle = middle_of(spheres);
 
-    // The farthest spheres and one more, farthest first.
+    // The farthest spheres and one more, the farthest first.
     using Reach = std::pair<double, std::uint32_t>;
     std::vector<Reach> farthest;
     spheres.for_each(progress, [&](std::size_t i, const Sphere &sphere, const glm::vec3 &) {

@@ -1,4 +1,4 @@
-// Spheres that a tree's grid would have to be coarse for: huge ones, like a ground, and far ones, like a sun.
+// Spheres that would make the grid of a tree coarse: huge ones, like a ground, and distant ones, like a sun.
 #pragma once
 
 #include "lib/base/work_progress.h"
@@ -9,7 +9,7 @@
 
 namespace pt {
 
-// The few spheres that reach 16 times as far from the middle of the scene as all others. Indices in ascending order.
+// The few spheres that reach 16 times as far from the middle of the scene as all others, by index in ascending order.
 // Each sphere is a unit of work.
 std::vector<std::uint32_t> outlying_spheres(const SphereSource &spheres, WorkProgress &progress);
 

@@ -1,5 +1,4 @@
-// Spheres that are still together while a tree's shape is made, and boxes about them. Used by the cuts that divide
-// them.
+// Groups of spheres that have not been divided yet while the shape of a tree is made, and the boxes around them.
 #pragma once
 
 #include "lib/base/mixed.h"
@@ -41,7 +40,7 @@ struct Box {
     float extent(std::size_t axis) const { return high[axis] - low[axis]; }
     bool is_point() const { return extent(0) == 0.0F && extent(1) == 0.0F && extent(2) == 0.0F; }
 
-    // Half of its surface; of an empty box, what is not less than any number.
+    // Half of its surface area. For an empty box it is not smaller than any number.
     float surface() const {
         const Vector sides = high - low;
         const Vector products = sides * __builtin_shufflevector(sides, sides, 1, 2, 0, 3);
@@ -60,9 +59,9 @@ inline Box ball_of(const TreeItem &item) {
     return box;
 }
 
-// A sample of so many spheres tells nearly as well as all of them where to divide a part. Of 10^6 spheres in even
-// clouds, clumps and shells, rays take the same number of trips through the tree to 0.5%, and 1% more where one sphere
-// in 10^4 is 30 times as large as the others.
+// A sample of this many spheres shows nearly as well as all of them where to divide a part. With 10^6 spheres in even
+// clouds, clumps and shells, rays take the same number of trips through the tree to 0.5%, and 1% more if one sphere in
+// 10^4 is 30 times as large as the others.
 inline constexpr std::size_t sample_size = 4096;
 
 inline constexpr std::size_t sampled_from = 4 * sample_size;
@@ -86,7 +85,7 @@ void for_each_or_sample(Items items, Use use) {
     }
 }
 
-// The box of all centres, or of a sample if that is no point.
+// The box around all centres, or around a sample of them unless the sample is a single point.
 inline Box centres_of(Items items) {
     Box box;
     for_each_or_sample(items, [&](const TreeItem &item) { box.add_centre(item); });
@@ -103,7 +102,7 @@ inline Box balls_of(Items items) {
     return box;
 }
 
-// Spheres that are still together. Boxes are of a sample where they are many.
+// A group of spheres that has not been divided yet. If there are many, its boxes are those of a sample.
 struct Part {
     Items items;
     Box centres;          // a point only if all are there
@@ -115,7 +114,7 @@ struct Halves {
     Part second;
 };
 
-// Nodes of the lowest level for so many spheres.
+// How many nodes of the lowest level this many spheres take.
 inline float nodes_for(std::size_t count) {
     return static_cast<float>((count + tree_width - 1) / tree_width);
 }

@@ -1,4 +1,4 @@
-// Numbers for some of a scene's spheres by their order in it, in whatever order they are met.
+// Numbers for some spheres of a scene, by their order in it, whatever the order in which they are added.
 #pragma once
 
 #include <bit>
@@ -23,7 +23,7 @@ public:
         }
     }
 
-    // How many of those that were added come before it.
+    // How many of the added spheres come before this one.
     std::uint32_t number_of(std::uint32_t sphere) const {
         const Block &block = blocks_[sphere / block_size];
         return block.before + static_cast<std::uint32_t>(std::popcount(block.added & (bit_of(sphere) - 1)));

@@ -24,8 +24,8 @@ SphereExtent::SphereExtent(const SphereSource &spheres, std::span<const std::uin
     });
 }
 
-// With a step more than needed on either side, for rounding to places: the box of tiny far balls may be nothing but
-// rounding.
+// With one step more than needed on each side, because places are rounded: the box of tiny distant balls may consist of
+// nothing but rounding.
 Grid SphereExtent::grid() const {
     const glm::dvec3 half = 0.5 * high - 0.5 * low;
     return {0.5 * low + 0.5 * high, std::max({half.x, half.y, half.z, largest_radius}) * (1.0 + 0x1p-28)};

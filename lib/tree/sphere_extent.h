@@ -1,4 +1,4 @@
-// Which spheres are in a tree, what they take up at any time, and how many of them emit. Used by SphereTree.
+// Which spheres are in a tree, the space that they take up over time, and how many of them emit. Used by SphereTree.
 #pragma once
 
 #include "lib/base/work_progress.h"
@@ -11,7 +11,7 @@
 
 namespace pt {
 
-// What the tree has to know of a material.
+// What the tree needs to know about a material.
 struct TreeMaterial {
     std::uint32_t index; // in the table of those in use
     bool emits;
@@ -37,11 +37,11 @@ struct SphereExtent {
     bool moves = false;
     std::uint32_t lamp_count = 0;
 
-    // materials: those of the scene, by index.
+    // materials: all materials of the scene.
     SphereExtent(const SphereSource &spheres, std::span<const std::uint32_t> left_out,
                  std::span<const TreeMaterial> materials, WorkProgress &progress);
 
-    // For all of them.
+    // A grid that reaches all of them.
     Grid grid() const;
 };
 

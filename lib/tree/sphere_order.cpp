@@ -34,13 +34,13 @@ Halves divided(const Part &part, std::uint32_t depth) {
     return part.items.size() <= most_swept ? swept_halves(part) : binned_halves(part);
 }
 
-// What is needed beside the spheres: which of them are twins, and whom to tell of the progress.
+// What the work needs besides the spheres: which of them are twins, and where to report progress.
 struct Making {
     const SphereOrder &order;
     WorkProgress &progress;
 };
 
-// Whether any two of few spheres may be twins.
+// Whether any two of these few spheres may be twins.
 bool have_equals(Items items) {
     for (std::size_t i = 0; i < items.size(); ++i)
         for (std::size_t other = 0; other < i; ++other)
@@ -78,13 +78,13 @@ struct Children {
     std::span<Part> all() { return std::span(parts).first(count); }
 };
 
-// Whether a part is to be divided before another: the one with the larger surface, and deep in the tree the one with
-// more spheres, so that no child has more than a quarter of the node's.
+// Whether a part is to be divided before another one. That is the part with the larger surface; deep in the tree it is
+// the part with more spheres, so that no child has more than a quarter of them.
 bool goes_before(const Part &part, const Part &other, std::uint32_t depth) {
     return depth < free_depth ? part.surface > other.surface : part.items.size() > other.items.size();
 }
 
-// The part that is to be divided next, or NULL.
+// The part to divide next, or NULL.
 Part *next_of(std::span<Part> parts, std::uint32_t depth) {
     Part *next = nullptr;
     for (Part &part : parts)
@@ -93,9 +93,9 @@ Part *next_of(std::span<Part> parts, std::uint32_t depth) {
     return next;
 }
 
-// The children of a node: its parts are divided, one after the other, until there are enough. Twins have equal centres,
-// so no cut separates them until all that is left is at one point, or few. Halving might, so twins are looked for
-// before.
+// The children of a node: its parts are divided one after the other until there are enough. Twins have equal centres,
+// so no cut separates them until everything left is at one point or very few. Halving could separate them, so twins are
+// looked for before that.
 Children children_of(Part node, const Making &making, std::uint32_t depth) {
     Children children;
     if (node.items.size() <= tree_width || node.centres.is_point() || depth == free_depth)

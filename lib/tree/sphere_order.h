@@ -1,4 +1,4 @@
-// The shape of a tree over spheres: which spheres and which nodes are children of which node. Made by SphereTree.
+// The shape of a tree over spheres: which spheres and nodes are children of which node. Made by SphereTree.
 #pragma once
 
 #include "lib/base/work_progress.h"
@@ -13,8 +13,8 @@
 
 namespace pt {
 
-// The shape is made from where a sphere is, about, and how large, in any unit. A moving sphere counts as a ball about
-// its way.
+// All that the shape depends on: roughly where a sphere is and how large it is, in any unit. A moving sphere counts as
+// a ball around its way.
 struct TreeItem {
     std::array<float, 4> centre_radius;
     std::uint32_t sphere;
@@ -22,7 +22,8 @@ struct TreeItem {
 
 inline constexpr std::uint32_t tree_width = 4; // children of a node, at most
 
-// Inner children come first; they are consecutive nodes, and the spheres consecutive places.
+// Inner children come first. Children that are nodes are consecutive nodes, and children that are spheres have
+// consecutive places.
 struct TreeLinks {
     std::uint32_t first_child;
     std::uint32_t first_place;
@@ -36,8 +37,8 @@ struct TreeShape {
     std::uint32_t depth;                // nodes from the root to the deepest, both counted
 };
 
-// Some order of two spheres. Spheres that are equal in it have equal items; of such twins the one with the lower number
-// is kept.
+// Any strict order of spheres. Spheres that are equal in it have equal items; of such twins the one with the lower
+// number is kept.
 using SphereOrder = std::function<std::strong_ordering(std::uint32_t, std::uint32_t)>;
 
 // Nodes are divided where surface times expected nodes, summed over both sides, is least (Goldsmith and Salmon 1987; in
@@ -45,8 +46,8 @@ using SphereOrder = std::function<std::strong_ordering(std::uint32_t, std::uint3
 // is 27. The work is shape_work() of all items.
 TreeShape tree_shape(std::vector<TreeItem> items, const SphereOrder &order, WorkProgress &progress);
 
-// The work to divide so many spheres until each has its place, about n log2 n. Dividing them once counts as what is
-// left of it after both parts, which is never negative.
+// The work of dividing this many spheres until each has its place, about n log2 n. Dividing them once counts as this
+// less the work for both parts, which is never negative.
 constexpr double shape_work(std::size_t spheres) {
     return static_cast<double>(spheres) * static_cast<double>(std::bit_width(spheres));
 }

@@ -29,7 +29,7 @@ constexpr std::uint32_t nowhere = ~std::uint32_t{0}; // a place that there is no
 // at 2.7 and four times at 6.4. A new tree takes twice as long as one whose shape is kept.
 constexpr double most_growth = 1.25;
 
-// The share of each stage in the work that is left when it begins, measured with a million spheres.
+// The share of each stage in the work that remains when the stage begins, measured with a million spheres.
 constexpr double share_of_items = 0.1;
 constexpr double share_of_shape = 0.65;
 constexpr double share_of_spheres = 0.5;
@@ -37,7 +37,7 @@ constexpr double share_of_nodes = 0.9;
 constexpr double share_of_alike = 0.5;
 constexpr double share_of_close_lamps = 0.5;
 
-// For numbers that an int holds: std::ceil is a function call in code for old processors.
+// For numbers that fit into an int: std::ceil is a function call in code for old processors.
 int ceiling(double number) {
     const auto whole = static_cast<int>(number);
     return whole + (whole < number ? 1 : 0);
@@ -114,7 +114,7 @@ SphereTree::SphereTree(const SphereExtent &extent, const SphereSource &spheres,
     lamp_materials_.reserve(extent.lamp_count);
 }
 
-// Memory for all blocks. The lamps' block is empty, and has room to grow in place.
+// Allocates memory for all blocks. The block of lamps starts empty and can grow in place.
 void SphereTree::make_room(std::size_t node_count, WorkProgress &progress) {
     sphere_count_ = static_cast<std::uint32_t>(spheres_->size());
     const std::uint32_t quarter = (sphere_count_ + 3) / 4;
@@ -126,7 +126,7 @@ void SphereTree::make_room(std::size_t node_count, WorkProgress &progress) {
     first_color_ = first_surface_ + quarter;
     first_lamp_ = first_color_ + (has_colors_ ? quarter : 0);
     words_.reserve(first_lamp_ + lamp_materials_.capacity());
-    // In pieces, because touching memory for the first time takes long.
+    // In pieces, since touching memory for the first time takes long.
     constexpr std::size_t some = std::size_t{1} << 20;
     while (words_.size() < first_lamp_) {
         words_.resize(std::min<std::size_t>(words_.size() + some, first_lamp_));
@@ -138,8 +138,8 @@ std::span<glm::uvec4> SphereTree::words_of_node(std::size_t node) {
     return std::span(words_).subspan(node * gpu::TREE_NODE_WORDS, gpu::TREE_NODE_WORDS);
 }
 
-// All blocks but the nodes', in the order of the tree: reading the caller's memory in any order takes less time than
-// writing in any order.
+// Writes all blocks except the nodes, in the order of the tree: to read the caller's memory in random order takes less
+// time than to write in random order.
 void SphereTree::write_spheres(const SphereSource &spheres, std::span<const TreeMaterial> materials,
                                WorkProgress &progress) {
     std::vector<FoundLamp> lamps;
@@ -176,7 +176,7 @@ void SphereTree::write_lamps(std::span<const FoundLamp> lamps, std::span<const T
     }
 }
 
-// By links that are there already.
+// Uses the links that are there already.
 void SphereTree::write_nodes(WorkProgress &progress) {
     progress.enter(share_of_nodes, static_cast<double>(node_count()));
     cost_ = 0.0;
@@ -184,8 +184,8 @@ void SphereTree::write_nodes(WorkProgress &progress) {
     cost_ /= box_.surface();
 }
 
-// Writes a node after its children, whose boxes make up its own, and adds all surfaces to the cost. Recursion is as
-// deep as the tree; it goes from the last child to the first, which is the order of nodes and places.
+// Writes a node after its children, because their boxes make up its own, and adds all surfaces to the cost. The
+// recursion is as deep as the tree. It goes from the last child to the first, which is the order of nodes and places.
 GridBox SphereTree::write_node(std::uint32_t node, WorkProgress &progress) {
     const TreeLinks links = TreeNodeView(words_of_node(node)).links();
     TreeNode written(links);
@@ -198,7 +198,7 @@ GridBox SphereTree::write_node(std::uint32_t node, WorkProgress &progress) {
     return written.box();
 }
 
-// Whether two spheres are equal in all that is held but their motion.
+// Whether two spheres are equal in everything that the tree holds, except their motion.
 bool SphereTree::has_alike(WorkProgress &progress) const {
     progress.enter(share_of_alike, static_cast<double>(sphere_count_));
     return has_equal_words(std::span(words_).subspan(first_sphere_, sphere_count_), progress);
@@ -235,7 +235,7 @@ bool SphereTree::is_far(const Camera &camera) const {
     return !(std::max({steps.x, steps.y, steps.z}) <= 2.0 * Grid::reach);
 }
 
-// The box of the sphere as the kernel has it, at any time; the kernel's margin covers what rounding adds.
+// The box of a sphere as the kernel has it, at any time. The margin of the kernel covers what rounding adds.
 GridBox SphereTree::box_of_place(std::uint32_t place) const {
     const glm::uvec4 &word = words_[first_sphere_ + place];
     const int radius = ceiling(radius_of(word) * grid_.steps_per_unit);
@@ -302,7 +302,7 @@ bool SphereTree::divides_start(const Camera &camera) const {
                   [&](std::uint32_t place) { return pt::divides_start(seen_ball(place, camera), camera, grid_.step); });
 }
 
-// Enters the nearest node first, and none beyond the nearest sphere so far.
+// Enters the nearest node first, and no node beyond the nearest sphere so far.
 double SphereTree::least_depth(const Camera &camera, const std::function<double(const MovingBall &)> &of_region,
                                const std::function<double(const MovingBall &)> &of_sphere) const {
     using Entry = std::pair<double, std::uint32_t>; // depth and node

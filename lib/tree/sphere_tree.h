@@ -33,21 +33,21 @@ struct PointBox {
 
 class SphereTree {
 public:
-    // Over all spheres but those left out, which are indices in ascending order; at least one sphere is left.
-    // materials: those of the scene, by index.
+    // Over all spheres except those left out, which are indices in ascending order; at least one sphere must remain.
+    // materials: all materials of the scene.
     SphereTree(const SphereSource &spheres, std::span<const std::uint32_t> left_out,
                std::span<const TreeMaterial> materials, WorkProgress &progress);
 
-    // With the shape of another tree over as many spheres: each sphere has the place that its index has there. Nothing
-    // if a new tree is needed: because it would be much better, because other spheres are left out, or because one of
-    // the two has twins, which share a place.
+    // Reuses the shape of another tree over as many spheres: each sphere gets the place that its index has there.
+    // Nothing if a new tree is needed: it would be much better, other spheres are left out, or one of the two trees has
+    // twins, which share a place.
     static std::optional<SphereTree> with_shape_of(const SphereTree &other, const SphereSource &spheres,
                                                    std::span<const std::uint32_t> left_out,
                                                    std::span<const TreeMaterial> materials, WorkProgress &progress);
 
     const Grid &grid() const { return grid_; }
 
-    // The tree buffer of gpu_layout.h, all of it, and its parts.
+    // The tree buffer of gpu_layout.h: the whole, and its parts.
     const std::vector<glm::uvec4> &words() const { return words_; }
     std::span<const glm::uvec4> node_words() const { return std::span(words_).first(first_sphere_); }
     std::span<const glm::uvec4> sphere_words() const { return std::span(words_).subspan(first_sphere_); }
@@ -55,47 +55,48 @@ public:
     // The tree as a camera sees it.
     gpu::TreeFrame frame(const Camera &camera) const;
 
-    // What is held of a sphere, wherever it is in the tree.
+    // What the tree holds of a sphere, wherever its place is.
     struct HeldSphere {
         std::array<std::uint32_t, 7> place; // on the grid, with radius and way
         std::uint32_t material;             // of those in use
         std::uint32_t color;
     };
 
-    // Calls use(HeldSphere) for all in the order of the scene.
+    // Calls use(HeldSphere) for all spheres, in the order of the scene.
     template <typename Use>
     void for_each_in_scene_order(Use use) const {
         for (const std::uint32_t place : places_in_scene_order())
             use(held(place));
     }
 
-    // About how many nodes a ray through the tree meets: the sum of their surfaces as shares of the root's.
+    // Roughly how many nodes a ray through the tree meets: the sum of their surface areas as shares of that of the
+    // root.
     double cost() const { return cost_; }
 
-    // Spheres in it, without twins; nodes; and nodes on the way to the deepest one.
+    // The number of spheres without twins, the number of nodes, and the number of nodes on the way to the deepest one.
     std::uint32_t sphere_count() const { return sphere_count_; }
     std::uint32_t node_count() const { return node_count_; }
     std::uint32_t depth() const { return depth_; }
     bool moves() const { return moves_; }
 
-    // For each place the index of its sphere in the scene, which has so many in all.
+    // For each place, the index of its sphere in the scene; and the number of spheres in the scene.
     std::span<const std::uint32_t> spheres() const { return *spheres_; }
     std::uint32_t scene_sphere_count() const { return scene_sphere_count_; }
     bool has_colors() const { return has_colors_; }
 
-    // Materials of the lamps by number, which is their order in the scene.
+    // The material of each lamp. Lamps are numbered in the order of the scene.
     const std::vector<std::uint32_t> &lamp_materials() const { return lamp_materials_; }
 
-    // The sphere that a lamp is, as the kernel has it.
+    // The sphere of a lamp, as the kernel holds it.
     Sphere lamp(std::uint32_t number) const;
 
-    // Whether a camera is in a sphere at any time, or so near to it that float32 cannot tell.
+    // Whether the camera is inside some sphere at any time, or so close to one that float32 cannot tell.
     bool may_hold(const Camera &camera) const;
 
-    // Whether parallel rays of a camera may start on either side of a sphere (start_disc.h).
+    // Whether parallel rays of the camera may start on both sides of some sphere (start_disc.h).
     bool divides_start(const Camera &camera) const;
 
-    // The least depth of the spheres as a camera sees them. of_region: a lower bound of the depths in a ball.
+    // The least depth of the spheres from a camera. of_region: a lower bound of the depth of everything in a ball.
     double least_depth(const Camera &camera, const std::function<double(const MovingBall &)> &of_region,
                        const std::function<double(const MovingBall &)> &of_sphere) const;
 
@@ -106,13 +107,13 @@ public:
     bool has_close_lamps() const { return close_lamps_; }
 
 private:
-    // A lamp among the spheres, with the number of its material in the scene.
+    // An emitting sphere, with the index of its material in the scene.
     struct FoundLamp {
         std::uint32_t place;
         std::uint32_t material;
     };
 
-    // Without a shape, and so without words.
+    // Without a shape yet, so without words.
     SphereTree(const SphereExtent &extent, const SphereSource &spheres, std::span<const std::uint32_t> left_out);
 
     void make_room(std::size_t node_count, WorkProgress &progress);

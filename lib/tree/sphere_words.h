@@ -12,18 +12,18 @@
 
 namespace pt {
 
-// Place on the grid, and radius.
+// Its place on the grid, and its radius.
 glm::uvec4 sphere_word(const Sphere &sphere, const Grid &grid);
 
 glm::uvec4 motion_word(const Sphere &sphere);
 
-// Ten bits for the root of each component, which keep dark colors apart as well as bright ones.
+// Ten bits for the square root of each component, so that dark colors are kept apart as well as bright ones.
 std::uint32_t color_word(const glm::vec3 &color);
 
-// All that the kernel has of where a sphere is.
+// Everything that the kernel knows about where a sphere is.
 std::array<std::uint32_t, 7> words_of(const Sphere &sphere, const Grid &grid);
 
-// Centre and radius, in steps, of the ball about the way of the sphere as the kernel has it. Twins have equal ones.
+// Centre and radius, in grid steps, of the ball around the sphere's way, as the kernel has it. Equal for twins.
 std::array<float, 4> ball_of(const Sphere &sphere, const Grid &grid);
 
 inline glm::ivec3 centre_of(const glm::uvec4 &sphere) {

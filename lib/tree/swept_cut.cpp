@@ -20,7 +20,7 @@ struct Orders {
     std::array<std::array<std::uint8_t, most_swept>, axes> spheres; // indices in the part
     std::array<Vector, most_swept> coordinates;                     // in lanes by axis
 
-    // The place of each is the number of spheres before it, counted in pairs.
+    // The place of each sphere is the number of spheres before it, counted pair by pair.
     explicit Orders(Items items) {
         std::array<Vector, most_swept> centres;
         std::array<Counts, most_swept> places;
@@ -42,7 +42,7 @@ struct Orders {
     }
 };
 
-// A box along each axis.
+// One box for each axis.
 struct Boxes {
     std::array<Box, axes> boxes;
 
@@ -65,7 +65,7 @@ struct Boxes {
     }
 };
 
-// The best cut along each axis: how many spheres of the order come before it.
+// The best cut along each axis: how many spheres of that order come before it.
 struct Cuts {
     Vector costs{Box::none, Box::none, Box::none, Box::none};
     Counts counts{};

@@ -7,7 +7,7 @@
 
 namespace pt {
 
-// Sorting so few costs less than bins, which serve any number (binned_cut.h).
+// For so few spheres sorting costs less than bins, which work for any number (binned_cut.h).
 inline constexpr std::size_t most_swept = 12;
 
 // The two parts of two to most_swept spheres with the least sum of surface times expected nodes. The centres must not

@@ -13,7 +13,7 @@ namespace pt {
 
 using TreeNodeWords = std::array<glm::uvec4, gpu::TREE_NODE_WORDS>;
 
-// A node whose links alone are known.
+// A node with only its links filled in.
 TreeNodeWords words_of(const TreeLinks &links);
 
 class TreeNode {
@@ -52,7 +52,7 @@ public:
     std::uint32_t first_child() const { return words_[1].x; }
     std::uint32_t first_place() const { return words_[1].y; }
 
-    // Of a child, as rounded.
+    // A child's box, as it was rounded.
     GridBox box(std::uint32_t child) const;
 
 private:
