@@ -7,7 +7,7 @@
 
 layout(local_size_x = WORKGROUP_SIZE) in;
 
-// The functions' order is that of elementary_functions() in lib/kernel/accuracy.cpp; each has as many arguments.
+// Functions come in the order of elementary_functions() in lib/kernel/accuracy.cpp; each has equally many arguments.
 layout(push_constant) uniform Push { uint arguments_per_function; };
 layout(set = 0, binding = 0) readonly buffer Arguments { float arguments[]; };
 layout(set = 0, binding = 1) writeonly buffer Values { float values[]; };

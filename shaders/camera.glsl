@@ -11,14 +11,15 @@ struct CameraRay {
     float time; // from 0 (shutter opens) to 1 (shutter closes)
 };
 
-// How far a place in [0, 1)^2 of the pixel (column, row), counted from the top left, lies from the image's middle: in
-// pixels to the right and downwards. The pixel's part of it is a multiple of 1/2 and exact, however wide the image is.
+// Offset of a point from the middle of the image, in pixels to the right and downwards. The point is at a place in [0,
+// 1)^2 within the pixel (column, row), counted from the top left. The part that depends on the pixel is a multiple of
+// 1/2, and so exact, however wide the image is.
 vec2 image_place(CameraView camera, uvec2 pixel, vec2 place)
 {
     return 0.5 * vec2(ivec2(2u * pixel) - ivec2(camera.width, camera.height)) + place;
 }
 
-// Unit direction through that place of the image.
+// The unit direction of the ray through that point.
 vec3 camera_direction(CameraView camera, vec2 from_middle)
 {
     if (ORTHOGRAPHIC == 1)
@@ -26,8 +27,8 @@ vec3 camera_direction(CameraView camera, vec2 from_middle)
     return normalize(camera.forward + from_middle.x * camera.right - from_middle.y * camera.up);
 }
 
-// Where the ray through that place starts: at the pinhole, or (STARTS_AHEAD) where it passes the plane through the
-// origin across the view. Before that plane there is nothing in view, or only what parallel rays do not see
+// Where the ray through that point starts: at the pinhole or, with STARTS_AHEAD, where it crosses the plane through the
+// origin across the view. Nothing in view lies before that plane, except what parallel rays do not see
 // (lib/kernel/ray_start.h).
 vec3 camera_origin(CameraView camera, vec2 from_middle)
 {
@@ -37,7 +38,7 @@ vec3 camera_origin(CameraView camera, vec2 from_middle)
     return start.x * camera.right - start.y * camera.up;
 }
 
-// numbers: the place in the pixel (x, y) and the time (z).
+// numbers: the place within the pixel (x, y) and the time (z).
 CameraRay ray_through(CameraView camera, uvec2 pixel, vec3 numbers)
 {
     vec2 from_middle = image_place(camera, pixel, numbers.xy);

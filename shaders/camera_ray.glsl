@@ -5,7 +5,7 @@
 #include "camera.glsl"
 #include "dimensions.glsl"
 
-// Spread over the pixel's square (box filter).
+// Samples are spread evenly over the square of the pixel (box filter).
 CameraRay camera_ray(CameraView camera, uvec2 pixel, SampleKey key)
 {
     return ray_through(camera, pixel, camera_numbers(key));

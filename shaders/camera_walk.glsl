@@ -14,7 +14,7 @@ Walk walk_from_camera(CameraRay ray)
     return walk_from(start, ray.direction, true, NO_SHADOW_RAY, ray.time, hit, false);
 }
 
-// Where it has met something.
+// The vertex where a ray has met something.
 Arrival arrival_of(CameraRay ray, Hit hit)
 {
     vec3 point = hit.distance * ray.direction;

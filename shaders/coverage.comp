@@ -1,5 +1,5 @@
-// Counts the samples of a pixel whose camera rays meet a surface: the rays of the samples themselves, taken again
-// without the light that they bring. One invocation a pixel.
+// Counts the samples of a pixel whose camera rays meet a surface. It traces the camera rays of these samples again,
+// without the light that they carry. One invocation for each pixel.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -11,10 +11,11 @@ layout(push_constant) uniform Push { CoverageConstants view; };
 #include "camera_ray.glsl"
 #include "camera_walk.glsl"
 
-// How many rays a driver stopped, and the counts of the pixels.
+// The number of rays that a driver cut short, then the counts of the pixels.
 layout(set = 0, binding = BINDING_COVERED) buffer Covered { uint lost_rays; uint counts[]; } covered;
 
-// The first and the last sample of each tile, of those that are asked for; none where the last comes before the first.
+// The first and last sample of each tile among those that are asked for; a tile has none if the last comes before the
+// first.
 layout(set = 0, binding = BINDING_TILES) readonly buffer TileSamples { uvec2 ranges[]; } tile_samples;
 
 uint tile_of(uvec2 pixel)

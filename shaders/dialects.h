@@ -1,5 +1,5 @@
-// What lets one text be C++ and GLSL: the headers that include this have the formulas that host and kernels share. They
-// differ in the type of numbers alone: those of errors are double on the host and float32 in kernels.
+// Lets one text be both C++ and GLSL. Headers that include this contain the formulas that host and kernels share. The
+// two differ only in the type of numbers: errors are double on the host and float32 in kernels.
 #ifndef PT_DIALECTS_H
 #define PT_DIALECTS_H
 
@@ -29,8 +29,8 @@ using std::sqrt;
 
 inline constexpr float infinity = std::numeric_limits<float>::infinity();
 
-// As values: in loops compilers turn these into vector instructions, unlike references. Where one is not a number the
-// first is returned, as by std::min and std::max.
+// By value, because compilers turn such loops into vector instructions, which they do not with references. If an
+// argument is NaN the first one is returned, as by std::min and std::max.
 template <typename Type>
 constexpr Type less_of(Type a, Type b) {
     return b < a ? b : a;
@@ -80,7 +80,7 @@ inline real square_of_quotient(real dividend, real square_of_divisor) {
 #define more_of max
 #define infinity uintBitsToFloat(0x7f800000u)
 
-// The square of a dividend may be no float, and nothing by the square of a small divisor no number.
+// Divides before it squares: the square of the dividend may overflow float, and that of a small divisor may be 0.
 float square_of_quotient(float dividend, float square_of_divisor)
 {
     float quotient = dividend == 0.0 ? 0.0 : dividend * inversesqrt(square_of_divisor);

@@ -1,5 +1,5 @@
-// Sums of squares that are expected of errors, with the squares of the pixels' shares in them: shares are numbers that
-// their squares leave in the range of float32.
+// Sums of expected squares of errors, with the squares of the shares that pixels have in them. Unlike squares of the
+// summands, squares of shares stay within the range of float32.
 #ifndef ERROR_SQUARES_GLSL
 #define ERROR_SQUARES_GLSL
 
@@ -10,8 +10,9 @@ struct Squares {
     float shares;
 };
 
-// Of a sum that is not 0. What is all of it has a share of 1, though a division may be off by some units in the last
-// place: one tile alone has no spread, which the host finds as a difference of shares.
+// The share in a sum that is not 0. A part that is the whole sum has a share of exactly 1, although a division may be
+// off by some units in the last place: a single tile has no spread, and the host computes the spread as a difference of
+// shares.
 float share_of(float part, float sum)
 {
     return part == sum ? 1.0 : part / sum;
@@ -27,7 +28,7 @@ Squares squares_of(float values[TILE_SIZE])
     return all;
 }
 
-// Of both the pixels.
+// Of the pixels of both.
 Squares united(Squares a, Squares b)
 {
     float sum = a.sum + b.sum;

@@ -17,22 +17,22 @@ layout(push_constant) uniform Push { EstimateConstants estimate; };
 
 layout(set = 0, binding = BINDING_RESOLVED) writeonly buffer Regions { RegionError regions[]; } estimated;
 
-// Of each tile the samples in the older and in the newer part, where tiles differ, and what its samples alone say of the
-// sum of its values' relative errors squared, and of that of light that none of them met, where that is asked for.
+// For each tile: its samples in the older and the newer part, where tiles differ. And on request, what its own samples
+// say about the sum of the squares of its relative errors, and about that of light that no sample has met.
 layout(set = 0, binding = BINDING_TILE_COUNTS) readonly buffer TileCounts { uvec2 counts[]; } tile_samples;
 layout(set = 0, binding = BINDING_TILE_SQUARES) writeonly buffer TileSquares { vec2 squares[]; } tile_errors;
 
 const uint TILES_IN_ROW = REGION_SIZE / TILE_SIZE;
 const uint TILES_IN_REGION = TILES_IN_ROW * TILES_IN_ROW;
 
-// What pixels have beside their sums.
+// What pixels have besides their sums.
 struct Findings {
     uvec2 rejected; // samples, low and high word
     uint unknown;   // pixels without a sample in either part
     uint lost;      // pixels that do not have the samples expected
 };
 
-// The squares of gpu_layout.h's RegionError.
+// The kinds of squares in RegionError of gpu_layout.h.
 const uint SQUARE = 0u;
 const uint RELATIVE_SQUARE = 1u;
 const uint MET_ONCE = 2u;
@@ -41,7 +41,7 @@ const uint KINDS = 4u;
 const uint FIRST_RARE_KIND = MET_ONCE; // from here on, few pixels have squares
 const uint RARE_KINDS = KINDS - FIRST_RARE_KIND;
 
-// What a column of a tile, and then a tile, says of its pixels' errors.
+// What a column of a tile, and later a whole tile, says about the errors of its pixels.
 struct Errors {
     Squares squares[KINDS];
     uint met_again; // values
@@ -50,21 +50,22 @@ struct Errors {
     Findings findings;
 };
 
-// Each invocation has a column of a tile, so that those of one row of pixels read memory together.
+// Each invocation handles one column of a tile, so the invocations of one row of pixels read adjacent memory.
 shared float means[REGION_SIZE][REGION_SIZE]; // of one channel, by row and column
 shared ValueSet column_sets[ESTIMATE_WORKGROUP_SIZE];
 shared ValueSet tile_sets[TILES_IN_REGION];
 shared Errors errors[ESTIMATE_WORKGROUP_SIZE]; // of columns, and then of tiles
 
-// Squares of the rare kinds of each invocation's pixels, of all channels. Here, and not in registers, since most regions
-// have none: in registers a target of 1% took 1.04 times as long on an H100 (1024x512 pixels, two vertices).
+// Squares of the rare kinds, for the pixels of each invocation, over all channels. In shared memory and not in
+// registers, since most regions have none: in registers a target of 1% took 1.04 times as long on an H100 (1024x512
+// pixels, two vertices).
 shared float rare_squares[RARE_KINDS][TILE_SIZE][ESTIMATE_WORKGROUP_SIZE];
 
-// Pixels whose sums are asked of memory before the first of them is waited for. By measuring on an H200: of 1024x512
-// pixels an error took 89 us with 1, 84 with 2 and 83 with 4, of twice as many 151, 147 and 134.
+// How many pixels are requested from memory before the first is waited for. Measured on an H200: with 1024x512 pixels
+// an error took 89 us with 1, 84 with 2 and 83 with 4; with twice as many pixels 151, 147 and 134.
 const uint PIXELS_ASKED_FOR = 4u;
 
-// A number that counts 2^-60ths.
+// A whole number of 2^-60ths as a float.
 float as_float(WholeNumber number)
 {
     return float(number.words[0]) * exp2(-60.0) + float(number.words[1]) * exp2(-28.0)
@@ -84,7 +85,7 @@ struct Shown {
     float lesser; // of the means of the parts
 };
 
-// The standard error is the difference of the sums, each times the other's count, times a scale (quotient.h).
+// The standard error is the difference of the sums, each multiplied by the other's count, times a scale (quotient.h).
 Shown shown_by(uvec4 sum_a, uvec4 sum_b, uvec2 counts)
 {
     bool first_is_less;
@@ -96,7 +97,7 @@ Shown shown_by(uvec4 sum_a, uvec4 sum_b, uvec2 counts)
                  first_is_less ? as_float(sum_a) / a : as_float(sum_b) / b);
 }
 
-// A tile's place in the film.
+// The index of a tile in the film.
 uint film_tile(uvec2 place_in_strip)
 {
     uint columns = (estimate.film_width + TILE_SIZE - 1u) / TILE_SIZE;
@@ -123,7 +124,7 @@ Findings findings_of(PartCount older, PartCount newer, uvec2 expected)
                     uvec2(older.done, newer.done) != expected ? 1u : 0u);
 }
 
-// The values left of a pixel, in it and right of it.
+// The sorted values to the left of a pixel, in it and to its right.
 Sorted row_about(ivec2 place, ivec2 size)
 {
     float left = place.x > 0 ? means[place.y][max(place.x, 1) - 1] : BELOW_ALL;
@@ -131,7 +132,7 @@ Sorted row_about(ivec2 place, ivec2 size)
     return sorted(left, means[place.y][place.x], right);
 }
 
-// Of a pixel in a region of a single row or column.
+// For a region of a single row or column.
 Neighbourhood neighbourhood_in_line(ivec2 place, ivec2 size)
 {
     ivec2 along = size.x > 1 ? ivec2(1, 0) : ivec2(0, 1);
@@ -142,7 +143,7 @@ Neighbourhood neighbourhood_in_line(ivec2 place, ivec2 size)
                                  all(lessThan(behind, size)) ? means[behind.y][behind.x] : BELOW_ALL);
 }
 
-// Of the pixels of its tile that touch a pixel, and itself.
+// The largest value among a pixel and the pixels of its tile that touch it.
 float largest_in_tile(uvec2 place, uvec2 size)
 {
     uvec2 corner = place / TILE_SIZE * TILE_SIZE;
@@ -155,7 +156,7 @@ float largest_in_tile(uvec2 place, uvec2 size)
     return largest;
 }
 
-// Of the pixels of an invocation that have some.
+// The sum over the pixels of an invocation that have such squares.
 Squares rare_squares_of(uint kind, uint invocation, uint with_rare)
 {
     if (with_rare == 0u)
@@ -166,7 +167,7 @@ Squares rare_squares_of(uint kind, uint invocation, uint with_rare)
     return squares_of(values);
 }
 
-// Of all tiles of a region, which are in errors, with the part of the pixels of a whole tile that each has.
+// The sum over all tiles of a region, with the part of a whole tile that each covers.
 ErrorSquares squares_of_tiles(uint kind, uvec2 size)
 {
     ErrorSquares all = ErrorSquares(0.0, 0.0, 0.0, 0.0);
@@ -184,7 +185,8 @@ ErrorSquares squares_of_tiles(uint kind, uvec2 size)
     return all;
 }
 
-// Of the tiles in errors. An invocation has a kind of squares, and the first has all else.
+// Writes what the tiles add up to. One invocation for each kind of squares; the first one writes everything else as
+// well.
 void write_region_error(uint region, uint invocation, uvec2 size)
 {
     if (invocation < KINDS) {
@@ -221,8 +223,8 @@ void main()
     const uvec2 region_place = gl_WorkGroupID.xy * REGION_SIZE;
     const uvec2 size = min(uvec2(estimate.film_width, estimate.row_count) - region_place, uvec2(REGION_SIZE));
 
-    // The pixels of this invocation, one below the other, and the tile that has them. Where the region has none of
-    // them, its first pixel is read instead.
+    // The pixels of this invocation, one below the other, and their tile. Pixels outside the region are replaced by its
+    // first one.
     const uvec2 place = uvec2(invocation % REGION_SIZE, invocation / REGION_SIZE * TILE_SIZE);
     const uint pixels = place.x < size.x ? min(size.y - min(size.y, place.y), TILE_SIZE) : 0u;
     const uvec2 first_place = region_place + (pixels > 0u ? place : uvec2(0u));
@@ -230,7 +232,7 @@ void main()
     const uint last = max(pixels, 1u) - 1u;
     const uint tile = place.y / TILE_SIZE * TILES_IN_ROW + place.x / TILE_SIZE;
 
-    // The tile that this invocation sums up, if it does, and its columns, which follow each other.
+    // Whether this invocation sums up a tile, which one, and its first column; columns of a tile are consecutive.
     const bool sums_up_tile = invocation < TILES_IN_REGION;
     const uvec2 tile_place = uvec2(invocation % TILES_IN_ROW, invocation / TILES_IN_ROW) * TILE_SIZE;
     const uint first_column = sums_up_tile ? tile_place.y / TILE_SIZE * REGION_SIZE + tile_place.x : 0u;
@@ -304,7 +306,7 @@ void main()
             region_set = united(region_set, tile_sets[i]);
         const ValueSet tile_set = tile_sets[tile];
 
-        // What is expected of each pixel's error. The rows about it are taken along from pixel to pixel.
+        // The expected error of each pixel. The rows around it are kept from pixel to pixel.
         const bool is_line = size.x == 1u || size.y == 1u;
         const ivec2 bounds = ivec2(size);
         const Sorted none = Sorted(0.0, 0.0, 0.0);
@@ -360,7 +362,7 @@ void main()
     errors[invocation].own = own;
     errors[invocation].findings = findings;
     barrier();
-    // An invocation has a kind of squares of a tile, and one of each tile all else.
+    // An invocation sums up one kind of squares of a tile; one invocation for each tile sums up everything else.
     const uint summed_tile = invocation % TILES_IN_REGION;
     const uint kind = min(invocation / TILES_IN_REGION, KINDS - 1u);
     const uint first = summed_tile / TILES_IN_ROW * REGION_SIZE + summed_tile % TILES_IN_ROW * TILE_SIZE;
@@ -386,7 +388,7 @@ void main()
     barrier();
     write_region_error(gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x, invocation, size);
 
-    // What tiles say of themselves. Where both parts of some pixel do not have a sample, nothing is known.
+    // What tiles say about themselves. If a pixel lacks samples in one of the parts, nothing is known.
     if (estimate.by_tile == 1u && sums_up_tile && all(lessThan(tile_place, size)))
         tile_errors.squares[film_tile(region_place + tile_place)] =
             of_tile.findings.unknown > 0u ? vec2(infinity) : of_tile.own;

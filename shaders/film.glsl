@@ -9,7 +9,7 @@
 
 layout(set = 0, binding = BINDING_FILM) buffer Film { uint words[]; } film;
 
-// What an invocation gathers: sums of windows with their biases, then to be added to the film.
+// What an invocation gathers: sums of windows, including their biases, which are then added to the film.
 struct FilmPixel {
     uvec4 windows[3];
     uint accepted;
@@ -106,8 +106,8 @@ uint film_store_sum(uint first, uint stride, uvec4 sum, bool is_first)
 // The plane of a word that hardly ever changes: the most significant ones of the three sums, and the samples left out.
 uint rare_plane(uint i) { return i < 3u ? (i + 1u) * FILM_SUM_WORDS - 1u : FILM_REJECTED; }
 
-// Adds to these words. pixel: the first word of a pixel in a part. In a loop with a single trip but for pixels that need
-// more, since lavapipe 22.3 runs the bodies of all ifs.
+// Adds to these words. pixel: the first word of a pixel in a part. A loop that makes a single trip except for pixels
+// that need more, since lavapipe 22.3 executes the bodies of all ifs.
 void film_add_rare_words(uint pixel, uint stride, uvec4 addends)
 {
     uint i = addends.x != 0u ? 0u : addends.y != 0u ? 1u : addends.z != 0u ? 2u : 3u;
@@ -134,9 +134,9 @@ void film_store_shared_sum(uint first, uint stride, uvec4 sum)
     }
 }
 
-// Adds what an invocation has gathered to its pixel of the strip, in one part of the film. shared_pixel: other
-// invocations may do so at the same time; if not, is_first: the part has no sample of the pixel, and its words hold
-// anything but for the rare ones, which are 0.
+// Adds what an invocation has gathered to its pixel in one part of the film. shared_pixel: other invocations may do the
+// same at that time. Otherwise, is_first: the part has no sample of the pixel yet, and its words hold anything, except
+// that the rare ones are 0.
 void film_store(uint film_part, uint pixel_in_strip, uint strip_pixel_count, FilmPixel pixel, bool shared_pixel,
                 bool is_first)
 {

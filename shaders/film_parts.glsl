@@ -1,10 +1,10 @@
-// The samples of a pixel and their sums, by part of the film.
+// The samples of a pixel, and their sums, in each part of the film.
 #ifndef FILM_PARTS_GLSL
 #define FILM_PARTS_GLSL
 
 #include "film.glsl"
 
-// Samples of a pixel in a part of the film.
+// How many samples a pixel has in one part of the film.
 struct PartCount {
     uint accepted;
     uint done; // accepted or left out

@@ -31,7 +31,7 @@ vec3 lattice_point(uint ray)
     return (vec3(point) + 0.5) / float(FILTER_RAYS);
 }
 
-// Along the view: rays start at the pinhole, or on a plane across the view ahead of it.
+// Depth along the view. Rays start at the pinhole, or on a plane ahead of it across the view.
 float depth_of(CameraRay ray, Hit hit)
 {
     float cosine = dot(ray.direction, view.camera.forward) / length(view.camera.forward);
@@ -53,7 +53,7 @@ vec3 value_of(CameraRay ray, Hit hit)
     return vertex_at(arrival_of(ray, hit), ray.time).normal;
 }
 
-// Of any number, by way of those that are not negative.
+// The same for a number of either sign.
 uint signed_half_bits(uint float_bits)
 {
     return half_bits(float_bits & ~SIGN_BIT) | ((float_bits & SIGN_BIT) >> 16u);
@@ -84,7 +84,7 @@ void main()
     const uint ray_index = gl_GlobalInvocationID.x % ray_count;
     const bool is_there = index < view.pixel_count;
 
-    // Where the ray arrives.
+    // What the ray has met.
     vec3 value = vec3(0.0);
     uint surface = NO_SURFACE;
     if (is_there) {
@@ -106,7 +106,7 @@ void main()
     if (!is_there || ray_index != 0u)
         return;
 
-    // Its pixel.
+    // The pixel of the ray.
     if (takes_mean) {
         for (uint i = 1u; i < FILTER_RAYS; ++i)
             value += values[gl_LocalInvocationIndex + i];

@@ -95,7 +95,7 @@ PT_CONSTANT SPOT_LIMIT = 8;          // spots that a scene may have
 PT_CONSTANT ROULETTE_MIN_LENGTH = 8; // paths that may be this long play Russian roulette
 
 PT_FUNCTION uint camera_dimensions(uint motion) { return 2 + motion; }
-// Blocks before those of the way by a spot, of that way, and of all that branches share.
+// How many blocks come before those of the ray towards a spot, how many that ray has, and how many all branches share.
 PT_FUNCTION uint every_lamp_blocks(uint lamp_count) { return 1 + (lamp_count <= EVERY_LAMP_LIMIT ? lamp_count : 0); }
 PT_FUNCTION uint spot_blocks(uint spot_count) { return spot_count > 0 ? 3 : 0; }
 PT_FUNCTION uint shared_blocks(uint lamp_count, uint spot_count)
@@ -115,7 +115,7 @@ PT_FUNCTION uint vertex_blocks(uint vertex, uint lamp_count)
     return chosen_lamp_dimensions(vertex, lamp_count) > 0 ? 2 : 1;
 }
 
-// Blocks of a sample and one of its branches.
+// The blocks of a sample and one of its branches.
 PT_FUNCTION uint path_blocks(uint max_path_length, uint lamp_count, uint spot_count)
 {
     const uint of_sample = shared_blocks(lamp_count, spot_count);
@@ -138,28 +138,28 @@ PT_CONSTANT BINDING_POINTS = 4;
 PT_CONSTANT BINDING_TREE_NODES = 5;
 PT_CONSTANT BINDING_TREE_SPHERES = 6;
 PT_CONSTANT BINDING_TILES = 7;
-// Of resolve.comp and estimate.comp, beside BINDING_FILM; of first_hit.comp, beside the scene's and the tree's.
+// resolve.comp and estimate.comp, besides BINDING_FILM; first_hit.comp, besides those of the scene and the tree.
 PT_CONSTANT BINDING_RESOLVED = 3;
 PT_CONSTANT BINDING_FINDINGS = 4;
-// Of coverage.comp, beside the scene's, the tree's and that of the points.
+// coverage.comp, besides those of the scene, the tree and the points.
 PT_CONSTANT BINDING_COVERED = 3;
-// Of estimate.comp.
+// estimate.comp.
 PT_CONSTANT BINDING_TILE_COUNTS = 4;
 PT_CONSTANT BINDING_TILE_SQUARES = 5;
-// Of add.comp, likewise.
+// add.comp, likewise.
 PT_CONSTANT BINDING_ADDED = 3;
 
-// What resolve.comp is asked for: PT_QUANTITY_* of pt.h.
+// What resolve.comp can be asked for: PT_QUANTITY_* of pt.h.
 PT_CONSTANT QUANTITY_RADIANCE = 0;
 PT_CONSTANT QUANTITY_STANDARD_ERROR = 1;
 PT_CONSTANT QUANTITY_SAMPLE_COUNT = 2;
-// What first_hit.comp is asked for, likewise.
+// What first_hit.comp can be asked for, likewise.
 PT_CONSTANT QUANTITY_DEPTH = 3;
 PT_CONSTANT QUANTITY_NORMAL = 4;
 PT_CONSTANT QUANTITY_ALBEDO = 5;
 PT_CONSTANT QUANTITY_OBJECT = 6;
 
-// What resolve.comp writes of a pixel: the specialization constant 0, and PT_FORMAT_* of pt.h. What first_hit.comp writes.
+// How resolve.comp writes a pixel: specialization constant 0, one of PT_FORMAT_* of pt.h. And how first_hit.comp does.
 PT_CONSTANT FORMAT_RGB32F = 0;
 PT_CONSTANT FORMAT_RGBA32F = 1;
 PT_CONSTANT FORMAT_RGBA16F = 2;
@@ -220,7 +220,7 @@ PT_CONSTANT TREE_ALIGNMENT = 16; // 256 bytes: no device asks for more (Vulkan s
 PT_CONSTANT TREE_LAMP_BIT = 0x80000000u;
 PT_CONSTANT TREE_COLOR_STEPS = 1023;
 
-// Of the tree as a camera sees it: a place p of the grid is at (p - camera) step + shift from it.
+// The tree as a camera sees it: a place p of the grid is at (p - camera) step + shift, relative to the camera.
 struct TreeFrame {
     ivec3 camera;       // a place of the grid
     uint reserved_0;
@@ -254,13 +254,13 @@ PT_CONSTANT LAMP_TREE_BALL = 64;      // what the spread is at least, as above
 
 PT_FUNCTION uint lamp_tree_group_words(uint motion) { return 5 + 3 * motion; }
 
-// Groups on top of a tree of so many levels below them.
+// Groups at the top of a tree with this many levels below.
 PT_FUNCTION uint lamp_tree_top_groups(uint lamp_count, uint levels)
 {
     return (lamp_count + (4u << (2u * levels)) - 1u) >> (2u * levels + 2u);
 }
 
-// Of the last level, one for each four slots, and of all levels together.
+// Groups of the last level, one for four slots, and groups of all levels together.
 PT_FUNCTION uint lamp_tree_slot_groups(uint lamp_count, uint levels)
 {
     return lamp_tree_top_groups(lamp_count, levels) << (2u * levels);
@@ -281,11 +281,11 @@ PT_CONSTANT FILM_FRACTION_BITS = 60;
 PT_CONSTANT FILM_ACCEPTED = 12; // samples in the sums
 PT_CONSTANT FILM_REJECTED = 13; // samples left out
 PT_CONSTANT FILM_WORDS = 14;
-// An invocation gathers no more than this many samples (film.glsl).
+// An invocation gathers at most this many samples (film.glsl).
 PT_CONSTANT FILM_MAX_GATHERED = 511;
 // A sample is accepted if all its components, in film units, lie in [0, 2^28): 2^32 of them stay below 2^60.
 PT_CONSTANT FILM_MAX_EXPONENT = 28;
-// Of fewer samples the difference of the parts says next to nothing: no standard error is told.
+// With fewer samples the difference of the parts says next to nothing, so no standard error is given.
 PT_CONSTANT FILM_MIN_ERROR_SAMPLES = 9;
 
 // ---- The error of an image -----------------------------------------------------------------------------------------
@@ -295,8 +295,8 @@ PT_CONSTANT REGION_SIZE = 32;
 PT_CONSTANT TILE_SIZE = 8;
 PT_CONSTANT ESTIMATE_WORKGROUP_SIZE = 128; // a region's rows of tiles; what every device allows
 
-// The sum of what is expected of the squares of errors in a region, and how it is made up: shares in it are numbers that
-// their squares leave in the range of float.
+// The sum of the expected squares of errors in a region, and how it is distributed. Shares in the sum are used because
+// their squares stay within the range of float.
 struct ErrorSquares {
     float sum;          // over pixels and channels
     float pixel_shares; // sum of the squares of the pixels' shares
@@ -345,7 +345,7 @@ struct FrameConstants {
 
 PT_CONSTANT ANY_COUNT = 0xffffffffu;
 
-// Of resolve.comp. Pixels are counted row by row over the film.
+// resolve.comp. Pixels are numbered row by row over the film.
 struct ResolveConstants {
     uvec2 sample_counts; // that each pixel must have in the older and in the newer part; ANY_COUNT: not looked at
     int exponent;        // of the unit in which sums are counted, as a power of two, in radiance
@@ -360,7 +360,7 @@ struct ResolveConstants {
     uint row_words;   // from a row to the next
 };
 
-// Of first_hit.comp. Pixels are counted row by row over the image.
+// first_hit.comp. Pixels are numbered row by row over the image.
 struct FirstHitConstants {
     CameraView camera;
     float start_distance; // of the scene's origin from the pinhole, along the view
@@ -371,10 +371,10 @@ struct FirstHitConstants {
     uint first_of_rectangle; // of the pixels that are looked at, counted row by row over the rectangle
     uint pixel_count;
 };
-// Rays of a pixel whose mean is taken: they divide a workgroup.
+// How many rays of a pixel are averaged. Divides a workgroup.
 PT_CONSTANT FILTER_RAYS = 16;
 
-// Of coverage.comp, likewise. The samples are a range, of which each tile may have a part.
+// coverage.comp. Pixels as above. The samples form a range, of which each tile may have a part.
 struct CoverageConstants {
     CameraView camera;
     uvec2 seed;
@@ -387,7 +387,7 @@ struct CoverageConstants {
     uint last_sample;
 };
 
-// Of estimate.comp, for a strip of whole rows.
+// estimate.comp, for a strip of whole rows.
 struct EstimateConstants {
     uint film_width;
     uint strip_pixel_count;
@@ -399,7 +399,7 @@ struct EstimateConstants {
     float relative_scale;
 };
 
-// Of add.comp: consecutive pixels of one strip, and as many of what is added to them.
+// add.comp: consecutive pixels of one strip, and equally many that are added to them.
 struct AddConstants {
     uint strip_pixel_count;
     uint first_pixel; // in the strip

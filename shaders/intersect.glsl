@@ -21,12 +21,12 @@ void see_plane(inout Hit hit, vec3 origin, vec3 direction, uint plane, float tim
     keep_closer(hit, plane_distance(level_at(plane, origin, time), direction, false, false, height), plane);
 }
 
-// Spheres that are hidden from the camera: a range of those that emit, and the last ones of all.
+// Spheres that are hidden from the camera: a range of those that emit, and the last of all spheres.
 const bool EMITTERS_HIDE = HIDDEN_LAMPS + HIDDEN_SKIES > 0u;
 const uint FIRST_HIDDEN = EMITTERS_HIDE ? WALKED_LAMPS - HIDDEN_LAMPS : 0u;
 const uint AFTER_HIDDEN = EMITTERS_HIDE ? WALKED_LAMPS + HIDDEN_SKIES : 0u;
 
-// The first surface that a ray from the camera meets and that is not hidden from it.
+// The first surface that a camera ray meets and that is not hidden from the camera.
 Hit closest_hit(vec3 origin, vec3 direction, float time)
 {
     Hit hit = Hit(NO_HIT, NO_SURFACE);
@@ -64,8 +64,8 @@ void meet_plane(inout Hit hit, inout bool blocked, Start start, vec3 direction, 
         shade_plane(blocked, start, shadow, plane, level, time);
 }
 
-// One walk over the scene for the two rays that leave a vertex: what the next path ray meets first, and whether the
-// shadow ray is blocked.
+// One walk over the scene for both rays that leave a vertex: what the next path ray meets first, and whether the shadow
+// ray is blocked.
 Hit closest_hit_and_shadow(Start start, float time, vec3 direction, ShadowRay shadow, out bool blocked)
 {
     Hit hit = Hit(NO_HIT, NO_SURFACE);
@@ -75,7 +75,7 @@ Hit closest_hit_and_shadow(Start start, float time, vec3 direction, ShadowRay sh
     return hit;
 }
 
-// Along a plane a little height is a long way back.
+// At a grazing angle to a plane, a small height is a long way back.
 Hit ahead(Hit hit)
 {
     if (KNOWN_SIDES == 1 && PLANE_COUNT > 0u)

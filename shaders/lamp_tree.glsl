@@ -10,7 +10,7 @@
 
 const bool HAS_LAMP_TREE = LAMP_TREE_LEVELS > 0u;
 
-// Four siblings, a component each.
+// Four siblings, one in each component.
 struct Siblings {
     vec4 x, y, z; // their middles, as seen from the vertex
     vec4 power;  // 0: there is no such node
@@ -53,8 +53,8 @@ vec4 node_importance(Siblings nodes, vec3 normal)
     return importance;
 }
 
-// Of lamps it is the weight that view_lamp() gives them. The one on which a vertex lies needs no care: it is at the
-// horizon.
+// For lamps this is the weight that view_lamp() gives them. The lamp on which a vertex lies needs no special care: it
+// is at the horizon.
 vec4 lamp_importance(Siblings lamps, vec3 normal)
 {
     vec4 radius = lamps.spread;
@@ -73,7 +73,7 @@ float sum_of(vec4 importance)
     return sum;
 }
 
-// The groups on top as a vertex sees them, which serves all choices that it takes.
+// The groups at the top as a vertex sees them. Made once for all choices of the vertex.
 struct LampTreeTop {
     vec4 importance[LAMP_TREE_TOP_GROUPS]; // of the nodes of each group
 };
@@ -91,10 +91,10 @@ LampTreeTop lamp_tree_top(Vertex vertex, float time)
     return top;
 }
 
-// One of four, which may differ between invocations.
+// One of four components, by an index that may differ between invocations.
 float component_of(vec4 v, uint index) { return index < 2u ? (index == 0u ? v.x : v.y) : (index == 2u ? v.z : v.w); }
 
-// A way down the tree: to a lamp that is given, or one that a random number chooses.
+// A way down the tree, either to a given lamp or to one that a random number chooses.
 struct LampWalk {
     bool chooses;
     uint slot;         // of the lamp that is given
@@ -103,7 +103,7 @@ struct LampWalk {
     float probability; // of the choices so far
 };
 
-// Where the words begin that say which lamp a slot has; those that say which slot a lamp has follow them.
+// The first of the words that say which lamp each slot holds. The words that say which slot each lamp has follow them.
 uint lamp_tree_slots()
 {
     return LAMP_TREE + lamp_tree_group_words(MOTION) * lamp_tree_groups(LAMP_COUNT, LAMP_TREE_LEVELS);
@@ -142,7 +142,7 @@ uint take_child(inout LampWalk walk, vec4 importance, vec4 others, uint given)
     return child;
 }
 
-// Takes a walk from the top to a lamp. A group on top counts by what its nodes do together.
+// Takes a walk from the top to a lamp. A group at the top counts as much as its nodes together.
 uint walk_down(inout LampWalk walk, LampTreeTop top, Vertex vertex, float time)
 {
     const uint groups = lamp_tree_top_groups(LAMP_COUNT, LAMP_TREE_LEVELS);

@@ -42,8 +42,8 @@ LampView view_lamp(Vertex vertex, uint lamp, float time)
 // ninth at most.
 const float UNIFORM_SHARE = 0.1;
 
-// The lamps as seen from a vertex: made once, used by choose() and choice_of(). The views of a few lamps are kept;
-// those of many are made again when one is needed.
+// The lamps as a vertex sees them: made once, and used by choose() and choice_of(). The views of a few lamps are kept;
+// with many lamps a view is made again when it is needed.
 const bool KEEP_VIEWS = LAMP_COUNT <= EVERY_LAMP_LIMIT;
 
 struct Lamps {
@@ -82,7 +82,7 @@ Lamps lamps_from(Vertex vertex, float time)
     return lamps;
 }
 
-// One of the lamps, which may differ between invocations.
+// One of the lamps, by an index that may differ between invocations.
 LampView lamp_among(Lamps lamps, uint lamp)
 {
     if (!KEEP_VIEWS)
@@ -103,7 +103,7 @@ float lamp_probability(Lamps lamps, float weight)
     return weight > 0.0 ? (LAMP_COUNT == 1u ? 1.0 : probability) : 0.0;
 }
 
-// With a tree the uniform share is among all lamps: those in sight are not counted.
+// With a tree the uniform share is spread over all lamps, since those in sight are not counted.
 float lamp_probability_by_tree(LampWalk walk)
 {
     precise float probability = (1.0 - UNIFORM_SHARE) * walk.probability + UNIFORM_SHARE / float(LAMP_COUNT);
@@ -117,7 +117,7 @@ struct LampChoice {
     float probability;
 };
 
-// The same for any lamp, which may differ between invocations.
+// The same for a given lamp, whose index may differ between invocations.
 LampChoice choice_of(Lamps lamps, uint lamp)
 {
     if (HAS_LAMP_TREE) {
@@ -129,8 +129,8 @@ LampChoice choice_of(Lamps lamps, uint lamp)
     return LampChoice(lamp, view, lamp_probability(lamps, view.weight));
 }
 
-// The lamp that a random number, a multiple of 2^-32, chooses by the tree. The uniform share may choose one that cannot
-// be sampled: then there is no light.
+// The lamp that a random number, a multiple of 2^-32, chooses by the tree. The uniform share may choose a lamp that
+// cannot be sampled; then there is no light.
 LampChoice choose_by_tree(Lamps lamps, uint number)
 {
     const uint uniform_numbers = 429496729u; // UNIFORM_SHARE 2^32; ten times as many fit into 32 bits
@@ -174,8 +174,7 @@ float one_minus_cos(LampView view)
     return view.squared_sine / (1.0 + sqrt(1.0 - view.squared_sine));
 }
 
-// Density over solid angle of the directions towards a lamp that has been chosen, 1 / (2 pi (1 - cos)); 0 where it
-// cannot be sampled.
+// Density over solid angle of directions towards a chosen lamp, 1 / (2 pi (1 - cos)); 0 if it cannot be sampled.
 float cone_density(LampView view)
 {
     float density = (0.5 / PI) * (1.0 + sqrt(1.0 - view.squared_sine)) / view.squared_sine;

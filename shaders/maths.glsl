@@ -10,7 +10,7 @@ layout(constant_id = ID_INTEGER_ORDER) const uint INTEGER_ORDER = 0;
 
 const float PI = 3.14159265358979;
 
-// Random numbers are multiples of it.
+// Random numbers are multiples of this.
 const float NUMBER_STEP = 1.0 / 16777216.0;
 const float LARGEST_NUMBER = 1.0 - NUMBER_STEP;
 
@@ -38,7 +38,7 @@ float at_least(float number, float limit)
 // The largest of R, G and B, none of them negative.
 float strongest_of(vec3 color) { return at_least(color.r, at_least(color.g, color.b)); }
 
-// The greater of two numbers that are not positive: their integers have the opposite order.
+// The larger of two numbers that are not positive. As integers their order is reversed.
 float nearer_to_zero(float a, float b)
 {
     if (INTEGER_ORDER == 0u)

@@ -1,5 +1,5 @@
-// What the values about a pixel of a region show, in one channel: of those pixels of the region that touch it, and
-// itself. Values are floats >= 0 on the host too, where they are only compared.
+// What surrounds a pixel of a region, in one channel: the pixel itself and those of the region that touch it. Values
+// are floats >= 0; on the host too, since they are only compared.
 #ifndef PT_NEIGHBOURHOOD_H
 #define PT_NEIGHBOURHOOD_H
 
@@ -9,7 +9,7 @@
 namespace pt::gpu {
 #endif
 
-// Where a region ends, a value that is missing beside a pixel lies below or above all.
+// At the edge of a region, missing neighbours count as below or above all values.
 PT_CONSTANT float BELOW_ALL = -1.0f;
 
 // Three values in ascending order.
@@ -39,7 +39,7 @@ PT_FUNCTION float median_of_rows(Sorted a, Sorted b, Sorted c)
         .middle;
 }
 
-// The same values where the one that is missing comes last.
+// The same values, with the missing one last.
 PT_FUNCTION Sorted with_missing_above(Sorted row)
 {
     row.low = row.middle;
@@ -81,7 +81,7 @@ PT_FUNCTION Neighbourhood neighbourhood(Sorted above, Sorted row, Sorted below, 
     return near;
 }
 
-// Of a single row or column, where one or two values touch a pixel, or none.
+// For a single row or column, where at most two values touch a pixel.
 PT_FUNCTION Neighbourhood neighbourhood_in_line(float before, float value, float behind)
 {
     Sorted values = sorted(before, value, behind);

@@ -11,8 +11,9 @@
 #include "step.glsl"
 #include "vertex.glsl"
 
-// Light that reaches the first vertex over one more, in the direction of a spot: weighted against the branches, which
-// find it too (Veach 1997, chapter 9). The path ends there; what comes over more vertices is the branches' alone.
+// Light that reaches the first vertex from one more vertex, in the direction of a spot. It is weighted against the
+// branches, which find it too (Veach 1997, chapter 9). The path ends there: light over more vertices is left to the
+// branches.
 vec3 light_by_way_of_spot(Vertex vertex, Material material, Spots spots, SampleKey key, float time)
 {
     vec3 numbers = spot_numbers(key);
@@ -34,7 +35,8 @@ vec3 light_by_way_of_spot(Vertex vertex, Material material, Spots spots, SampleK
     return path.radiance;
 }
 
-// The branch's share of the light that reaches the first vertex over the one where the branch has arrived.
+// For light that reaches the first vertex from the vertex where the branch has arrived: the share that the branch
+// counts.
 float share_beside_spots(Spots spots, Path path, Vertex first, float time)
 {
     float distance = dot(path.arrival.point - first.position, path.arrival.direction);
@@ -42,8 +44,8 @@ float share_beside_spots(Spots spots, Path path, Vertex first, float time)
     return density > 0.0 ? power_heuristic(arrival_density, density) : 1.0;
 }
 
-// Light that the first vertex and all paths from it bring. What it sends to the camera is most of the picture, so it
-// samples every lamp if they are few, and is left in several branches where paths go further than one direction.
+// The light of the first vertex and of all paths that leave it. What it sends to the camera is most of the picture, so
+// it samples every lamp if there are few, and paths leave it in several branches if they go further than one direction.
 vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
 {
     Vertex vertex = vertex_at(arrival, time);
@@ -52,7 +54,8 @@ vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
     if (SAMPLE_LAMPS)
         lamps = lamps_from(vertex, time);
 
-    // Lamp b shares its walk over the scene with branch b's ray; lamps beyond the last branch have one of their own.
+    // Lamp b shares a walk over the scene with the ray of branch b; lamps beyond the last branch have walks of their
+    // own.
     vec3 radiance = vec3(0.0);
     if (SAMPLE_EVERY_LAMP && LAMP_COUNT > BRANCH_COUNT) {
         Start start = Start(vertex.position, vertex.surface, vertex.inside);

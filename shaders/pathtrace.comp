@@ -1,5 +1,5 @@
-// The path tracer's kernel: each invocation takes samples of a slice in one pixel of a tile. Those along y share the
-// samples of a pixel.
+// The path tracer's kernel: each invocation takes samples of a slice in one pixel of a tile. Invocations along y share
+// the samples of a pixel.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -14,10 +14,10 @@ layout(push_constant) uniform Push { FrameConstants frame; };
 #include "tile_pixel.glsl"
 #include "tree_path.glsl"
 
-// The push constants are read once, into held, and not by each sample: lavapipe 22.3 reads them for one invocation
-// after the other, which took an eighth of the time of paths of two vertices.
+// The push constants are read once, into held, and not for each sample: lavapipe 22.3 reads them for one invocation
+// after the other, which took an eighth of the time of paths with two vertices.
 
-// The key of a sample of the pixel by its number in the slice.
+// The key of a sample of the pixel, by its number within the slice.
 SampleKey key_of_sample(SampleKey pixel, FrameConstants held, uint number)
 {
     const uint row_length = row_blocks(TABLE_BLOCKS, blocks_of_sample(), BRANCH_COUNT);
@@ -45,7 +45,7 @@ void take_samples(uvec2 pixel, uint pixel_index, uint done, uint end, inout Film
     } while (done < end);
 }
 
-// The same step by step (tree_path.glsl).
+// The same, one step of a walk at a time (tree_path.glsl).
 void take_samples_by_steps(uvec2 pixel, uint pixel_index, uint done, uint end, inout FilmPixel gathered)
 {
     FrameConstants held = frame;
@@ -58,7 +58,7 @@ void take_samples_by_steps(uvec2 pixel, uint pixel_index, uint done, uint end, i
     bool begins = true;
     do {
         if (walk.done) {
-            // What the walk has found.
+            // Takes what the walk has found.
             if (!begins) {
                 begins = ends_with(current, walk, departure, lamps);
                 if (begins) {
@@ -67,7 +67,7 @@ void take_samples_by_steps(uvec2 pixel, uint pixel_index, uint done, uint end, i
                 }
             }
 
-            // The next one, of this sample or the next.
+            // Begins the next walk, of this sample or of the next.
             if (!begins) {
                 walk = leave_last_vertex(current, departure, lamps);
             } else if (done < end) {
@@ -88,7 +88,7 @@ void main()
         return;
     uvec2 pixel = uvec2(at.in_image % frame.camera.width, at.in_image / frame.camera.width);
 
-    // Its samples of the slice: a range of its own.
+    // The range of samples of the slice that this invocation takes.
     uint done = gl_GlobalInvocationID.y * frame.share;
     uint end = min(done + frame.share, frame.sample_count);
 

@@ -9,7 +9,7 @@
 #include "scene.glsl"
 #include "vertex.glsl"
 
-// Whether directions follow the specular lobe, if there is one; otherwise they follow the cosine, or are uniform.
+// Whether directions follow the specular lobe, where there is one. Otherwise they follow the cosine, or are uniform.
 const bool SAMPLE_LOBES = ESTIMATOR != ESTIMATOR_UNIFORM && ESTIMATOR != ESTIMATOR_COSINE;
 
 struct Material {
@@ -52,7 +52,7 @@ float lobe_power(vec3 r, vec3 wo, float n)
     return y < 1.0 ? power : 0.0;
 }
 
-// What a surface does with light along a direction.
+// What a surface does with light in one direction.
 struct Reflection {
     vec3 f;
     float cosine;  // of the outgoing direction; 0 below the horizon
@@ -81,8 +81,8 @@ vec2 lobe_cos_sin(float n, float u)
     return narrow_cos_sin(one_minus_exp2(log2_one_minus(u) / (n + 1.0)));
 }
 
-// The direction in which a path goes on. It may lie below the horizon, where its value is 0: redrawing or renormalising
-// the lobe there would change its density from the one that reflection() states.
+// The direction in which a path continues. It may lie below the horizon, where its value is 0: to draw again or to
+// renormalise the lobe would give it another density than reflection() states.
 vec3 sample_direction(Material material, Vertex vertex, vec2 place, float lobe)
 {
     if (ESTIMATOR == ESTIMATOR_UNIFORM)

@@ -14,7 +14,7 @@ PT_FUNCTION real squared(real value)
     return value * value;
 }
 
-// Values >= 0 of which one asks for the mean of the others.
+// A set of values >= 0, which can tell the mean of all values but one.
 struct ValueSet {
     real sum;
     real count;
@@ -55,20 +55,20 @@ PT_FUNCTION real mean_besides(ValueSet values, real value)
     return more_of(values.sum - value, 0.0) / more_of(values.count - 1.0, 1.0);
 }
 
-// The largest of the others may be a firefly too.
+// Also without the largest of the others, which may be a firefly too.
 PT_FUNCTION real mean_besides_and_without_largest(ValueSet values, real value)
 {
     real largest_of_others = value < values.largest ? values.largest : values.second;
     return more_of(values.sum - value - largest_of_others, 0.0) / more_of(values.count - 2.0, 1.0);
 }
 
-// > 0: another pixel has most of the light of the tile, so that its level without that does not tell.
+// > 0: another pixel has most of the light of the tile, so the level without that pixel says nothing.
 PT_FUNCTION real lacking_level(ValueSet tile, real mean, real level)
 {
     return 0.5 * mean_besides(tile, mean) - level;
 }
 
-// The mean about a pixel, of its tile or, where that does not tell, of its region.
+// The mean around a pixel: of its tile or, if that says nothing, of its region.
 PT_FUNCTION real level_about(real mean, ValueSet tile, ValueSet region)
 {
     real level = mean_besides_and_without_largest(tile, mean);
@@ -94,11 +94,11 @@ struct Limit {
 
 PT_CONSTANT real E_SQUARED = 7.39; // where the logarithm of an edge passes 1, and a pixel begins to stand out
 
-// With a share f of the samples in the darker part, standard_error / (mean - lesser) = sqrt(f / (1 - f)), which is 1 for
-// halves, but for the roundings of the three to float.
+// With a share f of the samples in the darker part, standard_error / (mean - lesser) = sqrt(f / (1 - f)). For halves
+// that is 1, except for the rounding of the three numbers to float.
 PT_CONSTANT real OF_HALVES = 0.99;
 
-// offset_square: what is added to squares, lest black pixels count without bound.
+// offset_square: added to squares so that black pixels do not count without bound.
 PT_FUNCTION Limit limit_of(real standard_error, real mean, real lesser, real around, real offset_square)
 {
     Limit limit;
@@ -111,14 +111,14 @@ PT_FUNCTION Limit limit_of(real standard_error, real mean, real lesser, real aro
     return limit;
 }
 
-// The square of the error relative to the value's limit, as far as the samples tell.
+// The square of the error relative to the value's limit, as far as samples tell.
 PT_FUNCTION real relative_square(real standard_error, Limit limit)
 {
     real square = square_of_quotient(standard_error, limit.square);
     return limit.light_beyond > 0.0 ? square * (0.5 * log(limit.square / limit.known)) : square;
 }
 
-// Relative to the value's own mean.
+// The same relative to the value's own mean.
 PT_FUNCTION real square_as_lamp(real standard_error, real mean, real offset_square)
 {
     return square_of_quotient(standard_error, squared(mean) + offset_square);

@@ -1,5 +1,5 @@
-// Quotients of exact sums and counts as the bits of float32 numbers, by whole numbers alone: Vulkan bounds the error of
-// a division of floats and may flush small ones to 0, while these bits are the same on every device, and on the host.
+// Quotients of exact sums and counts, as the bits of float32 numbers, computed with integers: Vulkan allows errors in
+// the division of floats and may flush small ones to 0. These bits are the same on every device and on the host.
 #ifndef PT_QUOTIENT_H
 #define PT_QUOTIENT_H
 
@@ -33,7 +33,7 @@ struct LeadingBits {
     bool inexact;
 };
 
-// The upper word of two that are shifted to the left by less than 32 bits.
+// The upper of two words that are shifted to the left together, by less than 32 bits.
 PT_FUNCTION uint shifted_left(uint upper, uint lower, int bits)
 {
     return upper << bits | (lower >> 1) >> (31 - bits);
@@ -66,14 +66,14 @@ PT_FUNCTION uint rounded(uint quotient, int exponent, bool inexact)
     int magnitude = top + exponent; // the number is in [2^magnitude, 2^(magnitude + 1))
     if (magnitude > 127)
         return 0x7f800000u;
-    // Of a float with the exponent -126 or less the last bit is 2^-149.
+    // For exponents of -126 and below, the last bit of a float is 2^-149.
     int float_exponent = max(magnitude, -126);
     int dropped = min(top - 23 + float_exponent - magnitude, 31);
     uint kept = quotient >> dropped;
     uint rest = quotient & ((1u << dropped) - 1u);
     uint half_of_last = 1u << (dropped - 1);
     bool up = rest > half_of_last || (rest == half_of_last && (inexact || (kept & 1u) == 1u));
-    // The leading one of a normal float adds the last 1 to the exponent's bits, and so does a carry.
+    // The leading one of a normal float adds the last 1 to the bits of the exponent; a carry does the same.
     return (uint(float_exponent + 126) << 23) + kept + (up ? 1u : 0u);
 }
 
@@ -103,7 +103,7 @@ PT_FUNCTION uint quotient_bits(LeadingBits dividend, uint divisor, int exponent)
                    dividend.inexact || (rest | next) != 0u);
 }
 
-// The bits of sum * 2^exponent / count; 0 of no sample.
+// The bits of sum * 2^exponent / count; 0 without samples.
 PT_FUNCTION uint mean_bits(uvec4 sum, uint count, int exponent)
 {
     return count == 0u ? 0u : quotient_bits(leading_bits(whole_number(sum)), count, exponent);
@@ -151,7 +151,7 @@ PT_FUNCTION WholeNumber difference(WholeNumber a, WholeNumber b, PT_OUT(uint) bo
     return a;
 }
 
-// |A b - B a| of the sums A of a samples and B of b. first_is_less: A / a < B / b.
+// |A b - B a| for the sums A of a samples and B of b samples. first_is_less: A / a < B / b.
 PT_FUNCTION WholeNumber weighted_difference(uvec4 sum_a, uint a, uvec4 sum_b, uint b, PT_OUT(bool) first_is_less)
 {
     uint borrow;
@@ -182,7 +182,7 @@ struct ErrorDivisor {
 
 PT_FUNCTION ErrorDivisor error_divisor(uint a, uint b)
 {
-    // The root of a b 2^(2 shift), of which one of the top two bits is set.
+    // The root of a b 2^(2 shift), shifted so that one of its top two bits is set.
     uint square_high, square_low;
     umulExtended(a, b, square_high, square_low);
     int zeros = square_high != 0u ? 31 - findMSB(square_high) : 63 - findMSB(square_low);
@@ -203,7 +203,7 @@ PT_FUNCTION ErrorDivisor error_divisor(uint a, uint b)
     return result;
 }
 
-// The bits of that error, times 2^exponent.
+// The bits of the standard error, times 2^exponent.
 PT_FUNCTION uint standard_error_bits(WholeNumber numerator, ErrorDivisor divisor, int exponent)
 {
     return quotient_bits(leading_bits(numerator), divisor.divisor, exponent + divisor.exponent);

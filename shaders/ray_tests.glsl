@@ -5,7 +5,7 @@
 #include "maths.glsl"
 #include "scene.glsl"
 
-// Finite, as Vulkan does not promise infinities; farther than anything that a scene may hold.
+// Finite, because Vulkan does not promise infinities, and farther than anything in a scene.
 const float NO_HIT = 3.0e38;
 
 // Surfaces are opaque, so a path stays on the camera's side of each of them, at the path's time. With KNOWN_SIDES the
@@ -13,7 +13,7 @@ const float NO_HIT = 3.0e38;
 // rounding may put the vertex behind a surface that stands just behind its own, and the path would end there, or leak
 // out of a room.
 
-// How a ray starts: on which surface, if any, and there on the inside of a sphere or not.
+// Where a ray starts: on which surface, if any, and whether inside a sphere.
 struct Start {
     vec3 origin;
     uint surface; // NO_SURFACE for rays from the camera
@@ -120,7 +120,7 @@ struct ShadowRay {
 
 const ShadowRay NO_SHADOW_RAY = ShadowRay(vec3(0.0), 0.0, NO_SURFACE);
 
-// The tests that the walks below share. A walk fetches a surface once for all its rays, so they take what was fetched.
+// The tests that all walks share. A walk fetches a surface once for all its rays, so these take what was fetched.
 float distance_to_sphere(Start start, vec3 direction, uint sphere, vec4 centre_radius)
 {
     bool leaving = sphere == start.surface;
@@ -135,7 +135,8 @@ float distance_to_plane(Start start, vec3 direction, uint plane, Level level, fl
     return plane_distance(level, direction, plane == start.surface, start.inside, camera_height(plane, time));
 }
 
-// Whether a surface at a distance along a shadow ray blocks it. At equal distances the first surface is seen.
+// Whether a surface at some distance along a shadow ray blocks it. At equal distances the first surface is the one that
+// is seen.
 bool blocks(ShadowRay shadow, float distance, uint surface)
 {
     bool before = distance < shadow.distance || (CLOSE_LAMPS == 1 && distance == shadow.distance && surface < shadow.lamp);

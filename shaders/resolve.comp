@@ -1,4 +1,5 @@
-// Turns the film's sums into an image: one invocation per pixel of a rectangle, which may reach beyond the strip.
+// Turns the sums of the film into an image: one invocation for each pixel of a rectangle, which may extend beyond the
+// strip.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -18,7 +19,7 @@ layout(set = 0, binding = BINDING_FINDINGS) buffer Findings { uint lost_pixels; 
 
 const uint PIXEL_WORDS = FORMAT == FORMAT_RGB32F ? 3u : FORMAT == FORMAT_RGBA32F ? 4u : 2u;
 
-// Of fewer samples the two parts say next to nothing.
+// With fewer samples the two parts say next to nothing.
 bool knows_error(PartCount older, PartCount newer)
 {
     return older.done + newer.done >= FILM_MIN_ERROR_SAMPLES && older.accepted > 0u && newer.accepted > 0u;

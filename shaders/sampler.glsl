@@ -18,7 +18,7 @@ struct SampleKey {
     uvec4 shift; // the pixel's; the shifts of its blocks are multiples of it
 };
 
-// Blocks that the branches of a sample share.
+// The blocks that all branches of a sample share.
 uint blocks_of_sample() { return shared_blocks(LAMP_COUNT, SPOT_COUNT); }
 
 // The key of a branch of a sample: beyond the shared blocks it is a sample of its own, number B i + b. Where that
@@ -48,7 +48,7 @@ uvec4 pcg4d(uvec4 v)
     return v;
 }
 
-// The key of a pixel. With an index and a row it becomes the key of a sample.
+// The key of a pixel. An index and a row make it the key of a sample.
 SampleKey key_of_pixel(uvec2 seed, uint pixel)
 {
     return SampleKey(seed, pixel, 0u, 0u, pcg4d(uvec4(pixel, 0u, seed)));
@@ -85,7 +85,7 @@ uvec4 sample_words(SampleKey key, uint block)
     return SAMPLER == SAMPLER_SOBOL ? point ^ shift : SAMPLER == SAMPLER_HALTON_CP ? point + shift : point;
 }
 
-// The same as multiples of 2^-24, so that rounding never gives 1.
+// The same as multiples of 2^-24, so that rounding never yields 1.
 vec4 sample_block(SampleKey key, uint block) { return vec4(sample_words(key, block) >> 8u) * NUMBER_STEP; }
 
 #endif

@@ -20,7 +20,7 @@ SphericalAngles uniform_spherical_angles(vec2 u)
     return SphericalAngles(1.0 - 2.0 * u.x, 2.0 * sqrt(u.x * (1.0 - u.x)), u.y);
 }
 
-// Spherical angles to a unit vector.
+// The unit vector with these spherical angles.
 vec3 spherical_direction(SphericalAngles angles)
 {
     float sine, cosine;
@@ -47,7 +47,7 @@ vec3 rotate_to_axis(vec3 axis, vec3 v)
     return vec3(v.x + axis.x * along, s * v.y + axis.y * along, v.z * axis.z - q);
 }
 
-// Direction at a polar angle, given by cosine and sine, and an azimuth in turns about axis.
+// The direction at a polar angle from axis, given by its cosine and sine, and an azimuth in turns.
 vec3 direction_about(vec3 axis, vec2 cos_sin_polar, float azimuth)
 {
     return rotate_to_axis(axis, spherical_direction(SphericalAngles(cos_sin_polar.x, cos_sin_polar.y, azimuth)));
@@ -75,7 +75,7 @@ float power_heuristic(float a, float b)
     return 1.0 / (1.0 + ratio * ratio);
 }
 
-// The same over a: what a sample's value is multiplied by. One division less.
+// The same divided by a, which is what a sample's value is multiplied by. It saves a division.
 float power_heuristic_over_density(float a, float b)
 {
     float inverse = 1.0 / a;

@@ -72,13 +72,13 @@ const uint SURFACE_COUNT = SPHERE_COUNT + PLANE_COUNT;
         }                                                                                                              \
     }
 
-// A word of the scene buffer, of an index that may differ between invocations.
+// A word of the scene buffer, by an index that may differ between invocations.
 vec4 stored_word(uint index)
 {
     return UNIFORM_READS == 1u ? scene_uniform.words[index] : scene_storage.words[index];
 }
 
-// Of an index that is a constant, once loops are unrolled.
+// The same for an index that is a constant once loops are unrolled.
 vec4 scene_word(uint index)
 {
     if (SCENE_SOURCE == SCENE_IN_CONSTANTS)
@@ -105,10 +105,10 @@ vec4 scene_word_among(uint first, uint count, uint index)
     return word;
 }
 
-// Whether surfaces share the words of materials, which pays in large scenes; in small ones finding them costs more.
+// Whether surfaces share the words of materials. That pays in large scenes; in small ones the lookup costs more.
 const bool HAS_TABLE = SCENE_SOURCE == SCENE_IN_STORAGE;
 
-// Blocks of the scene buffer, ...
+// Where the blocks of the scene buffer begin, ...
 const uint EMISSION = SURFACE_COUNT;
 const uint EMITTING_SPHERES = LAMP_COUNT + SKY_COUNT;
 const uint DIFFUSE = 2u * SURFACE_COUNT;
@@ -116,7 +116,7 @@ const uint SPECULAR = 3u * SURFACE_COUNT;
 const uint MOTIONS = HAS_TABLE ? EMISSION + EMITTING_SPHERES + PLANES_EMIT * PLANE_COUNT : (3u + GLOSS) * SURFACE_COUNT;
 const uint CURVATURES = MOTIONS + MOTION * SPHERE_COUNT;
 const uint LAMP_TREE = CURVATURES + CURVATURE * PLANE_COUNT;
-// ... that of the uniform buffer alone, and those of the storage buffer alone.
+// ... one that only the uniform buffer has, and those that only the storage buffer has.
 const uint SPOTS = LAMP_TREE + LAMP_TREE_WORDS;
 const uint INDICES = LAMP_TREE + LAMP_TREE_WORDS;
 const uint TREE_FRAME = INDICES + (SURFACE_COUNT + 3u) / 4u;
@@ -124,7 +124,7 @@ const uint TABLE = TREE_FRAME + 5u * TREE;
 
 #include "tree.glsl"
 
-// One of the indices of a block of the storage buffer, four to a word.
+// One of the indices in a block of the storage buffer, which holds four to a word.
 uint stored_index(uint block, uint index)
 {
     return floatBitsToUint(stored_word(block + index / 4u)[index % 4u]) - MATERIAL_INDEX_BITS;
@@ -137,10 +137,10 @@ uint material_words(uint surface)
     return TABLE + (1u + GLOSS) * (in_tree ? tree_material(surface - SURFACE_COUNT) : stored_index(INDICES, surface));
 }
 
-// Lamps have numbers of their own: first come those that are not in the tree, of which each is also the surface.
+// Lamps are numbered on their own: first those that are not in the tree, whose number is also that of the surface.
 const uint WALKED_LAMPS = LAMP_COUNT - TREE_LAMPS;
 
-// The lamp that a surface is, or no less than LAMP_COUNT.
+// The lamp that a surface is; at least LAMP_COUNT if it is none.
 uint lamp_of(uint surface)
 {
     if (TREE_LAMPS == 0u)
@@ -156,7 +156,7 @@ uint surface_of_lamp(uint lamp)
     return SURFACE_COUNT + tree_lamp_place(lamp - WALKED_LAMPS);
 }
 
-// Whether a surface may emit: lamps and skies do, other spheres do not.
+// Whether a surface may emit: lamps and skies may, other spheres may not.
 bool may_emit(uint surface)
 {
     bool is_lamp = TREE_LAMPS > 0u && surface >= SURFACE_COUNT && lamp_of(surface) < LAMP_COUNT;
@@ -164,7 +164,7 @@ bool may_emit(uint surface)
     return surface < WALKED_LAMPS + SKY_COUNT || (PLANES_EMIT == 1u && is_plane) || is_lamp;
 }
 
-// Radiance and its mean, of a surface that may emit.
+// The radiance of a surface that may emit, and its mean over channels.
 vec4 emission_of(uint surface)
 {
     if (!HAS_TABLE)
@@ -177,7 +177,7 @@ vec4 emission_of(uint surface)
 
 vec4 emission_of_lamp(uint lamp) { return scene_word_among(EMISSION, LAMP_COUNT, lamp); }
 
-// Of the diffuse reflection, albedo / pi, and the probability of choosing the specular lobe.
+// Diffuse reflection, albedo / pi, and the probability of choosing the specular lobe.
 vec4 diffuse_of(uint surface)
 {
     if (TREE_COLORS == 1u && surface >= SURFACE_COUNT) {
@@ -187,7 +187,7 @@ vec4 diffuse_of(uint surface)
     return HAS_TABLE ? scene_word(material_words(surface)) : scene_word_among(DIFFUSE, SURFACE_COUNT, surface);
 }
 
-// Of the specular reflection, its factor times (n + 2) / (2 pi), and the glossiness n.
+// Specular reflection: its factor times (n + 2) / (2 pi), and the glossiness n.
 vec4 specular_of(uint surface)
 {
     if (GLOSS == 0)
@@ -195,8 +195,8 @@ vec4 specular_of(uint surface)
     return HAS_TABLE ? scene_word(material_words(surface) + 1u) : scene_word_among(SPECULAR, SURFACE_COUNT, surface);
 }
 
-// Centre and radius of a sphere at a time, from 0 (shutter opens) to 1 (shutter closes): tracing, lamp sampling and
-// densities share it. The sphere is a loop's index, ...
+// Centre and radius of a sphere at a time from 0 (the shutter opens) to 1 (it closes), for tracing, lamp sampling and
+// densities alike. The sphere is the index of a loop, ...
 vec4 sphere_at(uint sphere, float time)
 {
     vec4 centre_radius = scene_word(sphere);
@@ -205,7 +205,7 @@ vec4 sphere_at(uint sphere, float time)
     return centre_radius;
 }
 
-// ... or any of the first count, which may differ between invocations.
+// ... or any of the first count spheres, by an index that may differ between invocations.
 vec4 sphere_among(uint count, uint sphere, float time)
 {
     vec4 centre_radius = scene_word_among(0u, count, sphere);
@@ -219,7 +219,7 @@ bool is_sphere(uint surface)
     return surface < SPHERE_COUNT || (TREE == 1u && surface >= SURFACE_COUNT);
 }
 
-// Of any sphere, ...
+// Of any sphere, by its surface, ...
 vec4 sphere_of(uint surface, float time)
 {
     if (TREE == 1u && surface >= SURFACE_COUNT)
@@ -235,10 +235,10 @@ vec4 sphere_of_lamp(uint lamp, float time)
     return sphere_among(WALKED_LAMPS, lamp, time);
 }
 
-// Whether the scene buffer has a lamp, by its surface.
+// Whether a lamp is in the scene buffer, by its surface.
 bool is_walked_lamp(uint surface) { return TREE_LAMPS == 0u || surface < WALKED_LAMPS; }
 
-// Where a point lies with respect to a plane.
+// Where a point lies relative to a plane.
 struct Level {
     float height;    // above it, on the side of its normal
     vec3 gradient;   // of the height: the normal, at points of the plane
@@ -267,7 +267,7 @@ Level level_of(vec4 normal_offset, vec4 curvature_motion, vec3 point, float time
     return level;
 }
 
-// With respect to a plane that is a loop's index, ...
+// Relative to a plane that is the index of a loop, ...
 Level level_at(uint plane, vec3 point, float time)
 {
     vec4 curvature = CURVATURE == 1 ? scene_word(CURVATURES + plane - SPHERE_COUNT) : vec4(0.0);
@@ -282,7 +282,7 @@ Level level_among(uint plane, vec3 point, float time)
     return level_of(scene_word_among(SPHERE_COUNT, PLANE_COUNT, index), curvature, point, time);
 }
 
-// Height of the camera above a plane that is a loop's index.
+// The height of the camera above a plane that is the index of a loop.
 float camera_height(uint plane, float time)
 {
     return PLANES_MOVE == 1 ? level_at(plane, vec3(0.0), time).height : scene_word(plane).w;

@@ -37,8 +37,8 @@ struct Spots {
     float total_weight;
 };
 
-// Spots are chosen by the irradiance that they may cause, the less the larger the share of directions that find them
-// anyway. (The factor is by trial.)
+// Spots are chosen by the irradiance that they may cause, and the less, the more directions find them anyway. (The
+// factor was found by trial.)
 float spot_weight(float irradiance, float found_anyway)
 {
     return irradiance / (1.0 + 10.0 * found_anyway);
@@ -59,7 +59,7 @@ Spot view_glow(Vertex vertex, vec4 lamp, float radiance, SpotWord word)
     return Spot(vec4(lamp.xyz, squared_height), seen ? spot_weight(irradiance, squared_height * form) : 0.0);
 }
 
-// Where a surface mirrors a lamp.
+// The point where a surface mirrors a lamp.
 struct MirrorPoint {
     vec3 position;
     vec3 normal;
@@ -105,7 +105,7 @@ MirrorPoint mirror_point_of_sphere(Vertex vertex, vec4 lamp, uint surface, float
     return MirrorPoint(sphere.xyz + radius * normal, normal, 1.0 / radius, exists);
 }
 
-// Directions are float32, and lobes narrower than a thousandth would show it.
+// Directions are float32, so lobes narrower than a thousandth would show their rounding.
 const float LARGEST_SPOT_EXPONENT = 1e6;
 
 Spot view_image(Vertex vertex, vec4 lamp, float radiance, SpotWord word, float time)
@@ -152,7 +152,7 @@ Spots spots_from(Vertex vertex, float time)
     return spots;
 }
 
-// The last one of positive weight whose predecessors' weights do not exceed the number.
+// The last spot with a positive weight such that the weights before it do not exceed the number.
 uint choose_spot(Spots spots, float number)
 {
     float target = number * spots.total_weight;
@@ -193,7 +193,7 @@ vec3 direction_to_spot(Spots spots, uint spot, vec3 position, float time, vec2 p
     return direction;
 }
 
-// Density over solid angle of such a direction, given what it has met: spots of other surfaces are not found that way.
+// Density over solid angle of such a direction, given what it has met. It cannot have found spots of other surfaces.
 float spot_density(Spots spots, Arrival arrival, float distance, float time)
 {
     float density = 0.0;

@@ -1,4 +1,4 @@
-// One step of a path: from a vertex to the next, with the light that both bring.
+// One step of a path: from one vertex to the next, with the light that both contribute.
 #ifndef STEP_GLSL
 #define STEP_GLSL
 
@@ -9,8 +9,8 @@
 #include "tree_walk.glsl"
 #include "vertex.glsl"
 
-// Lamps are sampled if there are any and the estimator does so: all of them at the first vertex if they are few;
-// otherwise, and at later vertices, one that is chosen.
+// Lamps are sampled if there are any and the estimator does so. The first vertex samples all of them if they are few;
+// otherwise, and at later vertices, one is chosen.
 const bool SAMPLE_LAMPS = (ESTIMATOR == ESTIMATOR_MIS || ESTIMATOR == ESTIMATOR_LIGHT) && LAMP_COUNT > 0u;
 const bool SAMPLE_EVERY_LAMP = SAMPLE_LAMPS && LAMP_COUNT <= EVERY_LAMP_LIMIT;
 
@@ -22,11 +22,11 @@ struct Path {
     bool alive;        // whether it goes on from there
 };
 
-// Of the path that an invocation is on, with spots: kernels without them have nothing of it.
+// For kernels with spots: state of the path that an invocation is on. Kernels without spots do not have it.
 float arrival_density; // of the direction that led to the last vertex, times the directions that the vertex before took
 float departure_share; // of the light that the next departure finds; the rest is found by way of a spot
 
-// At its first vertex.
+// A path at its first vertex.
 Path path_from(Arrival first) { return Path(first, vec3(1.0), vec3(0.0), 1u, true); }
 
 // Weight of light that lamp sampling found, over its density, and of light that a direction found, where both could
@@ -45,7 +45,7 @@ float direction_weight_against(float direction_density, float lamp_density)
     return power_heuristic(direction_density, lamp_density);
 }
 
-// A sample of a lamp: its shadow ray, and the light, to be weighted, that it brings if nothing is in between.
+// A sample of a lamp: its shadow ray, and the light that arrives, still to be weighted, if nothing is in between.
 struct LampLight {
     ShadowRay shadow;
     vec3 light;
@@ -57,7 +57,7 @@ LampLight no_lamp_light()
     return LampLight(NO_SHADOW_RAY, vec3(0.0), 0.0);
 }
 
-// Light of a lamp, of which the vertex takes a number of samples, while a number of directions leave the same vertex.
+// Light of a lamp. The vertex takes this many samples of it, and this many directions leave the vertex.
 LampLight light_of_lamp(vec3 throughput, Vertex vertex, Material material, LampChoice choice, vec2 place,
                         float samples, float directions)
 {
@@ -69,19 +69,19 @@ LampLight light_of_lamp(vec3 throughput, Vertex vertex, Material material, LampC
     return LampLight(found.shadow, light, density > 0.0 ? towards.cosine * weight : 0.0);
 }
 
-// How often a vertex samples a lamp, which chooses lamps a number of times; or not at all (0), but samples each once.
+// How often a vertex samples a lamp if it chooses lamps this many times; 0 choices mean that it samples each lamp once.
 float lamp_samples(LampChoice choice, float choices)
 {
     return choices > 0.0 ? choice.probability * choices : 1.0;
 }
 
-// Of a branch the number that chooses the lobe is stratified over all of them; the sum may round up to 1.
+// For a branch, the number that chooses the lobe is stratified over all branches. The sum may round up to 1.
 float lobe_number(float number, uint branch, float directions)
 {
     return at_most((number + float(branch)) / directions, LARGEST_NUMBER);
 }
 
-// How a path leaves a vertex: in one of its directions, with the light of a lamp.
+// How a path leaves a vertex: in one of its directions, together with the light of a lamp.
 struct Departure {
     vec3 origin;
     vec3 direction;
@@ -93,7 +93,7 @@ struct Departure {
     float lamp_choices; // of the vertex; 0: it samples each lamp
 };
 
-// Which of a sample's directions one is.
+// One of a sample's directions.
 struct Way {
     SampleKey of_sample;
     SampleKey of_branch;
@@ -126,7 +126,7 @@ LampLight lamp_light(vec3 throughput, Vertex vertex, Material material, Lamps la
     return light;
 }
 
-// Takes the vertex and the direction into the path's throughput.
+// Multiplies the path's throughput by what the vertex reflects in the direction.
 Departure depart(inout Path path, Vertex vertex, Material material, Lamps lamps, Way way)
 {
     const float directions = way.at_first ? float(BRANCH_COUNT) : 1.0;
@@ -148,7 +148,7 @@ Departure depart(inout Path path, Vertex vertex, Material material, Lamps lamps,
     return departure;
 }
 
-// Takes the path to what its ray has met, with the light of the lamp, which arrives if nothing is in between.
+// Moves the path to what its ray has met, and adds the light of the lamp if nothing is in between.
 void arrive(inout Path path, Departure departure, Lamps lamps, Hit hit, bool blocked)
 {
     float lamp_weight = departure.lamp.weight;
@@ -156,7 +156,7 @@ void arrive(inout Path path, Departure departure, Lamps lamps, Hit hit, bool blo
         lamp_weight *= departure_share;
     path.radiance += departure.lamp.light * (blocked ? 0.0 : lamp_weight);
 
-    // What the next vertex emits, weighted against lamp sampling if that could have found it too.
+    // Adds what the next vertex emits, weighted against lamp sampling if that could have found it too.
     path.alive = hit.surface != NO_SURFACE && departure.carries_light;
     if (path.alive && may_emit(hit.surface)) {
         float weight = 1.0;
@@ -215,7 +215,7 @@ bool is_hidden(ShadowRay towards_lamp, Start start, float time)
     return walk.blocked;
 }
 
-// The walk of the ray on which a path leaves a vertex, and of that to the lamp.
+// Walks the ray on which a path leaves a vertex, together with the shadow ray to the lamp.
 Walk walk_onwards(Vertex vertex, Path path, inout Departure departure, float time)
 {
     Start start = Start(vertex.position, vertex.surface, vertex.inside);
@@ -233,7 +233,7 @@ Walk walk_onwards(Vertex vertex, Path path, inout Departure departure, float tim
     return walk;
 }
 
-// Takes the path from a vertex to the next in one of the directions in which it is left.
+// Moves the path from a vertex to the next, in one of the directions that leave the vertex.
 void leave(inout Path path, Vertex vertex, Material material, Lamps lamps, Way way, float time)
 {
     Departure departure = depart(path, vertex, material, lamps, way);
@@ -242,8 +242,8 @@ void leave(inout Path path, Vertex vertex, Material material, Lamps lamps, Way w
     arrive(path, departure, lamps, ahead(walk.hit), walk.blocked);
 }
 
-// The material of a vertex, as the direction in which the path goes on is to be sampled. Under a sky or where planes emit
-// the last direction is like the others: that light is found by directions alone.
+// The material of a vertex, prepared for sampling the direction in which the path continues. Under a sky, or where
+// planes emit, the last direction is like the others, since only directions find that light.
 Material material_to_leave(uint surface, uint vertex_count)
 {
     Material material = material_of(surface);
