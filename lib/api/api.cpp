@@ -342,8 +342,7 @@ pt_result pt_add_film(pt_context *context, const void *data, uint64_t size_bytes
 }
 
 pt_result pt_get_stats(pt_context *context, pt_stats *stats) {
-    return pt::guard_context(context,
-                             [&](const pt::Renderer &renderer) { pt::copy_out(renderer.stats(), stats, "stats"); });
+    return pt::guard_context(context, [&](pt::Renderer &renderer) { pt::copy_out(renderer.stats(), stats, "stats"); });
 }
 
 pt_result pt_get_error_estimate(pt_context *context, pt_error_estimate *error) {

@@ -128,7 +128,7 @@ public:
     void save_film(const FilmHeader &header, std::span<std::byte> bytes) const; // of the size of its FilmLayout
     void add_film(std::span<const std::byte> bytes);
 
-    pt_stats stats() const;
+    pt_stats stats();
 
     // The error of the image, including lamps in view that no sample has met. Those are stated but do not end a
     // rendering, because films that are added elsewhere do not know about lamps.

@@ -167,8 +167,13 @@ void Renderer::add_film(std::span<const std::byte> bytes) {
     take_over(std::move(all));
 }
 
-pt_stats Renderer::stats() const {
-    const bool readable = settings_ && is_alive();
+pt_stats Renderer::stats() {
+    if (!rejected_samples_ && settings_ && is_alive() && !samples_.empty()) {
+        std::uint64_t rejected = 0;
+        for (const auto &device : devices_)
+            rejected += device->film().rejected_samples();
+        rejected_samples_ = rejected;
+    }
     pt_stats stats{};
     stats.sample_count = static_cast<std::uint32_t>(samples_.least());
     stats.max_sample_count = static_cast<std::uint32_t>(samples_.most());
@@ -177,12 +182,9 @@ pt_stats Renderer::stats() const {
             static_cast<double>(samples_.total()) / (1.0 * settings_->width * settings_->row_count);
     stats.submit_count = work_.submit_count;
     stats.device_seconds = work_.seconds;
-    for (const auto &device : devices_) {
-        if (readable && !samples_.empty() && !rejected_samples_)
-            stats.rejected_samples += device->film().rejected_samples();
+    for (const auto &device : devices_)
         stats.device_bytes += device->device().allocated_bytes();
-    }
-    stats.rejected_samples += rejected_samples_.value_or(0);
+    stats.rejected_samples = rejected_samples_.value_or(0);
     stats.features = gpu_scene_ ? feature_bits(gpu_scene_->features) : 0;
     stats.device_count = static_cast<std::uint32_t>(devices_.size());
     return stats;

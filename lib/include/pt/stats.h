@@ -77,8 +77,10 @@ PT_API uint32_t pt_next_check(uint32_t sample_count);
 
 /** Writes what has been done, also for a lost device; not while samples are under way (pt/async.h).
  *
- * stats->struct_size must be set; as many bytes are written, but none beyond the fields that this library knows. One
- * thread at a time per context. PT_ERROR_DEVICE_LOST: the device was lost while its samples were read. */
+ * The first call after samples were taken reads 8 bytes a pixel for rejected_samples, unless pt_get_error_estimate has
+ * counted them; all else costs nothing. stats->struct_size must be set; as many bytes are written, but none beyond the
+ * fields that this library knows. One thread at a time per context. PT_ERROR_DEVICE_LOST: the device was lost while its
+ * samples were read. */
 PT_API pt_result pt_get_stats(pt_context *context, pt_stats *stats);
 
 /** Writes how good the image is. The first call after samples were taken looks at all of the image, which takes about
