@@ -29,7 +29,7 @@ namespace {
 void occupy_closed_streams() {
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
         if (fcntl(stream, F_GETFD) == -1 && errno == EBADF) {
-            // The lowest number that is free, which is this one: those before it are in use.
+            // This gets the lowest free number, which is the one wanted: those before it are in use.
             static_cast<void>(open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY));
         }
     }
@@ -68,13 +68,14 @@ void run_other_program(std::string_view name, char *const *arguments) {
     throw cli::Failure(cli::ExitCode::file, program + ": cannot be run: " + std::strerror(errno));
 }
 
-// A name that may follow `pt-`: a file or a path does not.
+// Whether a word may follow `pt-` in the name of a program: files and paths may not.
 bool may_name_program(std::string_view name) {
     constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_";
     return !name.empty() && name.front() != '-' && name.find_first_not_of(letters) == std::string_view::npos;
 }
 
-// What of the Python package has the program of that name; empty for those that do not come with this project.
+// The extra of the Python package that installs the program of that name; empty for programs that do not belong to this
+// project.
 std::string_view package_of(std::string_view name) {
     return name == "figure"    ? "'./lib/python[figure]'"
            : name == "tachyon" ? "./lib/python"

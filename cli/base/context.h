@@ -20,7 +20,7 @@
 
 namespace cli {
 
-// A struct of pt.h with its size, and else zeros.
+// A struct of pt.h with its struct_size set and all other fields 0.
 template <typename Struct>
 constexpr Struct sized() {
     Struct value{};
@@ -39,13 +39,13 @@ struct BrokenRule {
     std::string rule{};
 };
 
-// What a rule says of a field, which is called as it is given: "--size: width * height = 0: must be >= 1".
+// The rule and the name of the field, as it is given here: "--size: width * height = 0: must be >= 1".
 std::string rule_text(const std::string &field, const BrokenRule &rule);
 
-// What the library calls the field: "spheres[3].center[0]".
+// The name of the field in the library: "spheres[3].center[0]".
 std::string field_text(const BrokenRule &rule);
 
-// The option that gives the field: "--size: width"; nullptr if none does.
+// The option that sets the field: "--size: width"; nullptr if none does.
 const char *find_option(const BrokenRule &rule);
 
 struct LibraryError {
@@ -53,14 +53,15 @@ struct LibraryError {
     std::vector<BrokenRule> rules; // empty if the message is about no field
     std::uint64_t left_out = 0;    // rules more, which are not known in detail
 
-    // A line for each rule in the words that it is given; the message if there are none.
+    // One line for each rule, in the words that the function returns; the message if there are no rules.
     std::string in_words(const std::function<std::string(const BrokenRule &)> &words) const;
 };
 
-// With the option in the field's place: "--size: width = 0: must be >= 1". The library's name where no option gives it.
+// Names the option that sets the field: "--size: width = 0: must be >= 1". Uses the name in the library if no option
+// does.
 std::string in_words_of_options(const BrokenRule &rule);
 
-// Of the context; of this thread's last call without one if it is NULL.
+// The last error of the context, or with NULL that of this thread's last call without one.
 LibraryError last_error(const pt_context *context);
 
 class Context {
@@ -80,7 +81,7 @@ public:
     pt_context *get() const { return context_; }
     LibraryError last_error() const { return cli::last_error(context_); }
 
-    // For calls whose arguments do not come from the scene file.
+    // To be used for calls whose arguments do not come from the scene file.
     void require(pt_result result) const {
         if (result < 0)
             fail(result, last_error());
@@ -92,15 +93,15 @@ public:
         return stats;
     }
 
-    // For which the image is read back.
+    // The whole image is looked at for this.
     pt_error_estimate error_estimate() const {
         auto error = sized<pt_error_estimate>();
         require(pt_get_error_estimate(context_, &error));
         return error;
     }
 
-    // Some columns of the rows that are rendered: of floats three components to a pixel, of whole numbers one, that of
-    // its object. quantity: PT_QUANTITY_*.
+    // Reads some columns of the rows that are rendered. Floats have three components for each pixel; whole numbers have
+    // one, the number of the object. quantity: PT_QUANTITY_*.
     template <typename Number>
     void read(std::uint32_t first, std::uint32_t count, std::uint32_t rows, std::uint32_t quantity,
               Number *values) const {

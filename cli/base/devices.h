@@ -11,10 +11,10 @@ namespace cli {
 // kind: PT_DEVICE_*.
 std::string kind_name(std::uint32_t kind);
 
-// "7.7 GiB", "480 B": in the largest unit of which there is one at least.
+// "7.7 GiB", "480 B": in the largest unit in which the number is at least one.
 std::string memory_text(std::uint64_t bytes);
 
-// Of the library, which is the program's too: "0.3.0".
+// The version of the library, which is also that of the program: "0.3.0".
 std::string version_text();
 
 // 32 hexadecimal digits in the usual groups.

@@ -24,7 +24,7 @@ bool has_avx512() {
 
 } // namespace
 
-// By the XDG Base Directory Specification, which ignores relative paths.
+// As the XDG Base Directory Specification says, which ignores relative paths.
 std::filesystem::path user_cache() {
     const auto folder = [](const char *name) {
         const char *variable = std::getenv(name);

@@ -7,7 +7,7 @@
 
 namespace cli {
 
-// The program's part of the user's cache, which need not exist. Empty if there is none: without a home directory.
+// The program's part of the user's cache folder, which need not exist. Empty without a home directory.
 std::filesystem::path user_cache();
 
 // Asks llvmpipe for vectors of 512 bits, unless the user has chosen a width, and says where shaders compiled for it are

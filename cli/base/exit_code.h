@@ -54,12 +54,13 @@ inline void refuse_if(bool is_refused, const std::string &message, ExitCode code
         throw Failure(code, message);
 }
 
-// Of a program that a signal ended.
+// For a program that a signal has ended.
 constexpr int exit_code_of_signal(int signal) {
     return static_cast<int>(ExitCode::signal) + signal;
 }
 
-// A failed call of pt.h whose arguments are not the user's. Where they are, the caller knows better: usage or scene.
+// For a failed call of pt.h whose arguments do not come from the user. If they do, the caller knows better: usage or
+// scene.
 constexpr ExitCode exit_code_of(pt_result result) {
     switch (result) {
     case PT_ERROR_INVALID_ARGUMENT:

@@ -15,7 +15,7 @@
 namespace cli {
 namespace {
 
-// As temporary_name() makes it.
+// Whether temporary_name() could have made it.
 bool is_temporary_name(const std::string &name) {
     int end = 0;
     std::sscanf(name.c_str(), ".pt-%*[0-9]-%*[0-9].tmp%n", &end);
@@ -39,7 +39,7 @@ fs::path folder_of(const fs::path &path) {
     return path.has_parent_path() ? path.parent_path() : ".";
 }
 
-// What the path leads to; empty if there is no such file. A terminal may be read and written at the same time.
+// Where the path leads; empty if there is no such file. A terminal may be read and written at the same time.
 fs::path target_of(const NamedFile &file, bool is_input) {
     struct stat status {};
     if (file.path != standard_stream)
@@ -49,7 +49,7 @@ fs::path target_of(const NamedFile &file, bool is_input) {
     return "/dev/stdout"; // whatever it leads to: two reports on one stream would be mixed up
 }
 
-// Whether they are one file, or would be: then their folders are one, and their names there.
+// Whether they are one file, or would be once written: then they have the same folder and the same name in it.
 bool is_same(const fs::path &one, const fs::path &other) {
     std::error_code error;
     if (one.empty() || other.empty() || one == other)
@@ -77,7 +77,7 @@ bool is_utf16(std::string_view contents) {
     return contents.size() >= 4 && (has_zeros(0) || has_zeros(1));
 }
 
-// size: as it is expected, so that large files are not moved while they grow.
+// size: the expected size, so that large files are not moved while they grow.
 std::string read_all(int descriptor, const std::string &name, std::size_t size) {
     constexpr std::size_t block = std::size_t{1} << 20;
     std::string text;

@@ -35,15 +35,15 @@ private:
     int descriptor_;
 };
 
-// A name in which nobody else's files are mistaken for ours; attempt: counts the names that are taken already.
+// A name that keeps other programs' files from being mistaken for ours. attempt: counts the names that were taken.
 std::string temporary_name(int attempt);
 
 // Locks a temporary file that was just created. False if it was removed in between, as an abandoned one. On a file
 // system without locks it is true, and nothing is ever removed there.
 bool lock_temporary(int descriptor);
 
-// Removes temporary files of that folder which nobody has locked: their programs were killed. What cannot be removed
-// stays.
+// Removes temporary files in that folder that nobody has locked, because their programs were killed. Files that cannot
+// be removed stay.
 void remove_abandoned(const std::filesystem::path &folder);
 
 class AtomicFile {
@@ -57,8 +57,8 @@ public:
     void write(std::span<const std::byte> bytes);
     void commit();
 
-    // Checks all that the constructor checks, and leaves no file behind: nor those of programs that were killed while
-    // they wrote in that folder.
+    // Makes the checks of the constructor and leaves no file behind, not even those of programs that were killed while
+    // writing to that folder.
     static void check_writable(const std::string &path);
 
     // The file that is written. Symbolic links are followed, whether or not their target exists yet: a rename would
@@ -77,20 +77,20 @@ private:
     FileDescriptor file_;
 };
 
-// As the user knows it: "--stats" and the path after it, or "the scene" and its path.
+// A file as the user knows it: "--stats" and the path after it, or "the scene" and its path.
 struct NamedFile {
     std::string role;
     std::string path; // empty: there is no such file; "-": standard input or output
 };
 
-// Throws Failure(ExitCode::usage) if two outputs, or an output and an input, are one file: by whatever path, symbolic
-// or hard link.
+// Throws Failure(ExitCode::usage) if two outputs, or an output and an input, are the same file, whatever path, symbolic
+// or hard link leads to it.
 void require_distinct_files(const std::vector<NamedFile> &inputs, const std::vector<NamedFile> &outputs);
 
 // Throws Failure(ExitCode::usage) for an output that is, or would be, in that folder itself.
 void require_outside(const NamedFile &folder, const std::vector<NamedFile> &outputs);
 
-// Standard input where a file is read, standard output where one is written. A file of that name is "./-".
+// Means standard input where a file is read, and standard output where one is written. A file of that name is "./-".
 inline constexpr std::string_view standard_stream = "-";
 
 class OutputFile {
@@ -108,7 +108,7 @@ private:
     std::optional<AtomicFile> file_;
 };
 
-// The path of a report may be empty: none is wanted.
+// An empty path means that no report is wanted.
 void check_report_file(const std::string &path); // what can be checked before there is a report
 void write_report_file(const std::string &path, std::string_view text);
 

@@ -6,8 +6,8 @@
 
 namespace cli {
 
-// From now on the first signal that ends a rendering is only noted; one that comes a second or more after it ends the
-// program at once, should a driver hang. SIGUSR1 is noted any number of times; before, it ends the program.
+// From now on the first signal that ends a rendering is only noted. One that comes a second or more later ends the
+// program at once, in case a driver hangs. SIGUSR1 is noted any number of times; before this call it ends the program.
 void catch_signals();
 
 // Number of the signal that came; 0 if none did.
@@ -16,7 +16,7 @@ int interrupt_signal();
 // "SIGINT"
 std::string interrupt_name();
 
-// Whether a SIGUSR1 has come that forget_picture_request() has not taken away.
+// Whether a SIGUSR1 has come since the last forget_picture_request().
 bool has_picture_request();
 void forget_picture_request();
 

@@ -16,12 +16,12 @@ bool is_identifier_letter(char letter) {
     return std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '_';
 }
 
-// How many of the first letters make an identifier.
+// How many letters at the beginning make an identifier.
 std::size_t identifier_length(std::string_view text) {
     return static_cast<std::size_t>(std::find_if_not(text.begin(), text.end(), is_identifier_letter) - text.begin());
 }
 
-// The inside of brackets: a number, or a key in quotes.
+// Parses the inside of brackets: a number, or a key in quotes.
 std::optional<JsonStep> parse_bracketed(std::string_view text) {
     if (text.starts_with('"')) {
         const json key = json::parse(text, nullptr, false);
@@ -31,7 +31,8 @@ std::optional<JsonStep> parse_bracketed(std::string_view text) {
     return index ? std::optional(JsonStep{{}, *index, true}) : std::nullopt;
 }
 
-// The length of what is between brackets, of a text behind the first of them; nothing without the second one.
+// The length of the text between brackets, for a text that follows the first of them; nothing if the second one is
+// missing.
 std::optional<std::size_t> bracketed_length(std::string_view text) {
     bool is_quoted = false;
     for (std::size_t i = 0; i < text.size(); ++i) {

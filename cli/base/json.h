@@ -18,7 +18,7 @@
 
 namespace cli {
 
-// From a value to one inside it: a member of an object, or an element of an array.
+// A step from a value to one inside it: a member of an object, or an element of an array.
 struct JsonStep {
     std::string key; // empty in arrays
     std::size_t index = 0;
@@ -32,17 +32,17 @@ using JsonPath = std::vector<JsonStep>; // from the root
 // spheres[3].radius, materials["blue ball"].diffuse[0]: a key that is no identifier is quoted.
 std::string path_text(const JsonPath &path);
 
-// The path that a text begins with, as path_text writes it, and what follows it; nothing if it begins with none.
+// The path at the beginning of a text, as path_text writes it, and the rest of the text; nothing if there is no path.
 struct ParsedPath {
     JsonPath path;
     std::string_view rest;
 };
 std::optional<ParsedPath> parse_path(std::string_view text);
 
-// Whether the value of the one path is, or is within, that of the other.
+// Whether the first path is the second one or leads to something inside it.
 bool is_within(const JsonPath &path, const JsonPath &outer);
 
-// Where a value stands, as a chain towards the root, so that a path is made only for messages: a scene may have
+// The place of a value, as a chain of links towards the root. A path is made only for messages, since a scene may have
 // millions of values.
 struct JsonPlace {
     const JsonPlace *parent = nullptr;
@@ -68,8 +68,8 @@ struct JsonRefusal : std::runtime_error {
     throw JsonRefusal(place.path(), rule);
 }
 
-// Names of files and devices may be any bytes, JSON is UTF-8: what is not becomes U+FFFD, so that a name never costs
-// the figures beside it.
+// Names of files and devices may be any bytes, but JSON is UTF-8. Whatever is not becomes U+FFFD, so that a strange
+// name does not cost the figures beside it.
 inline std::string json_text(const nlohmann::ordered_json &value) {
     return value.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
@@ -116,7 +116,7 @@ void check(const ValueRule &rule, const nlohmann::json &value, const JsonPlace &
 // `a number`, `an array` and so on, for messages.
 std::string json_kind(nlohmann::json::value_t kind);
 
-// A value as the user wrote it, or what it is if that would be long.
+// The value as the user wrote it, or what kind of value it is if that would be long.
 std::string shown(const nlohmann::json &value);
 
 // The largest number of a rule for whole numbers.

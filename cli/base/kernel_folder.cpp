@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A key is a name of a file, and nothing that leads elsewhere.
+// A key has to be the name of a file and must not lead elsewhere.
 bool is_key(const std::string &key) {
     return !key.empty() && key.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
@@ -41,7 +41,7 @@ struct KeptFile {
     fs::file_time_type last_use;
 };
 
-// What others leave in the folder counts too, such as the temporary file of a process that was killed.
+// Files that others leave in the folder count too, such as the temporary file of a process that was killed.
 std::vector<KeptFile> files_in(const fs::path &folder) {
     std::vector<KeptFile> files;
     std::error_code error;

@@ -14,14 +14,15 @@ namespace cli {
 
 class KernelFolder {
 public:
-    // A file is a device with a driver and a version of this program. What was used longest ago makes place.
+    // Each file is for one device with its driver and one version of this program. The file that was used longest ago
+    // makes room.
     static constexpr std::size_t most_files = 32;
     static constexpr std::uint64_t most_bytes = std::uint64_t{64} << 20; // in all
 
-    // An empty path: nothing is kept. The folder need not exist.
+    // With an empty path nothing is kept. The folder need not exist.
     explicit KernelFolder(std::filesystem::path path) : path_(std::move(path)) {}
 
-    // How many bytes are kept under a key; written to bytes if there is room.
+    // Returns the size of what is kept under a key, and writes it to bytes if there is room.
     std::uint64_t load(const std::string &key, std::span<std::byte> bytes) const;
 
     // The file appears whole or not at all.

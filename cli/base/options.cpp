@@ -27,7 +27,7 @@ std::string type_name(const ValueRule &rule) {
     }
 }
 
-// Words in lines of 100 characters, which begin in that column.
+// Wraps words into lines of 100 characters that begin in that column.
 std::string wrapped(const std::string &text, std::size_t first_column) {
     constexpr std::size_t width = 100;
     std::string lines;
@@ -57,7 +57,7 @@ std::string related(const std::string &relation, const std::set<CLI::Option *> &
     return names.empty() ? "" : names + ")";
 }
 
-// "--exposure", as users write them.
+// The names of an option as users write them: "--exposure".
 std::vector<std::string> option_names(const CLI::App &command) {
     std::vector<std::string> names;
     for (const CLI::Option *option : command.get_options())
@@ -86,8 +86,8 @@ std::string reason_of_count(const std::string &text) {
     return text;
 }
 
-// `unknown option "--expsure", did you mean "--exposure"?` of the first argument that was left over when the command
-// line was parsed; nothing if none was.
+// `unknown option "--expsure", did you mean "--exposure"?`, for the first argument that parsing left over; nothing if
+// there is none.
 std::optional<std::string> unknown_argument(const CLI::App &command) {
     const std::vector<std::string> left_over = command.remaining();
     if (left_over.empty())

@@ -18,12 +18,12 @@ namespace cli {
 // What the program does for a command: returns the exit code, or throws Failure.
 using Run = std::function<int()>;
 
-// A command of the program. Where the command line names it, `chosen` becomes `run`. notes: of the help, behind the
-// options.
+// Adds a command to the program. When the command line names it, `chosen` becomes `run`. notes: text of the help that
+// follows the options.
 CLI::App &add_command(CLI::App &program, Run &chosen, const std::string &name, const std::string &description,
                       const std::string &notes, Run run);
 
-// The same of a command that is run with its options, into which the command line is read.
+// The same for a command that is run with options, which are read from the command line.
 template <typename Options>
 std::pair<CLI::App &, Options &> add_command(CLI::App &program, Run &chosen, const std::string &name,
                                              const std::string &description, const std::string &notes,
@@ -34,10 +34,10 @@ std::pair<CLI::App &, Options &> add_command(CLI::App &program, Run &chosen, con
 
 [[noreturn]] void refuse_option(const std::string &option, const std::string &rule, const std::string &text);
 
-// The value that a text stands for, which keeps the rule. Throws CLI::ValidationError.
+// Reads the value of a text by a rule. Throws CLI::ValidationError.
 nlohmann::json read_value(const std::string &option, const std::string &text, const ValueRule &rule);
 
-// store: gets the value, which keeps the rule.
+// store: receives the value, which keeps the rule.
 CLI::Option *add_value(CLI::App &command, const std::string &name, const ValueRule &rule,
                        std::function<void(const nlohmann::json &)> store, const std::string &help);
 
@@ -49,7 +49,7 @@ CLI::Option *add_number(CLI::App &command, const std::string &name, const ValueR
         command, name, rule, [&target](const nlohmann::json &value) { target = value.get<Number>(); }, help);
 }
 
-// find: the value of a name, as std::optional; kind: what the names are, for messages.
+// find: the value of a name, as std::optional. kind: what the names stand for, in messages.
 template <typename Target, typename Find>
 CLI::Option *add_name(CLI::App &command, const std::string &name, Target &target, Find find, std::string_view kind,
                       std::span<const std::string_view> names, const std::string &help) {
@@ -59,7 +59,7 @@ CLI::Option *add_name(CLI::App &command, const std::string &name, Target &target
         help);
 }
 
-// A file, or another text. value: what stands for it in the help.
+// A file, or another text. value: the placeholder in the help.
 CLI::Option *add_text(CLI::App &command, const std::string &name, std::string &target, const std::string &value,
                       const std::string &help);
 

@@ -81,7 +81,7 @@ void Progress::update_samples(double samples_of_part, Clock::time_point now) {
         print_line(sample_count, seconds);
 }
 
-// What is left, if it goes on as it went so far.
+// The time that is left if it goes on at the present rate.
 double Progress::remaining_seconds(double samples, double seconds) const {
     const double left = seconds * (static_cast<double>(sample_count_) - samples) / (samples - begun_);
     return std::min(left, std::max(limit_seconds_ - seconds, 0.0));
@@ -96,8 +96,8 @@ void Progress::say(const std::string &message) {
     print_message(message);
 }
 
-// What matters most comes first, and what a narrow terminal has no room for is left out, from the end: a line that
-// wraps could not be written over.
+// The most important parts come first. Those that do not fit a narrow terminal are left out, from the end: a line that
+// wraps could not be overwritten.
 void Progress::print_line(double samples, double seconds) {
     const std::array<std::string, 5> parts{
         formatted("%5.1f %%", 100.0 * fraction_),

@@ -20,21 +20,21 @@ class Progress {
 public:
     using Clock = std::chrono::steady_clock;
 
-    // pixel_count times sample_count samples are to be taken from now on. columns: how wide the terminal is now.
+    // From now on pixel_count times sample_count samples are to be taken. columns: the present width of the terminal.
     Progress(std::ostream &output, ProgressStyle style, std::uint64_t pixel_count, std::uint64_t sample_count,
              Clock::time_point start, std::function<std::size_t()> columns = &terminal_columns);
     Progress(const Progress &) = delete;
     Progress &operator=(const Progress &) = delete;
     ~Progress() { erase_line(); } // leaves the terminal's line empty for what is printed next
 
-    // From now on the samples are those of one part of the work, which is [begin, end] of the whole, [0, 1].
+    // From now on the samples belong to one part of the work, the share [begin, end] of the whole.
     void enter_part(double begin, double end) {
         part_begin_ = begin;
         part_end_ = end;
     }
 
-    // The share of the scene that is taken over, before there are samples. A line on a terminal, where that takes
-    // longer than a tenth of a second.
+    // Shows which share of the scene has been taken over, before there are samples: as a line on a terminal, if it
+    // takes longer than a tenth of a second.
     void update_scene(double share, Clock::time_point now);
 
     // The samples that are done. Prints at most ten times a second, and at the end. The share that is shown never
@@ -44,7 +44,7 @@ public:
     // From now on this many samples a pixel are to be taken in all.
     void expect(std::uint64_t sample_count) { sample_count_ = sample_count; }
 
-    // Of the samples a pixel, this many were there at the start.
+    // This many samples a pixel existed at the start.
     void begin_at(std::uint64_t sample_count) { begun_ = static_cast<double>(sample_count); }
 
     // The work ends after this time since the start, if it has not ended by itself.

@@ -1,4 +1,4 @@
-// Work beside the work of the caller: in the background, or shared by the processors of the machine.
+// Work beside that of the caller: in the background, or shared by all processors of the machine.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace cli {
 
 class BackgroundTask {
 public:
-    // Begins work in a thread, or does it here where there is none to be had. None may be under way.
+    // Begins work in a thread, or does it at once if there is none to be had. No other work may be under way.
     void start(std::function<void()> work) {
         future_ = std::async(std::launch::async | std::launch::deferred, std::move(work));
         if (future_.wait_for(std::chrono::seconds(0)) == std::future_status::deferred)
@@ -25,10 +25,10 @@ public:
         return future_.valid() && future_.wait_for(std::chrono::seconds(0)) == std::future_status::timeout;
     }
 
-    // Whether there is an end that finish() has not told yet.
+    // Whether work has been begun for which finish() has not been called yet.
     bool is_begun() const { return future_.valid(); }
 
-    // Waits for its end, and throws what it threw.
+    // Waits until the work ends, and throws what it threw.
     void finish() {
         if (future_.valid())
             future_.get();

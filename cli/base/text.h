@@ -43,7 +43,7 @@ std::string listed(const Texts &texts, const char *between = ", ") {
     return list;
 }
 
-// A line without its middle if it is very long, as with a number of a million digits: what it is about comes first, and
+// Cuts the middle out of a very long line, such as one with a number of a million digits: the subject comes first and
 // the rule last. No UTF-8 sequence is cut.
 inline std::string shortened(const std::string &line) {
     constexpr std::size_t longest = 2000;

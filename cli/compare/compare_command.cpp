@@ -61,7 +61,7 @@ void require_comparable(const DecodedImage &image, const DecodedImage &reference
                      ": they must be of one kind"));
 }
 
-// Dark is no difference, bright the largest, white what is not finite.
+// Dark means no difference, bright the largest, and white a value that is not finite.
 std::vector<std::uint8_t> difference_picture(std::span<const float> differences, float largest) {
     std::vector<std::uint8_t> bytes;
     bytes.reserve(3 * differences.size());
@@ -73,7 +73,7 @@ std::vector<std::uint8_t> difference_picture(std::span<const float> differences,
     return bytes;
 }
 
-// Returns what the brightest color stands for.
+// Returns the difference that the brightest color stands for.
 float write_difference(const std::string &path, std::uint32_t width, const std::vector<float> &differences) {
     const float largest = std::accumulate(differences.begin(), differences.end(), 0.0F,
                                           [](float most, float each) { return std::fmax(most, each); });
@@ -84,7 +84,7 @@ float write_difference(const std::string &path, std::uint32_t width, const std::
     return largest;
 }
 
-// The figures, and which limits they exceed.
+// The figures, and the limits that they exceed.
 struct CompareReport {
     const CompareOptions &options;
     const DecodedImage &image; // as large as the reference
@@ -95,7 +95,7 @@ struct CompareReport {
     std::int64_t y() const { return image.y + static_cast<std::int64_t>(difference.maximum_value / 3 / image.width); }
     std::string channel() const { return {"RGB"[difference.maximum_value % 3]}; }
 
-    // A line for each limit that is exceeded, and for pixels that are not finite where there is a limit.
+    // One line for each limit that is exceeded, and for pixels that are not finite if there is a limit.
     std::vector<std::string> exceeded() const {
         std::vector<std::string> lines;
         const auto check_limit = [&](const char *name, double figure, std::optional<double> limit) {

@@ -14,11 +14,11 @@ namespace cli {
 std::array<std::uint8_t, 3> viridis(double number);
 
 struct ImageDifference {
-    // Means over the channels of the pixels that are finite in both images; 0 if there are none.
+    // Means over the channels of those pixels that are finite in both images; 0 if there are none.
     double mse;          // of (x - r)^2 for a value x and the reference's r
     double relative_mse; // of (x - r)^2 / (r^2 + 0.01): a dark pixel's error counts as much as a bright one's
 
-    // The largest |x - r| of these.
+    // The largest |x - r| among them.
     double maximum;
     std::size_t maximum_value; // where it is: an index into the values
 
@@ -26,7 +26,7 @@ struct ImageDifference {
     std::vector<float> pixels; // of each, the root of its relative MSE; NaN where it is not finite in either image
 };
 
-// Equally many values, three to a pixel.
+// Both have the same number of values, three for each pixel.
 ImageDifference compare_images(std::span<const float> image, std::span<const float> reference);
 
 } // namespace cli

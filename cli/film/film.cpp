@@ -13,13 +13,13 @@
 namespace cli {
 namespace {
 
-// Of calls whose arguments are not the user's.
+// For calls whose arguments do not come from the user.
 void require(pt_result result) {
     if (result < 0)
         throw Failure(exit_code_of(result), pt_last_error(nullptr));
 }
 
-// Facts that are digests, which tell people no more than that they differ.
+// Facts that are digests: they tell people only that something differs.
 constexpr std::array<std::string_view, 3> digests{"scene", "camera", "kernel"};
 
 std::string words_of(const std::string &path, const BrokenRule &rule) {
@@ -31,7 +31,7 @@ std::string words_of(const std::string &path, const BrokenRule &rule) {
                                    : text;
 }
 
-// The library's own subject is not a name that the user gave.
+// Without the library's own subject, which is no name that the user gave.
 std::string without_subject(const std::string &message) {
     constexpr std::string_view subject = "film: ";
     return message.starts_with(subject) ? message.substr(subject.size()) : message;
@@ -44,7 +44,7 @@ std::string film_words(const std::string &path, const LibraryError &error) {
     return error.in_words([&](const BrokenRule &rule) { return words_of(path, rule); });
 }
 
-// Of calls whose film is the user's.
+// For calls whose film comes from the user.
 void require_film(pt_result result, const std::string &path, const pt_context *context = nullptr) {
     if (result < 0)
         throw Failure(exit_code_of(result), film_words(path, last_error(context)));

@@ -15,7 +15,7 @@ namespace cli {
 
 class FilmHandle {
 public:
-    // path: what the film is called in messages.
+    // path: the name of the film in messages.
     FilmHandle(const std::string &path, std::span<const std::byte> bytes);
     FilmHandle(const FilmHandle &) = delete;
     FilmHandle &operator=(const FilmHandle &) = delete;
@@ -29,7 +29,7 @@ public:
     pt_error_estimate error_estimate() const;
     std::vector<pt_sample_range> ranges(std::uint32_t tile) const;
 
-    // Of the film's rectangle, three components to a pixel. quantity: PT_QUANTITY_*.
+    // The image of the film's rectangle, three components for each pixel. quantity: PT_QUANTITY_*.
     std::vector<float> read_image(std::uint32_t quantity) const;
 
     std::vector<std::byte> bytes() const;
@@ -38,7 +38,7 @@ private:
     pt_film *film_ = nullptr;
 };
 
-// The samples so far, of which there is one at least; bytes: memory to be used again.
+// The film of the samples so far, at least one. bytes: memory to be reused.
 void save_film(const Context &context, std::vector<std::byte> &bytes);
 
 // Adds a film to the samples of the context. path: what it is called in messages. Throws Failure(ExitCode::usage) with
@@ -48,10 +48,10 @@ void add_film(const Context &context, const std::string &path, std::span<const s
 // "[0, 64), [128, 256)"; "none" of none.
 std::string ranges_text(const std::vector<pt_sample_range> &ranges);
 
-// How many samples they have.
+// How many samples these ranges have.
 std::uint64_t sample_count_of(const std::vector<pt_sample_range> &ranges);
 
-// What a range has and the others, which are in ascending order, have not.
+// The samples of a range that the others, which ascend, do not have.
 std::vector<pt_sample_range> missing_of(const pt_sample_range &wanted, const std::vector<pt_sample_range> &there);
 
 // Packs the bytes and writes them to a file that appears whole or not at all. Throws Failure(ExitCode::file).

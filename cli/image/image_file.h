@@ -21,11 +21,11 @@ enum class ImageFormat {
     jpeg
 };
 
-// As in an extension; those that are tone-mapped come last.
+// Names as in extensions. Formats that are tone-mapped come last.
 inline constexpr ValueNames<4, ImageFormat> image_formats(
     {{"exr", ImageFormat::exr}, {"png", ImageFormat::png}, {"jpg", ImageFormat::jpeg}, {"jpeg", ImageFormat::jpeg}});
 
-// By the extension, whatever its case. Nothing if it is none of .exr, .png, .jpg and .jpeg.
+// Found by the extension, in upper or lower case. Nothing if it is none of .exr, .png, .jpg and .jpeg.
 std::optional<ImageFormat> image_format(const std::string &path);
 
 // The longest side that the format, or the library that encodes it, can hold. To be checked before writing: libjpeg
@@ -41,7 +41,7 @@ struct ImageTarget {
 // terminal, and for --format without standard output.
 void check_image_names(std::span<const std::string> paths, std::optional<ImageFormat> format);
 
-// Of a path that passed these checks. format: of standard output.
+// For a path that has passed these checks. format: that of standard output.
 ImageTarget image_target(const std::string &path, std::optional<ImageFormat> format);
 
 // Throws Failure: ExitCode::usage for an image that is too large for its format, ExitCode::file for a file that cannot
@@ -65,7 +65,7 @@ public:
     // Failure(ExitCode::file) at once if the module is not there.
     void load_module();
 
-    // The module turned out to be unusable: a long rendering may as well stop.
+    // Whether the module turned out to be unusable, so that a long rendering may as well stop.
     bool failed() const { return failed_; }
 
     // Waits until load_module() is done, if it was called. Throws Failure(ExitCode::internal) if it failed.

@@ -13,7 +13,7 @@ namespace {
 
 using namespace cli;
 
-// JPEG has no named attributes, only a description: a line for each.
+// JPEG has no named attributes, only a description, which gets a line for each.
 std::string description(std::span<const ImageAttribute> attributes) {
     std::vector<std::string> lines;
     for (const ImageAttribute &attribute : attributes)
@@ -21,7 +21,7 @@ std::string description(std::span<const ImageAttribute> attributes) {
     return listed(lines, "\n");
 }
 
-// "R", "G" and "B" of the main layer, "layer.R" or "layer.X" of others, and the name alone of a layer of one channel.
+// "R", "G" and "B" for the main layer, "layer.R" or "layer.X" for others, and just the name for a layer of one channel.
 std::vector<std::string> channel_names(std::span<const ImageLayer> layers) {
     std::vector<std::string> names;
     for (const ImageLayer &layer : layers) {
@@ -35,7 +35,7 @@ std::vector<std::string> channel_names(std::span<const ImageLayer> layers) {
     return names;
 }
 
-// Of each channel; none where all are of floats.
+// The type of each channel; empty if all are floats.
 std::vector<OIIO::TypeDesc> channel_types(std::span<const ImageLayer> layers) {
     std::vector<OIIO::TypeDesc> types;
     for (const ImageLayer &layer : layers) {
@@ -86,7 +86,8 @@ void add_attributes(OIIO::ImageSpec &spec, std::span<const ImageAttribute> attri
             spec.attribute(name, static_cast<float>(std::get<double>(value)));
 }
 
-// One row of the file, in which the channels of all layers stand side by side: floats and whole numbers by their bits.
+// One row of the file, in which the channels of all layers stand side by side. Floats and whole numbers are copied bit
+// by bit.
 void interleave_row(const ImageData &image, std::uint32_t y, std::span<std::uint32_t> row) {
     const std::size_t width = image.window.part.width;
     const std::size_t stride = row.size() / width;
@@ -117,7 +118,8 @@ bool write_layers(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec, const 
     return true;
 }
 
-// In memory and not to a path: OpenImageIO does not notice when closing a file fails, as it does on a full disk.
+// Encodes in memory instead of writing to a path: OpenImageIO does not notice when closing a file fails, as it does on
+// a full disk.
 std::vector<unsigned char> encode(const ImageData &image, const char *extension) {
     const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(std::string("image.") + extension);
     if (!output)

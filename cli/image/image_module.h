@@ -69,7 +69,7 @@ struct ImageAttribute {
     std::variant<std::string, std::int32_t, double> value; // double is float32 in a file
 };
 
-// For formats whose metadata are text alone (PNG, JPEG).
+// For formats whose metadata consist of text only (PNG, JPEG).
 inline std::string attribute_text(const ImageAttribute &attribute) {
     if (const auto *text = std::get_if<std::string>(&attribute.value))
         return *text;
@@ -84,7 +84,7 @@ enum class LayerKind {
     numbers // one whole number
 };
 
-// Channels of an image whose values stand together.
+// Channels of an image whose values are stored together.
 struct ImageLayer {
     std::string name; // empty for the main one
     LayerKind kind;

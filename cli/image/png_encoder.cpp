@@ -16,7 +16,7 @@
 namespace cli {
 namespace {
 
-// libpng's structures, and what its callbacks leave behind: the file so far, or why there is none.
+// libpng's structures, and the result of its callbacks: the file so far, or why there is none.
 struct Encoding {
     std::vector<unsigned char> file;
     std::string error;
@@ -95,7 +95,7 @@ int transforms_of(const ImageData &image) {
     return is_swapped ? PNG_TRANSFORM_SWAP_ENDIAN : PNG_TRANSFORM_IDENTITY;
 }
 
-// False after a failure. A long jump runs no destructors: this function has no objects that need one.
+// Returns false after a failure. A long jump runs no destructors, so this function has no objects that need one.
 bool write(Encoding &encoding, const ImageData &image, std::span<png_text> texts, png_bytepp rows) {
     if (setjmp(png_jmpbuf(encoding.png)) != 0) // NOLINT(cert-err52-cpp): libpng's way to tell of errors
         return false;

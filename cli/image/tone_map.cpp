@@ -96,7 +96,7 @@ Color neutral(Color color) {
     return color;
 }
 
-// Light of the display to the signal, both in [0, 1].
+// From light of the display to the signal, both in [0, 1].
 double encode(const ToneMap &map, double light) {
     return map.gamma ? std::pow(light, 1.0 / *map.gamma) : encode_srgb(light);
 }
@@ -118,7 +118,7 @@ std::vector<Number> map_pixels(std::span<const float> radiance, const ToneMap &m
     return numbers;
 }
 
-// The least light in (low, 1] whose signal is a byte or more. Numbers >= 0 are ordered as their bits are.
+// The least light in (low, 1] whose signal reaches a byte. Numbers >= 0 have the order of their bits.
 double least_light_of(long byte, double low, const std::function<double(double)> &encode) {
     auto below = std::bit_cast<std::uint64_t>(low);
     auto least = std::bit_cast<std::uint64_t>(1.0);
@@ -130,7 +130,7 @@ double least_light_of(long byte, double low, const std::function<double(double)>
     return std::bit_cast<double>(least);
 }
 
-// What covers the pixels, without the share of them that it covers; where that is none, black.
+// The color of what covers each pixel, undoing the multiplication by the covered share; black where that share is 0.
 std::vector<float> unassociated(std::span<const float> radiance, std::span<const float> alpha) {
     std::vector<float> colors(radiance.size());
     for (std::size_t i = 0; i < colors.size(); ++i) {
@@ -140,7 +140,7 @@ std::vector<float> unassociated(std::span<const float> radiance, std::span<const
     return colors;
 }
 
-// A, which is a share and encoded as it is, behind R, G and B of each pixel.
+// Puts A, which is a share and is encoded as it is, after R, G and B of each pixel.
 template <typename Signal>
 std::vector<Signal> with_alpha(const std::vector<Signal> &colors, std::span<const float> alpha) {
     constexpr double largest = std::numeric_limits<Signal>::max();

@@ -42,13 +42,13 @@ struct ToneMap {
     bool is_automatic = false;   // whether the exposure follows from the picture
 };
 
-// Radiance >= 0 to light of the display, each component in [0, 1].
+// From radiance >= 0 to light of the display, each component in [0, 1].
 Color apply_curve(ToneCurve curve, const Color &radiance);
 
 // Light of the display in [0, 1] to the signal in [0, 1]: IEC 61966-2-1.
 double encode_srgb(double light);
 
-// R, G, B triples of radiance >= 0 in, as many bytes or words out: 255 or 65535 times the signal, rounded, halves up.
+// From R, G, B triples of radiance >= 0 to as many bytes or words: 255 or 65535 times the signal, rounded, halves up.
 std::vector<std::uint8_t> map_to_8_bits(std::span<const float> radiance, const ToneMap &map);
 std::vector<std::uint16_t> map_to_16_bits(std::span<const float> radiance, const ToneMap &map);
 
@@ -94,7 +94,7 @@ struct Display {
     }
 };
 
-// What is done to the radiance, for the metadata.
+// Describes in the metadata what was done to the radiance.
 void add_tone_map(std::vector<ImageAttribute> &attributes, const ToneMap &tone_map);
 
 // "exposure -3.13 EV (auto)" and the end of the line; empty where it was given, or nothing is tone-mapped.

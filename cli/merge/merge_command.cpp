@@ -27,7 +27,7 @@ using Ranges = std::vector<pt_sample_range>;
 struct MergeOptions {
     std::vector<std::string> parts;
 
-    // The range of which missing samples are told: that of the parts' first and last one where nothing is given.
+    // The range in which missing samples are listed; by default from the first to the last sample of the parts.
     std::optional<std::uint32_t> first_sample;
     std::optional<std::uint32_t> sample_count;
 
@@ -35,7 +35,7 @@ struct MergeOptions {
     std::vector<SceneOverride> display; // how pictures are shown
 };
 
-// What a sum of films has, and what it lacks.
+// What a sum of films contains, and what is missing.
 struct MergeReport {
     RenderReport picture; // as far as a film says it
     pt_film_info info;
@@ -54,7 +54,7 @@ void check(const MergeOptions &options) {
     check_names(output, parts);
 }
 
-// All parts are looked at, so that all that is wrong is told at once.
+// Looks at all parts, so that everything that is wrong is reported at once.
 std::unique_ptr<FilmHandle> sum_of(const std::vector<std::string> &parts) {
     std::unique_ptr<FilmHandle> sum;
     std::optional<ExitCode> failed;
@@ -85,7 +85,7 @@ pt_sample_range hull_of(const std::vector<Ranges> &tiles) {
     return hull;
 }
 
-// What some of them has, in ascending order.
+// The samples that any of them has, in ascending order.
 Ranges united(Ranges ranges) {
     std::sort(ranges.begin(), ranges.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
     Ranges all;

@@ -65,7 +65,7 @@ void Checkpoint::write() {
     write_time_ = Clock::now() - saved_at_;
 }
 
-// What became of the last one.
+// Takes in how the last one ended.
 void Checkpoint::take_in() {
     if (!task_.is_begun())
         return;

@@ -1,4 +1,4 @@
-// Keeps a film of the samples so far in a file, from which another run goes on.
+// Keeps a film of the samples so far in a file, from which another run can continue.
 #pragma once
 
 #include "cli/base/context.h"
@@ -16,16 +16,16 @@ namespace cli {
 
 class Checkpoint {
 public:
-    // seconds: from one to the next. say: shows a message.
+    // seconds: between two checkpoints. say: shows a message.
     Checkpoint(const Context &context, std::string path, double seconds, std::function<void(const std::string &)> say);
 
     bool is_due() const { return Clock::now() >= due_ && !task_.is_under_way(); }
 
-    // Writes one if it is due. sample_count: of a pixel on the average.
+    // Writes a checkpoint if one is due. sample_count: the mean over pixels.
     void step(std::uint32_t sample_count);
 
-    // Writes what the file does not have yet of these samples, if there are any. Afterwards nothing is under way.
-    // Returns whether the file has all of them.
+    // Writes those of these samples, if any, that the file does not have yet. Afterwards nothing is under way. Returns
+    // whether the file has all of them.
     bool finish(std::uint32_t sample_count);
 
 private:

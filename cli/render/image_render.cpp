@@ -19,7 +19,7 @@ std::chrono::steady_clock::duration clock_duration(double seconds) {
     return std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(seconds));
 }
 
-// first_row: of the window.
+// first_row: counted from the top of the window.
 pt_render piece_of(const RenderTask &task, std::uint32_t first_row, std::uint32_t rows) {
     const Rectangle &part = task.window.part;
     pt_render piece = task.render;
@@ -144,14 +144,14 @@ void ImageRender::enter_piece() {
     progress_.enter_part(image_.rows_done / height, end);
     if (has_target()) // the next check
         progress_.expect(forecast_sample_count(context_.stats().sample_count, 1.0, 1.0, task_.sample_count));
-    // Each piece has its share of the time, with what those before have left.
+    // Each piece gets its share of the time, plus what earlier pieces have left over.
     if (task_.options.time_limit)
         time_end_ = start_ + clock_duration(*task_.options.time_limit * end);
     is_time_over_ = false;
 }
 
-// From the samples that the context has on, until there are enough, the target error is reached or it is to stop. The
-// target error is looked at by the library, at counts that do not depend on the steps.
+// Continues from the samples that the context has until there are enough, the target error is reached, or it is asked
+// to stop. The library checks the target error at counts that do not depend on the steps.
 void ImageRender::render_piece() {
     constexpr std::uint32_t first_end = 16; // where an error is known, and tiles take as many again from there on
     pt_stats done = context_.stats();
@@ -172,7 +172,7 @@ void ImageRender::render_piece() {
     }
 }
 
-// done: samples of a pixel before, on the average.
+// done: mean number of samples of a pixel before this step.
 pt_result ImageRender::take(std::uint32_t length, double done) {
     std::function<bool(double)> goes_on = [&](double fraction) {
         const double taken = fraction * std::max(length, 1U);
@@ -191,12 +191,13 @@ pt_result ImageRender::take(std::uint32_t length, double done) {
     return result;
 }
 
-// Whether all is done after a step.
+// Whether a step has completed everything.
 bool ImageRender::has_ended(pt_result result, const pt_stats &done) const {
     return result == PT_TARGET_REACHED || (result == PT_OK && done.max_sample_count >= task_.sample_count);
 }
 
-// After a step. The error takes a read-out of the image: where it is only shown, for a hundredth of the time.
+// Runs after a step. To find the error takes a look at the whole image, so if it is only shown, that may take a
+// hundredth of the time.
 pt_stats ImageRender::look(pt_result result) {
     constexpr double share = 0.01;
     const Clock::time_point start = Clock::now();
@@ -219,7 +220,7 @@ pt_stats ImageRender::look(pt_result result) {
     return done;
 }
 
-// With a target error, the number of samples is a guess, which is mended at each check of the error.
+// With a target error the number of samples is a guess, which is corrected at each check of the error.
 void ImageRender::show(const pt_stats &done, bool ended, const std::optional<pt_error_estimate> &error,
                        Clock::time_point now) {
     const auto sample_count = static_cast<std::uint32_t>(std::lround(done.mean_sample_count));

@@ -20,12 +20,13 @@
 
 namespace cli {
 
-// The device idles for a moment between steps, and its work is cut best where it has samples to choose from. So a step
-// has no fewer than the first one, and takes about so long.
+// Between steps the device idles for a moment, and its work is divided best if there are many samples to choose from.
+// So a step has at least as many samples as the first one, and aims at this duration.
 inline constexpr std::uint32_t first_step_length = 16;
 inline constexpr double step_seconds = 2.0;
 
-// After a step of so many samples that took so long. The first one builds the kernel: it says too little, not too much.
+// The length of the step that follows one of this length and duration. The first step also builds the kernel, so it
+// suggests too few samples, not too many.
 inline std::uint32_t next_step_length(std::uint32_t length, double seconds) {
     constexpr double most = 1U << 30; // where the clock saw no time pass
     const double wanted = seconds > 0.0 ? std::floor(length * (step_seconds / seconds)) : most;
@@ -44,7 +45,8 @@ inline std::uint32_t forecast_sample_count(std::uint32_t sample_count, double er
     return static_cast<std::uint32_t>(std::min(std::max(std::ceil(guess), least), static_cast<double>(most)));
 }
 
-// Says that no more samples are to be taken: a signal has come, or nothing would become of them. True for good then.
+// Returns true if no more samples should be taken, because a signal has come or nothing would become of them. Once
+// true, it stays true.
 using Stop = std::function<bool()>;
 
 // Hands the render settings over for the first piece, and returns how many rows a piece has: as many as the options say

@@ -11,7 +11,7 @@
 
 namespace cli {
 
-// By what they are, PT_QUANTITY_*. The radiance, which is the mean of the samples, is always there.
+// By PT_QUANTITY_*. The radiance, which is the mean of the samples, is always there.
 inline constexpr ValueNames layer_names({
     {"mean", PT_QUANTITY_RADIANCE},
     {"standard-error", PT_QUANTITY_STANDARD_ERROR},
@@ -28,13 +28,13 @@ struct PictureLayer {
     std::vector<float> values;          // pixel by pixel, row by row from the top; empty for objects,
     std::vector<std::uint32_t> numbers; // of which there is one for each pixel
 
-    // Of zeros.
+    // All values start as 0.
     PictureLayer(std::uint32_t of_quantity, std::size_t pixel_count);
 
-    // Takes rows of the part from a context that has these as its first.
+    // Reads rows of the part from a context in which these are the first.
     void read(const Context &context, const Rectangle &part, std::uint32_t first_row, std::uint32_t rows);
 
-    // As it is in a file; refers to this.
+    // The layer as a file has it; refers to this object.
     ImageLayer in_file() const;
 };
 

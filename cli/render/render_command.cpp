@@ -41,7 +41,7 @@ RenderOptions options_of_frame(const RenderOptions &options, std::uint32_t frame
     return numbered;
 }
 
-// Files appear whole or not at all.
+// Files appear whole or not at all, so one that exists is done.
 bool is_done(const OutputOptions &frame) {
     return std::ranges::all_of(outputs_of(frame), [](const NamedFile &file) {
         std::error_code ignored;

@@ -15,7 +15,7 @@
 
 namespace cli {
 
-// What a rendering came to that no signal has ended.
+// How a rendering ended that no signal has stopped.
 struct Ending {
     bool has_target;
     bool target_reached;
@@ -33,14 +33,15 @@ constexpr ExitCode outcome_of(const Ending &ending) {
     return ending.has_target && !ending.target_reached ? ExitCode::target_missed : ExitCode::done;
 }
 
-// outcome: ExitCode::signal for a rendering that was stopped. signal: what has ended it, or came after it; 0: none.
+// outcome: ExitCode::signal for a rendering that was stopped. signal: the one that stopped it or came later; 0 for
+// none.
 constexpr int exit_code_of(ExitCode outcome, int signal) {
     if (outcome != ExitCode::done && outcome != ExitCode::signal)
         return static_cast<int>(outcome);
     return signal == 0 ? static_cast<int>(ExitCode::done) : exit_code_of_signal(signal);
 }
 
-// For the report: when all began, and when the context began to be made ready.
+// For the report: when everything began, and when the preparation of the context began.
 struct RenderTimes {
     std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
     std::chrono::steady_clock::time_point create_start{};
@@ -67,7 +68,7 @@ struct ValidationLog {
     }
 };
 
-// What the options say about the context. Refers to both.
+// What the options say about the context. The result refers to both arguments.
 pt_create_info render_create_info(const RenderOptions &options, ValidationLog &log);
 
 // Renders parts of a picture for another program, which shares it among machines and adds their films, as pt-farm does.

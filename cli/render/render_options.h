@@ -25,7 +25,7 @@ struct FrameRange {
     std::uint32_t last; // not before the first
 };
 
-// "0-23", or "5" alone; nothing if it is neither.
+// "0-23", or just "5"; nothing for any other text.
 inline std::optional<FrameRange> parse_frames(std::string_view text) {
     const std::size_t dash = text.find('-');
     const auto first = parse_number<std::uint32_t>(text.substr(0, dash));
@@ -55,14 +55,14 @@ struct OutputOptions {
     std::uint32_t png_bits = 8; // of a channel
     bool quiet = false;
 
-    // Of images whose names were checked.
+    // For images whose names have been checked.
     std::vector<ImageTarget> targets() const;
 
-    // Whether an image or the report goes there, so that lines for people do not.
+    // Whether an image or the report goes to standard output, so that lines for people must not.
     bool takes_standard_output() const;
 };
 
-// All files that are written, as use(option, path).
+// Calls use(option, path) for every file that is to be written.
 template <typename Options, typename Use>
 void for_each_output(Options &options, Use use) {
     for (auto &path : options.images)
@@ -75,7 +75,7 @@ void for_each_output(Options &options, Use use) {
 // The options write into `options` when the command line is parsed. All but those of quiet and png_bits.
 void add_output_options(CLI::App &command, OutputOptions &options);
 
-// Of an image that goes to standard output. names: of the formats that the command can write.
+// For an image on standard output. names: the formats that the command can write.
 void add_format(CLI::App &command, std::optional<ImageFormat> &format, std::span<const std::string_view> names);
 
 void add_png_bits(CLI::App &command, std::uint32_t &bits);
@@ -111,7 +111,7 @@ struct RenderOptions {
     bool watch = false;
     std::string progress = "auto";
 
-    // The layers that have to be read, that of alpha among them: PT_QUANTITY_*.
+    // The quantities that have to be read for the layers and for alpha: PT_QUANTITY_*.
     std::vector<std::uint32_t> wanted_layers() const;
 };
 

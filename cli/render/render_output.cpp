@@ -30,7 +30,7 @@ void write_image(ImageWriter &writer, const ImageTarget &target, const OutputOpt
     }
 }
 
-// False, and said on stderr, if that is not possible.
+// Runs something; if it fails, says so on stderr and returns false.
 bool succeeds(const std::function<void()> &write) {
     try {
         write();
@@ -46,7 +46,7 @@ bool has_format(const OutputOptions &options, ImageFormat format) {
     return std::ranges::any_of(targets, [&](const ImageTarget &target) { return target.format == format; });
 }
 
-// What only makes sense with something else, or without it.
+// Refuses options that only make sense together with others, or without them.
 void check_combinations(const RenderOptions &options) {
     const OutputOptions &output = options.output;
     const bool has_checkpoint = !options.checkpoint.empty();

@@ -15,21 +15,21 @@
 
 namespace cli {
 
-// By their options.
+// With the options that name them.
 std::vector<NamedFile> outputs_of(const OutputOptions &options, const std::string &checkpoint = "");
 
 // Throws Failure(ExitCode::usage) if options do not go together, an output's name tells no known format, or the output
 // is another one or a source.
 void check_names(const RenderOptions &options);
 
-// The same of images that come from other files, which are to be kept.
+// The same for images made from other files, which are to be kept.
 void check_names(const OutputOptions &options, const std::vector<NamedFile> &sources);
 
 // Throws Failure if an image is too large for its format (ExitCode::usage), or a file cannot be written, as far as that
 // can be known before (ExitCode::file). window: of the images.
 void check_files(const OutputOptions &options, const ImageWindow &window);
 
-// These files, and all else that can go wrong with the outputs and can be known before an hour of rendering.
+// Checks these files and everything else about the outputs that can be known before an hour of rendering.
 void check_outputs(const RenderTask &task);
 
 // Writes every image that can be written even if another cannot, and says on stderr which could not. Returns the paths
@@ -37,14 +37,14 @@ void check_outputs(const RenderTask &task);
 std::vector<std::string> write_images(ImageWriter &writer, const OutputOptions &options, const RenderReport &report,
                                       const RenderedImage &image);
 
-// Writes a film. False if that is not possible, which is said on stderr.
+// Writes a film. If that fails, says so on stderr and returns false.
 bool write_film(const std::string &path, std::span<const std::byte> film);
 
 // Whether any output is in a format that the image module encodes; whether any is for a display.
 bool needs_module(const OutputOptions &options);
 bool needs_tone_map(const OutputOptions &options);
 
-// With those images alone that go to files.
+// Leaves only the images that go to files.
 OutputOptions without_standard_output(OutputOptions options);
 
 std::size_t output_count(const OutputOptions &options);

@@ -26,7 +26,7 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// False if that was stopped.
+// Returns false if it was stopped.
 bool take_scene(const Context &context, const RenderTask &task, const Stop &superseded) {
     Progress progress(std::cerr, progress_style(task.options), 0, 0, Clock::now());
     return describe_scene(context, task.scene, [&](double share) {
@@ -35,7 +35,7 @@ bool take_scene(const Context &context, const RenderTask &task, const Stop &supe
     });
 }
 
-// Of one piece of the image a film could not go on with the others.
+// With a film of one piece of the image, the other pieces could not be continued.
 void require_one_piece(const RenderTask &task, std::uint32_t rows) {
     const RenderOptions &options = task.options;
     const std::string option = !options.checkpoint.empty() ? "--checkpoint" : "--film";
@@ -46,7 +46,7 @@ void require_one_piece(const RenderTask &task, std::uint32_t rows) {
                                           : concat("has room for ", rows, " rows at a time")));
 }
 
-// Takes over what the checkpoint has.
+// Takes over the samples of the checkpoint.
 void resume_if_asked(const Context &context, const RenderTask &task) {
     const RenderOptions &options = task.options;
     if (!options.resume)
@@ -59,7 +59,7 @@ void resume_if_asked(const Context &context, const RenderTask &task) {
     }
 }
 
-// An image that time has ended may have the target error as it is, and more samples to come for others to have it too.
+// An image that was ended by its time may happen to have the target error, and may still lack samples that others have.
 const char *ending_of(const RenderReport &report, bool interrupted, bool timed_out) {
     if (interrupted)
         return "signal";
@@ -68,7 +68,7 @@ const char *ending_of(const RenderReport &report, bool interrupted, bool timed_o
     return report.target_reached() ? "error" : "samples";
 }
 
-// What an image in pieces takes of memory, before it is rendered.
+// Tells how much memory an image in pieces takes, before it is rendered.
 void print_pieces(const Context &context, const RenderTask &task, std::uint32_t rows) {
     print_message(concat((task.window.part.height + rows - 1) / rows, " pieces of up to ", rows,
                          " rows: ", memory_text(context.stats().device_bytes), " on the device, ",
@@ -81,7 +81,7 @@ void print_summary(const OutputOptions &output, const RenderReport &report, cons
                      output.takes_standard_output());
 }
 
-// Whether all images, and the film, could be written.
+// Returns whether all images and the film could be written.
 bool write_outputs(ImageWriter &writer, const Context &context, const RenderTask &task, RenderReport &report,
                    const RenderedImage &image, Clock::time_point start) {
     const OutputOptions &output = task.options.output;

@@ -28,7 +28,7 @@ constexpr ValueNames uncertainty_names({{"rmse", PT_UNCERTAIN_RMSE},
                                         {"unseen", PT_UNCERTAIN_UNSEEN},
                                         {"unmet", PT_UNCERTAIN_UNMET}});
 
-// Of those bits that are set.
+// The names of the bits that are set.
 template <std::size_t Count>
 std::vector<std::string_view> names_of(std::uint32_t bits, const ValueNames<Count> &all) {
     std::vector<std::string_view> names;

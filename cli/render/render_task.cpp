@@ -14,7 +14,7 @@
 namespace cli {
 namespace {
 
-// Indices of samples end at 2^32 - 1.
+// The index of a sample is at most 2^32 - 1.
 std::uint32_t limited_samples(std::uint32_t count, std::uint32_t first, bool is_upper_limit) {
     const std::uint64_t left = (std::uint64_t{1} << 32) - first;
     refuse_if(count > left && !is_upper_limit,
@@ -57,7 +57,7 @@ std::uint32_t image_count(const RenderOptions &options) {
            static_cast<std::uint32_t>(options.wanted_layers().size());
 }
 
-// What the library says of a scene is about it even where it is about no field.
+// What the library says about a scene is the fault of the scene, even if it names no field.
 void require_scene(const Context &context, const SceneFile &scene, pt_result result) {
     if (result < 0) {
         const LibraryError error = context.last_error();

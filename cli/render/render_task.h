@@ -19,7 +19,7 @@ struct RenderTask {
     // Throws Failure for a crop or samples that do not exist.
     RenderTask(RenderOptions chosen, SceneFile file);
 
-    // Reads the files of columns, which no output may be. Throws Failure.
+    // Reads the files of the columns, none of which may be an output. Throws Failure.
     void load();
 
     bool has_target() const { return options.target_error > 0.0; }
@@ -28,7 +28,7 @@ struct RenderTask {
 // Throws Failure if its images take more memory than this process can ever have, and blames who gave the size.
 void require_host_memory(const RenderTask &task);
 
-// Size of its images.
+// How much memory its images take.
 std::uint64_t image_bytes(const RenderTask &task);
 
 // All throw Failure. What the library refuses is explained in the words of whoever gave the value, whose fault it is.

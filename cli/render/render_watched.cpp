@@ -23,7 +23,7 @@ namespace {
 // How long a signal that comes just before the wait begins may go unnoticed.
 constexpr std::chrono::milliseconds patience{200};
 
-// A pipe can be read once, and its reader waits for its writer.
+// A pipe can be read only once, and reading it waits for its writer.
 void require_files(const RenderOptions &options) {
     const std::vector<std::string> &images = options.output.images;
     refuse_if(options.frames.has_value(), "--watch: shows one picture, not --frames");
@@ -58,7 +58,7 @@ public:
     }
 
 private:
-    // A watch that is ended while it waits has done its work.
+    // To end a watch while it waits is success.
     int exit_code() const { return exit_code_of(outcome_, outcome_ == ExitCode::signal ? interrupt_signal() : 0); }
 
     // Where an edit can help, a failure is told and waited out; so it can where the shaders are edited, and lose
@@ -115,7 +115,7 @@ private:
         }
     }
 
-    // Kernels that differ have discarded the samples of the picture.
+    // If kernels have changed, the samples of the picture were discarded.
     bool is_up_to_date() const {
         return rendered_scene_ && rendered_scene_ == sources_.scene() && context_->stats().sample_count > 0;
     }
@@ -140,7 +140,7 @@ private:
         print_unless_quiet("changed: " + listed(names));
     }
 
-    // What was edited since a picture was right.
+    // Names what was edited since the last good picture.
     void tell_suspects() const {
         if (!edited_.empty())
             print_message("the likely cause: " + listed(edited_) + ", edited since the last picture");

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 constexpr std::chrono::milliseconds interval{100};
 constexpr std::chrono::milliseconds settling{50};
 
-// Changes whenever the file is written or replaced; nothing if there is no such file.
+// A text that changes whenever the file is written or replaced; nothing if there is no such file.
 std::optional<std::string> state_of(const fs::path &path) {
     struct stat status {};
     if (stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode))
