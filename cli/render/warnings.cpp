@@ -4,7 +4,6 @@
 #include "cli/base/text.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <iterator>
 #include <optional>
@@ -35,42 +34,6 @@ bool is_lit(const SceneFile &scene) {
         if (used[i] && emits(scene.materials[i]))
             return true;
     return false;
-}
-
-double distance(const double (&a)[3], const double (&b)[3]) {
-    return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-}
-
-bool moves(const pt_sphere &sphere) {
-    return std::any_of(std::begin(sphere.motion), std::end(sphere.motion), [](double x) { return x != 0.0; });
-}
-
-// Index of a sphere that the camera is inside of, and that holds no light. Surfaces let no light through, so that it is
-// dark inside unless a part of a lamp's surface is inside too; a lamp that is wholly around the ball or wholly outside
-// has none there. Balls and lamps that move are taken to be lit, and lamps of columns to be everywhere.
-std::optional<std::size_t> dark_ball_around_camera(const SceneFile &scene) {
-    const auto shines = [&](const auto &surface) { return emits(scene.materials[surface.material]); };
-    const auto is_dark = [&](const pt_sphere &ball) {
-        const auto sphere_reaches_in = [&](const pt_sphere &lamp) {
-            const double way = distance(lamp.center, ball.center);
-            return shines(lamp) &&
-                   (moves(lamp) || (way <= lamp.radius + ball.radius && lamp.radius <= way + ball.radius));
-        };
-        const auto plane_reaches_in = [&](const pt_plane &lamp) {
-            const auto &n = lamp.normal;
-            const double height = n[0] * ball.center[0] + n[1] * ball.center[1] + n[2] * ball.center[2] + lamp.offset;
-            return shines(lamp) && std::abs(height) <= ball.radius * std::hypot(n[0], n[1], n[2]);
-        };
-        return !shines(ball) && !moves(ball) &&
-               scene.materials[ball.material].flags != PT_MATERIAL_HIDDEN_FROM_CAMERA &&
-               distance(scene.camera.position, ball.center) < ball.radius &&
-               std::ranges::none_of(scene.sphere_columns, shines) &&
-               std::ranges::none_of(scene.spheres, sphere_reaches_in) &&
-               std::ranges::none_of(scene.planes, plane_reaches_in);
-    };
-    const auto ball = std::ranges::find_if(scene.spheres, is_dark);
-    return ball == scene.spheres.end() ? std::nullopt
-                                       : std::optional(static_cast<std::size_t>(ball - scene.spheres.begin()));
 }
 
 // The largest of the channels' sums. Specular lobes reflect all of their weight where light falls in along the normal.
@@ -161,12 +124,8 @@ bool is_known_to_be_black(const RenderReport &report) {
 
 std::vector<std::string> input_warnings(const SceneFile &scene, double target_error) {
     std::vector<std::string> warnings;
-    if (!is_lit(scene)) {
+    if (!is_lit(scene))
         warnings.push_back(scene.path + ": no surface emits light: the picture is black");
-    } else if (const auto ball = dark_ball_around_camera(scene)) {
-        warnings.push_back(scene.path + ": the camera is inside of spheres[" + std::to_string(scene.item_of(*ball)) +
-                           "], which no light gets into: the picture is black");
-    }
     if (const auto materials = brightening_materials(scene))
         warnings.push_back(scene.path + ": " + *materials);
     if (target_error >= 1.0) {
@@ -192,7 +151,9 @@ std::vector<std::string> image_warnings(const RenderReport &report, std::span<co
     if (auto below = picture_below_its_target(report, radiance))
         warnings.push_back(std::move(*below));
     if (is_black(radiance) && !is_known_to_be_black(report))
-        warnings.emplace_back("no sample met light: the picture is black, and the stated error of 0 says nothing");
+        warnings.emplace_back(
+            "no sample met light: the picture is black, and the stated error of 0 says nothing; is the "
+            "camera inside of a ball, or every lamp behind a surface?");
     return warnings;
 }
 

@@ -11,7 +11,7 @@
 
 namespace cli {
 
-// Known before rendering: nothing emits, the camera is shut in, materials that give off more light than they receive, a
+// Known before rendering: nothing emits, materials that give off more light than they receive, a
 // target error of 100% or more (0: none).
 std::vector<std::string> input_warnings(const SceneFile &scene, double target_error);
 

@@ -58,7 +58,7 @@ class RealDevice(CommandLineTest):
             scene["spheres"][0].update(radius=radius, center=[0, 0, 1 if is_told else 5])
             self.write("s.json", json.dumps(scene))
             self.expect(0, "render", "s.json", "-o", "a.png", "--size", "4x2", "--spp", "4")
-            self.assertEqual("inside of spheres[0]" in self.errors, is_told, self.errors)
+            self.assertEqual("is the camera inside of a ball" in self.errors, is_told, self.errors)
             self.assertEqual(read_png(self.path("a.png"))[2] == [[0] * 12] * 2, is_told)
 
     def test_shipped_scenes(self):
