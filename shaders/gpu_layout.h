@@ -289,8 +289,8 @@ PT_CONSTANT FILM_MAX_EXPONENT = 28;
 PT_CONSTANT FILM_MIN_ERROR_SAMPLES = 9;
 
 // ---- The error of an image -----------------------------------------------------------------------------------------
-// Pixels of a region's side, and of a tile's, of which a region has 4 x 4: large against what neighbours share, small
-// enough for hundreds of tiles in a small image.
+// Sides of a region and of a tile in pixels; a region has 4 x 4 tiles. A tile is large compared with what neighbouring
+// pixels have in common, and small enough for a small image to have hundreds.
 PT_CONSTANT REGION_SIZE = 32;
 PT_CONSTANT TILE_SIZE = 8;
 PT_CONSTANT ESTIMATE_WORKGROUP_SIZE = 128; // a region's rows of tiles; what every device allows

@@ -1,6 +1,6 @@
-// Elementary functions with stated errors, for those of which Vulkan promises too little: sin and cos 2^-11 absolute,
-// log2 2^-21 absolute near 1, and so pow almost nothing for large exponents. lib/kernel/accuracy.cpp derives the
-// errors, and pt_get_accuracy measures them.
+// Elementary functions with stated errors, where Vulkan promises too little: sin and cos may be off by 2^-11, log2 near 1
+// by 2^-21, and so pow by almost anything for large exponents. lib/kernel/accuracy.cpp derives the errors, and
+// pt_get_accuracy measures them.
 #ifndef MATHS_GLSL
 #define MATHS_GLSL
 

@@ -4,8 +4,8 @@
 
 #include "scene.glsl"
 
-// A ray on the grid: of which differences from places are exact, so that what is computed of a sphere is as precise as
-// it is near, wherever the camera is.
+// A ray on the grid. Its differences from places are exact, so what is computed for a sphere is the more precise the
+// nearer it is, wherever the camera is.
 struct GridRay {
     ivec3 base;    // the place next to the ray's start
     vec3 rest;     // from there to the start, in steps

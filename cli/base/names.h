@@ -1,6 +1,5 @@
-// Values by their names: those of pt.h's samplers, estimators and ways to spread samples, of which a new one is one
-// more line here: options, scene files and reports follow. And which known name a misspelt one was probably meant to
-// be.
+// Values by their names: the samplers, estimators and ways to spread samples of pt.h. A new one is one more line here;
+// options, scene files and reports follow. And the known name that a misspelt one was probably meant to be.
 #pragma once
 
 #include <pt/pt.h>

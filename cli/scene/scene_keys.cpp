@@ -14,7 +14,7 @@ using Item = SceneItem &;
 using Value = const json &;
 using Form = ValueRule::Form;
 
-constexpr double least_length = 1e-18; // of which float32 has the square
+constexpr double least_length = 1e-18; // its square is a float32 number
 constexpr double largest_length = 1e18;
 constexpr std::array<std::string_view, 2> projection_names{"perspective", "orthographic"};
 

@@ -7,7 +7,7 @@ namespace pt::spirv {
 
 namespace {
 
-// What an operation makes of its operands, of which it has up to three.
+// The result of an operation with up to three operands.
 std::uint32_t result_of(std::uint32_t operation, const std::array<std::uint32_t, 3> &operand) {
     const auto [a, b, c] = operand;
     switch (operation) {

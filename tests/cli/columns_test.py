@@ -84,7 +84,7 @@ class RealDevice(ColumnsTest):
         return read_exr_channels(self.path("a.exr"))
 
     def test_columns_are_the_spheres_that_they_list(self):
-        """The same image as by single spheres, whatever the types of the files; a colour is the linear value of sRGB."""
+        """The same image as by single spheres, whatever the types of the files; a color is the linear value of sRGB."""
         def linear(byte):
             share = byte / 255
             return share / 12.92 if share <= 0.04045 else ((share + 0.055) / 1.055) ** 2.4
@@ -106,7 +106,7 @@ class RealDevice(ColumnsTest):
                 for name, lines in expected.items():
                     for line, other in zip(lines, found[name]):
                         for a, b in zip(line, other):
-                            # The library decodes to float32, here to double: an ulp of a colour is one of the light.
+                            # The library decodes to float32, here to double: an ulp of a color is one of the light.
                             self.assertLessEqual(abs(a - b), 2**-20 * abs(a))
 
     def test_rules_of_the_library_lead_back_to_the_file(self):

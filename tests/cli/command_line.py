@@ -50,9 +50,9 @@ def parse_png(data):
     pixels = b""
     for kind, body in png_chunks(data):
         if kind == "IHDR":
-            width, height, depth, colour = struct.unpack(">IIBB", body[:10])
-            assert depth in (8, 16) and colour in (2, 6)
-            channels = {2: 3, 6: 4}[colour]
+            width, height, depth, color = struct.unpack(">IIBB", body[:10])
+            assert depth in (8, 16) and color in (2, 6)
+            channels = {2: 3, 6: 4}[color]
         elif kind == "IDAT":
             pixels += body
     step = channels * depth // 8

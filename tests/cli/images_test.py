@@ -168,7 +168,7 @@ class StandardOutput(ImagesTest):
 
 
 class Exr(ImagesTest):
-    def test_it_says_what_its_colours_are(self):
+    def test_it_says_what_its_colors_are(self):
         self.render("-o", "a.exr")
         kind, body = read_exr_attributes(self.path("a.exr"))["chromaticities"]
         self.assertEqual(kind, "chromaticities")

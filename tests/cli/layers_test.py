@@ -92,7 +92,7 @@ class Alpha(LayersTest):
     # The stand-in for the library covers each pixel by the share of the width that is left of it.
     SHARES = [as_float(column / (WIDTH - 1)) for column in range(WIDTH)]
 
-    def test_an_exr_has_it_beside_the_colours(self):
+    def test_an_exr_has_it_beside_the_colors(self):
         self.render("-o", "a.exr", "--alpha")
         self.render("-o", "b.exr")
         channels, without = (read_exr_channels(self.path(name)) for name in ("a.exr", "b.exr"))
@@ -102,7 +102,7 @@ class Alpha(LayersTest):
         self.render("-o", "a.exr", "--alpha", "--layers", "depth", "--crop", "2,3,5,33", "--piece-rows", "10")
         self.assertEqual(read_exr_channels(self.path("a.exr"))["A"], [self.SHARES[2:7]] * 33)
 
-    def test_a_png_has_colours_that_are_not_multiplied_by_it(self):
+    def test_a_png_has_colors_that_are_not_multiplied_by_it(self):
         for bits, largest in ((), 255), (("--png-bits", "16"), 65535):
             self.render("-o", "a.png", "-o", "a.exr", "--alpha", "--exposure", "0", "--gamma", "1", *bits)
             width, height, image = read_png(self.path("a.png"))
@@ -110,10 +110,10 @@ class Alpha(LayersTest):
             for y, row in enumerate(image):
                 for x, share in enumerate(self.SHARES):
                     down = as_float(y / (HEIGHT - 1))
-                    colour = [min(light / share, 1) if share else 0 for light in (share, down, 2.0)]
+                    color = [min(light / share, 1) if share else 0 for light in (share, down, 2.0)]
                     found = row[4 * x:4 * x + 4]
                     self.assertEqual(found[3], math.floor(share * largest + 0.5))
-                    for light, signal in zip(colour, found):
+                    for light, signal in zip(color, found):
                         self.assertAlmostEqual(signal, light * largest, delta=0.51)
 
     def test_a_png_made_of_an_exr_has_it_too(self):
@@ -184,8 +184,8 @@ class RealDeviceLayers(LayersTest):
         self.assertEqual(values, {0.0, 0.5, 1.0})  # of two samples
         for row, alphas in zip(read_png(self.path("a.png"))[2], channels["A"]):
             for x, alpha in enumerate(alphas):
-                colour = 255 if alpha > 0 else 0
-                self.assertEqual(row[4 * x:4 * x + 4], [colour, colour, colour, math.floor(alpha * 255 + 0.5)])
+                color = 255 if alpha > 0 else 0
+                self.assertEqual(row[4 * x:4 * x + 4], [color, color, color, math.floor(alpha * 255 + 0.5)])
 
     def test_other_commands_read_the_mean(self):
         self.render("-o", "a.exr", "--layers", ALL)

@@ -223,7 +223,7 @@ TEST(SceneFile, UnknownNamesGetASuggestion) {
     EXPECT_EQ(refusal(R"({"film":{"size":1}})"),
               "1: film: unknown key \"size\", known: width, height, exposure, tonemap, gamma");
     EXPECT_EQ(refusal(R"({"render":{"samples":1}})").substr(0, 34), "1: render: unknown key \"samples\", ");
-    EXPECT_EQ(refusal(R"({"materials":{"a":{"colour":1}}})").substr(0, 35), "1: materials.a: unknown key \"colour");
+    EXPECT_EQ(refusal(R"({"materials":{"a":{"color":1}}})").substr(0, 34), "1: materials.a: unknown key \"color");
     EXPECT_EQ(refusal(R"({"spheres":[{"raduis":1}]})"),
               "1: spheres[0]: unknown key \"raduis\", did you mean \"radius\"?");
     EXPECT_EQ(refusal(R"({"spheres":[{"center":[0,0,0],"radius":1,"material":"glod"}],"materials":{"gold":{}}})"),

@@ -116,7 +116,7 @@ class Particles:
         return self._moved(positions, slice(None))
 
     def _moved(self, positions: Array, rows: Any, **changed: Any) -> Particles:
-        """With other positions, of which columns of coordinates stay views, and these rows of the other columns."""
+        """With other positions, and these rows of the other columns. Columns of coordinates stay views of the positions."""
         axes = {self.positions[:, axis].ctypes.data: axis for axis in range(3)}
         columns = {}
         for name, values in self.columns.items():
