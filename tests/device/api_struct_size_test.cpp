@@ -191,31 +191,39 @@ TEST(StructSize, CreateInfo) {
     expect_sizes_heeded(info, "create", call);
 }
 
-// What is written: as many bytes as the caller's struct has, the same as into the whole.
-TEST_F(StructSizeTest, Stats) {
-    set_all();
-    accumulate(16);
-    const pt_stats whole = stats();
-    for (const uint32_t size : older_sizes<pt_stats>()) {
-        pt_stats expected = with_tail(whole, size, 0x55);
-        pt_stats older = with_tail(pt_stats{}, 0, 0x55);
+// That a call writes as many bytes as the caller's struct has, the same as into the whole one, and refuses sizes that
+// no struct has. It is called name in messages.
+template <typename T, typename Call>
+void expect_written_sizes_heeded(const T &whole, const std::string &name, const Call &call) {
+    for (const uint32_t size : older_sizes<T>()) {
+        T expected = with_tail(whole, size, 0x55);
+        T older = with_tail(T{}, 0, 0x55);
         expected.struct_size = older.struct_size = size;
-        EXPECT_EQ(pt_get_stats(context(), &older), PT_OK) << message();
+        EXPECT_EQ(call(&older), (Outcome{PT_OK, ""}));
         EXPECT_EQ(std::memcmp(&older, &expected, sizeof older), 0) << "of " << size << " bytes";
     }
-    Newer<pt_stats> newer = newer_than(pt_stats{});
+    Newer<T> newer = newer_than(T{});
     std::memset(newer.tail, 0x55, sizeof newer.tail);
-    EXPECT_EQ(pt_get_stats(context(), &newer.known), PT_OK) << message();
+    EXPECT_EQ(call(&newer.known), (Outcome{PT_OK, ""}));
     EXPECT_EQ(newer.known.struct_size, sizeof newer);
     newer.known.struct_size = sizeof whole;
     EXPECT_EQ(std::memcmp(&newer.known, &whole, sizeof whole), 0);
     EXPECT_EQ(std::ranges::count(newer.tail, 0x55), std::ssize(newer.tail)) << "written behind the struct";
-    pt_stats wrong{};
-    expect_failure(pt_get_stats(context(), &wrong), PT_ERROR_INVALID_ARGUMENT,
-                   "stats.struct_size = 0: must be the size of the struct, which holds this field");
+    T wrong{};
+    EXPECT_EQ(call(&wrong),
+              (Outcome{PT_ERROR_INVALID_ARGUMENT,
+                       name + ".struct_size = 0: must be the size of the struct, which holds this field"}));
     wrong.struct_size = 65537;
-    expect_failure(pt_get_stats(context(), &wrong), PT_ERROR_INVALID_ARGUMENT,
-                   "stats.struct_size = 65537: must be the size of the struct (<= 65536)");
+    EXPECT_EQ(call(&wrong), (Outcome{PT_ERROR_INVALID_ARGUMENT,
+                                     name + ".struct_size = 65537: must be the size of the struct (<= 65536)"}));
+}
+
+TEST_F(StructSizeTest, StatsAndErrorEstimate) {
+    set_all();
+    accumulate(16);
+    expect_written_sizes_heeded(stats(), "stats", [&](pt_stats *to) { return outcome(pt_get_stats(context(), to)); });
+    expect_written_sizes_heeded(error(), "error",
+                                [&](pt_error_estimate *to) { return outcome(pt_get_error_estimate(context(), to)); });
 }
 
 } // namespace
