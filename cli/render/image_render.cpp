@@ -126,8 +126,10 @@ ImageRender::Result ImageRender::run() {
         if (!add_piece(context_, piece_rows_, image_))
             break;
     }
-    if (image_.rows_done == 0)
+    if (image_.rows_done == 0) {
         image_.stats = context_.stats();
+        image_.error = context_.error_estimate(); // unknown, without samples
+    }
     preview_task_.finish();
     const bool has_checkpoint =
         checkpoint_ && checkpoint_->finish(static_cast<std::uint32_t>(std::lround(image_.stats.mean_sample_count)));

@@ -103,10 +103,12 @@ bool is_black(std::span<const float> radiance) {
 // on target with any noise. Pictures of the units that light meters have may be, where emission is some hundredths of a
 // unit; scaling all emission scales the picture, and its noise, to the bit.
 std::optional<std::string> picture_below_its_target(const RenderReport &report, std::span<const float> radiance) {
-    constexpr double most_stops = 4.5; // the average is below a twelfth of 0.1
+    // The average is 0.18 / 2^4.5 = 1/126, a twelfth of 0.1: a target of 1% allows noise of an eighth of the average.
+    constexpr double most_stops = 4.5;
     if (report.target_error <= 0.0 || is_black(radiance))
         return std::nullopt;
-    const double stops = automatic_exposure(radiance);
+    const bool is_known = report.tone_map && report.tone_map->is_automatic;
+    const double stops = is_known ? report.tone_map->exposure : automatic_exposure(radiance);
     if (stops <= most_stops)
         return std::nullopt;
     return "--error: the picture is darker than what the relative error tells apart, so the target says little of it: "
