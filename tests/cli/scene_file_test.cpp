@@ -141,6 +141,17 @@ TEST(SceneFile, ShippedScenesAreRead) {
     }
 }
 
+TEST(SceneFile, AShutterMayBeAnInstant) {
+    const auto camera = [](const std::string &shutter) {
+        return parse_scene(R"({"camera":{"position":[0,0,0],"look_at":[0,0,1],"shutter":)" + shutter + "}}", "").camera;
+    };
+    EXPECT_EQ(camera("[0, 0]").shutter_open, 0.0);
+    EXPECT_EQ(camera("[0, 0]").shutter_close, 0.0);
+    EXPECT_EQ(camera("[-0.0, 0.0]").shutter_close, 0.0);
+    EXPECT_EQ(camera("[1, 1]").shutter_open, 1.0);
+    EXPECT_EQ(camera("[1, 1]").shutter_close, 1.0);
+}
+
 TEST(SceneFile, ToneMapping) {
     EXPECT_FALSE(parse_scene(R"({"film":{"exposure":"auto"}})", "").display.exposure);
     EXPECT_EQ(parse_scene(R"({"film":{"exposure":3}})", "").display.exposure, 3.0);

@@ -40,9 +40,9 @@ pt::Camera camera_at(glm::dvec3 position) {
 // A plane, a ball that moves, and a lamp: the lamp goes first, then the other spheres, then the planes.
 pt::Scene small_scene() {
     pt::Scene scene;
-    scene.materials = {{{0.5F, 0.25F, 0}, {0, 0, 0}, {0, 0, 0}, 0, 0},
-                       {{0.25F, 0.25F, 0.25F}, {0.75F, 0.75F, 0.75F}, {0, 0, 0}, 40, 0},
-                       {{0, 0, 0}, {0, 0, 0}, {30, 60, 90}, 0, 0}};
+    scene.materials = {{{0.5F, 0.25F, 0}, {0, 0, 0}, {0, 0, 0}, 0},
+                       {{0.25F, 0.25F, 0.25F}, {0.75F, 0.75F, 0.75F}, {0, 0, 0}, 40},
+                       {{0, 0, 0}, {0, 0, 0}, {30, 60, 90}, 0}};
     scene.spheres = {{{1, 2, 3}, 0.5, {4, 0, 0}, 1}, {{0, 9, 0}, 2, {0, 0, 0}, 2}};
     scene.planes = {{{0, 1, 0}, 4, 0}};
     return scene;
@@ -88,8 +88,8 @@ TEST(GpuLayout, SceneWordsAreWhereTheLayoutSays) {
 // The small scene with a row of balls of the same gloss, a plane that shines, and a material that nothing has.
 pt::Scene large_scene() {
     pt::Scene scene = small_scene();
-    scene.materials.insert(scene.materials.begin() + 1, {{0.125F, 0.125F, 0.125F}, {0, 0, 0}, {7, 7, 7}, 0, 0});
-    scene.materials.push_back({{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {1, 2, 3}, 0, 0});
+    scene.materials.insert(scene.materials.begin() + 1, {{0.125F, 0.125F, 0.125F}, {0, 0, 0}, {7, 7, 7}, 0});
+    scene.materials.push_back({{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {1, 2, 3}, 0});
     scene.spheres[0].material = 2;
     scene.spheres[1].material = 3;
     for (int i = 0; i < 300; ++i)
@@ -202,8 +202,8 @@ TEST(GpuLayout, HugeSpheresArePlanesWithACurvature) {
 
 // What is not huge against its distance and its way keeps its centre and radius.
 TEST(GpuLayout, OtherSpheresKeepTheirCentre) {
-    const pt::Material diffuse{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0, 0};
-    const pt::Material lamp{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0, 0};
+    const pt::Material diffuse{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0};
+    const pt::Material lamp{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0};
     const pt::Camera camera = camera_at({0, 0, 0});
     const auto below = [](double radius, double height, double motion) {
         return pt::Sphere{{0, -radius - height, 0}, radius, {motion, 0, 0}, 0};

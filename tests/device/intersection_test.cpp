@@ -45,7 +45,7 @@ enum class Held { AsTheSceneNeeds, ByItsCenter };
 // its radius is held by its centre and radius; it stands still at the time of the rays.
 std::vector<Met> follow(const Ball &ball, const std::vector<Ray> &rays, Held held = Held::AsTheSceneNeeds) {
     pt::Scene scene;
-    scene.materials = {{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0, 0}};
+    scene.materials = {{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0}};
     scene.spheres = {{ball.center, ball.radius, {held == Held::ByItsCenter ? ball.radius : 0.0, 0, 0}, 0}};
     const pt::Camera camera{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0.0, 1.0};
     const pt::PreparedScene prepared(scene); // and not refused, though it moves too far

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace error_region_bits {
+namespace region_errors_bits {
 
 namespace {
 
@@ -223,4 +223,4 @@ TEST(ErrorRegionBits, OfTilesAreSumsOfEachValue) {
 
 } // namespace
 
-} // namespace error_region_bits
+} // namespace region_errors_bits
