@@ -4,7 +4,12 @@ it can express the scene; prints one table, and draws one plot of error against 
     PT_LIBRARY=build/lib/libpt.so python3 tests/bench/benchmark.py --mitsuba mitsuba/bin/python --json benchmark.json
 
 The plot is benchmark.png, and needs matplotlib. What is behind is printed first. Mitsuba is any Python that can import
-it (peer_mitsuba.py says how to install it).
+it:
+
+    python3 -m venv mitsuba && mitsuba/bin/pip install mitsuba
+
+Variant llvm_ad_rgb runs on the CPU and needs LLVM's shared library (Debian: libllvm19; with libllvm15 Mitsuba 3.9.1 ends
+with "Cannot select: fminimum" on processors with AVX-512), which DRJIT_LIBLLVM_PATH names; cuda_ad_rgb runs on a GPU.
 
 Every round measures all scenes, and in each all options in turn. Costs are CPU seconds of all threads, on a GPU wall
 seconds, of sampling alone, medians over the rounds; errors are relMSE, the mean of (x - r)^2 / (r^2 + 0.01) over pixels

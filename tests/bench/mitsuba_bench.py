@@ -1,5 +1,5 @@
 """Does for Mitsuba what error_and_time.py does for pt: renders a scene with several numbers of samples, and writes the seconds
-and the error of each. peer_mitsuba.py says how to install Mitsuba."""
+and the error of each. benchmark.py says how to install Mitsuba."""
 
 import argparse
 import json

@@ -9,7 +9,7 @@ means of 64 images by another estimator with random numbers. The rule is that it
 the smallest that is measured against it. The benchmark measures at up to 256 samples; an error that falls as 1/N, the
 slowest, is at 16 x 16,384 samples a thousandth of that. benchmark.py says where the rule is broken.
 
-`check` needs Mitsuba (peer_mitsuba.py says how to install it). It compares the reference with the other estimator, by
+`check` needs Mitsuba (benchmark.py says how to install it). It compares the reference with the other estimator, by
 means of blocks of 16x16 pixels: no channel may be more than 6 standard errors off. Where Mitsuba can express the scene,
 the mean of 16 images of its may be so far off or half a percent. (Its blocks would need far more samples: light that
 few paths find is missing from all 16 of a block, so that these agree on too little.) Then it writes NAME.exr and

@@ -5,7 +5,7 @@
         --library pt=build/lib/libpt.so --mitsuba mitsuba/bin/python --counts 10,1e3,1e5
 
 Libraries take the spheres by columns (pt_scene.sphere_arrays); Mitsuba is any Python that can import it
-(peer_mitsuba.py says how to install it). All are measured in turn in every round, so that a disturbed machine is so for
+(benchmark.py says how to install it). All are measured in turn in every round, so that a disturbed machine is so for
 all alike; figures are medians over the rounds.
 
 scene           seconds of pt_set_scene; of building Mitsuba's scene

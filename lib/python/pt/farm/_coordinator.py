@@ -27,7 +27,7 @@ from pt.farm._workers import MOST_FETCHED, Member, Try, now, submit
 TICK = 0.25  # seconds between looks for late parts: short against patience, and often enough for progress
 SLOTS = 2  # parts that a worker has at a time: it renders one while the other travels or waits for the coordinator
 
-# Of a CPU a sample of 16 tiles takes as long a tile as one of 1024 (measure.py costs); 64 let 16 cores have 4 each.
+# Of a CPU a sample of 16 tiles takes as long a tile as one of 1024; 64 let 16 cores have 4 each.
 # 4096 are 262,144 pixels, for each of which a GPU has an invocation: about as many as the largest have under way.
 LEAST_TILES = {True: 64, False: 4096}
 LEAD = 0.05  # seconds for the way to a worker and back, and for merging

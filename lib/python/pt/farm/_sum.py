@@ -18,7 +18,7 @@ from pt.farm._workers import now
 PIXEL_BYTES = 112
 # Adding to a film costs by its tiles too, and not by the part's alone, so that parts are first added to each other.
 # With batches of 1/8, 1/16, 1/32 and 1/64 of a film, adding 254 parts of 128 tiles took 0.64, 0.68, 0.69 and 0.68 s of a
-# processor; 1/8 took 2.5 films of memory (measure.py memory), and 1/32 1.5.
+# processor; 1/8 took 2.5 films of memory and 1/32 1.5.
 BATCH_SHARE = 1 / 32
 SHOW_SHARE = 0.02  # of the time, for adding early, so that the picture so far is recent
 
@@ -78,8 +78,8 @@ class Sum:
 
 
 def _give_back() -> None:
-    """Returns the memory of freed parts to the system: glibc keeps some for each thread, in all more than a film takes
-    (measure.py memory)."""
+    """Returns the memory of freed parts to the system: glibc keeps some for each thread, in all more than a film
+    takes."""
     with contextlib.suppress(AttributeError, OSError):  # not glibc
         ctypes.CDLL(None).malloc_trim(0)
 
