@@ -46,8 +46,8 @@ struct MergeReport {
 
 void check(const MergeOptions &options) {
     const OutputOptions &output = options.output;
-    refuse_if(output.images.empty() && output.film.empty() && output.standard_error.empty() && output.stats.empty(),
-              "-o, --film, --standard-error or --stats is missing: there is nothing to write");
+    refuse_if(output.images.empty() && output.film.empty() && output.stats.empty(),
+              "-o, --film or --stats is missing: there is nothing to write");
     std::vector<NamedFile> parts;
     for (const std::string &part : options.parts)
         parts.push_back({"the part", part});
@@ -186,15 +186,15 @@ std::string missing_text(const MergeReport &report) {
 bool write_outputs(const FilmHandle &film, const MergeOptions &options, MergeReport &report) {
     const OutputOptions &output = options.output;
     RenderedImage image{report.picture.window.part, film.read_image(PT_QUANTITY_RADIANCE), {}};
-    if (!output.standard_error.empty())
-        image.standard_error = film.read_image(PT_QUANTITY_STANDARD_ERROR);
+    for (const std::uint32_t quantity : output.layers)
+        image.layers.emplace_back(quantity, image.part.pixel_count()).take(film.read_image(quantity), 0);
     if (needs_tone_map(output))
         report.picture.tone_map = display_of(options.display).tone_map(image.radiance);
     ImageWriter writer;
     const std::size_t written = write_images(writer, output, report.picture, image).size();
     const bool has_film = output.film.empty() || write_film(output.film, film.bytes());
     write_report_file(output.stats, json_text(stats_json(report)));
-    return has_film && written == output_count(output);
+    return has_film && written == output.images.size();
 }
 
 int run_merge(const MergeOptions &options) {
@@ -228,7 +228,8 @@ void add_merge_command(CLI::App &program, Run &chosen) {
     command.add_option("PART", options.parts, "Films of one picture (pt render --film or --checkpoint), in any order")
         ->required()
         ->type_name("PART");
-    add_output_options(command, options.output);
+    constexpr std::size_t film_layers = 3; // the first of all; of what camera rays meet first a film knows nothing
+    add_output_options(command, options.output, layer_names.names().first(film_layers));
     command.option_defaults()->group("Samples");
     add_number<std::uint32_t>(command, "--first-sample", natural_number, options.first_sample,
                               "First of the samples that there should be (default: the first there is)");

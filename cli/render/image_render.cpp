@@ -62,13 +62,8 @@ bool add_piece(const Context &context, std::uint32_t rows, RenderedImage &image)
     if (stats.sample_count == 0)
         return false;
     join(image, stats, context.error_estimate(), rows);
-    const auto read = [&](std::uint32_t quantity, std::vector<float> &values) {
-        const std::size_t first = std::size_t{3} * image.part.width * image.rows_done;
-        context.read(image.part.x, image.part.width, rows, quantity, &values[first]);
-    };
-    read(PT_QUANTITY_RADIANCE, image.radiance);
-    if (!image.standard_error.empty())
-        read(PT_QUANTITY_STANDARD_ERROR, image.standard_error);
+    const std::size_t first = std::size_t{3} * image.part.width * image.rows_done;
+    context.read(image.part.x, image.part.width, rows, PT_QUANTITY_RADIANCE, &image.radiance[first]);
     for (PictureLayer &layer : image.layers)
         layer.read(context, image.part, image.rows_done, rows);
     image.rows_done += rows;
@@ -108,7 +103,6 @@ ImageRender::ImageRender(const Context &context, const RenderTask &task, std::ui
     const RenderOptions &options = task.options;
     image_.part = task.window.part;
     image_.radiance.resize(3 * image_.part.pixel_count());
-    image_.standard_error.resize(options.output.standard_error.empty() ? 0 : image_.radiance.size());
     for (const std::uint32_t layer : options.wanted_layers())
         image_.layers.emplace_back(layer, image_.part.pixel_count());
     progress_.begin_at(context.stats().sample_count);

@@ -41,17 +41,20 @@ PictureLayer::PictureLayer(std::uint32_t of_quantity, std::size_t pixel_count) :
         values.resize(pixel_count * layer.channel_count);
 }
 
+void PictureLayer::take(std::span<const float> triples, std::size_t first_pixel) {
+    const std::size_t count = file_layer(quantity).channel_count;
+    for (std::size_t pixel = 0; pixel < triples.size() / 3; ++pixel)
+        std::copy_n(&triples[3 * pixel], count, &values[count * (first_pixel + pixel)]);
+}
+
 void PictureLayer::read(const Context &context, const Rectangle &part, std::uint32_t first_row, std::uint32_t rows) {
     const std::size_t first = std::size_t{part.width} * first_row;
     if (!numbers.empty()) {
         context.read(part.x, part.width, rows, quantity, &numbers[first]);
-    } else if (file_layer(quantity).channel_count == 3) {
-        context.read(part.x, part.width, rows, quantity, &values[3 * first]);
     } else {
-        std::vector<float> alike(std::size_t{3} * part.width * rows);
-        context.read(part.x, part.width, rows, quantity, alike.data());
-        for (std::size_t pixel = 0; pixel < alike.size() / 3; ++pixel)
-            values[first + pixel] = alike[3 * pixel];
+        std::vector<float> triples(std::size_t{3} * part.width * rows);
+        context.read(part.x, part.width, rows, quantity, triples.data());
+        take(triples, first);
     }
 }
 

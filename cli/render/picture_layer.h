@@ -6,7 +6,9 @@
 #include "cli/base/names.h"
 #include "cli/image/image_module.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace cli {
@@ -14,7 +16,7 @@ namespace cli {
 // By PT_QUANTITY_*. The radiance, which is the mean of the samples, is always there.
 inline constexpr ValueNames layer_names({
     {"mean", PT_QUANTITY_RADIANCE},
-    {"standard-error", PT_QUANTITY_STANDARD_ERROR},
+    {"standard-error", PT_QUANTITY_STANDARD_ERROR}, // of each number, from the means of two parts of the samples
     {"sample-count", PT_QUANTITY_SAMPLE_COUNT},
     {"depth", PT_QUANTITY_DEPTH},
     {"normal", PT_QUANTITY_NORMAL},
@@ -31,6 +33,9 @@ struct PictureLayer {
     // All values start as 0.
     PictureLayer(std::uint32_t of_quantity, std::size_t pixel_count);
 
+    // Takes what the library says of pixels from that one on, three numbers for each.
+    void take(std::span<const float> triples, std::size_t first_pixel);
+
     // Reads rows of the part from a context in which these are the first.
     void read(const Context &context, const Rectangle &part, std::uint32_t first_row, std::uint32_t rows);
 
@@ -42,8 +47,7 @@ struct PictureLayer {
 struct RenderedImage {
     Rectangle part;                     // of the picture
     std::vector<float> radiance;        // of this part; black below rows_done
-    std::vector<float> standard_error;  // empty if it was not asked for
-    std::vector<PictureLayer> layers{}; // likewise; each .exr of the radiance has them, .png the alpha
+    std::vector<PictureLayer> layers{}; // each .exr of the radiance has them, .png the alpha
     std::uint32_t rows_done = 0;        // of it, with samples
     pt_stats stats{};                   // of these rows; sample_count is the least of the pieces
     pt_error_estimate error{};          // likewise

@@ -16,9 +16,9 @@
 namespace cli {
 namespace {
 
-// "depth,normal": their quantities, without that of the radiance.
-std::vector<std::uint32_t> parse_layers(const std::string &text) {
-    const ValueRule rule{.form = ValueRule::Form::name, .kind = "layer", .names = layer_names.names()};
+// "depth,normal": their quantities, without that of the radiance. known: the names that there are.
+std::vector<std::uint32_t> parse_layers(const std::string &text, std::span<const std::string_view> known) {
+    const ValueRule rule{.form = ValueRule::Form::name, .kind = "layer", .names = known};
     std::vector<std::uint32_t> quantities;
     std::istringstream names(text + ",");
     for (std::string name; std::getline(names, name, ',');) {
@@ -52,10 +52,6 @@ CLI::Option *add_seconds(CLI::App &command, const std::string &name, std::option
 
 void add_picture_options(CLI::App &command, RenderOptions &options) {
     command.option_defaults()->group("Output");
-    const auto read_layers = [&options](const std::string &text) { options.layers = parse_layers(text); };
-    command
-        .add_option_function<std::string>("--layers", read_layers, "Layers of .exr beside the mean, like depth,albedo")
-        ->type_name(listed(layer_names.names(), "|") + ",...");
     command.add_flag("--alpha", options.alpha,
                      "Give .exr and .png an alpha channel: the share of a pixel's samples that see a surface");
     command.option_defaults()->group("Picture");
@@ -103,8 +99,8 @@ void add_parts_option(CLI::App &command, RenderOptions &options) {
                                           "Render the parts that are asked for on standard input, and write their "
                                           "films to standard output: for programs that share a picture, as pt-farm");
     for (const char *other :
-         {"--output", "--format", "--standard-error", "--layers", "--alpha", "--film", "--stats", "--crop", "--time",
-          "--checkpoint", "--resume", "--preview-every", "--piece-rows", "--watch", "--skip-existing"}) {
+         {"--output", "--format", "--layers", "--alpha", "--film", "--stats", "--crop", "--time", "--checkpoint",
+          "--resume", "--preview-every", "--piece-rows", "--watch", "--skip-existing"}) {
         parts->excludes(command.get_option(other));
     }
 }
@@ -154,7 +150,7 @@ constexpr const char *render_help =
     "cannot be known well, it is called uncertain, with the reason, and its bounds are wider. --error\n"
     "stops sampling once the upper one is at or below E. --stats has both with bounds (rmse_low,\n"
     "rmse_high, ...; null where unknown), uncertain, target_error (null without --error) and\n"
-    "target_reached. --standard-error is in units of radiance, infinite with a single sample.\n\n"
+    "target_reached. The layer standard-error is a radiance, infinite with a single sample.\n\n"
     "With --error or --time, --spp is the most samples of a pixel, by default 65536.\n\n"
     "--exposure auto brings the average of the picture to middle grey, 0.18 (Reinhard et al. 2002): the\n"
     "exponential of the mean of the logarithms of its pixels, each the mean of its three channels; black\n"
@@ -196,7 +192,7 @@ void add_png_bits(CLI::App &command, std::uint32_t &bits) {
         ->group("Display (.png and .jpg only)");
 }
 
-void add_output_options(CLI::App &command, OutputOptions &options) {
+void add_output_options(CLI::App &command, OutputOptions &options, std::span<const std::string_view> layers) {
     command.option_defaults()->group("Output");
     command
         .add_option("-o,--output", options.images,
@@ -206,8 +202,13 @@ void add_output_options(CLI::App &command, OutputOptions &options) {
         ->take_all()
         ->type_name("IMAGE");
     add_format(command, options.format, image_formats.names());
-    add_text(command, "--standard-error", options.standard_error, "EXR",
-             "Write the standard error of every pixel (.exr), estimated from two parts of its samples");
+    const auto read_layers = [&options, layers](const std::string &text) {
+        options.layers = parse_layers(text, layers);
+    };
+    command
+        .add_option_function<std::string>("--layers", read_layers,
+                                          "Layers of .exr beside the mean, separated by commas")
+        ->type_name(listed(layers, "|") + ",...");
     add_text(command, "--film", options.film, "FILM",
              "Write the film (.ptfilm): the exact sums of the samples, for `pt merge`; -o may be left out then");
     add_text(command, "--stats", options.stats, "JSON",
@@ -215,7 +216,7 @@ void add_output_options(CLI::App &command, OutputOptions &options) {
 }
 
 std::vector<std::uint32_t> RenderOptions::wanted_layers() const {
-    std::vector<std::uint32_t> wanted = layers;
+    std::vector<std::uint32_t> wanted = output.layers;
     if (alpha)
         wanted.push_back(PT_QUANTITY_COVERAGE);
     return wanted;
@@ -225,7 +226,7 @@ void add_render_command(CLI::App &program, Run &chosen) {
     const auto [command, options] =
         add_command(program, chosen, "render", "Render a scene file to images", render_help, &run_render);
     add_text(command, "SCENE", options.scene, "SCENE", "Scene file (JSON); - is standard input")->required();
-    add_output_options(command, options.output);
+    add_output_options(command, options.output, layer_names.names());
     add_scene_options(command, options.overrides, true);
     add_png_bits(command, options.output.png_bits);
     add_picture_options(command, options);

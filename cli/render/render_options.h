@@ -49,8 +49,8 @@ inline std::optional<std::string> numbered_name(const std::string &pattern, std:
 struct OutputOptions {
     std::vector<std::string> images;   // paths, like all here
     std::optional<ImageFormat> format; // of an image that is standard output
-    std::string standard_error;        // of the image of standard errors; empty: none, as of those below
-    std::string film;
+    std::vector<std::uint32_t> layers; // of each .exr beside its radiance, PT_QUANTITY_*
+    std::string film;                  // empty: none, as of the report
     std::string stats;
     std::uint32_t png_bits = 8; // of a channel
     bool quiet = false;
@@ -67,13 +67,13 @@ template <typename Options, typename Use>
 void for_each_output(Options &options, Use use) {
     for (auto &path : options.images)
         use("-o", path);
-    use("--standard-error", options.standard_error);
     use("--film", options.film);
     use("--stats", options.stats);
 }
 
-// The options write into `options` when the command line is parsed. All but those of quiet and png_bits.
-void add_output_options(CLI::App &command, OutputOptions &options);
+// The options write into `options` when the command line is parsed. All but those of quiet and png_bits. layers: those
+// that the command can write.
+void add_output_options(CLI::App &command, OutputOptions &options, std::span<const std::string_view> layers);
 
 // For an image on standard output. names: the formats that the command can write.
 void add_format(CLI::App &command, std::optional<ImageFormat> &format, std::span<const std::string_view> names);
@@ -84,7 +84,6 @@ struct RenderOptions {
     std::string scene;
     std::vector<SceneOverride> overrides; // of its values, also by options that say the same
     OutputOptions output;
-    std::vector<std::uint32_t> layers; // of each .exr beside its radiance, PT_QUANTITY_*
     bool alpha = false;
     std::optional<Rectangle> crop;
 

@@ -12,21 +12,21 @@ namespace cli {
 namespace {
 
 void write_image(ImageWriter &writer, const ImageTarget &target, const OutputOptions &options,
-                 const RenderReport &report, std::span<const float> values, std::uint32_t quantity,
-                 std::span<const PictureLayer> others) {
+                 const RenderReport &report, const RenderedImage &rendered) {
     const ToneMap *tone_map = target.format == ImageFormat::exr ? nullptr : &report.tone_map.value();
-    const std::vector<ImageAttribute> attributes = image_metadata(report, quantity, tone_map);
+    const std::vector<ImageAttribute> attributes = image_metadata(report, tone_map);
     ImageData image{.window = report.window, .attributes = attributes};
     if (tone_map == nullptr) {
-        std::vector<ImageLayer> layers{{"", LayerKind::color, 3, values}};
-        for (const PictureLayer &other : others)
+        std::vector<ImageLayer> layers{{"", LayerKind::color, 3, rendered.radiance}};
+        for (const PictureLayer &other : rendered.layers)
             layers.push_back(other.in_file());
         image.layers = layers;
         writer.write(target, image);
     } else {
-        const auto alpha = std::ranges::find(others, std::uint32_t{PT_QUANTITY_COVERAGE}, &PictureLayer::quantity);
-        write_display_image(writer, target, image, values, *tone_map, options.png_bits,
-                            alpha == others.end() ? std::span<const float>() : alpha->values);
+        const auto alpha =
+            std::ranges::find(rendered.layers, std::uint32_t{PT_QUANTITY_COVERAGE}, &PictureLayer::quantity);
+        write_display_image(writer, target, image, rendered.radiance, *tone_map, options.png_bits,
+                            alpha == rendered.layers.end() ? std::span<const float>() : alpha->values);
     }
 }
 
@@ -62,13 +62,11 @@ void check_combinations(const RenderOptions &options) {
     refuse_if(options.frames && options.preview_seconds,
               "--preview-every: --frames have none, as --skip-existing takes a file that is there for a frame that is "
               "done");
-    refuse_if(options.preview_seconds && output_count(without_standard_output(output)) == 0,
+    refuse_if(options.preview_seconds && without_standard_output(output).images.empty(),
               "--preview-every: needs the name of a file, which -o gives");
 }
 
-void check_channels(const RenderOptions &options) {
-    refuse_if(!options.layers.empty() && !has_format(options.output, ImageFormat::exr),
-              "--layers: needs -o FILE.exr, as no other format has layers");
+void check_alpha(const RenderOptions &options) {
     for (const ImageTarget &target : options.output.targets())
         refuse_if(options.alpha && target.format == ImageFormat::jpeg,
                   "--alpha: -o " + target.path + ": JPEG has no alpha; .exr and .png have");
@@ -103,7 +101,7 @@ void check_names(const RenderOptions &options) {
     check_names(options.output, {});
     refuse_if(options.checkpoint == standard_stream,
               "--checkpoint -: goes to a file, not to standard output; give its name");
-    check_channels(options);
+    check_alpha(options);
     const std::vector<NamedFile> outputs = outputs_of(options.output, options.checkpoint);
     require_distinct_files(sources, outputs);
     if (!options.shader_dir.empty())
@@ -112,22 +110,17 @@ void check_names(const RenderOptions &options) {
 
 void check_names(const OutputOptions &options, const std::vector<NamedFile> &sources) {
     check_image_names(options.images, options.format);
-    for (const auto &[option, path] :
-         {NamedFile{"--standard-error", options.standard_error}, {"--film", options.film}}) {
-        refuse_if(path == standard_stream, option + " -: goes to a file, not to standard output; give its name");
-    }
-    const std::string &path = options.standard_error;
-    refuse_if(!path.empty() && image_format(path) != ImageFormat::exr,
-              "--standard-error " + path + ": the name must end in .exr");
+    refuse_if(options.film == standard_stream, "--film -: goes to a file, not to standard output; give its name");
+    refuse_if(!options.layers.empty() && !has_format(options, ImageFormat::exr),
+              "--layers: needs -o FILE.exr, as no other format has layers");
     require_distinct_files(sources, outputs_of(options));
 }
 
 void check_files(const OutputOptions &options, const ImageWindow &window) {
     for (const ImageTarget &target : options.targets())
         check_image_target(target, window);
-    for (const std::string *path : {&options.standard_error, &options.film})
-        if (!path->empty())
-            AtomicFile::check_writable(*path);
+    if (!options.film.empty())
+        AtomicFile::check_writable(options.film);
     check_report_file(options.stats);
 }
 
@@ -149,29 +142,18 @@ bool write_film(const std::string &path, std::span<const std::byte> film) {
 std::vector<std::string> write_images(ImageWriter &writer, const OutputOptions &options, const RenderReport &report,
                                       const RenderedImage &image) {
     std::vector<std::string> written;
-    const auto write = [&](const ImageTarget &target, std::span<const float> values, std::uint32_t quantity,
-                           std::span<const PictureLayer> layers) {
-        if (succeeds([&] { write_image(writer, target, options, report, values, quantity, layers); }))
-            written.push_back(target.path == standard_stream ? "standard output" : target.path);
-    };
     for (const ImageTarget &target : options.targets())
-        write(target, image.radiance, PT_QUANTITY_RADIANCE, image.layers);
-    if (!options.standard_error.empty())
-        write({options.standard_error, ImageFormat::exr}, image.standard_error, PT_QUANTITY_STANDARD_ERROR, {});
+        if (succeeds([&] { write_image(writer, target, options, report, image); }))
+            written.push_back(target.path == standard_stream ? "standard output" : target.path);
     return written;
 }
 
 bool needs_module(const OutputOptions &options) {
-    return !options.standard_error.empty() || has_format(options, ImageFormat::exr) ||
-           has_format(options, ImageFormat::jpeg);
+    return has_format(options, ImageFormat::exr) || has_format(options, ImageFormat::jpeg);
 }
 
 bool needs_tone_map(const OutputOptions &options) {
     return has_format(options, ImageFormat::png) || has_format(options, ImageFormat::jpeg);
-}
-
-std::size_t output_count(const OutputOptions &options) {
-    return options.images.size() + (options.standard_error.empty() ? 0 : 1);
 }
 
 } // namespace cli

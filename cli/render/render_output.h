@@ -33,7 +33,7 @@ void check_files(const OutputOptions &options, const ImageWindow &window);
 void check_outputs(const RenderTask &task);
 
 // Writes every image that can be written even if another cannot, and says on stderr which could not. Returns the paths
-// of those written, output_count() if all were.
+// of those written.
 std::vector<std::string> write_images(ImageWriter &writer, const OutputOptions &options, const RenderReport &report,
                                       const RenderedImage &image);
 
@@ -46,7 +46,5 @@ bool needs_tone_map(const OutputOptions &options);
 
 // Leaves only the images that go to files.
 OutputOptions without_standard_output(OutputOptions options);
-
-std::size_t output_count(const OutputOptions &options);
 
 } // namespace cli

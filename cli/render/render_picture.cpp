@@ -99,7 +99,7 @@ bool write_outputs(ImageWriter &writer, const Context &context, const RenderTask
     write_report_file(output.stats, json_text(stats_json(report)));
     if (!output.quiet && !written.empty())
         print_summary(output, report, written);
-    return written.size() == output_count(output) + (output.film.empty() ? 0 : 1);
+    return written.size() == output.images.size() + (output.film.empty() ? 0 : 1);
 }
 
 // Nothing if no output is tone-mapped.
@@ -162,7 +162,7 @@ ExitCode render_picture(const Context &context, const RenderTask &task, const Re
         so_far.tone_map = tone_map_of(task, image.radiance);
         writer.wait();
         const OutputOptions files = without_standard_output(options.output); // a stream takes one image
-        return write_images(writer, files, so_far, image).size() == output_count(files);
+        return write_images(writer, files, so_far, image).size() == files.images.size();
     };
     const Stop stop = [&] { return interrupt_signal() != 0 || writer.failed() || superseded(); };
     const Clock::time_point accumulate_start = Clock::now();

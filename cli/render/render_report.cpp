@@ -169,8 +169,7 @@ std::string error_text(const RenderReport &report) {
 
 // No time that the rendering took and no date but one that was given: equal runs give equal files. samplesPerPixel has
 // pbrt's name and type, which other tools read. Numbers that may not fit OpenEXR's signed 32-bit integer are texts.
-std::vector<ImageAttribute> image_metadata(const RenderReport &report, std::uint32_t quantity,
-                                           const ToneMap *tone_map) {
+std::vector<ImageAttribute> image_metadata(const RenderReport &report, const ToneMap *tone_map) {
     std::vector<ImageAttribute> attributes;
     const auto add = [&](const char *name, auto value) { attributes.push_back({name, std::move(value)}); };
     // The largest of OpenEXR's numbers stands for all beyond.
@@ -181,8 +180,7 @@ std::vector<ImageAttribute> image_metadata(const RenderReport &report, std::uint
     if (!report.date.empty())
         add("DateTime", report.date); // becomes capDate in OpenEXR
     add("samplesPerPixel", whole(report.stats.sample_count));
-    add("pt.quantity", std::string(tone_map != nullptr ? "tone-mapped " : "") +
-                           (quantity == PT_QUANTITY_RADIANCE ? "radiance" : "standard error"));
+    add("pt.quantity", std::string(tone_map != nullptr ? "tone-mapped radiance" : "radiance"));
     if (tone_map != nullptr)
         add_tone_map(attributes, *tone_map);
     if (!report.window.is_whole())

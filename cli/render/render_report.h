@@ -49,8 +49,8 @@ std::string summary_text(const RenderReport &report);
 // "error 0.42% (0.40% to 0.44%); target reached after 64 samples", of the relative error.
 std::string error_text(const RenderReport &report);
 
-// What the metadata of an image say of the rendering. quantity: what the pixels are, PT_QUANTITY_*; tone_map: what was
-// made of it for a display, nullptr if nothing was.
-std::vector<ImageAttribute> image_metadata(const RenderReport &report, std::uint32_t quantity, const ToneMap *tone_map);
+// What the metadata of an image say of the rendering. tone_map: what was made of the radiance for a display, nullptr if
+// nothing was.
+std::vector<ImageAttribute> image_metadata(const RenderReport &report, const ToneMap *tone_map);
 
 } // namespace cli

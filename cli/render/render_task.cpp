@@ -53,8 +53,7 @@ std::uint64_t most_bytes() {
 }
 
 std::uint32_t image_count(const RenderOptions &options) {
-    return 1 + (options.output.standard_error.empty() ? 0 : 1) +
-           static_cast<std::uint32_t>(options.wanted_layers().size());
+    return 1 + static_cast<std::uint32_t>(options.wanted_layers().size());
 }
 
 // What the library says about a scene is the fault of the scene, even if it names no field.

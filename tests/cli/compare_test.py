@@ -106,12 +106,13 @@ class RealDevice(CommandLineTest):
 
     def test_what_is_not_finite_exceeds_every_limit(self):
         # Of fewer than 9 samples, the second part is empty and the standard error infinite.
-        self.expect(0, "render", COURSEWORK, *SIZE, "-o", "a.png", "--standard-error", "e.exr")
-        self.expect(0, "compare", "e.exr", "e.exr", "--difference", "d.png")
+        self.expect(0, "render", COURSEWORK, *SIZE, "-o", "e.exr", "--layers", "standard-error")
+        compare = ("compare", "e.exr", "e.exr", "--layer", "standard_error")
+        self.expect(0, *compare, "--difference", "d.png")
         self.assertIn("\nnot finite    15 pixels, left out above\n", self.output)
         self.assertEqual({value for row in read_png(self.path("d.png"))[2] for value in row}, {255})
         for option in "--max-mse", "--max-relative-mse", "--max-difference":
-            self.expect(8, "compare", "e.exr", "e.exr", option, "1e18", error="pt: 15 pixels are not finite")
+            self.expect(8, *compare, option, "1e18", error="pt: 15 pixels are not finite")
 
     def test_other_samples_differ_and_equal_ones_do_not(self):
         for name, options in (("a.exr", ()), ("b.exr", ("--piece-rows", "2")), ("c.exr", ("--seed", "1"))):

@@ -1,12 +1,9 @@
 """Tests of `pt render --error` and of what is told about the error of an image. Arguments: see command_line.py."""
 
 import json
-import resource
 import signal
-import subprocess
 
-from command_line import (COURSEWORK, PT, RESULT, CommandLineTest, default_signals, main, read_exr_attributes,
-                          read_exr_blocks)
+from command_line import COURSEWORK, PT, RESULT, CommandLineTest, main, read_exr_channels
 
 KEYS = [name + end for name in ("rmse", "relative_rmse") for end in ("", "_low", "_high")]
 
@@ -76,55 +73,20 @@ class TargetError(CommandLineTest):
         self.assertEqual((stats["target_reached"], stats["spp"]), (False, 17))
 
 
-class StandardError(CommandLineTest):
-    def test_the_image_is_written_beside_the_picture(self):
-        self.expect(0, "render", COURSEWORK, "-o", "a.exr", "--standard-error", "e.exr", "--size", "4x3", "--spp", "16")
-        self.assertEqual(self.files(), ["a.exr", "e.exr"])
-        self.assertTrue(self.output.startswith("wrote a.exr, e.exr: "), self.output)
-        for name, quantity in (("a.exr", b"radiance"), ("e.exr", b"standard error")):
-            self.assertEqual(read_exr_attributes(self.path(name))["pt.quantity"], ("string", quantity))
-
-    def test_refused_names(self):
-        for name in ("e.png", "e", "e.exr.bak"):
-            self.expect(2, "render", COURSEWORK, "-o", "a.png", "--standard-error", name,
-                        error=f"--standard-error {name}: the name must end in .exr")
-        self.expect(2, "render", COURSEWORK, "-o", "a.exr", "--standard-error", "a.exr", error="--standard-error a.exr")
-        self.expect(6, "render", COURSEWORK, "-o", "a.exr", "--standard-error", "none/e.exr",
-                    error="cannot write none/e.exr", FAKE_PT_FAIL=f"accumulate:{RESULT['INTERNAL']}")
-        self.assertEqual(self.files(), [])
-
-    def test_a_failed_write_leaves_the_old_file_and_the_picture_is_written(self):
-        self.write("e.exr", "old")
-
-        def full_disk():
-            default_signals()
-            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-            resource.setrlimit(resource.RLIMIT_FSIZE, (7500, 7500))
-
-        arguments = ["render", COURSEWORK, "-o", "a.png", "--standard-error", "e.exr", "--spp", "1"]
-        done = subprocess.run([self.program, *arguments], cwd=self.folder, preexec_fn=full_disk,
-                              capture_output=True, text=True, check=False)
-        self.assertEqual(done.returncode, 6, done.stderr)
-        self.assertIn("pt: cannot write e.exr: File too large", done.stderr)
-        self.assertEqual(self.read("e.exr"), "old")
-        self.assertEqual(self.files(), ["a.png", "e.exr"])
-
-
 class RealDevice(CommandLineTest):
     program = PT
 
     def test_target(self):
         arguments = ["render", COURSEWORK, "--size", "32x16", "--stats", "s.json"]
-        self.expect(0, *arguments, "-o", "a.exr", "--sampling", "uniform", "--error", "10%", "--standard-error", "e.exr")
+        self.expect(0, *arguments, "-o", "a.exr", "--sampling", "uniform", "--error", "10%")
         stats = json.loads(self.read("s.json"))
         self.assertTrue(stats["target_reached"])
         self.assertTrue(0 < stats["relative_rmse_low"] < stats["relative_rmse"] < stats["relative_rmse_high"] <= 0.1)
         self.assertTrue(0 < stats["rmse_low"] < stats["rmse"] < stats["rmse_high"])
-        self.assertNotEqual(read_exr_blocks(self.path("a.exr")), read_exr_blocks(self.path("e.exr")))
 
         # The pixels are those of as many samples in one call, and one look at the error earlier was too early.
         self.expect(0, *arguments, "-o", "b.exr", "--spp", str(stats["spp"]))
-        self.assertEqual(read_exr_blocks(self.path("a.exr")), read_exr_blocks(self.path("b.exr")))
+        self.assertEqual(read_exr_channels(self.path("a.exr")), read_exr_channels(self.path("b.exr")))
         self.assertEqual(json.loads(self.read("s.json"))["rmse"], stats["rmse"])
         step = 2 ** ((stats["spp"] - 1).bit_length() - 1) // 4
         found = self.run_pt(*arguments, "-o", "b.exr", "--sampling", "uniform", "--error", "10%", "--spp",

@@ -6,6 +6,8 @@ Arguments: see command_line.py.
 
 import json
 import os
+import resource
+import signal
 import struct
 import subprocess
 import time
@@ -59,9 +61,8 @@ class StandardStreams(CommandLineTest):
         self.assertIn("pt: cannot write to standard output\n", done.stderr)
 
     def test_what_does_not_go_through_a_stream(self):
-        for arguments, error in ((("-o", "-"), "-o -: standard output needs --format"),
-                                 (("-o", "a.png", "--standard-error", "-"), "--standard-error -: goes to a file")):
-            self.expect(2, "render", COURSEWORK, *arguments, error=error)
+        self.expect(2, "render", COURSEWORK, "-o", "-", error="-o -: standard output needs --format")
+        self.expect(2, "render", COURSEWORK, "--film", "-", error="--film -: goes to a file")
         self.expect(2, "render", "-", "--watch", "-o", "a.png", error="--watch needs a file")
         self.assertEqual(self.files(), [])
 
@@ -112,11 +113,11 @@ class SameFiles(CommandLineTest):
         for first, second in (("a.exr", "a.exr"), ("a.exr", "folder/../a.exr"), ("to-be.exr", "dangling.exr"),
                               ("dangling.exr", "to-be.exr")):
             with self.subTest(first=first, second=second):
-                for option in ("-o", "--standard-error", "--stats"):
+                for option in ("-o", "--film", "--stats"):
                     self.refuse(f"{option} {second}: is the same file as -o {first}", "s.png", "-o", first, option,
                                 second)
-                self.refuse(f"--stats {second}: is the same file as --standard-error {first}", "s.png", "-o", "a.jpg",
-                            "--standard-error", first, "--stats", second)
+                self.refuse(f"--stats {second}: is the same file as --film {first}", "s.png", "-o", "a.jpg",
+                            "--film", first, "--stats", second)
 
     def test_shaders_are_kept(self):
         os.mkdir(self.path("shaders"))
@@ -165,7 +166,7 @@ class LinksOfOthers(CommandLineTest):
         os.chmod(self.folder, 0o755)
         render = ("render", "s.json", "--spp", "16", "-o", "a.exr")
         for name, command in (("a.png", ("render", "s.json", "--spp", "16", "-o")), ("a.exr", (*render[:4], "-o")),
-                              ("e.exr", (*render, "--standard-error")), ("a.json", (*render, "--stats")),
+                              ("a.json", (*render, "--stats")),
                               ("a.ptfilm", (*render, "--film")), ("c.ptfilm", (*render, "--checkpoint")),
                               ("t.png", ("tonemap", "r.exr"))):
             with self.subTest(name=name):
@@ -177,15 +178,32 @@ class LinksOfOthers(CommandLineTest):
                                  ("kept", ["of root", "open", "r.exr", "s.json"]))
 
 
+class FullDisk(CommandLineTest):
+    def test_a_failed_write_leaves_the_old_file_and_the_other_picture_is_written(self):
+        self.write("a.exr", "old")
+
+        def full_disk():
+            default_signals()
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (7500, 7500))
+
+        done = subprocess.run([self.program, "render", COURSEWORK, "-o", "a.png", "-o", "a.exr", "--spp", "1"],
+                              cwd=self.folder, preexec_fn=full_disk, capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 6, done.stderr)
+        self.assertIn("pt: cannot write a.exr: File too large", done.stderr)
+        self.assertEqual(self.read("a.exr"), "old")
+        self.assertEqual(self.files(), ["a.exr", "a.png"])
+
+
 class EqualRuns(CommandLineTest):
-    OUTPUTS = ("a.png", "a.jpg", "a.exr", "e.exr")
+    OUTPUTS = ("a.png", "a.jpg", "a.exr")
 
     def images(self, folder, **environment):
         """What they are with this environment, rendered in a folder of that name for once."""
         os.mkdir(self.path(folder))
         paths = [f"{folder}/{name}" for name in self.OUTPUTS]
-        self.expect(0, "render", COURSEWORK, "-o", paths[0], "-o", paths[1], "-o", paths[2], "--standard-error",
-                    paths[3], "--size", "8x4", "--spp", "16", **environment)
+        self.expect(0, "render", COURSEWORK, "-o", paths[0], "-o", paths[1], "-o", paths[2], "--layers",
+                    "standard-error", "--size", "8x4", "--spp", "16", **environment)
         images = []
         for path in paths:
             with open(self.path(path), "rb") as file:

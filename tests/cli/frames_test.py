@@ -28,10 +28,9 @@ class FramesTest(CommandLineTest):
 
 class Frames(FramesTest):
     def test_each_frame_has_its_files(self):
-        self.expect(0, "render", "s.json", "--frames", "9-11", "-o", "f-###.png", "-o", "#.exr", "--stats", "#.json",
-                    "--standard-error", "e#.exr")
+        self.expect(0, "render", "s.json", "--frames", "9-11", "-o", "f-###.png", "-o", "#.exr", "--stats", "#.json")
         self.assertEqual(self.files(), sorted(f"{name}" for frame in (9, 10, 11) for name in (
-            f"f-{frame:03}.png", f"{frame}.exr", f"{frame}.json", f"e{frame}.exr")) + ["s.json"])
+            f"f-{frame:03}.png", f"{frame}.exr", f"{frame}.json")) + ["s.json"])
         self.assertEqual([json.loads(self.read(f"{frame}.json"))["seed"] for frame in (9, 10, 11)], [14, 15, 16])
         self.assertEqual(self.output.count("wrote f-"), 3)
 

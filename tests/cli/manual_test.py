@@ -122,7 +122,7 @@ class RealDevice(CommandLineTest):
             words = command[1:command.index(">")] if ">" in command else command[1:]
             if "--watch" not in command:  # which does not end by itself
                 self.expect(0, *words, *smaller)
-        for name in "picture.png", "picture.exr", "error.exr", "figures.json", "darker.jpg":
+        for name in "picture.png", "picture.exr", "figures.json", "darker.jpg":
             self.assertIn(name, self.files())
 
     def test_the_first_scene_of_the_readme(self):

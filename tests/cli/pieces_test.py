@@ -95,8 +95,8 @@ class HostMemory(CommandLineTest):
                          "pt: --size 16384x16384: the image takes 3.0 GiB of memory, more than the 2.0 GiB that this "
                          "process can have\n")
         self.assertIn("--size 16384x8192: 2 images take 3.0 GiB",
-                      self.refusal(2, "render", COURSEWORK, "-o", "a.exr", "--standard-error", "e.exr", "--size",
-                                   "16384x8192", "--spp", "1"))
+                      self.refusal(2, "render", COURSEWORK, "-o", "a.exr", "--layers", "standard-error",
+                                   "--size", "16384x8192", "--spp", "1"))
         self.write("s.json", '{"film": {"width": 16384, "height": 16384}}')
         self.assertIn("s.json: film of 16384x16384: the image takes 3.0 GiB",
                       self.refusal(3, "render", "s.json", "-o", "a.exr", "--spp", "1"))

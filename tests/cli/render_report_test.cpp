@@ -173,9 +173,9 @@ struct Attributes {
     std::map<std::string, double> numbers;
 };
 
-Attributes attributes_of(const cli::RenderReport &report, std::uint32_t quantity, const cli::ToneMap *tone_map) {
+Attributes attributes_of(const cli::RenderReport &report, const cli::ToneMap *tone_map) {
     Attributes found;
-    for (const auto &[name, value] : cli::image_metadata(report, quantity, tone_map)) {
+    for (const auto &[name, value] : cli::image_metadata(report, tone_map)) {
         if (const auto *text = std::get_if<std::string>(&value))
             found.texts[name] = *text;
         else if (const auto *whole = std::get_if<std::int32_t>(&value))
@@ -187,7 +187,7 @@ Attributes attributes_of(const cli::RenderReport &report, std::uint32_t quantity
 }
 
 TEST(RenderReport, MetadataKeepsAllDigits) {
-    const auto [texts, numbers] = attributes_of(example_render(), PT_QUANTITY_RADIANCE, nullptr);
+    const auto [texts, numbers] = attributes_of(example_render(), nullptr);
     EXPECT_EQ(texts.at("pt.quantity"), "radiance");
     EXPECT_EQ(texts.at("pt.seed"), "18446744073709551615");
     EXPECT_EQ(texts.at("pt.firstSample"), "4294967295");
@@ -202,18 +202,18 @@ TEST(RenderReport, MetadataKeepsAllDigits) {
 }
 
 TEST(RenderReport, MetadataSayWhatWasMadeForADisplay) {
-    const Attributes linear = attributes_of(example_render(), PT_QUANTITY_RADIANCE, nullptr);
+    const Attributes linear = attributes_of(example_render(), nullptr);
     for (const char *name : {"pt.toneMap", "pt.exposure", "pt.encoding", "pt.gamma"}) {
         EXPECT_EQ(linear.texts.count(name) + linear.numbers.count(name), 0U) << name;
     }
     cli::ToneMap map{-2.5, cli::ToneCurve::agx, std::nullopt};
-    const Attributes mapped = attributes_of(example_render(), PT_QUANTITY_RADIANCE, &map);
+    const Attributes mapped = attributes_of(example_render(), &map);
     EXPECT_EQ(mapped.texts.at("pt.quantity"), "tone-mapped radiance");
     EXPECT_EQ(mapped.texts.at("pt.toneMap"), "agx");
     EXPECT_EQ(mapped.texts.at("pt.encoding"), "sRGB");
     EXPECT_EQ(mapped.numbers.at("pt.exposure"), -2.5);
     map.gamma = 2.2;
-    const Attributes power = attributes_of(example_render(), PT_QUANTITY_RADIANCE, &map);
+    const Attributes power = attributes_of(example_render(), &map);
     EXPECT_EQ(power.numbers.at("pt.gamma"), 2.2);
     EXPECT_EQ(power.texts.count("pt.encoding"), 0U);
 }
@@ -221,7 +221,7 @@ TEST(RenderReport, MetadataSayWhatWasMadeForADisplay) {
 TEST(RenderReport, MetadataOfEqualRunsAreEqual) {
     cli::RenderReport report = example_render();
     report.scene = "folder/scene.json";
-    const Attributes first = attributes_of(report, PT_QUANTITY_RADIANCE, nullptr);
+    const Attributes first = attributes_of(report, nullptr);
     EXPECT_EQ(first.texts.at("pt.scene"), "scene.json");
     EXPECT_EQ(first.texts.count("DateTime"), 0U);
     report.scene = "elsewhere/scene.json";
@@ -230,20 +230,20 @@ TEST(RenderReport, MetadataOfEqualRunsAreEqual) {
     report.total_seconds += 1.0;
     report.stats.device_seconds += 1.0;
     report.stats.submit_count += 1;
-    const Attributes second = attributes_of(report, PT_QUANTITY_RADIANCE, nullptr);
+    const Attributes second = attributes_of(report, nullptr);
     EXPECT_EQ(first.texts, second.texts);
     EXPECT_EQ(first.numbers, second.numbers);
 
     report.date = "2001:09:09 01:46:40"; // which the user gave
-    EXPECT_EQ(attributes_of(report, PT_QUANTITY_RADIANCE, nullptr).texts.at("DateTime"), report.date);
+    EXPECT_EQ(attributes_of(report, nullptr).texts.at("DateTime"), report.date);
 }
 
 TEST(RenderReport, MetadataStateTheErrorIfItIsKnown) {
     cli::RenderReport report = example_render();
     set_error(report, infinity, 0.0, infinity);
-    EXPECT_EQ(attributes_of(report, PT_QUANTITY_RADIANCE, nullptr).numbers.count("pt.relativeError"), 0U);
+    EXPECT_EQ(attributes_of(report, nullptr).numbers.count("pt.relativeError"), 0U);
     set_error(report, 0.0042, 0.0040, 0.0044);
-    EXPECT_EQ(attributes_of(report, PT_QUANTITY_RADIANCE, nullptr).numbers.at("pt.relativeError"), 0.0042);
+    EXPECT_EQ(attributes_of(report, nullptr).numbers.at("pt.relativeError"), 0.0042);
 }
 
 TEST(RenderReport, Texts) {

@@ -137,13 +137,12 @@ class Scenes(WatchTest):
         self.assertEqual(pt.count("wrote"), int("a.png" in self.files()))
 
     def test_other_options_go_with_it(self):
-        pt = self.watch("--piece-rows", "1", "--spp", "100", "--error", "5%", "--stats", "stats.json",
-                        "--standard-error", "e.exr", "-q")
+        pt = self.watch("--piece-rows", "1", "--spp", "100", "--error", "5%", "--stats", "stats.json", "-q")
         # Without a line to wait for, the file is looked at: it appears whole.
         self.await_stats(pt, 3)
         self.save("s.json", scene_text(5))
         self.await_stats(pt, 5)
-        self.assertEqual(self.files(), ["a.png", "e.exr", "s.json", "stats.json"])
+        self.assertEqual(self.files(), ["a.png", "s.json", "stats.json"])
         self.assertEqual(pt.end(), 0)
         self.assertEqual(pt.seen, [])
 

@@ -100,14 +100,14 @@ class Steps:
         text = (share / "man/man1/pt.1").read_text()
         commands = re.findall(r"^  (\w+) ", text.split("Commands:\n")[1].split("\n\n")[0], re.MULTILINE)
         require("render" in commands, f"pt.1 refers to {commands}")
-        require("\\-\\-standard\\-error" in (share / "man/man1/pt-render.1").read_text(), "pt-render.1 lacks options")
+        require("\\-\\-checkpoint\\-every" in (share / "man/man1/pt-render.1").read_text(), "pt-render.1 lacks options")
         pages = sorted(path.name for path in (share / "man/man1").iterdir())
         require(pages == sorted(["pt.1", *(f"pt-{command}.1" for command in commands)]), f"the pages are {pages}")
         self.check_completion(share / "bash-completion/completions/pt")
 
     def check_completion(self, script):
         """As bash asks for it: a function that reads the words so far and fills a variable."""
-        for words, expected in ((["pt", "re"], "render"), (["pt", "render", "--standard"], "--standard-error"),
+        for words, expected in ((["pt", "re"], "render"), (["pt", "render", "--check"], "--checkpoint --checkpoint-every"),
                                 (["pt", "render", "sc"], "")):
             ask = f'source "$1"; shift; COMP_WORDS=("$@"); COMP_CWORD={len(words) - 1}; _pt; echo "${{COMPREPLY[*]}}"'
             said = run("bash", "-c", ask, "bash", script, *words, PATH=f"{self.prefix / 'bin'}:{os.environ['PATH']}").strip()

@@ -11,6 +11,7 @@ from typing import NoReturn
 from pt._command_line import USAGE, at_least, misnamed, numbered
 
 PICTURES = ("exr", "png", "jpg", "jpeg")
+FILM_LAYERS = {"mean", "standard-error", "sample-count"}
 
 
 def refuse(message: str, code: int = USAGE) -> NoReturn:
@@ -27,7 +28,7 @@ def parser() -> argparse.ArgumentParser:
     command.add_argument("scene", metavar="SCENE")
     command.add_argument("-o", "--output", action="append", default=[], metavar="IMAGE")
     command.add_argument("--film", metavar="FILM")
-    command.add_argument("--standard-error", metavar="EXR")
+    command.add_argument("--layers", metavar="NAMES")
     command.add_argument("--png-bits", choices=("8", "16"), default="8")
     where = command.add_mutually_exclusive_group()
     where.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask cluster, as tls://host:8786")
@@ -81,15 +82,19 @@ def check(arguments: argparse.Namespace) -> None:
 def check_files(arguments: argparse.Namespace) -> None:
     """Checks names and formats of outputs now, rather than after hours."""
     wanted: list[tuple[str, tuple[str, ...]]] = [(name, PICTURES) for name in arguments.output]
-    wanted += [(arguments.standard_error, ("exr",))] if arguments.standard_error else []
     wanted += [(name, ()) for name in (arguments.film, arguments.checkpoint) if name]
     if wrong := misnamed(wanted, arguments.scene):
         refuse(*wrong)
+    if arguments.layers:
+        if not set(arguments.layers.split(",")) <= FILM_LAYERS:
+            refuse(f"--layers {arguments.layers}: must be of {', '.join(sorted(FILM_LAYERS))}, separated by commas")
+        if not any(name.lower().endswith(".exr") for name in arguments.output):
+            refuse("--layers: needs -o FILE.exr, as no other format has layers")
 
 
 def written(arguments: argparse.Namespace) -> list[str]:
     """Names of the files that are written for a picture, or for each frame."""
-    return [*arguments.output, *filter(None, (arguments.film, arguments.standard_error))]
+    return [*arguments.output, *filter(None, (arguments.film,))]
 
 
 def is_done(arguments: argparse.Namespace, frame: int | None) -> bool:

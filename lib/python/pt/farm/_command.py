@@ -62,12 +62,12 @@ def cluster(arguments: argparse.Namespace) -> Iterator[Any]:
 def write_pictures(film: Film, arguments: argparse.Namespace, facts: dict[str, Any], frame: int | None) -> None:
     if arguments.film:
         write_film(film, numbered(arguments.film, frame))
-    if not arguments.output and not arguments.standard_error:
+    if not arguments.output:
         return
     options = ["--exposure", str(facts["exposure"]), "--tonemap", facts["tonemap"], "--png-bits", arguments.png_bits]
     options += ["--gamma", str(facts["gamma"])] if facts["gamma"] else []
     options += [word for name in arguments.output for word in ("-o", numbered(name, frame))]
-    options += ["--standard-error", numbered(arguments.standard_error, frame)] if arguments.standard_error else []
+    options += ["--layers", arguments.layers] if arguments.layers else []
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "sum.ptfilm")
         write_film(film, path)
