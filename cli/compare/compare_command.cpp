@@ -1,4 +1,4 @@
-// The command `pt compare`: two images, in numbers and in a picture of their difference.
+// The command `pt compare`: two images, in numbers.
 #include "cli/base/exit_code.h"
 #include "cli/base/file.h"
 #include "cli/base/json.h"
@@ -10,11 +10,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
-#include <span>
 
 namespace cli {
 namespace {
@@ -22,8 +19,7 @@ namespace {
 struct CompareOptions {
     std::string image;
     std::string reference;
-    std::string layer;      // of both; empty: the main one
-    std::string difference; // path of the picture of the differences; empty: none
+    std::string layer; // of both; empty: the main one
     std::string json;
     bool quiet = false;
 
@@ -34,12 +30,8 @@ struct CompareOptions {
 };
 
 void check_outputs(const CompareOptions &options) {
-    refuse_if(!options.difference.empty() && image_format(options.difference) != ImageFormat::png,
-              "--difference " + options.difference + ": the name must end in .png");
     require_distinct_files({{"the image", options.image}, {"the reference", options.reference}},
-                           {{"--difference", options.difference}, {"--json", options.json}});
-    if (!options.difference.empty())
-        AtomicFile::check_writable(options.difference);
+                           {{"--json", options.json}});
     check_report_file(options.json);
 }
 
@@ -59,29 +51,6 @@ void require_comparable(const DecodedImage &image, const DecodedImage &reference
     refuse_if(image.is_float != reference.is_float,
               concat(image.path, " holds ", kind_text(image), ", ", reference.path, " ", kind_text(reference),
                      ": they must be of one kind"));
-}
-
-// Dark means no difference, bright the largest, and white a value that is not finite.
-std::vector<std::uint8_t> difference_picture(std::span<const float> differences, float largest) {
-    std::vector<std::uint8_t> bytes;
-    bytes.reserve(3 * differences.size());
-    for (const float difference : differences) {
-        const double share = largest > 0.0F ? difference / largest : 0.0;
-        const auto color = std::isnan(difference) ? std::array<std::uint8_t, 3>{255, 255, 255} : viridis(share);
-        bytes.insert(bytes.end(), color.begin(), color.end());
-    }
-    return bytes;
-}
-
-// Returns the difference that the brightest color stands for.
-float write_difference(const std::string &path, std::uint32_t width, const std::vector<float> &differences) {
-    const float largest = std::accumulate(differences.begin(), differences.end(), 0.0F,
-                                          [](float most, float each) { return std::fmax(most, each); });
-    const auto height = static_cast<std::uint32_t>(differences.size() / width);
-    const std::vector<std::uint8_t> bytes = difference_picture(differences, largest);
-    ImageWriter().write({path, ImageFormat::png},
-                        {.window = whole_window(width, height), .signals = std::as_bytes(std::span(bytes))});
-    return largest;
 }
 
 // The figures, and the limits that they exceed.
@@ -145,14 +114,9 @@ int run_compare(const CompareOptions &options) {
     const std::vector<float> wanted = reference.layer(options.layer);
 
     const CompareReport report{options, image, compare_images(values, wanted)};
-    std::string text = report.text();
-    if (!options.difference.empty()) {
-        const float largest = write_difference(options.difference, image.width, report.difference.pixels);
-        text += "wrote " + options.difference + ": relative differences from 0 to " + std::to_string(largest) + "\n";
-    }
     write_report_file(options.json, json_text(report.json()));
     if (!options.quiet)
-        print_for_people(text, options.json == standard_stream);
+        print_for_people(report.text(), options.json == standard_stream);
     const std::vector<std::string> exceeded = report.exceeded();
     for (const std::string &line : exceeded)
         print_message(line);
@@ -163,9 +127,7 @@ constexpr const char *compare_help =
     "For values x of the image and r of the reference, mse is the mean of (x-r)^2 over pixels and\n"
     "channels, relative_mse that of (x-r)^2/(r^2+0.01), and maximum the largest |x-r|. Both files hold\n"
     "radiance, or both what displays take, from 0 to 1. Pixels that are not finite in either image are\n"
-    "left out and counted; any limit is exceeded then.\n\n"
-    "The picture of --difference shows the root of each pixel's relative_mse, from 0 (dark) to the\n"
-    "largest (bright) by the color map viridis; pixels that are not finite are white.\n";
+    "left out and counted; any limit is exceeded then.\n";
 
 } // namespace
 
@@ -179,7 +141,6 @@ void add_compare_command(CLI::App &program, Run &chosen) {
         ->required();
     add_text(command, "--layer", options.layer, "NAME",
              "Compare this layer of both files (default: the channels R, G and B)");
-    add_text(command, "--difference", options.difference, "PNG", "Write a picture of where they differ (.png)");
     add_text(command, "--json", options.json, "JSON", "Write the figures as JSON; - is standard output");
     add_quiet(command, options.quiet);
     command.option_defaults()->group("Limits");

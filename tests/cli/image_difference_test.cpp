@@ -20,7 +20,6 @@ TEST(ImageDifference, EqualImagesDoNotDiffer) {
     EXPECT_EQ(difference.relative_mse, 0.0);
     EXPECT_EQ(difference.maximum, 0.0);
     EXPECT_EQ(difference.not_finite, 0U);
-    EXPECT_EQ(cli::compare_images(image, image).pixels, (std::vector<float>{0.0F, 0.0F}));
 }
 
 TEST(ImageDifference, FiguresAreMeansOverPixelsAndChannels) {
@@ -33,9 +32,6 @@ TEST(ImageDifference, FiguresAreMeansOverPixelsAndChannels) {
     EXPECT_DOUBLE_EQ(difference.relative_mse, (first + second) / 2.0);
     EXPECT_EQ(difference.maximum, 2.0);
     EXPECT_EQ(difference.maximum_value, 4U);
-    const std::vector<float> differences = cli::compare_images(image, reference).pixels;
-    EXPECT_FLOAT_EQ(differences[0], static_cast<float>(std::sqrt(first)));
-    EXPECT_FLOAT_EQ(differences[1], static_cast<float>(std::sqrt(second)));
 }
 
 TEST(ImageDifference, TheReferenceIsWhatDifferencesAreRelativeTo) {
@@ -56,7 +52,6 @@ TEST(ImageDifference, PixelsThatAreNotFiniteAreCountedAndLeftOut) {
             EXPECT_EQ(difference.maximum, 0.5);
         }
         EXPECT_EQ(cli::compare_images(image, image).not_finite, 1U); // not even equal to itself
-        EXPECT_TRUE(std::isnan(cli::compare_images(image, good).pixels[0]));
         const Pixels worse{bad, bad, bad, bad, 0.0F, 0.0F};
         EXPECT_EQ(cli::compare_images(worse, good).not_finite, 2U);
         EXPECT_EQ(cli::compare_images(worse, good).mse, 0.0);
