@@ -3,7 +3,6 @@
 #include "cli/base/tasks.h"
 #include "cli/base/text.h"
 
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -101,9 +100,10 @@ double encode(const ToneMap &map, double light) {
     return map.gamma ? std::pow(light, 1.0 / *map.gamma) : encode_srgb(light);
 }
 
-// number_of: from light of the display to a channel's number. No dither, so that equal pictures are equal files.
-template <typename Number, typename Encoder>
-std::vector<Number> map_pixels(std::span<const float> radiance, const ToneMap &map, const Encoder &number_of) {
+// No dither, so that equal pictures are equal files.
+template <typename Number>
+std::vector<Number> map_pixels(std::span<const float> radiance, const ToneMap &map) {
+    constexpr double largest = std::numeric_limits<Number>::max();
     const double scale = std::exp2(map.exposure);
     std::vector<Number> numbers(radiance.size());
     constexpr std::size_t grain = 20'000; // pixels: two milliseconds, many times what a thread takes to start
@@ -112,22 +112,10 @@ std::vector<Number> map_pixels(std::span<const float> radiance, const ToneMap &m
             const Color light =
                 apply_curve(map.curve, {radiance[i] * scale, radiance[i + 1] * scale, radiance[i + 2] * scale});
             for (std::size_t channel = 0; channel < 3; ++channel)
-                numbers[i + channel] = number_of(light[channel]);
+                numbers[i + channel] = static_cast<Number>(std::lround(encode(map, light[channel]) * largest));
         }
     });
     return numbers;
-}
-
-// The least light in (low, 1] whose signal reaches a byte. Numbers >= 0 have the order of their bits.
-double least_light_of(long byte, double low, const std::function<double(double)> &encode) {
-    auto below = std::bit_cast<std::uint64_t>(low);
-    auto least = std::bit_cast<std::uint64_t>(1.0);
-    while (least - below > 1) {
-        const std::uint64_t middle = below + (least - below) / 2;
-        const bool reaches = std::lround(encode(std::bit_cast<double>(middle)) * 255.0) >= byte;
-        (reaches ? least : below) = middle;
-    }
-    return std::bit_cast<double>(least);
 }
 
 // The color of what covers each pixel, undoing the multiplication by the covered share; black where that share is 0.
@@ -176,27 +164,11 @@ double encode_srgb(double light) {
 }
 
 std::vector<std::uint8_t> map_to_8_bits(std::span<const float> radiance, const ToneMap &map) {
-    const ByteEncoder byte_of([&](double light) { return encode(map, light); });
-    return map_pixels<std::uint8_t>(radiance, map, byte_of);
+    return map_pixels<std::uint8_t>(radiance, map);
 }
 
-// Without a table: one of so many words would take as long to make as it saves in a picture of a million pixels.
 std::vector<std::uint16_t> map_to_16_bits(std::span<const float> radiance, const ToneMap &map) {
-    const auto word_of = [&](double light) {
-        return static_cast<std::uint16_t>(std::lround(encode(map, light) * 65535.0));
-    };
-    return map_pixels<std::uint16_t>(radiance, map, word_of);
-}
-
-ByteEncoder::ByteEncoder(const std::function<double(double)> &encode) {
-    least_light_[0] = 0.0;
-    for (std::size_t byte = 1; byte < least_light_.size(); ++byte)
-        least_light_[byte] = least_light_of(static_cast<long>(byte), least_light_[byte - 1], encode);
-    for (std::size_t cell = 0; cell < cell_bytes_.size(); ++cell) {
-        const double begin = static_cast<double>(cell) / cell_count;
-        const auto above = std::upper_bound(least_light_.begin(), least_light_.end(), begin);
-        cell_bytes_[cell] = static_cast<std::uint8_t>(above - least_light_.begin() - 1);
-    }
+    return map_pixels<std::uint16_t>(radiance, map);
 }
 
 double automatic_exposure(std::span<const float> radiance) {

@@ -52,26 +52,6 @@ double encode_srgb(double light);
 std::vector<std::uint8_t> map_to_8_bits(std::span<const float> radiance, const ToneMap &map);
 std::vector<std::uint16_t> map_to_16_bits(std::span<const float> radiance, const ToneMap &map);
 
-class ByteEncoder {
-public:
-    // encode: light of the display in [0, 1] to the signal in [0, 1], from 0 to 1 and never falling.
-    explicit ByteEncoder(const std::function<double(double)> &encode);
-
-    // The byte of light in [0, 1]: 255 times the signal, rounded, halves up.
-    std::uint8_t operator()(double light) const {
-        const auto cell = static_cast<std::size_t>(light * cell_count);
-        const double *const first = least_light_.data() + cell_bytes_[cell];
-        const double *const last = least_light_.data() + cell_bytes_[cell + 1];
-        return static_cast<std::uint8_t>(std::upper_bound(first + 1, last + 1, light) - 1 - least_light_.data());
-    }
-
-private:
-    static constexpr std::size_t cell_count = 4096; // of [0, 1): most of them have one byte or two
-
-    std::array<double, 256> least_light_;                 // of each byte
-    std::array<std::uint8_t, cell_count + 2> cell_bytes_; // where a cell begins, 1 being a cell too
-};
-
 inline constexpr double largest_exposure = 64.0; // the least is its negative
 
 // The stops that bring the average of an image to middle grey, 0.18: Reinhard, Stark, Shirley, Ferwerda 2002,
