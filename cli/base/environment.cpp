@@ -1,13 +1,6 @@
 #include "cli/base/environment.h"
 
-#include "cli/base/exit_code.h"
-#include "cli/base/number.h"
-#include "cli/base/text.h"
-
-#include <array>
-#include <cstdint>
 #include <cstdlib>
-#include <ctime>
 #include <system_error>
 
 namespace cli {
@@ -60,23 +53,6 @@ void widen_vectors() {
 void choose_vector_width() {
     if (has_avx512())
         widen_vectors();
-}
-
-std::string source_date() {
-    constexpr std::uint64_t last_second = 253'402'300'799; // of the year 9999: later years have no such form
-    const char *variable = std::getenv("SOURCE_DATE_EPOCH");
-    if (variable == nullptr)
-        return "";
-    const auto seconds = parse_number<std::uint64_t>(variable);
-    refuse_if(!seconds || *seconds > last_second,
-              concat("SOURCE_DATE_EPOCH: must be a whole number of seconds from 0 to ", last_second, ", is \"",
-                     variable, "\""));
-    const auto time = static_cast<std::time_t>(*seconds);
-    std::tm utc{};
-    gmtime_r(&time, &utc);
-    std::array<char, 32> text{};
-    std::strftime(text.data(), text.size(), "%Y:%m:%d %H:%M:%S", &utc);
-    return text.data();
 }
 
 } // namespace cli

@@ -1,9 +1,8 @@
-// What the program takes from its environment, and adds to it: the folder of its cache, the width of the vectors for
-// which Mesa's llvmpipe compiles the kernel, and the date in the metadata of images.
+// What the program takes from its environment, and adds to it: the folder of its cache, and the width of the vectors
+// for which Mesa's llvmpipe compiles the kernel.
 #pragma once
 
 #include <filesystem>
-#include <string>
 
 namespace cli {
 
@@ -18,9 +17,5 @@ void widen_vectors();
 
 // The same on a machine with AVX-512. The driver reads its environment when an instance is created.
 void choose_vector_width();
-
-// "2001:09:09 01:46:40", the form of DateTime in TIFF and of capDate in OpenEXR, in UTC; empty without that variable.
-// Throws Failure(ExitCode::usage) if it is not such a number, as the specification asks.
-std::string source_date();
 
 } // namespace cli

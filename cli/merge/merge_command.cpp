@@ -1,6 +1,5 @@
 // The command `pt merge`: films of one picture in, images and their sum out.
 #include "cli/base/devices.h"
-#include "cli/base/environment.h"
 #include "cli/base/file.h"
 #include "cli/base/json.h"
 #include "cli/base/names.h"
@@ -113,7 +112,6 @@ pt_sample_range wanted_range(const MergeOptions &options, const pt_sample_range 
 
 RenderReport picture_of(const FilmHandle &film, const pt_film_info &info, const pt_sample_range &hull) {
     RenderReport picture{};
-    picture.date = source_date();
     picture.render.width = info.width;
     picture.render.height = info.height;
     picture.window = {{info.x, info.y, info.columns, info.rows}, info.width, info.height};

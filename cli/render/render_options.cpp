@@ -157,8 +157,7 @@ constexpr const char *render_help =
     "ones do not count. It is rounded to hundredths and shown, so that it can be given as a number where\n"
     "pictures are to be compared.\n\n"
     "A file that cannot be written whole is left as it was. The metadata of images say what made them,\n"
-    "and no time: equal runs give equal files. SOURCE_DATE_EPOCH, in seconds since 1970, gives them a\n"
-    "date.\n\n"
+    "and no time: equal runs give equal files.\n\n"
     "With --watch, what is wrong with a scene, its data or a shader is told once, and the picture stays\n"
     "as it was until that is mended. A change stops the rendering under way. Sources that give the same\n"
     "kernels and scene render nothing.\n";

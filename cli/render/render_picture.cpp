@@ -121,7 +121,6 @@ void print_interruption(const RenderTask &task, std::uint32_t done, std::uint32_
 RenderReport report_of(const Context &context, const RenderTask &task) {
     RenderReport report{};
     report.scene = task.scene.path;
-    report.date = source_date();
     report.render = task.render;
     report.window = task.window;
     report.requested_sample_count = task.sample_count;

@@ -167,7 +167,7 @@ std::string error_text(const RenderReport &report) {
     return estimate_text(report) + (report.target_error > 0.0 ? "; " + target_text(report) : "");
 }
 
-// No time that the rendering took and no date but one that was given: equal runs give equal files. samplesPerPixel has
+// No time and no date: equal runs give equal files. samplesPerPixel has
 // pbrt's name and type, which other tools read. Numbers that may not fit OpenEXR's signed 32-bit integer are texts.
 std::vector<ImageAttribute> image_metadata(const RenderReport &report, const ToneMap *tone_map) {
     std::vector<ImageAttribute> attributes;
@@ -177,8 +177,6 @@ std::vector<ImageAttribute> image_metadata(const RenderReport &report, const Ton
         return static_cast<std::int32_t>(std::min<std::uint32_t>(number, std::numeric_limits<std::int32_t>::max()));
     };
     add("software", "pt " + version_text());
-    if (!report.date.empty())
-        add("DateTime", report.date); // becomes capDate in OpenEXR
     add("samplesPerPixel", whole(report.stats.sample_count));
     add("pt.quantity", std::string(tone_map != nullptr ? "tone-mapped radiance" : "radiance"));
     if (tone_map != nullptr)

@@ -19,7 +19,6 @@ namespace cli {
 
 struct RenderReport {
     std::string scene;
-    std::string date; // for the images; empty: none
     pt_render render;
     ImageWindow window;                   // of the images
     std::uint32_t requested_sample_count; // the most, if there is a target

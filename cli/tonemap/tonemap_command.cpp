@@ -85,7 +85,7 @@ std::vector<ImageAttribute> attributes_of(const DecodedImage &image, const ToneM
     for (const ImageAttribute &each : image.attributes) {
         if (each.name == "pt.quantity")
             attributes.push_back({each.name, "tone-mapped " + attribute_text(each)});
-        else if (each.name.starts_with("pt.") || each.name == "samplesPerPixel" || each.name == "DateTime")
+        else if (each.name.starts_with("pt.") || each.name == "samplesPerPixel")
             attributes.push_back(each);
     }
     add_tone_map(attributes, tone_map);

@@ -216,19 +216,6 @@ class EqualRuns(CommandLineTest):
         time.sleep(1.1)
         self.assertEqual(self.images("second", FAKE_PT_SAMPLE_MS=2, TZ="Pacific/Auckland"), first)
 
-    def test_they_tell_a_date_that_is_given(self):
-        environment = {"SOURCE_DATE_EPOCH": "1000000000", "TZ": "Pacific/Auckland"}
-        for image in self.images("first", **environment):
-            self.assertIn(b"2001:09:09 01:46:40", image)
-        attributes = read_exr_attributes(self.path("first/a.exr"))
-        self.assertEqual(attributes["capDate"], ("string", b"2001:09:09 01:46:40"))
-
-    def test_a_date_that_is_none_is_refused(self):
-        for text in ("yesterday", ""):
-            self.expect(2, "render", COURSEWORK, "-o", "a.png", error="SOURCE_DATE_EPOCH: must be",
-                        SOURCE_DATE_EPOCH=text, FAKE_PT_FAIL=f"accumulate:{RESULT['DEVICE_LOST']}")
-        self.assertEqual(self.files(), [])
-
 
 class Metadata(CommandLineTest):
     def texts(self, *options):

@@ -233,9 +233,6 @@ TEST(RenderReport, MetadataOfEqualRunsAreEqual) {
     const Attributes second = attributes_of(report, nullptr);
     EXPECT_EQ(first.texts, second.texts);
     EXPECT_EQ(first.numbers, second.numbers);
-
-    report.date = "2001:09:09 01:46:40"; // which the user gave
-    EXPECT_EQ(attributes_of(report, nullptr).texts.at("DateTime"), report.date);
 }
 
 TEST(RenderReport, MetadataStateTheErrorIfItIsKnown) {
