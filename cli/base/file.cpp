@@ -65,18 +65,6 @@ bool is_same(const fs::path &one, const fs::path &other) {
     throw Failure(ExitCode::file, "cannot read " + path + ": " + std::generic_category().message(errno));
 }
 
-// By its byte order mark; or by every other byte being 0, for the first two characters of JSON are ASCII (RFC 4627,
-// section 3).
-bool is_utf16(std::string_view contents) {
-    if (contents.starts_with("\xff\xfe") || contents.starts_with("\xfe\xff"))
-        return true;
-    const auto has_zeros = [&](std::size_t first) {
-        return contents[first] == '\0' && contents[first + 2] == '\0' && contents[1 - first] != '\0' &&
-               contents[3 - first] != '\0';
-    };
-    return contents.size() >= 4 && (has_zeros(0) || has_zeros(1));
-}
-
 // size: the expected size, so that large files are not moved while they grow.
 std::string read_all(int descriptor, const std::string &name, std::size_t size) {
     constexpr std::size_t block = std::size_t{1} << 20;
@@ -279,11 +267,9 @@ std::string read_standard_input() {
 
 std::string_view require_text(std::string_view contents, const std::string &path) {
     constexpr std::string_view byte_order_mark = "\xef\xbb\xbf"; // of UTF-8
-    if (is_utf16(contents))
-        throw Failure(ExitCode::scene, path + ": is UTF-16: save it as UTF-8");
     if (const std::size_t zero = contents.find('\0'); zero != std::string_view::npos) {
         throw Failure(ExitCode::scene,
-                      path + ":" + line_and_column(contents.substr(0, zero)) + ": a NUL byte: this is not a text file");
+                      path + ":" + line_and_column(contents.substr(0, zero)) + ": a NUL byte: this is not UTF-8 text");
     }
     contents.remove_prefix(contents.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
     return contents;

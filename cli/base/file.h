@@ -120,7 +120,7 @@ std::string read_file(const std::string &path);
 std::string read_standard_input();
 
 // The text of a file without the byte order mark that some editors put in front. Throws Failure(ExitCode::scene) for
-// UTF-16 and for files with a NUL byte, which readers of text would take for their end.
+// files with a NUL byte, which readers of text would take for their end, and which UTF-16 has in every second place.
 std::string_view require_text(std::string_view contents, const std::string &path);
 
 // Line and column of what follows the given part of a text, as "3:14". Both count from 1; columns are bytes.

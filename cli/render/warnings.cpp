@@ -66,35 +66,6 @@ std::optional<std::string> brightening_materials(const SceneFile &scene) {
            ": more light is reflected than received";
 }
 
-// Looks at every n-th pixel, some 65,536 at most, which is enough to estimate a share.
-double burnt_out_share(std::span<const float> radiance, const ToneMap &tone_map) {
-    constexpr std::size_t most_pixels = 65'536;
-    const std::size_t pixel_count = radiance.size() / 3;
-    const std::size_t step = (pixel_count + most_pixels - 1) / most_pixels;
-    std::vector<float> chosen;
-    for (std::size_t pixel = 0; pixel < pixel_count; pixel += step)
-        chosen.insert(chosen.end(), {radiance[3 * pixel], radiance[3 * pixel + 1], radiance[3 * pixel + 2]});
-    const std::vector<std::uint8_t> bytes = map_to_8_bits(chosen, tone_map);
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < bytes.size(); i += 3)
-        count += std::max({bytes[i], bytes[i + 1], bytes[i + 2]}) == 255 ? 1 : 0;
-    return static_cast<double>(3 * count) / static_cast<double>(std::max<std::size_t>(bytes.size(), 1));
-}
-
-std::optional<std::string> burnt_out_picture(const RenderReport &report, std::span<const float> radiance) {
-    constexpr double largest_share = 0.25;
-    if (!report.tone_map)
-        return std::nullopt;
-    const double share = burnt_out_share(radiance, *report.tone_map);
-    if (!(share > largest_share))
-        return std::nullopt;
-    const std::string hint = report.tone_map->is_automatic
-                                 ? "a lower --exposure than " + formatted("%.2f", report.tone_map->exposure)
-                                 : "--exposure auto, here " + formatted("%.2f", automatic_exposure(radiance));
-    return formatted("%.0f%%", 100.0 * share) + " of the pixels are burnt out, with a channel at its maximum: try " +
-           hint + (report.tone_map->curve == ToneCurve::none ? ", or --tonemap agx" : "");
-}
-
 bool is_black(std::span<const float> radiance) {
     return !radiance.empty() && std::ranges::all_of(radiance, [](float value) { return value == 0.0F; });
 }
@@ -148,8 +119,6 @@ std::vector<std::string> image_warnings(const RenderReport &report, std::span<co
         warnings.push_back(std::to_string(stats.rejected_samples) + " samples (" + percent_text(share) +
                            ") were left out: not finite, negative or too bright");
     }
-    if (auto burnt_out = burnt_out_picture(report, radiance))
-        warnings.push_back(std::move(*burnt_out));
     if (auto below = picture_below_its_target(report, radiance))
         warnings.push_back(std::move(*below));
     if (is_black(radiance) && !is_known_to_be_black(report))

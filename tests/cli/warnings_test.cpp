@@ -118,27 +118,4 @@ TEST(Warnings, PicturesThatAreDarkerThanTheErrorTells) {
     EXPECT_EQ(image_warnings(report, radiance), Texts());
 }
 
-TEST(Warnings, BurntOutPictures) {
-    cli::RenderReport report{};
-    report.tone_map.emplace();
-    std::vector<float> radiance(std::size_t{3} * 400'000, 0.18F); // more than are looked at
-    for (std::size_t pixel = 0; pixel < 400'000; pixel += 5) {
-        radiance[3 * pixel + 2] = 1.0F; // one channel is enough
-    }
-    EXPECT_EQ(image_warnings(report, radiance), Texts()); // a fifth
-    for (std::size_t pixel = 0; pixel < 400'000; pixel += 2) {
-        radiance[3 * pixel] = 1.0F; // every second
-    }
-    EXPECT_EQ(
-        image_warnings(report, radiance),
-        Texts{"60% of the pixels are burnt out, with a channel at its maximum: try --exposure auto, here -0.87, or "
-              "--tonemap agx"});
-    report.tone_map->is_automatic = true;
-    report.tone_map->curve = cli::ToneCurve::neutral;
-    report.tone_map->exposure = 9.0;
-    EXPECT_TRUE(image_warnings(report, radiance).at(0).ends_with(": try a lower --exposure than 9.00"));
-    report.tone_map.reset(); // EXR alone
-    EXPECT_EQ(image_warnings(report, radiance), Texts());
-}
-
 } // namespace
