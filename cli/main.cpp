@@ -83,19 +83,6 @@ std::string_view package_of(std::string_view name) {
                                : "";
 }
 
-// Without the program's name, the last first, as CLI11 takes them. Those behind "--" are files, whatever their names:
-// CLI11 takes it for the end of a list of values, and none for a part of an option that "./" stands before.
-std::vector<std::string> arguments_of(int argument_count, char **arguments) {
-    std::vector<std::string> given(arguments + std::min(argument_count, 1), arguments + argument_count);
-    if (const auto mark = std::find(given.begin(), given.end(), "--"); mark != given.end()) {
-        for (auto file = given.erase(mark); file != given.end(); ++file)
-            if (file->starts_with('-') && file->size() > 1)
-                file->insert(0, "./");
-    }
-    std::reverse(given.begin(), given.end());
-    return given;
-}
-
 int run(int argument_count, char **arguments) {
     CLI::App program("An offscreen path tracer for spheres and planes on any Vulkan device", "pt");
     cli::Run chosen;
@@ -122,7 +109,7 @@ int run(int argument_count, char **arguments) {
                                                           package));
     }
     try {
-        program.parse(arguments_of(argument_count, arguments));
+        program.parse(argument_count, arguments);
     } catch (const CLI::ParseError &error) {
         if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success))
             return program.exit(error); // --help and --version

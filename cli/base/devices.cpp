@@ -7,8 +7,6 @@
 #include "cli/base/text.h"
 #include "cli/commands.h"
 
-#include <pt/devices.h>
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -62,14 +60,10 @@ void print_table(const std::vector<pt_device_info> &devices) {
 void print_json(const std::vector<pt_device_info> &devices) {
     auto list = nlohmann::ordered_json::array();
     for (const pt_device_info &device : devices) {
-        list.push_back({{"index", list.size()},
-                        {"kind", kind_name(device.kind)},
-                        {"name", device.name},
-                        {"driver", device.driver},
-                        {"memory_bytes", device.memory_bytes},
-                        {"uuid", uuid_text(device.uuid)},
-                        {"suitable", device.suitable != 0},
-                        {"reason", device.reason}});
+        nlohmann::ordered_json each{{"index", list.size()}};
+        each.update(device_json(device));
+        each.update({{"suitable", device.suitable != 0}, {"reason", device.reason}});
+        list.push_back(std::move(each));
     }
     std::cout << json_text(list);
 }
@@ -94,6 +88,14 @@ std::string kind_name(std::uint32_t kind) {
                                        {"virtual GPU", PT_DEVICE_VIRTUAL_GPU},
                                        {"CPU", PT_DEVICE_CPU}});
     return std::string(names.name(kind));
+}
+
+nlohmann::ordered_json device_json(const pt_device_info &device) {
+    return {{"name", device.name},
+            {"driver", device.driver},
+            {"kind", kind_name(device.kind)},
+            {"memory_bytes", device.memory_bytes},
+            {"uuid", uuid_text(device.uuid)}};
 }
 
 std::string memory_text(std::uint64_t bytes) {

@@ -1,7 +1,8 @@
 // What is shown of a device and of the library as text.
 #pragma once
 
-#include <pt/pt.h>
+#include <nlohmann/json_fwd.hpp>
+#include <pt/devices.h>
 
 #include <cstdint>
 #include <string>
@@ -10,6 +11,9 @@ namespace cli {
 
 // kind: PT_DEVICE_*.
 std::string kind_name(std::uint32_t kind);
+
+// Name, driver, kind, memory and UUID.
+nlohmann::ordered_json device_json(const pt_device_info &device);
 
 // "7.7 GiB", "480 B": in the largest unit in which the number is at least one.
 std::string memory_text(std::uint64_t bytes);

@@ -70,22 +70,6 @@ std::string unknown(std::string_view kind, std::string_view name, const std::vec
     return unknown_name(kind, name, std::vector<std::string_view>(known.begin(), known.end()));
 }
 
-// CLI11 says "--spp: At Most 1 required but received 2" and "--spp: 1 required N missing".
-std::string reason_of_count(const std::string &text) {
-    constexpr std::string_view received = " but received ";
-    constexpr std::string_view required = " required ";
-    constexpr std::string_view missing = " missing";
-    const std::string name = text.substr(0, text.find(':'));
-    if (const std::size_t at = text.rfind(received); at != std::string::npos)
-        return name + ": is given " + text.substr(at + received.size()) + " times, and takes one value";
-    const std::size_t at = text.find(required);
-    if (at != std::string::npos && text.ends_with(missing)) {
-        const std::size_t begin = at + required.size();
-        return name + ": its value is missing: " + text.substr(begin, text.size() - missing.size() - begin);
-    }
-    return text;
-}
-
 // `unknown option "--expsure", did you mean "--exposure"?`, for the first argument that parsing left over; nothing if
 // there is none.
 std::optional<std::string> unknown_argument(const CLI::App &command) {
@@ -100,8 +84,7 @@ std::optional<std::string> unknown_argument(const CLI::App &command) {
 }
 
 std::string reason_of(const CLI::App &command, const CLI::ParseError &error) {
-    const bool is_count = dynamic_cast<const CLI::ArgumentMismatch *>(&error) != nullptr;
-    return unknown_argument(command).value_or(is_count ? reason_of_count(error.what()) : error.what());
+    return unknown_argument(command).value_or(error.what());
 }
 
 class HelpFormatter : public CLI::Formatter {

@@ -97,12 +97,11 @@ struct ImageLayer {
 struct ImageData {
     ImageWindow window;
     std::span<const ImageLayer> layers = {};
-    std::span<const std::byte> signals = {}; // R, G, B of each pixel, for PNG also R, G, B, A, not multiplied by A
-    std::uint32_t bits = 8;                  // of each; for PNG also 16, in the machine's byte order
-    std::optional<double> gamma = {};        // light is the signal to this power; nothing: by the sRGB curve. For PNG
+    std::span<const std::uint8_t> signals = {}; // R, G, B of each pixel, for PNG also R, G, B, A, not multiplied by A
+    std::optional<double> gamma = {}; // light is the signal to this power; nothing: by the sRGB curve. For PNG
     std::span<const ImageAttribute> attributes = {};
 
-    bool has_alpha() const { return signals.size() == std::size_t{bits} / 8 * 4 * window.part.pixel_count(); }
+    bool has_alpha() const { return signals.size() == 4 * window.part.pixel_count(); }
 };
 
 // Encodes an image in memory. extension: "exr" or "jpg".

@@ -4,7 +4,6 @@
 #include <png.h>
 
 #include <algorithm>
-#include <bit>
 #include <csetjmp>
 #include <cstdint>
 #include <new>
@@ -85,23 +84,17 @@ std::vector<png_bytep> rows_of(const ImageData &image) {
     std::vector<png_bytep> rows(image.window.part.height);
     const std::size_t row_bytes = image.signals.size() / rows.size();
     for (std::size_t y = 0; y < rows.size(); ++y) // libpng only reads them
-        rows[y] = reinterpret_cast<png_bytep>(const_cast<std::byte *>(&image.signals[y * row_bytes]));
+        rows[y] = const_cast<png_bytep>(&image.signals[y * row_bytes]);
     return rows;
-}
-
-// PNG has the more significant byte of a word first (ISO 15948, 7.2).
-int transforms_of(const ImageData &image) {
-    const bool is_swapped = image.bits == 16 && std::endian::native == std::endian::little;
-    return is_swapped ? PNG_TRANSFORM_SWAP_ENDIAN : PNG_TRANSFORM_IDENTITY;
 }
 
 // Returns false after a failure. A long jump runs no destructors, so this function has no objects that need one.
 bool write(Encoding &encoding, const ImageData &image, std::span<png_text> texts, png_bytepp rows) {
     if (setjmp(png_jmpbuf(encoding.png)) != 0) // NOLINT(cert-err52-cpp): libpng's way to tell of errors
         return false;
-    png_set_IHDR(encoding.png, encoding.info, image.window.part.width, image.window.part.height,
-                 static_cast<int>(image.bits), image.has_alpha() ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB,
-                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(encoding.png, encoding.info, image.window.part.width, image.window.part.height, 8,
+                 image.has_alpha() ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     set_color_space(encoding, image.gamma);
     // Pictures are noise about slopes. Differences of neighbours in a row, matched with less effort, make files as
     // large as the best of all filters and zlib's default do, in a third of the time or less.
@@ -109,7 +102,7 @@ bool write(Encoding &encoding, const ImageData &image, std::span<png_text> texts
     png_set_compression_level(encoding.png, 4);
     png_set_text(encoding.png, encoding.info, texts.data(), static_cast<int>(texts.size()));
     png_set_rows(encoding.png, encoding.info, rows);
-    png_write_png(encoding.png, encoding.info, transforms_of(image), nullptr);
+    png_write_png(encoding.png, encoding.info, PNG_TRANSFORM_IDENTITY, nullptr);
     return true;
 }
 

@@ -100,24 +100,6 @@ double encode(const ToneMap &map, double light) {
     return map.gamma ? std::pow(light, 1.0 / *map.gamma) : encode_srgb(light);
 }
 
-// No dither, so that equal pictures are equal files.
-template <typename Number>
-std::vector<Number> map_pixels(std::span<const float> radiance, const ToneMap &map) {
-    constexpr double largest = std::numeric_limits<Number>::max();
-    const double scale = std::exp2(map.exposure);
-    std::vector<Number> numbers(radiance.size());
-    constexpr std::size_t grain = 20'000; // pixels: two milliseconds, many times what a thread takes to start
-    in_parallel(radiance.size() / 3, grain, [&](std::size_t first, std::size_t end) {
-        for (std::size_t i = 3 * first; i < 3 * end; i += 3) {
-            const Color light =
-                apply_curve(map.curve, {radiance[i] * scale, radiance[i + 1] * scale, radiance[i + 2] * scale});
-            for (std::size_t channel = 0; channel < 3; ++channel)
-                numbers[i + channel] = static_cast<Number>(std::lround(encode(map, light[channel]) * largest));
-        }
-    });
-    return numbers;
-}
-
 // The color of what covers each pixel, undoing the multiplication by the covered share; black where that share is 0.
 std::vector<float> unassociated(std::span<const float> radiance, std::span<const float> alpha) {
     std::vector<float> colors(radiance.size());
@@ -129,14 +111,12 @@ std::vector<float> unassociated(std::span<const float> radiance, std::span<const
 }
 
 // Puts A, which is a share and is encoded as it is, after R, G and B of each pixel.
-template <typename Signal>
-std::vector<Signal> with_alpha(const std::vector<Signal> &colors, std::span<const float> alpha) {
-    constexpr double largest = std::numeric_limits<Signal>::max();
-    std::vector<Signal> pixels;
+std::vector<std::uint8_t> with_alpha(std::span<const std::uint8_t> colors, std::span<const float> alpha) {
+    std::vector<std::uint8_t> pixels;
     pixels.reserve(4 * alpha.size());
     for (std::size_t pixel = 0; pixel < alpha.size(); ++pixel) {
         pixels.insert(pixels.end(), &colors[3 * pixel], &colors[3 * pixel] + 3);
-        pixels.push_back(static_cast<Signal>(std::lround(alpha[pixel] * largest)));
+        pixels.push_back(static_cast<std::uint8_t>(std::lround(alpha[pixel] * 255.0)));
     }
     return pixels;
 }
@@ -163,12 +143,19 @@ double encode_srgb(double light) {
     return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1.0 / 2.4) - 0.055;
 }
 
-std::vector<std::uint8_t> map_to_8_bits(std::span<const float> radiance, const ToneMap &map) {
-    return map_pixels<std::uint8_t>(radiance, map);
-}
-
-std::vector<std::uint16_t> map_to_16_bits(std::span<const float> radiance, const ToneMap &map) {
-    return map_pixels<std::uint16_t>(radiance, map);
+std::vector<std::uint8_t> map_to_bytes(std::span<const float> radiance, const ToneMap &map) {
+    const double scale = std::exp2(map.exposure);
+    std::vector<std::uint8_t> bytes(radiance.size());
+    constexpr std::size_t grain = 20'000; // pixels: two milliseconds, many times what a thread takes to start
+    in_parallel(radiance.size() / 3, grain, [&](std::size_t first, std::size_t end) {
+        for (std::size_t i = 3 * first; i < 3 * end; i += 3) {
+            const Color light =
+                apply_curve(map.curve, {radiance[i] * scale, radiance[i + 1] * scale, radiance[i + 2] * scale});
+            for (std::size_t channel = 0; channel < 3; ++channel)
+                bytes[i + channel] = static_cast<std::uint8_t>(std::lround(encode(map, light[channel]) * 255.0));
+        }
+    });
+    return bytes;
 }
 
 double automatic_exposure(std::span<const float> radiance) {
@@ -209,22 +196,13 @@ std::string automatic_exposure_line(const std::optional<ToneMap> &tone_map) {
 }
 
 void write_display_image(ImageWriter &writer, const ImageTarget &target, ImageData image,
-                         std::span<const float> radiance, const ToneMap &tone_map, std::uint32_t png_bits,
-                         std::span<const float> alpha) {
-    const std::vector<float> covering = alpha.empty() ? std::vector<float>() : unassociated(radiance, alpha);
-    const std::span<const float> colors = alpha.empty() ? radiance : covering;
+                         std::span<const float> radiance, const ToneMap &tone_map, std::span<const float> alpha) {
+    std::vector<std::uint8_t> bytes = map_to_bytes(alpha.empty() ? radiance : unassociated(radiance, alpha), tone_map);
+    if (!alpha.empty())
+        bytes = with_alpha(bytes, alpha);
+    image.signals = bytes;
     image.gamma = tone_map.gamma;
-    const auto write = [&](auto signals) {
-        if (!alpha.empty())
-            signals = with_alpha(signals, alpha);
-        image.signals = std::as_bytes(std::span(signals));
-        image.bits = 8 * sizeof signals[0];
-        writer.write(target, image);
-    };
-    if (target.format == ImageFormat::png && png_bits == 16)
-        write(map_to_16_bits(colors, tone_map));
-    else
-        write(map_to_8_bits(colors, tone_map));
+    writer.write(target, image);
 }
 
 } // namespace cli

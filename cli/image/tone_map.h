@@ -1,4 +1,4 @@
-// How radiance is shown: exposure, tone curve, display encoding and rounding to 8 or 16 bits, and the files of pictures
+// How radiance is shown: exposure, tone curve, display encoding and rounding to bytes, and the files of pictures
 // for a display. One way for pictures that are rendered and for those made of a file of radiance, so that both have the
 // same bits.
 #pragma once
@@ -48,9 +48,9 @@ Color apply_curve(ToneCurve curve, const Color &radiance);
 // Light of the display in [0, 1] to the signal in [0, 1]: IEC 61966-2-1.
 double encode_srgb(double light);
 
-// From R, G, B triples of radiance >= 0 to as many bytes or words: 255 or 65535 times the signal, rounded, halves up.
-std::vector<std::uint8_t> map_to_8_bits(std::span<const float> radiance, const ToneMap &map);
-std::vector<std::uint16_t> map_to_16_bits(std::span<const float> radiance, const ToneMap &map);
+// From R, G, B triples of radiance >= 0 to as many bytes: 255 times the signal, rounded, halves up. No dither, so that
+// equal pictures are equal files.
+std::vector<std::uint8_t> map_to_bytes(std::span<const float> radiance, const ToneMap &map);
 
 inline constexpr double largest_exposure = 64.0; // the least is its negative
 
@@ -80,11 +80,10 @@ void add_tone_map(std::vector<ImageAttribute> &attributes, const ToneMap &tone_m
 // "exposure -3.13 EV (auto)" and the end of the line; empty where it was given, or nothing is tone-mapped.
 std::string automatic_exposure_line(const std::optional<ToneMap> &tone_map);
 
-// image: its window and attributes. radiance: R, G, B triples of the window's part, >= 0. png_bits: of a channel, 8 or
-// 16; JPEG has 8. alpha: of each pixel, by which its radiance is multiplied already; empty for none, and for JPEG.
-// Throws Failure(ExitCode::file), and leaves an existing file as it was.
+// image: its window and attributes. radiance: R, G, B triples of the window's part, >= 0. alpha: of each pixel, by
+// which its radiance is multiplied already; empty for none, and for JPEG. Throws Failure(ExitCode::file), and leaves an
+// existing file as it was.
 void write_display_image(ImageWriter &writer, const ImageTarget &target, ImageData image,
-                         std::span<const float> radiance, const ToneMap &tone_map, std::uint32_t png_bits,
-                         std::span<const float> alpha = {});
+                         std::span<const float> radiance, const ToneMap &tone_map, std::span<const float> alpha = {});
 
 } // namespace cli

@@ -236,7 +236,6 @@ void add_merge_command(CLI::App &program, Run &chosen) {
         "How many there should be from there on; those missing are told, with exit code 7 (default: up to the "
         "last there is)");
     add_scene_options(command, options.display, false);
-    add_png_bits(command, options.output.png_bits);
     command.option_defaults()->group("Messages");
     add_quiet(command, options.output.quiet);
 }

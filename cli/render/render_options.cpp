@@ -182,15 +182,6 @@ void add_format(CLI::App &command, std::optional<ImageFormat> &format, std::span
         ->group("Output");
 }
 
-void add_png_bits(CLI::App &command, std::uint32_t &bits) {
-    const auto parse = [](std::string_view text) {
-        return text == "8" ? std::optional(8U) : text == "16" ? std::optional(16U) : std::nullopt;
-    };
-    add_parsed(command, "--png-bits", bits, parse, "must be 8 or 16", "Bits of a channel in .png (default: 8)")
-        ->type_name("8|16")
-        ->group("Display (.png and .jpg only)");
-}
-
 void add_output_options(CLI::App &command, OutputOptions &options, std::span<const std::string_view> layers) {
     command.option_defaults()->group("Output");
     command
@@ -227,7 +218,6 @@ void add_render_command(CLI::App &program, Run &chosen) {
     add_text(command, "SCENE", options.scene, "SCENE", "Scene file (JSON); - is standard input")->required();
     add_output_options(command, options.output, layer_names.names());
     add_scene_options(command, options.overrides, true);
-    add_png_bits(command, options.output.png_bits);
     add_picture_options(command, options);
     add_sampling_options(command, options);
     add_lasting_options(command, options);

@@ -52,7 +52,6 @@ struct OutputOptions {
     std::vector<std::uint32_t> layers; // of each .exr beside its radiance, PT_QUANTITY_*
     std::string film;                  // empty: none, as of the report
     std::string stats;
-    std::uint32_t png_bits = 8; // of a channel
     bool quiet = false;
 
     // For images whose names have been checked.
@@ -71,14 +70,12 @@ void for_each_output(Options &options, Use use) {
     use("--stats", options.stats);
 }
 
-// The options write into `options` when the command line is parsed. All but those of quiet and png_bits. layers: those
-// that the command can write.
+// The options write into `options` when the command line is parsed. All but that of quiet. layers: those that the
+// command can write.
 void add_output_options(CLI::App &command, OutputOptions &options, std::span<const std::string_view> layers);
 
 // For an image on standard output. names: the formats that the command can write.
 void add_format(CLI::App &command, std::optional<ImageFormat> &format, std::span<const std::string_view> names);
-
-void add_png_bits(CLI::App &command, std::uint32_t &bits);
 
 struct RenderOptions {
     std::string scene;

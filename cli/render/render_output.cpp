@@ -11,8 +11,8 @@
 namespace cli {
 namespace {
 
-void write_image(ImageWriter &writer, const ImageTarget &target, const OutputOptions &options,
-                 const RenderReport &report, const RenderedImage &rendered) {
+void write_image(ImageWriter &writer, const ImageTarget &target, const RenderReport &report,
+                 const RenderedImage &rendered) {
     const ToneMap *tone_map = target.format == ImageFormat::exr ? nullptr : &report.tone_map.value();
     const std::vector<ImageAttribute> attributes = image_metadata(report, tone_map);
     ImageData image{.window = report.window, .attributes = attributes};
@@ -25,7 +25,7 @@ void write_image(ImageWriter &writer, const ImageTarget &target, const OutputOpt
     } else {
         const auto alpha =
             std::ranges::find(rendered.layers, std::uint32_t{PT_QUANTITY_COVERAGE}, &PictureLayer::quantity);
-        write_display_image(writer, target, image, rendered.radiance, *tone_map, options.png_bits,
+        write_display_image(writer, target, image, rendered.radiance, *tone_map,
                             alpha == rendered.layers.end() ? std::span<const float>() : alpha->values);
     }
 }
@@ -143,7 +143,7 @@ std::vector<std::string> write_images(ImageWriter &writer, const OutputOptions &
                                       const RenderedImage &image) {
     std::vector<std::string> written;
     for (const ImageTarget &target : options.targets())
-        if (succeeds([&] { write_image(writer, target, options, report, image); }))
+        if (succeeds([&] { write_image(writer, target, report, image); }))
             written.push_back(target.path == standard_stream ? "standard output" : target.path);
     return written;
 }

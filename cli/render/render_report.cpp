@@ -120,23 +120,21 @@ nlohmann::ordered_json error_json(const pt_error_estimate &error) {
 
 nlohmann::ordered_json stats_json(const RenderReport &report) {
     const pt_render &render = report.render;
-    nlohmann::ordered_json stats{
-        {"version", version_text()},
-        {"scene", report.scene},
-        {"width", render.width},
-        {"height", render.height},
-        {"crop", crop_json(report.window)},
-        {"spp", report.stats.sample_count},
-        {"spp_mean", report.stats.mean_sample_count},
-        {"spp_max", report.stats.max_sample_count},
-        {"spp_requested", report.requested_sample_count},
-        {"first_sample", render.first_sample},
-        {"seed", render.seed},
-        {"max_path_length", render.max_path_length},
-        {"sampler", samplers.name(render.sampler)},
-        {"estimator", estimators.name(render.estimator)},
-        {"device",
-         {{"name", report.device.name}, {"driver", report.device.driver}, {"uuid", uuid_text(report.device.uuid)}}}};
+    nlohmann::ordered_json stats{{"version", version_text()},
+                                 {"scene", report.scene},
+                                 {"width", render.width},
+                                 {"height", render.height},
+                                 {"crop", crop_json(report.window)},
+                                 {"spp", report.stats.sample_count},
+                                 {"spp_mean", report.stats.mean_sample_count},
+                                 {"spp_max", report.stats.max_sample_count},
+                                 {"spp_requested", report.requested_sample_count},
+                                 {"first_sample", render.first_sample},
+                                 {"seed", render.seed},
+                                 {"max_path_length", render.max_path_length},
+                                 {"sampler", samplers.name(render.sampler)},
+                                 {"estimator", estimators.name(render.estimator)},
+                                 {"device", device_json(report.device)}};
     stats.update(error_json(report.error));
     stats.update(nlohmann::ordered_json{
         {"target_error", report.target_error > 0.0 ? nlohmann::ordered_json(report.target_error) : nullptr},

@@ -185,12 +185,7 @@ nlohmann::ordered_json selftest_json(const SelftestReport &report) {
                           {"measured", check.detail}});
     }
     return {{"version", version_text()},
-            {"device",
-             {{"name", report.device.name},
-              {"driver", report.device.driver},
-              {"kind", kind_name(report.device.kind)},
-              {"memory_bytes", report.device.memory_bytes},
-              {"uuid", uuid_text(report.device.uuid)}}},
+            {"device", device_json(report.device)},
             {"passed", report.passed()},
             {"checks", std::move(checks)}};
 }

@@ -20,7 +20,6 @@ struct TonemapOptions {
     std::string output;
     std::optional<ImageFormat> format;  // of an output that is standard output
     std::vector<SceneOverride> display; // how the image is shown
-    std::uint32_t png_bits = 8;
     bool quiet = false;
 };
 
@@ -104,7 +103,7 @@ int run_tonemap(const TonemapOptions &options) {
     const std::vector<ImageAttribute> attributes = attributes_of(image, tone_map);
     ImageWriter writer;
     write_display_image(writer, target, {.window = window, .attributes = attributes}, radiance, tone_map,
-                        options.png_bits, alpha_of(image, target.format));
+                        alpha_of(image, target.format));
     if (!options.quiet) {
         print_for_people("wrote " + (options.output == standard_stream ? "standard output" : options.output) + ": " +
                              window_text(window) + "\n" + automatic_exposure_line(tone_map),
@@ -129,7 +128,6 @@ void add_tonemap_command(CLI::App &program, Run &chosen) {
     add_text(command, "OUT", options.output, "OUT", "Image to write (.png, .jpg); - is standard output")->required();
     add_format(command, options.format, image_formats.names().subspan(1));
     add_scene_options(command, options.display, false);
-    add_png_bits(command, options.png_bits);
     add_quiet(command, options.quiet);
 }
 

@@ -33,10 +33,9 @@ void write_main_layer(const std::string &path, const cli::ImageWindow &window, s
 
 void write_bytes(const std::string &path, std::uint32_t width, std::uint32_t height,
                  std::span<const std::uint8_t> bytes, std::optional<double> gamma = std::nullopt) {
-    ImageWriter().write(target(path), {.window = cli::whole_window(width, height),
-                                       .signals = std::as_bytes(std::span(bytes)),
-                                       .gamma = gamma,
-                                       .attributes = attributes});
+    ImageWriter().write(
+        target(path),
+        {.window = cli::whole_window(width, height), .signals = bytes, .gamma = gamma, .attributes = attributes});
 }
 
 template <typename Value>
@@ -129,14 +128,6 @@ TEST(ImageFile, ALayerIsReadByItsName) {
     }
 }
 
-TEST(ImageFile, WordsKeepEveryBit) {
-    const TemporaryFolder folder;
-    const std::vector<std::uint16_t> words{0, 1, 255, 256, 257, 32768, 65279, 65534, 65535};
-    ImageWriter().write(target(folder.file("a.png")),
-                        {.window = cli::whole_window(3, 1), .signals = std::as_bytes(std::span(words)), .bits = 16});
-    EXPECT_EQ(read_pixels<std::uint16_t>(folder.file("a.png"), OIIO::TypeDesc::UINT16), words);
-}
-
 TEST(ImageFile, WhatCannotBeReadIsRefused) {
     const TemporaryFolder folder;
     folder.write("text.exr", "no image");
@@ -178,9 +169,8 @@ TEST(ImageFile, PngKeepsNamesInUtf8) {
     const std::string name = "sc\xc3\xa8ne.json"; // as which libpng reads international text chunks
     const cli::ImageAttribute named{"pt.scene", name};
     const std::array<std::uint8_t, 3> bytes{1, 2, 3};
-    ImageWriter().write(
-        target(folder.file("a.png")),
-        {.window = cli::whole_window(1, 1), .signals = std::as_bytes(std::span(bytes)), .attributes = {&named, 1}});
+    ImageWriter().write(target(folder.file("a.png")),
+                        {.window = cli::whole_window(1, 1), .signals = bytes, .attributes = {&named, 1}});
     EXPECT_EQ(OIIO::ImageInput::open(folder.file("a.png"))->spec().get_string_attribute("pt.scene"), name);
     EXPECT_NE(folder.read("a.png").find("iTXtpt.scene"), std::string::npos);
 }

@@ -1,9 +1,8 @@
-"""Tests of the images that `pt render` and `pt tonemap` write: crops, 16 bits, standard output, metadata.
+"""Tests of the images that `pt render` and `pt tonemap` write: crops, standard output, metadata.
 
 Arguments: see command_line.py.
 """
 
-import itertools
 import os
 import pty
 import signal
@@ -23,11 +22,6 @@ def cut(image, rectangle):
     """The part of the rows of a picture, three numbers to a pixel."""
     x, y, width, height = rectangle
     return [row[3 * x:3 * (x + width)] for row in image[y:y + height]]
-
-
-def encode_srgb(light):
-    """IEC 61966-2-1."""
-    return 12.92 * light if light <= 0.0031308 else 1.055 * light ** (1 / 2.4) - 0.055
 
 
 def texts_of(data):
@@ -88,30 +82,6 @@ class Crop(ImagesTest):
         self.render("-o", "a.png", "--stats", "s.json")
         self.assertIn('"crop": null', self.read("s.json"))
         self.assertNotIn("pt.crop", texts_of(self.contents("a.png")))
-
-
-class Bits(ImagesTest):
-    def test_sixteen_bits_are_the_rounded_signal(self):
-        self.render("-o", "a.png", "--png-bits", "16", "--exposure", "-1")
-        width, height, image = read_png(self.path("a.png"))
-        self.assertEqual((width, height), (WIDTH, HEIGHT))
-        for y, x in itertools.product(range(height), range(width)):
-            # What the stand-in shows, in float32, halved; blue is 2, halved.
-            shown = (x / (WIDTH - 1), y / (HEIGHT - 1), 2)
-            light = [struct.unpack("f", struct.pack("f", value))[0] / 2 for value in shown]
-            self.assertEqual(image[y][3 * x:3 * x + 3], [int(65535 * encode_srgb(value) + 0.5) for value in light])
-        self.assertGreater(max(value % 256 for row in image for value in row), 200)
-
-    def test_eight_bits_are_the_default(self):
-        self.render("-o", "a.png", "-o", "a.jpg")
-        default = self.contents("a.png")
-        self.render("-o", "a.png", "--png-bits", "8")
-        self.assertEqual(self.contents("a.png"), default)
-        jpeg = self.contents("a.jpg")
-        self.render("-o", "a.jpg", "--png-bits", "16")
-        self.assertEqual(self.contents("a.jpg"), jpeg)
-        for text in "12", "0", "":
-            self.render("-o", "a.png", "--png-bits", text, code=2, error="--png-bits: must be 8 or 16")
 
 
 class StandardOutput(ImagesTest):
@@ -176,11 +146,11 @@ class Exr(ImagesTest):
 
 
 class Tonemap(ImagesTest):
-    DISPLAYS = [[*exposure, *curve, *gamma, *bits]
+    DISPLAYS = [[*exposure, *curve, *gamma]
                 for exposure in ([], ["--exposure", "-2.25"], ["--exposure", "auto"])
                 for curve in ([], ["--tonemap", "reinhard"], ["--tonemap", "aces"], ["--tonemap", "agx"],
                               ["--tonemap", "neutral"])
-                for gamma in ([], ["--gamma", "2.2"]) for bits in ([], ["--png-bits", "16"])]
+                for gamma in ([], ["--gamma", "2.2"])]
 
     def check(self, displays, *options):
         for display in displays:
@@ -200,16 +170,16 @@ class Tonemap(ImagesTest):
         return data[data.index(b"\xff\xdb"):]
 
     def test_the_picture_has_the_bits_of_the_rendered_one(self):
-        self.check(self.DISPLAYS[:2] + self.DISPLAYS[5::8])
+        self.check(self.DISPLAYS[:1] + self.DISPLAYS[3::4])
         self.check(self.DISPLAYS[:1], "--crop", CROP_TEXT)
 
     def test_the_options_count(self):
         self.render("-o", "a.exr")
         pictures = set()
-        for options in (), ("--exposure", "1"), ("--tonemap", "agx"), ("--gamma", "3"), ("--png-bits", "16"):
+        for options in (), ("--exposure", "1"), ("--tonemap", "agx"), ("--gamma", "3"):
             self.expect(0, "tonemap", "a.exr", "a.png", *options)
             pictures.add(str(read_png(self.path("a.png"))))
-        self.assertEqual(len(pictures), 5)
+        self.assertEqual(len(pictures), 4)
 
     def test_what_is_told(self):
         self.render("-o", "a.exr", "-o", "r.png", "--crop", CROP_TEXT)
@@ -255,7 +225,7 @@ class RealDevice(ImagesTest):
         self.assertNotEqual(crop, cut(whole, (1, 3, 5, 4)))  # they differ from place to place
 
     def test_a_picture_is_mapped_again_to_the_same_bits(self):
-        display = ("--tonemap", "agx", "--png-bits", "16")
+        display = ("--tonemap", "agx")
         self.render("-o", "a.exr", "-o", "a.png", *display)
         self.expect(0, "tonemap", "a.exr", "b.png", *display)
         self.assertEqual(read_png(self.path("b.png")), read_png(self.path("a.png")))

@@ -84,11 +84,11 @@ class Merge(CommandLineTest):
 
     def test_rows_of_a_crop_are_shown_at_their_place(self):
         whole = ("--spp", "18", "--exposure", "0")
-        self.expect(0, *self.small, "-o", "crop.exr", "-o", "crop.png", "--crop", "0,4,24,5", "--png-bits", "16", *whole)
+        self.expect(0, *self.small, "-o", "crop.exr", "-o", "crop.png", "--crop", "0,4,24,5", *whole)
         for i in 0, 1:
             self.expect(0, *self.small, "--crop", "6,4,3,5", "--film", f"{i}.ptfilm", "--first-sample", str(9 * i), "--spp",
                         "9")
-        self.merge(0, "0.ptfilm", "1.ptfilm", "-o", "m.exr", "-o", "m.png", "--png-bits", "16", "--exposure", "0")
+        self.merge(0, "0.ptfilm", "1.ptfilm", "-o", "m.exr", "-o", "m.png", "--exposure", "0")
         self.assertEqual(read_exr_blocks(self.path("m.exr")), read_exr_blocks(self.path("crop.exr")))
         for window in "dataWindow", "displayWindow":
             found, rendered = (read_exr_attributes(self.path(name))[window] for name in ("m.exr", "crop.exr"))

@@ -130,11 +130,11 @@ TEST(ToneMap, EightBits) {
     ToneMap map;
     const float color[] = {0.0F, 0.5F, 2.0F};
     // 0.7353569830524495 * 255 = 187.5
-    EXPECT_EQ(cli::map_to_8_bits(color, map), (std::vector<std::uint8_t>{0, 188, 255}));
+    EXPECT_EQ(cli::map_to_bytes(color, map), (std::vector<std::uint8_t>{0, 188, 255}));
     map.gamma = 1.0;
-    EXPECT_EQ(cli::map_to_8_bits(color, map), (std::vector<std::uint8_t>{0, 128, 255})); // 127.5 rounds up
-    map.gamma = 2.2;                                                                     // 255 * 0.5^(1 / 2.2) = 186.08
-    EXPECT_EQ(cli::map_to_8_bits(color, map), (std::vector<std::uint8_t>{0, 186, 255}));
+    EXPECT_EQ(cli::map_to_bytes(color, map), (std::vector<std::uint8_t>{0, 128, 255})); // 127.5 rounds up
+    map.gamma = 2.2;                                                                    // 255 * 0.5^(1 / 2.2) = 186.08
+    EXPECT_EQ(cli::map_to_bytes(color, map), (std::vector<std::uint8_t>{0, 186, 255}));
 }
 
 TEST(ToneMap, ExposureIsInStops) {
@@ -142,9 +142,9 @@ TEST(ToneMap, ExposureIsInStops) {
     map.gamma = 1.0;
     map.exposure = 2.0;
     const float color[] = {0.125F, 0.25F, 0.0F};
-    EXPECT_EQ(cli::map_to_8_bits(color, map), (std::vector<std::uint8_t>{128, 255, 0}));
+    EXPECT_EQ(cli::map_to_bytes(color, map), (std::vector<std::uint8_t>{128, 255, 0}));
     map.exposure = -1.0;
-    EXPECT_EQ(cli::map_to_8_bits(color, map), (std::vector<std::uint8_t>{16, 32, 0})); // 15.94 and 31.88
+    EXPECT_EQ(cli::map_to_bytes(color, map), (std::vector<std::uint8_t>{16, 32, 0})); // 15.94 and 31.88
 }
 
 using cli::automatic_exposure;

@@ -29,7 +29,6 @@ def parser() -> argparse.ArgumentParser:
     command.add_argument("-o", "--output", action="append", default=[], metavar="IMAGE")
     command.add_argument("--film", metavar="FILM")
     command.add_argument("--layers", metavar="NAMES")
-    command.add_argument("--png-bits", choices=("8", "16"), default="8")
     where = command.add_mutually_exclusive_group()
     where.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask cluster, as tls://host:8786")
     where.add_argument("--local-workers", type=at_least(1, int), metavar="N",

@@ -64,7 +64,7 @@ def write_pictures(film: Film, arguments: argparse.Namespace, facts: dict[str, A
         write_film(film, numbered(arguments.film, frame))
     if not arguments.output:
         return
-    options = ["--exposure", str(facts["exposure"]), "--tonemap", facts["tonemap"], "--png-bits", arguments.png_bits]
+    options = ["--exposure", str(facts["exposure"]), "--tonemap", facts["tonemap"]]
     options += ["--gamma", str(facts["gamma"])] if facts["gamma"] else []
     options += [word for name in arguments.output for word in ("-o", numbered(name, frame))]
     options += ["--layers", arguments.layers] if arguments.layers else []
