@@ -159,8 +159,7 @@ constexpr const char *render_help =
     "A file that cannot be written whole is left as it was. The metadata of images say what made them,\n"
     "and no time: equal runs give equal files.\n\n"
     "With --watch, what is wrong with a scene, its data or a shader is told once, and the picture stays\n"
-    "as it was until that is mended. A change stops the rendering under way. Sources that give the same\n"
-    "kernels and scene render nothing.\n";
+    "as it was until that is mended. A change stops the rendering under way.\n";
 
 } // namespace
 

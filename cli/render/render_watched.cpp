@@ -91,19 +91,10 @@ private:
         check_outputs(task);
         times.create_start = std::chrono::steady_clock::now();
         refresh_context();
-        if (is_up_to_date()) {
-            print_unless_quiet("the same kernels and the same scene: nothing to render");
-            outcome_ = rendered_outcome_;
-            return;
-        }
         const auto superseded = [this] { return sources_.changed(std::chrono::milliseconds{0}); };
-        rendered_scene_.reset();
         outcome_ = render_picture(*context_, task, times, superseded);
-        if (outcome_ == ExitCode::done || outcome_ == ExitCode::target_missed) {
+        if (outcome_ == ExitCode::done || outcome_ == ExitCode::target_missed)
             edited_.clear();
-            rendered_outcome_ = outcome_;
-            rendered_scene_ = sources_.scene();
-        }
     }
 
     // One context for all pictures: another start would take longer than most edits are worth.
@@ -113,11 +104,6 @@ private:
         } else if (!options_.shader_dir.empty()) {
             context_->require(pt_reload_shaders(context_->get()));
         }
-    }
-
-    // If kernels have changed, the samples of the picture were discarded.
-    bool is_up_to_date() const {
-        return rendered_scene_ && rendered_scene_ == sources_.scene() && context_->stats().sample_count > 0;
     }
 
     void print_unless_quiet(const std::string &message) const {
@@ -150,8 +136,6 @@ private:
     ValidationLog &log_;
     SourceWatch sources_;
     std::optional<Context> context_;
-    std::optional<SourceFiles> rendered_scene_; // that the files show; nothing if they show none
-    ExitCode rendered_outcome_ = ExitCode::done;
     ExitCode outcome_ = ExitCode::done; // of the last rendering; also if it failed, which an edit may mend
     std::set<std::string> edited_;      // files, since the last picture
     bool is_first_ = true;

@@ -98,13 +98,6 @@ void SourceWatch::follow(const std::set<fs::path> &data) {
         begun_.try_emplace(path, seen_.at(path));
 }
 
-SourceFiles SourceWatch::scene() const {
-    SourceFiles files{{scene_, begun_.at(scene_)}};
-    for (const fs::path &path : data_)
-        files.emplace(path, begun_.at(path));
-    return files;
-}
-
 bool SourceWatch::changed(std::chrono::milliseconds timeout) {
     const auto end = Clock::now() + timeout;
     const auto next_look = last_look_ + (seen_ != begun_ ? settling : interval);

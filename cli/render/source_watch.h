@@ -32,9 +32,6 @@ public:
 
     bool has_data() const { return !data_.empty(); }
 
-    // The scene and these files, as they were then.
-    SourceFiles scene() const;
-
     // Whether their contents differ from then, and have been the same for a moment: saving takes some steps. Waits for
     // so long at the most, until there is something to be told or a signal comes.
     bool changed(std::chrono::milliseconds timeout);
