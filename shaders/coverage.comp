@@ -29,7 +29,7 @@ bool meets_something(uvec2 pixel, uint sample_index)
     uint pixel_index = pixel.y * view.camera.width + pixel.x;
     SampleKey key = key_of_pixel(view.seed, pixel_index);
     key.sample_index = sample_index;
-    key.row = sample_index - view.first_sample;
+    key.row = (sample_index - view.first_sample) * TABLE_BLOCKS;
     Walk walk = walk_from_camera(camera_ray(view.camera, pixel, key));
     finish(walk, false);
     return walk.hit.surface != NO_SURFACE;

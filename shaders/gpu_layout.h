@@ -62,7 +62,8 @@ PT_CONSTANT ID_TREE_LEVELS = 35;     // nodes on the way to the deepest, or some
 PT_CONSTANT ID_UNROLLED = 36;        // surfaces over which loops are unrolled, at the most
 PT_CONSTANT ID_INTEGER_ORDER = 37;   // 1: integers are compared faster than floats (shaders/maths.glsl)
 PT_CONSTANT ID_UNIFORM_READS = 38;   // 1: words of the scene buffer, which has few, are read by the uniform binding
-PT_CONSTANT CONSTANT_COUNT = 39;
+PT_CONSTANT ID_LENS = 39;           // 1: camera rays start on a lens; then STARTS_AHEAD is 1
+PT_CONSTANT CONSTANT_COUNT = 40;
 // With SCENE_IN_CONSTANTS the floats of the scene buffer follow, component i of word w as constant_id
 // CONSTANT_COUNT + 4 w + i.
 PT_CONSTANT CONSTANT_SCENE_WORDS = 64;
@@ -84,8 +85,8 @@ PT_CONSTANT SAMPLER_SOBOL = 4;
 
 // ---- Numbers of a sample: each that a path consumes is a dimension of its own ---------------------------------------
 // They come in blocks of up to four. First the blocks that all branches of a sample share: the place in the pixel (2)
-// and the time (1, with MOTION); for each of a few lamps (EVERY_LAMP_LIMIT) its place as seen from the first vertex
-// (2); with spots, the way by one of them: the direction (2) and which spot (1), and at the spot what a later vertex
+// and the time (1, with MOTION); the place on the lens (2, with LENS); for each of a few lamps (EVERY_LAMP_LIMIT) its
+// place as seen from the first vertex (2); with spots, the way by one of them: the direction (2) and which spot (1), and at the spot what a later vertex
 // consumes: lamp (3) and direction (2 or 3). Then those of a branch, for each vertex that it leaves: the place on a
 // lamp (2) and which lamp (1, if there are several) unless every lamp has been sampled there; the direction (2), the
 // specular or diffuse lobe (1, with GLOSS) and survival of Russian roulette (1, for long paths). The dimensions of a
@@ -95,12 +96,17 @@ PT_CONSTANT SPOT_LIMIT = 8;          // spots that a scene may have
 PT_CONSTANT ROULETTE_MIN_LENGTH = 8; // paths that may be this long play Russian roulette
 
 PT_FUNCTION uint camera_dimensions(uint motion) { return 2 + motion; }
-// How many blocks come before those of the ray towards a spot, how many that ray has, and how many all branches share.
-PT_FUNCTION uint every_lamp_blocks(uint lamp_count) { return 1 + (lamp_count <= EVERY_LAMP_LIMIT ? lamp_count : 0); }
-PT_FUNCTION uint spot_blocks(uint spot_count) { return spot_count > 0 ? 3 : 0; }
-PT_FUNCTION uint shared_blocks(uint lamp_count, uint spot_count)
+// How many blocks come before those of lamps and before those of the ray towards a spot, how many that ray has, and how
+// many all branches share.
+PT_FUNCTION uint camera_blocks(uint lens) { return 1 + lens; }
+PT_FUNCTION uint every_lamp_blocks(uint lens, uint lamp_count)
 {
-    return every_lamp_blocks(lamp_count) + spot_blocks(spot_count);
+    return camera_blocks(lens) + (lamp_count <= EVERY_LAMP_LIMIT ? lamp_count : 0);
+}
+PT_FUNCTION uint spot_blocks(uint spot_count) { return spot_count > 0 ? 3 : 0; }
+PT_FUNCTION uint shared_blocks(uint lens, uint lamp_count, uint spot_count)
+{
+    return every_lamp_blocks(lens, lamp_count) + spot_blocks(spot_count);
 }
 PT_FUNCTION uint chosen_lamp_dimensions(uint vertex, uint lamp_count)
 {
@@ -116,9 +122,9 @@ PT_FUNCTION uint vertex_blocks(uint vertex, uint lamp_count)
 }
 
 // The blocks of a sample and one of its branches.
-PT_FUNCTION uint path_blocks(uint max_path_length, uint lamp_count, uint spot_count)
+PT_FUNCTION uint path_blocks(uint max_path_length, uint lens, uint lamp_count, uint spot_count)
 {
-    const uint of_sample = shared_blocks(lamp_count, spot_count);
+    const uint of_sample = shared_blocks(lens, lamp_count, spot_count);
     const uint first = of_sample + vertex_blocks(1, lamp_count);
     return max_path_length < 2 ? of_sample : first + (max_path_length - 2) * vertex_blocks(2, lamp_count);
 }
@@ -326,6 +332,9 @@ struct CameraView {
     uint width;        // of the image, pixels
     vec3 forward;      // as long as the image plane is far away in pixels; of parallel rays a unit vector
     uint height;       // of the image, pixels
+    float lens_radius; // where rays start (only with LENS)
+    float lens_blur;   // radius in pixels of the image of a point infinitely far away (likewise)
+    uint reserved[2];
 };
 
 struct FrameConstants {
@@ -410,15 +419,16 @@ struct AddConstants {
 
 #ifdef __cplusplus
 // Vulkan guarantees 128 bytes of push constants; the offsets are those of GLSL's std430.
-static_assert(sizeof(CameraView) == 48 && offsetof(CameraView, start_scale) == 12 && offsetof(CameraView, up) == 16);
+static_assert(sizeof(CameraView) == 64 && offsetof(CameraView, start_scale) == 12 && offsetof(CameraView, up) == 16);
 static_assert(offsetof(CameraView, forward) == 32 && offsetof(CameraView, height) == 44);
-static_assert(sizeof(FrameConstants) == 96 && sizeof(FrameConstants) <= 128);
-static_assert(offsetof(FrameConstants, seed) == 48 && offsetof(FrameConstants, share) == 92);
+static_assert(offsetof(CameraView, lens_radius) == 48 && offsetof(CameraView, lens_blur) == 52);
+static_assert(sizeof(FrameConstants) == 112 && sizeof(FrameConstants) <= 128);
+static_assert(offsetof(FrameConstants, seed) == 64 && offsetof(FrameConstants, share) == 108);
 static_assert(sizeof(TreeFrame) == 80 && offsetof(TreeFrame, middle) == 32 && offsetof(TreeFrame, first_motion) == 48);
 static_assert(sizeof(ResolveConstants) == 48 && offsetof(ResolveConstants, row_words) == 44);
-static_assert(sizeof(FirstHitConstants) == 76 && offsetof(FirstHitConstants, pixel_count) == 72);
+static_assert(sizeof(FirstHitConstants) == 92 && offsetof(FirstHitConstants, pixel_count) == 88);
 static_assert(WORKGROUP_SIZE % FILTER_RAYS == 0);
-static_assert(sizeof(CoverageConstants) == 84 && offsetof(CoverageConstants, seed) == 48);
+static_assert(sizeof(CoverageConstants) == 100 && offsetof(CoverageConstants, seed) == 64);
 static_assert(sizeof(EstimateConstants) == 36 && offsetof(EstimateConstants, sample_counts) == 16);
 static_assert(sizeof(RegionError) == 88 && offsetof(RegionError, rejected) == 80);
 static_assert(sizeof(AddConstants) == 20 && offsetof(AddConstants, added_stride) == 16);

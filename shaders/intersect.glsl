@@ -9,7 +9,7 @@ void see_sphere(inout Hit hit, vec3 origin, vec3 direction, uint sphere, float t
     vec4 centre_radius = sphere_at(sphere, time);
     vec3 to_centre = STARTS_AHEAD == 1 ? centre_radius.xyz - origin : centre_radius.xyz;
     vec3 from_side = centre_radius.xyz;
-    if (ORTHOGRAPHIC == 1 && KNOWN_SIDES == 0)
+    if (ORTHOGRAPHIC + LENS > 0 && KNOWN_SIDES == 0)
         from_side = to_centre;
     bool outside = dot(from_side, from_side) > centre_radius.w * centre_radius.w;
     keep_closer(hit, sphere_distance(to_centre, centre_radius.w, direction, false, false, outside), sphere);

@@ -35,6 +35,22 @@ vec3 uniform_hemisphere_direction(vec3 axis, vec2 u)
     return dot(direction, axis) < 0.0 ? -direction : direction;
 }
 
+// Uniform point of the unit disc: squares about the middle of the unit square become circles (Shirley and Chiu, "A Low
+// Distortion Map Between Disk and Square", Journal of Graphics Tools 2(3), 1997), so that neighbours stay neighbours, and
+// what is even in the square is so on the disc. Of the two coordinates the larger is the radius, and their ratio tells the
+// angle from the nearer axis, an eighth of a turn at most.
+vec2 concentric_disc(vec2 u)
+{
+    vec2 place = 2.0 * u - 1.0;
+    vec2 size = abs(place);
+    bool along_x = size.x > size.y;
+    float radius = along_x ? size.x : size.y;
+    float ratio = radius > 0.0 ? (along_x ? size.y : size.x) / radius : 0.0;
+    float sine, cosine;
+    sin_cos_turn(0.125 * ratio, sine, cosine);
+    return radius * sign(place) * (along_x ? vec2(cosine, sine) : vec2(sine, cosine));
+}
+
 // Turns a vector given about the z axis to be about the unit vector axis. The basis is that of Duff et al., "Building
 // an Orthonormal Basis, Revisited" (JCGT 6(1), 2017), which is accurate for every axis, -z included: with s the sign of
 // z and a = -1 / (s + z), the vectors (1 + s a x^2, s a x y, -s x), (a x y, s + a y^2, -y) and (x, y, z). Their sum is

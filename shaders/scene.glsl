@@ -29,6 +29,7 @@ layout(constant_id = ID_PLANES_MOVE) const uint PLANES_MOVE = 1;
 layout(constant_id = ID_CLOSE_LAMPS) const uint CLOSE_LAMPS = 1;
 layout(constant_id = ID_STARTS_AHEAD) const uint STARTS_AHEAD = 1;
 layout(constant_id = ID_ORTHOGRAPHIC) const uint ORTHOGRAPHIC = 0;
+layout(constant_id = ID_LENS) const uint LENS = 0;
 layout(constant_id = ID_LAMP_TREE_LEVELS) const uint LAMP_TREE_LEVELS = 0;
 layout(constant_id = ID_LAMP_TREE_WORDS) const uint LAMP_TREE_WORDS = 0;
 layout(constant_id = ID_OVERLAP) const uint OVERLAP = 0;

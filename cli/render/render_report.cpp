@@ -22,7 +22,8 @@ constexpr ValueNames feature_names({{"lamps", PT_FEATURE_LAMPS},
                                     {"large", PT_FEATURE_LARGE},
                                     {"tree", PT_FEATURE_TREE},
                                     {"orthographic", PT_FEATURE_ORTHOGRAPHIC},
-                                    {"hidden", PT_FEATURE_HIDDEN}});
+                                    {"hidden", PT_FEATURE_HIDDEN},
+                                    {"lens", PT_FEATURE_LENS}});
 constexpr ValueNames uncertainty_names({{"rmse", PT_UNCERTAIN_RMSE},
                                         {"relative_rmse", PT_UNCERTAIN_RELATIVE_RMSE},
                                         {"unseen", PT_UNCERTAIN_UNSEEN},

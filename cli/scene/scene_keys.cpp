@@ -28,6 +28,7 @@ constexpr ValueRule direction{.form = Form::numbers, .excludes_zeros = true, .co
 constexpr ValueRule times{.form = Form::numbers, .least = 0.0, .largest = 1.0, .is_of_library = true, .count = 2};
 constexpr ValueRule radiance{.form = Form::color, .least = 0.0, .largest = largest_length, .is_of_library = true};
 constexpr ValueRule share{.form = Form::color, .least = 0.0, .largest = 1.0, .is_of_library = true};
+constexpr ValueRule distance{.least = 0.0, .largest = largest_length, .is_of_library = true};
 constexpr ValueRule radius{.least = least_length, .largest = largest_length, .is_of_library = true};
 constexpr ValueRule boolean{.form = Form::boolean};
 constexpr ValueRule material_name{.form = Form::text};
@@ -82,6 +83,10 @@ constexpr std::array camera_keys{
              "Of an orthographic projection: the height of what is seen. Nothing behind the plane through position "
              "across the view is seen",
              "", optional, [](Item item, Value value) { item.scene.camera.vertical_extent = value.get<double>(); }},
+    SceneKey{"aperture", distance, "Of a perspective: its lens's diameter", "0", optional,
+             [](Item item, Value value) { item.scene.camera.aperture = value.get<double>(); }},
+    SceneKey{"focus", distance, "Depth that a lens shows sharp, 0 for that of look_at", "0", optional,
+             [](Item item, Value value) { item.scene.camera.focus = value.get<double>(); }},
     SceneKey{"shutter", times, "When it opens and closes", "[0, 1]", optional,
              [](Item item, Value value) {
                  std::tie(item.scene.camera.shutter_open, item.scene.camera.shutter_close) =
@@ -185,7 +190,8 @@ constexpr std::array plane_keys{
 
 constexpr std::array<SceneSection, 6> sections{{
     {"camera", SectionForm::members,
-     "A pinhole, or parallel rays, under which a thing is as large in the picture wherever it is", camera_keys},
+     "A pinhole, a thin lens, or parallel rays, under which a thing is as large in the picture wherever it is",
+     camera_keys},
     {"film", SectionForm::members, "The picture", film_keys},
     {"render", SectionForm::members, "How it is made", render_keys},
     {"materials", SectionForm::objects, "By their names", material_keys},

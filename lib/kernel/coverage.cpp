@@ -30,15 +30,16 @@ constexpr std::uint64_t most_covered_pixels = 1U << 18; // of a piece
 constexpr std::uint64_t count_bytes = sizeof(std::uint32_t);
 constexpr glm::uvec2 no_samples(1, 0);
 
-// A camera ray takes only the first block of its sample's numbers.
+// A camera ray takes only the first blocks of its sample's numbers.
 PointLayout camera_layout(const Features &features) {
-    return {{camera_dimensions(features)}, 1, 1};
+    const std::vector<std::uint32_t> blocks = camera_blocks(features);
+    return {blocks, static_cast<std::uint32_t>(blocks.size()), 1};
 }
 
 std::array<std::uint32_t, gpu::CONSTANT_COUNT> coverage_specialization(const vulkan::Device &device,
                                                                        const Features &features) {
     auto constants = specialization_constants(features);
-    constants[gpu::ID_TABLE_BLOCKS] = features.sampler == PT_SAMPLER_RANDOM ? 0 : 1;
+    constants[gpu::ID_TABLE_BLOCKS] = features.sampler == PT_SAMPLER_RANDOM ? 0 : camera_layout(features).block_count();
     constants[gpu::ID_BRANCH_COUNT] = 1;
     set_device_constants(constants, device.policy());
     constants[gpu::ID_POINT_BLOCKS] = device.limits().max_uniform_range / std::uint32_t{sizeof(PointBlock)};
@@ -118,7 +119,8 @@ Coverage::Buffers &Coverage::buffers(std::uint64_t pixels, std::size_t tiles) {
 
 // As many samples as fit the time, the table of points, and the number of loop trips that drivers put up with.
 std::uint64_t Coverage::samples_in_dispatch(double affordable) const {
-    const std::uint64_t rows = device_.limits().max_uniform_range / sizeof(PointBlock);
+    const std::uint64_t rows =
+        device_.limits().max_uniform_range / sizeof(PointBlock) / camera_layout(features_).row_blocks();
     const std::uint64_t loops = device_.limits().loop_trip_budget / (1 + loop_trips_per_walk(features_));
     const auto worth = static_cast<std::uint64_t>(affordable);
     return std::max<std::uint64_t>(std::min({worth, rows, loops}), 1);

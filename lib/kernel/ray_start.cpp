@@ -26,13 +26,14 @@ constexpr double farthest_start = 6e18;
 // Components of a direction are off by 2^-24: from here on, by more than 1/1024 of a pixel.
 constexpr double narrow_pixel = 0x1p-14; // its side at distance 1
 
-// The pyramid of the rays of an image, and the cone about it.
+// The pyramid of the rays of an image, and the cone about it; with a lens, of the rays through its middle.
 struct View {
     std::array<glm::dvec3, 4> corners; // at depth 1
     glm::dvec3 forward;
     double half_angle;
+    double aside; // a lens's rays are no farther from these, up to the plane in focus and as far again behind it
 
-    View(const Camera &camera, const RenderSettings &settings) : forward(camera.forward) {
+    View(const Camera &camera, const RenderSettings &settings) : forward(camera.forward), aside(camera.lens_radius) {
         const double up = camera.tan_half_fov;
         const double right = up * settings.width / settings.height;
         half_angle = std::atan(std::hypot(up, right));
@@ -41,11 +42,13 @@ struct View {
     }
 };
 
-// A plane's depth along a direction of depth 1 is -offset / (normal . direction), least at a corner.
+// A plane's depth along a direction of depth 1 is -offset / (normal . direction), least at a corner. Of a lens, all
+// that lies aside of the plane counts as the plane.
 double nearest_depth(const CurvedPlane &plane, const View &view) {
-    double nearest = plane.offset == 0.0 ? 0.0 : out_of_view;
+    const double offset = std::max(plane.offset - view.aside, 0.0);
+    double nearest = offset == 0.0 ? 0.0 : out_of_view;
     for (const glm::dvec3 &corner : view.corners) {
-        const double depth = -plane.offset / glm::dot(plane.normal, corner);
+        const double depth = -offset / glm::dot(plane.normal, corner);
         nearest = depth > 0.0 ? std::min(nearest, depth) : nearest;
     }
     return nearest;
@@ -98,6 +101,7 @@ struct ParallelView {
     glm::dvec3 half_up;
     glm::dvec3 forward;
     double radius;
+    static constexpr double aside = 0.0;
 
     ParallelView(const Camera &camera, const RenderSettings &settings) :
         half_right(0.5 * camera.vertical_extent * settings.width / settings.height * camera.right),
@@ -159,7 +163,8 @@ double depth_on_way(const MovingBall &sphere, const ParallelView &view) {
 // No more than the depth of any point that the ball takes up on its way.
 template <typename AnyView>
 double depth_of_region(const MovingBall &ball, const AnyView &view) {
-    const double depth = depth_of_ball(ball.open + 0.5 * ball.way, ball.radius + 0.5 * glm::length(ball.way), view);
+    const double radius = ball.radius + 0.5 * glm::length(ball.way) + view.aside;
+    const double depth = depth_of_ball(ball.open + 0.5 * ball.way, radius, view);
     return ball.way == glm::dvec3(0.0) ? depth : std::max(depth, depth_on_way(ball, view));
 }
 
@@ -167,7 +172,7 @@ double depth_of_region(const MovingBall &ball, const AnyView &view) {
 // the depth is to be, on either side, as a share of the radius.
 template <typename AnyView>
 double depth_of_sphere(const MovingBall &sphere, const AnyView &view, double margin = 0.0) {
-    const double inner = sphere.radius * (1.0 - margin);
+    const double inner = sphere.radius * (1.0 - margin) - view.aside;
     if (sphere.way == glm::dvec3(0.0) && starts_within(sphere.open, inner, view))
         return depth_from_within(sphere.open, inner, view);
     return depth_of_region({sphere.open, sphere.way, sphere.radius * (1.0 + margin)}, view);
@@ -225,16 +230,22 @@ Camera starting_ahead(const Scene &scene, const SphereTree *tree, const Camera &
                       const RenderSettings &settings) {
     if (camera.is_orthographic())
         return starting_in_parallel(scene, tree, camera, settings);
+    Camera ahead = camera;
+    ahead.start_radius = camera.lens_radius;
     if (2.0 * camera.tan_half_fov / settings.height > narrow_pixel)
-        return camera;
+        return ahead;
     const View view(camera, settings);
     const double depth = first_depth(scene, tree, camera, view);
     if (depth > farthest_start)
-        return camera;
+        return ahead;
     // Keeps a distance from the first surface as large as the view is wide there, so that rounding puts no start behind
-    // the surface.
-    Camera ahead = camera;
-    ahead.start_distance = std::max(1.0 - std::tan(view.half_angle), 0.0) * depth;
+    // the surface; and as the lens is wide, of which the part that is left where rays start narrows towards the focus.
+    const double tangent = std::tan(view.half_angle);
+    ahead.start_distance = std::max((1.0 - tangent) * depth - camera.lens_radius, 0.0);
+    if (camera.has_lens()) {
+        ahead.start_distance = std::min(ahead.start_distance, camera.focus);
+        ahead.start_radius = tangent * ahead.start_distance + ahead.lens_radius_at_start();
+    }
     ahead.position += ahead.start_distance * camera.forward;
     return ahead;
 }

@@ -31,8 +31,10 @@ bool samples_lamps(const Features &features) {
     return does && features.max_path_length > 1;
 }
 
-std::uint32_t camera_dimensions(const Features &features) {
-    return gpu::camera_dimensions(features.motion ? 1 : 0);
+std::vector<std::uint32_t> camera_blocks(const Features &features) {
+    std::vector<std::uint32_t> blocks(gpu::camera_blocks(features.lens ? 1 : 0), 2); // the place on the lens
+    blocks.front() = gpu::camera_dimensions(features.motion ? 1 : 0);
+    return blocks;
 }
 
 namespace {
@@ -136,8 +138,9 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
                            (features.inside || features.curvature || distinct.close_planes) &&
                            std::ranges::all_of(surfaces.planes, has_known_side);
     features.close_lamps = features.lamp_count > 0 && (distinct.close_lamps || (tree && tree->has_close_lamps()));
-    features.starts_ahead = camera.start_distance > 0.0 || camera.is_orthographic();
+    features.starts_ahead = camera.start_distance > 0.0 || camera.is_orthographic() || camera.has_lens();
     features.orthographic = camera.is_orthographic();
+    features.lens = camera.has_lens();
     features.max_path_length = render.max_path_length;
     features.estimator = render.estimator;
     features.sampler = render.sampler;
@@ -173,15 +176,16 @@ std::uint32_t further_lamps(const Features &features, std::uint32_t branches) {
 } // namespace
 
 PointLayout point_layout(const Features &features) {
-    const std::uint32_t shared = gpu::shared_blocks(features.lamp_count, features.spot_count);
+    const std::uint32_t lens = features.lens ? 1 : 0;
+    const std::uint32_t shared = gpu::shared_blocks(lens, features.lamp_count, features.spot_count);
     const std::uint32_t branches = branch_count(features);
     if (features.sampler == PT_SAMPLER_RANDOM)
         return {{}, 0, branches};
-    std::vector<std::uint32_t> blocks(shared, 2); // the place on each lamp
-    blocks.front() = camera_dimensions(features);
+    std::vector<std::uint32_t> blocks = camera_blocks(features);
+    blocks.resize(shared, 2); // the place on each lamp
     const std::uint32_t direction = gpu::direction_dimensions(features.gloss ? 1 : 0, features.max_path_length);
     if (features.spot_count > 0) {
-        const std::uint32_t spot = gpu::every_lamp_blocks(features.lamp_count);
+        const std::uint32_t spot = gpu::every_lamp_blocks(lens, features.lamp_count);
         blocks[spot] = 3;
         blocks[spot + 1] = gpu::chosen_lamp_dimensions(2, features.lamp_count);
         blocks[spot + 2] = direction;
@@ -224,6 +228,7 @@ std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Fe
     constants[gpu::ID_CLOSE_LAMPS] = features.close_lamps ? 1 : 0;
     constants[gpu::ID_STARTS_AHEAD] = features.starts_ahead ? 1 : 0;
     constants[gpu::ID_ORTHOGRAPHIC] = features.orthographic ? 1 : 0;
+    constants[gpu::ID_LENS] = features.lens ? 1 : 0;
     constants[gpu::ID_HIDDEN_LAMPS] = features.hidden.lamps;
     constants[gpu::ID_HIDDEN_SKIES] = features.hidden.skies;
     constants[gpu::ID_HIDDEN_OTHERS] = features.hidden.others;
@@ -283,6 +288,7 @@ std::uint32_t feature_bits(const Features &features) {
     bits |= features.tree ? PT_FEATURE_TREE : 0;
     bits |= features.orthographic ? PT_FEATURE_ORTHOGRAPHIC : 0;
     bits |= features.hidden.any() ? PT_FEATURE_HIDDEN : 0;
+    bits |= features.lens ? PT_FEATURE_LENS : 0;
     return bits;
 }
 

@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 namespace pt {
 
@@ -38,6 +39,7 @@ struct Features {
     std::uint32_t spot_count; // of light_spots.h, to which the first vertex sends a ray of its own
     bool starts_ahead;        // camera rays start on a plane across the view (ray_start.h)
     bool orthographic;        // and are parallel
+    bool lens;                // or start on a lens, likewise across the view
     bool scene_in_uniform;    // the scene, with the words of a material for each surface, fits into a uniform buffer
     std::uint32_t table_materials; // if it does not: the materials that its surfaces share
     bool tree;                     // most spheres are in a tree, and not among sphere_count
@@ -60,8 +62,8 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
 // Whether the estimator samples lamps and paths are long enough for it.
 bool samples_lamps(const Features &features);
 
-// How many numbers a camera ray consumes.
-std::uint32_t camera_dimensions(const Features &features);
+// How many numbers each of the blocks of a camera ray has.
+std::vector<std::uint32_t> camera_blocks(const Features &features);
 
 // Branches in which a path leaves its first vertex. Where light comes over several vertices, so does most of the noise,
 // and the camera ray, its vertex and the lamps seen from it serve all branches. (Measured on the coursework scene with

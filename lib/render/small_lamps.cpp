@@ -21,10 +21,10 @@ constexpr double largest_size = enough_meetings / min_estimate_samples; // pixel
 struct Disc {
     double x;
     double y;
-    double radius;
+    double radius; // of where it is seen
+    double size;   // of the lamp: less than the disc if a lens spreads it
     glm::dvec3 emission;
 
-    double size() const { return std::numbers::pi * radius * radius; }
     bool meets(std::uint32_t width, std::uint32_t height) const {
         return x + radius > 0.0 && x - radius < width && y + radius > 0.0 && y - radius < height;
     }
@@ -83,27 +83,36 @@ bool is_hidden(const SeenSphere &lamp, const PreparedScene &scene, const Camera 
     return way_to_first(scene, start, glm::normalize(way)) < glm::length(way) - 2.0 * lamp.radius;
 }
 
-// Adds the pixels of a disc: the disc is cut into thin lines, and each line is divided among the pixels that it
-// crosses.
-void add_pieces(std::vector<LampPiece> &pieces, const Disc &disc, std::uint32_t width, std::uint32_t row_count) {
+// Adds the pixels of a disc, in squares of so many that no disc has many: it is cut into thin lines, and each line is
+// divided among the squares that it crosses.
+void add_pieces(std::vector<LampPiece> &pieces, Disc disc, std::uint32_t width, std::uint32_t row_count) {
+    constexpr double few = 4.0; // squares along a radius
     constexpr int lines = 256;
+    const double side = std::max(std::ceil(disc.radius / few), 1.0);
+    const double share = disc.size / (std::numbers::pi * disc.radius * disc.radius);
+    disc = {disc.x / side, disc.y / side, disc.radius / side, disc.size, disc.emission};
+    const double columns = std::ceil(width / side);
+    const double rows = std::ceil(row_count / side);
+    const auto middle = [side](double square, std::uint32_t end) {
+        return std::min(static_cast<std::uint32_t>((square + 0.5) * side), end - 1);
+    };
     const std::size_t first = pieces.size();
     for (int i = 0; i < lines; ++i) {
         const double across = (2.0 * i + 1.0) / lines - 1.0;
         const double half = disc.radius * std::sqrt((1.0 - across) * (1.0 + across));
         const double row = std::floor(disc.y + disc.radius * across);
-        if (row < 0.0 || row >= row_count)
+        if (row < 0.0 || row >= rows)
             continue;
-        const auto y = static_cast<std::uint32_t>(row);
-        const auto begin = static_cast<std::uint32_t>(std::clamp(std::floor(disc.x - half), 0.0, 1.0 * width));
-        const auto end = static_cast<std::uint32_t>(std::clamp(std::ceil(disc.x + half), 0.0, 1.0 * width));
-        for (std::uint32_t x = begin; x < end; ++x) {
-            const double length = std::min(disc.x + half, x + 1.0) - std::max(disc.x - half, 1.0 * x);
+        const std::uint32_t y = middle(row, row_count);
+        const double end = std::clamp(std::ceil(disc.x + half), 0.0, columns);
+        for (double column = std::clamp(std::floor(disc.x - half), 0.0, columns); column < end; ++column) {
+            const std::uint32_t x = middle(column, width);
+            const double length = std::min(disc.x + half, column + 1.0) - std::max(disc.x - half, column);
             const auto is_there = [x, y](const LampPiece &piece) { return piece.x == x && piece.y == y; };
             auto piece = std::find_if(pieces.begin() + static_cast<std::ptrdiff_t>(first), pieces.end(), is_there);
             if (piece == pieces.end())
-                piece = pieces.insert(piece, {x, y, 0.0, disc.size(), disc.emission});
-            piece->share += length * 2.0 * disc.radius / lines;
+                piece = pieces.insert(piece, {x, y, 0.0, disc.size, disc.emission, side * side});
+            piece->share += share * (length * 2.0 * disc.radius / lines);
         }
     }
 }
@@ -122,10 +131,15 @@ std::vector<LampPiece> small_lamps_in_view(const PreparedScene &scene, const Cam
         const double half_height =
             camera.is_orthographic() ? 0.5 * camera.vertical_extent : depth * camera.tan_half_fov;
         const double scale = 0.5 * height / half_height;
+        // A lens spreads each point of the lamp over a disc; the variances of both add up to that of a disc with the
+        // root of the sum of their squares as its radius.
+        const double radius = scale * seen.radius;
+        const double spread =
+            camera.has_lens() ? scale * camera.lens_radius * std::abs(1.0 - depth / camera.focus) : 0.0;
         const Disc disc{0.5 * width + scale * glm::dot(seen.open, camera.right),
-                        0.5 * height - scale * glm::dot(seen.open, camera.up) - first_row, scale * seen.radius,
-                        material.emission};
-        if (disc.size() < largest_size && disc.meets(width, row_count) && !is_hidden(seen, scene, camera))
+                        0.5 * height - scale * glm::dot(seen.open, camera.up) - first_row, std::hypot(radius, spread),
+                        std::numbers::pi * radius * radius, material.emission};
+        if (disc.size < largest_size && disc.meets(width, row_count) && !is_hidden(seen, scene, camera))
             add_pieces(pieces, disc, width, row_count);
     }
     return pieces;
@@ -143,7 +157,7 @@ UnmetSquares unmet_squares(const std::vector<LampPiece> &pieces, double offset, 
         const double variance = is_random ? random_variance : std::min(random_variance, 0.6 * std::sqrt(meetings));
         for (int channel = 0; channel < 3; ++channel) {
             const double emission = piece.emission[channel];
-            const double square = emission * emission * variance / (count * count);
+            const double square = piece.pixels * emission * emission * variance / (count * count);
             const double limit = piece.share * emission;
             all.square += square;
             all.relative_square += square / (limit * limit + offset);

@@ -13,13 +13,14 @@
 
 namespace pt {
 
-// The part of a lamp that lies in one pixel.
+// The part of a lamp that lies in one pixel, or through a lens in each of some pixels.
 struct LampPiece {
     std::uint32_t x; // among the rows
     std::uint32_t y;
-    double share;     // of the pixel that it covers
+    double share;     // of the pixel that it covers, or of the pixel's samples that meet it
     double lamp_size; // of the whole lamp, in pixels
     glm::dvec3 emission;
+    double pixels = 1.0; // that are alike
 };
 
 // The lamps in these rows of an image: emitting spheres in view that cover less than half a pixel, do not move, and

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace pt {
 
@@ -29,6 +30,10 @@ const char *fov_rule(double value) {
     if (!std::isfinite(value))
         return "must be finite";
     return value >= min_vertical_fov && value < std::numbers::pi ? nullptr : "must lie in [1e-8, pi)";
+}
+
+const char *lens_rule(double value) {
+    return value < 0.0 ? "must be >= 0" : length_rule(value);
 }
 
 const char *shutter_rule(double value) {
@@ -59,10 +64,15 @@ void check_fields(const pt_camera &camera) {
         subject.require(camera.vertical_fov == 0.0, "vertical_fov", camera.vertical_fov,
                         "must be 0 with an orthographic projection, which has a vertical_extent instead");
         subject.check("vertical_extent", camera.vertical_extent, positive_length_rule);
+        for (const auto &[member, value] : {std::pair("aperture", camera.aperture), std::pair("focus", camera.focus)})
+            subject.require(value == 0.0, member, value,
+                            "must be 0 with an orthographic projection, which has no lens");
     } else {
         subject.check("vertical_fov", camera.vertical_fov, fov_rule);
         subject.require(camera.vertical_extent == 0.0, "vertical_extent", camera.vertical_extent,
                         "must be 0 with a perspective projection, which has a vertical_fov instead");
+        subject.check("aperture", camera.aperture, lens_rule);
+        subject.check("focus", camera.focus, lens_rule);
     }
     subject.check("shutter_open", camera.shutter_open, shutter_rule);
     subject.check("shutter_close", camera.shutter_close, shutter_rule);
@@ -85,6 +95,13 @@ Camera validated_camera(const pt_camera &source) {
     subject.require(target != position, "target", target, "must differ from position");
     violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
 
+    // The kernel holds the image of a far point, which is radius / focus times as large as the image plane is far away,
+    // as a length; with a radius of at most the focus it is no longer than that distance.
+    const double focus = camera.focus > 0.0 ? camera.focus : glm::distance(target, position);
+    subject.require(camera.aperture <= 2.0 * focus, "aperture", camera.aperture,
+                    "must be at most twice the focus (" + number_text(focus) + ")");
+    violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
+
     const glm::dvec3 forward = unit_vector(target - position);
     const glm::dvec3 across = glm::cross(forward, unit_vector(vector(camera.up)));
     subject.require(glm::length(across) >= min_sine, "up", vector(camera.up),
@@ -99,7 +116,11 @@ Camera validated_camera(const pt_camera &source) {
             std::tan(0.5 * camera.vertical_fov),
             camera.shutter_open,
             camera.shutter_close,
-            camera.vertical_extent};
+            camera.vertical_extent,
+            0.0,
+            0.0,
+            0.5 * camera.aperture,
+            camera.aperture > 0.0 ? focus : 0.0};
 }
 
 std::string digest_of(const Camera &camera) {
@@ -110,6 +131,9 @@ std::string digest_of(const Camera &camera) {
         digest.add(number);
     if (camera.is_orthographic())
         digest.add(camera.vertical_extent);
+    if (camera.has_lens())
+        for (const double number : {camera.lens_radius, camera.focus})
+            digest.add(number);
     return digest.text();
 }
 

@@ -195,7 +195,7 @@ TEST_F(DISABLED_OperatingRange, DistanceOfALitFloor) {
         const double distance = std::numbers::pi / 3.0 * std::pow(10.0, exponent); // nothing is a round number
         cli::SceneFile scene = read_scene("01-above");
         scene.spheres[0] = {{3, lamp_height - 1, 0}, 1, {0, 0, 0}, scene.spheres[0].material, 0};
-        scene.camera = {sizeof(pt_camera), 0, {0, distance - 1, 0}, {0, -1, 0}, {0, 0, 1}, 0, 0, 0, 0};
+        scene.camera = {sizeof(pt_camera), 0, {0, distance - 1, 0}, {0, -1, 0}, {0, 0, 1}, 0, 0, 0, 0, 0, 0};
         scene.camera.vertical_fov = 2.0 * std::atan(0.5 * floor_side / distance);
         measure(distance / std::hypot(3.0, lamp_height), scene, scene.camera, {1, 1, 0, 0}, floor_under_lamp(), 16384);
     }

@@ -20,7 +20,7 @@ REQUIRED = {"camera": {"position": [0, 0, 1], "look_at": [0, 0, 0]},
             "spheres": {"center": [0, 0, -5], "radius": 1, "material": "red"},
             "planes": {"normal": [0, 1, 0], "offset": 0, "material": "red"}}
 # Keys that cannot stand together: examples are tried without the ones and without the others.
-EITHER = {"camera": (["vertical_fov"], ["projection", "vertical_extent"])}
+EITHER = {"camera": (["vertical_fov", "aperture", "focus"], ["projection", "vertical_extent"])}
 
 
 def rows_after(heading):

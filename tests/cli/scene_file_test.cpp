@@ -152,6 +152,13 @@ TEST(SceneFile, AShutterMayBeAnInstant) {
     EXPECT_EQ(camera("[1, 1]").shutter_close, 1.0);
 }
 
+TEST(SceneFile, ACameraMayHaveALens) {
+    const pt_camera camera =
+        parse_scene(R"({"camera":{"position":[0,0,0],"look_at":[0,0,1],"aperture":0.125,"focus":1.5}})", "").camera;
+    EXPECT_EQ(camera.aperture, 0.125);
+    EXPECT_EQ(camera.focus, 1.5);
+}
+
 TEST(SceneFile, ToneMapping) {
     EXPECT_FALSE(parse_scene(R"({"film":{"exposure":"auto"}})", "").display.exposure);
     EXPECT_EQ(parse_scene(R"({"film":{"exposure":3}})", "").display.exposure, 3.0);

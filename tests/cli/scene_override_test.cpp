@@ -95,7 +95,7 @@ TEST(SceneOverride, WhatDoesNotFitIsRefused) {
     expect("spheres[0].center[3]=1", "the scene has no spheres[0].center[3]");
     expect("spheres[0].radius.x=1", "the scene has no spheres[0].radius.x");
     expect("camera.fov=1", "camera: unknown key \"fov\", known: position, look_at, up, "
-                           "projection, vertical_fov, vertical_extent, shutter");
+                           "projection, vertical_fov, vertical_extent, aperture, focus, shutter");
     expect("camra.up=1", "unknown key \"camra\", did you mean \"camera\"?");
     expect("spheres.a=1", "must be an array, is an object");
     expect("spheres[0].radius=\"two\"", "spheres[0].radius: must be a number, is \"two\"");

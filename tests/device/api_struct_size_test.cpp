@@ -93,7 +93,7 @@ protected:
 };
 
 TEST(StructSize, AMisreadStructIsNoticed) {
-    const auto reads_beyond = [](const pt_camera &camera) { return camera.vertical_extent; }; // its last
+    const auto reads_beyond = [](const pt_camera &camera) { return camera.focus; }; // its last
     const auto reads_size = [](const pt_camera &camera) { return camera.struct_size; };
     EXPECT_EQ(misread_sizes(valid_camera(), reads_beyond), older_sizes<pt_camera>());
     EXPECT_EQ(misread_sizes(valid_camera(), reads_size), older_sizes<pt_camera>());
@@ -128,7 +128,7 @@ TEST_F(StructSizeTest, Scene) {
 
 TEST_F(StructSizeTest, Camera) {
     const auto call = [&](const pt_camera &camera) { return outcome(pt_set_camera(context(), &camera)); };
-    const pt_camera camera{sizeof(pt_camera), 0, {1, 2, 3}, {4, 5, 7}, {0, 0, 1}, 0.5, 0.25, 0.75, 0};
+    const pt_camera camera{sizeof(pt_camera), 0, {1, 2, 3}, {4, 5, 7}, {0, 0, 1}, 0.5, 0.25, 0.75, 0, 0.5, 3};
     EXPECT_EQ(call(camera).first, PT_OK) << message();
     EXPECT_EQ(misread_sizes(camera, call), none);
     expect_sizes_heeded(camera, "camera", call);

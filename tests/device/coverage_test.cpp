@@ -99,15 +99,19 @@ TEST_F(Coverage, IsThatOfTheSamplesThemselves) {
         std::uint32_t spheres; // few, or so many that there is a tree
         double motion;
         std::uint32_t sampler;
+        double aperture = 0.0;
     };
-    for (const auto &[spheres, motion, sampler] :
+    for (const auto &[spheres, motion, sampler, aperture] :
          {Case{5, 0.0, PT_SAMPLER_SOBOL}, Case{5, 1.5, PT_SAMPLER_RANDOM}, Case{5, 1.5, PT_SAMPLER_HALTON},
           Case{5, 1.5, PT_SAMPLER_HALTON_CP}, Case{5, 1.5, PT_SAMPLER_SOBOL}, Case{90, 0.0, PT_SAMPLER_HALTON},
-          Case{90, 1.5, PT_SAMPLER_SOBOL}}) {
+          Case{90, 1.5, PT_SAMPLER_SOBOL}, Case{5, 0.0, PT_SAMPLER_SOBOL, 1.0}, Case{5, 1.5, PT_SAMPLER_RANDOM, 1.0},
+          Case{90, 1.5, PT_SAMPLER_HALTON_CP, 1.0}}) {
         SCOPED_TRACE(std::to_string(spheres) + " spheres, sampler " + std::to_string(sampler));
         pt_render render = picture(sampler);
         render.first_sample = 3;
-        set(context(), some(spheres, motion), render);
+        Shining shining = some(spheres, motion);
+        shining.camera.aperture = aperture;
+        set(context(), shining, render);
         take(context(), 7);
         expect_that_of_radiance(context());
     }
@@ -118,9 +122,13 @@ TEST_F(Coverage, OfManySamplesIsTakenInParts) {
     const Context hurried = create_context([](pt_create_info &info) { info.submit_milliseconds = 1; });
     ASSERT_TRUE(hurried);
     for (pt_context *const each : {context(), hurried.get()}) {
-        set(each, some(5, 1.0), picture());
-        take(each, 5000);
-        expect_that_of_radiance(each);
+        Shining shining = some(5, 1.0);
+        for (const double aperture : {0.0, 0.5}) {
+            shining.camera.aperture = aperture;
+            set(each, shining, picture());
+            take(each, 5000);
+            expect_that_of_radiance(each);
+        }
     }
 
     // And pieces of the pixels.

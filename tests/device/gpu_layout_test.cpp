@@ -16,7 +16,7 @@ namespace {
 
 TEST(GpuLayout, KernelReadsEachPushConstantWhereTheHostWritesIt) {
     pt::gpu::FrameConstants frame{};
-    frame.camera = {{1, 2, 3}, 4, {5, 6, 7}, 8, {9, 10, 11}, 12};
+    frame.camera = {{1, 2, 3}, 4, {5, 6, 7}, 8, {9, 10, 11}, 12, 25, 26, {27, 28}};
     frame.seed = {13, 14};
     frame.film_scale = 15;
     frame.film_first_pixel = 16;
@@ -28,8 +28,8 @@ TEST(GpuLayout, KernelReadsEachPushConstantWhereTheHostWritesIt) {
     frame.first_sample = 22;
     frame.sample_count = 23;
     frame.share = 24;
-    const auto seen = Probe(push_layout_spirv(), sizeof frame).run<float>({}, 24, frame, 1);
-    for (int i = 0; i < 24; ++i)
+    const auto seen = Probe(push_layout_spirv(), sizeof frame).run<float>({}, 28, frame, 1);
+    for (int i = 0; i < 28; ++i)
         EXPECT_EQ(seen[static_cast<std::size_t>(i)], static_cast<float>(i + 1));
 }
 

@@ -100,6 +100,8 @@ void require_camera(const pt::Camera &camera) {
             "the field of view lies in [1e-8, pi)");
     require(camera.shutter_open >= 0.0 && camera.shutter_open <= camera.shutter_close && camera.shutter_close <= 1.0,
             "the shutter opens before it closes, in [0, 1]");
+    require(camera.lens_radius >= 0.0 && camera.lens_radius <= camera.focus && std::isfinite(camera.focus),
+            "the lens is no wider than half a right angle from its focus");
 }
 
 void require_settings(const pt::RenderSettings &settings) {
@@ -199,6 +201,9 @@ void require_frame(const pt::gpu::FrameConstants &frame, double unit) {
     require(std::isnormal(frame.film_scale), "the film's scale is a normal number");
     const float distance = glm::length(frame.camera.forward);
     require(distance > 0.0F && distance <= 1e18F, "the distance of the image plane is a length");
+    require(frame.camera.lens_radius >= 0.0F && frame.camera.lens_radius <= 1e18F &&
+                frame.camera.lens_blur <= 1.001F * distance,
+            "the lens is as large as lengths are");
 }
 
 void examine_one(const Input &input) {

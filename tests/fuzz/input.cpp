@@ -78,6 +78,10 @@ void read_camera(Numbers &numbers, ByteReader &bytes, pt_camera &camera) {
     camera.projection = numbers.count(PT_PROJECTION_ORTHOGRAPHIC + 1);
     if (camera.projection == PT_PROJECTION_ORTHOGRAPHIC)
         camera.vertical_extent = numbers.length();
+    else if (bytes.one_in(4)) {
+        camera.aperture = numbers.length();
+        camera.focus = numbers.length();
+    }
 }
 
 void read_render(Numbers &numbers, ByteReader &bytes, pt_render &render) {

@@ -121,7 +121,32 @@ INSTANTIATE_TEST_SUITE_P(
                        c.vertical_fov = 1;
                    },
                    "camera.vertical_fov = 1: must be 0 with an orthographic projection, which has a vertical_extent "
-                   "instead"}),
+                   "instead"},
+        CameraCase{"ApertureNegative", [](pt_camera &c) { c.aperture = -0.5; }, "camera.aperture = -0.5: must be >= 0"},
+        CameraCase{"ApertureNan", [](pt_camera &c) { c.aperture = camera_nan; },
+                   "camera.aperture = nan: must be finite"},
+        CameraCase{"ApertureSmall", [](pt_camera &c) { c.aperture = 1e-19; },
+                   "camera.aperture = 1e-19: must be 0 or of a magnitude in [1e-18, 1e18]"},
+        CameraCase{"ApertureWide",
+                   [](pt_camera &c) {
+                       c.aperture = 4.5;
+                       c.focus = 2;
+                   },
+                   "camera.aperture = 4.5: must be at most twice the focus (2)"},
+        CameraCase{"ApertureWideForTheTarget", [](pt_camera &c) { c.aperture = 2.5; },
+                   "camera.aperture = 2.5: must be at most twice the focus (1)"},
+        CameraCase{"FocusNegative", [](pt_camera &c) { c.focus = -2; }, "camera.focus = -2: must be >= 0"},
+        CameraCase{"FocusInfinite", [](pt_camera &c) { c.focus = camera_infinity; },
+                   "camera.focus = inf: must be finite"},
+        CameraCase{"OrthographicLens",
+                   [](pt_camera &c) {
+                       c.projection = PT_PROJECTION_ORTHOGRAPHIC;
+                       c.vertical_extent = 2;
+                       c.aperture = 0.5;
+                       c.focus = camera_nan;
+                   },
+                   "camera.aperture = 0.5: must be 0 with an orthographic projection, which has no lens\n"
+                   "camera.focus = nan: must be 0 with an orthographic projection, which has no lens"}),
     [](const auto &instance) { return std::string(instance.param.name); });
 
 TEST(Camera, HasTheDefaultsOfTheHeader) {
@@ -133,6 +158,7 @@ TEST(Camera, HasTheDefaultsOfTheHeader) {
     EXPECT_EQ(camera.tan_half_fov, std::tan(std::numbers::pi / 8));
     EXPECT_EQ(camera.shutter_open, 0.0);
     EXPECT_EQ(camera.shutter_close, 0.0) << "the instant 0, in which nothing moves";
+    EXPECT_FALSE(camera.has_lens());
 }
 
 TEST(Camera, TakesWhatIsSet) {
@@ -151,6 +177,23 @@ TEST(Camera, TakesWhatIsSet) {
     EXPECT_EQ(camera.tan_half_fov, std::tan(0.75));
     EXPECT_EQ(camera.shutter_open, 0.25);
     EXPECT_EQ(camera.shutter_close, 0.25);
+}
+
+// Half the aperture is the radius; without a focus that of the target counts. Films do not tell pinholes by a focus.
+TEST(Camera, MayHaveALens) {
+    pt_camera source = valid_camera();
+    const std::string pinhole = digest_of(pt::validated_camera(source));
+    source.focus = 3;
+    EXPECT_EQ(digest_of(pt::validated_camera(source)), pinhole);
+    source.aperture = 0.5;
+    const pt::Camera camera = pt::validated_camera(source);
+    EXPECT_EQ(camera.lens_radius, 0.25);
+    EXPECT_EQ(camera.focus, 3.0);
+    source.focus = 0;
+    const pt::Camera at_target = pt::validated_camera(source);
+    EXPECT_EQ(at_target.focus, 1.0);
+    EXPECT_NE(digest_of(at_target), digest_of(camera));
+    EXPECT_NE(digest_of(at_target), pinhole);
 }
 
 TEST(Camera, AcceptsExtremes) {

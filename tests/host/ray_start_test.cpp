@@ -100,15 +100,19 @@ TEST(RayStart, IsInsideOfWhatHoldsTheCamera) {
 }
 
 // No ray of the view may meet a surface before it starts: 20,000 random ones against random spheres and planes, by the
-// textbook's formulas in long double.
+// textbook's formulas. Every third view is that of a lens.
 TEST(RayStart, NothingInViewIsBeforeIt) {
     std::mt19937 engine(5);
     const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(engine); };
     int near_misses = 0;
     for (int round = 0; round < 200; ++round) {
         const double fov = std::pow(10.0, uniform(-8, -2.5));
-        const pt::Camera camera = looking_along({uniform(-1, 1), uniform(-1, 1), -1.5}, fov);
+        pt::Camera camera = looking_along({uniform(-1, 1), uniform(-1, 1), -1.5}, fov);
         const double distance = std::pow(10.0, uniform(0, 8));
+        if (round % 3 == 0) {
+            camera.focus = distance * std::pow(10.0, uniform(-1, 1));
+            camera.lens_radius = camera.focus * std::pow(10.0, uniform(-5, -1));
+        }
         const double spread = fov * distance;
         const glm::dvec3 place =
             camera.forward * distance + camera.right * uniform(-spread, spread) + camera.up * uniform(-spread, spread);
@@ -119,16 +123,24 @@ TEST(RayStart, NothingInViewIsBeforeIt) {
         const double start =
             is_plane ? start_of({}, {plane}, camera) : start_of({ball_from_camera(place, radius)}, {}, camera);
         for (int i = 0; i < 100; ++i) {
-            const glm::dvec3 ray = glm::normalize(camera.forward + camera.tan_half_fov * uniform(-1, 1) * camera.right +
-                                                  camera.tan_half_fov * uniform(-1, 1) * camera.up);
+            const glm::dvec3 through = camera.forward + camera.tan_half_fov * uniform(-1, 1) * camera.right +
+                                       camera.tan_half_fov * uniform(-1, 1) * camera.up;
+            glm::dvec3 from(0.0); // where the ray starts, and from there the place
+            if (camera.has_lens()) {
+                const double angle = uniform(-4, 4);
+                from =
+                    camera.lens_radius * uniform(0, 1) * (std::cos(angle) * camera.right + std::sin(angle) * camera.up);
+            }
+            const glm::dvec3 ray = glm::normalize(camera.has_lens() ? camera.focus * through - from : through);
+            const glm::dvec3 to = place - from;
             double t = std::numeric_limits<double>::infinity();
             if (is_plane) {
-                const double met = glm::dot(normal, place) / glm::dot(normal, ray);
+                const double met = glm::dot(normal, to) / glm::dot(normal, ray);
                 t = met > 0 ? met : t;
             } else {
-                const double b = glm::dot(place, ray);
-                const double chord = radius * radius - glm::dot(place - b * ray, place - b * ray);
-                const bool inside = glm::length(place) < radius;
+                const double b = glm::dot(to, ray);
+                const double chord = radius * radius - glm::dot(to - b * ray, to - b * ray);
+                const bool inside = glm::length(to) < radius;
                 if (chord > 0 && (inside || b > 0))
                     t = inside ? b + std::sqrt(chord) : b - std::sqrt(chord);
             }

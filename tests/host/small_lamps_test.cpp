@@ -79,6 +79,30 @@ TEST(SmallLamps, AreSpreadOverPixels) {
     EXPECT_NEAR(share_of(at_the_edge, 399, 0), 0.5 * size, thin);
 }
 
+// In focus as through a pinhole, elsewhere over the disc that the lens makes of a point, in squares of many pixels:
+// here with the radius 30 |100 / 75 - 1| = 10, that is 314 pixels.
+TEST(SmallLamps, AreSpreadByALens) {
+    const std::vector<pt_sphere> lamps{sphere_at(0.5, 0.5, 100, radius, lamp)};
+    pt::Camera lens = camera;
+    lens.lens_radius = 30.0;
+    lens.focus = 100.0;
+    const auto sharp = pieces_of(lamps, {}, lens);
+    ASSERT_EQ(sharp.size(), 1U);
+    EXPECT_EQ(sharp[0].share, pieces_of(lamps)[0].share);
+    EXPECT_EQ(sharp[0].pixels, 1.0);
+    lens.focus = 75.0;
+    const double spread = std::numbers::pi * (100.0 + radius * radius);
+    double seen = 0.0;
+    double largest = 0.0;
+    for (const pt::LampPiece &piece : pieces_of(lamps, {}, lens)) {
+        EXPECT_DOUBLE_EQ(piece.lamp_size, size);
+        seen += piece.pixels * piece.share;
+        largest = std::max(largest, piece.share);
+    }
+    EXPECT_NEAR(seen, size, thin * size);
+    EXPECT_NEAR(largest, size / spread, size / spread / 38.0) << "to a line, of which there are 38 to a square";
+}
+
 TEST(SmallLamps, AreThoseThatTheCameraSees) {
     const pt_sphere seen = sphere_at(10, 10, 100, radius, lamp);
     const auto count_of = [](const std::vector<pt_sphere> &spheres, const std::vector<pt_plane> &planes = {}) {

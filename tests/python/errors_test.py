@@ -117,6 +117,11 @@ class RealErrors(unittest.TestCase):
     def test_of_a_camera(self):
         with self.assertRaisesRegex(pt.InvalidArgumentError, "camera"):
             self.context.set_camera(pt.Camera(position=(1, 2, 3), target=(1, 2, 3)))
+        view = {"position": (1, 2, 3), "target": (1, 2, 5)}
+        with self.assertRaisesRegex(pt.InvalidArgumentError, r"camera.aperture = 4.5: .* twice the focus \(2\)"):
+            self.context.set_camera(pt.Camera(**view, aperture=4.5))
+        with self.assertRaisesRegex(pt.InvalidArgumentError, "camera.focus = 3: must be 0 with an orthographic"):
+            self.context.set_camera(pt.Camera(**view, vertical_extent=1, focus=3))
         for wrong in (1, 2), (1, 2, 3, 4), 1, [[1, 2, 3]]:
             with self.assertRaisesRegex(ValueError, "position = .*: must be three numbers"):
                 pt.Camera(position=wrong, target=(1, 2, 3))

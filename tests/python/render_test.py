@@ -1,6 +1,7 @@
 """pt.render, the camera that it fits, what is read into whose memory, and errors that are asked for."""
 
 import unittest
+from dataclasses import replace
 
 import numpy as np
 import pt
@@ -45,6 +46,8 @@ class Render(unittest.TestCase):
         self.assertLess(np.abs(other_seed.radiance - self.image.radiance).mean(), 0.05)
         seen_by = pt.render(POSITIONS, 0.1, context=self.context, camera=CAMERA, **SMALL)
         self.assertFalse(np.array_equal(seen_by, self.image))
+        through_lens = pt.render(POSITIONS, 0.1, context=self.context, camera=replace(CAMERA, aperture=0.5), **SMALL)
+        self.assertFalse(np.array_equal(through_lens, seen_by))
 
     def test_until_an_error_is_reached(self):
         image = pt.render(POSITIONS, 0.1, context=self.context, size=(WIDTH, HEIGHT), error=0.05)

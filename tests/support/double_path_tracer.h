@@ -98,6 +98,14 @@ private:
                                   ((place.x - 0.5 * render.width) * right_ - (place.y - 0.5 * render.height) * up_);
         glm::dvec3 origin = is_parallel ? position_ + across : position_;
         glm::dvec3 direction = is_parallel ? forward_ : glm::normalize(forward_ + across);
+        if (camera_.aperture > 0.0) {
+            const double focus = camera_.focus > 0.0 ? camera_.focus : glm::length(vector(camera_.target) - position_);
+            const glm::dvec3 sharp = position_ + focus * (forward_ + across);
+            const double off_axis = 0.5 * camera_.aperture * std::sqrt(share());
+            const double angle = 2.0 * std::numbers::pi * share();
+            origin += off_axis * (std::cos(angle) * right_ + std::sin(angle) * up_);
+            direction = glm::normalize(sharp - origin);
+        }
         glm::dvec3 radiance(0.0);
         glm::dvec3 weight(1.0);
         double density = 0.0; // of the direction, where lamps are sampled as well

@@ -193,7 +193,7 @@ typedef struct pt_scene {
 
 /** Values of pt_camera.projection. */
 enum {
-    PT_PROJECTION_PERSPECTIVE = 0, /**< a pinhole: all rays start at position */
+    PT_PROJECTION_PERSPECTIVE = 0, /**< a pinhole: all rays start at position; or a lens (pt_camera.aperture) */
     /** parallel rays along the viewing direction, which start on the plane through position across it: what lies behind
      * this plane is not seen, and of a surface that it cuts, as of a ball in which rays start, the inside is. An object
      * is as large in the image wherever it is. */
@@ -214,6 +214,14 @@ typedef struct pt_camera {
     /** Of an orthographic projection: full height of the view, in [1e-18, 1e18], and so its width, which is the height
      * times width / height of the image (pt_accumulate: PT_ERROR_UNSUPPORTED). There is no default. Otherwise 0. */
     double vertical_extent;
+    /** Of a perspective: diameter of a thin lens about position, across the view; 0: a pinhole. Points of the plane at
+     * the distance focus are sharp, others are discs, of the diameter aperture * |z / focus - 1| at the depth z. It is
+     * twice what other renderers call the lens's radius; a photographic lens has its focal length / its f-number. At
+     * most 2 * focus. With an orthographic projection 0. */
+    double aperture;
+    /** Of a perspective with an aperture: depth of the plane in focus, along the viewing direction; default the
+     * distance of target. A length; not looked at without an aperture. With an orthographic projection 0. */
+    double focus;
 } pt_camera;
 
 /* ---- Rendering -------------------------------------------------------------------------------------------------- */
@@ -312,7 +320,9 @@ enum {
     PT_QUANTITY_STANDARD_ERROR = 1,
     PT_QUANTITY_SAMPLE_COUNT = 2, /**< samples that the pixel has, the same in all channels, as float32 rounds it */
     /* What camera rays meet first, of the scene and the camera that are set: for compositing, denoising and picking. It
-     * is found when it is read, by a kernel of its own that is built for the first of these, and needs no sample. */
+     * is found when it is read, by a kernel of its own that is built for the first of these, and needs no sample. A
+     * camera with an aperture is a pinhole here: its rays go through the middle of the lens, and edges are sharp that
+     * the lens blurs in the radiance and in PT_QUANTITY_COVERAGE. */
     /** depth along the view, as compositing programs have it: dot(x - camera.position, unit viewing direction) of the
      * point x that the ray through the pixel's centre meets, of parallel rays its distance from where they start,
      * halfway between shutter_open and shutter_close; the same in all channels. INFINITY where it meets nothing. In

@@ -20,7 +20,8 @@ enum {
      * Centres are held to 2^-30 of the extent of those in the tree, colors of spheres to a thousandth. */
     PT_FEATURE_TREE = 16,
     PT_FEATURE_ORTHOGRAPHIC = 32, /**< parallel camera rays */
-    PT_FEATURE_HIDDEN = 64        /**< surfaces that the camera does not see */
+    PT_FEATURE_HIDDEN = 64,       /**< surfaces that the camera does not see */
+    PT_FEATURE_LENS = 128         /**< camera rays start on a lens */
 };
 
 /** What has been done, and what it took. */

@@ -17,7 +17,7 @@ from pt._vectors import Vector, vector
 
 @dataclass(frozen=True)
 class Camera:
-    """A pinhole, or, with a vertical_extent, parallel rays.
+    """A pinhole; with an aperture, a thin lens; or, with a vertical_extent, parallel rays.
 
     position          of the pinhole, scene units; parallel rays start on the plane through it across the view
     target            the point in the middle of the image; must differ from position
@@ -26,6 +26,8 @@ class Camera:
     shutter           light is gathered evenly between these times, 0 <= open <= close <= 1
     vertical_extent   None: a pinhole. Else full height of the view of parallel rays, scene units, in [1e-18, 1e18]: an
                       orthographic projection
+    aperture          diameter of the lens, scene units, at most twice the focus; 0: a pinhole
+    focus             depth of the plane in focus, along the viewing direction, scene units; 0: that of target
     """
 
     position: Vector
@@ -34,6 +36,8 @@ class Camera:
     vertical_fov: float | None = None
     shutter: tuple[float, float] = (0.0, 1.0)
     vertical_extent: float | None = None
+    aperture: float = 0.0
+    focus: float = 0.0
 
     def __post_init__(self) -> None:
         if self.vertical_extent is None:
@@ -84,7 +88,8 @@ class Camera:
         shutter_open, shutter_close = self.shutter
         return structs.pt_camera(projection=self.projection, position=self.position, target=self.target, up=self.up,
                                  vertical_fov=self.vertical_fov or 0.0, shutter_open=shutter_open,
-                                 shutter_close=shutter_close, vertical_extent=self.vertical_extent or 0.0)
+                                 shutter_close=shutter_close, vertical_extent=self.vertical_extent or 0.0,
+                                 aperture=self.aperture, focus=self.focus)
 
 
 def _axes(direction: Vector, up: Vector

@@ -115,6 +115,7 @@ class Feature(enum.IntFlag):
     TREE = 16  # so many spheres that they are in a tree
     ORTHOGRAPHIC = 32  # parallel camera rays
     HIDDEN = 64  # surfaces that the camera does not see
+    LENS = 128  # camera rays start on a lens
 
 
 class Uncertain(enum.IntFlag):

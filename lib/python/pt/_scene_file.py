@@ -13,7 +13,8 @@ def camera_section(camera: Camera) -> dict[str, Any]:
     section: dict[str, Any] = {"position": list(camera.position), "look_at": list(camera.target), "up": list(camera.up)}
     if camera.vertical_fov is None:
         return {**section, "projection": "orthographic", "vertical_extent": camera.vertical_extent}
-    return {**section, "vertical_fov": math.degrees(camera.vertical_fov)}
+    lens = {"aperture": camera.aperture, "focus": camera.focus} if camera.aperture else {}
+    return {**section, "vertical_fov": math.degrees(camera.vertical_fov), **lens}
 
 
 def material_section(material: object) -> dict[str, Any]:

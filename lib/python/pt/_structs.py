@@ -53,7 +53,7 @@ class pt_scene(Sized):
 class pt_camera(Sized):
     _fields_ = [("struct_size", c_uint32), ("projection", c_uint32), ("position", c_double * 3),
                 ("target", c_double * 3), ("up", c_double * 3), ("vertical_fov", c_double), ("shutter_open", c_double),
-                ("shutter_close", c_double), ("vertical_extent", c_double)]
+                ("shutter_close", c_double), ("vertical_extent", c_double), ("aperture", c_double), ("focus", c_double)]
 
 
 class pt_render(Sized):

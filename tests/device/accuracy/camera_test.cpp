@@ -1,4 +1,4 @@
-// camera_direction against long double.
+// camera_direction and ray_through_lens against long double.
 #include "camera_items.spv.h"
 #include "tests/device/accuracy/direction.h"
 #include "tests/device/accuracy/evaluation.h"
@@ -19,6 +19,12 @@ struct Item {
     glm::vec4 forward;
     std::uint32_t column, row;
     glm::vec2 place;
+    float lens_radius, lens_blur; // the focus is radius / blur times as far away as the image plane
+    glm::vec2 disc;
+};
+
+struct Result {
+    glm::vec4 direction, lens_origin, lens_direction;
 };
 
 // Fields of view from 1e-8 to nearly pi, images of one pixel to 16384 wide; a quarter of the pixels in a corner.
@@ -39,6 +45,10 @@ std::vector<Item> items() {
         item.column = i % 4 == 0 ? item.width - 1 : inputs.word() % item.width;
         item.row = i % 4 == 0 ? 0 : inputs.word() % item.height;
         item.place = {inputs.number(), inputs.number()};
+        item.lens_radius = static_cast<float>(inputs.log_uniform(1e-6, 1e6));
+        item.lens_blur = static_cast<float>(0.5 * item.height / tan_half_fov * inputs.log_uniform(1e-9, 1.0));
+        const float angle = 6.28F * inputs.number();
+        item.disc = std::sqrt(inputs.number()) * glm::vec2(std::cos(angle), std::sin(angle));
         items.push_back(item);
     }
     return items;
@@ -50,21 +60,43 @@ std::vector<Item> items() {
 // sqrt 9 u and the division 5 u.
 constexpr Real bound = (2.9L + 2 + 15.5L) * half_ulp;
 
+// Of a ray through a lens, how far it is on the plane in focus from the pinhole's there, over its length to there. The
+// origin a r errs by 2 u |a| for the product with each axis and its sum, with what the axis lacks of unit length; its
+// opposite in the direction, a place of the image that errs by u of the sum and u of the product, is as large: in all
+// 7 u of the lens's radius. The direction errs as above.
+Real lens_bound(Real radius, Real distance) {
+    return 7 * half_ulp * radius / distance + bound;
+}
+
 TEST(AccuracyCamera, OfDirections) {
     Comparison direction("camera_direction", "length");
     const std::vector<Item> all = items();
     Probe probe(camera_items_spirv(), sizeof(ItemRange));
-    const std::vector<glm::vec4> results = evaluate<glm::vec4>(probe, all);
+    const std::vector<Result> results = evaluate<Result>(probe, all);
+    Comparison focus("ray_through_lens", "length");
     for (std::size_t i = 0; i < all.size(); ++i) {
         const Item &item = all[i];
         const Real x = Real{0} + item.column + item.place.x - Real{0.5} * item.width;
         const Real y = Real{0} + item.row + item.place.y - Real{0.5} * item.height;
         const Direction exact = Direction(item.forward) + x * Direction(item.right) - y * Direction(item.up);
-        direction.add(glm::vec3(results[i]), glm::normalize(exact), bound,
-                      {static_cast<float>(item.width), static_cast<float>(item.height), item.forward.x, item.forward.y,
-                       item.forward.z, static_cast<float>(x), static_cast<float>(y)});
+        const std::vector<float> of_item = {static_cast<float>(item.width),
+                                            static_cast<float>(item.height),
+                                            item.forward.x,
+                                            item.forward.y,
+                                            item.forward.z,
+                                            static_cast<float>(x),
+                                            static_cast<float>(y),
+                                            item.lens_radius,
+                                            item.lens_blur};
+        direction.add(glm::vec3(results[i].direction), glm::normalize(exact), bound, of_item);
+        const Direction sharp = Real{item.lens_radius} / Real{item.lens_blur} * exact;
+        const Direction on_way = sharp - Direction(results[i].lens_origin);
+        const Real distance = glm::length(on_way);
+        focus.add(glm::vec3(results[i].lens_direction), on_way / distance, lens_bound(item.lens_radius, distance),
+                  of_item);
     }
     direction.finish();
+    focus.finish();
 }
 
 } // namespace

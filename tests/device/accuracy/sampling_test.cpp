@@ -30,6 +30,9 @@ std::vector<Item> items() {
                          glm::vec2(inputs.number(), inputs.number()),
                          static_cast<float>(inputs.log_uniform(1e-37, 8e37)),
                          static_cast<float>(inputs.log_uniform(1e-37, 8e37))});
+    for (const float x : {0.0F, 0.25F, 0.5F, 1.0F - 0x1p-24F})
+        for (const float y : {0.0F, 0.5F - 0x1p-24F, 0.5F, 1.0F - 0x1p-24F})
+            items.push_back({{0, 0, 1}, 0.0F, {x, y}, 1.0F, 1.0F});
     for (const float density : {1e-37F, 1e-20F, 1.0F, 1e20F, 8e37F})
         for (const float other : {0.0F, 1e-37F, 1e-20F, 1.0F, 1e20F, 8e37F})
             items.push_back({{0, 0, 1}, 0.0F, {0, 0}, density, other});
@@ -57,6 +60,23 @@ Direction mirrored_up(const Direction &direction, const Item &item, const glm::v
     return side < 0 ? -direction : direction;
 }
 
+// The point of the disc in another way than the kernel's, by the wedge between the diagonals in which the square's is.
+Direction concentric(const glm::vec2 &numbers) {
+    const Real x = 2 * Real{numbers.x} - 1;
+    const Real y = 2 * Real{numbers.y} - 1;
+    const Real radius = std::max(std::abs(x), std::abs(y));
+    if (radius == 0)
+        return Direction(0);
+    const bool beside = std::abs(x) > std::abs(y);
+    const Real angle = beside ? pi / 4 * (y / x) : pi / 2 - pi / 4 * (x / y);
+    const Real side = (beside ? x : y) / radius; // 1, or -1 in the opposite wedges
+    return side * radius * Direction(std::cos(angle), std::sin(angle), 0);
+}
+
+// 2 u - 1 is exact, as u has 24 bits. The ratio, at most 1, errs by 5 u, and so the angle by 5 pi / 4 u; the eighth is
+// exact. The product errs by half of u in each component.
+constexpr Real concentric_share = 5 * pi / 4 * half_ulp;
+
 class AccuracySampling : public testing::Test {
 protected:
     std::vector<Item> items_ = items();
@@ -69,6 +89,7 @@ TEST_F(AccuracySampling, OfDirectionsAndWeights) {
     Comparison cosine("cosine_hemisphere_cos_sin", "length");
     Comparison hemisphere("uniform_hemisphere_direction", "length");
     Comparison weight("power_heuristic", "ulp");
+    Comparison disc("concentric_disc", "length");
     for (std::size_t i = 0; i < items_.size(); ++i) {
         const Item &item = items_[i];
         const Result &result = results_[i];
@@ -83,6 +104,9 @@ TEST_F(AccuracySampling, OfDirectionsAndWeights) {
         hemisphere.add(glm::vec3(result.hemisphere),
                        mirrored_up(direction_at(1 - 2 * u, sine, turns), item, result.hemisphere), uniform_bound(sine),
                        list(item));
+        const Direction point = concentric(item.numbers);
+        disc.add(glm::vec3(result.weight.z, result.weight.w, 0.0F), point,
+                 glm::length(point) * (concentric_share + azimuth_bound(1)), list(item));
         // w = 1 / (1 + q^2): q 5 u, q^2 11 u, the sum u, the division 2.5 ulp. Where a square overflows, w is 0.
         const Real a = item.density;
         const Real b = item.other_density;
@@ -92,6 +116,7 @@ TEST_F(AccuracySampling, OfDirectionsAndWeights) {
     cosine.finish();
     hemisphere.finish();
     weight.finish();
+    disc.finish();
 }
 
 // Multiple importance sampling is unbiased because the two weights of a direction sum to 1: each is within 14.5 ulp of

@@ -1,4 +1,4 @@
-// Evaluates the shipped camera_direction.
+// Evaluates the shipped camera_direction, and ray_through_lens.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -6,8 +6,9 @@
 
 #include "items.glsl"
 
-struct Item { vec4 right_width; vec4 up_height; vec4 forward; vec4 pixel_place; };
-layout(set = 0, binding = 2) writeonly buffer Output { vec4 results[]; };
+struct Item { vec4 right_width; vec4 up_height; vec4 forward; vec4 pixel_place; vec4 lens; };
+struct Result { vec4 direction; vec4 lens_origin; vec4 lens_direction; };
+layout(set = 0, binding = 2) writeonly buffer Output { Result results[]; };
 layout(set = 0, binding = 3) readonly buffer Input { Item items[]; };
 
 void main()
@@ -22,6 +23,11 @@ void main()
     camera.forward = item.forward.xyz;
     camera.width = floatBitsToUint(item.right_width.w);
     camera.height = floatBitsToUint(item.up_height.w);
+    camera.start_scale = 0.0;
+    camera.lens_radius = item.lens.x;
+    camera.lens_blur = item.lens.y;
     vec2 place = image_place(camera, floatBitsToUint(item.pixel_place.xy), item.pixel_place.zw);
-    results[index] = vec4(camera_direction(camera, place), 0.0);
+    CameraRay ray = ray_through_lens(camera, floatBitsToUint(item.pixel_place.xy), vec3(item.pixel_place.zw, 0.0), item.lens.zw);
+    results[index] =
+        Result(vec4(camera_direction(camera, place), 0.0), vec4(ray.origin, 0.0), vec4(ray.direction, 0.0));
 }

@@ -18,4 +18,5 @@ void main()
     values[3] = vec4(frame.seed, frame.film_scale, frame.film_first_pixel);
     values[4] = vec4(frame.strip_first_pixel, frame.strip_pixel_count, frame.first_entry, frame.film_part);
     values[5] = vec4(frame.is_first, frame.first_sample, frame.sample_count, frame.share);
+    values[6] = vec4(frame.camera.lens_radius, frame.camera.lens_blur, frame.camera.reserved[0], frame.camera.reserved[1]);
 }

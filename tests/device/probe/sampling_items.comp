@@ -22,5 +22,5 @@ void main()
     results[index] = Result(vec4(direction_about(axis, narrow_cos_sin(items[index].axis_height.w), numbers.y), 0.0),
                             vec4(direction_about(axis, cosine_hemisphere_cos_sin(numbers.x), numbers.y), 0.0),
                             vec4(uniform_hemisphere_direction(axis, numbers.xy), 0.0),
-                            vec4(power_heuristic(numbers.z, numbers.w), 0.0, 0.0, 0.0));
+                            vec4(power_heuristic(numbers.z, numbers.w), 0.0, concentric_disc(numbers.xy)));
 }

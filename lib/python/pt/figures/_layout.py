@@ -53,7 +53,8 @@ class View:
         """A camera that is given, in the units of the data."""
         extent = camera.vertical_extent
         scaled = replace(camera, position=np.multiply(camera.position, scale), target=np.multiply(camera.target, scale),
-                         vertical_extent=None if extent is None else extent * scale)
+                         vertical_extent=None if extent is None else extent * scale,
+                         aperture=camera.aperture * scale, focus=camera.focus * scale)
         right, above, back = camera.axes()
         return View(Compass.of(up_vector(up)), np.array([right, above, -back]), size, "", camera=scaled)
 
