@@ -2,6 +2,7 @@
 // Run alone with --gtest_filter=Lens*.
 #include "tests/support/light_in_double.h"
 #include "tests/support/scene_of.h"
+#include "tests/support/shared_context.h"
 
 #include <pt/film.h>
 #include <pt/stats.h>
@@ -153,20 +154,25 @@ TEST_F(Lens, IsSharpToThePixelInFocus) {
         }
 }
 
-// Rows alone and short submissions, and a film of one half of the samples to which the other is added, have the bits of
-// the whole.
+// Rows alone, short submissions, two devices, and a film of one half of the samples to which the other is added, have
+// the bits of the whole.
 TEST_F(Lens, PartsHaveTheBitsOfTheWhole) {
     const Context hurried = create_context([](pt_create_info &info) { info.submit_milliseconds = 1; });
-    ASSERT_TRUE(hurried);
+    const Context shared = create_context(
+        [](pt_create_info &) {}, [](const auto *info, auto **made) { return create_shared(2, *info, made, true); });
+    ASSERT_TRUE(hurried && shared);
     constexpr std::uint32_t first_row = 37;
     constexpr std::uint32_t row_count = 21;
-    for (const auto &[name, given, samples] : cases()) {
-        SCOPED_TRACE(name);
+    const std::vector<Case> all = cases();
+    for (const std::size_t i : {1, 3}) { // a narrow view, a tree
+        const Given &given = all[i].given;
+        SCOPED_TRACE(all[i].name);
         pt_render render = picture_of(PT_SAMPLER_SOBOL);
         render.width *= 4;
         render.height *= 4;
         const std::vector<float> whole = render_image(context(), given.scene(), given.camera, render, 2);
-        EXPECT_EQ(render_image(hurried.get(), given.scene(), given.camera, render, 2), whole);
+        for (pt_context *const other : {hurried.get(), shared.get()})
+            EXPECT_EQ(render_image(other, given.scene(), given.camera, render, 2), whole);
 
         pt_render second = render;
         second.first_sample = 1;
