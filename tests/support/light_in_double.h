@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace light_in_double {
@@ -105,7 +106,9 @@ private:
     static double deviation_of(const std::vector<double> &means, const DoublePathTracer::Estimate &exact) {
         const statistics::Moments found = statistics::moments(means);
         const double black = 1e-12;
-        return (found.mean - exact.mean) / std::sqrt(found.variance / image_count + exact.variance + black);
+        const double deviation =
+            (found.mean - exact.mean) / std::sqrt(found.variance / image_count + exact.variance + black);
+        return std::isfinite(deviation) ? deviation : std::numeric_limits<double>::infinity(); // no number is no match
     }
 };
 
