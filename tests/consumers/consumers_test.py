@@ -171,7 +171,7 @@ class Steps:
         return fast, slow
 
     def subproject(self):
-        """add_subdirectory. Built without optimisation and folder by folder, for the compiler's time."""
+        """add_subdirectory. Objects that the library's own build would have alike are taken from there (reuse.py)."""
         folder = self.folder("subproject")
         # The library is optimised where the project leaves that open, and only then; never the project.
         for number, (settings, expected) in enumerate((
@@ -181,9 +181,16 @@ class Steps:
                 (["-G", "Ninja Multi-Config", "-DCMAKE_CONFIGURATION_TYPES=Debug"], (set(), {"lib", "tests"})))):
             found = self.configure_subproject(folder / str(number), *settings)
             require(found == expected, f"with {settings}, (optimised, not optimised) are {found}")
-        build = folder / "build"
-        found = self.configure_subproject(build, "-DCMAKE_CXX_FLAGS=-O0", "-DPT_UNITY=ON")
+        found = self.configure_subproject(folder / "plain", "-DCMAKE_CXX_FLAGS=-O0")
         require(found == (set(), {"lib", "tests"}), f"with -O0, (optimised, not optimised) are {found}")
+        build = folder / "build"
+        own = (self.options.build / "CMakeCache.txt").read_text()
+        settings = re.findall(r"^((?:PT_UNITY|CMAKE_BUILD_TYPE):\w+=.*)$", own, re.MULTILINE)
+        commands = folder / "commands.json"
+        commands.write_text(run("ninja", "-C", self.options.build, "-t", "compdb") if "CMAKE_GENERATOR:INTERNAL=Ninja\n" in own
+                            else "[]")
+        reuse = ";".join(map(str, (sys.executable, "-B", HERE / "reuse.py", commands, self.options.build, build / "pt")))
+        self.configure_subproject(build, f"-DCMAKE_CXX_COMPILER_LAUNCHER={reuse}", *(f"-D{each}" for each in settings))
         run(self.options.cmake, "--build", build, "-j1")  # another test has the second core
         for program in "enclosure_shared", "enclosure_static", "enclosure_cpp":
             check_enclosure(build / program)
