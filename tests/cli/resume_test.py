@@ -7,18 +7,23 @@ import random
 
 from command_line import COURSEWORK, PT, SCENES, CommandLineTest, main
 
-DAMAGES = 200
+DAMAGES = 25  # of the whole file, packed as it is; FilmBytes and the fuzzer damage its contents by thousands
 
 
 class Resume(CommandLineTest):
     program = PT
     small = ("render", COURSEWORK, "--size", "16x8", "-q")
+    made = {}  # images and the checkpoint, which are rendered once
 
     def setUp(self):
         super().setUp()
-        self.expect(0, *self.small, "-o", "whole.png", "--spp", "24")
-        self.expect(0, *self.small, "-o", "half.png", "--spp", "12", "--checkpoint", "c.ptfilm")
-        self.checkpoint = self.contents("c.ptfilm")
+        if not self.made:
+            self.expect(0, *self.small, "-o", "whole.png", "--spp", "24")
+            self.expect(0, *self.small, "-o", "half.png", "--spp", "12", "--checkpoint", "c.ptfilm")
+            self.made.update((name, self.contents(name)) for name in self.files())
+        for name, data in self.made.items():
+            self.write(name, data)
+        self.checkpoint = self.made["c.ptfilm"]
 
     def resume(self, code, *options, error=None):
         count = () if "--spp" in options else ("--spp", "24")
@@ -100,7 +105,7 @@ class Resume(CommandLineTest):
             damaged = bytearray(self.checkpoint)
             damaged[bit // 8] ^= 1 << bit % 8
             refused += self.check(bytes(damaged), False)
-        self.assertGreater(refused, DAMAGES * 0.9)
+        self.assertGreater(refused, DAMAGES * 0.8)
         damaged = bytearray(self.checkpoint)
         damaged[len(damaged) // 2] ^= 4
         self.write("c.ptfilm", damaged)

@@ -28,8 +28,8 @@ SCENE = {
     "planes": [{"normal": [0, 1, 0], "offset": 1, "material": "a"}],
     "animation": {"camera.position": [[0, [0, 1, 6]], [10, [1, 1, 6]]], "materials.a.glossiness": [[0, 10], [5, 20]]}}
 
-OTHERS = (None, True, "zzzz", -1, 0, 0.5, 65, 200, 1e-19, 5e9, 2e18, [], {}, [1, 2], [0, 0, 0], [1, 2, -3], {"zzzz": 1})
-OTHERS_IN_ARRAYS = (None, "a", -1, 0, 1e-19, 2e18, [])
+OTHERS = (None, "zzzz", -1, 0, 0.5, 65, 1e-19, 5e9, 2e18, [], [0, 0, 0], [1, 2, -3], {"zzzz": 1})
+OTHERS_IN_ARRAYS = ("a", -1, 0, 2e18, [])
 
 # What no schema can tell, for it looks at one value at a time.
 BEYOND_SCHEMAS = ("unknown material", "must be a later frame", "as many numbers as the one before",
