@@ -96,14 +96,4 @@ TEST_F(ExactLight, LastSampleNumbers) {
     }
 }
 
-// 2^30 samples, each exactly 0.1F: neither a count nor a sum may stall or drift, so their mean is 0.1F to the last bit.
-// A plain float32 sum stands still at 2^21. Takes minutes on a CPU, whose lanes are all idle but one. Run it with
-//     pt_analytic_tests --gtest_also_run_disabled_tests --gtest_filter=*BillionSamples*
-TEST_F(ExactLight, DISABLED_BillionSamples) {
-    constexpr std::uint32_t samples = 1U << 30;
-    const cli::SceneFile scene = read_scene("08-inside");
-    EXPECT_EQ(image_of(scene.scene(), scene.camera, render_of(1, 1, 1), samples).red(0, 0), 0.1F);
-    EXPECT_EQ(stats().sample_count, samples);
-}
-
 } // namespace

@@ -1,4 +1,5 @@
-// Host and kernel agree on the bytes between them: push constants, and the scene buffer word by word.
+// Host and kernel agree on the bytes between them: push constants, and what of a scene is in its buffer. That each word
+// is where the kernel reads it is seen in every picture with an exact value.
 #include "lib/kernel/gpu_scene.h"
 #include "lib/scene/seen_sphere.h"
 #include "push_layout.spv.h"
@@ -50,104 +51,6 @@ pt::Scene small_scene() {
 
 pt::GpuScene gpu_scene_of(const pt::Scene &scene, const pt::Camera &camera) {
     return pt::gpu_scene(pt::PreparedScene(scene), camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4});
-}
-
-TEST(GpuLayout, SceneWordsAreWhereTheLayoutSays) {
-    const pt::Camera camera = camera_at({0, 0, 1});
-    const pt::Scene scene = small_scene();
-    const pt::GpuScene gpu_scene = gpu_scene_of(scene, camera);
-    const pt::Features &features = gpu_scene.features;
-    EXPECT_EQ(features.sphere_count, 2U);
-    EXPECT_EQ(features.plane_count, 1U);
-    EXPECT_EQ(features.lamp_count, 1U);
-    EXPECT_TRUE(features.gloss);
-    EXPECT_TRUE(features.motion);
-    EXPECT_FALSE(features.curvature);
-    EXPECT_TRUE(features.scene_in_uniform);
-
-    const auto per_pi = [](double factor) { return static_cast<float>(factor / std::numbers::pi); };
-    const std::vector<glm::vec4> expected = {
-        {0, 9, -1, 2},    // lamp
-        {2, 2, 2, 0.5F},  // ball, a quarter of its way
-        {0, 1, 0, 4},     // plane
-        {30, 60, 90, 60}, // emissions and their means
-        {0, 0, 0, 0},     //
-        {0, 0, 0, 0},     //
-        {0, 0, 0, 0},     // diffuse albedos over pi and lobe probabilities
-        {per_pi(0.25), per_pi(0.25), per_pi(0.25), 0.6F},
-        {per_pi(0.5), per_pi(0.25), 0, 0},
-        {0, 0, 0, 0}, // specular factors times (n + 2) / (2 pi) and glossinesses
-        {per_pi(0.75 * 21), per_pi(0.75 * 21), per_pi(0.75 * 21), 40},
-        {0, 0, 0, 0},
-        {0, 0, 0, 0}, // ways while the shutter is open
-        {2, 0, 0, 0},
-    };
-    EXPECT_EQ(gpu_scene.words, expected);
-}
-
-// The small scene with a row of balls of the same gloss, a plane that shines, and a material that nothing has.
-pt::Scene large_scene() {
-    pt::Scene scene = small_scene();
-    scene.materials.insert(scene.materials.begin() + 1, {{0.125F, 0.125F, 0.125F}, {0, 0, 0}, {7, 7, 7}, 0});
-    scene.materials.push_back({{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {1, 2, 3}, 0});
-    scene.spheres[0].material = 2;
-    scene.spheres[1].material = 3;
-    for (int i = 0; i < 300; ++i)
-        scene.spheres.push_back({{i, 4, -9}, 0.25, {0, 0, 0}, 2});
-    scene.planes.push_back({{0, 0, 1}, 99, 4});
-    return scene;
-}
-
-// Lamps go first, then the other spheres in their order, then the planes.
-TEST(GpuLayout, LargeScenesHaveATableOfMaterials) {
-    const pt::GpuScene gpu_scene = gpu_scene_of(large_scene(), camera_at({0, 0, 1}));
-    const pt::Features &features = gpu_scene.features;
-    EXPECT_EQ(features.sphere_count, 302U);
-    EXPECT_EQ(features.plane_count, 2U);
-    EXPECT_TRUE(features.gloss && features.motion && features.planes_emit);
-    EXPECT_FALSE(features.curvature);
-    EXPECT_FALSE(features.scene_in_uniform);
-
-    const std::vector<glm::vec4> &words = gpu_scene.words;
-    constexpr std::size_t emission = 304;
-    constexpr std::size_t motion = emission + 3;
-    constexpr std::size_t indices = motion + 302;
-    constexpr std::size_t table = indices + 76;
-    ASSERT_EQ(words.size(), table + 2 * 4);
-    EXPECT_EQ(words[0], glm::vec4(0, 9, -1, 2));
-    EXPECT_EQ(words[1], glm::vec4(2, 2, 2, 0.5F));
-    EXPECT_EQ(words[301], glm::vec4(299, 4, -10, 0.25F));
-    EXPECT_EQ(words[302], glm::vec4(0, 1, 0, 4));
-    EXPECT_EQ(words[303], glm::vec4(0, 0, 1, 100));
-    EXPECT_EQ(words[emission], glm::vec4(30, 60, 90, 60)) << "the lamp";
-    EXPECT_EQ(words[emission + 1], glm::vec4(0)) << "the floor";
-    EXPECT_EQ(words[emission + 2], glm::vec4(1, 2, 3, 2)) << "the plane that shines";
-    EXPECT_EQ(words[motion], glm::vec4(0));
-    EXPECT_EQ(words[motion + 1], glm::vec4(2, 0, 0, 0));
-
-    const auto index_of = [&](std::size_t surface) {
-        const float bits = words[indices + surface / 4][static_cast<int>(surface % 4)];
-        EXPECT_TRUE(std::isnormal(bits));
-        return std::bit_cast<std::uint32_t>(bits) - pt::gpu::MATERIAL_INDEX_BITS;
-    };
-    EXPECT_EQ(index_of(0), 2U) << "the lamp";
-    for (std::size_t ball = 1; ball < 302; ++ball)
-        EXPECT_EQ(index_of(ball), 1U) << ball;
-    EXPECT_EQ(index_of(302), 0U) << "the floor";
-    EXPECT_EQ(index_of(303), 3U) << "the plane that shines";
-
-    const auto per_pi = [](double factor) { return static_cast<float>(factor / std::numbers::pi); };
-    const std::vector<glm::vec4> expected_table = {
-        {per_pi(0.5), per_pi(0.25), 0, 0}, // the floor
-        {0, 0, 0, 0},                      //
-        {per_pi(0.25), per_pi(0.25), per_pi(0.25), 0.6F},
-        {per_pi(0.75 * 21), per_pi(0.75 * 21), per_pi(0.75 * 21), 40},
-        {0, 0, 0, 0}, // the lamp
-        {0, 0, 0, 0},
-        {per_pi(0.5), per_pi(0.5), per_pi(0.5), 0}, // the plane that shines
-        {0, 0, 0, 0},
-    };
-    EXPECT_EQ(std::vector(words.begin() + table, words.end()), expected_table);
 }
 
 TEST(GpuLayout, WhatTheSceneDoesNotUseIsNotInTheBuffer) {

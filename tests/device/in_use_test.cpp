@@ -112,17 +112,6 @@ TEST_F(InUseTest, TheMessageIsThatOfTheLastCallThatFailed) {
     std::thread([&] { EXPECT_EQ(message(), "thrown by a callback"); }).join();
 }
 
-TEST_F(InUseTest, AnotherContextIsFree) {
-    set_all();
-    const Context other = create_context();
-    pt_result result = PT_ERROR_INTERNAL;
-    accumulate_and([&] {
-        const pt_scene scene = valid_scene();
-        result = pt_set_scene(other.get(), &scene);
-    });
-    EXPECT_EQ(result, PT_OK);
-}
-
 // The driver's threads are not in the child, where a call that reached it would wait for ever.
 TEST_F(InUseTest, AChildOfForkIsRefused) {
     set_all();

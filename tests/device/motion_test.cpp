@@ -283,23 +283,4 @@ TEST_F(Motion, ShutterIsTheSameAsRebasedMotion) {
     EXPECT_EQ(image_of(render, 64), closed);
 }
 
-TEST_F(Motion, CourseworkMotionRejectsNoSample) {
-    CourseworkScene coursework;
-    pt_render render = render_of(64, 32, 6);
-    const pt_camera camera = CourseworkScene::camera();
-    set_up(coursework.scene(), camera);
-    const std::vector<float> still = image_of(render, 64);
-    const double motion[2][3] = {{-3, 0, 3}, {2, 4, 1}};
-    for (int i = 0; i < 2; ++i)
-        std::copy(motion[i], motion[i] + 3, coursework.spheres[static_cast<std::size_t>(2 + i)].motion);
-    set_up(coursework.scene(), camera);
-    for (const uint32_t sampler : {PT_SAMPLER_RANDOM, PT_SAMPLER_HALTON, PT_SAMPLER_HALTON_CP, PT_SAMPLER_SOBOL}) {
-        render.sampler = sampler;
-        EXPECT_NE(image_of(render, 256), still);
-        EXPECT_EQ(stats().rejected_samples, 0U);
-        EXPECT_EQ(stats().sample_count, 256U);
-        EXPECT_TRUE(stats().features & PT_FEATURE_MOTION);
-    }
-}
-
 } // namespace

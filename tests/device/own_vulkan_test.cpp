@@ -234,16 +234,6 @@ TEST_F(OwnVulkanTest, LooksAtATargetAreNoSubmissions) {
     EXPECT_EQ(mutex.locks, before + 1);
 }
 
-TEST_F(OwnVulkanTest, LeavesTheCallersDeviceUsable) {
-    expect_usable();
-    for (int round = 0; round < 2; ++round) {
-        const Context context = context_on(caller().handles());
-        render(context.get(), 0);
-        expect_usable();
-    }
-    expect_usable();
-}
-
 TEST_F(OwnVulkanTest, HandlesMustBeThere) {
     pt_vulkan vulkan{};
     vulkan.struct_size = sizeof vulkan;

@@ -103,7 +103,7 @@ TEST_F(PollingTest, AnyPatternOfPollsGivesTheBitsOfACallThatWaits) {
     const Pixels expected = accumulated(45);
     for (const Use &use : all_uses) {
         const Context on = context_for(use);
-        for (const Pattern &pattern : {Pattern{to_the_end}, Pattern{0}, Pattern{0, 1'000, 2'000'000}}) {
+        for (const Pattern &pattern : {Pattern{0}, Pattern{to_the_end, 0, 1'000, 2'000'000}}) {
             set_up(on.get());
             take(on.get(), 30, pattern);
             EXPECT_NE(image_of(on.get()), expected) << "15 missing samples must show";

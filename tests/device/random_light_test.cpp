@@ -1,6 +1,6 @@
 // Images of random scenes beside those of a path tracer of their own in double: trees, parallel rays, what is hidden
 // from the camera, nested balls, motion, spots, twins, all estimators and samplers. PT_TEST_SCENES says of how many; by
-// default some. Run alone with --gtest_filter=RandomLight*.
+// default one of each kind in a tree and one in a list. Run alone with --gtest_filter=RandomLight*.
 #include "tests/support/batch_fixture.h"
 #include "tests/support/light_in_double.h"
 #include "tests/support/shared_context.h"
@@ -33,7 +33,7 @@ std::uint32_t number_from(const char *variable, std::uint32_t otherwise) {
 }
 
 std::uint32_t scene_count() {
-    return number_from("PT_TEST_SCENES", kind_count);
+    return number_from("PT_TEST_SCENES", 2 * kind_count);
 }
 
 struct Picture {

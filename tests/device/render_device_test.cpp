@@ -73,32 +73,6 @@ TEST_F(RenderDeviceTest, TilesTakeTheirSamplesInAnyOrder) {
     }
 }
 
-// One takes samples, and the other makes room for them.
-TEST_F(RenderDeviceTest, FilmsOfSeveralDevicesAddUpPartByPart) {
-    pt::RenderDevice alone = ready_device(60.0);
-    std::array<pt::RenderDevice, 2> devices = {ready_device(60.0), ready_device(60.0)};
-    set_up(alone);
-    for (pt::RenderDevice &device : devices)
-        set_up(device);
-    pt::SampleRange before;
-    std::size_t taker = 0;
-    for (const pt::SampleRange samples : {pt::SampleRange{40, 56}, {56, 64}, {64, 80}, {0, 40}}) {
-        take(alone, all_tiles, before, samples);
-        for (std::size_t i = 0; i < devices.size(); ++i) {
-            const pt::TileSlice slice{all_tiles, before, samples, i == taker};
-            if (slice.takes || slice.moves_split())
-                devices[i].start(slice);
-        }
-        for (pt::RenderDevice &device : devices)
-            device.drain();
-        pt::PixelSums sum = sums(devices[0]);
-        sum.add(sums(devices[1]));
-        EXPECT_TRUE(sum == sums(alone)) << pt::text_of(samples);
-        before = pt::hull_of(before, samples);
-        taker = 1 - taker;
-    }
-}
-
 // The sums of what the film's regions say, in their order: another film has others.
 std::array<double, 6> sums_of_regions(const std::function<void(const pt::ErrorReader::Receive &)> &read) {
     std::array<double, 6> sums{};
@@ -132,21 +106,6 @@ TEST_F(RenderDeviceTest, AnErrorBehindItsSamplesIsThatOfTheFilm) {
         EXPECT_NE(found, last);
         last = found;
     }
-}
-
-TEST_F(RenderDeviceTest, DiscardedSamplesLeaveNothing) {
-    pt::RenderDevice device = ready_device(60.0);
-    set_up(device);
-    const pt::PixelSums nothing = sums(device);
-    take(device, all_tiles, {}, {0, 20});
-    const pt::PixelSums expected = sums(device);
-    EXPECT_FALSE(expected == nothing);
-    device.discard_samples();
-    EXPECT_TRUE(sums(device) == nothing);
-    take(device, all_tiles, {}, {0, 30});
-    device.discard_samples();
-    take(device, all_tiles, {}, {0, 20}); // clears the film first
-    EXPECT_TRUE(sums(device) == expected);
 }
 
 } // namespace

@@ -174,16 +174,6 @@ TEST(SamplerHaltonCp, RotatesEachPixelAndDimensionByAConstant) {
     EXPECT_FALSE(rotations_are_constant(blocks, request.pixel_count, request.sample_count));
 }
 
-// The rotation itself is what point 0, all zeros, becomes; IsUniformOverPixels tests its distribution about another
-// point.
-TEST(SamplerHaltonCp, RotationsAreUniform) {
-    Request request;
-    request.pixel_count = 1U << 18;
-    const Blocks blocks = take(PT_SAMPLER_HALTON_CP, request);
-    EXPECT_LT(uniform_deviate(component(blocks, 0)), bound);
-    EXPECT_LT(pair_deviate(component(blocks, 0, 0, 2), component(blocks, 0, 1, 2)), bound);
-}
-
 // The chi-squares must be able to fail: Halton's points of one pixel are far more even than random ones are, but
 // repeated over pixels they are far less so, and a correlation of 3 in 100 between neighbours shows.
 TEST(SamplerChecks, NegativeControls) {

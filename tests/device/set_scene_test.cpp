@@ -162,25 +162,6 @@ TEST_F(SetSceneTest, LeavesAllAsItWasWhereItIsStopped) {
     EXPECT_EQ(film_of(other.get(), 2), film);
 }
 
-// Pictures of a scene that goes on by small steps, and of one that is there at once.
-TEST_F(SetSceneTest, HasTheFilmsOfAContextThatHasSeenNoOtherScene) {
-    Cloud cloud(500);
-    set_view(context());
-    set(context(), cloud.scene());
-    for (int step = 0; step < 3; ++step) {
-        cloud.move();
-        if (step == 2)
-            cloud.materials[0].diffuse[1] = 0.1F;
-        set(context(), cloud.scene());
-        const std::vector<char> film = film_of(context(), 4);
-        EXPECT_TRUE(stats().features & PT_FEATURE_TREE);
-        const Context other = create_context();
-        set_view(other.get());
-        set(other.get(), cloud.scene());
-        EXPECT_EQ(film_of(other.get(), 4), film) << "step " << step;
-    }
-}
-
 } // namespace
 
 } // namespace set_scene

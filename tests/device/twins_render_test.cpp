@@ -1,5 +1,5 @@
 // Scenes in which surfaces stand twice, exactly or nearly, send the light of those in which each stands once. Run alone
-// with --gtest_filter=*Twins*.
+// with --gtest_filter=RenderedTwins*. Random ones are among the scenes of random_light_test.cpp.
 #include "tests/device/kernel_render.h"
 #include "tests/invariance/invariance_scene.h"
 #include "tests/support/batch_fixture.h"
@@ -8,10 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <numeric>
-#include <random>
+#include <vector>
 
 namespace twins_render {
 
@@ -21,7 +20,7 @@ constexpr std::uint32_t batch_count = 8;
 constexpr std::uint32_t samples = 64;
 
 // One false alarm in a million for the file.
-constexpr double comparisons = 300;
+constexpr double comparisons = 30;
 
 // Mean light of images, one for each seed.
 std::vector<double> means_of(const Batches &batches) {
@@ -101,7 +100,7 @@ TEST_F(RenderedTwins, SendTheirLightOnce) {
     for (const Case &each : cases)
         for (const std::uint32_t path_length : {2U, 6U}) {
             const Estimate once = mean_of(scene_of_named(each.once), path_length, 100);
-            for (const double share : {0.0, 1e-9, 1e-6, 1e-5, 1e-4}) {
+            for (const double share : {0.0, 1e-6, 1e-4}) {
                 SCOPED_TRACE(share);
                 InvarianceScene twice = scene_of_named(each.twice);
                 shift_twins(twice, share);
@@ -139,130 +138,6 @@ TEST_F(RenderedTwins, WouldOtherwiseBeSeenTwiceOrNever) {
     EXPECT_NEAR(light({room, room, lamp}, 1, 0), in_room, 0.01 * in_room);
     EXPECT_GT(light({room, lamp, lamp}, 1, 0), 1.2 * in_room);
     EXPECT_NEAR(light({room, lamp, lamp}, 1, 1), in_room, 0.01 * in_room);
-}
-
-// ---- Random scenes ------------------------------------------------------------------------------------------------
-
-class RandomScenes {
-public:
-    explicit RandomScenes(std::uint32_t seed) : engine_(seed) {}
-
-    double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
-    bool chance(double probability) { return uniform(0, 1) < probability; }
-
-    // Balls and lamps about the camera, some of them on the move; at times a room, a sky, a huge ball or planes.
-    InvarianceScene scene() {
-        InvarianceScene scene;
-        for (int i = 0; i < 4; ++i)
-            scene.materials.push_back({{random_float(), random_float(), random_float()}, {0, 0, 0}, {0, 0, 0}, 0, 0});
-        for (float &component : scene.materials[3].specular)
-            component = 0.3F;
-        scene.materials[3].glossiness = 20;
-        for (int i = 0; i < 2; ++i)
-            scene.materials.push_back({{0.2F, 0.2F, 0.2F}, {0, 0, 0}, {20 * random_float(), 10, 10}, 0, 0});
-        for (int i = 0; i < 3; ++i)
-            scene.spheres.push_back(ball(std::pow(10.0, uniform(-1.3, 0)), index(4)));
-        for (int i = 0; i < 2; ++i)
-            scene.spheres.push_back(ball(std::pow(10.0, uniform(-1.5, -0.2)), 4 + index(2)));
-        if (chance(0.4))
-            scene.spheres.push_back(
-                {{uniform(-2, 2), uniform(-2, 2), uniform(-2, 2)}, uniform(9, 14), {0, 0, 0}, index(4), 0});
-        if (chance(0.2))
-            scene.spheres.push_back(
-                {{uniform(-2, 2), uniform(-2, 2), uniform(-2, 2)}, uniform(15, 24), {0, 0, 0}, 5, 0});
-        if (chance(0.25)) {
-            const double radius = std::pow(10.0, uniform(3, 8));
-            const glm::dvec3 centre = -(radius + uniform(0.5, 3)) * direction();
-            const double speed = chance(0.4) ? 0.1 : 0.0;
-            scene.spheres.push_back({{centre.x, centre.y, centre.z}, radius, {speed, speed, 0}, index(4), 0});
-        }
-        for (std::uint32_t count = index(3); count > 0; --count) {
-            const glm::dvec3 normal = direction();
-            scene.planes.push_back({{normal.x, normal.y, normal.z}, uniform(1, 6), index(4), 0});
-        }
-        std::ranges::shuffle(scene.spheres, engine_);
-        const glm::dvec3 target = direction();
-        scene.camera = {};
-        scene.camera.struct_size = sizeof scene.camera;
-        for (int i = 0; i < 3; ++i)
-            scene.camera.target[i] = target[i];
-        scene.camera.vertical_fov = uniform(0.5, 1.8);
-        return scene;
-    }
-
-    // Half of its surfaces twice or three times, by up to a share of their size apart.
-    InvarianceScene doubled(const InvarianceScene &once, double share) {
-        InvarianceScene scene = once;
-        for (const pt_sphere &sphere : once.spheres)
-            for (int count = copies(); count > 0; --count)
-                scene.spheres.insert(scene.spheres.begin() + index(scene.spheres.size() + 1), twin(sphere, share));
-        for (const pt_plane &plane : once.planes)
-            for (int count = copies(); count > 0; --count)
-                scene.planes.insert(scene.planes.begin() + index(scene.planes.size() + 1), twin(plane, share));
-        return scene;
-    }
-
-    std::uint32_t index(std::size_t count) {
-        return std::uniform_int_distribution<std::uint32_t>(0, static_cast<std::uint32_t>(count) - 1)(engine_);
-    }
-
-private:
-    float random_float() { return static_cast<float>(uniform(0.1, 0.9)); }
-
-    int copies() { return chance(0.5) ? (chance(0.3) ? 2 : 1) : 0; }
-
-    glm::dvec3 direction() {
-        std::normal_distribution<double> normal;
-        return glm::normalize(glm::dvec3(normal(engine_), normal(engine_), normal(engine_)));
-    }
-
-    pt_sphere ball(double radius, std::uint32_t material) {
-        const glm::dvec3 centre = uniform(1.5 * radius, 7) * direction();
-        const double speed = chance(0.3) ? 0.4 : 0.0;
-        return {
-            {centre.x, centre.y, centre.z}, radius, {uniform(-speed, speed), uniform(-speed, speed), 0}, material, 0};
-    }
-
-    // Of a huge ball, the size that counts is that of the scene.
-    pt_sphere twin(pt_sphere sphere, double share) {
-        const double size = std::min(sphere.radius, 1.0);
-        const glm::dvec3 way = share * size * direction();
-        const bool moved = chance(0.7);
-        for (int i = 0; i < 3; ++i)
-            sphere.center[i] += moved ? way[i] : 0.0;
-        sphere.radius += !moved || chance(0.5) ? (chance(0.5) ? share : -share) * size : 0.0;
-        return sphere;
-    }
-
-    pt_plane twin(pt_plane plane, double share) {
-        const double factor = (chance(0.5) ? 1 : -1) * uniform(0.2, 4);
-        for (double &component : plane.normal)
-            component *= factor;
-        plane.offset *= factor * (1 + (chance(0.5) ? share : -share));
-        return plane;
-    }
-
-    std::mt19937 engine_;
-};
-
-class RandomTwins : public RenderedTwins {
-protected:
-    void expect_same_light_of_scenes(int count, double least_share, double largest_share) {
-        RandomScenes random(7);
-        for (int i = 0; i < count; ++i) {
-            SCOPED_TRACE(i);
-            const InvarianceScene once = random.scene();
-            const double share =
-                i % 8 == 0 ? 0.0 : std::exp(random.uniform(std::log(least_share), std::log(largest_share)));
-            const InvarianceScene twice = random.doubled(once, share);
-            const std::uint32_t path_length = 2 + random.index(4);
-            expect_light(mean_of(once, path_length, 100), twice, path_length, 1e-6 + 20 * share);
-        }
-    }
-};
-
-TEST_F(RandomTwins, SendTheirLightOnce) {
-    expect_same_light_of_scenes(12, 1e-9, 1e-6);
 }
 
 } // namespace

@@ -16,7 +16,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <sys/resource.h>
@@ -28,20 +27,6 @@ using pt::vulkan::BufferUse;
 using pt::vulkan::ComputePipeline;
 using pt::vulkan::DescriptorSet;
 using VulkanTest = VulkanFixture;
-
-TEST_F(VulkanTest, CountsAllocatedBytes) {
-    const std::uint64_t before = device().allocated_bytes();
-    {
-        Buffer first(device(), BufferUse::Storage, 4096, "first");
-        EXPECT_EQ(device().allocated_bytes(), before + 4096);
-        Buffer second(device(), BufferUse::UniformOrStorage, 1024, "second");
-        EXPECT_EQ(device().allocated_bytes(), before + 5120);
-        first = std::move(second);
-        EXPECT_EQ(device().allocated_bytes(), before + 1024);
-        EXPECT_EQ(first.size(), 1024U);
-    }
-    EXPECT_EQ(device().allocated_bytes(), before);
-}
 
 TEST_F(VulkanTest, CountsWhatTransfersTake) {
     pt::vulkan::DevicePolicy policy = pt::vulkan::default_policy(device().info());
@@ -56,20 +41,6 @@ TEST_F(VulkanTest, CountsWhatTransfersTake) {
         EXPECT_EQ(device().allocated_bytes(), before + 2 * 4096) << "the buffer, and one for its transfers";
     }
     EXPECT_EQ(device().allocated_bytes(), before);
-}
-
-TEST_F(VulkanTest, ADescriptorSetMayReplaceAnother) {
-    const ComputePipeline pipeline(device(), recurrence_spirv(),
-                                   std::array{vk::DescriptorType::eUniformBuffer, vk::DescriptorType::eStorageBuffer},
-                                   4, {});
-    Buffer buffer(device(), BufferUse::UniformOrStorage, 1024, "test");
-    const std::array buffers = {&buffer, &buffer};
-    DescriptorSet set = pipeline.bind(buffers);
-    set = pipeline.bind(buffers);
-    const std::uint32_t steps = 1;
-    device().submit([&](const vk::raii::CommandBuffer &commands) {
-        pipeline.dispatch(commands, set, std::as_bytes(std::span(&steps, 1)), 1);
-    });
 }
 
 // A streamed buffer holds offsets for dispatches of one submission: each sees the one that its dynamic offset says.

@@ -53,11 +53,4 @@ TEST(VulkanInstanceTest, WithoutTheLayerValidationIsUnsupported) {
     EXPECT_TRUE(names(error, "VK_LAYER_KHRONOS_validation")) << error.what();
 }
 
-// One after the other, so that the loader unloads the drivers in between. It is NVIDIA's that can be loaded thirty
-// times only, so this tells something where that is the driver.
-TEST(VulkanInstanceTest, AnyNumberFollowOneAnother) {
-    for (int i = 0; i < 40; ++i)
-        ASSERT_NO_THROW((void)Instance(pt::Log{}, false).physical_devices()) << i;
-}
-
 } // namespace

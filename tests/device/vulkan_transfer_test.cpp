@@ -1,4 +1,4 @@
-// Numbers on their way between the host and a device's buffers, and from kernel to kernel.
+// Numbers on their way between the host and a device's buffers.
 #include "lib/vulkan/buffer.h"
 #include "lib/vulkan/device.h"
 #include "tests/device/vulkan_fixture.h"
@@ -59,43 +59,6 @@ TEST_P(VulkanTransferTest, UploadChangesItsRangeOnly) {
     EXPECT_EQ(download(buffer, 0, 1024), expected);
     upload(buffer, {}, 0);
     EXPECT_EQ(download(buffer, 0, 1024), expected);
-}
-
-TEST_P(VulkanTransferTest, ClearZeroesARange) {
-    Device &device = device_under_test();
-    Buffer buffer(device, BufferUse::Storage, 1024 * 4, "test");
-    upload(buffer, counting(1024));
-    device.submit([&](const vk::raii::CommandBuffer &commands) { buffer.clear(commands, 100 * 4, 300 * 4); });
-    std::vector<std::uint32_t> expected = counting(1024);
-    std::fill_n(expected.begin() + 100, 300, 0U);
-    EXPECT_EQ(download(buffer, 0, 1024), expected);
-}
-
-TEST_P(VulkanTransferTest, KernelsSeeUploadsAndDownloadsSeeKernels) {
-    Recurrence recurrence(device_under_test(), 5);
-    const std::vector<std::uint32_t> start = counting(recurrence.value_count());
-    recurrence.start_with(start);
-    recurrence.run(3);
-    std::vector<std::uint32_t> expected(start.size());
-    std::ranges::transform(start, expected.begin(), [](auto x) { return Recurrence::expected(x, 3); });
-    EXPECT_EQ(download(recurrence.values(), 0, start.size()), expected);
-    upload(recurrence.values(), start);
-    EXPECT_EQ(download(recurrence.values(), 0, start.size()), start);
-}
-
-TEST_P(VulkanTransferTest, DispatchesSeeEachOther) {
-    Device &device = device_under_test();
-    Recurrence recurrence(device, 5);
-    recurrence.start_with(zeros(recurrence.value_count()));
-    recurrence.run(2); // in another submission
-    device.submit([&](const vk::raii::CommandBuffer &commands) {
-        recurrence.record(commands, 3);
-        pt::vulkan::barrier_between_commands(commands);
-        recurrence.record(commands, 4);
-    });
-    const std::uint32_t expected = Recurrence::expected(Recurrence::expected(Recurrence::expected(0, 2), 3), 4);
-    EXPECT_EQ(download(recurrence.values(), 0, recurrence.value_count()),
-              std::vector<std::uint32_t>(recurrence.value_count(), expected));
 }
 
 } // namespace

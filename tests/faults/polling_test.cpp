@@ -30,10 +30,9 @@ struct Way {
 };
 
 // Short submissions cut passes of an image that they cannot take in, and clear it in pieces.
-constexpr Way ways[] = {{false, 1, 50, 0, false},    {false, 1, 1, 0, false},    {false, 2, 1, 0, false},
-                        {false, 1, 50, 0.05, false}, {false, 1, 50, 0, true},    {false, 2, 50, 0.05, false},
-                        {true, 1, 50, 0, false},     {true, 1, 1, 0, false},     {true, 2, 50, 0, false},
-                        {true, 1, 50, 0.05, false},  {true, 2, 50, 0.05, false}, {true, 1, 50, 0, true}};
+constexpr Way ways[] = {{false, 1, 50, 0, false},   {false, 2, 1, 0, false}, {false, 1, 50, 0.05, false},
+                        {false, 1, 50, 0, true},    {true, 1, 50, 0, false}, {true, 1, 1, 0, false},
+                        {true, 2, 50, 0.05, false}, {true, 1, 50, 0, true}};
 
 constexpr uint32_t polled_size = 48;
 

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <numeric>
 #include <random>
 #include <vector>
@@ -58,10 +57,8 @@ struct Sampled {
     int looks = 0;
 };
 
-using Choose = std::function<std::vector<std::uint32_t>(std::vector<std::uint32_t>)>;
-
-// Until the target is reached. choose: which of the tiles that want more take them next.
-Sampled sampled_until(const std::vector<double> &variances, double target, const Choose &choose) {
+// Until the target is reached.
+Sampled sampled_until(const std::vector<double> &variances, double target) {
     Sampled film{first_samples(), {}, 0};
     for (;;) {
         const std::vector<double> squares = model_squares(film.samples, variances);
@@ -76,20 +73,9 @@ Sampled sampled_until(const std::vector<double> &variances, double target, const
             EXPECT_FALSE(pt::wanting_tiles(film.samples, gains, film.round).empty());
             continue;
         }
-        for (const std::uint32_t tile : choose(wanting))
+        for (const std::uint32_t tile : wanting)
             double_samples(film.samples, tile);
     }
-}
-
-std::vector<std::uint32_t> all_tiles(std::vector<std::uint32_t> tiles) {
-    return tiles;
-}
-
-bool same_samples(const TileSamples &a, const TileSamples &b) {
-    for (std::size_t tile = 0; tile < model_grid.count(); ++tile)
-        if (a.of(tile) != b.of(tile))
-            return false;
-    return true;
 }
 
 TEST(AdaptiveRule, LevelsDouble) {
@@ -132,7 +118,7 @@ TEST(AdaptiveRule, GoesWhereSamplesGainMost) {
             const double pixels = count * pixels_of_tile;
             return static_cast<double>(samples.total()) / pixels * error * error / mean;
         };
-        const Sampled film = sampled_until(variances, 0.02, all_tiles);
+        const Sampled film = sampled_until(variances, 0.02);
         EXPECT_GT(share_of_even(film.samples), ideal);
         EXPECT_LT(share_of_even(film.samples), 1.1 * ideal);
 
@@ -147,27 +133,10 @@ TEST(AdaptiveRule, GoesWhereSamplesGainMost) {
 TEST(AdaptiveRule, DoesNotOvershootTheTarget) {
     for (const double target : {0.05, 0.02, 0.01}) {
         const std::vector<double> variances = spread_variances(4);
-        const Sampled film = sampled_until(variances, target, all_tiles);
+        const Sampled film = sampled_until(variances, target);
         EXPECT_LE(model_error(film.samples, variances), target);
         EXPECT_GT(model_error(film.samples, variances), 0.75 * target) << target;
         EXPECT_LT(film.looks, 30);
-    }
-}
-
-// Tiles come to their counts in whatever order, some at a time, as after interruptions.
-TEST(AdaptiveRule, TheOrderOfTilesDoesNotMatter) {
-    const std::vector<double> variances = spread_variances(5);
-    const Sampled expected = sampled_until(variances, 0.02, all_tiles);
-    std::mt19937 generator(6);
-    for (int i = 0; i < 5; ++i) {
-        const Sampled found = sampled_until(variances, 0.02, [&](std::vector<std::uint32_t> tiles) {
-            std::ranges::shuffle(tiles, generator);
-            tiles.resize(1 + generator() % tiles.size());
-            std::ranges::sort(tiles);
-            return tiles;
-        });
-        EXPECT_TRUE(same_samples(found.samples, expected.samples));
-        EXPECT_EQ(found.round, expected.round);
     }
 }
 
@@ -175,7 +144,7 @@ TEST(AdaptiveRule, TheOrderOfTilesDoesNotMatter) {
 TEST(AdaptiveRule, BlackTilesGetHalfOfTheMean) {
     std::vector<double> variances(model_grid.count(), 0.0);
     std::fill_n(variances.begin(), variances.size() / 2, 1.0);
-    const Sampled film = sampled_until(variances, 0.01, all_tiles);
+    const Sampled film = sampled_until(variances, 0.01);
     const double pixels = 320.0 * 160.0;
     const double mean = static_cast<double>(film.samples.total()) / pixels;
     EXPECT_GE(static_cast<double>(film.samples.least()), mean / 2.0 / 4.0) << "of the mean two levels before";

@@ -27,15 +27,6 @@ TEST(CallerVulkan, AQueueFamilyMustCompute) {
     EXPECT_STREQ(error.what(), "vulkan.queue_family = 1: must have VK_QUEUE_COMPUTE_BIT");
 }
 
-TEST(CallerVulkan, AQueueFamilyMustBeThere) {
-    for (const std::uint32_t family : {3U, UINT32_MAX}) {
-        const pt::Error error = error_of([&] { pt::vulkan::require_compute(families, family); });
-        EXPECT_EQ(error.code(), PT_ERROR_INVALID_ARGUMENT);
-        EXPECT_EQ(error.what(), "vulkan.queue_family = " + std::to_string(family) +
-                                    ": must be < 3, the number of families of vulkan.physical_device");
-    }
-}
-
 TEST(CallerVulkan, APhysicalDeviceMustBeSuitable) {
     pt_device_info device{};
     std::ranges::copy(std::string("Antique"), device.name);

@@ -204,25 +204,4 @@ TEST(LampTreeWords, NodesMoveWithTheirLamps) {
                 << "the shutter is open for half of the unit of time";
 }
 
-// Scaled by a power of two, the tree's shares stay the same: places by that factor, powers by one factor for all.
-TEST(LampTreeWords, ScaleWithTheScene) {
-    pt::Scene scene = lamp_scenes::in_a_box(100, 8);
-    const pt::GpuScene seen = lamp_scenes::gpu_scene(scene);
-    for (pt::Sphere &sphere : scene.spheres) {
-        sphere.center *= 0x1p-40;
-        sphere.radius *= 0x1p-40;
-    }
-    const pt::GpuScene small = lamp_scenes::gpu_scene(scene);
-    const pt::LampTreeShape shape(100);
-    const float factor = held_node(seen, 0, 0).power / held_node(small, 0, 0).power;
-    for (std::uint64_t group = 0; group < shape.groups_above(shape.levels()); ++group)
-        for (int place = 0; place < 4; ++place) {
-            const HeldNode node = held_node(seen, group, place);
-            const HeldNode scaled = held_node(small, group, place);
-            EXPECT_EQ(scaled.open * 0x1p40F, node.open);
-            EXPECT_EQ(scaled.spread * 0x1p80F, node.spread);
-            EXPECT_EQ(scaled.power * factor, node.power);
-        }
-}
-
 } // namespace

@@ -1,20 +1,16 @@
 // Points of quasi-random sequences: radical inverses against exact values, Sobol points against the net properties that
-// define them, and their scrambling against 64-bit arithmetic and the nesting that defines it.
+// define them, and their scrambling against 64-bit arithmetic.
 #include "lib/kernel/point_sequence.h"
 
 #include "tests/host/nets.h"
-#include "tests/support/statistics.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <fstream>
 #include <random>
-#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -171,81 +167,6 @@ TEST(OwenScrambling, IsExact) {
             for (const std::uint32_t flip : {0U, 0xffffffffU})
                 EXPECT_EQ(pt::owen_scrambled(1U << a ^ flip, 1U << b), scrambled_in_64_bits(1U << a ^ flip, 1U << b));
     EXPECT_NE(pt::owen_scrambled(1, 2), scrambled_in_64_bits(1, 3));
-}
-
-// Whether a function keeps how many first digits two coordinates have in common: then the first k digits of a result
-// depend on the first k of the coordinate alone, and no two coordinates become one.
-template <typename Function>
-bool is_nested(const Function &function) {
-    std::mt19937 words(2); // NOLINT: the same numbers each time
-    for (std::size_t i = 0; i < random_count; ++i) {
-        const auto a = static_cast<std::uint32_t>(words());
-        const auto b = a ^ static_cast<std::uint32_t>(words()) >> i % 32; // i mod 32 digits alike, or more
-        if (common_digits(function(a), function(b)) != common_digits(a, b))
-            return false;
-    }
-    return true;
-}
-
-TEST(OwenScrambling, IsNested) {
-    for (const std::uint32_t seed : {0U, 1U, 0x12345678U, 0x9e3779b9U, 0xffffffffU})
-        EXPECT_TRUE(is_nested([=](std::uint32_t x) { return pt::owen_scrambled(x, seed); })) << "seed " << seed;
-    EXPECT_TRUE(is_nested([](std::uint32_t x) { return x ^ 0x12345678U; }));
-    EXPECT_FALSE(is_nested([](std::uint32_t x) { return x + 1; })) << "carries go from the last digits to the first";
-    EXPECT_FALSE(is_nested([](std::uint32_t x) { return x & ~1U; })) << "the last digit is lost";
-}
-
-// Of the scramblings by many seeds: whether they flip each digit as often as not, and alike in no two digits of two
-// coordinates. The deviations of 32 digits, and of their 31 * 16 pairs, with a false alarm in a million for all.
-template <typename Function>
-bool is_fair(const Function &scrambled) {
-    constexpr std::uint32_t seeds = 1U << 14;
-    const double bound = statistics::normal_quantile(1e-6 / (2 * (32 + 31 * 16)));
-    const double allowed = bound * 0.5 * std::sqrt(seeds);
-    std::array<std::uint32_t, 32> flips{};
-    std::array<std::array<std::uint32_t, 32>, 32> alike{};
-    std::mt19937 words(3); // NOLINT: the same numbers each time
-    for (std::uint32_t i = 0; i < seeds; ++i) {
-        const std::uint32_t result = scrambled(0xb7e15162U, static_cast<std::uint32_t>(words()));
-        for (std::size_t a = 0; a < 32; ++a) {
-            flips[a] += result >> a & 1U;
-            for (std::size_t b = 0; b < a; ++b)
-                alike[a][b] += (result >> a ^ result >> b) & 1U;
-        }
-    }
-    const auto off = [&](std::uint32_t count) { return std::abs(count - 0.5 * seeds) > allowed; };
-    bool fair = std::ranges::none_of(flips, off);
-    for (std::size_t a = 0; a < 32; ++a)
-        fair = fair && std::none_of(alike[a].begin(), alike[a].begin() + static_cast<std::ptrdiff_t>(a), off);
-    return fair;
-}
-
-TEST(OwenScrambling, FlipsEachDigitForHalfOfTheSeeds) {
-    EXPECT_TRUE(is_fair(&pt::owen_scrambled));
-    EXPECT_FALSE(is_fair([](std::uint32_t x, std::uint32_t seed) { return x ^ (seed & ~4U); }));
-    EXPECT_FALSE(is_fair([](std::uint32_t x, std::uint32_t seed) { return x ^ (seed << 1 ^ seed >> 31 << 3); }));
-}
-
-// What distinguishes Owen's scrambling from a shift: the same digit is flipped for some of the digits before it, and
-// not for others.
-TEST(OwenScrambling, DependsOnTheDigitsBefore) {
-    std::set<std::uint32_t> shifts;
-    for (std::uint32_t i = 0; i < 256; ++i) {
-        const std::uint32_t coordinate = i << 24;
-        shifts.insert((pt::owen_scrambled(coordinate, 0x12345678U) ^ coordinate) >> 16);
-    }
-    EXPECT_GT(shifts.size(), 128U);
-}
-
-TEST(OwenScrambling, DiffersBetweenSeeds) {
-    std::set<Coordinates> distinct;
-    for (std::uint32_t seed = 0; seed < 4096; ++seed) {
-        Coordinates scrambled;
-        for (std::uint32_t i = 0; i < 4; ++i)
-            scrambled.push_back(pt::owen_scrambled(i << 30, seed * 0x9e3779b9U));
-        distinct.insert(scrambled);
-    }
-    EXPECT_EQ(distinct.size(), 4096U);
 }
 
 } // namespace

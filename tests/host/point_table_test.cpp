@@ -26,13 +26,6 @@ pt::PointLayout all_dimensions() {
     return layout;
 }
 
-Indices range_of(std::uint32_t first, std::uint32_t count) {
-    Indices indices(count);
-    for (std::uint32_t i = 0; i < count; ++i)
-        indices[i] = first + i;
-    return indices;
-}
-
 // One coordinate of a block, of every row.
 Coordinates column(const Table &table, const pt::PointLayout &layout, std::uint32_t block, std::uint32_t component) {
     Coordinates coordinates;
@@ -108,47 +101,6 @@ TEST(PointTable, BranchesArePointsOfTheirOwnInTheDimensionsThatTheyDoNotShare) {
     }
 }
 
-constexpr std::uint32_t table_net_digits = 8;
-constexpr std::uint32_t table_net_size = 1U << table_net_digits;
-
-// A (0,1)-net in each dimension, and a (0,2)-net in the first two, for every seed.
-TEST(PointTable, OfSobolIsANet) {
-    const pt::PointLayout layout = all_dimensions();
-    for (const std::uint64_t some_seed : {std::uint64_t{0}, std::uint64_t{1}, ~std::uint64_t{0}})
-        for (const std::uint32_t start : {0U, 77 * table_net_size}) {
-            const Table table = pt::point_table(PT_SAMPLER_SOBOL, some_seed, range_of(start, table_net_size), layout);
-            std::vector<Coordinates> dimensions = dimensions_of(table, layout);
-            for (Coordinates &coordinates : dimensions)
-                EXPECT_TRUE(fills_intervals(coordinates, table_net_digits));
-            for (std::uint32_t digits = 0; digits <= table_net_digits; ++digits)
-                EXPECT_TRUE(fills_boxes(dimensions[0], dimensions[1], digits, table_net_digits - digits));
-            dimensions[5][100] ^= 1U << (32 - table_net_digits);
-            EXPECT_FALSE(fills_intervals(dimensions[5], table_net_digits));
-        }
-}
-
-// Four points of 32 bits: two equal sets by chance are out of the question.
-TEST(PointTable, OfSobolIsScrambledByItselfInEveryDimensionForEverySeed) {
-    const pt::PointLayout layout = all_dimensions();
-    std::vector<Coordinates> all;
-    for (std::uint64_t i = 0; i < 32; ++i)
-        for (const std::uint64_t some_seed : {i, (i + 1) << 32}) {
-            const Table table = pt::point_table(PT_SAMPLER_SOBOL, some_seed, range_of(0, 4), layout);
-            const std::vector<Coordinates> dimensions = dimensions_of(table, layout);
-            all.insert(all.end(), dimensions.begin(), dimensions.end());
-        }
-    std::ranges::sort(all);
-    EXPECT_EQ(std::ranges::adjacent_find(all), all.end());
-}
-
-TEST(PointTable, OfHaltonKnowsNoSeed) {
-    const pt::PointLayout layout = all_dimensions();
-    EXPECT_EQ(pt::point_table(PT_SAMPLER_HALTON, 1, some_indices, layout),
-              pt::point_table(PT_SAMPLER_HALTON, 2, some_indices, layout));
-    EXPECT_NE(pt::point_table(PT_SAMPLER_SOBOL, 1, some_indices, layout),
-              pt::point_table(PT_SAMPLER_SOBOL, 2, some_indices, layout));
-}
-
 // With four branches sample 2^30 + i has the points 2^32 + 4 i + b, which Sobol's 32 bits repeat: scrambled in
 // another way, no coordinate of a branch is that of sample i.
 TEST(PointTable, OfSobolRepeatsNoPoint) {
@@ -173,19 +125,6 @@ TEST(PointTable, OfSobolRepeatsNoPoint) {
                 branches.push_back(repetition[block + 2 * branch][component]);
             EXPECT_TRUE(is_scrambled_sobol(branches, {4, 5, 6, 7}, dimension));
         }
-}
-
-// A row is a function of its index alone, whatever rows come before it.
-TEST(PointTable, RowsDoNotDependOnEachOther) {
-    const pt::PointLayout layout{{3, 2, 4, 4}, 2, 4};
-    for (const std::uint32_t sampler : {PT_SAMPLER_SOBOL, PT_SAMPLER_HALTON}) {
-        Table one_by_one;
-        for (const std::uint32_t index : some_indices) {
-            const Table row = pt::point_table(sampler, seed, Indices{index}, layout);
-            one_by_one.insert(one_by_one.end(), row.begin(), row.end());
-        }
-        EXPECT_EQ(pt::point_table(sampler, seed, some_indices, layout), one_by_one);
-    }
 }
 
 } // namespace

@@ -1,0 +1,46 @@
+"""What the tests in Python read of PNG files (ISO 15948): enough for what is written here. Checksums are compared."""
+
+import struct
+import zlib
+
+
+def png_chunks(data):
+    """Name and contents of each."""
+    assert data[:8] == b"\x89PNG\r\n\x1a\n"
+    position = 8
+    while position < len(data):
+        length, kind = struct.unpack(">I4s", data[position:position + 8])
+        assert data[position + 8 + length:][:4] == struct.pack(">I", zlib.crc32(data[position + 4:position + 8 + length]))
+        yield kind.decode(), data[position + 8:position + 8 + length]
+        position += 12 + length
+
+
+def parse_png(data):
+    """Width, height and rows of numbers of an RGB or RGBA image of 8 or 16 bits; enough of PNG (ISO 15948) for what is
+    written here."""
+    pixels = b""
+    for kind, body in png_chunks(data):
+        if kind == "IHDR":
+            width, height, depth, color = struct.unpack(">IIBB", body[:10])
+            assert depth in (8, 16) and color in (2, 6)
+            channels = {2: 3, 6: 4}[color]
+        elif kind == "IDAT":
+            pixels += body
+    step = channels * depth // 8
+    lines, stride, above, image = zlib.decompress(pixels), step * width, bytes(step * width), []
+    for y in range(height):
+        kind, *line = lines[y * (stride + 1):(y + 1) * (stride + 1)]
+        for x in range(stride):
+            left = line[x - step] if x >= step else 0
+            corner = above[x - step] if x >= step else 0
+            guesses = (left, above[x], corner)
+            paeth = min(guesses, key=lambda g: abs(left + above[x] - corner - g))
+            line[x] = (line[x] + (0, left, above[x], (left + above[x]) // 2, paeth)[kind]) % 256
+        above = line
+        image.append(line if depth == 8 else list(struct.unpack(f">{channels * width}H", bytes(line))))
+    return width, height, image
+
+
+def read_png(path):
+    with open(path, "rb") as file:
+        return parse_png(file.read())
