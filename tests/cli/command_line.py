@@ -6,6 +6,7 @@ to. Classes named RealDevice run the program itself.
 """
 
 import os
+import pathlib
 import signal
 import struct
 import subprocess
@@ -13,6 +14,9 @@ import sys
 import tempfile
 import unittest
 import zlib
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from png import parse_png, png_chunks, read_png  # noqa: E402, F401
 
 PT, FAKE_PT, SCENES = sys.argv[1:4]
 COURSEWORK = os.path.join(SCENES, "coursework-diffuse.json")  # about which there is nothing to warn
@@ -32,46 +36,6 @@ def npy(type_code, shape, numbers, version=1):
     size = struct.pack("<H" if version == 1 else "<I", len(head))
     letter = {"<f4": "f", "<f8": "d", "|u1": "B"}[type_code]
     return b"\x93NUMPY" + bytes([version, 0]) + size + head + struct.pack(f"<{len(numbers)}{letter}", *numbers)
-
-
-def png_chunks(data):
-    """Name and contents of each."""
-    assert data[:8] == b"\x89PNG\r\n\x1a\n"
-    position = 8
-    while position < len(data):
-        length, kind = struct.unpack(">I4s", data[position:position + 8])
-        yield kind.decode(), data[position + 8:position + 8 + length]
-        position += 12 + length
-
-
-def parse_png(data):
-    """Width, height and rows of numbers of an RGB or RGBA image of 8 bits; enough of PNG (ISO 15948) for what is
-    written here."""
-    pixels = b""
-    for kind, body in png_chunks(data):
-        if kind == "IHDR":
-            width, height, depth, color = struct.unpack(">IIBB", body[:10])
-            assert depth == 8 and color in (2, 6)
-            step = {2: 3, 6: 4}[color]
-        elif kind == "IDAT":
-            pixels += body
-    lines, stride, above, image = zlib.decompress(pixels), step * width, bytes(step * width), []
-    for y in range(height):
-        kind, *line = lines[y * (stride + 1):(y + 1) * (stride + 1)]
-        for x in range(stride):
-            left = line[x - step] if x >= step else 0
-            corner = above[x - step] if x >= step else 0
-            guesses = (left, above[x], corner)
-            paeth = min(guesses, key=lambda g: abs(left + above[x] - corner - g))
-            line[x] = (line[x] + (0, left, above[x], (left + above[x]) // 2, paeth)[kind]) % 256
-        above = line
-        image.append(line)
-    return width, height, image
-
-
-def read_png(path):
-    with open(path, "rb") as file:
-        return parse_png(file.read())
 
 
 def parse_exr_header(data):

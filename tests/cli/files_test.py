@@ -8,12 +8,12 @@ import json
 import os
 import resource
 import signal
-import struct
 import subprocess
 import time
 import unittest
 
-from command_line import COURSEWORK, PATIENCE, RESULT, CommandLineTest, default_signals, main, read_exr_attributes
+from command_line import (COURSEWORK, PATIENCE, RESULT, CommandLineTest, default_signals, main, png_chunks,
+                          read_exr_attributes)
 
 SCENE = '{"film": {"width": 4, "height": 3}, "render": {"spp": 2}}'
 
@@ -221,16 +221,9 @@ class Metadata(CommandLineTest):
     def texts(self, *options):
         """Keyword -> text of a PNG, and the names of its chunks."""
         self.expect(0, "render", COURSEWORK, "-o", "a.png", "--spp", "16", "--size", "4x3", *options)
-        with open(self.path("a.png"), "rb") as file:
-            data = file.read()
-        texts, kinds, position = {}, [], 8
-        while position < len(data):
-            length, kind = struct.unpack(">I4s", data[position:position + 8])
-            kinds.append(kind.decode())
-            if kind == b"tEXt":
-                name, text = data[position + 8:position + 8 + length].decode("latin-1").split("\0")
-                texts[name] = text
-            position += 12 + length
+        chunks = list(png_chunks(self.contents("a.png")))
+        texts = dict(body.decode("latin-1").split("\0") for kind, body in chunks if kind == "tEXt")
+        kinds = [kind for kind, _ in chunks]
         return texts, kinds
 
     def test_a_png_says_how_it_was_made(self):

@@ -1,4 +1,4 @@
-// Tests of cli/film/film_file: what was written is read again, and what is damaged is refused or whole.
+// Tests of cli/film/film_file beside those of the program (resume_test.py): unpacked films, and an absurd size.
 #include "cli/film/film.h"
 
 #include "cli/base/exit_code.h"
@@ -37,37 +37,11 @@ std::optional<cli::ExitCode> refusal_of(const std::string &path, const Bytes &ex
     }
 }
 
-TEST(FilmFile, IsReadAsItWasWritten) {
-    const TemporaryFolder folder;
-    for (const std::size_t size : {0, 1, 5, 1000, 3'000'000}) {
-        const Bytes film = film_like(size);
-        cli::write_film_file(folder.file("a"), film);
-        EXPECT_TRUE(cli::read_film_file(folder.file("a")) == film) << size;
-        EXPECT_EQ(folder.count(), 1);
-    }
-    EXPECT_LT(folder.read("a").size(), 1'500'000U); // a quarter is random
-}
-
 TEST(FilmFile, IsReadUnpacked) {
     const TemporaryFolder folder;
     const Bytes film = film_like(1000);
     folder.write("a", text_of(film));
     EXPECT_EQ(refusal_of(folder.file("a"), film), std::nullopt);
-}
-
-TEST(FilmFile, CutShortItIsRefused) {
-    const TemporaryFolder folder;
-    const Bytes film = film_like(300'000);
-    cli::write_film_file(folder.file("a"), film);
-    const std::string whole = folder.read("a");
-    std::mt19937 random(2);
-    for (int i = 0; i < 200; ++i) { // four bytes tell that it is packed
-        folder.write("b", whole.substr(0, 4 + random() % (whole.size() - 4)));
-        EXPECT_EQ(refusal_of(folder.file("b"), film), cli::ExitCode::usage);
-    }
-    folder.write("b", whole + "x");
-    EXPECT_EQ(refusal_of(folder.file("b"), film), cli::ExitCode::usage);
-    EXPECT_EQ(refusal_of(folder.file("none"), film), cli::ExitCode::file);
 }
 
 // A frame says its own size: no memory is taken for what it cannot hold.

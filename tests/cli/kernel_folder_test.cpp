@@ -31,21 +31,6 @@ std::string kept(const KernelFolder &folder, const std::string &key) {
     return text;
 }
 
-TEST(KernelFolder, KeepsByKey) {
-    const TemporaryFolder temporary;
-    const KernelFolder folder(temporary.file("cache/kernels")); // made when it is needed
-    EXPECT_EQ(folder.load(kernel_key(1), {}), 0);
-    keep(folder, kernel_key(1), "one");
-    keep(folder, kernel_key(2), "another");
-    EXPECT_EQ(kept(folder, kernel_key(1)), "one");
-    EXPECT_EQ(kept(folder, kernel_key(2)), "another");
-    keep(folder, kernel_key(1), "a better one");
-    EXPECT_EQ(kept(folder, kernel_key(1)), "a better one");
-    std::string small(5, '?');
-    EXPECT_EQ(folder.load(kernel_key(1), std::as_writable_bytes(std::span(small))), 12);
-    EXPECT_EQ(small, "?????") << "there is no room";
-}
-
 TEST(KernelFolder, KeysLeadNowhereElse) {
     const TemporaryFolder temporary;
     const KernelFolder folder(temporary.file("kernels"));
@@ -57,24 +42,6 @@ TEST(KernelFolder, KeysLeadNowhereElse) {
     }
     EXPECT_EQ(temporary.read("secret"), "text");
     EXPECT_EQ(temporary.count(), 2);
-}
-
-TEST(KernelFolder, DoesWithoutAFolder) {
-    const KernelFolder nowhere{std::filesystem::path()};
-    keep(nowhere, kernel_key(1), "one");
-    EXPECT_EQ(nowhere.load(kernel_key(1), {}), 0);
-
-    const TemporaryFolder temporary;
-    temporary.write("file", "");
-    for (const char *path : {"file", "file/kernels"}) {
-        const KernelFolder folder(temporary.file(path));
-        keep(folder, kernel_key(1), "one");
-        EXPECT_EQ(folder.load(kernel_key(1), {}), 0) << path;
-    }
-    std::filesystem::create_directories(temporary.file("kernels/" + kernel_key(1)));
-    const KernelFolder folder(temporary.file("kernels"));
-    keep(folder, kernel_key(1), "one");
-    EXPECT_EQ(folder.load(kernel_key(1), {}), 0) << "a folder in the place of the file";
 }
 
 // The files are made older by hand: a file system's clock may be too coarse to tell them apart.

@@ -64,55 +64,6 @@ protected:
     TemporaryFolder folder;
 };
 
-TEST_F(SourceWatchTest, SeesEachWayToSave) {
-    SourceWatch sources = watch();
-    folder.write("scene", "2");
-    expect_change(sources, {folder.file("scene")});
-    folder.write("new", "3");
-    std::filesystem::rename(folder.file("new"), folder.file("scene"));
-    expect_change(sources, {folder.file("scene")});
-    std::filesystem::remove(folder.file("scene"));
-    expect_change(sources, {folder.file("scene")});
-    folder.write("scene", "3");
-    folder.write("shaders/part.glsl", "text");
-    expect_change(sources, {folder.file("scene"), folder.file("shaders/part.glsl")});
-}
-
-TEST_F(SourceWatchTest, SeesAFolderThatIsReplaced) {
-    SourceWatch sources = watch();
-    std::filesystem::rename(folder.file("shaders"), folder.file("aside"));
-    expect_change(sources, {folder.file("shaders/pathtrace.comp")});
-    std::filesystem::rename(folder.file("aside"), folder.file("shaders"));
-    expect_change(sources, {folder.file("shaders/pathtrace.comp")});
-    folder.write("shaders/part.glsl", "text");
-    expect_change(sources, {folder.file("shaders/part.glsl")});
-}
-
-TEST_F(SourceWatchTest, SeesBehindALink) {
-    folder.write("shaders/target", "1");
-    std::filesystem::remove(folder.file("scene"));
-    std::filesystem::create_symlink(folder.file("shaders/target"), folder.file("scene"));
-    SourceWatch sources = watch();
-    folder.write("shaders/target", "2");
-    expect_change(sources, {folder.file("scene")});
-}
-
-// Data are known when the scene has been read: what is written from then on counts.
-TEST_F(SourceWatchTest, FollowsTheData) {
-    std::filesystem::create_directory(folder.file("data"));
-    folder.write("data/melt", "1");
-    SourceWatch sources = watch();
-    sources.follow({folder.file("data/melt"), folder.file("data/none")});
-    expect_nothing(sources);
-    folder.write("data/melt", "22");
-    expect_change(sources, {folder.file("data/melt")});
-    folder.write("data/none", "1");
-    expect_change(sources, {folder.file("data/none")});
-    sources.follow({folder.file("data/none")});
-    folder.write("data/melt", "333");
-    expect_nothing(sources);
-}
-
 TEST_F(SourceWatchTest, PassesOverWhatIsNoChange) {
     SourceWatch sources = watch();
     folder.write("scene", "1");

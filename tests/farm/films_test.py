@@ -119,12 +119,6 @@ FAULTS = {  # by what is told of them
     "ValueError: invalid literal": lambda name, part, film: Unreadable()}
 
 
-def raising_on_one(name, part, codecs):
-    if distributed.get_worker().name == 0:
-        raise LookupError("a mistake of this task")
-    return _task.render_part(name, part, codecs)
-
-
 def local_cluster(workers):
     return LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None, host="127.0.0.1",
                         silence_logs=50)
@@ -184,23 +178,13 @@ class Farm(unittest.TestCase):
                 os.kill(held.pop(), signal.SIGCONT)
         return {"progress": progress, "task": waiting(go)}
 
-    def test_one_of_two_is_killed(self):
-        with local_cluster(2) as cluster:
-            found = self.farm(cluster=cluster, **self.harm(2, killed=1))
-        self.assertGreaterEqual(found.progress.lost, 1)
-        self.assertEqual(found.film, self.whole)
-
-    def test_one_of_two_is_stopped(self):
-        found = self.farm(**self.harm(2, stopped=1))
-        self.assertGreaterEqual(found.progress.repeated, 1)
-        self.assertEqual(found.film, self.whole)
-
     def test_of_four_one_fails_one_is_killed_and_one_stopped(self):
         nanny = {"cls": distributed.Nanny, "options": {"nthreads": 1}}
         with own_cluster({name: nanny for name in ("failing", "killed", "stopped", "healthy")}) as cluster:
             found = self.farm(cluster=cluster, **self.harm(4, "stopped", "killed"))
         self.assertGreaterEqual(found.progress.failed, 1)
         self.assertGreaterEqual(found.progress.repeated, 1)
+        self.assertGreaterEqual(found.progress.lost, 1)
         self.assertIn("is refused: this disk is full", "\n".join(found.progress.messages))
         self.assertEqual(found.film, self.whole)
 
@@ -211,13 +195,6 @@ class Farm(unittest.TestCase):
         for reason in FAULTS:
             self.assertRegex(told, rf"worker tcp://[\d.:]+: .*{reason}")
         self.assertEqual(found.film, whole(2 * SAMPLES))
-
-    def test_a_worker_whose_tasks_raise(self):
-        """Does not end what another one can do, and is told and sent away."""
-        found = self.farm(task=raising_on_one)
-        self.assertLessEqual(found.progress.failed, MOST_FAILURES + 1)  # it may have had another part
-        self.assertRegex("\n".join(found.progress.messages), "worker tcp.* is refused: LookupError: a mistake of this")
-        self.assertEqual(found.film, self.whole)
 
     def test_mixed_devices(self):
         """Mesa compiles for vectors of two widths, which are two models to it."""

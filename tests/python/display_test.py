@@ -3,16 +3,17 @@
 import io
 import json
 import pathlib
-import struct
 import subprocess
 import sys
 import tempfile
 import unittest
-import zlib
 
 import numpy as np
 import pt
 from pictures import CAMERA, SCENE, cloud, settings
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from png import parse_png  # noqa: E402
 
 PROGRAM = sys.argv.pop(1)
 
@@ -30,33 +31,10 @@ SCENE_FILE = {
 }
 
 
-def paeth(left, above, corner):
-    """W3C, "Portable Network Graphics (PNG) Specification", 2003, section 9.4."""
-    guess = left + above - corner
-    return min((left, above, corner), key=lambda value: abs(guess - value))
-
-
 def decode_png(data):
-    """Pixels of a PNG of 8 bits, RGB, not interlaced."""
-    chunks, at = {}, 8
-    while at < len(data):
-        size, kind = struct.unpack(">I4s", data[at:at + 8])
-        body, checksum = data[at + 8:at + 8 + size], data[at + 8 + size:at + 12 + size]
-        assert struct.unpack(">I", checksum)[0] == zlib.crc32(kind + body), kind
-        chunks[kind] = chunks.get(kind, b"") + body
-        at += 12 + size
-    width, height, *rest = struct.unpack(">IIBBBBB", chunks[b"IHDR"])
-    assert rest == [8, 2, 0, 0, 0] and data[:8] == b"\x89PNG\r\n\x1a\n" and kind == b"IEND", rest
-    rows = np.frombuffer(zlib.decompress(chunks[b"IDAT"]), np.uint8).reshape(height, 1 + 3 * width).tolist()
-    before = [0] * (3 * width)
-    pixels = []
-    for kind, *row in rows:
-        for i, value in enumerate(row):
-            left, above, corner = (row[i - 3], before[i], before[i - 3]) if i >= 3 else (0, before[i], 0)
-            row[i] = (value + (0, left, above, (left + above) // 2, paeth(left, above, corner))[kind]) % 256
-        pixels.append(row)
-        before = row
-    return np.array(pixels, np.uint8).reshape(height, width, 3)
+    """Pixels of a PNG."""
+    width, height, rows = parse_png(data)
+    return np.array(rows, np.uint8).reshape(height, width, 3)
 
 
 def rendered(**fields):

@@ -16,17 +16,16 @@ def png_chunks(data):
 
 
 def parse_png(data):
-    """Width, height and rows of numbers of an RGB or RGBA image of 8 or 16 bits; enough of PNG (ISO 15948) for what is
+    """Width, height and rows of numbers of an RGB or RGBA image of 8 bits; enough of PNG (ISO 15948) for what is
     written here."""
     pixels = b""
     for kind, body in png_chunks(data):
         if kind == "IHDR":
             width, height, depth, color = struct.unpack(">IIBB", body[:10])
-            assert depth in (8, 16) and color in (2, 6)
-            channels = {2: 3, 6: 4}[color]
+            assert depth == 8 and color in (2, 6)
+            step = {2: 3, 6: 4}[color]
         elif kind == "IDAT":
             pixels += body
-    step = channels * depth // 8
     lines, stride, above, image = zlib.decompress(pixels), step * width, bytes(step * width), []
     for y in range(height):
         kind, *line = lines[y * (stride + 1):(y + 1) * (stride + 1)]
@@ -37,7 +36,7 @@ def parse_png(data):
             paeth = min(guesses, key=lambda g: abs(left + above[x] - corner - g))
             line[x] = (line[x] + (0, left, above[x], (left + above[x]) // 2, paeth)[kind]) % 256
         above = line
-        image.append(line if depth == 8 else list(struct.unpack(f">{channels * width}H", bytes(line))))
+        image.append(line)
     return width, height, image
 
 
