@@ -2,6 +2,7 @@
 // radiance leaves as they are: on a CPU, on a CPU that is used as GPUs are, and on two devices in short submissions.
 #include "cli/scene/scene_file.h"
 #include "lib/base/digest.h"
+#include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/shared_context.h"
 
@@ -54,10 +55,7 @@ protected:
     }
 
     static std::vector<float> image_of(pt_context *on, std::uint32_t quantity, std::uint32_t rows = height) {
-        std::vector<float> image(std::size_t{3} * width * rows);
-        const pt_image target = image_target(image, quantity);
-        EXPECT_EQ(pt_readback(on, &target), PT_OK) << pt_last_error(on);
-        return image;
+        return values_of(on, std::size_t{width} * rows, quantity);
     }
 
     static void take(pt_context *on, std::uint32_t samples, const std::vector<std::uint32_t> &by_tile = {}) {
@@ -79,9 +77,7 @@ protected:
         render.height = height;
         render.max_path_length = std::min(file.render.max_path_length, 4U);
         render.sampler = sampler;
-        EXPECT_EQ(pt_set_scene(on, &scene), PT_OK) << pt_last_error(on);
-        EXPECT_EQ(pt_set_camera(on, &file.camera), PT_OK) << pt_last_error(on);
-        EXPECT_EQ(pt_set_render(on, &render), PT_OK) << pt_last_error(on);
+        set_picture(on, scene, file.camera, render);
         take(on, 5); // before, over and behind moves of the parts' split
         take(on, 20);
         const std::string begun = film_of(on);

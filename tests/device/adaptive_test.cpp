@@ -1,5 +1,6 @@
 // Films whose tiles have different samples: each tile has the bits of an even film with as many, and neither splits of
 // the work, nor films that are saved and added, nor the number of devices change which tile has how many.
+#include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/image_target.h"
@@ -25,7 +26,7 @@ constexpr double uneven_target = 0.015;
 constexpr uint32_t no_limit = 1U << 20;
 
 using Values = std::vector<float>;
-using Bytes = std::vector<std::byte>;
+using Bytes = std::vector<char>;
 
 class AdaptiveTest : public ContextFixture {
 protected:
@@ -49,15 +50,7 @@ protected:
                               });
     }
 
-    static void begin(pt_context *on) {
-        CourseworkScene coursework;
-        const pt_scene scene = coursework.scene();
-        const pt_camera camera = CourseworkScene::camera();
-        const pt_render render = render_of(uneven_width, uneven_height, 2);
-        ASSERT_EQ(pt_set_scene(on, &scene), PT_OK) << pt_last_error(on);
-        ASSERT_EQ(pt_set_camera(on, &camera), PT_OK) << pt_last_error(on);
-        ASSERT_EQ(pt_set_render(on, &render), PT_OK) << pt_last_error(on);
-    }
+    static void begin(pt_context *on) { set_coursework(on, render_of(uneven_width, uneven_height, 2)); }
 
     static pt_result take(pt_context *on, uint32_t samples, double target_error, uint32_t sampling = PT_SAMPLING_BEST) {
         pt_accumulate_info info{};
@@ -69,24 +62,13 @@ protected:
     }
 
     static Values values(pt_context *on, uint32_t quantity = PT_QUANTITY_RADIANCE) {
-        Values image(std::size_t{uneven_width} * uneven_height * 3);
-        const pt_image target = image_target(image, quantity);
-        EXPECT_EQ(pt_readback(on, &target), PT_OK) << pt_last_error(on);
-        return image;
-    }
-
-    static Bytes film(pt_context *on) {
-        uint64_t size = 0;
-        EXPECT_EQ(pt_save_film(on, nullptr, &size), PT_OK) << pt_last_error(on);
-        Bytes bytes(size);
-        EXPECT_EQ(pt_save_film(on, bytes.data(), &size), PT_OK) << pt_last_error(on);
-        return bytes;
+        return values_of(on, std::size_t{uneven_width} * uneven_height, quantity);
     }
 
     static Bytes film_on_target(pt_context *on) {
         begin(on);
         EXPECT_EQ(take(on, no_limit, uneven_target), PT_TARGET_REACHED) << pt_last_error(on);
-        return film(on);
+        return film_of(on);
     }
 
 private:
@@ -177,14 +159,14 @@ TEST_F(AdaptiveTest, SplitsAndResumesChangeNoBit) {
                 result = pt_accumulate(on, &info);
                 ASSERT_GE(result, PT_OK) << pt_last_error(on);
                 if (generator() % 3 == 0 && stats_of(on).mean_sample_count > 0.0) {
-                    const Bytes so_far = film(on);
+                    const Bytes so_far = film_of(on);
                     begin(other);
                     ASSERT_EQ(pt_add_film(other, so_far.data(), so_far.size()), PT_OK) << pt_last_error(other);
-                    ASSERT_EQ(film(other), so_far);
+                    ASSERT_EQ(film_of(other), so_far);
                     std::swap(on, other);
                 }
             }
-            ASSERT_EQ(film(on), expected) << "split " << split;
+            ASSERT_EQ(film_of(on), expected) << "split " << split;
         }
     }
 }
@@ -201,7 +183,7 @@ TEST_F(AdaptiveTest, CallsForNoSamplesChangeNoBit) {
             ASSERT_EQ(take(context.get(), 0, uneven_target), PT_OK);
         }
         ASSERT_EQ(take(context.get(), no_limit, uneven_target), PT_TARGET_REACHED);
-        EXPECT_EQ(film(context.get()), expected) << like_gpus;
+        EXPECT_EQ(film_of(context.get()), expected) << like_gpus;
     }
 }
 
@@ -225,17 +207,17 @@ TEST_F(AdaptiveTest, UnevenFilmsTakeEvenSamplesAndAddUp) {
     const Values after = values(uneven.get(), PT_QUANTITY_SAMPLE_COUNT);
     for (std::size_t i = 0; i < before.size(); ++i)
         ASSERT_EQ(after[i], before[i] + 9.0F);
-    const Bytes saved = film(uneven.get());
+    const Bytes saved = film_of(uneven.get());
 
     // The other samples of an even film with as many as the fewest, taken for themselves.
     const auto least = stats_of(uneven.get()).sample_count;
     begin(context());
     ASSERT_EQ(pt_add_film(context(), saved.data(), saved.size()), PT_OK) << pt_last_error(context());
-    EXPECT_EQ(film(context()), saved);
+    EXPECT_EQ(film_of(context()), saved);
     EXPECT_EQ(values(context()), values(uneven.get()));
     EXPECT_EQ(pt_add_film(context(), saved.data(), saved.size()), PT_ERROR_INCOMPATIBLE);
     EXPECT_NE(std::string(pt_last_error(context())).find("samples"), std::string::npos) << pt_last_error(context());
-    EXPECT_EQ(film(context()), saved) << "as it was";
+    EXPECT_EQ(film_of(context()), saved) << "as it was";
     EXPECT_EQ(stats_of(context()).sample_count, least);
 }
 
@@ -245,14 +227,14 @@ TEST_F(AdaptiveTest, TheMostSamplesAreThoseOfAPixel) {
     begin(context());
     EXPECT_EQ(take(context(), 50, uneven_target), PT_OK);
     EXPECT_EQ(stats_of(context()).max_sample_count, 50U);
-    const Bytes held_up = film(context());
+    const Bytes held_up = film_of(context());
     EXPECT_EQ(take(context(), 0, uneven_target), PT_OK);
-    EXPECT_EQ(film(context()), held_up);
+    EXPECT_EQ(film_of(context()), held_up);
     EXPECT_EQ(take(context(), no_limit, uneven_target), PT_TARGET_REACHED);
-    EXPECT_EQ(film(context()), expected);
+    EXPECT_EQ(film_of(context()), expected);
     EXPECT_EQ(take(context(), 1, uneven_target), PT_TARGET_REACHED) << "at once";
     EXPECT_EQ(take(context(), 0, uneven_target), PT_TARGET_REACHED);
-    EXPECT_EQ(film(context()), expected);
+    EXPECT_EQ(film_of(context()), expected);
 }
 
 TEST_F(AdaptiveTest, NeedsATarget) {

@@ -1,6 +1,7 @@
 // The coverage of pixels, through pt.h. Where every surface shines with a radiance of 1 and nothing is reflected, the
 // mean radiance is the share of the samples that meet one: the sums are exact, so that coverage has to have the same
 // bits, of whatever samples. Run alone with --gtest_filter=Coverage*.
+#include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/image_target.h"
@@ -58,17 +59,7 @@ protected:
 
     static void set(pt_context *to, const Shining &shining, const pt_render &render) {
         const pt_scene scene = scene_of(shining.materials, shining.spheres, shining.planes);
-        ASSERT_EQ(pt_set_scene(to, &scene), PT_OK) << pt_last_error(to);
-        ASSERT_EQ(pt_set_camera(to, &shining.camera), PT_OK) << pt_last_error(to);
-        ASSERT_EQ(pt_set_render(to, &render), PT_OK) << pt_last_error(to);
-    }
-
-    static std::vector<std::byte> film_of(pt_context *of) {
-        std::uint64_t size = 0;
-        EXPECT_EQ(pt_save_film(of, nullptr, &size), PT_OK) << pt_last_error(of);
-        std::vector<std::byte> film(size);
-        EXPECT_EQ(pt_save_film(of, film.data(), &size), PT_OK) << pt_last_error(of);
-        return film;
+        set_picture(to, scene, shining.camera, render);
     }
 
     static void take(pt_context *on, std::uint32_t samples, double target_error = 0.0) {
@@ -80,10 +71,7 @@ protected:
     }
 
     static std::vector<float> read(pt_context *from, std::uint32_t quantity, std::uint32_t rows = picture_height) {
-        std::vector<float> values(std::size_t{3} * picture_width * rows, -7.0F);
-        const pt_image target = image_target(values, quantity);
-        EXPECT_EQ(pt_readback(from, &target), PT_OK) << pt_last_error(from);
-        return values;
+        return values_of(from, std::size_t{picture_width} * rows, quantity);
     }
 
     // And that there are edges.
@@ -163,17 +151,17 @@ TEST_F(Coverage, KnowsWhichSamplesEachTileHas) {
     later.row_count = 8;
     set(context(), some(5, 0.0), later);
     take(context(), 9);
-    const std::vector<std::byte> rows_later = film_of(context());
+    const std::vector<char> rows_later = film_of(context());
     later.first_sample = 70;
     later.first_row = 8;
     set(context(), some(5, 0.0), later);
     take(context(), 5);
-    const std::vector<std::byte> rows_earlier = film_of(context());
+    const std::vector<char> rows_earlier = film_of(context());
     pt_render whole = picture();
     whole.first_sample = 2000;
     set(context(), some(5, 0.0), whole);
     take(context(), 4);
-    for (const std::vector<std::byte> &film : {rows_later, rows_earlier})
+    for (const std::vector<char> &film : {rows_later, rows_earlier})
         ASSERT_EQ(pt_add_film(context(), film.data(), film.size()), PT_OK) << pt_last_error(context());
     expect_that_of_radiance(context());
 }

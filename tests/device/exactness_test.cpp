@@ -2,6 +2,7 @@
 #include "lib/film/error_estimate.h"
 #include "tests/device/coursework_gpu_scene.h"
 #include "tests/device/probe.h"
+#include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/image_target.h"
@@ -25,13 +26,7 @@ using Image = std::vector<float>;
 class ExactnessTest : public ContextFixture {
 protected:
     void set_up_coursework(pt_context *on, uint32_t max_path_length) {
-        CourseworkScene coursework;
-        const pt_scene scene = coursework.scene();
-        const pt_camera camera = CourseworkScene::camera();
-        const pt_render render = render_of(width, height, max_path_length);
-        ASSERT_EQ(pt_set_scene(on, &scene), PT_OK) << pt_last_error(on);
-        ASSERT_EQ(pt_set_camera(on, &camera), PT_OK) << pt_last_error(on);
-        ASSERT_EQ(pt_set_render(on, &render), PT_OK) << pt_last_error(on);
+        set_coursework(on, render_of(width, height, max_path_length));
     }
 
     Image image_of(const std::vector<uint32_t> &calls) {
@@ -76,14 +71,9 @@ protected:
     };
 
     Image small_image_of(const Paths &paths, const std::vector<uint32_t> &calls) {
-        CourseworkScene coursework;
-        const pt_scene scene = coursework.scene();
-        const pt_camera camera = CourseworkScene::camera();
         pt_render render = render_of(3, 1, paths.max_length);
         render.sampler = paths.sampler;
-        EXPECT_EQ(pt_set_scene(context(), &scene), PT_OK) << pt_last_error(context());
-        EXPECT_EQ(pt_set_camera(context(), &camera), PT_OK) << pt_last_error(context());
-        EXPECT_EQ(pt_set_render(context(), &render), PT_OK) << pt_last_error(context());
+        set_coursework(context(), render);
         for (const uint32_t samples : calls)
             accumulate(samples);
         EXPECT_EQ(stats().rejected_samples, 0U);

@@ -1,4 +1,5 @@
 // Films without a context beside the contexts that they came from: the same bits.
+#include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/image_target.h"
@@ -29,24 +30,14 @@ protected:
         const CourseworkScene coursework;
         const pt_scene scene = coursework.scene();
         const pt_camera camera = CourseworkScene::camera();
-        ASSERT_EQ(pt_set_scene(context(), &scene), PT_OK) << pt_last_error(context());
-        ASSERT_EQ(pt_set_camera(context(), &camera), PT_OK) << pt_last_error(context());
-        ASSERT_EQ(pt_set_render(context(), &render), PT_OK) << pt_last_error(context());
+        set_picture(context(), scene, camera, render);
         const pt_accumulate_info info{sizeof info, count, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
         ASSERT_EQ(pt_accumulate(context(), &info), PT_OK) << pt_last_error(context());
     }
 
-    Bytes film() {
-        uint64_t size = 0;
-        EXPECT_EQ(pt_save_film(context(), nullptr, &size), PT_OK) << pt_last_error(context());
-        Bytes bytes(size);
-        EXPECT_EQ(pt_save_film(context(), bytes.data(), &size), PT_OK) << pt_last_error(context());
-        return bytes;
-    }
-
     Bytes part(uint32_t first, uint32_t count, uint32_t first_row = 0, uint32_t row_count = 0) {
         take(first, count, first_row, row_count);
-        return film();
+        return film_of(context());
     }
 
     static Bytes bytes_of(const pt_film *value) {
@@ -90,7 +81,7 @@ TEST_F(FilmValue, RowsAddUpToo) {
 
 TEST_F(FilmValue, ShowsWhatTheContextShows) {
     take(0, 100);
-    const auto value = sum_of({film()});
+    const auto value = sum_of({film_of(context())});
     for (const uint32_t quantity : {PT_QUANTITY_RADIANCE, PT_QUANTITY_STANDARD_ERROR})
         for (const uint32_t format : {PT_FORMAT_RGB32F, PT_FORMAT_RGBA32F, PT_FORMAT_RGBA16F}) {
             std::vector<float> here(std::size_t{4} * value_width * value_height, -1.0F);

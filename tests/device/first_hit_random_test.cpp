@@ -5,6 +5,7 @@
 #include "tests/device/first_hit_scenes.h"
 #include "tests/device/tree_fixture.h"
 #include "tests/device/tree_scenes.h"
+#include "tests/support/context_calls.h"
 #include "tests/support/first_hit_reference.h"
 #include "tests/support/scene_of.h"
 
@@ -66,9 +67,7 @@ protected:
     static Pixels seen_by(pt_context *context, const Shot &given) {
         const pt_scene scene = given.scene();
         Pixels pixels{std::vector<std::uint32_t>(columns * rows), std::vector<float>(3 * columns * rows)};
-        EXPECT_EQ(pt_set_scene(context, &scene), PT_OK) << pt_last_error(context);
-        EXPECT_EQ(pt_set_camera(context, &given.camera), PT_OK) << pt_last_error(context);
-        EXPECT_EQ(pt_set_render(context, &given.render), PT_OK) << pt_last_error(context);
+        set_picture(context, scene, given.camera, given.render);
         read(context, given, PT_QUANTITY_OBJECT, PT_FORMAT_R32UI, pixels.objects.data(), 4 * pixels.objects.size());
         read(context, given, PT_QUANTITY_DEPTH, PT_FORMAT_RGB32F, pixels.depths.data(), 4 * pixels.depths.size());
         return pixels;

@@ -2,6 +2,7 @@
 // that reading them is nothing to the samples. Run alone with --gtest_filter=FirstHit*.
 #include "lib/film/pixel_format.h"
 #include "tests/device/first_hit_scenes.h"
+#include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/first_hit_reference.h"
 #include "tests/support/image_target.h"
@@ -31,16 +32,11 @@ protected:
 
     static void set(pt_context *to, const Given &given, const pt_render &render) {
         const pt_scene scene = given.scene();
-        ASSERT_EQ(pt_set_scene(to, &scene), PT_OK) << pt_last_error(to);
-        ASSERT_EQ(pt_set_camera(to, &given.camera), PT_OK) << pt_last_error(to);
-        ASSERT_EQ(pt_set_render(to, &render), PT_OK) << pt_last_error(to);
+        set_picture(to, scene, given.camera, render);
     }
 
     static std::vector<float> read(pt_context *from, std::uint32_t quantity, std::uint32_t rows = picture_height) {
-        std::vector<float> values(std::size_t{3} * picture_width * rows, -7.0F);
-        const pt_image target = image_target(values, quantity);
-        EXPECT_EQ(pt_readback(from, &target), PT_OK) << pt_last_error(from);
-        return values;
+        return values_of(from, std::size_t{picture_width} * rows, quantity);
     }
 
     static pt_image object_target(std::span<std::uint32_t> objects) {

@@ -1,5 +1,6 @@
 // pt_prepare, and kernels that the caller keeps from context to context, by their contract.
 #include "tests/device/api_fixture.h"
+#include "tests/support/context_calls.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/scene_of.h"
 
@@ -79,15 +80,7 @@ protected:
         return pixels;
     }
 
-    static void set_coursework(pt_context *context) {
-        const CourseworkScene coursework;
-        const pt_scene scene = coursework.scene();
-        const pt_camera camera = CourseworkScene::camera();
-        const pt_render render = render_of(width, height, 3);
-        ASSERT_EQ(pt_set_scene(context, &scene), PT_OK) << pt_last_error(context);
-        ASSERT_EQ(pt_set_camera(context, &camera), PT_OK) << pt_last_error(context);
-        ASSERT_EQ(pt_set_render(context, &render), PT_OK) << pt_last_error(context);
-    }
+    static void set_coursework(pt_context *context) { ::set_coursework(context, render_of(width, height, 3)); }
 };
 
 constexpr const char *built = "built a kernel for";

@@ -1,6 +1,7 @@
 // Zeros that a scene gives as -0 are zeros: no sample counts as negative because of them.
 #include "tests/device/kernel_render.h"
 #include "tests/invariance/invariance_scene.h"
+#include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 
 #include <gtest/gtest.h>
@@ -32,9 +33,7 @@ protected:
     Image image_of(const InvarianceScene &zeros, std::uint32_t max_path_length) {
         const pt_scene scene = zeros.scene();
         const pt_render render = ::render_of(zero_width, zero_height, max_path_length);
-        EXPECT_EQ(pt_set_scene(context(), &scene), PT_OK) << pt_last_error(context());
-        EXPECT_EQ(pt_set_camera(context(), &zeros.camera), PT_OK) << pt_last_error(context());
-        EXPECT_EQ(pt_set_render(context(), &render), PT_OK) << pt_last_error(context());
+        set_picture(context(), scene, zeros.camera, render);
         accumulate(16);
         EXPECT_EQ(stats().rejected_samples, 0U);
         Image image(std::size_t{3} * zero_width * zero_height);

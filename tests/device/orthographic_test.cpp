@@ -1,4 +1,5 @@
 // Parallel camera rays, through pt.h, against what they see exactly. Run alone with --gtest_filter=Orthographic*.
+#include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/image_target.h"
 #include "tests/support/scene_of.h"
@@ -44,16 +45,11 @@ protected:
         const pt_scene scene = scene_of(materials, spheres, planes);
         pt_render render = render_of(picture_width, picture_height, max_path_length);
         render.first_sample = first_sample;
-        ASSERT_EQ(pt_set_scene(context(), &scene), PT_OK) << pt_last_error(context());
-        ASSERT_EQ(pt_set_camera(context(), &camera), PT_OK) << pt_last_error(context());
-        ASSERT_EQ(pt_set_render(context(), &render), PT_OK) << pt_last_error(context());
+        set_picture(context(), scene, camera, render);
     }
 
     std::vector<float> read(std::uint32_t quantity) {
-        std::vector<float> values(std::size_t{3} * picture_width * picture_height);
-        const pt_image target = image_target(values, quantity);
-        EXPECT_EQ(pt_readback(context(), &target), PT_OK) << pt_last_error(context());
-        return values;
+        return values_of(context(), std::size_t{picture_width} * picture_height, quantity);
     }
 
     // Mean over the image.

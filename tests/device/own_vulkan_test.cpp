@@ -1,6 +1,7 @@
 // Contexts on the caller's own Vulkan, through pt.h. What the layer in the caller's instance says, leaks included,
 // fails the test.
 #include "tests/device/caller_vulkan.h"
+#include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/render_image.h"
@@ -107,13 +108,7 @@ protected:
 TEST_F(OwnVulkanTest, WhatEndsBetweenPollsIsNotTakenForSlow) {
     const Context borrowing = context_on(caller().handles());
     pt_context *const context = borrowing.get();
-    const CourseworkScene coursework;
-    const pt_scene scene = coursework.scene();
-    const pt_camera camera = CourseworkScene::camera();
-    const pt_render settings = render_of(8, 8, 3);
-    ASSERT_EQ(pt_set_scene(context, &scene), PT_OK) << pt_last_error(context);
-    ASSERT_EQ(pt_set_camera(context, &camera), PT_OK) << pt_last_error(context);
-    ASSERT_EQ(pt_set_render(context, &settings), PT_OK) << pt_last_error(context);
+    set_coursework(context, render_of(8, 8, 3));
     const pt_accumulate_info one{sizeof one, 1, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
     ASSERT_EQ(pt_start(context, &one), PT_PENDING) << "what is started is left to a poll";
     caller().device().waitIdle();

@@ -1,6 +1,7 @@
 // Samples that are under way between calls: pt_start, pt_poll and pt_cancel by their contract.
 #include "tests/device/api_fixture.h"
 #include "tests/device/every_call.h"
+#include "tests/support/context_calls.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/image_target.h"
 #include "tests/support/shared_context.h"
@@ -48,15 +49,7 @@ protected:
         return made;
     }
 
-    static void set_up(pt_context *on) {
-        CourseworkScene coursework;
-        const pt_scene scene = coursework.scene();
-        const pt_camera camera = CourseworkScene::camera();
-        const pt_render render = render_of(polled_width, polled_height, 3);
-        ASSERT_EQ(pt_set_scene(on, &scene), PT_OK) << pt_last_error(on);
-        ASSERT_EQ(pt_set_camera(on, &camera), PT_OK) << pt_last_error(on);
-        ASSERT_EQ(pt_set_render(on, &render), PT_OK) << pt_last_error(on);
-    }
+    static void set_up(pt_context *on) { set_coursework(on, render_of(polled_width, polled_height, 3)); }
 
     static pt_result start(pt_context *on, uint32_t count, double target_error = 0.0) {
         const pt_accumulate_info info{sizeof info, count, nullptr, nullptr, target_error, 0, 0, nullptr, 0, 0};
@@ -84,12 +77,7 @@ protected:
         ASSERT_EQ(end_of(on, pattern), PT_OK) << pt_last_error(on);
     }
 
-    static Pixels image_of(pt_context *on) {
-        Pixels pixels(std::size_t{polled_width} * polled_height * 3);
-        const pt_image target = image_target(pixels);
-        EXPECT_EQ(pt_readback(on, &target), PT_OK) << pt_last_error(on);
-        return pixels;
-    }
+    static Pixels image_of(pt_context *on) { return values_of(on, std::size_t{polled_width} * polled_height); }
 
     // Of the fixture's context, by pt_accumulate.
     Pixels accumulated(uint32_t count) {

@@ -2,6 +2,7 @@
 #include "lib/film/pixel_format.h"
 #include "tests/device/caller_vulkan.h"
 #include "tests/device/gate.h"
+#include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/image_target.h"
@@ -320,9 +321,7 @@ TEST_F(ReadbackToBufferTest, NeedsALentDeviceAndSamples) {
     const pt_scene scene = coursework.scene();
     const pt_camera camera = CourseworkScene::camera();
     const pt_render render = render_of(2, 2, 1);
-    ASSERT_EQ(pt_set_scene(context(), &scene), PT_OK);
-    ASSERT_EQ(pt_set_camera(context(), &camera), PT_OK);
-    ASSERT_EQ(pt_set_render(context(), &render), PT_OK);
+    set_picture(context(), scene, camera, render);
     refused(target(), PT_ERROR_INVALID_STATE, "no samples yet: call pt_accumulate or pt_add_film first");
 }
 

@@ -3,6 +3,7 @@
 #include "lib/scene/scene.h"
 #include "tests/device/api_fixture.h"
 #include "tests/device/shader_folder.h"
+#include "tests/support/context_calls.h"
 #include "tests/support/shared_context.h"
 
 #include "tests/support/expected_error.h"
@@ -42,14 +43,7 @@ protected:
         const pt_scene scene = valid_scene();
         const pt_camera camera = valid_camera();
         const pt_render render = valid_render();
-        ASSERT_EQ(pt_set_scene(on, &scene), PT_OK);
-        ASSERT_EQ(pt_set_camera(on, &camera), PT_OK);
-        ASSERT_EQ(pt_set_render(on, &render), PT_OK);
-    }
-
-    static void accumulate_on(pt_context *on, uint32_t count) {
-        const pt_accumulate_info info = samples(count);
-        ASSERT_EQ(pt_accumulate(on, &info), PT_OK) << pt_last_error(on);
+        set_picture(on, scene, camera, render);
     }
 
     static uint32_t sample_count_of(pt_context *on) { return stats_of(on).sample_count; }

@@ -1,4 +1,5 @@
 // The caller's rounding mode: it changes no bit, and is as before after every call.
+#include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/image_target.h"
@@ -31,9 +32,7 @@ protected:
         pt_camera camera = CourseworkScene::camera();
         camera.position[0] = 0.1;
         const pt_render render = render_of(60, 33, 3);
-        EXPECT_EQ(pt_set_scene(on, &scene), PT_OK) << pt_last_error(on);
-        EXPECT_EQ(pt_set_camera(on, &camera), PT_OK) << pt_last_error(on);
-        EXPECT_EQ(pt_set_render(on, &render), PT_OK) << pt_last_error(on);
+        set_picture(on, scene, camera, render);
         const pt_accumulate_info samples{sizeof samples, 17, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
         EXPECT_EQ(pt_accumulate(on, &samples), PT_OK) << pt_last_error(on);
         Outcome outcome{std::vector<float>(60 * 33 * 3), 0.0};

@@ -1,5 +1,6 @@
 // Films that are saved and added: the bits of renders that were never cut, and refusals that change nothing.
 #include "lib/base/digest.h"
+#include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/image_target.h"
@@ -46,16 +47,7 @@ protected:
     }
 
     static void set_up(pt_context *context, const pt_render &render, pt_camera camera = CourseworkScene::camera()) {
-        const CourseworkScene coursework;
-        const pt_scene scene = coursework.scene();
-        ASSERT_EQ(pt_set_scene(context, &scene), PT_OK) << pt_last_error(context);
-        ASSERT_EQ(pt_set_camera(context, &camera), PT_OK) << pt_last_error(context);
-        ASSERT_EQ(pt_set_render(context, &render), PT_OK) << pt_last_error(context);
-    }
-
-    static void accumulate_on(pt_context *context, uint32_t count) {
-        const pt_accumulate_info info{sizeof info, count, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
-        ASSERT_EQ(pt_accumulate(context, &info), PT_OK) << pt_last_error(context);
+        set_coursework(context, render, camera);
     }
 
     static Bytes film_of(pt_context *context) {

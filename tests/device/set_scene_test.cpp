@@ -1,5 +1,6 @@
 // What pt_set_scene tells while it works, what stopping it leaves, and scenes that follow each other with a tree that
 // is kept: films of a context that has seen others before are those of one that has not.
+#include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/scene_of.h"
 
@@ -91,13 +92,8 @@ protected:
     }
 
     static std::vector<char> film_of(pt_context *on, std::uint32_t sample_count) {
-        const pt_accumulate_info info{sizeof info, sample_count, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
-        EXPECT_EQ(pt_accumulate(on, &info), PT_OK) << pt_last_error(on);
-        std::uint64_t size = 0;
-        EXPECT_EQ(pt_save_film(on, nullptr, &size), PT_OK) << pt_last_error(on);
-        std::vector<char> film(size);
-        EXPECT_EQ(pt_save_film(on, film.data(), &size), PT_OK) << pt_last_error(on);
-        return film;
+        accumulate_on(on, sample_count);
+        return ::film_of(on);
     }
 };
 

@@ -1,4 +1,5 @@
 // The work of a context shared by several devices, and an image rendered in pieces: neither changes a bit.
+#include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/image_target.h"
@@ -27,15 +28,10 @@ protected:
     }
 
     static void set_up(pt_context *on, uint32_t first_row = 0, uint32_t row_count = 0) {
-        CourseworkScene coursework;
-        const pt_scene scene = coursework.scene();
-        const pt_camera camera = CourseworkScene::camera();
         pt_render render = render_of(shared_width, shared_height, 3);
         render.first_row = first_row;
         render.row_count = row_count;
-        ASSERT_EQ(pt_set_scene(on, &scene), PT_OK) << pt_last_error(on);
-        ASSERT_EQ(pt_set_camera(on, &camera), PT_OK) << pt_last_error(on);
-        ASSERT_EQ(pt_set_render(on, &render), PT_OK) << pt_last_error(on);
+        set_coursework(on, render);
     }
 
     static pt_result accumulate_on(pt_context *on, uint32_t samples, pt_progress_fn progress = nullptr,
@@ -45,10 +41,7 @@ protected:
     }
 
     static Image image_of(pt_context *on, uint32_t rows = shared_height, uint32_t quantity = PT_QUANTITY_RADIANCE) {
-        Image image(std::size_t{shared_width} * rows * 3);
-        const pt_image target = image_target(image, quantity);
-        EXPECT_EQ(pt_readback(on, &target), PT_OK) << pt_last_error(on);
-        return image;
+        return values_of(on, std::size_t{shared_width} * rows, quantity);
     }
 
     pt_error_estimate error_of_one_gpu(uint32_t samples) {

@@ -1,4 +1,5 @@
 // Where the error of an image cannot be known, it is called uncertain (pt_error_estimate.uncertain), and why.
+#include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/scene_of.h"
 
@@ -34,9 +35,7 @@ protected:
         camera.vertical_fov = 1.0;
         pt_render render = render_of(width, height, max_path_length);
         render.estimator = estimator;
-        ASSERT_EQ(pt_set_scene(context(), &scene), PT_OK) << pt_last_error(context());
-        ASSERT_EQ(pt_set_camera(context(), &camera), PT_OK) << pt_last_error(context());
-        ASSERT_EQ(pt_set_render(context(), &render), PT_OK) << pt_last_error(context());
+        set_picture(context(), scene, camera, render);
     }
 
     uint32_t after(uint32_t sample_count) {

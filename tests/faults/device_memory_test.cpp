@@ -1,6 +1,6 @@
 // Device memory of which there is too little, as the device says beforehand: drivers may promise more.
 #include "tests/faults/vulkan_calls.h"
-#include "tests/support/coursework_scene.h"
+#include "tests/support/context_calls.h"
 
 #include <pt/film.h>
 #include <pt/stats.h>
@@ -59,13 +59,7 @@ public:
 
     pt_result add(const std::vector<char> &film) { return pt_add_film(context_, film.data(), film.size()); }
 
-    std::vector<char> film() {
-        uint64_t size = 0;
-        EXPECT_EQ(pt_save_film(context_, nullptr, &size), PT_OK) << message();
-        std::vector<char> bytes(size);
-        EXPECT_EQ(pt_save_film(context_, bytes.data(), &size), PT_OK) << message();
-        return bytes;
-    }
+    std::vector<char> film() { return film_of(context_); }
 
     uint64_t bytes_in_use() {
         pt_stats stats{};

@@ -3,6 +3,7 @@
 
 #include "tests/faults/allocations.h"
 #include "tests/faults/vulkan_calls.h"
+#include "tests/support/context_calls.h"
 #include "tests/support/image_target.h"
 #include "tests/support/scene_of.h"
 #include "tests/support/shared_context.h"
@@ -361,18 +362,6 @@ void Life::expect_image(const std::string &step, uint32_t sample_count) {
     EXPECT_TRUE(std::equal(image.begin(), image.end(), whole.begin())) << step << ": another image";
 }
 
-namespace {
-
-Film film_of(pt_context *context) {
-    uint64_t size = 0;
-    EXPECT_EQ(pt_save_film(context, nullptr, &size), PT_OK) << pt_last_error(context);
-    Film film(size);
-    EXPECT_EQ(pt_save_film(context, film.data(), &size), PT_OK) << pt_last_error(context);
-    return film;
-}
-
-} // namespace
-
 ExpectedImages undisturbed_images() {
     const Scene scene;
     const pt_scene the_scene = scene.scene();
@@ -380,9 +369,7 @@ ExpectedImages undisturbed_images() {
     pt_render the_render = render();
     pt_context *context = nullptr;
     EXPECT_EQ(pt_create(nullptr, &context), PT_OK) << pt_last_error(nullptr);
-    EXPECT_EQ(pt_set_scene(context, &the_scene), PT_OK) << pt_last_error(context);
-    EXPECT_EQ(pt_set_camera(context, &the_camera), PT_OK) << pt_last_error(context);
-    EXPECT_EQ(pt_set_render(context, &the_render), PT_OK) << pt_last_error(context);
+    set_picture(context, the_scene, the_camera, the_render);
     ExpectedImages images;
     for (uint32_t count = 1; count <= 18; ++count) {
         const pt_accumulate_info info{sizeof info, 1, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};

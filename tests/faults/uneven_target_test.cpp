@@ -2,6 +2,7 @@
 // again ends with the bytes of one that nothing disturbed.
 #include "tests/faults/allocations.h"
 #include "tests/faults/vulkan_calls.h"
+#include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/shared_context.h"
@@ -18,7 +19,7 @@ namespace {
 
 using namespace faults;
 
-using FilmBytes = std::vector<std::byte>;
+using FilmBytes = std::vector<char>;
 
 constexpr uint32_t uneven_width = 40;
 constexpr uint32_t uneven_height = 24;
@@ -34,13 +35,7 @@ Context context_of(uint32_t device_count) {
 }
 
 void begin_picture(pt_context *context) {
-    CourseworkScene coursework;
-    const pt_scene scene = coursework.scene();
-    const pt_camera camera = CourseworkScene::camera();
-    const pt_render render = render_of(uneven_width, uneven_height, 2);
-    ASSERT_EQ(pt_set_scene(context, &scene), PT_OK) << pt_last_error(context);
-    ASSERT_EQ(pt_set_camera(context, &camera), PT_OK) << pt_last_error(context);
-    ASSERT_EQ(pt_set_render(context, &render), PT_OK) << pt_last_error(context);
+    set_coursework(context, render_of(uneven_width, uneven_height, 2));
 }
 
 pt_result take_to_target(pt_context *context) {
@@ -50,14 +45,6 @@ pt_result take_to_target(pt_context *context) {
     info.sample_count = 1U << 20;
     info.target_error = 0.03;
     return pt_accumulate(context, &info);
-}
-
-FilmBytes film_bytes(pt_context *context) {
-    uint64_t size = 0;
-    EXPECT_EQ(pt_save_film(context, nullptr, &size), PT_OK) << pt_last_error(context);
-    FilmBytes bytes(size);
-    EXPECT_EQ(pt_save_film(context, bytes.data(), &size), PT_OK) << pt_last_error(context);
-    return bytes;
 }
 
 // Every place at first, then every eighth: what repeats itself from round to round is met several times all the same.
@@ -73,7 +60,7 @@ protected:
         ASSERT_EQ(take_to_target(undisturbed.get()), PT_TARGET_REACHED) << pt_last_error(undisturbed.get());
         const pt_stats stats = stats_of(undisturbed.get());
         ASSERT_LT(stats.sample_count, stats.max_sample_count) << "all tiles have the same";
-        expected_ = film_bytes(undisturbed.get());
+        expected_ = film_of(undisturbed.get());
         context_ = context_of(GetParam());
     }
 
@@ -95,7 +82,7 @@ protected:
             EXPECT_STRNE(pt_last_error(context()), "");
             EXPECT_EQ(take_to_target(context()), PT_TARGET_REACHED) << pt_last_error(context());
         }
-        EXPECT_TRUE(film_bytes(context()) == expected_) << "after " << pt_result_name(disturbed);
+        EXPECT_TRUE(film_of(context()) == expected_) << "after " << pt_result_name(disturbed);
     }
 
     pt_context *context() const { return context_.get(); }

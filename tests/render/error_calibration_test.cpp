@@ -2,6 +2,7 @@
 #include "lib/film/error_estimate.h"
 #include "lib/film/film_parts.h"
 #include "tests/render/reference_image.h"
+#include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/image_regions.h"
@@ -85,9 +86,7 @@ protected:
         render.sampler = sampler;
         render.first_sample = first_sample;
         render.estimator = estimator;
-        ASSERT_EQ(pt_set_scene(context(), &scene), PT_OK) << pt_last_error(context());
-        ASSERT_EQ(pt_set_camera(context(), &camera), PT_OK) << pt_last_error(context());
-        ASSERT_EQ(pt_set_render(context(), &render), PT_OK) << pt_last_error(context());
+        set_picture(context(), scene, camera, render);
     }
 
     Image image() {
@@ -214,10 +213,7 @@ TEST_P(StatedErrorOfRanges, IsThatByTheReference) {
     for (const pt::SampleRange &range : test_case.ranges) {
         set_up(false, test_case.max_path_length, test_case.sampler, static_cast<uint32_t>(range.first));
         accumulate(static_cast<uint32_t>(range.count()));
-        uint64_t size = 0;
-        ASSERT_EQ(pt_save_film(context(), nullptr, &size), PT_OK) << pt_last_error(context());
-        films.emplace_back(size);
-        ASSERT_EQ(pt_save_film(context(), films.back().data(), &size), PT_OK) << pt_last_error(context());
+        films.push_back(film_of(context()));
     }
     set_up(false, test_case.max_path_length, test_case.sampler);
     for (const std::vector<char> &film : films)

@@ -1,5 +1,6 @@
 // Two contexts in two threads at a time, and a call that is stopped from another thread. The preset thread runs this
 // with ThreadSanitizer.
+#include "tests/support/context_calls.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/image_target.h"
 
@@ -42,14 +43,9 @@ pt_context *ready_context(uint64_t seed) {
     create.submit_milliseconds = 1;
     pt_context *context = nullptr;
     EXPECT_EQ(pt_create(&create, &context), PT_OK) << pt_last_error(nullptr);
-    CourseworkScene coursework;
-    const pt_scene scene = coursework.scene();
-    const pt_camera camera = CourseworkScene::camera();
     pt_render render = render_of(width, height, 3);
     render.seed = seed;
-    EXPECT_EQ(pt_set_scene(context, &scene), PT_OK) << pt_last_error(context);
-    EXPECT_EQ(pt_set_camera(context, &camera), PT_OK) << pt_last_error(context);
-    EXPECT_EQ(pt_set_render(context, &render), PT_OK) << pt_last_error(context);
+    set_coursework(context, render);
     return context;
 }
 
