@@ -295,13 +295,12 @@ PT_CONSTANT FILM_MAX_EXPONENT = 28;
 PT_CONSTANT FILM_MIN_ERROR_SAMPLES = 9;
 
 // ---- The error of an image -----------------------------------------------------------------------------------------
-// Sides of a region and of a tile in pixels; a region has 4 x 4 tiles. A tile is large compared with what neighbouring
-// pixels have in common, and small enough for a small image to have hundreds.
-PT_CONSTANT REGION_SIZE = 32;
+// The side of a tile in pixels: large compared with what neighbouring pixels have in common, and small enough for a
+// small image to have hundreds of tiles.
 PT_CONSTANT TILE_SIZE = 8;
-PT_CONSTANT ESTIMATE_WORKGROUP_SIZE = 128; // a region's rows of tiles; what every device allows
+PT_CONSTANT ESTIMATE_WORKGROUP_SIZE = 128; // pixels side by side, in 16 tiles; what every device allows
 
-// The sum of the expected squares of errors in a region, and how it is distributed. Shares in the sum are used because
+// The sum of the expected squares of errors in some tiles, and how it is distributed. Shares in the sum are used because
 // their squares stay within the range of float.
 struct ErrorSquares {
     float sum;          // over pixels and channels
@@ -310,8 +309,8 @@ struct ErrorSquares {
     float part_share;   // sum of the tiles' shares, each times its pixels over those of a whole tile
 };
 
-// What a region says about the error of the image.
-struct RegionError {
+// What the tiles of a workgroup say about the error of the image.
+struct TileErrors {
     ErrorSquares square;          // of (x - r)^2, in film units
     ErrorSquares relative_square; // of (x - r)^2 / (r^2 + offset^2), times relative_scale^2, but for values met once
     ErrorSquares met_once;        // the same of these
@@ -403,7 +402,6 @@ struct EstimateConstants {
     uint row_count;
     uint first_tile;       // of the strip, in the film
     uvec2 sample_counts;   // of each pixel in the older and in the newer part; ANY_COUNT: those that its tile has
-    uint by_tile;          // 1: what tiles say of themselves is asked for too
     float relative_offset; // in film units
     float relative_scale;
 };
@@ -429,8 +427,8 @@ static_assert(sizeof(ResolveConstants) == 48 && offsetof(ResolveConstants, row_w
 static_assert(sizeof(FirstHitConstants) == 92 && offsetof(FirstHitConstants, pixel_count) == 88);
 static_assert(WORKGROUP_SIZE % FILTER_RAYS == 0);
 static_assert(sizeof(CoverageConstants) == 100 && offsetof(CoverageConstants, seed) == 64);
-static_assert(sizeof(EstimateConstants) == 36 && offsetof(EstimateConstants, sample_counts) == 16);
-static_assert(sizeof(RegionError) == 88 && offsetof(RegionError, rejected) == 80);
+static_assert(sizeof(EstimateConstants) == 32 && offsetof(EstimateConstants, sample_counts) == 16);
+static_assert(sizeof(TileErrors) == 88 && offsetof(TileErrors, rejected) == 80);
 static_assert(sizeof(AddConstants) == 20 && offsetof(AddConstants, added_stride) == 16);
 } // namespace pt::gpu
 #endif

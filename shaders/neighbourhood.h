@@ -1,4 +1,4 @@
-// What surrounds a pixel of a region, in one channel: the pixel itself and those of the region that touch it. Values
+// What surrounds a pixel of a tile, in one channel: the pixel itself and those of the tile that touch it. Values
 // are floats >= 0; on the host too, since they are only compared.
 #ifndef PT_NEIGHBOURHOOD_H
 #define PT_NEIGHBOURHOOD_H
@@ -9,7 +9,7 @@
 namespace pt::gpu {
 #endif
 
-// At the edge of a region, missing neighbours count as below or above all values.
+// At the edge of a tile, missing neighbours count as below or above all values.
 PT_CONSTANT float BELOW_ALL = -1.0f;
 
 // Three values in ascending order.
@@ -54,7 +54,7 @@ struct Neighbourhood {
     float largest;
 };
 
-// Of rows of three values, among which those missing come first: k of nine, where the region ends beside the pixel. The
+// Of rows of three values, among which those missing come first: k of nine, where the tile ends beside the pixel. The
 // lower of two in the middle is wanted, that is the value with (k - 1) / 2 values below it, which is the fifth of nine
 // if 4 - (k - 1) / 2 of those that are missing lie below all, and the others above: of the three missing beside an edge
 // two lie below, and of the five about a corner three.
@@ -82,13 +82,18 @@ PT_FUNCTION Neighbourhood neighbourhood(Sorted above, Sorted row, Sorted below, 
 }
 
 // For a single row or column, where at most two values touch a pixel.
-PT_FUNCTION Neighbourhood neighbourhood_in_line(float before, float value, float behind)
+PT_FUNCTION Neighbourhood neighbourhood_in_line(Sorted line)
 {
-    Sorted values = sorted(before, value, behind);
     Neighbourhood near;
-    near.median = more_of(values.middle, 0.0f);
-    near.largest = values.high;
+    near.median = more_of(line.middle, 0.0f);
+    near.largest = line.high;
     return near;
+}
+
+// Of rows of one value each.
+PT_FUNCTION Sorted column_of(Sorted above, Sorted row, Sorted below, bool is_first_row, bool is_last_row)
+{
+    return sorted(is_first_row ? BELOW_ALL : above.high, row.high, is_last_row ? BELOW_ALL : below.high);
 }
 
 #ifdef __cplusplus

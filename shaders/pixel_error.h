@@ -50,29 +50,19 @@ PT_FUNCTION ValueSet united(ValueSet a, ValueSet b)
     return a;
 }
 
-PT_FUNCTION real mean_besides(ValueSet values, real value)
-{
-    return more_of(values.sum - value, 0.0) / more_of(values.count - 1.0, 1.0);
-}
-
-// Also without the largest of the others, which may be a firefly too.
+// The mean of the others without the largest of them, which may be a firefly.
 PT_FUNCTION real mean_besides_and_without_largest(ValueSet values, real value)
 {
     real largest_of_others = value < values.largest ? values.largest : values.second;
     return more_of(values.sum - value - largest_of_others, 0.0) / more_of(values.count - 2.0, 1.0);
 }
 
-// > 0: another pixel has most of the light of the tile, so the level without that pixel says nothing.
-PT_FUNCTION real lacking_level(ValueSet tile, real mean, real level)
+// What is about a pixel: what most of the pixels show that touch it, and the mean of its tile; beside a brighter pixel,
+// at least an eighth of that, since the mean of eight pixels cannot be less.
+PT_FUNCTION real around(real mean, ValueSet tile, real median_beside, real largest_beside)
 {
-    return 0.5 * mean_besides(tile, mean) - level;
-}
-
-// The mean around a pixel: of its tile or, if that says nothing, of its region.
-PT_FUNCTION real level_about(real mean, ValueSet tile, ValueSet region)
-{
-    real level = mean_besides_and_without_largest(tile, mean);
-    return lacking_level(tile, mean, level) > 0.0 ? mean_besides_and_without_largest(region, mean) : level;
+    real of_brighter = largest_beside > mean ? 0.125 * largest_beside : 0.0;
+    return more_of(more_of(median_beside, of_brighter), mean_besides_and_without_largest(tile, mean));
 }
 
 // The square of the pixel's limit that divides the square of its error must not come from a bright sample that made
@@ -143,14 +133,14 @@ PT_FUNCTION bool is_met_again(real mean, real lesser)
 // p M^2 / N and a^2 = (T^2 + offset) / M^2, the expectation of p / N / (a^2 + p^2) is the integral of c / (2 sqrt(p))
 // times that from 0 to 1 / N: c sqrt(b / N) G(sqrt(b)) with b = 1 / (N a) and G(t) the integral of t^2 / (1 + t^4) from
 // 0 to t. G is t^3 / 3 for small t and pi / sqrt(8) - 1 / t for large ones, and t^3 / (3 + 0.81 t^2 + 0.9 t^3), which has
-// both limits, is at most a seventh less in between. c = 0.05 is calibrated (shaders/README.md, section 11).
+// both limits, is at most a seventh less in between. c = 0.055 is calibrated (shaders/README.md, section 11).
 PT_FUNCTION real unseen_square(real mean, real largest_beside, real sample_count, real offset_square)
 {
     real brightest = largest_beside / sample_count;
     if (mean >= brightest)
         return 0.0;
     real b = brightest / sqrt(squared(mean) + offset_square);
-    return 0.05 * squared(b) / (sqrt(sample_count) * (3.0 + 0.81 * b + 0.9 * b * sqrt(b)));
+    return 0.055 * squared(b) / (sqrt(sample_count) * (3.0 + 0.81 * b + 0.9 * b * sqrt(b)));
 }
 
 #ifdef __cplusplus

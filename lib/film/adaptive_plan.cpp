@@ -2,7 +2,7 @@
 
 #include "lib/film/adaptive_rule.h"
 #include "lib/film/error_estimate.h"
-#include "lib/film/region_errors.h"
+#include "lib/film/tile_errors.h"
 
 #include <algorithm>
 #include <utility>
@@ -47,7 +47,7 @@ std::optional<TileStep> AdaptivePlan::next_together(const TileSamples &samples, 
 // If the limit on samples holds a tile back, at a level or on its way to one, the round stays, and the other tiles come
 // to rest in it.
 std::optional<TileStep> AdaptivePlan::next_apart(const TileSamples &samples, AdaptiveRound &round) const {
-    const std::span<const double> squares = squares_();
+    const std::vector<double> squares = squares_();
     const std::vector<double> gains = tile_gains(samples, squares);
     std::vector<std::uint32_t> tiles = wanting_tiles(samples, gains, round);
     if (tiles.empty() && unfinished_tiles(samples).empty()) {

@@ -11,7 +11,6 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <span>
 #include <vector>
 
 namespace pt {
@@ -31,8 +30,7 @@ public:
     };
 
     using LookAtImage = std::function<Error()>;
-    using LookAtTiles =
-        std::function<std::span<const double>()>; // their squares (region_errors.h), valid until the next
+    using LookAtTiles = std::function<std::vector<double>()>; // their own_square() of tile_errors.h
 
     // most: the largest number of samples for any pixel. error and squares look at the samples as they are at that
     // moment, which takes time.

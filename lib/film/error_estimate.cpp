@@ -40,7 +40,7 @@ double margin(std::uint32_t sampler) {
 // rare, and the parts of a film show too little of that (exaggeration()). So this much more is stated, but never beyond
 // the bounds; for uncertain errors the bounds are wide enough anyway. Calibrated.
 double margin_of_sequence(std::uint32_t sampler) {
-    return sampler == PT_SAMPLER_RANDOM ? 1.0 : 1.125;
+    return sampler == PT_SAMPLER_RANDOM ? 1.0 : 1.145;
 }
 
 // How many pixels with equal errors would make a sum equally uncertain: each of n such squares is a share 1 / n of the
@@ -71,7 +71,7 @@ double square_by_meetings(double met_once, double met_again) {
 // Values met once count by what is known without them, or by how many were met again if that gives less. Where lamps
 // are found by chance there are rare samples of all kinds, and how often the less rare ones were met again tells
 // nothing about the others.
-ErrorSquares relative_squares(const RegionErrors &all, bool finds_lamps_by_chance) {
+ErrorSquares relative_squares(const TileErrors &all, bool finds_lamps_by_chance) {
     constexpr double channels = 3.0;
     const double factor = square_by_meetings(all.as_lamps.sum / channels, all.met_again / channels);
     ErrorSquares squares = all.relative_square;
@@ -126,16 +126,16 @@ bool finds_lamps_by_chance(std::uint32_t estimator, std::uint32_t max_path_lengt
            (estimator == PT_ESTIMATOR_UNIFORM || estimator == PT_ESTIMATOR_COSINE || estimator == PT_ESTIMATOR_BSDF);
 }
 
-void ErrorEstimator::add(const RegionErrors &region) {
-    all_.value_count += region.value_count;
-    all_.squares_of_tile_sizes += region.squares_of_tile_sizes;
-    add_squares(all_.square, region.square);
-    add_squares(all_.relative_square, region.relative_square);
-    add_squares(all_.met_once, region.met_once);
-    add_squares(all_.as_lamps, region.as_lamps);
-    all_.met_again += region.met_again;
-    all_.unseen += region.unseen;
-    all_.rejected += region.rejected;
+void ErrorEstimator::add(const TileErrors &tiles) {
+    all_.value_count += tiles.value_count;
+    all_.squares_of_tile_sizes += tiles.squares_of_tile_sizes;
+    add_squares(all_.square, tiles.square);
+    add_squares(all_.relative_square, tiles.relative_square);
+    add_squares(all_.met_once, tiles.met_once);
+    add_squares(all_.as_lamps, tiles.as_lamps);
+    all_.met_again += tiles.met_again;
+    all_.unseen += tiles.unseen;
+    all_.rejected += tiles.rejected;
 }
 
 // Tiles are independent of each other: the variance of the sum S over n values is estimated by the sum of the squares

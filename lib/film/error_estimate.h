@@ -2,7 +2,7 @@
 // film.
 #pragma once
 
-#include "lib/film/region_errors.h"
+#include "lib/film/tile_errors.h"
 
 #include <pt/stats.h>
 
@@ -62,10 +62,10 @@ class ErrorEstimator {
 public:
     explicit ErrorEstimator(const SampleConditions &conditions) : conditions_(conditions) {}
 
-    // Takes a region. The last bits of the result depend on the order of the regions.
-    void add(const RegionErrors &region);
+    // Takes a tile, or the sum of several. The last bits of the result depend on their order.
+    void add(const TileErrors &tiles);
 
-    // Of all regions taken, at least one.
+    // Of all tiles taken, at least one.
     ErrorEstimate result() const;
 
     // Samples left out of them.
@@ -76,7 +76,7 @@ private:
     Interval root_mean(const ErrorSquares &squares, double other_squares, bool uncertain) const;
 
     SampleConditions conditions_;
-    RegionErrors all_;
+    TileErrors all_;
 };
 
 } // namespace pt

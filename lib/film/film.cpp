@@ -280,8 +280,8 @@ ErrorEstimate Film::error(const TileSamples &samples, FilmErrors &errors, bool m
         return unknown_error();
     ErrorEstimator estimator(
         {facts_.sampler, may_miss_lamps, finds_lamps_by_chance(facts_.estimator, facts_.max_path_length)});
-    for (const RegionErrors &region : errors.regions(samples, std::ldexp(1.0, facts_.unit_exponent), reader()))
-        estimator.add(region);
+    for (const TileErrors &tile : errors.of(samples, std::ldexp(1.0, facts_.unit_exponent), reader()))
+        estimator.add(tile);
     return hides_error(estimator.rejected(), total_samples()) ? unknown_error() : estimator.result();
 }
 
@@ -299,7 +299,10 @@ TileSamples Film::samples_by_tile() const {
 std::optional<TileStep> Film::plan(const TileSamples &samples, double target_error, std::uint64_t most,
                                    bool may_miss_lamps) {
     const auto look_at_tiles = [&] {
-        return errors_.tile_squares(samples, std::ldexp(1.0, facts_.unit_exponent), reader());
+        std::vector<double> squares;
+        for (const TileErrors &tile : errors_.of(samples, std::ldexp(1.0, facts_.unit_exponent), reader()))
+            squares.push_back(tile.own_square());
+        return squares;
     };
     const auto look = [&]() -> AdaptivePlan::Error {
         const ErrorEstimate error = this->error(samples, errors_, may_miss_lamps);

@@ -1,4 +1,4 @@
-// What surrounds each pixel of a region, in one channel: the pixel itself and those of the region that touch it.
+// What surrounds each pixel of a tile, in one channel: the pixel itself and those of the tile that touch it.
 #pragma once
 
 #include "shaders/gpu_layout.h"
@@ -8,29 +8,23 @@
 
 namespace pt {
 
-inline constexpr std::size_t region_size = gpu::REGION_SIZE;
 inline constexpr std::size_t tile_size = gpu::TILE_SIZE;
 
-// Numbers >= 0 of a rectangle of pixels.
-struct PixelPlane {
+// A number for each pixel of a tile, row by row; rows are tile_size apart, also where the tile is narrower.
+using TileFloats = std::array<float, tile_size * tile_size>;
+
+// Numbers >= 0 of the pixels of a tile.
+struct TilePlane {
     std::size_t width;
     std::size_t height;
-    std::size_t stride; // from a row to the next
-    const float *values;
+    const float *values; // as in TileFloats
 };
 
-// A number for each pixel of a region. Rows are region_size apart, whatever the width; numbers outside the region are
-// undefined.
-using RegionFloats = std::array<float, region_size * region_size>;
-
-struct Neighbourhoods { // gpu::Neighbourhood
-    RegionFloats median;
-    RegionFloats largest;
+struct Neighbourhoods { // gpu::Neighbourhood; undefined beyond the edge
+    TileFloats median;
+    TileFloats largest;
 };
 
-void find_neighbourhoods(const PixelPlane &region, Neighbourhoods &to);
-
-// Only the largest, for the pixels of one tile. Rows are tile_size apart.
-std::array<float, tile_size * tile_size> largest_in_tile(const PixelPlane &tile);
+Neighbourhoods find_neighbourhoods(const TilePlane &tile);
 
 } // namespace pt

@@ -23,10 +23,10 @@ struct Overlap {
     }
 };
 
-// The largest strip that is whole rows of regions, or, if not even one row fits, as many pixels as do.
+// The largest strip that is whole rows of tiles, or, if not even one row fits, as many pixels as do.
 std::uint32_t strip_pixels(std::uint32_t width, std::uint32_t most) {
-    const std::uint64_t row_of_regions = std::uint64_t{width} * gpu::REGION_SIZE;
-    return row_of_regions > most ? most : static_cast<std::uint32_t>(most / row_of_regions * row_of_regions);
+    const std::uint64_t row_of_tiles = std::uint64_t{width} * gpu::TILE_SIZE;
+    return row_of_tiles > most ? most : static_cast<std::uint32_t>(most / row_of_tiles * row_of_tiles);
 }
 
 // Where a pixel's word begins in the buffer of a strip, in bytes.
@@ -99,8 +99,8 @@ void DeviceFilm::read(std::uint32_t first_pixel, PixelSums &sums) {
     }
 }
 
-bool DeviceFilm::has_whole_regions() const {
-    return strips_.size() == 1 || strips_.front().pixel_count % (std::uint64_t{width_} * gpu::REGION_SIZE) == 0;
+bool DeviceFilm::has_whole_tiles() const {
+    return strips_.size() == 1 || strips_.front().pixel_count % (std::uint64_t{width_} * gpu::TILE_SIZE) == 0;
 }
 
 void DeviceFilm::copy_to(const vk::raii::CommandBuffer &commands, const PixelRange &pixels,

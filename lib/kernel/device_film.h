@@ -48,9 +48,8 @@ public:
     // Records commands that set all sums to 0.
     void clear(const vk::raii::CommandBuffer &commands) const;
 
-    // Whether its strips consist of whole rows of regions, which the kernel that estimates the error needs
-    // (gpu_layout.h).
-    bool has_whole_regions() const;
+    // Whether its strips consist of whole rows of tiles, which the kernel that estimates the error needs.
+    bool has_whole_tiles() const;
 
     // Records commands that copy the words of consecutive pixels into a buffer: planes without gaps, one part after the
     // other.

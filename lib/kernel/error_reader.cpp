@@ -12,18 +12,9 @@ namespace pt {
 
 namespace {
 
-std::uint32_t regions_of(std::uint32_t pixels) {
-    return (pixels + gpu::REGION_SIZE - 1) / gpu::REGION_SIZE;
-}
-
-std::uint64_t region_bytes(const DeviceFilm &film, const DeviceFilm::Strip &strip) {
-    return std::uint64_t{regions_of(film.width())} * regions_of(strip.pixel_count / film.width()) *
-           sizeof(gpu::RegionError);
-}
-
-// All strips have the size of the first, except the last one, which may be smaller.
-std::uint64_t most_region_bytes(DeviceFilm &film) {
-    return region_bytes(film, film.strips().front());
+// How many rows of tiles a kernel's workgroups look at, each of at most ESTIMATE_WORKGROUP_SIZE pixels.
+std::uint32_t groups_in_row(const TileGrid &grid) {
+    return (grid.width + gpu::ESTIMATE_WORKGROUP_SIZE - 1) / gpu::ESTIMATE_WORKGROUP_SIZE;
 }
 
 // The units in which the kernel measures relative errors: chosen so that all squares are normal floats.
@@ -63,11 +54,11 @@ gpu::uvec2 counts_of(const SampleSet &set) {
     return {static_cast<std::uint32_t>(older), static_cast<std::uint32_t>(newer)};
 }
 
-RegionErrors errors_of(const gpu::RegionError &found, std::uint32_t width, std::uint32_t height, double unit,
-                       const RelativeUnits &units) {
+TileErrors errors_of(const gpu::TileErrors &found, std::uint32_t width, std::uint32_t height, double unit,
+                     const RelativeUnits &units) {
     require_no_loss(found.lost_pixels);
     const double scale = static_cast<double>(units.scale);
-    RegionErrors errors;
+    TileErrors errors;
     errors.value_count = 3.0 * width * height;
     errors.squares_of_tile_sizes =
         9.0 * squares_of_pieces(width, gpu::TILE_SIZE) * squares_of_pieces(height, gpu::TILE_SIZE);
@@ -102,14 +93,20 @@ ErrorReader::ErrorReader(vulkan::Device &device, const vulkan::ComputePipeline &
     device_(device),
     estimate_(estimate),
     film_(film),
-    regions_(device, vulkan::BufferUse::HostRead, most_region_bytes(film), "error of an image"),
+    errors_(device, vulkan::BufferUse::HostRead,
+            groups_in_row(grid_of(0)) * grid_of(0).rows() * sizeof(gpu::TileErrors), "error of an image"),
     tile_counts_(device, vulkan::BufferUse::HostWritten, film.grid().count() * sizeof(gpu::uvec2), "samples of tiles"),
     tile_squares_(device, vulkan::BufferUse::HostRead, film.grid().count() * sizeof(glm::vec2), "errors of tiles") {
     for (DeviceFilm::Strip &strip : film.strips()) {
-        const std::array<vulkan::Buffer *, 6> buffers = {nullptr,   nullptr,       &strip.words,
-                                                         &regions_, &tile_counts_, &tile_squares_};
+        const std::array<vulkan::Buffer *, 6> buffers = {nullptr,  nullptr,       &strip.words,
+                                                         &errors_, &tile_counts_, &tile_squares_};
         sets_.push_back(estimate.bind(buffers));
     }
+}
+
+// All strips have the size of the first, except the last one, which may be smaller.
+TileGrid ErrorReader::grid_of(std::size_t strip) const {
+    return {film_.width(), film_.strips()[strip].pixel_count / film_.width()};
 }
 
 // The host writes into memory that the kernel reads, so no such work may be under way.
@@ -156,32 +153,29 @@ void ErrorReader::collect(const ErrorQuery &query, const Receive &receive) const
 void ErrorReader::record_strip(const vk::raii::CommandBuffer &commands, std::size_t strip,
                                const ErrorQuery &query) const {
     const RelativeUnits units(query.unit);
-    const std::uint32_t width = film_.width();
-    const std::uint32_t pixel_count = film_.strips()[strip].pixel_count;
+    const TileGrid grid = grid_of(strip);
     gpu::EstimateConstants constants{};
-    constants.film_width = width;
-    constants.strip_pixel_count = pixel_count;
-    constants.row_count = pixel_count / width;
+    constants.film_width = grid.width;
+    constants.strip_pixel_count = film_.strips()[strip].pixel_count;
+    constants.row_count = grid.height;
     constants.first_tile =
-        static_cast<std::uint32_t>(film_.grid().tile_at(0, film_.strips()[strip].first_pixel / width));
+        static_cast<std::uint32_t>(film_.grid().tile_at(0, film_.strips()[strip].first_pixel / grid.width));
     constants.sample_counts =
         query.samples.even() ? counts_of(query.samples.sets().front()) : gpu::uvec2(gpu::ANY_COUNT);
-    constants.by_tile = query.by_tile.empty() ? 0 : 1;
     constants.relative_offset = units.offset;
     constants.relative_scale = units.scale;
-    estimate_.dispatch(commands, sets_[strip], std::as_bytes(std::span(&constants, 1)), regions_of(width), {},
-                       regions_of(constants.row_count));
+    estimate_.dispatch(commands, sets_[strip], std::as_bytes(std::span(&constants, 1)), groups_in_row(grid), {},
+                       grid.rows());
 }
 
 void ErrorReader::collect_strip(std::size_t strip, const ErrorQuery &query, const Receive &receive) const {
     const RelativeUnits units(query.unit);
-    const std::uint32_t width = film_.width();
-    const std::uint32_t rows = film_.strips()[strip].pixel_count / width;
-    const auto *region = reinterpret_cast<const gpu::RegionError *>(regions_.host_bytes().data());
-    for (std::uint32_t top = 0; top < rows; top += gpu::REGION_SIZE)
-        for (std::uint32_t left = 0; left < width; left += gpu::REGION_SIZE)
-            receive(errors_of(*region++, std::min(gpu::REGION_SIZE, width - left),
-                              std::min(gpu::REGION_SIZE, rows - top), query.unit, units));
+    const TileGrid grid = grid_of(strip);
+    const auto *found = reinterpret_cast<const gpu::TileErrors *>(errors_.host_bytes().data());
+    for (std::uint32_t y = 0; y < grid.height; y += gpu::TILE_SIZE)
+        for (std::uint32_t x = 0; x < grid.width; x += gpu::ESTIMATE_WORKGROUP_SIZE)
+            receive(errors_of(*found++, std::min(gpu::ESTIMATE_WORKGROUP_SIZE, grid.width - x),
+                              std::min(gpu::TILE_SIZE, grid.height - y), query.unit, units));
 }
 
 } // namespace pt

@@ -1,4 +1,4 @@
-// Reads what a film says about the error of its image: estimate.comp sums it up by regions, on the device. Owned by
+// Reads what a film says about the error of its image: estimate.comp sums it up over tiles, on the device. Owned by
 // RenderDevice; bound to its film.
 #pragma once
 
@@ -20,19 +20,19 @@ namespace pt {
 struct ErrorQuery {
     double unit;                 // of the film, a power of two, in radiance
     const TileSamples &samples;  // that the film has
-    std::span<double> by_tile{}; // receives what is expected of each tile (region_errors.h), if it is not empty
+    std::span<double> by_tile{}; // receives the own_square() of each tile (tile_errors.h), if it is not empty
 };
 
 class ErrorReader {
 public:
     // All arguments must outlive the reader. estimate: from estimate_pipeline(). The strips of the film must be whole
-    // rows of regions.
+    // rows of tiles.
     ErrorReader(vulkan::Device &device, const vulkan::ComputePipeline &estimate, DeviceFilm &film);
 
-    using Receive = std::function<void(const RegionErrors &)>;
+    using Receive = std::function<void(const TileErrors &)>;
 
-    // Calls receive(region) for every region of the film, always in the same order. Throws PT_ERROR_INTERNAL if a
-    // driver lost work.
+    // Calls receive(tiles) for sums over a few tiles of a row each, always in the same order. Throws PT_ERROR_INTERNAL
+    // if a driver lost work.
     void read(const ErrorQuery &query, const Receive &receive);
 
     // The same in two steps, for a film of one strip. record() adds the look behind commands that take samples; no
@@ -42,6 +42,7 @@ public:
 
 private:
     void record_strip(const vk::raii::CommandBuffer &commands, std::size_t strip, const ErrorQuery &query) const;
+    TileGrid grid_of(std::size_t strip) const;
     void list_counts(const TileSamples &samples);
     void collect_tiles(const ErrorQuery &query) const;
     void collect_strip(std::size_t strip, const ErrorQuery &query, const Receive &receive) const;
@@ -49,7 +50,7 @@ private:
     vulkan::Device &device_;
     const vulkan::ComputePipeline &estimate_;
     DeviceFilm &film_;
-    vulkan::Buffer regions_;                  // of a strip
+    vulkan::Buffer errors_;                   // of a strip, by workgroup
     vulkan::Buffer tile_counts_;              // by tiles of the film
     vulkan::Buffer tile_squares_;             // likewise
     std::vector<vulkan::DescriptorSet> sets_; // one per strip

@@ -29,17 +29,15 @@ std::vector<DeviceFilm *> FilmView::films(const Devices &devices) {
     return films;
 }
 
-// As few bands of whole rows of regions as possible, all of one size except the last.
+// As few bands of whole rows of tiles as possible, all of one size except the last.
 std::vector<FilmView::Band> FilmView::bands() const {
-    const std::uint32_t width = home().film().width();
-    const std::uint32_t row_count = home().film().pixel_count() / width;
-    const std::uint32_t regions = (row_count + gpu::REGION_SIZE - 1) / gpu::REGION_SIZE; // one above the other
-    const std::uint32_t most = std::max<std::uint32_t>(most_band_pixels / gpu::REGION_SIZE / width, 1);
-    const std::uint32_t band_count = (regions + most - 1) / most;
-    const std::uint32_t rows_of_band = (regions + band_count - 1) / band_count * gpu::REGION_SIZE;
+    const TileGrid grid = home().film().grid();
+    const std::uint32_t most = std::max<std::uint32_t>(most_band_pixels / gpu::TILE_SIZE / grid.width, 1);
+    const std::uint32_t band_count = (grid.rows() + most - 1) / most;
+    const std::uint32_t rows_of_band = (grid.rows() + band_count - 1) / band_count * gpu::TILE_SIZE;
     std::vector<Band> bands;
-    for (std::uint32_t row = 0; row < row_count; row += bands.back().row_count)
-        bands.push_back({row, std::min(rows_of_band, row_count - row)});
+    for (std::uint32_t row = 0; row < grid.height; row += bands.back().row_count)
+        bands.push_back({row, std::min(rows_of_band, grid.height - row)});
     return bands;
 }
 
@@ -109,20 +107,17 @@ void FilmView::read_on_host(const Image &image, const ImageQuery &query, const T
     });
 }
 
-// The kernels of a device need whole regions.
+// The kernels of a device need whole tiles.
 bool FilmView::reads_on_device() const {
-    return home().device().policy().resolve_on_device && home().film().has_whole_regions();
+    return home().device().policy().resolve_on_device && home().film().has_whole_tiles();
 }
 
-// Regions always come in the same order, whoever computes them, so an image has the same estimate on one device and on
-// several.
+// Tiles always come in the same order and in the same sums, on one device and on several.
 void FilmView::estimate(ErrorEstimator &estimator, const ErrorQuery &query, bool is_recorded) {
-    const auto add = [&](const RegionErrors &region) { estimator.add(region); };
-    if (!reads_on_device()) {
-        std::ranges::for_each(errors_.regions(query.samples, query.unit, reader_of(query.samples)), add);
-        return;
-    }
-    if (!is_one_film())
+    const auto add = [&](const TileErrors &tiles) { estimator.add(tiles); };
+    if (!reads_on_device())
+        estimate_on_host(query, add);
+    else if (!is_one_film())
         estimate_bands(query, add);
     else if (is_recorded)
         home().error_reader().collect(query, add);
@@ -130,14 +125,14 @@ void FilmView::estimate(ErrorEstimator &estimator, const ErrorQuery &query, bool
         home().error_reader().read(query, add);
 }
 
-std::span<const double> FilmView::tile_squares(double unit, const TileSamples &samples) {
-    return errors_.tile_squares(samples, unit, reader_of(samples));
-}
-
-FilmErrors::ReadRows FilmView::reader_of(const TileSamples &samples) const {
-    return [this, &samples](std::uint32_t first_row, PixelSums &rows) {
-        read_films(films(devices_), samples, first_row * samples.grid().width, rows);
+void FilmView::estimate_on_host(const ErrorQuery &query, const ErrorReader::Receive &receive) {
+    const auto read = [this, &query](std::uint32_t first_row, PixelSums &rows) {
+        read_films(films(devices_), query.samples, first_row * query.samples.grid().width, rows);
     };
+    const std::span<const TileErrors> tiles = errors_.of(query.samples, query.unit, read);
+    std::ranges::for_each(tiles, receive);
+    if (!query.by_tile.empty())
+        std::ranges::transform(tiles, query.by_tile.begin(), &TileErrors::own_square);
 }
 
 // Each band is a film of its own, with its own tiles.

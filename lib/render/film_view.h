@@ -38,15 +38,10 @@ public:
     // film is replaced, or the next call. Otherwise nothing.
     std::optional<std::span<std::byte>> map(const ImageQuery &query);
 
-    // Gives the estimator everything that is known about the error of the films. If a kernel finds both at once, it
-    // also answers what the query asks about tiles. is_recorded: the only device has done this already, in the
-    // submission that took the samples. Throws likewise.
+    // Gives the estimator everything that is known about the error of the films, and answers what the query asks about
+    // tiles. is_recorded: the only device has done this already, in the submission that took the samples. Throws
+    // likewise.
     void estimate(ErrorEstimator &estimator, const ErrorQuery &query, bool is_recorded);
-
-    // Whether the host can find what is expected of tiles alone, which takes less time than with the error of the
-    // image.
-    bool finds_tile_squares_alone() const { return !reads_on_device(); }
-    std::span<const double> tile_squares(double unit, const TileSamples &samples);
 
     // Forgets what is known, because the samples have changed.
     void forget_samples() noexcept { errors_.forget(); }
@@ -82,7 +77,7 @@ private:
     std::vector<Band> bands() const;
     Sum &sum(std::uint32_t row_count);
     void estimate_bands(const ErrorQuery &query, const ErrorReader::Receive &receive);
-    FilmErrors::ReadRows reader_of(const TileSamples &samples) const;
+    void estimate_on_host(const ErrorQuery &query, const ErrorReader::Receive &receive);
     void read_on_host(const Image &image, const ImageQuery &query, const TileSamples &samples) const;
 
     const Devices &devices_;

@@ -165,7 +165,7 @@ private:
     Rectangle pixels() const;
     const ErrorEstimate &error();
     void look(std::span<double> by_tile, bool is_recorded);
-    std::span<const double> tile_squares();
+    const std::vector<double> &tile_squares();
     bool is_on_target(double target_error);
     bool is_adaptive(const SamplesWanted &wanted) const;
     std::uint64_t adaptive_from() const;
@@ -197,7 +197,7 @@ private:
     AdaptiveRound round_;                               // that they have come to
     std::optional<ErrorEstimate> error_;                // of them, once it has been asked for
     std::optional<std::uint64_t> rejected_samples_;     // likewise
-    std::vector<double> tile_squares_;                  // likewise, if a kernel finds them; empty until then
+    std::vector<double> tile_squares_;                  // likewise; empty until then
     std::vector<std::byte> mapped_image_;               // as far as the host makes images that are mapped
     std::optional<std::vector<LampPiece>> small_lamps_; // of the scene, camera and settings, once they are asked for
     DeviceWork work_;

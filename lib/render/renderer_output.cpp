@@ -65,9 +65,7 @@ ErrorEstimate Renderer::error_with_lamps() {
     return known;
 }
 
-std::span<const double> Renderer::tile_squares() {
-    if (view_.finds_tile_squares_alone())
-        return view_.tile_squares(scene_->film_unit, samples_);
+const std::vector<double> &Renderer::tile_squares() {
     if (tile_squares_.empty()) {
         std::vector<double> by_tile(samples_.grid().count());
         look(by_tile, false);

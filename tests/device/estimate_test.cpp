@@ -86,8 +86,8 @@ protected:
     static pt::ErrorEstimate on_host(const pt::PixelSums &sums, const Size &size, double unit) {
         pt::ErrorEstimator estimator(conditions);
         pt::FilmErrors errors;
-        for (const pt::RegionErrors &region : errors.regions(samples_of(size), unit, reader_of(sums, size)))
-            estimator.add(region);
+        for (const pt::TileErrors &tile : errors.of(samples_of(size), unit, reader_of(sums, size)))
+            estimator.add(tile);
         return estimator.result();
     }
 
@@ -99,12 +99,12 @@ protected:
     Found on_device(const pt::PixelSums &sums, const Size &size, double unit, std::uint32_t max_strip_pixels) {
         const pt::vulkan::ComputePipeline pipeline = pt::estimate_pipeline(device(), pt::embedded_code().estimate);
         pt::DeviceFilm film(device(), size.width, size.height, max_strip_pixels);
-        EXPECT_TRUE(film.has_whole_regions());
+        EXPECT_TRUE(film.has_whole_tiles());
         film.write(sums);
         pt::ErrorEstimator estimator(conditions);
         const pt::TileSamples samples = samples_of(size);
-        pt::ErrorReader(device(), pipeline, film).read({unit, samples}, [&](const auto &region) {
-            estimator.add(region);
+        pt::ErrorReader(device(), pipeline, film).read({unit, samples}, [&](const auto &tiles) {
+            estimator.add(tiles);
         });
         return {estimator.result(), estimator.rejected()};
     }
@@ -164,8 +164,7 @@ TEST_F(Estimate, LostSamplesAreAnError) {
     EXPECT_STREQ(error.what(), "the driver lost samples of 1 pixels");
 }
 
-// Where tiles may have different samples: what is said of regions, with counts that a list has, and of each tile by
-// itself.
+// What is said of all tiles, and of each by itself.
 TEST_F(Estimate, OfTilesIsThatOfTheHost) {
     Films films;
     double largest = 0.0;
@@ -174,20 +173,20 @@ TEST_F(Estimate, OfTilesIsThatOfTheHost) {
         const pt::TileSamples samples = samples_of(size);
         for (const double unit : {1.0, 0x1p-40, 0x1p52}) {
             const pt::vulkan::ComputePipeline pipeline = pt::estimate_pipeline(device(), pt::embedded_code().estimate);
-            pt::DeviceFilm film(device(), size.width, size.height, size.width * pt::gpu::REGION_SIZE);
+            pt::DeviceFilm film(device(), size.width, size.height, size.width * 4 * pt::gpu::TILE_SIZE);
             film.write(sums);
             std::vector<double> squares(samples.grid().count());
             pt::ErrorEstimator estimator(conditions);
-            pt::ErrorReader(device(), pipeline, film).read({unit, samples, squares}, [&](const auto &region) {
-                estimator.add(region);
+            pt::ErrorReader(device(), pipeline, film).read({unit, samples, squares}, [&](const auto &tiles) {
+                estimator.add(tiles);
             });
             const double expected_error = on_host(sums, size, unit).relative_rmse.estimate;
             EXPECT_NEAR(estimator.result().relative_rmse.estimate, expected_error, 1e-5 * expected_error);
 
             pt::FilmErrors host;
-            const std::span<const double> expected = host.tile_squares(samples, unit, reader_of(sums, size));
+            const std::span<const pt::TileErrors> expected = host.of(samples, unit, reader_of(sums, size));
             for (std::size_t tile = 0; tile < squares.size(); ++tile) {
-                EXPECT_NEAR(squares[tile], expected[tile], 1e-5 * expected[tile]) << tile;
+                EXPECT_NEAR(squares[tile], expected[tile].own_square(), 1e-5 * expected[tile].own_square()) << tile;
                 largest = std::max(largest, squares[tile]);
             }
         }

@@ -106,7 +106,7 @@ TEST_F(FilmValue, ShowsWhatTheContextShows) {
     EXPECT_EQ(kept_error.uncertain, rendered.uncertain);
     for (double Error::*const each : {&Error::rmse, &Error::rmse_low, &Error::rmse_high, &Error::relative_rmse,
                                       &Error::relative_rmse_low, &Error::relative_rmse_high})
-        // A GPU sums up the squares of a region, at most 3072, in float32: each sum is within 3072 x 2^-24.
+        // A GPU sums up the squares of 16 tiles, at most 3072, in float32: each sum is within 3072 x 2^-24.
         EXPECT_NEAR(kept_error.*each, rendered.*each, 2e-4 * rendered.*each);
 }
 

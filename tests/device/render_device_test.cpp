@@ -73,16 +73,16 @@ TEST_F(RenderDeviceTest, TilesTakeTheirSamplesInAnyOrder) {
     }
 }
 
-// The sums of what the film's regions say, in their order: another film has others.
-std::array<double, 6> sums_of_regions(const std::function<void(const pt::ErrorReader::Receive &)> &read) {
+// The sums of what the film's tiles say, in their order: another film has others.
+std::array<double, 6> sums_of_tiles(const std::function<void(const pt::ErrorReader::Receive &)> &read) {
     std::array<double, 6> sums{};
-    read([&](const pt::RegionErrors &region) {
-        sums[0] += region.square.sum;
-        sums[1] += region.square.of_pixels;
-        sums[2] += region.relative_square.sum;
-        sums[3] += region.relative_square.of_tiles;
-        sums[4] += region.unseen;
-        sums[5] += region.value_count;
+    read([&](const pt::TileErrors &tiles) {
+        sums[0] += tiles.square.sum;
+        sums[1] += tiles.square.of_pixels;
+        sums[2] += tiles.relative_square.sum;
+        sums[3] += tiles.relative_square.of_tiles;
+        sums[4] += tiles.unseen;
+        sums[5] += tiles.value_count;
     });
     return sums;
 }
@@ -101,8 +101,8 @@ TEST_F(RenderDeviceTest, AnErrorBehindItsSamplesIsThatOfTheFilm) {
         device.start({all_tiles, before, range, true}, &query);
         device.finish();
         pt::ErrorReader &reader = device.error_reader();
-        const std::array<double, 6> found = sums_of_regions([&](const auto &take) { reader.collect(query, take); });
-        EXPECT_EQ(found, sums_of_regions([&](const auto &take) { reader.read(query, take); })) << pt::text_of(range);
+        const std::array<double, 6> found = sums_of_tiles([&](const auto &take) { reader.collect(query, take); });
+        EXPECT_EQ(found, sums_of_tiles([&](const auto &take) { reader.read(query, take); })) << pt::text_of(range);
         EXPECT_NE(found, last);
         last = found;
     }

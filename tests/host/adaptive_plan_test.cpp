@@ -12,7 +12,6 @@
 #include <numeric>
 #include <optional>
 #include <random>
-#include <span>
 #include <vector>
 
 namespace {
@@ -44,7 +43,7 @@ public:
             variances_.push_back(std::exp(exponent(generator)));
     }
 
-    std::span<const double> squares_of(ModelFilm &film) const {
+    const std::vector<double> &squares_of(ModelFilm &film) const {
         film.squares.clear();
         for (std::uint32_t tile = 0; tile < plan_grid.count(); ++tile) {
             const auto count = static_cast<std::uint32_t>(film.samples.of(tile).count());
@@ -149,7 +148,7 @@ TEST(AdaptivePlan, ARoundThatIsUnderWayIsNotTheEnd) {
         [] {
             return AdaptivePlan::Error{goal_error / 2, false};
         },
-        [&] { return std::span<const double>(film.squares); });
+        [&] { return film.squares; });
     const std::optional<TileStep> step = plan.next(film.samples, film.round);
     ASSERT_TRUE(step.has_value());
     EXPECT_TRUE(step->tiles.empty());

@@ -5,7 +5,7 @@
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
-#include "tests/support/image_regions.h"
+#include "tests/support/image_tiles.h"
 #include "tests/support/scene_of.h"
 
 #include <pt/film.h>
@@ -251,7 +251,7 @@ double error_from_parts(const std::vector<Image> &samples, const PartOf &part_of
         pixels.lesser.push_back(static_cast<float>(2.0 * std::min(sums[0], sums[1]) / count));
     }
     pt::ErrorEstimator estimator({PT_SAMPLER_SOBOL, false});
-    add_regions(estimator, calibration_width, pixels, samples.size());
+    add_tiles(estimator, calibration_width, pixels, samples.size());
     return estimator.result().relative_rmse.estimate;
 }
 

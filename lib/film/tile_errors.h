@@ -1,0 +1,73 @@
+// What the pixels of a tile say about the error of an image, on the host, by shaders/pixel_error.h: the expected
+// squares of their errors, their sums, and how they are distributed. estimate.comp computes the same on devices. A tile
+// depends on nothing outside it, so tiles can be looked at in any order and anywhere.
+#pragma once
+
+#include "lib/film/neighbourhoods.h"
+#include "shaders/pixel_error.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace pt {
+
+// Keeps black pixels from counting without bound.
+inline constexpr double relative_offset = 0.01;
+
+using gpu::squared;
+
+// The pixels of a tile in each channel, with what is known of its samples.
+struct TileValues {
+    using Channels = std::array<TileFloats, 3>;
+
+    std::size_t width;
+    std::size_t height;
+    double sample_count;       // of a pixel
+    std::uint64_t rejected{};  // samples left out
+    Channels mean{};           // of all samples of a pixel
+    Channels standard_error{}; // of that mean
+    Channels lesser{};         // the smaller of the means of the film's two parts
+};
+
+// The expected squares of the errors of pixels with values x and limits r, summed over channels; 0 beyond the edge.
+struct PixelErrors {
+    using Numbers = std::array<double, tile_size * tile_size>;
+
+    Numbers square{};          // of (x - r)^2
+    Numbers relative_square{}; // of (x - r)^2 / (r^2 + 0.01), as far as the samples tell, but for values met once
+    Numbers met_once{};  // the same of values met once, with what is known without the part that met them as limits
+    Numbers as_lamps{};  // likewise, with their own means as limits
+    Numbers met_again{}; // how many values stand out from what is about them in both parts of the film
+    Numbers unseen{};    // the same of light beside the pixel that may be in it too, but that none of its samples met
+};
+
+PixelErrors pixel_errors(const TileValues &tile);
+
+// The squares that are expected of errors, summed over pixels and channels, and how they lie.
+struct ErrorSquares {
+    double sum = 0.0;              // infinite if it is unknown
+    double of_pixels = 0.0;        // sum over pixels of the squares of their sums over channels
+    double of_tiles = 0.0;         // sum over tiles of the squares of their sums
+    double times_tile_sizes = 0.0; // sum over tiles of their sums, each times the number of its values
+};
+
+// What a tile says, or several together.
+struct TileErrors {
+    double value_count = 0.0;           // pixels times channels
+    double squares_of_tile_sizes = 0.0; // sum over tiles of the squares of the numbers of their values
+    ErrorSquares square;                // of (x - r)^2
+    ErrorSquares relative_square;       // of (x - r)^2 / (r^2 + 0.01), but for values met once
+    ErrorSquares met_once;              // the same of these, by what is known without them
+    ErrorSquares as_lamps;              // likewise, by their own means: about 1 of each
+    double met_again = 0.0;             // values
+    double unseen = 0.0;                // the same of light that no sample met
+    std::uint64_t rejected = 0;         // samples left out
+
+    // The sum of all relative squares, as far as a tile alone tells.
+    double own_square() const { return relative_square.sum + as_lamps.sum + unseen; }
+};
+
+TileErrors tile_errors(const TileValues &tile);
+
+} // namespace pt

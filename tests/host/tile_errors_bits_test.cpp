@@ -1,0 +1,199 @@
+// The errors of tiles, which are found for many values at once, bit for bit: value by value, by the
+// definitions in shaders/pixel_error.h, with sums in the order of the values.
+#include "lib/film/tile_errors.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <random>
+#include <vector>
+
+namespace tile_errors_bits {
+
+namespace {
+
+struct Size {
+    std::size_t width;
+    std::size_t height;
+};
+
+struct Value {
+    double mean;
+    double standard_error;
+    double lesser;
+};
+
+// A tile of random values, with fireflies, edges and black pixels.
+class Tile {
+public:
+    Tile(const Size &size, unsigned seed) : values_{.width = size.width, .height = size.height, .sample_count = 64.0} {
+        std::mt19937 random(seed);
+        const auto share = [&random] { return static_cast<float>(random() % 1024) / 1024.0F; };
+        for (std::size_t channel = 0; channel < 3; ++channel)
+            for (std::size_t y = 0; y < size.height; ++y)
+                for (std::size_t x = 0; x < size.width; ++x) {
+                    const unsigned kind = static_cast<unsigned>(random() % 8);
+                    const float mean = kind == 0 ? 0.0F : kind == 1 ? 1000.0F * share() : 1.0F + share();
+                    const float lesser = kind == 2 ? 0.0F : mean * share();
+                    values_.mean[channel][y * 8 + x] = mean;
+                    values_.lesser[channel][y * 8 + x] = lesser;
+                    values_.standard_error[channel][y * 8 + x] = (mean - lesser) * (kind == 3 ? 0.5F : 1.0F);
+                }
+    }
+
+    const pt::TileValues &values() const { return values_; }
+
+    Value value(std::size_t channel, std::size_t x, std::size_t y) const {
+        const std::size_t i = y * 8 + x;
+        return {static_cast<double>(values_.mean[channel][i]), static_cast<double>(values_.standard_error[channel][i]),
+                static_cast<double>(values_.lesser[channel][i])};
+    }
+
+    // Of a channel, from the first place to before the last.
+    std::vector<double> means(std::size_t channel, std::size_t left, std::size_t top, std::size_t right,
+                              std::size_t bottom) const {
+        std::vector<double> means;
+        for (std::size_t y = top; y < std::min(bottom, values_.height); ++y)
+            for (std::size_t x = left; x < std::min(right, values_.width); ++x)
+                means.push_back(value(channel, x, y).mean);
+        return means;
+    }
+
+    // Of the pixel and those that touch it, ascending.
+    std::vector<double> means_about(std::size_t channel, std::size_t x, std::size_t y) const {
+        std::vector<double> found =
+            means(channel, std::max<std::size_t>(x, 1) - 1, std::max<std::size_t>(y, 1) - 1, x + 2, y + 2);
+        std::ranges::sort(found);
+        return found;
+    }
+
+private:
+    pt::TileValues values_;
+};
+
+double mean_besides_and_without_largest(std::vector<double> values, double value) {
+    double sum = 0.0;
+    for (const double each : values)
+        sum += each;
+    sum -= value;
+    values.erase(std::ranges::find(values, value));
+    sum -= values.empty() ? 0.0 : *std::ranges::max_element(values);
+    return std::max(sum, 0.0) / std::max(static_cast<double>(values.size()) - 1.0, 1.0);
+}
+
+double relative_square(const Value &value, double around) {
+    const double mean_square = value.mean * value.mean;
+    const double dark = std::max(value.lesser, around);
+    const double limit = std::min(mean_square, dark * dark) + 0.01;
+    const double known = value.lesser * value.lesser + 0.01;
+    const double square = value.standard_error * value.standard_error / limit;
+    const bool at_edge = value.standard_error >= 0.99 * (value.mean - value.lesser) && around >= value.mean;
+    return at_edge && limit > 7.39 * known ? square * (0.5 * std::log(limit / known)) : square;
+}
+
+double unseen(double mean, double largest, double samples) {
+    const double brightest = largest / samples;
+    const double b = brightest / std::sqrt(mean * mean + 0.01);
+    const double of_corners = 0.055 * (b * b) / (std::sqrt(samples) * (3.0 + 0.81 * b + 0.9 * b * std::sqrt(b)));
+    return mean >= brightest ? 0.0 : of_corners;
+}
+
+bool stands_out(const Value &value, double around) {
+    return value.mean * value.mean + 0.01 - 7.39 * (around * around + 0.01) > 0.0;
+}
+
+bool is_met_once(const Value &value, double around) {
+    return stands_out(value, around) && value.lesser <= 0.02 * value.mean &&
+           value.standard_error >= 0.99 * (value.mean - value.lesser);
+}
+
+double as_lamp(const Value &value) {
+    return value.standard_error * value.standard_error / (value.mean * value.mean + 0.01);
+}
+
+// Summed over channels.
+struct Errors {
+    double square;
+    double relative_square;
+    double met_once;
+    double as_lamps;
+    double met_again;
+    double unseen;
+};
+
+double around(const Tile &tile, std::size_t channel, std::size_t x, std::size_t y) {
+    const double mean = tile.value(channel, x, y).mean;
+    const std::vector<double> near = tile.means_about(channel, x, y);
+    return std::max({near.size() == 1 ? 0.0 : near[(near.size() - 1) / 2], near.back() > mean ? near.back() / 8.0 : 0.0,
+                     mean_besides_and_without_largest(tile.means(channel, 0, 0, 8, 8), mean)});
+}
+
+Errors expected_errors(const Tile &tile, std::size_t x, std::size_t y) {
+    Errors expected{};
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        const Value value = tile.value(channel, x, y);
+        const double level = around(tile, channel, x, y);
+        const bool once = is_met_once(value, level);
+        expected.square += value.standard_error * value.standard_error;
+        (once ? expected.met_once : expected.relative_square) += relative_square(value, level);
+        expected.as_lamps += once ? as_lamp(value) : 0.0;
+        expected.met_again += !once && stands_out(value, level) && value.lesser >= 0.25 * value.mean ? 1.0 : 0.0;
+        expected.unseen += unseen(value.mean, tile.means_about(channel, x, y).back(), tile.values().sample_count);
+    }
+    return expected;
+}
+
+constexpr Size sizes[] = {{8, 8}, {7, 5}, {1, 1}, {8, 1}, {1, 6}, {2, 2}, {8, 3}};
+
+TEST(TileErrorBits, OfPixelsAreThoseOfEachValue) {
+    for (const Size &size : sizes) {
+        const Tile tile(size, 3);
+        const pt::PixelErrors found = pt::pixel_errors(tile.values());
+        for (std::size_t y = 0; y < size.height; ++y)
+            for (std::size_t x = 0; x < size.width; ++x) {
+                const Errors expected = expected_errors(tile, x, y);
+                const std::size_t pixel = y * pt::tile_size + x;
+                EXPECT_EQ(found.square[pixel], expected.square) << x << " " << y;
+                EXPECT_EQ(found.relative_square[pixel], expected.relative_square) << x << " " << y;
+                EXPECT_EQ(found.met_once[pixel], expected.met_once) << x << " " << y;
+                EXPECT_EQ(found.as_lamps[pixel], expected.as_lamps) << x << " " << y;
+                EXPECT_EQ(found.met_again[pixel], expected.met_again) << x << " " << y;
+                EXPECT_EQ(found.unseen[pixel], expected.unseen) << x << " " << y;
+            }
+    }
+}
+
+TEST(TileErrorBits, AreSumsOverPixels) {
+    for (const Size &size : sizes) {
+        const Tile tile(size, 4);
+        Errors sums{};
+        double squares_of_relative = 0.0;
+        for (std::size_t y = 0; y < size.height; ++y)
+            for (std::size_t x = 0; x < size.width; ++x) {
+                const Errors pixel = expected_errors(tile, x, y);
+                sums.square += pixel.square;
+                sums.relative_square += pixel.relative_square;
+                sums.met_once += pixel.met_once;
+                sums.as_lamps += pixel.as_lamps;
+                sums.met_again += pixel.met_again;
+                sums.unseen += pixel.unseen;
+                squares_of_relative += pixel.relative_square * pixel.relative_square;
+            }
+        const pt::TileErrors found = pt::tile_errors(tile.values());
+        EXPECT_EQ(found.value_count, static_cast<double>(3 * size.width * size.height));
+        EXPECT_EQ(found.square.sum, sums.square);
+        EXPECT_EQ(found.relative_square.sum, sums.relative_square);
+        EXPECT_EQ(found.relative_square.of_pixels, squares_of_relative);
+        EXPECT_EQ(found.met_once.sum, sums.met_once);
+        EXPECT_EQ(found.as_lamps.sum, sums.as_lamps);
+        EXPECT_EQ(found.met_again, sums.met_again);
+        EXPECT_EQ(found.unseen, sums.unseen);
+        EXPECT_EQ(found.own_square(), sums.relative_square + sums.as_lamps + sums.unseen);
+    }
+}
+
+} // namespace
+
+} // namespace tile_errors_bits
