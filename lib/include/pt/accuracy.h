@@ -22,9 +22,9 @@ typedef struct pt_function_accuracy {
 /** Evaluates the kernel's elementary functions on this context's device over fixed inputs and compares them with
  * double precision.
  *
- * Changes nothing, and needs no scene. rows == NULL: count receives the number of functions, and nothing is
- * evaluated. Else at most as many rows are written as count says, and count receives how many were. A worst_error
- * above its bound is no failure of the call: it is what the call is for.
+ * Changes nothing, and needs no scene. If rows is NULL, *count receives the number of functions and nothing is
+ * evaluated. Otherwise at most *count rows are written, and *count receives how many were. A worst_error above its
+ * bound is what this call is meant to find: the call itself succeeds.
  *
  * One thread at a time per context. PT_ERROR_SHADER, PT_ERROR_OUT_OF_DEVICE_MEMORY, PT_ERROR_DEVICE_LOST: the driver
  * said so. */

@@ -1,11 +1,11 @@
 /** @file
  * pt: which Vulkan devices there are, and which one a context runs on, for programs that let their users choose.
  *
- * pt_create_info.device is NULL for the best one (discrete, integrated, virtual, CPU, in that order). Else it is an
- * index into pt_get_devices in decimal, "gpu" or "cpu", a UUID as 32 hexadecimal digits (dashes allowed), or a part of
- * a name, ignoring case. Several devices share the samples of a context, with the same bits if they are of one kind and
- * driver: "all" are those of the best kind that there is; or indices or UUIDs separated by commas, each device once.
- * UTF-8, zero-terminated.
+ * pt_create_info.device is NULL for the best one (discrete, integrated, virtual, CPU, in that order). Otherwise it is
+ * an index into pt_get_devices in decimal, "gpu" or "cpu", a UUID as 32 hexadecimal digits (dashes allowed), or a part
+ * of a name, ignoring case. Several devices share the samples of a context, with the same bits if they are of one kind
+ * and driver: "all" means all devices of the best kind that there is; or list indices or UUIDs separated by commas,
+ * each device once. UTF-8, zero-terminated.
  */
 #ifndef PT_DEVICES_H
 #define PT_DEVICES_H
@@ -18,7 +18,7 @@ extern "C" {
 
 /** Values of pt_device_info.kind. */
 enum {
-    PT_DEVICE_OTHER = 0,          /**< none of these */
+    PT_DEVICE_OTHER = 0,          /**< none of the others */
     PT_DEVICE_INTEGRATED_GPU = 1, /**< shares the memory of the machine */
     PT_DEVICE_DISCRETE_GPU = 2,   /**< has memory of its own */
     PT_DEVICE_VIRTUAL_GPU = 3,    /**< a virtual machine's */
@@ -38,13 +38,14 @@ typedef struct pt_device_info {
 
 /** Lists the Vulkan devices.
  *
- * devices == NULL: count receives their number. Else at most as many are written to devices as count says, and count
- * receives how many were.
+ * If devices is NULL, *count receives their number. Otherwise at most *count elements are written, and *count receives
+ * how many were.
  *
- * Any thread. PT_ERROR_NO_DEVICE: Vulkan itself is not there, or has no device. */
+ * Any thread. PT_ERROR_NO_DEVICE: Vulkan is not installed, or has no device. */
 PT_API pt_result pt_get_devices(pt_device_info *devices, uint32_t *count);
 
-/** What this context runs on; the first of several devices. One thread at a time per context. */
+/** Writes which device this context runs on; of several devices, the first. One thread at a time per context, also
+ * while samples are under way (pt/async.h). */
 PT_API pt_result pt_get_context_device(pt_context *context, pt_device_info *device);
 
 #ifdef __cplusplus

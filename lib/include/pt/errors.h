@@ -1,8 +1,8 @@
 /** @file
- * pt: the last error as data, for programs that lead it back to where their users gave the value.
+ * pt: the last error as data, for programs that show their users where a wrong value came from.
  *
- * Where a message of pt_last_error is about fields, it has a line for each rule that is broken, put together from the
- * members of a pt_broken_rule: "spheres[3].center[0] = nan: must be finite", "render.width * height = 0: ...".
+ * A message of pt_last_error about fields has a line for each broken rule, put together from the members of a
+ * pt_broken_rule: "spheres[3].center[0] = nan: must be finite", "render.width * height = 0: ...".
  */
 #ifndef PT_ERRORS_H
 #define PT_ERRORS_H
@@ -17,8 +17,8 @@ extern "C" {
  * message of pt_last_error does. */
 typedef struct pt_broken_rule {
     uint32_t struct_size; /**< sizeof(pt_broken_rule); must be set by the caller */
-    int32_t component;    /**< which element of the member, an array or a pt_column; -1: the member is neither */
-    int64_t index;        /**< which element of the subject, an array of structs; -1: the subject is none */
+    int32_t component;    /**< which element of member, if that is an array or a pt_column; otherwise -1 */
+    int64_t index;        /**< which element of subject, if that is an array of structs; otherwise -1 */
     /** "materials", "spheres", "planes" or "sphere_arrays" of pt_scene; "scene", "camera", "render", "accumulate",
      * "image", "stats", "create" or "vulkan" for the struct itself; or the name of another argument */
     const char *subject;
@@ -28,13 +28,13 @@ typedef struct pt_broken_rule {
     const char *rule;   /**< "must be > 0" */
 } pt_broken_rule;
 
-/** How many broken rules the message of pt_last_error is about; 0 where it is about no field.
+/** Returns how many broken rules the message of pt_last_error is about; 0 if it is about no field.
  *
- * If rule is not NULL, that of the given index is written to as many bytes as rule->struct_size says. The first eight
- * are kept, those that the message shows; of others, and from the end on, the strings are NULL. Where no memory was
- * left for the message, there are none.
+ * If rule is not NULL, the broken rule with the given index is written to it, rule->struct_size bytes of it. Only the
+ * first eight are kept, which the message shows; for an index beyond these all other fields are 0 or NULL. If there was
+ * no memory left for the message, there are no rules.
  *
- * The same context, or NULL, and the same threads as for pt_last_error; never fails, and changes no last error. */
+ * context, NULL or not, and threads are as for pt_last_error; never fails, and does not change the last error. */
 PT_API uint64_t pt_get_broken_rule(const pt_context *context, uint32_t index, pt_broken_rule *rule);
 
 #ifdef __cplusplus

@@ -1,13 +1,13 @@
 /** @file
- * pt: kernels compiled while a program runs, for those who change them.
+ * pt: kernels compiled while a program runs, for people who change them.
  *
  * pt_create_info.shader_dir is a folder of GLSL files like the library's own shaders/, which are compiled by pt_create,
- * and again by pt_reload_shaders: pathtrace.comp, fold.comp, add.comp, resolve.comp, estimate.comp,
- * accuracy.comp, first_hit.comp, coverage.comp and what they include, beside the including file or in this folder. A
- * relative path is relative to the working directory at that time. gpu_layout.h is an agreement with the library's host
- * code: what it says of memory must stay, and a binding that a kernel's layout lacks is refused (PT_ERROR_SHADER). The
- * compiler is a module beside the library (or the program that the static library is in), pt/libpt-glsl.so, or where
- * the system finds libraries; PT_ERROR_UNSUPPORTED without it.
+ * and again by pt_reload_shaders: pathtrace.comp, fold.comp, add.comp, resolve.comp, estimate.comp, accuracy.comp,
+ * first_hit.comp, coverage.comp and what they include, beside the including file or in this folder. A relative path is
+ * relative to the working directory at that time. gpu_layout.h is shared with the library's host code: do not change
+ * what it says about memory. A binding that a kernel's layout lacks is refused (PT_ERROR_SHADER). The compiler is the
+ * module libpt-glsl.so, in a folder pt beside the library (or beside the program that the static library is linked
+ * into), or where the system finds libraries; without it, PT_ERROR_UNSUPPORTED.
  */
 #ifndef PT_SHADERS_H
 #define PT_SHADERS_H
@@ -20,13 +20,12 @@ extern "C" {
 
 /** Compiles the GLSL files of pt_create_info.shader_dir as they are now.
  *
- * If they give other kernels than before, these replace them on all devices, and the samples so far are discarded as by
- * the setters; if they give the same, nothing changes. After a failure the kernels are those of before, and the samples
- * stay.
+ * If the kernels differ from those before, they replace them on all devices, and the samples so far are discarded as by
+ * the setters; if not, nothing changes. After a failure the kernels and the samples are as before.
  *
  * One thread at a time per context. PT_ERROR_SHADER: a file is missing or does not compile, with the compiler's
  * messages (one line each, with the name of the file and the line) in pt_last_error; or a driver refuses the kernels
- * for the scene that is being rendered (a scene that no sample was taken of yet is tried by the next pt_accumulate).
+ * for the scene that is being rendered (if it has no samples yet, only the next pt_accumulate finds that out).
  * PT_ERROR_INVALID_STATE: there is no shader_dir. PT_ERROR_OUT_OF_DEVICE_MEMORY, PT_ERROR_DEVICE_LOST: the driver said
  * so. */
 PT_API pt_result pt_reload_shaders(pt_context *context);

@@ -16,8 +16,8 @@ enum {
     PT_FEATURE_GLOSS = 2,  /**< specular lobes */
     PT_FEATURE_MOTION = 4, /**< spheres that move while the shutter is open */
     PT_FEATURE_LARGE = 8,  /**< more surfaces than a uniform buffer holds, or a tree */
-    /** so many spheres that they are in a tree: a ray tests those near its way. From 113 on.
-     * Centres are held to 2^-30 of the extent of those in the tree, colors of spheres to a thousandth. */
+    /** 113 spheres or more: they are in a tree, so that a ray tests only those near its way. Their centres are held to
+     * 2^-30 of the extent of the spheres in the tree, their colors to a thousandth. */
     PT_FEATURE_TREE = 16,
     PT_FEATURE_ORTHOGRAPHIC = 32, /**< parallel camera rays */
     PT_FEATURE_HIDDEN = 64,       /**< surfaces that the camera does not see */
@@ -27,67 +27,67 @@ enum {
 /** What has been done, and what it took. */
 typedef struct pt_stats {
     uint32_t struct_size;      /**< sizeof(pt_stats); must be set by the caller */
-    uint32_t sample_count;     /**< whole samples in every pixel; the fewest that one has */
-    uint64_t rejected_samples; /**< left out of all pixels: NaN, infinite, negative or too bright */
-    uint64_t device_bytes;     /**< memory allocated on all its devices now */
+    uint32_t sample_count;     /**< whole samples in every pixel; if they differ, the fewest */
+    uint64_t rejected_samples; /**< samples left out, over all pixels: NaN, infinite, negative or too bright */
+    uint64_t device_bytes;     /**< memory that the context has allocated on all its devices now */
     uint64_t submit_count;     /**< submissions that took samples since pt_create, to all devices */
-    double device_seconds;     /**< time spent in them, summed; with pt_poll as far as it saw them end */
+    double device_seconds;     /**< summed time of these; with pt_poll, as far as it saw them end */
     uint32_t features;         /**< PT_FEATURE_*; 0 before the first pt_accumulate */
     uint32_t device_count;     /**< devices that share the samples */
     uint32_t max_sample_count; /**< the most that a pixel has (PT_SAMPLING_ADAPTIVE) */
     uint32_t reserved;         /**< 0 */
-    double mean_sample_count;  /**< of all pixels */
+    double mean_sample_count;  /**< mean over all pixels */
 } pt_stats;
 
-/** Bits of pt_error_estimate.uncertain: why an error that is stated may be far off. Its bounds are then wider by a
- * further factor of two, but for small lamps in view. More samples make an error certain. */
+/** Bits of pt_error_estimate.uncertain: why a stated error may be far off. The bounds are then wider by a further
+ * factor of two, except that small lamps in view only raise the error and its upper bound. More samples make an error
+ * certain. */
 enum {
     PT_UNCERTAIN_RMSE = 1,          /**< rmse comes from fewer than 8 pixels: rare bright samples, or a small lamp */
     PT_UNCERTAIN_RELATIVE_RMSE = 2, /**< relative_rmse comes from fewer than 8 pixels */
-    /** More than a twentieth of relative_rmse, squared, is light that no sample has met, but that is expected in dark
-     * pixels beside very bright ones. */
+    /** More than a twentieth of the square of relative_rmse is light that no sample has met, but that is to be expected
+     * in dark pixels beside very bright ones. */
     PT_UNCERTAIN_UNSEEN = 4,
-    /** Lamps in view, below half a pixel, that a pixel's samples are expected to meet fewer than 8 times: what they
-     * add, as their sizes tell, is more than samples show; or uniform, cosine and bsdf, which find lamps by chance,
-     * have met one that matters, or uniform and cosine a lobe, less than a thousand times in all pixels. */
+    /** Either lamps in view, smaller than half a pixel, which a pixel's samples are expected to meet fewer than 8
+     * times: by their sizes, they add more than the samples show. Or lamps that are found by chance (uniform, cosine,
+     * bsdf), or lobes (uniform, cosine): one that matters was met fewer than a thousand times in all pixels. */
     PT_UNCERTAIN_UNMET = 8
 };
 
 /** How good the image is, estimated without a reference (shaders/README.md, section 11).
  *
- * rmse is the root of the mean of (x - r)^2 over pixels and channels, for the image x and its limit r; relative_rmse
- * the same of (x - r)^2 / (r^2 + 0.01). Bounds are of 95% confidence. Light that no sample has met yet is not in it,
- * but that of small lamps in view: a target error leaves these out. Nothing is known with fewer than 16 samples, nor
- * where more than one sample in 2^20 was left out, which may have carried as much light as all others: then the lower
- * bounds are 0, the others INFINITY. */
+ * rmse is the root of the mean of (x - r)^2 over pixels and channels, for the image x and its limit r; relative_rmse is
+ * the same for (x - r)^2 / (r^2 + 0.01). Bounds have 95% confidence. Of light that no sample has met yet, only that of
+ * small lamps in view is included; a target error leaves that out. Nothing is known with fewer than 16 samples, or if
+ * more than one sample in 2^20 was left out, since these may have carried as much light as all others: then the lower
+ * bounds are 0, the other values INFINITY. */
 typedef struct pt_error_estimate {
     uint32_t struct_size;      /**< sizeof(pt_error_estimate); must be set by the caller */
     uint32_t uncertain;        /**< PT_UNCERTAIN_*: how far the error can be known; 0 with fewer than 16 samples */
-    double rmse;               /**< root mean square error, a radiance */
+    double rmse;               /**< root mean square error, in units of radiance */
     double rmse_low;           /**< lower bound of rmse */
     double rmse_high;          /**< upper bound of rmse */
-    double relative_rmse;      /**< relative root mean square error, a number */
+    double relative_rmse;      /**< relative root mean square error; 0.01 is 1% */
     double relative_rmse_low;  /**< lower bound of relative_rmse */
     double relative_rmse_high; /**< upper bound of relative_rmse */
 } pt_error_estimate;
 
-/** The next number of samples at which a target error is checked while all pixels have equally many: 16,
- * 20, 24, 28, 32, 40, 48, 56, 64, 80, ..., quarters of a power of two; the largest number there is if there is none.
- * Any thread; never fails. */
+/** Returns the next number of samples, above sample_count, at which a target error is checked while all pixels have
+ * equally many: 16, 20, 24, 28, 32, 40, 48, 56, 64, 80, ..., in steps of a quarter of a power of two; UINT32_MAX if
+ * there is none. Any thread; never fails. */
 PT_API uint32_t pt_next_check(uint32_t sample_count);
 
-/** Writes what has been done, also for a lost device; not while samples are under way (pt/async.h).
+/** Writes what has been done. Works for a lost device too; refused while samples are under way (pt/async.h).
  *
  * The first call after samples were taken reads 8 bytes a pixel for rejected_samples, unless pt_get_error_estimate has
- * counted them; all else costs nothing. stats->struct_size must be set; as many bytes are written, but none beyond the
- * fields that this library knows. One thread at a time per context. PT_ERROR_DEVICE_LOST: the device was lost while its
- * samples were read. */
+ * counted them; all else costs nothing. stats->struct_size must be set; no more bytes than that are written. One thread
+ * at a time per context. PT_ERROR_DEVICE_LOST: the device was lost while its samples were read. */
 PT_API pt_result pt_get_stats(pt_context *context, pt_stats *stats);
 
-/** Writes how good the image is. The first call after samples were taken looks at all of the image, which takes about
- * as long as reading it; further ones repeat what that found.
+/** Writes how good the image is. The first call after samples were taken examines the whole image, which takes about as
+ * long as reading it; further calls repeat its result.
  *
- * error->struct_size must be set, as for pt_get_stats; not while samples are under way. Without render settings, or
+ * error->struct_size must be set, as for pt_get_stats; refused while samples are under way. Without render settings, or
  * with a lost device, nothing is known. One thread at a time per context. PT_ERROR_DEVICE_LOST: the device was lost
  * while its samples were read. */
 PT_API pt_result pt_get_error_estimate(pt_context *context, pt_error_estimate *error);

@@ -18,65 +18,68 @@ typedef void (*pt_queue_fn)(void *user);
  *
  * Needed     instance and device come from the Vulkan loader that this library is linked to (libvulkan.so.1). The
  *            instance was created with VkApplicationInfo.apiVersion 1.2 or higher, and the physical device supports
- *            Vulkan 1.2: the kernels are SPIR-V 1.5. No feature and no extension is needed, but
- *            VK_KHR_portability_subset where the device has it, as Vulkan demands. The device was made of one physical
- *            device, not of a group. The queue's family has VK_QUEUE_COMPUTE_BIT.
- * Lifetime   all handles must outlive the context, which destroys none of them. It destroys what it has made, without
- *            allocation callbacks, at the latest in pt_destroy, and waits for its own submissions only, by fences.
+ *            Vulkan 1.2: the kernels are SPIR-V 1.5. No feature and no extension is needed, except
+ *            VK_KHR_portability_subset if the device has it, as Vulkan demands. The device was created from one
+ *            physical device, not from a group. The queue's family has VK_QUEUE_COMPUTE_BIT.
+ * Lifetime   all handles must outlive the context, which destroys none of them. What it has made it destroys at the
+ *            latest in pt_destroy, without allocation callbacks. It waits only for its own submissions, by fences.
  * Threads    Vulkan wants a queue used by one thread at a time. The context calls lock_queue and unlock_queue around
  *            every vkQueueSubmit, and does not hold the queue while it waits or calls back; they may be a mutex that
  *            all users of the queue lock, other contexts included. Without them nobody else may use the queue during a
- *            call on this context, vkDeviceWaitIdle included. All else that the context does needs no lock: Vulkan lets
- *            threads share a device.
- * Order      the context uses its own buffers alone, and those that pt_readback_to_buffer names. Its pipeline barriers
- *            are for compute and transfers, and may delay commands of others in the queue, never change them.
- * Time       work of others that is before the context's in the queue must not wait for the calling thread. It counts
- *            as time of the context's submissions: it makes them smaller, and on a GPU a submission that has not ended
- *            after 10 seconds means that the device is lost.
- * Rounding   a driver's threads that compute inherit the floating-point mode of who starts them, so the caller has to
- *            make the device with rounding to nearest.
- * Loss       PT_ERROR_DEVICE_LOST from then on, whoever lost the device. If it hangs, so that submissions of this
- *            context have not ended by pt_destroy, what they use stays behind on the device until the process ends.
+ *            call on this context, not even by vkDeviceWaitIdle. Everything else that the context does needs no lock,
+ *            since Vulkan lets threads share a device.
+ * Order      the context uses only its own buffers and those that pt_readback_to_buffer names. Its pipeline barriers
+ *            are for compute and transfers; they may delay other commands in the queue, but never change what these do.
+ * Time       other work that is ahead of the context's in the queue must not wait for the calling thread. Its time
+ *            counts as that of the context's submissions: it makes these smaller, and on a GPU a submission that has
+ *            not ended after 10 seconds means that the device is lost.
+ * Rounding   the threads with which a driver computes inherit the floating-point mode of the thread that starts them,
+ *            so the caller must create the device while rounding to nearest.
+ * Loss       once the device is lost, by whomever, calls fail with PT_ERROR_DEVICE_LOST. If it hangs, so that
+ *            submissions of this context have not ended by pt_destroy, what they use is left on the device until the
+ *            process ends.
  *
- * Errors of pt_create: PT_ERROR_INVALID_ARGUMENT for a field that breaks a rule given here, as far as that can be seen.
- * It cannot be seen whether the handles are alive and belong together (but the physical device, which is looked for in
- * the instance), nor that an instance is older than 1.2 where the driver offers newer functions regardless.
- * PT_ERROR_UNSUPPORTED if the physical device does not fit (pt_device_info.reason). Others as without pt_vulkan.
+ * Errors of pt_create: PT_ERROR_INVALID_ARGUMENT for a field that breaks a rule given here, as far as the library can
+ * see. It cannot see whether the handles are alive and belong together (except that it looks for the physical device in
+ * the instance), nor that an instance is older than 1.2 if the driver offers newer functions all the same.
+ * PT_ERROR_UNSUPPORTED if the physical device is not suitable (pt_device_info.reason). Other errors are as without
+ * pt_vulkan.
  */
 struct pt_vulkan {
     uint32_t struct_size;     /**< sizeof(pt_vulkan) */
     uint32_t queue_family;    /**< index of the queue's family */
     void *instance;           /**< VkInstance, like the next three never NULL */
     void *physical_device;    /**< VkPhysicalDevice, one of the instance's */
-    void *device;             /**< VkDevice, made of the physical device */
+    void *device;             /**< VkDevice, created from the physical device */
     void *queue;              /**< VkQueue of the device and of the family */
     pt_queue_fn lock_queue;   /**< returns when this thread may use the queue; NULL together with unlock_queue */
     pt_queue_fn unlock_queue; /**< called by the thread that called lock_queue */
     void *queue_user;         /**< handed to both */
 };
 
-/** A buffer of the lent device that receives an image, or a rectangle of it, by a kernel: no pixel passes the host.
+/** A buffer of the lent device into which a kernel writes an image, or a rectangle of it, without passing through the
+ * host.
  *
  * Memory     the buffer has VK_BUFFER_USAGE_STORAGE_BUFFER_BIT and memory of any type, and belongs to pt_vulkan's queue
- *            family unless it is VK_SHARING_MODE_CONCURRENT. Between the rows, and before and behind the image, nothing
- *            is written. Into a VkImage it goes by vkCmdCopyBufferToImage.
- * Before     earlier accesses of the caller's to the memory must have ended, as one sees by a fence, or
- *            wait_semaphore is signalled after them: the kernel's writes wait for it in
- *            VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT. Its signal operation must have been submitted
- *            already. (Mesa's lavapipe holds the call until the work before that has ended.)
+ *            family unless it is VK_SHARING_MODE_CONCURRENT. Nothing is written between the rows, or before or after
+ *            the image. vkCmdCopyBufferToImage copies it into a VkImage.
+ * Before     the caller's earlier accesses to the memory must have ended, as a fence shows, or wait_semaphore is
+ *            signalled after them: the kernel's writes wait for it in VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT. Its signal
+ *            operation must have been submitted already. (On Mesa's lavapipe the call does not return before the
+ *            earlier work has ended.)
  * After      the writes are VK_ACCESS_SHADER_WRITE_BIT in VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT. Without
  *            signal_semaphore the call returns when they have ended and are available, also to the host
  *            (VK_ACCESS_HOST_READ_BIT): mapped memory that is not coherent is to be invalidated, and commands on the
  *            device see them after a barrier with that source. With signal_semaphore the call returns once the work is
  *            submitted, and commands that wait for the semaphore see them without a barrier, in the stages that wait.
  * Lifetime   with signal_semaphore, the buffer and both semaphores must live until it has been signalled and waited
- *            for. The context keeps what it needs itself, and may be used and destroyed meanwhile: later calls on it
- *            that change what is read are ordered behind it by the queue, and pt_set_render, pt_destroy and the next
+ *            for. The context keeps what it needs itself, and may be used and destroyed meanwhile: the queue orders
+ *            later calls that change what is read behind this one, and pt_set_render, pt_destroy and the next
  *            pt_readback_to_buffer wait for it. */
 typedef struct pt_buffer_image {
     uint32_t struct_size;      /**< sizeof(pt_buffer_image) */
-    uint32_t quantity;         /**< PT_QUANTITY_* of samples; what camera rays meet first is for pt_readback */
-    uint64_t buffer;           /**< VkBuffer, cast: (uint64_t)buffer in C where handles are pointers, never 0 */
+    uint32_t quantity;         /**< PT_QUANTITY_*, except what camera rays meet first and COVERAGE: see pt_readback */
+    uint64_t buffer;           /**< VkBuffer, cast to uint64_t also where handles are pointers; never 0 */
     uint64_t offset_bytes;     /**< of the first pixel in the buffer, a multiple of 4 */
     uint64_t size_bytes;       /**< of the buffer; at least offset_bytes and, as in pt_image, what the rows take */
     uint64_t row_bytes;        /**< distance between rows, a multiple of 4; default width * bytes of a pixel */
@@ -90,11 +93,11 @@ typedef struct pt_buffer_image {
     uint64_t signal_semaphore; /**< binary VkSemaphore to signal, cast, or 0: the call waits for the device */
 } pt_buffer_image;
 
-/** Writes what pt_readback writes, the same bits, into a buffer of the device that pt_create_info.vulkan lent.
+/** Writes what pt_readback writes, with the same bits, into a buffer of the device that pt_create_info.vulkan lent.
  *
- * Where the driver has lost samples, a call without signal_semaphore fails with PT_ERROR_INTERNAL after it has written;
- * what a call with one has lost is reported by the next pt_readback_to_buffer, which does nothing else then. A call
- * that fails otherwise has left buffer and semaphores alone, unless the device was lost.
+ * If the driver has lost samples, a call without signal_semaphore fails with PT_ERROR_INTERNAL after it has written;
+ * for a call with one, the next pt_readback_to_buffer reports it and then does nothing else. A call that fails
+ * otherwise has left buffer and semaphores alone, unless the device was lost.
  *
  * One thread at a time per context. PT_ERROR_INVALID_STATE: the context has a device of its own, or there is no sample.
  * PT_ERROR_INVALID_ARGUMENT: the image breaks a rule. PT_ERROR_SHADER, PT_ERROR_OUT_OF_DEVICE_MEMORY,

@@ -11,12 +11,12 @@ class Quantity(enum.IntEnum):
     """What is read of an image."""
 
     RADIANCE = 0  # mean of the samples
-    STANDARD_ERROR = 1  # standard error of that mean, from the difference of the means of two parts of the samples
-    SAMPLE_COUNT = 2  # samples that the pixel has, the same in all channels, as float32 rounds it
-    DEPTH = 3  # depth along the view, as compositing programs have it
-    NORMAL = 4  # unit normal in the world's coordinates x, y, z, on the side of the camera
-    ALBEDO = 5  # diffuse + specular, no component above 1, of each of these rays
-    OBJECT = 6  # index of the sphere whose depth it is, as the scene counts them
+    STANDARD_ERROR = 1
+    SAMPLE_COUNT = 2  # samples that the pixel has, rounded to float32, the same in all channels
+    DEPTH = 3  # depth along the viewing direction, as in compositing programs
+    NORMAL = 4  # unit normal in world coordinates x, y, z, on the side of the camera
+    ALBEDO = 5  # diffuse + specular, each component at most 1
+    OBJECT = 6  # index of the surface whose depth PT_QUANTITY_DEPTH tells
     COVERAGE = 7  # share of the pixel's samples whose camera rays meet a surface, the same in all channels
 
 
@@ -39,7 +39,7 @@ class Projection(enum.IntEnum):
     """What the rays of a camera have in common."""
 
     PERSPECTIVE = 0  # a pinhole
-    ORTHOGRAPHIC = 1  # parallel rays along the viewing direction, which start on the plane through position across it
+    ORTHOGRAPHIC = 1
 
 
 class Estimator(enum.IntEnum):
@@ -47,10 +47,10 @@ class Estimator(enum.IntEnum):
 
     BEST = 0  # what this version considers best
     UNIFORM = 1  # directions uniform on the hemisphere
-    COSINE = 2  # directions by the cosine to the normal, the geometric term
-    BSDF = 3  # directions by the material
-    LIGHT = 4  # lamps by solid angle
-    MIS = 5  # lamps sampled by solid angle and directions as bsdf, combined
+    COSINE = 2  # directions in proportion to the cosine to the normal
+    BSDF = 3  # directions by the material, cosine and specular lobe
+    LIGHT = 4  # lamps sampled by solid angle
+    MIS = 5  # lamps sampled by solid angle and directions as bsdf, combined by weights
 
 
 class Sampler(enum.IntEnum):
@@ -68,7 +68,7 @@ class Sampling(enum.IntEnum):
 
     BEST = 0  # adaptive with a target error, else uniform
     UNIFORM = 1  # to all pixels alike
-    ADAPTIVE = 2  # where they lessen the error most, which takes a target error
+    ADAPTIVE = 2  # where they reduce the error most
 
 
 class ColumnType(enum.IntEnum):
@@ -77,7 +77,7 @@ class ColumnType(enum.IntEnum):
     FLOAT32 = 1  # float
     FLOAT64 = 2  # double
     UINT32 = 3  # uint32_t
-    SRGB8 = 4  # uint8_t, for colors alone
+    SRGB8 = 4  # uint8_t, for colors only
 
 
 class LogLevel(enum.IntEnum):
@@ -98,7 +98,7 @@ class CreateFlag(enum.IntFlag):
 class DeviceKind(enum.IntEnum):
     """What a Vulkan device is."""
 
-    OTHER = 0  # none of these
+    OTHER = 0  # none of the others
     INTEGRATED_GPU = 1  # shares the memory of the machine
     DISCRETE_GPU = 2  # has memory of its own
     VIRTUAL_GPU = 3  # a virtual machine's
@@ -112,7 +112,7 @@ class Feature(enum.IntFlag):
     GLOSS = 2  # specular lobes
     MOTION = 4  # spheres that move while the shutter is open
     LARGE = 8  # more surfaces than a uniform buffer holds, or a tree
-    TREE = 16  # so many spheres that they are in a tree
+    TREE = 16  # 113 spheres or more
     ORTHOGRAPHIC = 32  # parallel camera rays
     HIDDEN = 64  # surfaces that the camera does not see
     LENS = 128  # camera rays start on a lens
@@ -124,7 +124,7 @@ class Uncertain(enum.IntFlag):
     RMSE = 1  # rmse comes from fewer than 8 pixels
     RELATIVE_RMSE = 2  # relative_rmse comes from fewer than 8 pixels
     UNSEEN = 4
-    UNMET = 8  # Lamps in view, below half a pixel, that a pixel's samples are expected to meet fewer than 8 times
+    UNMET = 8
 
 
 class Result(enum.IntEnum):
@@ -136,7 +136,7 @@ class Result(enum.IntEnum):
     PENDING = 3  # samples are under way, see pt/async.h
     ERROR_INVALID_ARGUMENT = -1  # a field, size or pointer breaks a rule of this header
     ERROR_INVALID_SCENE = -2  # a scene breaks a rule
-    ERROR_INVALID_STATE = -3  # something has to be set or to end first, or a call is under way already
+    ERROR_INVALID_STATE = -3  # something has to be set or to end first, or another call is under way
     ERROR_UNSUPPORTED = -4  # valid, but beyond this device, driver or library
     ERROR_NO_DEVICE = -5  # no Vulkan driver, or no device fits
     ERROR_OUT_OF_HOST_MEMORY = -6  # the machine has too little memory left
