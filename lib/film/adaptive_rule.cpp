@@ -13,8 +13,8 @@ namespace {
 constexpr std::uint64_t first_level = 16; // of fewer samples the difference of the film's parts says too little
 
 // Every tile takes at least half of the mean number of samples: light that a tile has not met yet can be found only by
-// more samples. In scenes where tiles differ 2 to 3 times in what they need, this costs a fiftieth of what that
-// gains.
+// more samples. In scenes where tiles differ 2 to 3 times in what they need, this costs a fiftieth of what telling
+// tiles apart gains.
 constexpr std::uint64_t floor_share = 2;
 
 constexpr double root_of_half = 0.70710678118654752440;
