@@ -1,15 +1,15 @@
-"""Writes pt/_structs.py and pt/_enums.py: the structs and numbers of the headers, as Python has them.
+"""Writes pt/_structs.py and pt/_enums.py: the structs and enumerations of the headers in Python.
 
 python3 lib/python/generate.py [HEADERS [PACKAGE]]; by default ../include/pt and pt beside this file. The files are
-committed, since the package is installed without the headers and without a build; a test asserts that they are what this
-writes."""
+committed, because the package is installed without the headers and without a build; a test asserts that they are what
+this script writes."""
 
 import pathlib
 import re
 import sys
 import textwrap
 
-# Of each enumeration the common beginning of its names, its class, and what that says.
+# For each enumeration: the prefix of its names, its Python class, the base of that, and its docstring.
 ENUMERATIONS = (
     ("PT_QUANTITY_", "Quantity", "IntEnum", "What is read of an image."),
     ("PT_FORMAT_", "Format", "IntEnum", "What a pixel is; A is 1."),
@@ -41,7 +41,7 @@ def without_comments(text):
 
 
 def python_type(declared, known):
-    """The ctypes type of a declared one, of which structs are known by now; other pointers are handles."""
+    """The ctypes type of a declared C type. known: the structs so far; pointers to others are handles."""
     kind, bracket, count = declared.removeprefix("const ").partition("[")
     if bracket:
         return f"{NUMBERS[kind.strip()]} * {count[:-1]}"
@@ -53,7 +53,7 @@ def python_type(declared, known):
 
 
 def members_of(body):
-    """Names and types of the members that are declared one by line of a struct's body."""
+    """Names and types of a struct's members, which are declared one a line."""
     for declaration in filter(None, (" ".join(part.split()) for part in body.split(";"))):
         kind, name, array = re.fullmatch(r"(.*?)(\w+)((?:\[\d+\])*)", declaration).groups()
         yield name, kind.strip() + array
@@ -84,7 +84,7 @@ def structs_text(headers):
 
 
 def first_words(comment):
-    """Of a comment what comes before the first break of its sentence."""
+    """The part of a comment before the first break in its sentence."""
     return re.split(r"[:;.](?:\s|$)", " ".join(comment.replace("*", " ").split()))[0]
 
 

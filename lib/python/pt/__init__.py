@@ -8,7 +8,7 @@ For everything else: a Context, which is given a Scene, a Camera and RenderSetti
 image back. World: right-handed, lengths in scene units, angles in radians, time in [0, 1]. Color is linear RGB
 radiance, unclamped. Row 0 of an image is the top row.
 
-The library is libpt.so.0.3: that which PT_LIBRARY names, else the one installed with the package, else the system's.
+The library is libpt.so.0.3: the file that PT_LIBRARY names, else the one installed with the package, else the system's.
 """
 
 import importlib
@@ -29,7 +29,7 @@ from pt._library import library, version_text
 from pt._scene import Material, Plane, Scene, Sphere, SphereArray
 from pt._stats import DeviceInfo, ErrorEstimate, Stats, devices
 
-if TYPE_CHECKING:  # __getattr__ imports them when they are first asked for: figures take as long as all else
+if TYPE_CHECKING:  # imported by __getattr__ when first used: figures take as long as all the rest
     from pt._render import render
     from pt.figures import Figure, figure
 
@@ -42,17 +42,17 @@ __all__ = [
     "devices", "figure", "render", "version",
 ]
 
-__version__: str  # that of the library
+__version__: str  # the library's
 
 
 def version() -> str:
-    """Of the library: "0.3.0"."""
+    """The version of the library: "0.3.0"."""
     return version_text(library())
 
 
-if not TYPE_CHECKING:  # where it would allow any name
+if not TYPE_CHECKING:  # type checkers would take it to allow any name
     def __getattr__(name):
-        """What is loaded when it is first needed, and not by an import: the library, and figures."""
+        """Loads the library and figures when they are first used, not when pt is imported."""
         if name == "__version__":
             return version()
         modules = {"Figure": "pt.figures", "figure": "pt.figures", "render": "pt._render"}

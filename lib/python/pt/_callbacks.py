@@ -1,9 +1,10 @@
 """Python functions that the library calls, and what they raise.
 
-Python runs signal handlers between the instructions of Python code: while the library is at work, that is in such a
-function. So Ctrl-C raises KeyboardInterrupt there, as often as not before the first instruction that a `try` could
-hold. ctypes lets no exception pass through C, but hands it to sys.unraisablehook. A CallbackGuard takes from there what
-is its own; the library is told to stop at its next callback, and the exception is raised when the call has returned.
+Python runs signal handlers between the instructions of Python code, so while the library is at work they run in its
+callbacks. Ctrl-C raises KeyboardInterrupt there, often before the first instruction that a `try` could enclose. ctypes
+lets no exception pass through C, but hands it to sys.unraisablehook. A CallbackGuard takes the exceptions of its own
+callbacks from there; the library is told to stop at its next callback, and the exception is raised when the call has
+returned.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ Log = Callable[[LogLevel, str], object]
 
 
 class CallbackGuard:
-    """Around one call of the library; `with` it, and then raise what was caught."""
+    """Used by `with` around one call of the library; afterwards, raises what was caught."""
 
     def __init__(self) -> None:
         self.error: BaseException | None = None
@@ -41,11 +42,11 @@ class CallbackGuard:
             raise self.error
 
     def watch(self, function: Callable[..., Any]) -> None:
-        """From now on, what this function raises is caught."""
+        """From now on, catches what this function raises."""
         self._functions.append(function)
 
     def progress(self, function: Progress | None) -> Any:
-        """For pt_progress_fn: asks to stop once something was raised, or the function has returned True."""
+        """A pt_progress_fn that asks to stop once something was raised, or the function has returned True."""
 
         def report(_: object, fraction: float) -> int:
             if self.error is not None:
@@ -56,13 +57,13 @@ class CallbackGuard:
         return structs.pt_progress_fn(report)
 
     def takes(self, function: object, words: str | None) -> bool:
-        """Whether a function that raised belongs to this call. From Python 3.13 on only a text with its address
-        tells."""
+        """Whether a function that raised belongs to this call. From Python 3.13 on, only a text with its address tells
+        which function it was."""
         return any(own is function or (words is not None and repr(own) in words) for own in self._functions)
 
 
 class _Hook:
-    """In place of sys.unraisablehook while calls are under way."""
+    """Replaces sys.unraisablehook while calls are under way."""
 
     def __init__(self, before: Callable[[Any], object]) -> None:
         self.before = before
@@ -89,12 +90,12 @@ def _install(guard: CallbackGuard) -> None:
 def _remove(guard: CallbackGuard) -> None:
     with _lock:
         _guards.remove(guard)
-        if not _guards and isinstance(sys.unraisablehook, _Hook):  # otherwise another hook replaced it, and calls it
+        if not _guards and isinstance(sys.unraisablehook, _Hook):  # otherwise another hook has replaced it and calls it
             sys.unraisablehook = sys.unraisablehook.before
 
 
 def log_function(current_log: Callable[[], Log | None]) -> Callable[[object, int, bytes], None]:
-    """What pt_log_fn is to call."""
+    """The function for pt_log_fn."""
 
     def write(_: object, level: int, line: bytes) -> None:
         log = current_log()

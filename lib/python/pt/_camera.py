@@ -1,4 +1,4 @@
-"""Where a picture is seen from, and how large it is and how it is made."""
+"""The camera, and the settings of a rendering."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ class Camera:
 
     position          of the pinhole, scene units; parallel rays start on the plane through it across the view
     target            the point in the middle of the image; must differ from position
-    up                not parallel to the viewing direction; of it the perpendicular part is the image's vertical
+    up                not parallel to the viewing direction; its part perpendicular to that is the image's vertical axis
     vertical_fov      full vertical angle, radians, in [1e-8, pi); default pi / 4. None with parallel rays
     shutter           light is gathered evenly between these times, 0 <= open <= close <= 1
-    vertical_extent   None: a pinhole. Else full height of the view of parallel rays, scene units, in [1e-18, 1e18]: an
-                      orthographic projection
+    vertical_extent   None: a perspective. A number: orthographic projection by parallel rays; full height of the view,
+                      scene units, in [1e-18, 1e18]
     aperture          diameter of the lens, scene units, at most twice the focus; 0: a pinhole
-    focus             depth of the plane in focus, along the viewing direction, scene units; 0: that of target
+    focus             depth of the plane in focus, along the viewing direction, scene units; 0: the distance of target
     """
 
     position: Vector
@@ -54,13 +54,13 @@ class Camera:
     def around(center: npt.ArrayLike, radius: npt.ArrayLike, *, direction: Vector = (0.5, 0.4, 1.0),
                up: Vector = (0.0, 1.0, 0.0), vertical_fov: float = math.pi / 6, aspect: float = 4 / 3,
                margin: float = 1.05) -> Camera:
-        """A camera that sees all of many spheres, from as near as it can.
+        """The nearest camera that sees all of many spheres.
 
         center      shape (n, 3), n >= 1, scene units
         radius      shape (n,), or one number for all
         direction   from the spheres to the camera, any length but 0
         aspect      width / height of the image
-        margin      how much wider than the spheres the view is
+        margin      width of the view, over that which just holds the spheres
         """
         centers = real_column("center", center, 3, None)
         if not len(centers):
@@ -105,16 +105,16 @@ def _axes(direction: Vector, up: Vector
 
 @dataclass(frozen=True)
 class RenderSettings:
-    """What image is to be made, and how.
+    """The size of the image, and how it is made.
 
     width, height     pixels, >= 1
     max_path_length   surface vertices after the camera, in [1, 1024]; 1 is emission only
-    seed              equal inputs, device and driver and equal seed: equal bits
+    seed              equal inputs, device, driver and seed give equal bits
     first_sample      index of the first sample: samples a to b of one sequence may be taken anywhere, and their films
                       add up
     estimator         how light is found
     sampler           where a sample's numbers come from
-    first_row         these rows alone are rendered, and read back as an image of their own
+    first_row         only the rows from this one on are rendered, and read back as an image of their own
     row_count         0: all from first_row on
     """
 
@@ -131,7 +131,7 @@ class RenderSettings:
     def _struct(self) -> structs.pt_render:
         for name, bits in (("width", 32), ("height", 32), ("max_path_length", 32), ("seed", 64), ("first_sample", 32),
                            ("first_row", 32), ("row_count", 32)):
-            if not 0 <= getattr(self, name) < 2**bits:  # ctypes would take it modulo
+            if not 0 <= getattr(self, name) < 2**bits:  # ctypes would reduce it modulo 2^bits
                 raise ValueError(f"render.{name} = {getattr(self, name)}: must be at least 0 and below 2^{bits}")
         return structs.pt_render(
             width=self.width, height=self.height, max_path_length=self.max_path_length, seed=self.seed,

@@ -51,7 +51,7 @@ def real_column(name: str, values: npt.ArrayLike, components: int, count: int | 
 
 
 def check_finite(name: str, values: npt.ArrayLike, *, positive: bool = False) -> None:
-    """ValueError: some are not; it names the first one by row and column."""
+    """Raises ValueError, which names the first bad value by row and column."""
     array = np.asarray(values)
     good = np.isfinite(array)
     if positive:

@@ -28,25 +28,25 @@ MOST_SAMPLES = 2**32 - 1
 class Context:
     """One renderer, on one device or several: set a scene, a camera and settings, accumulate samples, read the image.
 
-    device                None: the best one. Else an index into devices(), "gpu", "cpu", a UUID, or a part of a name;
-                          "all" of the best kind, or several with commas share the samples
-    log                   called with level and line, for what the library has to tell, during any call
+    device                None: the best one. Otherwise an index into devices(), "gpu", "cpu", a UUID, or a part of a
+                          name. "all" devices of the best kind, or several separated by commas, share the samples
+    log                   called with level and line, during any call
     validation            the Khronos validation layer reports to log; UnsupportedError where it is absent
     scene_kernels         False: no kernels with a scene's numbers as constants, for scenes that change from frame to
                           frame
-    submit_milliseconds   aim for the length of one submission to a device, in [1, 1000]; how soon calls can be stopped
+    submit_milliseconds   intended length of a submission to a device, in [1, 1000]; decides how soon calls can be
+                          stopped
 
-    Use it by `with`, or close() it; a context that is forgotten is closed by the garbage collector, and at the end of
-    the program.
+    Use it by `with`, or close() it; otherwise the garbage collector, or the end of the program, closes it.
 
-    Threads: different contexts are independent, and the interpreter's lock is released during calls. A context is in
-    one call at a time: another one meanwhile, from another thread or from a callback, raises InvalidStateError. After
+    Threads: different contexts are independent, and the interpreter's lock is released during calls. A context takes
+    one call at a time: another call meanwhile, from another thread or from a callback, raises InvalidStateError. After
     os.fork() a child cannot use its parent's contexts (InvalidStateError): start workers by
     multiprocessing.get_context("spawn").
 
-    Callbacks run on the calling thread. What a callback raises, or a signal handler meanwhile, as Ctrl-C does, stops
-    the call as soon as its next callback comes, and is raised by it; the context stays usable. Progress functions are
-    called with the share of the call that is done, in [0, 1], and stop it by returning True.
+    Callbacks run on the calling thread. An exception in a callback, or in a signal handler meanwhile, such as that of
+    Ctrl-C, stops the call at its next callback, and the call raises it; the context stays usable. Progress functions
+    are called with the share of the call that is done, in [0, 1], and stop it by returning True.
 
     Errors are subclasses of Error. A call that fails has changed nothing, except that a lost device stays lost and
     accumulate may have taken some of its samples.
@@ -58,7 +58,8 @@ class Context:
         self._in_call = False
         self._shape: tuple[int, int] | None = None
         self._log = log
-        # The function that the library has must outlive the context, and must not keep it alive: log may refer to it.
+        # The function that the library calls must outlive the context, but must not keep it alive: log may refer to the
+        # context.
         this = weakref.ref(self)
         self._log_function = log_function(lambda: getattr(this(), "_log", None))
         log_pointer = structs.pt_log_fn(self._log_function)
@@ -81,7 +82,7 @@ class Context:
         guard.raise_caught()
 
     def close(self) -> None:
-        """Frees everything; a second call does nothing. InvalidStateError: a call is under way."""
+        """Frees everything; a second call does nothing. InvalidStateError: another call is under way."""
         if self._handle is None:
             return
         if self._in_call:
@@ -101,7 +102,7 @@ class Context:
 
     @property
     def device(self) -> DeviceInfo:
-        """What this context runs on; the first of several devices."""
+        """The device that this context runs on; of several, the first."""
         info = structs.pt_device_info()
         self._call("pt_get_context_device", info)
         return device_of(info)
@@ -109,8 +110,8 @@ class Context:
     def set_scene(self, scene: Scene, progress: Progress | None = None) -> Result:
         """Takes over a scene, and discards the samples so far. Ten million spheres take some seconds.
 
-        Result.CANCELLED: progress returned True, and all is as it was. Where something is raised after progress has
-        been called with 1, the new scene may be there all the same. InvalidSceneError: a rule is broken, as
+        Result.CANCELLED: progress returned True, and everything is as before. If something is raised after progress was
+        called with 1, the new scene may have been set all the same. InvalidSceneError: a rule is broken, such as
         "spheres[3].radius = -1: must be > 0"; the message has a line for each."""
         guard = self._guard()
         scene_struct = SceneStruct(scene, guard, progress)
@@ -121,8 +122,7 @@ class Context:
         self._call("pt_set_camera", camera._struct())
 
     def set_render(self, settings: RenderSettings) -> None:
-        """Takes over the image's size and how it is made, and discards the samples so far. It takes 112 bytes a pixel
-        of the device's memory.
+        """Takes over render settings, and discards the samples so far. Takes 112 bytes a pixel of the device's memory.
 
         InvalidArgumentError: a rule is broken. UnsupportedError, OutOfDeviceMemoryError: render fewer rows at a
         time."""
@@ -138,12 +138,12 @@ class Context:
                    progress: Progress | None = None) -> Result:
         """Adds samples to every pixel.
 
-        sample_count   >= 1; with a target error the most that it adds
-        target_error   0: none. Else it ends once ErrorEstimate.relative_rmse_high is at or below it, with
+        sample_count   >= 1; with a target error, the most samples to add
+        target_error   0: none. Otherwise sampling ends once ErrorEstimate.relative_rmse_high is at or below it, with
                        Result.TARGET_REACHED; 0.01 is 1%
-        sampling       where samples go; with a target error adaptive, else uniform
-        progress       called after each submission, a twentieth of a second; returning True ends the call with
-                       Result.CANCELLED and the whole samples that were taken
+        sampling       where samples go; by default adaptive with a target error, else uniform
+        progress       called after each submission, about every twentieth of a second; returning True ends the call
+                       with Result.CANCELLED and the whole samples that were taken
         """
         if not 0 <= sample_count <= MOST_SAMPLES:
             raise ValueError(f"sample_count = {sample_count}: must be in [1, {MOST_SAMPLES}]")
@@ -155,9 +155,9 @@ class Context:
     def accumulate_tiles(self, samples: npt.ArrayLike, *, progress: Progress | None = None) -> Result:
         """Adds samples to some tiles, so that machines can share what Film.plan says.
 
-        samples    by tile, how many samples its pixels take, 0 for none: squares of 8 x 8 pixels from the top left of
-                   what is rendered on, smaller at its edges; shape (rows, columns) or flat
-        progress   as of accumulate
+        samples    how many samples the pixels of each tile take, 0 for none; shape (rows, columns) or flat. Tiles are
+                   squares of 8 x 8 pixels from the top left of what is rendered, smaller at the right and lower edges
+        progress   as in accumulate
         """
         counts = np.ascontiguousarray(samples, dtype=np.uint32).ravel()
         guard = self._guard()
@@ -171,10 +171,10 @@ class Context:
         """The image so far: an array of shape (height, width, 3), float32, row 0 at the top, or as format says.
 
         quantity    radiance (linear RGB), its standard error, ... OBJECT asks for the format R32UI
-        out         receives the pixels in place of a new array, and is returned. float32 with 3 or 4 channels,
-                    float16 with 4 or uint32 with 1, with the pixels of a row side by side and rows at any distance: a part of a larger
-                    array does. It is never copied: ValueError if it does not fit
-        rectangle   x, y, width, height in pixels, from the top left of what is rendered; None: all
+        out         receives the pixels in place of a new array, and is returned: float32 with 3 or 4 channels, float16
+                    with 4 or uint32 with 1. The pixels of a row must be side by side; rows may be at any distance, as
+                    in a part of a larger array. It is never copied: ValueError if it does not fit
+        rectangle   x, y, width, height in pixels, from the top left of what is rendered; None: all of it
         format      of a new array
 
         InvalidStateError: there is no sample."""
@@ -191,7 +191,7 @@ class Context:
         return stats_of(struct)
 
     def error_estimate(self) -> ErrorEstimate:
-        """How good the image is. The first call after samples were taken looks at all of the image."""
+        """How good the image is. The first call after samples were taken examines the whole image."""
         struct = structs.pt_error_estimate()
         self._call("pt_get_error_estimate", struct)
         return error_estimate_of(struct)
@@ -201,8 +201,8 @@ class Context:
         return Film(bytes_from(lambda data, size: self._call("pt_save_film", data, size)))
 
     def add_film(self, film: Film) -> None:
-        """Adds the samples of a film of the same scene, camera and settings (but for first_sample). IncompatibleError:
-        it is of another picture, or has samples that are here already."""
+        """Adds the samples of a film of the same scene, camera and settings (first_sample may differ).
+        IncompatibleError: it is of another picture, or has samples that the context has already."""
         data = film.to_bytes()
         self._call("pt_add_film", data, len(data))
 
@@ -232,9 +232,9 @@ class Context:
         handle, guard = self._handle, guard or self._guard()
         if handle is None:
             raise InvalidStateError("the context is closed")
-        # A flag and not a lock: Python raises KeyboardInterrupt when a lock's acquire() returns, but never between this
-        # test and `try`, nor does it change threads there. Without a global lock (PEP 703) it may, and then the library
-        # refuses.
+        # A flag, not a lock: Python may raise KeyboardInterrupt when a lock's acquire() returns, but never between this
+        # test and `try`, nor does it switch threads there. Without a global lock (PEP 703) it may, and then the library
+        # refuses the call.
         if self._in_call:
             raise InvalidStateError("another call on this context is under way")
         self._in_call = True
@@ -248,5 +248,5 @@ class Context:
 
 
 def _destroy(loaded: ctypes.CDLL, handle: ctypes.c_void_p, _log: object) -> None:
-    """With the functions that the library may call until then."""
+    """The arguments keep the functions alive that the library may call until then."""
     loaded.pt_destroy(handle)

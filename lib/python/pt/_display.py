@@ -16,9 +16,9 @@ MOST_STOPS = 64.0
 
 def automatic_exposure(radiance: npt.NDArray[Any]) -> float:
     """The stops that bring the average of an image to middle grey: Reinhard, Stark, Shirley, Ferwerda 2002,
-    "Photographic Tone Reproduction for Digital Images", eqs. 1 and 2, by the mean of the channels, with less weight for
-    what is darker than 1/128 of the picture's level, and in hundredths. The level is a mean with the values above the
-    mean cut down to it, three times."""
+    "Photographic Tone Reproduction for Digital Images", eqs. 1 and 2, for the mean of the channels, rounded to
+    hundredths. Pixels darker than 1/128 of the picture's level have less weight. The level is the mean, after values
+    above the mean were cut down to it, three times."""
     means = radiance.astype(np.float64).mean(axis=2)
     means = means[means > 0]
     if not means.size:
@@ -39,28 +39,28 @@ def to_srgb8(radiance: npt.NDArray[Any], exposure: float) -> npt.NDArray[np.uint
 
 
 def signal(light: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-    """That of sRGB, clamped to [0, 1]."""
+    """The sRGB signal of linear light, clamped to [0, 1]."""
     light = np.clip(light, 0.0, 1.0)
     return np.where(light <= 0.0031308, 12.92 * light, 1.055 * light**(1 / 2.4) - 0.055)
 
 
 def linear(signal: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-    """The inverse."""
+    """Linear light of an sRGB signal: the inverse of signal()."""
     return np.where(signal <= 0.04045, signal / 12.92, ((signal + 0.055) / 1.055)**2.4)
 
 
 def quantised(signal: npt.NDArray[np.float64], dtype: Any) -> npt.NDArray[Any]:
-    """As whole numbers up to the largest of the type."""
+    """The signal as whole numbers, 1 being the largest of the type."""
     numbers: npt.NDArray[Any] = np.floor(np.iinfo(dtype).max * signal + 0.5).astype(dtype)
     return numbers
 
 
 def encode_png(pixels: npt.NDArray[Any]) -> bytes:
-    """A PNG of sRGB, shape (height, width, 3), or 4 with alpha, of uint8 or uint16; W3C, "Portable Network Graphics (PNG)
-    Specification", 2003."""
+    """A PNG of sRGB from pixels of shape (height, width, 3), or 4 with alpha, uint8 or uint16; W3C, "Portable Network
+    Graphics (PNG) Specification", 2003."""
     height, width, channels = pixels.shape
     big_endian = np.ascontiguousarray(pixels, pixels.dtype.newbyteorder(">"))
-    unfiltered = np.zeros((height, 1), np.uint8)  # before each row the number of its filter: none
+    unfiltered = np.zeros((height, 1), np.uint8)  # each row begins with the number of its filter: none
     rows = np.hstack([unfiltered, big_endian.view(np.uint8).reshape(height, -1)])
     kind = {3: 2, 4: 6}[channels]  # RGB or RGBA; zlib, no interlacing
     header = struct.pack(">IIBBBBB", width, height, 8 * pixels.itemsize, kind, 0, 0, 0)

@@ -13,9 +13,9 @@ class BrokenRule:
     """A field and the rule that it breaks: `spheres[3].center[0] = nan: must be finite`."""
 
     subject: str  # "materials", "spheres", "planes", "sphere_arrays", "scene", "camera", "render", ...
-    index: int | None  # which element of the subject; None: the subject is no array
-    member: str  # "center"; "" for a rule about the argument itself
-    component: int | None  # which element of the member; None: it has none
+    index: int | None  # which element of subject, if that is an array; else None
+    member: str  # of the subject, as "center"; "" for a rule about the argument itself
+    component: int | None  # which element of member, if it has several; else None
     joined_with: str  # what else enters the value, as "* height" beside "width"; else ""
     value: str  # "nan"
     rule: str  # "must be finite"
@@ -23,7 +23,7 @@ class BrokenRule:
 
 class Error(Exception):
     """A call of the library that failed, with the library's message. It has changed nothing, except that a lost device
-    stays lost, and that accumulate may have taken some of its samples."""
+    stays lost and accumulate may have taken some of its samples."""
 
     result: Result
     broken_rules: tuple[BrokenRule, ...]
@@ -47,7 +47,7 @@ class InvalidSceneError(Error, ValueError):
 
 
 class InvalidStateError(Error, RuntimeError):
-    """Something has to be set or to end first, or a call is under way already."""
+    """Something has to be set or to end first, or another call is under way."""
 
     result = Result.ERROR_INVALID_STATE
 
@@ -83,7 +83,7 @@ class DeviceLostError(Error, RuntimeError):
 
 
 class ShaderError(Error, RuntimeError):
-    """The driver refused to build the kernel."""
+    """The driver refused to build a kernel."""
 
     result = Result.ERROR_SHADER
 

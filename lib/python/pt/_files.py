@@ -1,4 +1,4 @@
-"""Files that are there whole or not at all."""
+"""Files that are written whole or not at all."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ Path: TypeAlias = "str | os.PathLike[str]"
 
 
 def format_of(path: Path, formats: Sequence[str]) -> str:
-    """The ending of a name, without its dot and in small letters. ValueError: it is none of the formats."""
+    """The ending of a name, in lower case and without its dot. ValueError: it is none of the formats."""
     ending = pathlib.Path(path).suffix.lower().removeprefix(".")
     if ending not in formats:
         *others, last = (f".{each}" for each in formats)
@@ -21,7 +21,8 @@ def format_of(path: Path, formats: Sequence[str]) -> str:
 
 
 def write_atomically(path: Path, write: Callable[[BinaryIO], object]) -> None:
-    """Has a file written beside its place, and moves it there; what was there before stays until then."""
+    """Writes a file under another name in the same folder and then renames it; what was there before stays until
+    then."""
     place = pathlib.Path(path)
     beside = place.with_name(f".{place.name}.{uuid.uuid4().hex}")
     try:

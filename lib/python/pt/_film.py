@@ -1,4 +1,4 @@
-"""The exact sums behind an image, which add."""
+"""Films: the exact sums behind an image, which can be added."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ TILE_SIDE = 8  # pixels
 
 @dataclass(frozen=True)
 class FilmInfo:
-    """What a film is of."""
+    """Which picture a film belongs to, and which part of it the film has."""
 
     width: int  # of the whole image, pixels
     height: int
-    x: int  # of the smallest rectangle with all pixels of the film: first column
+    x: int  # first column of the smallest rectangle with all pixels of the film
     y: int  # its first row
     columns: int  # its width, pixels
     rows: int  # its height, pixels
@@ -60,8 +60,8 @@ class Film:
     Films of other samples or other pixels of the same picture add up, by + or sum(), in any order, to the bits of one
     long rendering. They can be pickled, saved, loaded, and compared: films of equal samples are equal.
 
-    Made by Context.film(), Film.load(path), or Film(data) from the bytes of another; bytes need not be trusted
-    (IncompatibleError). It takes 112 bytes a pixel. One call at a time: others wait.
+    Made by Context.film(), Film.load(path), or Film(data) from the bytes of another film; bytes need not be trusted
+    (IncompatibleError). A film takes 112 bytes a pixel. It does one call at a time; calls of other threads wait.
     """
 
     def __init__(self, data: bytes) -> None:
@@ -74,18 +74,18 @@ class Film:
 
     @classmethod
     def load(cls, path: Path) -> Film:
-        """A film from a file of save(), of the program pt (--film, --checkpoint), or of anybody else who keeps such
-        bytes. Files of the program are packed, which needs Python 3.14 or the module zstandard."""
+        """A film from a file of save(), of the program pt (--film, --checkpoint), or from anywhere else with the same
+        bytes. Files of the program are packed: to read them takes Python 3.14 or the module zstandard."""
         with open(path, "rb") as file:
             return cls(file.read())
 
     def save(self, path: Path) -> None:
-        """Writes the bytes to a file, which is there whole or not at all; `pt merge` reads it too."""
+        """Writes the bytes to a file, whole or not at all; `pt merge` reads it too."""
         write_atomically(path, lambda file: self.stream(file.write))
 
     def stream(self, write: Callable[[bytes], object]) -> None:
         """Gives the bytes of to_bytes() to a function in pieces of at most a megabyte, so that a film can be saved or
-        sent without being in memory twice. An exception of the function ends it."""
+        sent without being in memory twice. An exception in the function ends the call and is raised."""
         guard = CallbackGuard()
 
         def take(_: object, data: int, size: int) -> int:
@@ -99,12 +99,12 @@ class Film:
         guard.raise_caught()
 
     def to_bytes(self) -> bytes:
-        """Equal samples of equal pictures are equal bytes. Their format: lib/film/FORMAT.md."""
+        """The film as bytes, in the format of lib/film/FORMAT.md. Equal samples of equal pictures are equal bytes."""
         return bytes_from(lambda data, size: self._call("pt_write_film", data, size))
 
     @property
     def size(self) -> int:
-        """Of to_bytes()."""
+        """The size of to_bytes()."""
         size = ctypes.c_uint64()
         self._call("pt_write_film", None, size)
         return size.value
@@ -117,14 +117,14 @@ class Film:
         return total
 
     def __radd__(self, other: int) -> Film:
-        """0 + film, because sum() begins with 0."""
+        """0 + film: sum() begins with 0."""
         if other != 0:
             return NotImplemented
         return self
 
     def __iadd__(self, other: Film) -> Film:
-        """Adds the other's samples to this film. IncompatibleError: it is of another picture, or has samples that are
-        here already; the message has a line for each difference, and nothing is changed."""
+        """Adds the other's samples to this film. IncompatibleError: it is of another picture, or has samples that this
+        film has already; the message has a line for each difference, and nothing is changed."""
         if not isinstance(other, Film):
             return NotImplemented
         data = other.to_bytes()
@@ -166,8 +166,8 @@ class Film:
 
     def readback(self, quantity: Quantity = Quantity.RADIANCE, *, out: npt.NDArray[Any] | None = None,
                  rectangle: Rectangle | None = None, format: Format = Format.RGB32F) -> npt.NDArray[Any]:
-        """The rectangle of FilmInfo as Context.readback gives it, with the same bits. Pixels that the film does not
-        have are black, with an infinite standard error."""
+        """The rectangle in FilmInfo, with the same bits as from Context.readback. Pixels that the film does not have
+        are black, with an infinite standard error."""
         with self._lock:
             info = self.info
             shape = info.rows, info.columns
@@ -176,14 +176,14 @@ class Film:
         return pixels
 
     def stats(self) -> Stats:
-        """How many samples it has."""
+        """How many samples the film has."""
         struct = structs.pt_stats()
         self._call("pt_get_film_stats", struct)
         return stats_of(struct)
 
     def error_estimate(self) -> ErrorEstimate:
-        """How good its image is. A film does not know the scene's lamps, so Uncertain.UNMET is set whenever they are
-        found by chance."""
+        """How good the film's image is. A film does not know the scene's lamps, so Uncertain.UNMET is set whenever the
+        estimator finds lamps by chance."""
         struct = structs.pt_error_estimate()
         self._call("pt_get_film_error_estimate", struct)
         return error_estimate_of(struct)
@@ -195,15 +195,15 @@ class Film:
                          self.readback(Quantity.SAMPLE_COUNT), self.error_estimate(), self.stats())
 
     def plan(self, target_error: float, most: int) -> tuple[Result, npt.NDArray[np.uint32]]:
-        """What the film takes next on its way to a target error, as Context.accumulate decides it: so that one machine
-        can decide, and others take the samples (Context.accumulate_tiles).
+        """Decides which samples the film takes next on its way to a target error, as Context.accumulate does, so that
+        one machine can decide, and others take the samples (Context.accumulate_tiles).
 
         target_error   > 0; 0.01 is 1%
-        most           samples that a pixel may have
+        most           the most samples that a pixel may have
 
-        Result.PENDING, with the samples that each tile of 8 x 8 pixels is to have: shape (rows, columns). Or
-        Result.TARGET_REACHED, or Result.OK where no tile may take more, with those that they have. What has been
-        decided stays in the film. IncompatibleError: its tiles are no such squares together."""
+        Returns Result.PENDING and the number of samples that each tile of 8 x 8 pixels is to have: shape (rows,
+        columns). Or Result.TARGET_REACHED, or Result.OK if no tile may take more, and the numbers that they have.
+        Decisions stay in the film. IncompatibleError: the film's tiles cannot be made of such squares."""
         with self._lock:
             info, count = self.info, ctypes.c_uint32()
             self._call("pt_plan_film", target_error, most, None, count)
@@ -225,8 +225,8 @@ class Film:
 
 
 def bytes_from(write: Callable[[Any, ctypes.c_uint64], object]) -> bytes:
-    """The bytes that a function of the library writes, after it has told how many. In place, as a film takes hundreds
-    of megabytes."""
+    """The bytes that a function of the library writes, after it was asked how many. They are written in place, since a
+    film takes hundreds of megabytes."""
     size = ctypes.c_uint64()
     write(None, size)
     allocated = size.value
@@ -238,7 +238,7 @@ def bytes_from(write: Callable[[Any, ctypes.c_uint64], object]) -> bytes:
 
 
 def _unpacked(data: bytes) -> bytes:
-    """The contents of a frame of zstd; other bytes as they are."""
+    """The contents of a zstd frame; other bytes unchanged."""
     if not data.startswith(_zstd.MAGIC):
         return data
     module = _zstd.module()

@@ -17,12 +17,12 @@ class Image:
     array: np.mean(image), image[y, x], image - other.
 
     radiance         the mean of the samples, linear RGB, unclamped, >= 0
-    standard_error   of the same shape: the standard error of each number, no more than a hint in a single pixel.
-                     Infinite up to 8 samples
-    sample_count     shape (height, width), uint32: samples that each pixel has
+    standard_error   of the same shape: the standard error of each number; only a hint in a single pixel, and infinite
+                     with up to 8 samples
+    sample_count     shape (height, width), uint32: number of samples of each pixel
     error_estimate   how good the image is as a whole
     stats            what it took
-    exposure         stops, of the picture that _repr_png_ and save make; None: automatic
+    exposure         exposure in stops of the picture that _repr_png_ and save make; None: automatic
     """
 
     def __init__(self, radiance: npt.NDArray[np.float32], standard_error: npt.NDArray[np.float32],
@@ -66,16 +66,16 @@ class Image:
                 f"error {self.error:.3g} ({low:.3g} to {high:.3g})>")
 
     def to_srgb8(self, exposure: float | None = None) -> npt.NDArray[np.uint8]:
-        """The picture as bytes of sRGB, shape (height, width, 3): radiance times 2^exposure, clamped to [0, 1]. None:
-        that of the image, and if that is None too, the exposure at which the average is middle grey, 0.18. These are
-        the bits that the program pt writes if it is not told otherwise."""
+        """The picture as bytes of sRGB, shape (height, width, 3): radiance times 2^exposure, clamped to [0, 1]. If
+        exposure is None, the image's is used, and if that is None too, the one that brings the average to middle grey,
+        0.18. The program pt writes the same bits by default."""
         if exposure is None:
             exposure = self.exposure
         return to_srgb8(self.radiance, automatic_exposure(self.radiance) if exposure is None else exposure)
 
     def save(self, path: Path, *, exposure: float | None = None) -> None:
-        """Writes a picture, of to_srgb8, if the path ends in .png, and the radiance if it ends in .npy. The file is
-        there whole or not at all. ValueError: another ending."""
+        """Writes the picture of to_srgb8 if the path ends in .png, and the radiance if it ends in .npy. The file is
+        written whole or not at all. ValueError: another ending."""
         if format_of(path, ("png", "npy")) == "npy":
             write_atomically(path, lambda file: np.save(file, self.radiance, allow_pickle=False))
         else:

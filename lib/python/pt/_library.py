@@ -14,10 +14,10 @@ from pt._enums import Result
 from pt._errors import ERROR_OF_RESULT, BrokenRule, Error
 
 SONAME: Final = "libpt.so.0.3"
-BROKEN_RULES_KEPT: Final = 8  # by the library
+BROKEN_RULES_KEPT: Final = 8  # the most that the library keeps
 
-# A function that is missing here has no types, and ctypes would cut its pointers to 32 bits. All that are not in
-# NOT_RESULTS return a pt_result.
+# Every function must be here: without types, ctypes would cut its pointers to 32 bits. All that are not in NOT_RESULTS
+# return a pt_result.
 PARAMETERS: Final[dict[str, list[Any]]] = {
     "pt_version": [],
     "pt_result_name": [c_int32],
@@ -58,7 +58,7 @@ NOT_RESULTS: Final[dict[str, Any]] = {
 
 
 def library_path() -> str:
-    """The library that PT_LIBRARY names, else the one that was installed with the package, else the system's."""
+    """The library that PT_LIBRARY names, else the one installed with the package, else the system's."""
     named = os.environ.get("PT_LIBRARY")
     if named:
         return named
@@ -112,8 +112,9 @@ def _broken_rules(loaded: ctypes.CDLL, context: c_void_p | None) -> tuple[Broken
 
 
 def checked(loaded: ctypes.CDLL, result: int, context: c_void_p | None = None) -> Result:
-    """The result of a call that did not fail; otherwise raises its error with the library's message, which is kept for
-    the context, or for this thread's calls without one. So no other call may come in between."""
+    """Returns the result of a call that did not fail; otherwise raises its error with the library's message. The
+    library keeps the message for the context, or for this thread's calls without one, until the next call: so no other
+    call may come in between."""
     if result >= 0:
         return Result(result)
     message = _text(loaded.pt_last_error(context))

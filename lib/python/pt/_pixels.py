@@ -19,7 +19,7 @@ LAYOUTS: Final[dict[Format, tuple[int, np.dtype[Any]]]] = {
 
 
 def new_pixels(shape: tuple[int, int], rectangle: Rectangle | None, format: Format) -> npt.NDArray[Any]:
-    """A new array for the whole image of so many rows and columns, or for the rectangle."""
+    """A new array for an image of this shape (rows, columns), or for the rectangle of it."""
     channels, dtype = LAYOUTS[Format(format)]
     rows, columns = shape if rectangle is None else (rectangle[3], rectangle[2])
     if rows < 0 or columns < 0:
@@ -28,7 +28,8 @@ def new_pixels(shape: tuple[int, int], rectangle: Rectangle | None, format: Form
 
 
 def _format_of(array: npt.NDArray[Any]) -> Format:
-    """The format that an array can receive: rows at any distance, pixels side by side. ValueError: there is none."""
+    """The format that an array can receive; its rows may be at any distance, but the pixels of a row must be side by
+    side. ValueError: there is none."""
     if array.ndim == 3 and array.dtype.isnative:
         for format, (channels, dtype) in LAYOUTS.items():
             dense = (channels * dtype.itemsize, dtype.itemsize)

@@ -1,4 +1,4 @@
-"""What is to be seen: materials, spheres and planes."""
+"""Scenes: materials, spheres and planes."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ class Material:
 
     Colors are linear R, G, B, each in [0, 1e18]; a single number is a grey.
 
-    diffuse      share of the light that is scattered evenly
+    diffuse      share of the light that is reflected diffusely
     specular     weight of the lobe about the mirror direction
     emission     radiance, the same in every direction and on both sides
     glossiness   exponent of the lobe, in [0, 1e9]
-    hidden_from_camera   whether rays from the camera pass through; all others meet it
+    hidden_from_camera   whether rays from the camera pass through; all other rays meet it
     """
 
     diffuse: Color = 0.0
@@ -57,7 +57,7 @@ class Sphere:
     center     at time 0, scene units
     radius     > 0, scene units
     material   a Material, or its index in Scene.materials
-    motion     way from time 0 to time 1, scene units
+    motion     displacement from time 0 to time 1, scene units
     """
 
     center: Vector
@@ -75,7 +75,7 @@ class Sphere:
 class Plane:
     """The points x with dot(normal, x) + offset = 0: visible, lit and emitting on both sides.
 
-    normal     any length but 0; (normal, offset) is divided by it
+    normal     any length except 0; normal and offset are divided by it
     offset     minus the distance from the origin along the normal, times the normal's length
     material   a Material, or its index in Scene.materials
     """
@@ -90,21 +90,21 @@ class Plane:
 
 
 class SphereArray:
-    """Many spheres, read from NumPy arrays where they are, each time that the scene is set: until then changes of the
-    arrays count, and afterwards they do not.
+    """Many spheres, read from NumPy arrays in place, each time that the scene is set: changes of the arrays count until
+    then, and not afterwards.
 
     center     shape (n, 3): x, y, z at time 0, scene units
     radius     shape (n,), or one number for all; > 0, scene units
     material   a Material or an index in Scene.materials for all, or indices of shape (n,)
-    motion     shape (n, 3) or (3,): way from time 0 to time 1; none by default
-    color      shape (n, 3) or (3,), by which the material's diffuse is multiplied: floats in [0, 1], linear, or uint8,
-               sRGB as pictures and color maps have it. By default the material is as it is
+    motion     shape (n, 3) or (3,): displacement from time 0 to time 1; none by default
+    color      shape (n, 3) or (3,), multiplies the material's diffuse: linear floats in [0, 1], or sRGB in uint8, as in
+               pictures and color maps; 1 by default
 
-    Read in place are arrays of float32 and float64, of uint32 (indices) and of uint8 (colors), in the machine's byte
-    order, whose rows are contiguous and ascend, at any distance: slices a[::2], the first columns a[:, :3] of a table,
-    fields of structured arrays, np.broadcast_to. Everything else is copied here, once: transposed (Fortran) and
-    reversed arrays, the other byte order, lists, other types of numbers. `copied` has the names of those columns.
-    Changes of arrays that were copied do not count.
+    Arrays of float32, float64, uint32 (indices) and uint8 (colors) in the machine's byte order are read in place if
+    their rows are contiguous and ascend, at any distance: slices a[::2], the first columns a[:, :3] of a table, fields
+    of structured arrays, np.broadcast_to. Everything else is copied here, once: transposed (Fortran) and reversed
+    arrays, the other byte order, lists, other types of numbers. `copied` has the names of those columns; later changes
+    of these arrays do not count.
 
     ValueError: shapes do not fit. TypeError: not numbers, or colors of integers that are not uint8.
     """
@@ -137,10 +137,10 @@ class SphereArray:
 class Scene:
     """What is to be seen.
 
-    materials       those that numbers stand for; others join them, each once, as spheres and planes bring them
+    materials       those that indices refer to; materials that spheres and planes bring along are added, each once
     spheres         in any order, like all that follow
     planes
-    sphere_arrays   more spheres, one array for each species for instance
+    sphere_arrays   more spheres, for instance one SphereArray for each species
     """
 
     spheres: Sequence[Sphere] = ()
@@ -171,7 +171,7 @@ class _Materials:
 
 
 class SceneStruct:
-    """A pt_scene, and what it points to, which lives as long as this object."""
+    """A pt_scene and everything that it points to, which live as long as this object."""
 
     def __init__(self, scene: Scene, guard: CallbackGuard, progress: Progress | None) -> None:
         materials = _Materials(scene.materials)

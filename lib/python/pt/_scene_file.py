@@ -1,4 +1,4 @@
-"""Sections of scene files, which the program pt renders."""
+"""Sections of scene files for the program pt."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ def camera_section(camera: Camera) -> dict[str, Any]:
 
 
 def material_section(material: object) -> dict[str, Any]:
-    """Without values that are the default; a grey is one number."""
-    assert isinstance(material, Material)  # and not the index of one
+    """The section of a material, without default values; a grey is one number."""
+    assert isinstance(material, Material)  # not an index
     section: dict[str, Any] = {}
     for name in ("diffuse", "specular", "emission", "glossiness", "hidden_from_camera"):
         value = getattr(material, name)

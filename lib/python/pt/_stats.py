@@ -14,14 +14,14 @@ from pt._library import checked, library
 
 @dataclass(frozen=True)
 class Stats:
-    """What has been done, and what it took. Of a film, what the context alone knows is 0."""
+    """What has been done, and what it took. For a film, fields that only a context knows are 0."""
 
-    sample_count: int  # whole samples that every pixel has
+    sample_count: int  # whole samples in every pixel; if they differ, the fewest
     max_sample_count: int  # the most that a pixel has (Sampling.ADAPTIVE)
-    mean_sample_count: float  # of all pixels
-    rejected_samples: int  # left out of all pixels: NaN, infinite, negative or too bright
+    mean_sample_count: float  # mean over all pixels
+    rejected_samples: int  # samples left out, over all pixels: NaN, infinite, negative or too bright
     features: Feature  # of the kernel
-    device_bytes: int  # memory allocated on all its devices now
+    device_bytes: int  # memory that the context has allocated on all its devices now
     device_count: int  # devices that share the samples
     device_seconds: float  # time spent in submissions, summed
     submit_count: int  # submissions that took samples
@@ -36,14 +36,14 @@ def stats_of(struct: structs.pt_stats) -> Stats:
 @dataclass(frozen=True)
 class ErrorEstimate:
     """How good an image is, estimated without a reference: the root of the mean of (x - r)^2 over pixels and channels,
-    for the image x and its limit r, and the same of (x - r)^2 / (r^2 + 0.01), each with bounds of 95% confidence.
-    Nothing is known with fewer than 16 samples: then the lower bounds are 0, the others infinite.
+    for the image x and its limit r, and the same for (x - r)^2 / (r^2 + 0.01), each with bounds of 95% confidence.
+    Nothing is known with fewer than 16 samples: then the lower bounds are 0, the other values infinite.
     """
 
-    rmse: float  # root mean square error, a radiance
+    rmse: float  # root mean square error, in units of radiance
     rmse_low: float
     rmse_high: float
-    relative_rmse: float  # relative root mean square error, a number
+    relative_rmse: float  # relative root mean square error; 0.01 is 1%
     relative_rmse_low: float
     relative_rmse_high: float
     uncertain: Uncertain  # why the error may be far off
@@ -62,7 +62,7 @@ class DeviceInfo:
     name: str
     kind: DeviceKind
     driver: str  # name and version
-    memory_bytes: int  # of its largest memory heap that kernels can reach quickly
+    memory_bytes: int  # size of its largest memory heap that kernels can reach quickly
     uuid: uuid.UUID  # tells two equal devices apart; stable over reboots
     suitable: bool  # whether a Context can use it
     reason: str  # why not; empty if it can
@@ -76,8 +76,8 @@ def device_of(struct: structs.pt_device_info) -> DeviceInfo:
 
 
 def devices() -> list[DeviceInfo]:
-    """The Vulkan devices of this machine; the index of each is its name for Context, as "0". NoDeviceError: there is
-    none, or no Vulkan."""
+    """The Vulkan devices of this machine; Context(device="0") uses the first, and so on. NoDeviceError: there is none,
+    or no Vulkan."""
     loaded, count = library(), ctypes.c_uint32()
     checked(loaded, loaded.pt_get_devices(None, count))
     found = (structs.pt_device_info * count.value)()

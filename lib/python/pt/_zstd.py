@@ -1,4 +1,4 @@
-"""Frames of zstd, by whichever Python module there is."""
+"""zstd frames, by whichever Python module is installed."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ MAGIC = bytes.fromhex("28b52ffd")
 
 
 def module() -> Any:
-    """A module with compress and decompress; None if there is none."""
+    """A module with compress and decompress; None if none is installed."""
     for name in ("compression.zstd", "zstandard"):
         try:
             return importlib.import_module(name)
@@ -19,12 +19,12 @@ def module() -> Any:
 
 
 def packer(size: int) -> Any:
-    """An object with compress(piece) and flush(), for a frame that tells the size of its contents, as readers of films
+    """An object with compress(piece) and flush() for a frame that states the size of its contents, as readers of films
     need; None if there is no module for it."""
     found = module()
     if found is None:
         return None
-    if hasattr(found.ZstdCompressor, "compressobj"):  # of zstandard
+    if hasattr(found.ZstdCompressor, "compressobj"):  # the module zstandard
         return found.ZstdCompressor().compressobj(size=size)
     compressor = found.ZstdCompressor()
     compressor.set_pledged_input_size(size)

@@ -79,7 +79,7 @@ def check(arguments: argparse.Namespace) -> None:
 
 
 def check_files(arguments: argparse.Namespace) -> None:
-    """Checks names and formats of outputs now, rather than after hours."""
+    """Checks names and formats of outputs before hours are spent."""
     wanted: list[tuple[str, tuple[str, ...]]] = [(name, PICTURES) for name in arguments.output]
     wanted += [(name, ()) for name in (arguments.film, arguments.checkpoint) if name]
     if wrong := misnamed(wanted, arguments.scene):
@@ -92,7 +92,7 @@ def check_files(arguments: argparse.Namespace) -> None:
 
 
 def written(arguments: argparse.Namespace) -> list[str]:
-    """Names of the files that are written for a picture, or for each frame."""
+    """Patterns of the files that are written for a picture, or for each frame."""
     return [*arguments.output, *filter(None, (arguments.film,))]
 
 

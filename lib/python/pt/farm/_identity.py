@@ -27,7 +27,7 @@ class Identity:
 
 
 def identity_of(data: bytes) -> Identity:
-    """The identity in a film's bytes. ValueError: they are no film."""
+    """The identity in a film's bytes. ValueError: they are not a film."""
     names = dict(line.partition(" ")[::2] for line in _header(data).decode("ascii", "replace").splitlines())
     keys = list(names)
     if FIRST not in names or LAST not in names:
@@ -36,8 +36,8 @@ def identity_of(data: bytes) -> Identity:
 
 
 def with_models(data: bytes, models: frozenset[str]) -> bytes:
-    """A film's bytes as if all of these had taken its samples, as those of a context of several models say it: such
-    films add up, and say that they are mixed. ImportError: xxhash is missing."""
+    """A film's bytes with all of these models as the takers of its samples, like a film of a context on several models.
+    Such films add up, and say that they are mixed. ImportError: xxhash is missing."""
     xxhash = importlib.import_module("xxhash")
     header = _header(data)
     start = header.index(b"\n" + LAST.encode() + b" ") + 1

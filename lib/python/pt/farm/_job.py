@@ -1,4 +1,4 @@
-"""What is rendered: all that a worker has to know, besides which part is its own."""
+"""Jobs: everything that a worker has to know, except which part it is to render."""
 
 from __future__ import annotations
 
@@ -21,10 +21,11 @@ from pt._scene import Scene
 
 @dataclass(frozen=True)
 class Job:
-    """A picture of objects and arrays, which the library of each worker renders.
+    """A picture of Python objects and arrays, rendered by the library on each worker.
 
-    settings   all rows; first_sample is the first of the samples that are taken
-    device     what each worker renders on, as of pt.Context; None: what its variable PT_DEVICE says, else its best
+    settings   must be for all rows; first_sample is the first sample that is taken
+    device     what each worker renders on, as for pt.Context; None: what PT_DEVICE in its environment says, else its
+               best
     """
 
     scene: Scene
@@ -35,10 +36,10 @@ class Job:
 
 @dataclass(frozen=True)
 class FileJob:
-    """A picture of a scene file, which the program pt of each worker reads and renders.
+    """A picture of a scene file, read and rendered by the program pt on each worker.
 
     arguments   of `pt render`, the scene first
-    files       the scene and what it names, by names relative to a folder of the worker's
+    files       the scene and the files that it names, by names relative to a folder of the worker's
     settings    size and first sample
     """
 
@@ -66,13 +67,14 @@ def name_of(data: bytes) -> str:
 
 
 def read_job(scene: str, options: list[str], device: str | None) -> FileJob:
-    """Of a scene file, - for standard input, and options of `pt render`. All files that texts of the scene and values
-    of --set name go with it; those that are not in the scene's folder go under other names. OSError."""
+    """A job from a scene file (- for standard input) and options of `pt render`. All files that strings in the scene
+    and values of --set name go with it; those outside the scene's folder get other names. OSError: a file cannot be
+    read."""
     place = pathlib.Path("stdin.json" if scene == "-" else scene)
     text = sys.stdin.buffer.read() if scene == "-" else place.read_bytes()
     files: dict[str, bytes] = {}
 
-    @functools.cache  # a scene has few texts, many times
+    @functools.cache  # a scene repeats the same few strings many times
     def shipped(name: str) -> str:
         path = place.parent / name
         if not os.path.isfile(path):
@@ -85,7 +87,7 @@ def read_job(scene: str, options: list[str], device: str | None) -> FileJob:
     def literal(found: re.Match[bytes]) -> bytes:
         try:
             name = json.loads(found.group())
-        except ValueError:  # pt will say it
+        except ValueError:  # pt will report it
             return found.group()
         new = shipped(name)
         return found.group() if new == name else json.dumps(new).encode()

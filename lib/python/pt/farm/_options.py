@@ -1,4 +1,4 @@
-"""How a farm works, what it tells meanwhile, and what it comes to."""
+"""A farm's options, its progress and its result."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from pt._files import Path
 
 
 class FarmError(RuntimeError):
-    """The picture cannot be made; the message has what workers said. Films that came back are in the checkpoint.
+    """The picture cannot be made; the message has what workers reported. Films that came back are in the checkpoint.
 
-    result: the library's, of the worker's error that is to blame; ERROR_INTERNAL if there is none."""
+    result: the library's result for the worker's error that is to blame; ERROR_INTERNAL if there is none."""
 
     def __init__(self, message: str, result: int = enums.Result.ERROR_INTERNAL) -> None:
         super().__init__(message)
@@ -24,11 +24,11 @@ class Options:
     """How a farm works; the picture does not depend on it, unless devices are mixed.
 
     part_seconds       how long a part should take
-    patience           seconds beyond what is expected until a part is given to another worker too
-    most_tries         times that a part may fail, or lose its worker, in all
-    checkpoint         file, which is gone on from if it is there; None: none
+    patience           seconds beyond the expected time after which a part is given to another worker, too
+    most_tries         how often a part may fail or lose its worker, in all
+    checkpoint         name of a file, from which rendering goes on if it exists; None: none
     checkpoint_every   seconds
-    wait_for_workers   seconds without any that is ready until that is an error
+    wait_for_workers   seconds without a ready worker after which that is an error
     mixed              other devices and drivers than those of the first worker may join: the picture is then
                        statistically, and not bitwise, that of one machine, and its film names all of them. Needs the
                        module xxhash
@@ -45,24 +45,24 @@ class Options:
 
 @dataclass
 class Progress:
-    """Counts so far. Parts issued are those merged, dropped, failed, lost and under way."""
+    """Counts so far. issued is the number of parts merged, dropped, failed, lost and under way."""
 
     seconds: float = 0.0
-    samples: float = 0.0  # a pixel, the mean of all, when the film was last looked at
-    samples_wanted: float = 0.0  # likewise, at the end; with a target error as far as that is decided
-    error: float = float("inf")  # relative, and the upper bound of 95%
+    samples: float = 0.0  # mean over all pixels, when the film was last examined
+    samples_wanted: float = 0.0  # the mean at the end; with a target error, as far as decided
+    error: float = float("inf")  # relative; error_high is its upper bound, with 95% confidence
     error_high: float = float("inf")
     workers: int = 0
     parts: int = 0  # merged
     issued: int = 0
     repeated: int = 0  # tries that began because others were late
     dropped: int = 0  # duplicates that came second
-    failed: int = 0  # tries, which were repeated elsewhere
+    failed: int = 0  # tries that failed, and were repeated elsewhere
     lost: int = 0  # tries whose worker died
-    forgotten: int = 0  # samples of tiles that the coordinator lost by a mistake of its own, and had rendered again
+    forgotten: int = 0  # samples of tiles that the coordinator itself lost track of, and had rendered again
     part_bytes: int = 0  # received
     messages: list[str] = field(default_factory=list)  # of workers
-    last_result: int = enums.Result.OK  # the library's, of the error that came last
+    last_result: int = enums.Result.OK  # the library's result for the last error
     ended_by: str = ""  # "samples", "error", "limit"; "stopped" where progress() returned True
 
     def line(self) -> str:
@@ -74,7 +74,7 @@ class Progress:
 
 @dataclass(frozen=True)
 class Result:
-    """film: the bytes of one long rendering. progress: the last."""
+    """film: with the bytes of one long rendering. progress: the last one."""
 
     film: Film
     progress: Progress
@@ -82,5 +82,5 @@ class Result:
     @property
     def devices(self) -> tuple[str, ...]:
         """Models and drivers that took the samples. With more than one, the picture is as good as one machine's, but
-        not the same to the bit."""
+        its bits differ."""
         return tuple(self.film.info.device.split(" and "))

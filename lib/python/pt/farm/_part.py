@@ -1,4 +1,4 @@
-"""Parts of the work: the same samples of some tiles."""
+"""Parts of the work: some tiles, with the same samples of each."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Goals = npt.NDArray[np.uint32]
 
 @dataclass(frozen=True)
 class Part:
-    """The samples from first to end - 1 of tiles, which are indices row by row."""
+    """The samples from first to end - 1 of some tiles, whose indices count row by row."""
 
     first: int
     end: int
@@ -24,12 +24,12 @@ class Part:
 
     @property
     def work(self) -> int:
-        """Samples times tiles."""
+        """The number of samples times that of tiles."""
         return (self.end - self.first) * len(self.tiles)
 
     def split(self, work: int, least_tiles: int) -> tuple[Part, list[Part]]:
-        """A part of about that work, and the rest. It is cut by tiles rather than by samples, as tiles make up a film's
-        size, but keeps as many tiles as keep a device busy."""
+        """A part of about that work, and the rest. It has fewer tiles rather than fewer samples, since tiles make up a
+        film's size, but at least least_tiles, which keep a device busy."""
         samples = self.end - self.first
         if self.work <= work:
             return self, []
@@ -61,11 +61,11 @@ def _tiles_of(tile: FilmTile, indices: Indices) -> Indices:
 
 
 def grid_shape(width: int, height: int) -> tuple[int, int]:
-    """Rows and columns of tiles."""
+    """The number of rows and columns of tiles."""
     return -(-height // TILE_SIDE), -(-width // TILE_SIDE)
 
 
-Cells = list[tuple[tuple[range, ...], Indices]]  # samples, and the tiles that have them
+Cells = list[tuple[tuple[range, ...], Indices]]  # ranges of samples, and the tiles that have them
 
 
 def cells_of(film: Film | None, shape: tuple[int, int]) -> Cells:
@@ -83,8 +83,8 @@ def cells_of(film: Film | None, shape: tuple[int, int]) -> Cells:
 
 
 def missing_parts(cells: Cells, first_sample: int, goals: Goals) -> list[Part]:
-    """What a film lacks until each tile has its samples from first_sample on. Only the film is asked, so that one from
-    a checkpoint goes on like any other."""
+    """The parts that a film lacks until each tile has its number of samples from first_sample on. Only the film
+    decides, so one from a checkpoint goes on like any other."""
     wanted: dict[tuple[int, int], list[Indices]] = {}
     for samples, tiles in cells:
         tile_goals = goals.ravel()[tiles]
@@ -120,7 +120,7 @@ def _joined(wanted: dict[tuple[int, int], list[Indices]]) -> list[Part]:
 
 
 def _gaps(samples: tuple[range, ...], first: int, end: int) -> Iterator[tuple[int, int]]:
-    """The ranges of [first, end) that are not in these."""
+    """The ranges of [first, end) that are not in samples."""
     for present in samples:
         if present.start > first:
             yield first, min(present.start, end)

@@ -1,4 +1,4 @@
-"""Renders parts of a job on the machine of a worker."""
+"""Renders parts of a job on a worker's machine."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ RESULT_OF_CODE = {USAGE: Result.ERROR_INVALID_ARGUMENT, SCENE: Result.ERROR_INVA
 
 
 class Renderer(Protocol):
-    is_cpu: bool  # what it renders on; known after the first film
+    is_cpu: bool  # whether the device is a CPU; known after the first film
 
     def film(self, part: Part) -> bytes:
-        """Error: it could not be rendered."""
+        """The film of a part, as bytes. Error: it could not be rendered."""
 
     def close(self) -> None:
         """Frees the device."""
@@ -45,7 +45,7 @@ def device_of(job: AnyJob) -> str | None:
 
 
 class Library:
-    """A context of this process."""
+    """Renders by a context in this process."""
 
     def __init__(self, job: Job) -> None:
         self._settings = job.settings
@@ -68,9 +68,9 @@ class Library:
 
 
 class Program:
-    """`pt render --parts` (cli/render/render_command.h describes its requests and answers).
+    """Renders by `pt render --parts`; cli/render/render_command.h describes its requests and answers.
 
-    facts: what it says of the job, before it has looked for a device."""
+    facts: what pt says of the job before it looks for a device."""
 
     def __init__(self, job: FileJob) -> None:
         self.is_cpu = False
@@ -97,7 +97,7 @@ class Program:
             self._process.stdin.write(struct.pack("=3I", part.first, part.end, len(tiles)) + tiles.tobytes())
             self._process.stdin.flush()
         except OSError:
-            pass  # it has ended, and has said why
+            pass  # pt has ended, and has said why
         kind, size = map(int, self._line().split())
         self.is_cpu = kind == DeviceKind.CPU
         data = self._process.stdout.read(size)
@@ -128,5 +128,5 @@ class Program:
 
 
 def program() -> str:
-    """The program pt of this machine."""
+    """The path of this machine's program pt."""
     return os.environ.get("PT_PROGRAM") or "pt"

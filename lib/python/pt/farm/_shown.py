@@ -1,4 +1,4 @@
-"""What a terminal and signals see of a rendering."""
+"""Progress on a terminal, and signals that end a rendering."""
 
 from __future__ import annotations
 
@@ -14,7 +14,8 @@ SHOWN_EVERY = 1.0  # seconds
 
 
 class Signals:
-    """SIGINT, SIGTERM and SIGHUP end a rendering with the samples so far; all else, and a second one, at once."""
+    """SIGINT, SIGTERM and SIGHUP end a rendering with the samples so far; a second one, and any outside a rendering,
+    ends the process at once."""
 
     def __init__(self) -> None:
         self.number = 0

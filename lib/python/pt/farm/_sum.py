@@ -16,11 +16,11 @@ from pt.farm._identity import Identity, identity_of, with_models
 from pt.farm._workers import now
 
 PIXEL_BYTES = 112
-# Adding to a film costs by its tiles too, and not by the part's alone, so that parts are first added to each other.
-# With batches of 1/8, 1/16, 1/32 and 1/64 of a film, adding 254 parts of 128 tiles took 0.64, 0.68, 0.69 and 0.68 s of a
-# processor; 1/8 took 2.5 films of memory and 1/32 1.5.
+# Adding a part to a film costs time for the film's tiles, too, not only for the part's. So parts are first added to
+# each other. With batches of 1/8, 1/16, 1/32 and 1/64 of a film, adding 254 parts of 128 tiles took 0.64, 0.68, 0.69
+# and 0.68 s of a processor; 1/8 took 2.5 films of memory and 1/32 1.5.
 BATCH_SHARE = 1 / 32
-SHOW_SHARE = 0.02  # of the time, for adding early, so that the picture so far is recent
+SHOW_SHARE = 0.02  # of the time, for adding early so that the picture so far is recent
 
 
 class Sum:
@@ -35,10 +35,10 @@ class Sum:
         self._bytes = self._freed = 0
         self._most_bytes = int(BATCH_SHARE * PIXEL_BYTES * width * height)
         self._merged, self._cost = now(), 0.0
-        self.seconds = 0.0  # of all merging
+        self.seconds = 0.0  # total time of merging
 
     def add(self, part: Film, size: int, models: frozenset[str]) -> None:
-        """size: of its bytes. models: of the device that took its samples."""
+        """Adds a part. size: of its bytes. models: of the device that took its samples."""
         if self._mixed and not models <= self._models:
             self.merge()
             self._models |= models
@@ -55,13 +55,13 @@ class Sum:
         return self._bytes >= self._most_bytes or now() - self._merged > self._cost / SHOW_SHARE
 
     def merge(self) -> None:
-        """Adds parts to each other first, as sums of few tiles are short."""
+        """Adds the waiting parts to the film, after adding them to each other, since sums of few tiles are short."""
         if not self._parts:
             return
         start, sums = now(), deque(self._parts)
         self._freed += self._bytes
         self._parts, self._bytes = [], 0
-        while len(sums) > 1:  # the shortest two, nearly
+        while len(sums) > 1:  # roughly the two smallest
             film = sums.popleft()
             film += sums.popleft()
             sums.append(film)
@@ -78,14 +78,14 @@ class Sum:
 
 
 def _give_back() -> None:
-    """Returns the memory of freed parts to the system: glibc keeps some for each thread, in all more than a film
+    """Returns the memory of freed parts to the system: glibc keeps some for each thread, in total more than a film
     takes."""
     with contextlib.suppress(AttributeError, OSError):  # not glibc
         ctypes.CDLL(None).malloc_trim(0)
 
 
 def write_film(film: Film, path: Path) -> None:
-    """The film's bytes, packed by zstd like the program's if there is a module for it; `pt merge` and `pt render
+    """Writes the film's bytes, packed by zstd like the program's if there is a module for it; `pt merge` and `pt render
     --resume` read both."""
     packer = _zstd.packer(film.size)
     if packer is None:
@@ -100,7 +100,7 @@ def write_film(film: Film, path: Path) -> None:
 
 
 def read_film(path: Path) -> Film | None:
-    """None: there is none yet."""
+    """Reads a film from a file; None if there is no file yet."""
     if not pathlib.Path(path).exists():
         return None
     try:

@@ -1,4 +1,4 @@
-"""What runs on workers."""
+"""The functions that run on workers."""
 
 from __future__ import annotations
 
@@ -18,38 +18,38 @@ from pt.farm._job import AnyJob, name_of, unpacked
 from pt.farm._part import Part
 from pt.farm._renderer import Renderer, renderer_of
 
-CLOCKS = 1.01  # how much faster one machine's clock may go than another's
+CLOCKS = 1.01  # how much faster one machine's clock may run than another's
 PERMANENT = (InvalidSceneError, InvalidArgumentError, IncompatibleError)
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a task came to: its film, packed, or an error."""
+    """The outcome of a task: its film, packed, or an error."""
 
     data: bytes = b""
     seconds: float = 0.0
     is_cpu: bool = False
     error: str = ""
     may_help_elsewhere: bool = True
-    result: int = Result.OK  # of an error, that of the library
+    result: int = Result.OK  # the library's result for the error
 
 
 def fault_of(value: object, seconds: float) -> str:
     """What is wrong with a value that should be the Outcome of a task given out so many seconds ago: a worker may send
-    anything."""
+    anything. Empty if nothing is."""
     if not isinstance(value, Outcome):
         return f"a value of type {type(value).__name__}"
     for name, kind in (("data", bytes), ("seconds", float), ("is_cpu", bool), ("error", str),
                        ("may_help_elsewhere", bool), ("result", int)):
         if not isinstance(getattr(value, name, None), kind):
             return f"{name} of type {type(getattr(value, name, None)).__name__}"
-    if not 0.0 <= value.seconds <= CLOCKS * seconds:  # no number is not
+    if not 0.0 <= value.seconds <= CLOCKS * seconds:  # NaN fails, too
         return f"seconds = {value.seconds}, which must be from 0 to the {seconds:.3g} since it was asked"
     return "" if value.result in set(Result) else f"result = {value.result}"
 
 
 def first_part(job: AnyJob) -> Part:
-    """The part by whose film a worker shows its device, driver and kernel."""
+    """The part whose film shows a worker's device, driver and kernel."""
     first = job.settings.first_sample
     return Part(first, first + 1, np.zeros(1, np.uint32))
 
@@ -62,7 +62,7 @@ class _Ready:
     has_failed: bool = False
 
 
-_lock = threading.Lock()  # one renderer, one call at a time, however many threads a worker has
+_lock = threading.Lock()  # one call at a time, since a worker has one renderer however many threads it has
 _ready: _Ready | None = None
 
 
@@ -73,7 +73,7 @@ def _failed(error: Exception) -> Outcome:
 
 
 def introduce(data: bytes, codecs: frozenset[str]) -> Outcome:
-    """Makes a worker ready for a packed job, in place of the one before. Returns the film of its first part."""
+    """Makes a worker ready for a packed job, replacing the one before. Returns the film of its first part."""
     global _ready
     with _lock:
         try:
@@ -89,12 +89,12 @@ def introduce(data: bytes, codecs: frozenset[str]) -> Outcome:
 
 
 def render_part(name: str, part: Part, codecs: frozenset[str]) -> Outcome:
-    """The film of a part. codecs: those of the coordinator."""
+    """The film of a part of the job called name. codecs: those of the coordinator."""
     with _lock:
         try:
             if _ready is None or _ready.name != name:
                 raise RuntimeError("this worker has another job")
-            if _ready.has_failed:  # a lost device comes back only to another context or process
+            if _ready.has_failed:  # only a new context or process can get a lost device back
                 _ready.renderer.close()
                 _ready.renderer, _ready.has_failed = renderer_of(_ready.job), False
             start = time.monotonic()
@@ -107,7 +107,7 @@ def render_part(name: str, part: Part, codecs: frozenset[str]) -> Outcome:
 
 
 def codecs() -> frozenset[str]:
-    """The packers that this machine has besides zlib, which Python has."""
+    """The packers of this machine, besides Python's own zlib."""
     return frozenset({"zstd"} if _zstd.module() else ())
 
 
@@ -117,7 +117,7 @@ def pack(data: bytes, theirs: frozenset[str]) -> bytes:
 
 
 def unpack(data: bytes) -> bytes:
-    """ValueError: damaged."""
+    """The contents of packed bytes. ValueError: they are damaged."""
     try:
         return bytes(_zstd.module().decompress(data)) if data.startswith(_zstd.MAGIC) else zlib.decompress(data)
     except Exception as error:

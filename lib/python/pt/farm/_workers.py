@@ -15,8 +15,8 @@ from pt.farm._part import Part
 from pt.farm._speed import Speed
 from pt.farm._task import Outcome, fault_of
 
-FETCH_SECONDS = 60.0  # for a film, which is 35 MB where it has all of 1920x1080
-MOST_FETCHED = 16  # results that are on their way or wait: more would only fill the memory
+FETCH_SECONDS = 60.0  # for a film, of 35 MB if it has all of 1920x1080
+MOST_FETCHED = 16  # results that are on their way or waiting: more would only fill the memory
 
 _fetching = threading.BoundedSemaphore(MOST_FETCHED)
 
@@ -27,11 +27,11 @@ Done = Callable[[Any, "Outcome | None"], None]  # future, and its outcome; None:
 class Try:
     """A part that a worker has been given."""
 
-    number: int  # of the part; a duplicate has the same
+    number: int  # the part's; a duplicate has the same
     part: Part
     future: Any
     issued: float
-    expected: float  # seconds, with what the worker had to do before
+    expected: float  # seconds, including the worker's earlier tries
 
 
 @dataclass
@@ -40,18 +40,18 @@ class Member:
 
     address: str
     joined: float
-    identity: Identity | None = None  # of its films, once it is ready
+    identity: Identity | None = None  # the identity of its films, once it is ready
     is_cpu: bool = False
     speed: Speed = field(default_factory=Speed)
     tries: dict[Any, Try] = field(default_factory=dict)  # by key of the future
     introduction: Any = None
-    failures: int = 0  # one after the other
+    failures: int = 0  # in a row
     is_late: bool = False  # it gets nothing until it has given something back
     is_banned: bool = False
 
     @property
     def busy_until(self) -> float:
-        """As its speed lets expect."""
+        """The time until which the worker should be busy, by its speed."""
         return max((each.issued + each.expected for each in self.tries.values()), default=0.0)
 
     @property
@@ -63,18 +63,19 @@ class Member:
 
 
 def addresses(client: Any) -> set[str]:
-    """Of all workers, without what else the scheduler knows of each. OSError: the scheduler has gone."""
+    """The addresses of all workers, without what else the scheduler knows of each. OSError: the scheduler is gone."""
     if client.status not in ("running", "connecting"):
         raise OSError("the connection to the scheduler has ended")
     return set(client.nthreads())
 
 
 def submit(client: Any, address: str, done: Done, function: Callable[..., Any], *arguments: Any) -> Any:
-    """Runs a function on one worker alone, whose result comes from the worker itself. done is called by threads."""
+    """Runs a function on one particular worker and fetches the result from the worker itself. done is called by
+    threads."""
     start = now()
     future = client.submit(function, *arguments, workers=[address], allow_other_workers=False, pure=False, retries=0)
 
-    # A thread for each that has ended, as a worker may have been stopped since, so that fetching takes for ever.
+    # A thread for each result: its worker may have been stopped since, so that fetching it would take for ever.
     def fetch(ended: Any) -> None:
         threading.Thread(target=fetch_one, args=(ended, now() - start), daemon=True).start()
 
@@ -93,7 +94,7 @@ async def _gathered(client: Any, future: Any) -> object:
 
 
 def _fetched(client: Any, future: Any, seconds: float) -> Outcome | None:
-    """Whatever a worker that lives did wrong is an outcome that counts against it."""
+    """The outcome of a task. Whatever a living worker did wrong becomes an outcome that counts against it."""
     if future.status not in ("finished", "error"):
         return None
     try:
@@ -105,7 +106,7 @@ def _fetched(client: Any, future: Any, seconds: float) -> Outcome | None:
     except (Exception, asyncio.CancelledError) as error:
         if type(error).__name__ == "KilledWorker":
             return None
-        reason = f"{type(error).__name__}: {error}"  # raised by the task, or by the way here
+        reason = f"{type(error).__name__}: {error}"  # raised by the task, or on the way here
     return Outcome(error=reason, result=Result.ERROR_INTERNAL)
 
 

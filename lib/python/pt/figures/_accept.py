@@ -1,4 +1,4 @@
-"""What users have, as particles: files, arrays, tables and objects of other packages."""
+"""Turns what users have into particles: files, arrays, tables and objects of other packages."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ def load(data: Any, *, frame: int | None = None, columns: Columns = None, format
          drop_nonfinite: bool = False) -> Particles:
     """Particles of one frame.
 
-    data            the name of a file, "-" for standard input; an array of shape (n, 3), (n, 2) or, of frames,
-                    (t, n, 3); a dict of columns; a frame of pandas or polars; ASE's Atoms or a list of them; a universe
-                    or a group of atoms of MDAnalysis; a data collection of OVITO; or Particles
-    frame           from 0, or from -1 backwards; None: the last one, and of MDAnalysis the current one
+    data            the name of a file, "-" for standard input; an array of shape (n, 3), (n, 2) or, with frames, (t, n,
+                    3); a dict of columns; a frame of pandas or polars; ASE's Atoms or a list of them; a universe or a
+                    group of atoms of MDAnalysis; a data collection of OVITO; or Particles
+    frame           counted from 0, or from -1 backwards; None: the last one, or for MDAnalysis the current one
     columns         names in place of those that are looked for: {"x": "lon", "y": "lat"} or "x=lon,y=lat", for
                     x, y, z, radius, diameter, element, type, red, green, blue
-    format          of a file, in place of that which its first bytes and its name say
-    drop_nonfinite  leaves out particles whose position or radius is not finite, which are an error otherwise
+    format          of a file, in place of the one that its first bytes and its name suggest
+    drop_nonfinite  leaves out particles whose position or radius is not finite; otherwise they are an error
 
     Arrays of float32 and float64 are read in place. Raises DataError.
     """
@@ -46,7 +46,7 @@ def load(data: Any, *, frame: int | None = None, columns: Columns = None, format
 
 def frames(data: Any, first: int = 0, last: int = -1, *, columns: Columns = None, format: str | None = None,
            drop_nonfinite: bool = False) -> Iterator[Particles]:
-    """Frames from the first to the last, inclusive; a file is read on from frame to frame."""
+    """Frames from the first to the last, inclusive; a file is read once, frame after frame."""
     if isinstance(data, Particles):
         yield data
         return
@@ -60,7 +60,8 @@ def frames(data: Any, first: int = 0, last: int = -1, *, columns: Columns = None
 
 
 def _index(source: Frames, frame: int) -> int:
-    """The number of a frame, counted from 0; files are searched only if the number of frames is needed."""
+    """The number of a frame, counted from 0. Frames of a file are counted only if a negative number makes it
+    necessary."""
     if frame >= 0 and source.has(frame):
         return frame
     count = source.count()

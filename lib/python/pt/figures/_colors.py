@@ -24,20 +24,20 @@ Bytes: TypeAlias = npt.NDArray[np.uint8]
 RGB: TypeAlias = tuple[int, ...]
 
 PLAIN: Final = "#96aabe"  # a light bluish grey
-# Okabe and Ito 2008, "Color Universal Design", which the color-blind can tell apart: blue, orange, bluish green,
+# Okabe and Ito 2008, "Color Universal Design", which color-blind people can tell apart: blue, orange, bluish green,
 # vermilion, sky blue, reddish purple, yellow. The order is our own: the first two differ most in lightness too.
 PALETTE: Final = ((0, 114, 178), (230, 159, 0), (0, 158, 115), (213, 94, 0), (86, 180, 233), (204, 121, 167),
                   (240, 228, 66))
 MOST_CATEGORIES: Final = 1000
-SKEW: Final = 4.0  # all over 1% to 99% of the numbers; 1 of uniform numbers, 2 of a million normal, 3 of exponential
+SKEW: Final = 4.0  # range of all over that of 1% to 99%; 1 if uniform, 2 for a million normal numbers, 3 exponential
 
 
 @dataclass(frozen=True)
 class ColorBar:
-    """Numbers as colors, by matplotlib.
+    """Colors for numbers, by matplotlib.
 
-    low, high   numbers of the first and the last color; where they are equal the norm is wider, and they are in its middle
-    no_value    color of what is no number, if there is any
+    low, high   numbers of the first and the last color; if they are equal, the norm is wider and has them in its middle
+    no_value    color for NaN, if there are any
     """
 
     title: str
@@ -50,7 +50,7 @@ class ColorBar:
 
 @dataclass(frozen=True)
 class Swatches:
-    """Categories as colors: names, and sRGB of shape (k, 3)."""
+    """Colors for categories: names, and sRGB of shape (k, 3)."""
 
     title: str
     names: tuple[str, ...]
@@ -68,7 +68,7 @@ def srgb(name: str, color: Any) -> RGB:
             return red, green, blue
         except ValueError:
             pass
-    named = module("matplotlib.colors", f"{name} = {color!r}")  # which takes a third of a second
+    named = module("matplotlib.colors", f"{name} = {color!r}")  # importing it takes a third of a second
     try:
         red, green, blue = (math.floor(255 * float(each) + 0.5) for each in named.to_rgb(color))
     except ValueError:
@@ -77,7 +77,7 @@ def srgb(name: str, color: Any) -> RGB:
 
 
 def colors_of(particles: Particles, given: Options, notes: list[str]) -> tuple[Bytes, Legend]:
-    """Colors in shape (n, 3), or (3,) for one color for all."""
+    """Colors in shape (n, 3), or (3,) if all have the same."""
     color = given.color
     count = len(particles.positions)
     if isinstance(color, str) and "=" in color:
@@ -102,7 +102,7 @@ def colors_of(particles: Particles, given: Options, notes: list[str]) -> tuple[B
 
 
 def _named(particles: Particles, color: str, given: Options, notes: list[str]) -> tuple[Bytes, Legend]:
-    """A column, its magnitude, three columns of red, green and blue, or a color."""
+    """Colors by a word: a column, the magnitude of a vector, three columns of red, green and blue, or a color."""
     title = given.title or color
     if color in ("type", "element") and color not in particles.columns:
         return _of_types(particles, given, {})
@@ -122,14 +122,15 @@ def _named(particles: Particles, color: str, given: Options, notes: list[str]) -
 
 
 def _components(particles: Particles, name: str) -> list[str]:
-    """The components of a vector: "vx,vy,vz", or those that "velocity" and "v" stand for."""
+    """The columns of a vector's components: those of "vx,vy,vz", or those that "velocity" and "v" stand for."""
     ways = [[f"{name}[{k}]" for k in range(3)], [f"{name}{axis}" for axis in "xyz"], [f"{name}_{axis}" for axis in "xyz"]]
     found = [way for way in ways if all(each in particles.columns for each in way)]
     return found[0] if found else name.split(",")
 
 
 def _direct(colors: Any, notes: list[str]) -> Bytes:
-    """sRGB: floats from 0 to 1, unsigned integers from 0 to their largest, other integers from 0 to 255."""
+    """Given sRGB colors: floats from 0 to 1, unsigned integers from 0 to their largest, other integers from 0 to
+    255."""
     array = np.asarray(colors)
     if array.dtype.kind == "i" and array.size and 0 <= array.min() and array.max() <= 255:
         array = array.astype(np.uint8)
@@ -162,7 +163,7 @@ def _of_values(values: Array, title: str, given: Options, notes: list[str]) -> t
 
 
 def _of_types(particles: Particles, given: Options, own: Mapping[str, str]) -> tuple[Bytes, Legend]:
-    """Elements have their colors, other types those of the palette."""
+    """Colors of types: elements have their own, other types those of the palette."""
     known: dict[str, RGB] = {}
     kind, labels = ("type", column(particles, "type")) if particles.elements is None else ("element", particles.elements)
     names, codes = categories(labels)
@@ -176,8 +177,8 @@ def _of_types(particles: Particles, given: Options, own: Mapping[str, str]) -> t
 
 def _of_categories(title: str, names: list[str], codes: Array, given: Options, known: Mapping[str, RGB], numbered: bool,
                    wanted: list[str]) -> tuple[Bytes, Legend]:
-    """numbered: names are numbers, mostly from 1; then the number decides the color, so that files agree. wanted: must
-    be among the names."""
+    """numbered: the names are numbers, mostly from 1; then the number decides the color, so that files agree. wanted:
+    must be among the names."""
     order = names if isinstance(given.categories, bool) else list(given.categories)
     for option, each in (("color", wanted), ("categories", names)):
         missing = [name for name in each if name not in order]
@@ -195,7 +196,7 @@ def _of_categories(title: str, names: list[str], codes: Array, given: Options, k
 
 
 def distinct_colors(count: int) -> list[RGB]:
-    """As many colors as are wanted, no two alike: the palette, then hues by the golden ratio in rings of lightness."""
+    """So many colors, no two alike: the palette, then hues by the golden ratio, in rings of lightness."""
     colors: list[RGB] = list(PALETTE)
     k = 0
     while len(colors) < count:
@@ -245,7 +246,7 @@ def _of_numbers(values: Array, title: str, given: Options, notes: list[str]) -> 
 
 
 def _range(values: Array, given: Options, title: str, notes: list[str]) -> tuple[float, float]:
-    """The range of all finite numbers; or of 1% to 99% of them, if a few are far from all others."""
+    """The range of all finite numbers; if a few are far from all others, the range of 1% to 99% of them."""
     least, largest = math.inf, -math.inf
     floor = 0.0 if given.scale == "log" else -math.inf
     for rows in chunks(len(values)):

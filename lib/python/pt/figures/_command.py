@@ -81,7 +81,7 @@ def add_option(group: Any, option: Field[Any]) -> None:
 
 
 def joined(words: list[str]) -> list[str]:
-    """Arguments with "--up -z" as "--up=-z": otherwise argparse takes -z for an option."""
+    """Arguments with "--up -z" joined to "--up=-z": otherwise argparse takes -z for an option."""
     result: list[str] = []
     for word in words:
         if result and re.fullmatch(r"--[a-z-]+", result[-1]) and re.fullmatch(r"-([xyz]|[\d.][\d.,eE+%-]*)", word):
@@ -92,7 +92,7 @@ def joined(words: list[str]) -> list[str]:
 
 
 def check(given: argparse.Namespace) -> None:
-    """Checks names, and options that contradict each other, now rather than after minutes."""
+    """Checks names, and options that contradict each other, before minutes are spent."""
     series = given.turntable or given.frames
     pictures = [path for path in given.output if path != "-"]
     files = [(path, PICTURES) for path in pictures] + [
@@ -117,7 +117,7 @@ def check(given: argparse.Namespace) -> None:
 
 
 class Shown:
-    """Progress on standard error: a line for people, or a JSON object a line."""
+    """Progress on standard error: a line for people, or JSON objects, one a line."""
 
     def __init__(self, style: str) -> None:
         self.style = ("line" if sys.stderr.isatty() else "none") if style == "auto" else style
@@ -134,7 +134,7 @@ class Shown:
 
 
 def staged(given: argparse.Namespace, options: Options) -> Any:
-    """Pairs: the number of a picture (None if it is the only one) and what it shows."""
+    """Yields the number of each picture (None if it is the only one) and what it shows."""
     if given.frames:
         first, last = given.frames
         return zip(range(first, last + 1), frames(lambda: read_frames(given.data, first, last, **options.reading), options))

@@ -1,4 +1,4 @@
-"""Puts a rendered figure before its background, and lines over it."""
+"""Puts a rendered figure in front of its background, and lines over it."""
 
 from __future__ import annotations
 
@@ -15,15 +15,16 @@ OUTLINE_LIGHT: Final = 0.01  # nearly black
 
 
 def compose(radiance: npt.NDArray[np.float32], stage: Any, shares: Shares, exposure: float) -> tuple[Doubles, Doubles]:
-    """Linear light, multiplied by alpha, and alpha; shape (height, width, 3) and (height, width).
+    """Returns linear light multiplied by alpha, shape (height, width, 3), and alpha, shape (height, width).
 
-    stage   radiance of the same scene without its particles: a number where all pixels are alike, else an image
+    stage   radiance of the same scene without its particles: a number if all pixels are alike, otherwise an image
 
-    What the particles and their shadows change is carried over to the background, as Debevec does where photographs are
-    the background (1998, "Rendering Synthetic Objects into Real Scenes", section 5): over white, with the particles'
-    share a of a pixel, it is T(radiance) + (1 - a) (1 - T(stage)), T being exposure. So a floor is white where nothing
-    darkens it, and its shadows fade with the distance in which the lamp does, without a horizon. Alpha is the least
-    that gives this light over white: the particles' share at least, and of a shadow how much it darkens.
+    What the particles and their shadows change in the scene is applied to the background, as Debevec does for
+    photographs (1998, "Rendering Synthetic Objects into Real Scenes", section 5). Over white, a pixel of which the
+    particles cover the share a is T(radiance) + (1 - a) (1 - T(stage)), where T applies the exposure. So a floor is
+    white where nothing darkens it, has no horizon, and its shadows fade as the lamp's light does with distance. Alpha
+    is the smallest that gives this light over white: at least the particles' share and, in a shadow, by how much it
+    darkens.
     """
     behind = np.clip(stage * 2.0**exposure, 0.0, 1.0)
     share = shares.particles[:, :, None]
@@ -38,6 +39,6 @@ def compose(radiance: npt.NDArray[np.float32], stage: Any, shares: Shares, expos
 
 
 def lay_over(light: Doubles, alpha: Doubles, background: Doubles) -> Doubles:
-    """background: linear light, shape (3,)."""
+    """The picture over a background in linear light, shape (3,)."""
     result: Doubles = light + (1.0 - alpha[:, :, None]) * background
     return result

@@ -34,7 +34,7 @@ COVALENT_RADII: Final = np.array((
     2.03, 2.01, 1.99, 1.98, 1.98, 1.96, 1.94, 1.92, 1.92, 1.89, 1.9, 1.87, 1.87, 1.75, 1.7, 1.62, 1.51, 1.44, 1.41,
     1.36, 1.36, 1.32, 1.45, 1.46, 1.48, 1.4, 1.5, 1.5, 2.6, 2.21, 2.15, 2.06, 2, 1.96, 1.9, 1.87, 1.8, 1.69), np.float32)
 
-# sRGB, those of Jmol.
+# sRGB, as in Jmol.
 COLORS: Final = np.frombuffer(bytes.fromhex(
     "ff1493 "
     "ffffff d9ffff cc80ff c2ff00 ffb5b5 909090 3050f8 ff0d0d 90e050 b3e3f5 ab5cf2 8aff00 bfa6a6 f0c8a0 ff8000 ffff30 "
@@ -47,8 +47,8 @@ COLORS: Final = np.frombuffer(bytes.fromhex(
 
 _NUMBERS: Final = {symbol.lower(): number for number, symbol in enumerate(SYMBOLS) if number} | {"d": 1, "t": 1}
 
-# Atom names of the Protein Data Bank and of water models that are no elements, as "CB" is none: where one of them is
-# among capital labels, CA is a carbon and HG a hydrogen.
+# Atom names of the Protein Data Bank and of water models that are not elements, such as "CB": if one of them is among
+# labels in capitals, CA is a carbon and HG a hydrogen.
 _ATOM_NAMES: Final = frozenset("CB CG CZ CM HA HB HT HW OW OT OXT NZ NH".split())
 _IONS: Final = {"NA": 11, "CL": 17, "MG": 12, "ZN": 30, "FE": 26, "MN": 25, "BR": 35, "LI": 3, "SE": 34, "SOD": 11,
                 "CLA": 17, "POT": 19, "CAL": 20}
@@ -56,11 +56,11 @@ _MOST_LETTERS: Final = 3  # of an atom's name
 
 
 def distinct(labels: Array) -> tuple[Array, Array]:
-    """The different labels, in the order in which they come, and for each particle the index of its label."""
+    """The different labels, in order of appearance, and for each particle the index of its label."""
     codes = np.full(len(labels), -1, np.int32)
     values: list[Any] = []
     while (first := int(np.argmin(codes))) < len(labels) and codes[first] < 0:
-        if len(values) == 64:  # comparing with each is faster than sorting only for few
+        if len(values) == 64:  # comparing with each label is faster than sorting only for a few
             unique, indices = np.unique(labels, return_inverse=True)
             return unique, indices.astype(np.int32).reshape(-1)
         codes[labels == labels[first]] = len(values)
@@ -77,7 +77,7 @@ def categories(labels: Array) -> tuple[list[str], Array]:
 
 
 def _letters(label: str) -> str:
-    """The letters of a label, without digits, charges and what follows them: Fe for Fe2+, H for 1HB2, C for C_3."""
+    """The letters of a label, without digits, charges and what follows: Fe for Fe2+, H for 1HB2, C for C_3."""
     found = re.match(r"[\d\s]*([A-Za-z]*)", label)
     return found.group(1) if found else ""
 
@@ -92,7 +92,7 @@ def _number(label: str, is_atom_name: bool) -> int:
 
 
 def elements_of(labels: Array) -> tuple[Array | None, list[str]]:
-    """Atomic numbers, shape (n,), uint8, 0 for what is no element; None if nothing is one. With notes for the user.
+    """Atomic numbers, shape (n,), uint8, 0 for labels that are not elements; None if none is. And notes for the user.
 
     labels  shape (n,): symbols in any case, also with digits or charges; D and T; names of atoms as in PDB files;
             or atomic numbers
@@ -114,5 +114,5 @@ def elements_of(labels: Array) -> tuple[Array | None, list[str]]:
 
 
 def listed(names: list[str], most: int = 8) -> str:
-    """Names for a message; of many only the first."""
+    """Names for a message; only the first ones if there are many."""
     return ", ".join(names[:most]) + (f" and {len(names) - most} more" if len(names) > most else "")

@@ -1,4 +1,4 @@
-"""What is wrong with data, and modules that are not installed."""
+"""The error for data that cannot be drawn, and imports of optional modules."""
 
 from __future__ import annotations
 
@@ -6,14 +6,14 @@ import importlib
 from types import ModuleType
 from typing import Final
 
-# The extra of this package that installs a module.
+# For each optional module, the extra of this package that installs it.
 EXTRAS: Final = {"matplotlib": "figure", "PIL": "figure", "pandas": "figure", "zstandard": "figure-atoms",
                  "ase": "figure-atoms", "MDAnalysis": "figure-atoms", "trimesh": "figure-points",
                  "pyvista": "figure-points", "laspy": "figure-points"}
 
 
 class DataError(ValueError):
-    """Data that cannot be drawn as they are. The message names the file, the line or byte, and what was expected."""
+    """Data that cannot be drawn. The message names the file, the line or byte, and what was expected."""
 
 
 def module(name: str, purpose: str) -> ModuleType:
@@ -23,6 +23,6 @@ def module(name: str, purpose: str) -> ModuleType:
     except ImportError as error:
         package = name.partition(".")[0]
         if (error.name or name).partition(".")[0] != package:
-            raise  # the module is there, and something that it needs is not
+            raise  # the module is there, but something that it needs is not
         raise DataError(f"{purpose} needs the module {package}: pip install 'pt[{EXTRAS[package]}]', or {package} "
                         "alone") from None

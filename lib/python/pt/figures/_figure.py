@@ -32,7 +32,7 @@ from pt.figures._radii import radii_of
 from pt.figures._stage import SURROUND_BRIGHTNESS
 from pt.figures._where import holds
 
-LEAST_LENGTH: Final = 1e-18  # which the library takes
+LEAST_LENGTH: Final = 1e-18  # the least that the library accepts
 INK: Final = "#222222"  # of words on a bright background
 LEAST_WIDTH: Final = 16  # pixels beside a color bar
 PICTURES: Final = ("png", "jpg", "jpeg", "exr")
@@ -41,10 +41,10 @@ LEGENDS: Final = ("svg", "pdf", "png")
 
 @dataclass(frozen=True)
 class Drawn:
-    """Particles as balls, in scene units: those of the data times a power of two where these are far from 1.
+    """Particles as balls, in scene units: those of the data, times a power of two if they are far from 1.
 
-    colors   shape (n, 3), or (3,) of all
-    scale    scene units in a unit of the data
+    colors   shape (n, 3), or (3,) if all have the same
+    scale    scene units per unit of the data
     """
 
     centers: Array
@@ -62,7 +62,7 @@ class Drawn:
 
 
 def prepare(particles: Particles, options: Options, scale: float | None = None) -> Drawn:
-    """Radii, ranges of colors and categories come from all particles, shown or not."""
+    """Makes particles into balls. Radii, ranges of colors and categories come from all particles, shown or not."""
     notes = list(particles.notes)
     if not len(particles.positions):
         raise ValueError(f"{particles.name} has no particles")
@@ -87,7 +87,7 @@ def prepare(particles: Particles, options: Options, scale: float | None = None) 
 
 
 def _check(name: str, radii: Array, shown: Array | None) -> None:
-    """Refuses radii, naming the first that is none."""
+    """Refuses bad radii, naming the first."""
     for rows in chunks(len(radii)):
         good: Array = np.isfinite(radii[rows]) & (radii[rows] > 0.0)
         if not good.all():
@@ -112,7 +112,7 @@ def _in_range(positions: Array, radii: Array, cell: Cell | None, scale: float | 
 
 
 def view_of(drawn: Drawn, options: Options, turns: bool = False) -> View:
-    """turns: as of View.of."""
+    """The view of a figure. turns: as in View.of."""
     size = options.size
     if size is not None and options.colorbar and drawn.legend is not None:
         size = size[0] - _strip_width(raster(drawn.legend, size[1], INK), size[1]), size[1]
@@ -125,7 +125,7 @@ def view_of(drawn: Drawn, options: Options, turns: bool = False) -> View:
 
 @dataclass(frozen=True)
 class Staged:
-    """All of a figure except its samples."""
+    """Everything about a figure except its samples."""
 
     drawn: Drawn
     layout: Layout
@@ -145,7 +145,7 @@ class Staged:
         stage, drawn = self.layout.stage, self.drawn
         material = self.options.material or stage.material
         colors: Array | None = drawn.colors
-        if drawn.colors.ndim == 1:  # of all: a part of the material
+        if drawn.colors.ndim == 1:  # one for all: a part of the material
             material = replace(material, diffuse=linear(drawn.colors / 255.0) * np.array(material.diffuse))
             colors = None
         return Scene(stage.lamps, [stage.floor] if stage.floor else [],
@@ -175,13 +175,13 @@ class Staged:
 
 
 class Figure(Image):
-    """A rendered figure: an Image whose picture has its background, lines and color bar, and whose numbers are the
-    radiance before them.
+    """A rendered figure: an Image whose picture has background, lines and color bar, and whose numbers are the radiance
+    without them.
 
     scene      what was rendered, with camera and settings
-    legend     what the colors say; None where that is nothing
-    notes      what was decided by the data, and what is not shown: sentences
-    error      of the radiance, stated by the renderer, as of any Image
+    legend     what the colors mean; None if they mean nothing
+    notes      sentences on what was decided by the data, and on what is not shown
+    error      of the radiance, stated by the renderer, as for any Image
     """
 
     def __init__(self, image: Image, staged: Staged, stage: Any, shares: Shares) -> None:
@@ -192,13 +192,13 @@ class Figure(Image):
         self._staged, self._stage, self._shares = staged, stage, shares
 
     def to_srgb8(self, exposure: float | None = None) -> npt.NDArray[np.uint8]:
-        """The picture as bytes of sRGB, shape (height, width, 3), or 4 with a transparent background. exposure: stops
-        by which balls are brighter; None: that of the figure, and if that is None too, automatic."""
+        """The picture as bytes of sRGB, shape (height, width, 3), or 4 channels with a transparent background.
+        exposure: in stops, of the balls; None: the figure's, and if that is None too, automatic."""
         pixels: npt.NDArray[np.uint8] = self.picture(np.uint8, exposure)
         return pixels
 
     def picture(self, dtype: Any = np.uint8, exposure: float | None = None) -> npt.NDArray[Any]:
-        """The same as to_srgb8, or as uint16."""
+        """The picture of to_srgb8, as uint8 or uint16."""
         exposure = self.exposure if exposure is None else exposure
         exposure = automatic_exposure(self.radiance) if exposure is None else exposure
         options = self._staged.options
@@ -214,7 +214,7 @@ class Figure(Image):
         return quantised(pixels, dtype)
 
     def _strip(self, height: int, background: Doubles | None, ink: str) -> Doubles:
-        """The legend on the background, as at the right of the picture."""
+        """The legend on the background, for the right of the picture."""
         size = self._staged.options.size
         words = raster(self.legend, height, ink)
         width = size[0] - self.shape[1] if size else _strip_width(words, height)
@@ -229,7 +229,7 @@ class Figure(Image):
         return result
 
     def encode(self, format: str, *, exposure: float | None = None, bits: int = 8) -> bytes:
-        """A file's bytes: png, jpg, exr (linear radiance). bits: 8 or 16, of a png."""
+        """The picture as a file's bytes: png, jpg, exr (linear radiance). bits: 8 or 16, for png."""
         if format == "exr":
             return encode_exr(self.radiance)
         if format in ("jpg", "jpeg"):
@@ -242,7 +242,7 @@ class Figure(Image):
 
     def save(self, path: Path, *, exposure: float | None = None, bits: int = 8) -> None:
         """Writes the picture if the path ends in .png or .jpg, and the linear radiance if it ends in .exr or .npy. The
-        file is there whole or not at all. ValueError: another ending."""
+        file is written whole or not at all. ValueError: another ending."""
         format = format_of(path, (*PICTURES, "npy"))
         if format == "npy":
             super().save(path)
@@ -251,12 +251,12 @@ class Figure(Image):
             write_atomically(path, lambda file: file.write(data))
 
     def save_legend(self, path: Path) -> None:
-        """The legend as .svg, .pdf or .png. ValueError: the colors have no meaning, or another ending."""
+        """Writes the legend as .svg, .pdf or .png. ValueError: the colors have no meaning, or another ending."""
         self._staged.save_legend(path)
 
     def save_scene(self, path: Path) -> None:
-        """A scene file for `pt render`, and beside it NPY files of the particles. Background, outlines, lines of the
-        cell and color bar are no part of it; neither is the seed."""
+        """Writes a scene file for `pt render`, and beside it NPY files of the particles. It does not have the
+        background, outlines, lines of the cell, color bar or seed."""
         self._staged.save_scene(path)
 
     def _repr_png_(self) -> bytes:
@@ -264,7 +264,7 @@ class Figure(Image):
 
 
 def _background(background: Any) -> tuple[Doubles | None, str]:
-    """The background in linear light, None if transparent, and the color of words on it."""
+    """The background in linear light, None if transparent, and the color of text on it."""
     if isinstance(background, str) and background == "transparent":
         return None, INK
     color = (255, 255, 255) if isinstance(background, str) and background == "white" else srgb("background", background)
@@ -281,7 +281,7 @@ P = ParamSpec("P")
 
 
 def _with_keywords(make: Callable[P, Options]) -> Callable[Concatenate[Any, P], Figure]:
-    """The function of data and of the keywords that make options."""
+    """Makes a function of data and options into one of data and keywords."""
     def figure(data: Any, /, *args: P.args, **keywords: P.kwargs) -> Figure:
         options = make(*args, **keywords)
         staged = Staged.of(load(data, frame=options.frame, **options.reading), options)

@@ -20,7 +20,7 @@ from pt._scene_file import camera_section, material_section
 from pt.figures._errors import module
 from pt.figures._options import Options
 
-EXR_ROWS: Final = 16  # of a block packed by zip
+EXR_ROWS: Final = 16  # in a block packed by zip
 
 
 def encode_jpeg(pixels: npt.NDArray[np.uint8]) -> bytes:
@@ -47,9 +47,9 @@ def encode_exr(radiance: npt.NDArray[np.float32]) -> bytes:
         planes = np.ascontiguousarray(radiance[row:row + EXR_ROWS, :, ::-1].transpose(0, 2, 1), "<f4")
         data = planes.view(np.uint8).ravel()
         halves = np.concatenate([data[0::2], data[1::2]]).astype(np.int16)
-        halves[1:] = halves[1:] - halves[:-1] + 128  # what the format's decoder undoes
+        halves[1:] = halves[1:] - halves[:-1] + 128  # differences, as the format's decoder expects
         packed = zlib.compress((halves & 255).astype(np.uint8).tobytes(), 4)
-        packed = packed if len(packed) < len(data) else data.tobytes()  # which is told by its size
+        packed = packed if len(packed) < len(data) else data.tobytes()  # the decoder tells by the size
         blocks.append(struct.pack("<2i", row, len(packed)) + packed)
     places = len(header) + 8 * len(blocks) + np.cumsum([0, *map(len, blocks[:-1])])
     return header + places.astype("<u8").tobytes() + b"".join(blocks)
@@ -63,7 +63,7 @@ def write_scene(path: Path, scene: Scene, camera: Camera, size: tuple[int, int],
     item: dict[str, Any] = {}
     for name, column in (("center", array.center), ("radius", array.radius), ("color", array.color)):
         if column is not None and name == "radius" and not column.strides[0]:
-            item[name] = float(column[0])  # of all
+            item[name] = float(column[0])  # the same for all
         elif column is not None:
             file = place.with_name(f"{place.stem}-{name}.npy")
             item[name] = file.name

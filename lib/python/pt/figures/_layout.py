@@ -15,16 +15,16 @@ from pt.figures._options import Direction
 from pt.figures._stage import FLOOR, FLOOR_GAP, Stage, make_stage
 from pt.figures._view import Compass, relative_height, toward_camera, up_vector, view_axes
 
-VERTICAL_FOV: Final = 20.0 * math.pi / 180.0  # narrow, as wide angles make balls at the sides look like eggs
-MARGIN: Final = 0.03  # share of the picture that stays free at each side: by taste
+VERTICAL_FOV: Final = 20.0 * math.pi / 180.0  # narrow: wide angles make balls at the sides look like eggs
+MARGIN: Final = 0.03  # share of the picture that stays free at each side; by taste
 PIXELS: Final = 1024.0 * 768.0
 MOST_ASPECT: Final = 2.0
 
 
 @dataclass(frozen=True)
 class Balls:
-    """What has to be seen whole. centers: shape (n, 3). radii: shape (n,). points: shape (k, 3), like a cell's
-    corners."""
+    """What must be wholly in the picture. centers: shape (n, 3). radii: shape (n,). points: shape (k, 3), such as a
+    cell's corners."""
 
     centers: Array
     radii: Array
@@ -39,7 +39,8 @@ class Balls:
 
 @dataclass(frozen=True)
 class View:
-    """The direction of a figure, and the size of its picture. Of the balls it needs only how far they reach."""
+    """The direction of a figure, and the size of its picture. All that it needs to know of balls is how far they
+    reach."""
 
     compass: Compass
     axes: Doubles
@@ -50,7 +51,7 @@ class View:
 
     @staticmethod
     def through(camera: Camera, up: Direction, size: tuple[int, int], scale: float) -> View:
-        """A camera that is given, in the units of the data."""
+        """The view through a given camera, which is in the units of the data."""
         extent = camera.vertical_extent
         scaled = replace(camera, position=np.multiply(camera.position, scale), target=np.multiply(camera.target, scale),
                          vertical_extent=None if extent is None else extent * scale,
@@ -61,7 +62,7 @@ class View:
     @staticmethod
     def of(balls: Balls, view: Direction, up: Direction, projection: str, size: tuple[int, int] | None,
            turns: bool = False) -> View:
-        """turns: everything that a turntable shows must be in view."""
+        """The view that fits the balls. turns: everything that a turntable shows must be in view."""
         compass = Compass.of(up_vector(up))
         height = 0.0
         if view == "three-quarter":
@@ -88,13 +89,14 @@ class View:
         return vertical * (self.size[0] / self.size[1]), vertical
 
     def reaches(self, balls: Balls) -> Doubles:
-        """How far balls reach in the directions that place() needs; for several frames the maximum."""
+        """How far balls reach in the directions that a Layout needs; for several frames, take the maximum."""
         down = -(self.axes @ self.compass.up)
         return balls.reach(self.axes, np.vstack([SIDES, down[None], pyramid(self.tangents)]), self.spin)
 
 
 def _shape(extents: Doubles) -> tuple[int, int]:
-    """The size of a picture with the shape of what is seen, but no ribbon: PIXELS in all, sides multiples of 8."""
+    """The size of a picture with the proportions of what is seen, but never a ribbon: PIXELS in all, sides multiples of
+    8."""
     aspect = min(max(float(extents[0] / extents[1]), 1.0 / MOST_ASPECT), MOST_ASPECT)
     sides = [8 * math.floor(side / 8.0 + 0.5) for side in (math.sqrt(PIXELS * aspect), math.sqrt(PIXELS / aspect))]
     return sides[0], sides[1]
@@ -109,7 +111,7 @@ class Layout:
 
     @staticmethod
     def of(view: View, reaches: Doubles, style: str, floor: bool) -> Layout:
-        """reaches: View.reaches of all that is shown. ValueError: the floor would hide it."""
+        """reaches: View.reaches of everything shown. ValueError: the floor would hide it."""
         axes, forward = view.axes, view.axes[2]
         extents = Extents.of(reaches[:6])
         middle = extents.middle
@@ -126,7 +128,7 @@ class Layout:
             camera = Camera(position, position + distance * forward, axes[1], vertical_extent=height)
         else:
             position = apex(reaches[7:11], axes, pyramid(view.tangents))
-            if view.spin is not None:  # which sees the same from all sides
+            if view.spin is not None:  # a turntable's camera sees the same from all sides
                 position = position - ((position - view.spin.through) @ axes[0]) * axes[0]
             distance = float(forward @ (center - position))
             camera = Camera(position, position + distance * forward, axes[1], vertical_fov=VERTICAL_FOV)

@@ -1,5 +1,5 @@
-"""What a figure can be told. Of this one description are the keywords of pt.figure() and the options of pt-figure,
-their words in help() and --help, and their checks."""
+"""The options of a figure. This one description makes the keywords of pt.figure(), the options of pt-figure, their
+words in help() and --help, and their checks."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ Columns: TypeAlias = "Mapping[str, str] | str | None"
 
 VIEWS: Final = ("three-quarter", "front", "back", "left", "right", "top", "bottom")
 SAMPLES: Final = 128
-MOST_SAMPLES: Final = 65536  # for a target error
+MOST_SAMPLES: Final = 65536  # with a target error
 
 
 def _option(group: str, default: Any, metavar: str, words: str, **more: Any) -> Any:
-    """more: choices; rule, what must hold, and how it is told; flag, its name on the command line; read, what makes it
-    of text there."""
+    """An option. more: choices; rule, the condition on its value and the words for it; flag, its name on the command
+    line; read, which makes its value from text there."""
     return field(default=default, metadata={"group": group, "metavar": metavar, "words": words, **more})
 
 
@@ -126,7 +126,7 @@ class Options:
 
     @property
     def reading(self) -> dict[str, Any]:
-        """The options of load() and frames() besides their frames."""
+        """The options for load() and frames(), except which frames."""
         return {"columns": self.columns, "format": self.format, "drop_nonfinite": self.drop_nonfinite}
 
     @property

@@ -1,5 +1,5 @@
-"""What is laid over a rendered figure: the share of each pixel that particles cover, lines of the cell that go behind
-them, and outlines; all from what rays meet first, 16 to a pixel."""
+"""What is laid over a rendered figure: the share of each pixel that particles cover, the cell's lines, which particles
+hide, and outlines. All of it follows from what camera rays meet first, 16 rays a pixel."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ from pt._context import Context
 from pt._enums import Format, Quantity
 from pt._fit import Array, Doubles
 
-PER_SIDE: Final = 4  # rays, along each side of a pixel
-BAND_ROWS: Final = 32  # whose hits take less memory on the device than the picture does
-ROUNDING: Final = 1e-5  # of depths in float32 and of what they are computed from
-LEAST_STEP: Final = 0.1  # of the radius, by which something is behind an outline
-LEAST_RADIUS: Final = 2.5  # of a ball with an outline, in widths of the line: others would be all outline
+PER_SIDE: Final = 4  # rays along each side of a pixel
+BAND_ROWS: Final = 32  # few enough that their hits take less memory on the device than the picture does
+ROUNDING: Final = 1e-5  # relative, of depths in float32 and of what they are computed from
+LEAST_STEP: Final = 0.1  # depth behind an outline, as a share of the radius: less has no outline
+LEAST_RADIUS: Final = 2.5  # of a ball with an outline, in line widths: smaller ones would be all outline
 
 
 @dataclass(frozen=True)
 class Shares:
-    """The share of each pixel, shape (height, width), from 0 to 1."""
+    """Shares of each pixel, shape (height, width), from 0 to 1."""
 
     particles: Doubles
     lines: Doubles
@@ -35,7 +35,7 @@ class Shares:
 class Overlaid:
     """first      index of the first particle among all spheres
     radii      shape (n,)
-    segments   ends of lines, scene units: pairs of shape (3,)
+    segments   pairs of end points of lines, each of shape (3,), scene units
     """
 
     first: int
@@ -56,14 +56,14 @@ def cell_edges(origin: Doubles, vectors: Doubles) -> list[tuple[Doubles, Doubles
 
 
 def cell_corners(origin: Doubles, vectors: Doubles) -> Doubles:
-    """Corners, shape (8, 3): bit i of a corner's index says whether it is at the end of edge i."""
+    """The corners of the cell, shape (8, 3): bit i of a corner's index says whether it is at the end of edge i."""
     ends = np.arange(8)[:, None] >> np.arange(3) & 1
     corners: Doubles = origin + ends @ vectors
     return corners
 
 
 def read_shares(context: Context, camera: Camera, settings: RenderSettings, overlaid: Overlaid) -> Shares:
-    """The context has the scene and the camera; its render settings are replaced."""
+    """Shares of the pixels. The context must have the scene and the camera; its render settings are replaced."""
     width, height = settings.width, settings.height
     shares = Shares(*(np.zeros((height, width)) for _ in range(3)))
     radius = 0.5 * line_width((width, height)) * PER_SIDE
@@ -121,7 +121,7 @@ def _line_hits(camera: Camera, size: tuple[int, int], segments: Sequence[tuple[D
     """Rows and columns of the hits that lines pass nearer than radius, and the lines' depths there."""
     axes = np.array(camera.axes())
     limits = np.array(size) * PER_SIDE
-    wide = np.arange(2 * math.ceil(1.5 * radius) + 1) - math.ceil(1.5 * radius)  # at 45 degrees, sqrt(2) of the radius
+    wide = np.arange(2 * math.ceil(1.5 * radius) + 1) - math.ceil(1.5 * radius)  # at 45 degrees, sqrt(2) times radius
     power = -1.0 if camera.vertical_extent is None else 1.0
     found = [np.zeros((3, 0))]
     for segment in segments:
@@ -134,7 +134,7 @@ def _line_hits(camera: Camera, size: tuple[int, int], segments: Sequence[tuple[D
         scale = _pixels_per_length(camera, size[1], seen[:, 2])[:, None] * PER_SIDE
         begin, end = 0.5 * limits + scale * seen[:, :2] * (1, -1)
         way = end - begin
-        steep = int(abs(way[1]) > abs(way[0]))  # then it is gone through by rows, and by columns else
+        steep = int(abs(way[1]) > abs(way[0]))  # then it is followed row by row, otherwise column by column
         first, last = np.clip(np.sort((begin[steep], end[steep])) + (-radius, radius), 0, limits[steep]).astype(int)
         along = np.arange(first, last)
         across = begin[1 - steep] + (along + 0.5 - begin[steep]) * way[1 - steep] / (way[steep] or 1.0)
@@ -143,8 +143,8 @@ def _line_hits(camera: Camera, size: tuple[int, int], segments: Sequence[tuple[D
         share = np.clip(np.tensordot(way, offset, 1) / (way @ way or 1.0), 0.0, 1.0)
         near = np.hypot(*(share * way[:, None, None] - offset)) <= radius
         near &= ((hits >= 0) & (hits < limits[:, None, None])).all(axis=0)
-        # Along a straight line of the picture the inverse of the depth is linear in a perspective (Blinn 1992, "Hyperbolic
-        # interpolation"), and the depth itself with parallel rays.
+        # Along a straight line in the picture, the inverse of the depth is linear in a perspective (Blinn 1992,
+        # "Hyperbolic interpolation"); with parallel rays the depth itself is.
         nearest, farthest = seen[:, 2]**power
         found.append(np.stack([hits[1][near], hits[0][near], (nearest + share[near] * (farthest - nearest))**power]))
     rows, columns, depths = np.concatenate(found, axis=1)
@@ -153,7 +153,8 @@ def _line_hits(camera: Camera, size: tuple[int, int], segments: Sequence[tuple[D
 
 def _outlines(objects: Array, depths: Array, is_particle: Array, overlaid: Overlaid, pixels: Array, width: float
               ) -> Array:
-    """Where a ball ends before something that is farther by more than a tenth of its radius, or that is no ball."""
+    """The outlines of balls: where a ball ends in front of something that is not a ball, or is farther by more than a
+    tenth of the ball's radius."""
     index = np.where(is_particle, objects - np.uint32(overlaid.first), 0)
     radii = overlaid.radii[index if overlaid.radii.strides[0] else np.zeros_like(index)]
     large = is_particle & (radii * pixels >= LEAST_RADIUS * width)

@@ -17,16 +17,16 @@ from pt.figures._errors import DataError
 
 Array = npt.NDArray[Any]
 
-NEGLIGIBLE: Final = 1e-12  # of the largest coordinate: a hundred thousandth of what float32 can tell apart
+NEGLIGIBLE: Final = 1e-12  # as a share of the largest coordinate: 1e-5 of what float32 can tell apart
 MANY_COLUMNS: Final = 1000
-MOST_COMPARED: Final = 2_000_000  # particles among which those in one place are looked for
+MOST_COMPARED: Final = 2_000_000  # particles that are compared to find those in the same place
 MOST_SORTED: Final = 100_000
 _ODD: Final = np.uint64(0x9E3779B97F4A7C15)  # 2^64 over the golden ratio: Knuth's multiplicative hash
 
-# Columns of positions, best first: a letter, with a stem before or after it, or a stem with a number.
+# Names of columns of positions, best first: a letter with a stem before or after it, or a stem with a number.
 _STEMS: Final = ("", "pos", "position", "positions", "point", "points", "coord", "coords", "coordinate", "coordinates",
                  "center", "centre", "centroid", "location", "loc", "xyz")
-_LAMMPS: Final = ("u", "s", "su")  # after the letter: unwrapped, and as fractions of the cell
+_LAMMPS: Final = ("u", "s", "su")  # after the letter: unwrapped, fractions of the cell, both
 _SCALED: Final = _LAMMPS[1:]
 _TABLES: Final = (*_STEMS[1:], "vertices", "r", "x", "arr0")  # of two or three columns
 _COLORS: Final = (("red", "green", "blue", "alpha"), ("r", "g", "b", "a"),
@@ -56,7 +56,7 @@ class Cell:
 
     @staticmethod
     def of(vectors: npt.ArrayLike, origin: npt.ArrayLike = (0, 0, 0), periodic: npt.ArrayLike = True) -> Cell | None:
-        """None where the vectors are all 0, or span no volume: then there is no cell."""
+        """A cell; None if the vectors are all 0, or span no volume: then there is none."""
         rows = np.array(vectors, np.float64)
         rows = np.diag(rows) if rows.shape == (3,) else rows.reshape(3, 3)
         if not np.isfinite(rows).all() or np.linalg.det(rows) == 0:
@@ -69,12 +69,12 @@ class Particles:
     """n particles, n >= 1, and what the data say of them.
 
     positions  shape (n, 3), float32 or float64, finite
-    columns    every column of the data under its own name, shape (n,), numbers or str; those of positions are views
+    columns    every column of the data under its own name, shape (n,), numbers or str; those of coordinates are views
     elements   shape (n,), uint8: atomic numbers, 0 for an unknown element; None: the data have no elements
     types      shape (n,), int or str: labels that are not elements
     radii      shape (n,): a column "radius", or half a column "diameter"
     colors     shape (n, 3) or (n, 4): sRGB, floats from 0 to 1, uint8 or uint16
-    name       of the data, for messages
+    name       name of the data, for messages
     notes      warnings for the user
     """
 
@@ -92,11 +92,11 @@ class Particles:
         return len(self.positions)
 
     def column(self, name: str) -> Array:
-        """The column of that name, or the only one whose name differs in case alone."""
+        """The column of that name, or the only one whose name differs only in case."""
         return self.columns[_found(self.columns, name, self.name)]
 
     def select(self, mask: Array) -> Particles:
-        """The particles of a mask, a slice or indices, in that order. If all are kept, they are not copied."""
+        """The particles that a mask, a slice or indices select, in that order. If all are kept, they are not copied."""
         if mask.dtype == bool and mask.all():
             return self
         chosen = {key: None if value is None else value[mask] for key, value in
@@ -116,7 +116,8 @@ class Particles:
         return self._moved(positions, slice(None))
 
     def _moved(self, positions: Array, rows: Any, **changed: Any) -> Particles:
-        """With other positions, and these rows of the other columns. Columns of coordinates stay views of the positions."""
+        """Particles with other positions, and these rows of the other columns. Columns of coordinates stay views of
+        positions."""
         axes = {self.positions[:, axis].ctypes.data: axis for axis in range(3)}
         columns = {}
         for name, values in self.columns.items():
@@ -127,10 +128,10 @@ class Particles:
 
 @dataclass
 class Table:
-    """What a file or an object holds, before it is known what its columns mean.
+    """The contents of a file or an object, before it is known what the columns mean.
 
-    columns  one or two dimensions each; of positions also as one column of two or three components
-    is_text  numbers have no type that says the scale of colors
+    columns  arrays of one or two dimensions; positions may also be one column of two or three components
+    is_text  whether numbers come from text, so that their type does not tell the scale of colors
     """
 
     columns: Mapping[str, npt.ArrayLike]
@@ -140,7 +141,8 @@ class Table:
 
 
 def assembled(name: str, given: Table, mapping: Mapping[str, str], drop_nonfinite: bool) -> Particles:
-    """Particles of columns, found by their names, or by those of a mapping: {"x": "pos_x", "radius": "r"}."""
+    """Particles from columns, which are found by their names, or by those in a mapping: {"x": "pos_x", "radius":
+    "r"}."""
     notes = list(given.notes)
     parts, table = _split(name, given.columns)
     chosen = {role: _found(parts, source, name) for role, source in mapping.items()}
@@ -157,7 +159,7 @@ def assembled(name: str, given: Table, mapping: Mapping[str, str], drop_nonfinit
 
 
 def _split(name: str, columns: Mapping[str, npt.ArrayLike]) -> tuple[dict[str, Array], Array | None]:
-    """Columns of one dimension each, and the table of positions, if any, as it is."""
+    """Splits columns into ones of one dimension; also returns the table of positions, if there is one, unchanged."""
     arrays = {key: _without_objects(np.asarray(values)) for key, values in columns.items()}
     count = next((array.shape[:1] for array in arrays.values()), ())
     for key, array in arrays.items():
@@ -179,7 +181,7 @@ def _split(name: str, columns: Mapping[str, npt.ArrayLike]) -> tuple[dict[str, A
 
 
 def _without_objects(array: Array) -> Array:
-    """What pandas and others keep as objects: numbers, or else words."""
+    """An array that pandas and others keep as objects, as numbers or, failing that, words."""
     if array.dtype != object:
         return array
     try:
@@ -189,13 +191,14 @@ def _without_objects(array: Array) -> Array:
 
 
 def _plain(name: str) -> str:
-    """A name in small letters, without units in brackets, separators and quotes: posx for "Pos_X [m]"."""
+    """A name in lower case, without units in brackets, separators and quotes: posx for "Pos_X [m]"."""
     name = re.sub(r"\s*[\[(](?!\d+[\])])[^\])]*[\])]\s*$", "", name)
     return re.sub(r"[^a-z0-9]", "", name.lower())
 
 
 def _found(columns: Mapping[str, Array], name: str, data: str) -> str:
-    """A column's name: as it is, or in another case, or by its number from 1 where names have none."""
+    """The name of a column that was asked for by name, in whatever case, or by number from 1 if columns have no
+    names."""
     if name in columns:
         return name
     similar = [each for each in columns if each.lower() == name.lower()]
@@ -216,8 +219,8 @@ def _first(columns: Mapping[str, Array], names: tuple[str, ...]) -> str | None:
 
 
 def coordinate_names(names: list[str]) -> tuple[list[str], bool]:
-    """Which columns are positions, two or three or none, and whether they are fractions of the cell. Exact names come
-    first, so that beside x, y and z a column Z is the atomic number that it mostly is."""
+    """Which columns are positions (two, three or none), and whether they are fractions of the cell. Exact names come
+    first, so that beside x, y and z a column Z is the atomic number, as it mostly is."""
     if all(axis in names for axis in "xyz"):
         return ["x", "y", "z"], False
     plain: dict[str, str] = {}
@@ -236,7 +239,7 @@ def coordinate_names(names: list[str]) -> tuple[list[str], bool]:
 
 def _positions(name: str, parts: dict[str, Array], table: Array | None, chosen: dict[str, str], cell: Cell | None,
                notes: list[str]) -> Array:
-    """Shape (n, 3); the columns that hold them become views of it."""
+    """Positions of shape (n, 3); the columns that hold them become views of it."""
     axes, scaled = coordinate_names(list(parts)) if table is None else (list("xyz")[:table.shape[1]], False)
     if any(axis in chosen for axis in "xyz"):
         axes, scaled = [chosen.get(axis, axis) for axis in "xyz" if axis in chosen or axis in axes], False
@@ -272,7 +275,7 @@ def _positions(name: str, parts: dict[str, Array], table: Array | None, chosen: 
 
 
 def _common_table(columns: list[Array]) -> Array | None:
-    """The array whose columns these are, one by one."""
+    """The array that has exactly these columns, in order; None if there is none."""
     table, count = columns[0].base, len(columns[0])
     if not isinstance(table, np.ndarray) or table.ndim != 2 or len(table) < count or table.shape[1] != len(columns):
         return None
@@ -282,7 +285,7 @@ def _common_table(columns: list[Array]) -> Array | None:
 
 
 def _flushed(positions: Array) -> Array:
-    """Positions with 0 in place of numbers like 3e-19, which rounding leaves: negligible beside the largest
+    """Positions with 0 in place of numbers such as 3e-19 that rounding leaves: negligible beside the largest
     coordinate."""
     least, largest = np.inf, 0.0
     for rows in chunks(len(positions)):
@@ -291,11 +294,11 @@ def _flushed(positions: Array) -> Array:
         least = min(least, float(sizes.min(where=sizes > 0, initial=np.inf)))
     if least >= NEGLIGIBLE * largest:
         return positions
-    return np.where(np.abs(positions) < NEGLIGIBLE * largest, 0, positions)  # it may be the user's own
+    return np.where(np.abs(positions) < NEGLIGIBLE * largest, 0, positions)  # a copy: the array may be the user's own
 
 
 def _finite(particles: Particles, drop: bool) -> Particles:
-    """Refuses rows that cannot be drawn, naming the first, or leaves them out."""
+    """Refuses rows that cannot be drawn, naming the first; or, if drop, leaves them out."""
     good = np.isfinite(particles.positions[:, 0])
     for column in (*particles.positions.T[1:], *(() if particles.radii is None else (particles.radii,))):
         good &= np.isfinite(column)
@@ -318,8 +321,9 @@ def _finite(particles: Particles, drop: bool) -> Particles:
 
 
 def _note_coinciding(particles: Particles) -> None:
-    """Counts particles in the place of another one, by a projection in which others do not fall together; of many
-    particles among those alone whose projections have a hash that begins with zeros."""
+    """Notes how many particles are in the same place as another one. Places are told apart by a projection in which
+    different ones do not coincide; if there are many particles, only those whose projections have a hash that begins
+    with zeros are compared."""
     count, bits = len(particles), (len(particles) // MOST_SORTED).bit_length()
     if count > MOST_COMPARED:
         return
@@ -345,7 +349,8 @@ def _put_radii(particles: Particles, chosen: dict[str, str]) -> None:
 
 
 def _put_labels(particles: Particles, chosen: dict[str, str]) -> None:
-    """Elements, or else types: of columns of types those are elements that have words, mostly known ones."""
+    """Fills in elements or, failing that, types. A column of types has elements if it has words that are mostly known
+    symbols."""
     columns = particles.columns
     element, kind = (chosen.get(role) or _first(columns, names) for role, names in
                      (("element", _ELEMENTS), ("type", _TYPES)))
@@ -362,7 +367,8 @@ def _put_labels(particles: Particles, chosen: dict[str, str]) -> None:
 
 
 def _colors(columns: Mapping[str, Array], chosen: dict[str, str], is_text: bool, notes: list[str]) -> Array | None:
-    """Their scale comes from the type; other integers and numbers from text are judged by the largest."""
+    """Colors of the particles. The type tells their scale; for other integers and for numbers from text, the largest
+    number does."""
     choices = (tuple(chosen.get(key, key) for key in _COLORS[0]), *_COLORS)
     found = next((names for names in ([_first(columns, (name,)) for name in choice] for choice in choices)
                   if None not in names[:3]), None)
@@ -381,7 +387,7 @@ def _colors(columns: Mapping[str, Array], chosen: dict[str, str], is_text: bool,
     if kinds in ({"u1"}, {"u2"}) or (kinds == {"f"} and not is_text):
         return colors
     largest = float(np.nanmax(colors[:, :3], initial=0))
-    # Tolerant of rounding: a component of 1.0000001 does not make all of them bytes.
+    # Tolerates rounding: a component of 1.0000001 does not mean that all of them are bytes.
     scale = 1.0 if largest <= 1.5 else 255.0 if largest <= 258 else 65535.0
     notes.append(f"colors {', '.join(names)} are taken to go from 0 to {scale:g}: the largest is {largest:g}")
     return np.clip(colors / scale, 0, 1)

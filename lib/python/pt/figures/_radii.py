@@ -1,4 +1,4 @@
-"""Radii of particles: given, of their elements or types, or from how far apart they are."""
+"""Radii of particles: given, from their elements or types, or from how far apart they are."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from pt.figures._options import Radius
 from pt.figures._particles import Particles
 
 PROBES: Final = 1000
-IN_CELL: Final = 8  # particles, where they fill their box evenly
+IN_CELL: Final = 8  # particles in a cell, if they fill their box evenly
 MOST_PAIRS: Final = 4_000_000
 TABLE_BITS: Final = 20
 STEPS: Final = np.indices((3, 3, 3)).reshape(3, 1, 27) - 1
 
 
 def column(particles: Particles, name: str) -> Array:
-    """A column by its name; radius, type and element also under other names of the data."""
+    """A column by its name; "radius", "type" and "element" work whatever the data call them."""
     known = {"radius": particles.radii, "type": particles.types, "element": particles.elements}
     values = known.get(name) if name not in particles.columns else None
     if values is None:
@@ -33,7 +33,7 @@ def column(particles: Particles, name: str) -> Array:
 
 
 def radii_of(particles: Particles, radius: Radius, notes: list[str]) -> Array:
-    """Radii in shape (n,), or one number for all. notes: receives what is worth telling."""
+    """Radii in shape (n,), or one number for all. notes: receives sentences for the user."""
     factor = 1.0
     if isinstance(radius, str):
         product = re.fullmatch(r"\s*([-+.\deE]+)\s*\*\s*(.+?)\s*", radius)
@@ -85,15 +85,15 @@ def _automatic(particles: Particles, notes: list[str]) -> Array:
     if particles.elements is not None:
         radii = elements.COVALENT_RADII[np.unique(particles.elements)]
         radii = radii[radii > 0]
-        # A bond is as long as two covalent radii, in a solid without bonds up to thrice that, in a gas at 0 degrees and
-        # 1 bar 16 times: other distances are not in angstroms.
+        # The distance between neighbours is two covalent radii in a bond, up to three times that in a solid without
+        # bonds, 16 times in a gas at 0 degrees Celsius and 1 bar: other distances are not in angstroms.
         if len(radii) and 0.7 * radii.min() <= typical <= 30.0 * radii.max():
             return _of_elements(particles, particles.elements, "covalent", notes)
     return np.array([typical])
 
 
 def _of_elements(particles: Particles, numbers: npt.NDArray[np.uint8], kind: str, notes: list[str]) -> Array:
-    """Radii of elements; unknown ones have the mean of the known."""
+    """Radii of elements; unknown elements have the mean of the known ones."""
     table = (elements.COVALENT_RADII if kind == "covalent" else elements.VAN_DER_WAALS_RADII).astype(np.float32)
     there = np.flatnonzero(np.bincount(numbers, minlength=len(table)))
     known = there[table[there] > 0]
@@ -125,16 +125,17 @@ def typical_radius(positions: Array) -> float:
     if not len(first):
         return 1.0
     median = float(np.median(first))
-    # Of points at random a twentieth has its nearest neighbour at 0.27 of the median on a surface, and at 0.42 in space
-    # (0.051 = -log(0.95) and 0.69 = -log(0.5): their ratio's square and cube root); atoms have none at half of it.
+    # Among random points, a twentieth have their nearest neighbour within 0.27 of the median distance on a surface, and
+    # within 0.42 in space (the square and cube root of -log(0.95) / -log(0.5) = 0.051 / 0.69). No atoms are within half
+    # of the median.
     if len(fourth) and float(np.quantile(first, 0.05)) < 0.5 * median:
         median = float(np.median(fourth))
     return 0.5 * median
 
 
 def _neighbour_distances(positions: Array) -> tuple[Array, Array]:
-    """For some particles the distances to the nearest and the fourth neighbour, as far as these are in adjacent cells
-    of a grid."""
+    """For a sample of the particles, the distances to the nearest and the fourth neighbour, if these are in adjacent
+    cells of a grid."""
     count = len(positions)
     low, high = (np.array([end(column) for column in positions.T], np.float64) for end in (np.min, np.max))
     extent = high - low
@@ -144,9 +145,9 @@ def _neighbour_distances(positions: Array) -> tuple[Array, Array]:
     places = positions[::-(-count // PROBES)].astype(np.float64)
     side = float(np.prod(extent[broad]) * IN_CELL / count) ** (1.0 / int(broad.sum()))
     if count <= 27 * IN_CELL:
-        side = 2.0 * float(extent.max())  # all are neighbours
+        side = 2.0 * float(extent.max())  # then all are neighbours
     sample = positions[::max(count // 50_000, 1)]
-    for _ in range(8):  # in clusters cells have to be smaller, as their box is nearly empty
+    for _ in range(8):  # clusters need smaller cells, since their box is nearly empty
         _, begin, end = _near(sample, places, low, side)
         crowd = float(np.median((end - begin).sum(axis=1))) * count / len(sample)
         if crowd <= 64 * IN_CELL:
@@ -158,7 +159,7 @@ def _neighbour_distances(positions: Array) -> tuple[Array, Array]:
     for place, *cells in zip(places, begin.tolist(), end.tolist()):
         others = np.concatenate([near[first:last] for first, last in zip(*cells) if first < last])
         distances = np.linalg.norm(others - place, axis=1)
-        # Those farther away than the side may have nearer rivals outside of these cells.
+        # Beyond the side of a cell, a nearer neighbour may lie outside these cells.
         found.append(np.sort(distances[(distances > 0.0) & (distances <= side)]))
         pairs += len(others)
         if pairs > MOST_PAIRS:
@@ -167,8 +168,8 @@ def _neighbour_distances(positions: Array) -> tuple[Array, Array]:
 
 
 def _near(positions: Array, places: Doubles, low: Doubles, side: float) -> tuple[Doubles, Array, Array]:
-    """The positions in the cells of some places and beside them, ordered by cell; where each of a place's 27 cells
-    begins in that order and where it ends."""
+    """The positions in and around the cells of some places, ordered by cell; and where in that order each of a place's
+    27 cells begins and ends."""
     keys = _keys(_cells(places, low, side)[:, :, None] + STEPS)
     wanted = np.zeros(1 << TABLE_BITS, bool)
     wanted[keys] = True
@@ -185,14 +186,14 @@ def _near(positions: Array, places: Doubles, low: Doubles, side: float) -> tuple
 
 
 def _cells(positions: Array, low: Doubles, side: float) -> Array:
-    """Shape (3, n)."""
+    """Cells of the grid by their coordinates, shape (3, n)."""
     cells: Array = np.floor((coordinates(positions) - low[:, None]) / side).astype(np.int64)
     return cells
 
 
 def _keys(cells: Array) -> Array:
-    """Of cells of a grid: Teschner et al. 2003, "Optimized Spatial Hashing for Collision Detection of Deformable
-    Objects". Cells that share a key by chance cost time and change nothing, as distances decide."""
+    """Hashes of a grid's cells: Teschner et al. 2003, "Optimized Spatial Hashing for Collision Detection of Deformable
+    Objects". Cells that share a key by chance cost time but change nothing, since distances decide."""
     hashed = cells[0] * 73856093 ^ cells[1] * 19349663 ^ cells[2] * 83492791
     keys: Array = (hashed ^ hashed >> TABLE_BITS) & (1 << TABLE_BITS) - 1
     return keys

@@ -1,4 +1,5 @@
-"""Frames of a trajectory, and turns of one, that go together: one camera, one scale of colors, one rule of radii."""
+"""Series of pictures, the frames of a trajectory or a turntable, with one camera, one scale of colors and one rule for
+radii."""
 
 from __future__ import annotations
 
@@ -17,7 +18,7 @@ from pt.figures._particles import Particles
 
 
 def frames(read: Callable[[], Iterator[Particles]], options: Options) -> Iterator[Staged]:
-    """Each frame. All are read twice: first for what has to fit all of them."""
+    """Stages each frame. All frames are read twice, the first time to find what fits all of them."""
     options, view, reaches, scale = _common(read(), options)
     layout = Layout.of(view, reaches, options.style, options.floor)
     for particles in read():
@@ -25,7 +26,7 @@ def frames(read: Callable[[], Iterator[Particles]], options: Options) -> Iterato
 
 
 def _common(trajectory: Iterator[Particles], options: Options) -> tuple[Options, View, Doubles, float]:
-    """The options, with what all frames share, their view, how far they reach in it, and their scale."""
+    """The options with what all frames share, their view, how far they reach in it, and their scale."""
     view: View | None = None
     reaches: Doubles | None = None
     scale: float | None = None
@@ -50,14 +51,16 @@ def _common(trajectory: Iterator[Particles], options: Options) -> tuple[Options,
 
 
 def _rule(particles: Particles, drawn: Drawn, options: Options) -> Radius:
-    """Of radii, so that those of later frames do not follow from their own distances."""
+    """The rule for radii that the first frame sets, so that radii of later frames do not follow from their own
+    distances."""
     if options.radius is not None or particles.radii is not None:
         return options.radius
     return float(drawn.radii[0]) / drawn.scale if drawn.radii.strides == (0,) else "covalent"
 
 
 def turntable(particles: Particles, count: int, options: Options) -> Iterator[Staged]:
-    """Once round the vertical axis, from the view on, counterclockwise as seen from above; lamps go with the camera."""
+    """Stages a full turn about the vertical axis, starting at the view, counterclockwise as seen from above. Lamps move
+    with the camera."""
     drawn = prepare(particles, options)
     view = view_of(drawn, options, turns=True)
     for k in range(count):

@@ -1,4 +1,4 @@
-"""From where a figure is seen: sides by name or by a direction, and the axes of the picture that follow."""
+"""Where a figure is seen from, a side by name or a direction, and the axes of the picture that follow."""
 
 from __future__ import annotations
 
@@ -11,16 +11,18 @@ import numpy as np
 from pt._fit import Doubles
 from pt.figures._options import VIEWS, Direction
 
-# By taste the three-quarter view is so far from the front towards the right that neither an edge of a box nor its
-# diagonal is in the line of sight, and above the horizon. Flat data would hide themselves, and are seen from higher.
+# The three-quarter view, by taste: turned from the front towards the right so far that neither an edge of a box nor its
+# diagonal lies along the line of sight, and above the horizon. Flat data would hide themselves, so they are seen from
+# higher up.
 AZIMUTH: Final = 30.0
 ELEVATION_OF_BODIES: Final = 22.0
 ELEVATION_OF_DISCS: Final = 50.0
-BODY: Final = 0.5  # from this height over width on
+BODY: Final = 0.5  # relative height from which on data are not flat
 
 
 def unit(vector: Doubles) -> Doubles:
-    """Of any length but 0; squares of what is scaled by the largest do not leave the range of numbers."""
+    """The unit vector of one of any length except 0. It is scaled by its largest component first, so that squares do
+    not overflow."""
     scaled = vector / np.abs(vector).max()
     result: Doubles = scaled * (1.0 / math.sqrt(scaled[0] * scaled[0] + scaled[1] * scaled[1] + scaled[2] * scaled[2]))
     return result
@@ -38,7 +40,7 @@ def three_numbers(name: str, value: Direction, rule: str) -> Doubles:
 
 
 def up_vector(up: Direction) -> Doubles:
-    """From "z", "-y" or three numbers."""
+    """The up vector from "z", "-y" or three numbers."""
     if isinstance(up, str) and up.lstrip("-") in ("x", "y", "z") and len(up) < 3:
         axis = np.zeros(3)
         axis["xyz".index(up[-1])] = -1.0 if up[0] == "-" else 1.0
@@ -48,8 +50,8 @@ def up_vector(up: Direction) -> Doubles:
 
 @dataclass(frozen=True)
 class Compass:
-    """The directions in the data's coordinates that right and front are seen from. Right is x, or y where up is nearest
-    to x; front is right x up: with z up that is -y, with y up it is z, as simulations and molecules have it."""
+    """The directions, in the data's coordinates, that the views "right" and "front" look from. Right is x, or y if up
+    is nearest to x. Front is right x up: -y if z is up, z if y is up, as in simulations and for molecules."""
 
     right: Doubles
     front: Doubles
@@ -63,7 +65,7 @@ class Compass:
 
 
 def relative_height(extents: Doubles) -> float:
-    """How large data are along up, as a share of how large they are across it: 0 of a layer, 1 of a cube.
+    """The size of data along up, as a share of their size across it: 0 for a layer, 1 for a cube.
 
     extents: of the centres along right, front and up.
     """
@@ -72,7 +74,7 @@ def relative_height(extents: Doubles) -> float:
 
 
 def toward_camera(view: Direction, compass: Compass, height: float) -> Doubles:
-    """height: relative_height, which the three-quarter view follows."""
+    """The direction from the data to the camera. height: relative_height, which the three-quarter view depends on."""
     if view == "three-quarter":
         if height == 0.0:
             return compass.up
@@ -90,7 +92,8 @@ def toward_camera(view: Direction, compass: Compass, height: float) -> Doubles:
 
 
 def view_axes(toward: Doubles, compass: Compass) -> Doubles:
-    """Right, up and forward in the picture, in rows: right x up = -forward. Seen along up, right stays right."""
+    """Right, up and forward of the picture, in rows: right x up = -forward. In a view along up, right is the compass's
+    right."""
     forward = -toward
     across = np.cross(forward, compass.up)
     right = compass.right if np.linalg.norm(across) < 1e-6 else unit(across)

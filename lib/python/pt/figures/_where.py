@@ -1,4 +1,4 @@
-"""Conditions of particles that are shown."""
+"""Conditions that choose which particles are shown."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ CONDITION: Final = re.compile(r"\s*([^<>=!]+?)\s*(<=|>=|==|!=|<|>)\s*([^<>=!\s]+
 
 
 def holds(particles: Particles, condition: str) -> npt.NDArray[np.bool_]:
-    """Of each particle, for "z < 5" or "element != H"."""
+    """Whether a condition such as "z < 5" or "element != H" holds, for each particle."""
     found = CONDITION.fullmatch(condition)
     if found is None:
         raise ValueError(f"where = {condition!r}: must be a column, one of {', '.join(COMPARISONS)}, and a number or, "

@@ -1,4 +1,4 @@
-"""pt-tachyon: a scene of Tachyon as a scene file of `pt render`."""
+"""pt-tachyon: converts a scene of Tachyon to a scene file of `pt render`."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def scene_file(found: TachyonScene) -> dict[str, Any]:
-    """The sections of a scene file, as JSON has them."""
+    """The sections of a scene file, ready for JSON."""
     materials: dict[str, Material] = {f"texture {index}": each for index, each in enumerate(found.scene.materials)}
     names = {each: name for name, each in materials.items()}
     spheres = list(_spheres_of(found.scene.sphere_arrays))

@@ -1,4 +1,4 @@
-"""Lamps in the place of Tachyon's lights, which are points and directions without a size."""
+"""Makes lamps from Tachyon's lights, which are points and directions without a size."""
 
 from __future__ import annotations
 
@@ -12,27 +12,27 @@ from pt._vectors import Triple
 
 FloatArray = npt.NDArray[np.float64]
 
-DEFAULT_RADIUS = 1 / 50  # of a light without one, over its distance
-LEAST_RADIUS = 1e-6  # likewise: what is smaller lies on a surface
-SUN_DISTANCE = 100.0  # over the extent of the scene
+DEFAULT_RADIUS = 1 / 50  # of a light without a radius, relative to its distance
+LEAST_RADIUS = 1e-6  # likewise: a smaller lamp is taken to lie on a surface
+SUN_DISTANCE = 100.0  # relative to the extent of the scene
 
 
 @dataclass(frozen=True)
 class Light:
-    """A white matt surface that faces it has the radiance color / (a + b d + c d^2), (a, b, c) being its attenuation and
-    d its distance."""
+    """A light of Tachyon. It gives a white matt surface that faces it at the distance d the radiance color / (a + b d +
+    c d^2), where (a, b, c) is the attenuation."""
 
     file_place: str
     color: Triple
-    place: Triple  # or, of a directional one, the direction towards the light
+    place: Triple  # of a directional light, the direction towards it
     is_directional: bool = False
     attenuation: Triple = (1.0, 0.0, 0.0)
-    radius: float = 0.0  # at which it is seen; 0 if it has none
+    radius: float = 0.0  # of the visible ball; 0 if it has none
 
 
 @dataclass(frozen=True)
 class Surroundings:
-    """What decides how large lamps are: the surfaces of the scene and its camera."""
+    """What limits the size of lamps: the surfaces of the scene, and its camera."""
 
     centers: FloatArray  # (n, 3)
     radii: FloatArray  # (n,)
@@ -41,14 +41,14 @@ class Surroundings:
     target: FloatArray  # (3,), what it looks at
 
     def clearance(self, point: FloatArray) -> float:
-        """From the point to the nearest surface."""
+        """The distance from the point to the nearest surface."""
         gaps = np.abs(np.linalg.norm(self.centers - point, axis=1) - self.radii).tolist()
         gaps += [abs(float(np.dot(plane.normal, point)) + plane.offset) / float(np.linalg.norm(plane.normal))
                  for plane in self.planes]
         return float(min(gaps, default=np.inf))
 
     def extent(self, lights: list[Light]) -> float:
-        """The largest distance from the target to anything but planes; above 0."""
+        """The largest distance from the target to anything except planes; above 0."""
         reach = np.linalg.norm(self.centers - self.target, axis=1) + self.radii
         places = [np.array(light.place) for light in lights if not light.is_directional] + [self.camera]
         return float(max([float(np.linalg.norm(place - self.target)) for place in places] + reach.tolist()))
@@ -56,8 +56,8 @@ class Surroundings:
 
 def view_target(centers: FloatArray, radii: FloatArray, planes: list[Plane], position: Triple,
                 direction: Triple) -> FloatArray:
-    """What a camera that has only a direction looks at: of the points ahead the one nearest to the middle of the box
-    around all spheres; without spheres ahead where the nearest plane is met; else the point at the distance 1."""
+    """A target for a camera that has only a direction: the point ahead nearest to the middle of the box around all
+    spheres; if no spheres are ahead, where the nearest plane is met; otherwise the point at the distance 1."""
     start = np.array(position)
     way = np.array(direction) / np.linalg.norm(direction)
     distance = 0.0
@@ -76,10 +76,11 @@ def view_target(centers: FloatArray, radii: FloatArray, planes: list[Plane], pos
 def lamps_of(lights: list[Light], around: Surroundings) -> tuple[list[Sphere], list[str]]:
     """A ball for each light, and warnings about those that can have none.
 
-    A ball of radius r and radiance L gives a white surface that faces it at the distance d the radiance L (r / d)^2: its
-    L is such that this is what the light gives where the camera looks. A light without a radius gets a 50th of its
-    distance and is hidden from the camera. Near surfaces, or near a camera that would see it, a lamp has half of that
-    gap, if that is less. Directional lights are put at a hundred times the extent of the scene.
+    A ball of radius r and radiance L gives a white surface that faces it at the distance d the radiance L (r / d)^2. L
+    is chosen so that this is what the light gives at the camera's target. A light without a radius gets 1/50 of its
+    distance as its radius, and is hidden from the camera. A lamp's radius is at most half of its distance from the
+    nearest surface and, if the camera sees it, from the camera. Directional lights are put at a hundred times the
+    extent of the scene.
     """
     extent = around.extent(lights)
     lamps: list[Sphere] = []
@@ -93,7 +94,7 @@ def lamps_of(lights: list[Light], around: Surroundings) -> tuple[list[Sphere], l
         else:
             center = np.array(light.place)
             distance = float(np.linalg.norm(center - around.target))
-            if distance <= LEAST_RADIUS * extent:  # at the point that is looked at: measured at the camera
+            if distance <= LEAST_RADIUS * extent:  # the light is at the target: use the distance of the camera
                 distance = float(np.linalg.norm(center - around.camera))
         room = around.clearance(center)
         if light.radius > 0.0:

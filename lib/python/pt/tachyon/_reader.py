@@ -27,16 +27,16 @@ OTHERS = {
     "START_CLIPGROUP": "a cut through shapes", "INCLUDE": "another file"}
 SECTIONS = ("CAMERA", "BACKGROUND", "LIGHT", "DIRECTIONAL_LIGHT", "TEXDEF", "TEXALIAS", "SPHERE", "PLANE", "SHADER_MODE",
             "END_SCENE")
-SKY_RADIUS = 1e6  # over the extent: a floor ends less than a pixel below the horizon
+SKY_RADIUS = 1e6  # relative to the extent: a floor ends less than a pixel below the horizon
 
 
 @dataclass
 class TachyonScene:
-    """What a file has, with a lamp for each light and a ball around all in place of the background.
+    """The contents of a file, with a lamp for each light and a ball around everything as the background.
 
     scene      its spheres are one SphereArray, in the order of the file
-    camera     with the target that Tachyon's direction leads to
-    settings   the file's resolution, other settings as they are by default
+    camera     with a target along Tachyon's viewing direction
+    settings   the file's resolution; other settings have their defaults
     notes      what was left out, each with its line
     """
 
@@ -49,29 +49,30 @@ class TachyonScene:
 def read(path: str | os.PathLike[str], *, leave_out_others: bool = False) -> TachyonScene:
     """Reads a scene file of Tachyon. Lengths stay as they are; the rest becomes:
 
-    colors                     linear, as they stand; `pt render --gamma 1` shows them so, as Tachyon does
-    axes, left-handed          z has the other sign
+    colors                     linear, unchanged; `pt render --gamma 1` shows them as Tachyon does axes, left-handed z
+    has the other sign
     ZOOM                       half of the height is seen at the tangent 0.5 / ZOOM; with ORTHOGRAPHIC the vertical_extent
                                is 1 / ZOOM
     DIFFUSE, SPECULAR > 0      diffuse, and a mirror: specular with the glossiness 1e6
     PHONG p, PHONG_SIZE n,     glossiness n, specular 2 p / (n + 2), so that the highlight is as bright
       without SPECULAR
-    BACKGROUND                 a ball around all that shines in this color, and so lights the scene too; none if black
-    a light, which has no      a lamp that lights what the camera looks at as the light would; with a radius RAD it is in
+    BACKGROUND                 a ball around everything that shines in this color, and so also lights the scene; none if
+    black a light, which has no a lamp that lights what the camera looks at as the light would; with a radius RAD it is
+    in
       size                     view, without one hidden from the camera, with a 50th of its distance as its radius.
                                Nearer surfaces get more from it and farther ones less, which Tachyon's lights do not know
 
-    leave_out_others   leaves out what is neither sphere, plane, light nor camera, and counts it in the notes, in place of
-                       refusing it
+    leave_out_others   leaves out everything except spheres, planes, lights and the camera, and counts it in the notes,
+                       instead of refusing the file
 
-    ValueError: the file says something else; the message has its line. OSError: it cannot be read.
+    ValueError: the file has anything else; the message names the line. OSError: it cannot be read.
     """
     with open(path, encoding="utf-8", errors="replace") as lines:
         return parse(lines, os.fspath(path), leave_out_others=leave_out_others)
 
 
 def parse(lines: Iterable[str], name: str, *, leave_out_others: bool = False) -> TachyonScene:
-    """The same of lines."""
+    """Like read(), from lines; name is for messages."""
     return _Reader(Words(lines, name), leave_out_others).read()
 
 
@@ -132,14 +133,14 @@ class _Reader:
         elif keyword == "LIGHT":
             self.lights.append(self.light())
         elif keyword == "DIRECTIONAL_LIGHT":
-            place, (x, y, z) = words.place(), words.direction("DIRECTION")  # in which its light goes
+            place, (x, y, z) = words.place(), words.direction("DIRECTION")  # in which the light travels
             words.expect("COLOR")
             self.lights.append(Light(place, words.color("COLOR"), (-x, -y, -z), is_directional=True))
         elif keyword == "CAMERA":
             self.read_camera()
         elif keyword == "BACKGROUND":
             self.background = words.color("BACKGROUND")
-        elif keyword == "SHADER_MODE":  # how Tachyon shades, which is not how light is found here
+        elif keyword == "SHADER_MODE":  # how Tachyon shades; light is found otherwise here
             while (word := words.keyword("END_SHADER_MODE")) != "END_SHADER_MODE":
                 if word == "AMBIENT_OCCLUSION":
                     self.left_out[word] = f"{words.place()}: {word}: its light from all sides is left out"
@@ -180,7 +181,7 @@ class _Reader:
                 self.left_out[projection] = f"{words.place()}: {projection}: depth of field is left out"
         elif projection not in ("PERSPECTIVE", "ORTHOGRAPHIC"):
             words.refuse(f'PROJECTION "{projection}": must be PERSPECTIVE, PERSPECTIVE_DOF or ORTHOGRAPHIC')
-        height = 1.0 / words.named("ZOOM", positive=True)  # of the picture in a plane at the distance 1
+        height = 1.0 / words.named("ZOOM", positive=True)  # of the picture, in a plane at the distance 1
         if words.named("ASPECTRATIO") != 1.0:
             words.refuse("ASPECTRATIO: must be 1, pixels are square")
         words.named("ANTIALIASING")
@@ -196,10 +197,11 @@ class _Reader:
             self.vertical_fov = 2.0 * math.atan(0.5 * height)
 
     def frustum_height(self) -> float:
-        """Of edges of the picture in the plane at the distance 1, which must be even about the middle."""
+        """The height of the picture from its edges in the plane at the distance 1, which must be symmetric about the
+        middle."""
         left, right, bottom, top = (self.words.number("FRUSTUM") for _ in range(4))
         height, width = top - bottom, right - left
-        tolerance = 1e-4 * height  # the digits that files have
+        tolerance = 1e-4 * height  # files have so many digits
         if not (height > 0.0 and abs(width - self.aspect * height) <= self.aspect * tolerance and
                 abs(left + right) <= tolerance and abs(bottom + top) <= tolerance):
             self.words.refuse("FRUSTUM: must be even about the middle, and of square pixels")

@@ -6,7 +6,7 @@ from pt._scene import Material
 from pt.tachyon._words import Words
 
 MIRROR_GLOSSINESS = 1e6  # Tachyon's mirrors are perfect; a lobe of this exponent is narrower than most pixels
-# What patterns 0 to 10 of TEXFUNC take: whether a file's name, and which vectors.
+# The arguments of TEXFUNC's patterns 0 to 10: whether a file's name, and which vectors.
 PLACE = ("CENTER", "ROTATE", "SCALE")
 PATTERNS: tuple[tuple[bool, tuple[str, ...]], ...] = (
     ((False, ()),) + 6 * ((False, PLACE),) + 2 * ((True, PLACE),) +
@@ -14,7 +14,7 @@ PATTERNS: tuple[tuple[bool, tuple[str, ...]], ...] = (
 
 
 class Textures:
-    """Indices of materials by the names that a file gives them, and by their looks."""
+    """Finds the index of a material by the name that a file gives it, or by its properties."""
 
     def __init__(self, words: Words, left_out: dict[str, str]) -> None:
         self._words = words
@@ -24,7 +24,7 @@ class Textures:
         self.materials: list[Material] = []
 
     def define(self) -> None:
-        """What follows TEXDEF. Later ones take a name over."""
+        """Reads what follows TEXDEF. A later definition replaces an earlier one of the same name."""
         name = self._words.word("the name of a TEXDEF")
         self._named[name] = self._body()
 
@@ -33,7 +33,7 @@ class Textures:
         self._named[name] = self._find(self._words.word("the name of a texture"))
 
     def reference(self) -> int:
-        """Of a shape: TEXTURE and what it is, or a name."""
+        """Reads a shape's material, TEXTURE with a definition or a name, and returns its index."""
         name = self._words.word("a texture")
         return self._body() if name.upper() == "TEXTURE" else self._find(name)
 
@@ -47,7 +47,7 @@ class Textures:
 
     def _body(self) -> int:
         words = self._words
-        words.named("AMBIENT", least=0.0)  # what surfaces give each other is found by paths
+        words.named("AMBIENT", least=0.0)  # ignored: paths find the light between surfaces
         diffuse = words.named("DIFFUSE", least=0.0)
         mirror = words.named("SPECULAR", least=0.0)
         if words.named("OPACITY", least=0.0) < 1.0:

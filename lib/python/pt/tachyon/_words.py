@@ -10,17 +10,18 @@ from pt._vectors import Triple
 
 
 class Words:
-    """Keywords count in large and small letters; # begins a comment. Every method raises ValueError with file and line.
+    """Reads word by word. Keywords may be in upper or lower case; # begins a comment. Every method raises ValueError
+    with file and line.
 
-    lines   of the file, one after the other, so that a large file is never held whole
-    name    of the file, for messages
+    lines   lines of the file, taken one by one, so that a large file is never held whole
+    name    name of the file, for messages
     """
 
     def __init__(self, lines: Iterable[str], name: str) -> None:
         self._lines: Iterator[str] = iter(lines)
         self._name = name
         self._row: list[str] = []
-        self._next = 0  # in the row
+        self._next = 0  # place in the row
         self._row_line = 0
         self._line = 1  # of the last word that was taken
 

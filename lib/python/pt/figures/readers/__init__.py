@@ -1,4 +1,4 @@
-"""Files of particles in all formats: which one it is, and who reads it."""
+"""Files of particles: finds out the format of a file and its reader."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ _ENDINGS: Final = {".dump": "lammps", ".lammpstrj": "lammps", ".xyz": "xyz", ".e
 
 
 def open_frames(path: str, format: str | None, mapping: Mapping[str, str]) -> Frames:
-    """mapping: as of read_table."""
+    """The frames of a file. mapping: as in read_table."""
     lines = Lines(path)
     format = format or _format_of(lines)
     if format == "table":
@@ -58,7 +58,7 @@ def open_frames(path: str, format: str | None, mapping: Mapping[str, str]) -> Fr
 
 
 def _format_of(lines: Lines) -> str:
-    """By the first bytes, then by the name, then by what the first line looks like."""
+    """The format, by the first bytes, then by the name, then by what the first line looks like."""
     start = lines.peek(4096)
     for magic, format in _FIRST_BYTES:
         if start.startswith(magic):
@@ -68,7 +68,7 @@ def _format_of(lines: Lines) -> str:
     name = ending(lines.path)
     first = start.split(b"\n", 1)[0].decode("utf-8", "replace").strip()
     if name in (".xyz", ".extxyz") and not first.isdecimal():
-        return "table"  # points without their number
+        return "table"  # points, without a line with their number
     if name in _ENDINGS:
         return _ENDINGS[name]
     if not lines.is_file or (name in ("", ".gz") and _is_table(start)):
@@ -77,6 +77,6 @@ def _format_of(lines: Lines) -> str:
 
 
 def _is_table(start: bytes) -> bool:
-    """Whether it is text and all lines have as many words."""
+    """Whether these bytes are text whose lines all have equally many words."""
     rows = [line.replace(b",", b" ").split() for line in start.split(b"\n")[:-1] if line[:1] != b"#"]
     return len(rows) > 1 and b"\0" not in start and len({len(row) for row in rows[1:]}) == 1

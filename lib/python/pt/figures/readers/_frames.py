@@ -1,4 +1,4 @@
-"""Files of frames, read in their order, so that each frame is looked for once."""
+"""Frames of a file, read in their order, so that each is searched for only once."""
 
 from __future__ import annotations
 
@@ -11,21 +11,22 @@ from pt.figures.readers._lines import Lines
 
 
 class Frames(Protocol):
-    """What a file or an object holds."""
+    """The frames of a file or an object."""
 
     name: str
 
     def count(self) -> int: ...
 
     def has(self, index: int) -> bool:
-        """Whether there is that frame, index >= 0: for which a file need not be read to its end."""
+        """Whether there is a frame with this index, >= 0: a file need not be read to its end for that."""
 
     def read(self, index: int) -> Table:
-        """0 <= index < count()."""
+        """Reads a frame, 0 <= index < count()."""
 
 
 class Listed:
-    """Frames that are all at hand, or are read by their number; the current one is that of a moving object."""
+    """Frames that are all in memory, or can be read by number. An object that moves through its frames has a current
+    one."""
 
     def __init__(self, name: str, count: int, read: Callable[[int], Table], current: int | None = None) -> None:
         self.name = name
@@ -50,7 +51,7 @@ class TextFrames:
     def __init__(self, lines: Lines) -> None:
         self.lines = lines
         self.name = lines.name
-        self._places = [lines.place()]  # of the frames that are known, and of the one behind them
+        self._places = [lines.place()]  # of the known frames, and of what follows them
         self._is_whole = False
 
     def head(self) -> int | None:
@@ -58,7 +59,7 @@ class TextFrames:
         raise NotImplementedError
 
     def body(self, count: int) -> Table:
-        """Reads the rows behind the head."""
+        """Reads the rows that follow the head."""
         raise NotImplementedError
 
     def count(self) -> int:
@@ -72,7 +73,7 @@ class TextFrames:
         return len(self._places) > index + 1
 
     def _pass(self) -> bool:
-        """Finds the end of one more frame."""
+        """Finds the end of the next frame."""
         if self._is_whole:
             return False
         lines = self.lines
@@ -82,7 +83,7 @@ class TextFrames:
             count = self.head()
         except DataError:
             if index:
-                self.read(index - 1)  # which names a line too many there rather than one that is too late
+                self.read(index - 1)  # an error there names the line more precisely: one too many
             raise
         if count is None:
             self._is_whole = True

@@ -1,4 +1,4 @@
-"""Dumps of atoms by LAMMPS (docs.lammps.org/dump.html)."""
+"""LAMMPS dumps of atoms (docs.lammps.org/dump.html)."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ class LammpsDump(TextFrames):
             return Cell.of(rows[:, :3], rows[:, 3], periodic)
         low, high = rows[:, 0].copy(), rows[:, 1].copy()
         xy, xz, yz = rows[:, 2] if tilted else np.zeros(3)
-        # What a tilted cell's lines have are the bounds of the whole (docs.lammps.org/Howto_triclinic.html).
+        # For a tilted cell, these lines are the bounds of the box around it (docs.lammps.org/Howto_triclinic.html).
         low -= min(0, xy, xz, xy + xz), min(0, yz), 0
         high -= max(0, xy, xz, xy + xz), max(0, yz), 0
         length = high - low

@@ -1,4 +1,4 @@
-"""A file as lines or as bytes, whether packed or not, from a path or a pipe."""
+"""A file as lines or as bytes, packed or not, from a path or a pipe."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from pt.figures._errors import DataError, module
 
 STANDARD_INPUT: Final = "-"
 PACKED_ENDINGS: Final = (".gz", ".zst", ".xz", ".bz2")
-BLOCK_BYTES: Final = 1 << 20  # as much text as is parsed at a time
+BLOCK_BYTES: Final = 1 << 20  # of text that are parsed at a time
 
 
 def _open_zstd(file: IO[bytes]) -> Any:
@@ -44,7 +44,7 @@ class Lines:
         except OSError as error:
             raise DataError(f"{self.name}: {error.strerror}") from None
         self.is_file = self._raw.seekable() and path != STANDARD_INPUT
-        if not self.is_file:  # where frames may want to be read twice
+        if not self.is_file:  # a pipe, but frames may have to be read twice
             pipe, self._raw = self._raw, tempfile.TemporaryFile()
             shutil.copyfileobj(pipe, self._raw)
             if path != STANDARD_INPUT:
@@ -59,7 +59,7 @@ class Lines:
         self.is_packed = unpack is not None
         self._file = self._raw if unpack is None else unpack(self._raw)
         self._buffer = b""
-        self._next = 0  # within the buffer
+        self._next = 0  # place within the buffer
         self._passed = 0  # bytes before it
         self.number = 0
         self.is_ended = True  # whether the last line ended with a newline
@@ -71,7 +71,7 @@ class Lines:
     def close(self) -> None:
         self._raw.close()
 
-    def __del__(self) -> None:  # it is read for as long as there are frames
+    def __del__(self) -> None:  # Frames keep the file open for as long as they live
         if hasattr(self, "_raw") and self._raw is not sys.stdin.buffer:
             self.close()
 
@@ -86,7 +86,7 @@ class Lines:
                             "short") from None
 
     def _fill(self) -> bool:
-        """Reads on; False at the end."""
+        """Reads more into the buffer; False at the end."""
         more = self._read(BLOCK_BYTES)
         self._buffer = self._buffer[self._next:] + more
         self._passed += self._next
@@ -95,7 +95,7 @@ class Lines:
 
     @property
     def byte(self) -> int:
-        """Of what is read next, from 0."""
+        """The position of the next byte, from 0."""
         return self._passed + self._next
 
     def peek(self, size: int) -> bytes:
@@ -104,13 +104,13 @@ class Lines:
         return self._buffer[self._next:self._next + size]
 
     def take(self, size: int) -> bytes:
-        """So many bytes, or those that there are."""
+        """So many bytes, or as many as are left."""
         taken = bytearray(self._buffer[self._next:self._next + size])
         self._next += len(taken)
         while len(taken) < size and (more := self._read(min(size - len(taken), BLOCK_BYTES))):
             taken += more
             self._passed += len(more)
-        return bytes(taken) if size < BLOCK_BYTES else cast(bytes, taken)  # which is as good, and not copied
+        return bytes(taken) if size < BLOCK_BYTES else cast(bytes, taken)  # a bytearray is as good, and not copied
 
     def line(self) -> str | None:
         """The next line without its end; None at the end of the file."""
@@ -125,7 +125,7 @@ class Lines:
         return line.decode("utf-8", "replace").rstrip("\r")
 
     def block(self, most: int = sys.maxsize) -> tuple[bytes, int]:
-        """The next lines, whole, and how many they are: at most so many, and not too many at a time; 0 at the end."""
+        """The next whole lines, at most so many and at most a block, and their number; 0 at the end."""
         if len(self._buffer) - self._next < BLOCK_BYTES:
             self._fill()
         while (end := self._buffer.rfind(b"\n", self._next) + 1) == 0 and self._fill():
@@ -139,7 +139,7 @@ class Lines:
         return data, count
 
     def skip(self, count: int) -> int:
-        """Passes so many lines, or those that there are."""
+        """Skips so many lines, or as many as are left; returns how many."""
         passed = 0
         while passed < count and (lines := self.block(count - passed)[1]):
             passed += lines
@@ -149,7 +149,7 @@ class Lines:
         return self.byte, self.number
 
     def go_to(self, place: tuple[int, int]) -> None:
-        """To a place that was passed before; what is packed is unpacked again from its begin."""
+        """Goes back to an earlier place; a packed file is unpacked again from its start."""
         byte, number = place
         if byte != self.byte:
             if self.is_packed:
@@ -163,7 +163,7 @@ class Lines:
         self.number = number
 
     def mapped(self, dtype: npt.DTypeLike, count: int) -> npt.NDArray[Any]:
-        """So many records from here on, or those that there are, in place if the file is not packed."""
+        """So many records from here on, or as many as are left; in place if the file is not packed."""
         size = np.dtype(dtype).itemsize
         if self.is_file and not self.is_packed:
             count = min(count, (Path(self.path).stat().st_size - self.byte) // size)
@@ -180,10 +180,10 @@ class Lines:
 
 
 def _after_lines(data: bytes, start: int, end: int, most: int) -> tuple[int, int]:
-    """Where so many lines have ended, at most at this end, and how many have."""
+    """The end of so many lines, but at most this end; and how many lines end before that."""
     count = 0
     while count < most and start < end:
-        stop = min(end, start + 64 * (most - count))  # so that short frames look at little
+        stop = min(end, start + 64 * (most - count))  # so that short frames search little
         is_end = np.frombuffer(data, np.uint8, stop - start, start) == 10
         found = int(np.count_nonzero(is_end))  # several times as fast as bytes.count where lines are short
         if count + found >= most:
@@ -193,6 +193,6 @@ def _after_lines(data: bytes, start: int, end: int, most: int) -> tuple[int, int
 
 
 def ending(path: str) -> str:
-    """Of a file's name, in small letters and without that of a packer."""
+    """The ending of a file's name in lower case, ignoring that of a packer."""
     name = Path(path.lower())
     return Path(name.stem).suffix if name.suffix in PACKED_ENDINGS else name.suffix

@@ -1,4 +1,4 @@
-"""Objects of other packages, which are known by their names, so that none is imported for it."""
+"""Objects of other packages, recognised by their type's name, so that no package is imported for that."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ def of_ase(atoms: Any) -> Table:
 
 
 def of_mdanalysis(group: Any, name: str) -> Frames:
-    """A universe or a group of atoms; lengths are in angstroms."""
+    """Frames of a universe or a group of atoms; lengths are in angstroms."""
     atoms = group.atoms
     trajectory = group.universe.trajectory
 

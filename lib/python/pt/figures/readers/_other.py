@@ -17,7 +17,7 @@ _LAMMPS_DATA: Final = (".data", ".lmp")
 
 def read_ase(path: str) -> Frames:
     read = module("ase.io", f"{path}: this format").read
-    kind = "lammps-data" if path.lower().endswith(_LAMMPS_DATA) else None  # which ASE does not find out
+    kind = "lammps-data" if path.lower().endswith(_LAMMPS_DATA) else None  # ASE does not recognise it
     images = _tried(path, "ASE", lambda: read(path, index=":", format=kind))
     return Listed(path, len(images), lambda index: of_ase(images[index]))
 
@@ -67,6 +67,6 @@ def _tried(path: str, package: str, read: Callable[[], Any]) -> Any:
         return read()
     except DataError:
         raise
-    except Exception as error:  # each package has its own
+    except Exception as error:  # each package has exceptions of its own
         words = " ".join(str(error).split()) or type(error).__name__
         raise DataError(f"{path}: {package} cannot read it: {words}") from error

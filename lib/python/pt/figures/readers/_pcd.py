@@ -1,4 +1,4 @@
-"""Points of the Point Cloud Library: a head, then records, binary or as text."""
+"""PCD files of the Point Cloud Library: a head, then records, binary or as text."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def read_pcd(lines: Lines) -> Table:
     try:
         counts = map(int, head.get("COUNT", ["1"] * len(head["FIELDS"])))
         for name, kind, size, width in zip(head["FIELDS"], head["TYPE"], head["SIZE"], counts, strict=True):
-            for i in range(width):  # names of padding come again
+            for i in range(width):  # padding fields may share a name
                 key = name if width == 1 and name not in kinds else f"{name}[{i or len(kinds)}]"
                 kinds[key] = np.dtype({"F": "f", "U": "u", "I": "i"}[kind] + size).str
         count = int(head["POINTS"][0])
@@ -43,7 +43,7 @@ def read_pcd(lines: Lines) -> Table:
 
 
 def _with_colors(columns: dict[str, npt.NDArray[Any]]) -> dict[str, npt.NDArray[Any]]:
-    """Three bytes that are packed into one number of 32 bits, whatever its type."""
+    """Colors are three bytes packed into one number of 32 bits, whatever its type."""
     for name in _PACKED_COLORS:
         if name in columns and columns[name].dtype.itemsize == 4:
             packed = np.ascontiguousarray(columns.pop(name)).view(np.uint32)

@@ -1,4 +1,5 @@
-"""Rows of text as columns: by pandas where there are many, else, and where a row is wrong, one by one."""
+"""Rows of text as columns. pandas reads them if there are many; few rows, and blocks with a wrong row, are read one by
+one."""
 
 from __future__ import annotations
 
@@ -17,8 +18,8 @@ from pt.figures.readers._lines import Lines
 
 Array = npt.NDArray[Any]
 
-_TABLE: Final = ""  # the key of three columns of positions, which are a table of their own
-FEW_BYTES: Final = 1 << 16  # that are read before pandas has been imported
+_TABLE: Final = ""  # the key of three columns of positions, which are kept as one table
+FEW_BYTES: Final = 1 << 16  # so few are read without importing pandas
 MISSING: Final = ("", "nan", "NaN", "NAN", "-nan", "NA", "N/A", "n/a", "null", "None", "-")
 _FORTRAN: Final = re.compile(r"([\d.])[dD]([+-]?\d)")
 
@@ -28,12 +29,12 @@ class Layout:
     """What a row must have.
 
     names      of the columns
-    positions  those of them that must be numbers, whatever the first row has
+    positions  names of the columns that must be numbers, whatever the first row has
     separator  "" for blanks
-    decimal    the character before the fraction
-    least      fields of a row; what is not there counts as missing, and further fields are left out
-    is_table   without a number of rows: blank lines and lines that begin with # are none, and columns of numbers, but
-               those of positions, may have words too
+    decimal    the decimal mark
+    least      least number of fields in a row; fields that are not there count as missing, further ones are ignored
+    is_table   whether the number of rows is unknown: blank lines and lines that begin with # are then skipped, and
+               columns of numbers, except positions, may have words too
     """
 
     names: list[str]
@@ -45,11 +46,11 @@ class Layout:
 
 
 def number(text: str, decimal: str = ".") -> float:
-    """Also with Fortran's exponents, 1.5D+02, and of a missing value. Raises ValueError."""
+    """A number from text, also with Fortran's exponents (1.5D+02); NaN for a missing value. Raises ValueError."""
     if text in MISSING:
         return np.nan
     if "_" in text:
-        raise ValueError(text)  # Python takes it
+        raise ValueError(text)  # Python would accept it
     return float(_FORTRAN.sub(r"\1e\2", text if decimal == "." else text.replace(decimal, ".")))
 
 
@@ -66,7 +67,7 @@ def is_comment(line: str) -> bool:
 
 
 def fields_of(line: str, separator: str) -> list[str]:
-    """Raises csv.Error for a quoted field that does not end."""
+    """The fields of a line. Raises csv.Error for a quoted field that does not end."""
     if not separator:
         return [word.strip('"') for word in line.split()]
     if '"' not in line:
@@ -86,7 +87,7 @@ class Rows:
         self._are_words: list[bool] = []
 
     def read(self, count: int | None = None) -> None:
-        """Rows to the end of the file, or so many: fewer are an error."""
+        """Reads rows to the end of the file, or count rows: fewer are an error."""
         lines = self.lines
         while count is None or self.count < count:
             first = lines.number + 1
@@ -100,7 +101,7 @@ class Rows:
                 self.notes.append("the last line does not end with a newline: its last number may be cut")
 
     def add(self, data: bytes, height: int, first: int) -> None:
-        """Rows of a block whose lines are numbered from this one on."""
+        """Adds the rows of a block. first: the number of its first line."""
         if not self._are_words:
             self._find_words(data)
         columns = self._by_pandas(data, height) if len(data) > FEW_BYTES else None
@@ -114,7 +115,7 @@ class Rows:
         self.count += len(columns[0])
 
     def _put(self, key: str, piece: Array) -> None:
-        """Behind what there is. Arrays grow twofold, and memory that is not written to is none."""
+        """Appends to a column. Arrays double when they grow; the system does not allocate what is never written."""
         have, end = self._columns.get(key, piece[:0]), self.count + len(piece)
         kind = np.result_type(have, piece)
         if end > len(have) or kind != have.dtype:
@@ -124,14 +125,14 @@ class Rows:
         have[self.count:end] = piece
 
     def columns(self) -> dict[str, Array]:
-        """Of the names; three of positions are those of one table."""
+        """The columns by name; three columns of positions are views of one table."""
         result = {name: np.empty(0) for name in self.layout.names}
         for key, values in self._columns.items():
             result.update(zip(self.layout.positions, values[:self.count].T) if key == _TABLE else ((key, values[:self.count]),))
         return result
 
     def _find_words(self, data: bytes) -> None:
-        """Columns that begin with a word have words, but not those of positions."""
+        """Finds the columns of words: those whose first field is one, except positions."""
         layout = self.layout
         lines = (line.decode("utf-8", "replace") for line in io.BytesIO(data))
         first = next((line for line in lines if line.strip() and not (layout.is_table and is_comment(line))), "")
@@ -144,7 +145,8 @@ class Rows:
         return name not in self.layout.positions and (self.layout.is_table or name.lower() in LABELS)
 
     def _by_pandas(self, data: bytes, height: int) -> list[Array] | None:
-        """None for what wants a closer look: pandas takes short rows for missing values and names no lines."""
+        """The columns of a block; None if it needs a closer look, because pandas takes short rows for missing values
+        and names no lines."""
         layout = self.layout
         try:
             pandas = module("pandas", "fast reading of large text")
@@ -162,8 +164,8 @@ class Rows:
                 dtype={i: "category" for i in range(width) if self._are_words[i]}, keep_default_na=False,
                 na_values={i: list(MISSING) for i in range(width) if not self._are_words[i]}, low_memory=False,
                 encoding_errors="replace", engine="c",
-                **({"float_precision": "round_trip"} if pandas.__version__ < "3" else {}))  # as all have it from 3 on
-        except (ValueError, OverflowError):  # which its errors of parsing are, too
+                **({"float_precision": "round_trip"} if pandas.__version__ < "3" else {}))  # the default from 3 on
+        except (ValueError, OverflowError):  # its parsing errors are ValueErrors too
             return None
         may_skip = layout.is_table and b'"' not in data  # blank lines
         if frame.shape[1] != width or len(frame) > height or (len(frame) < height and not may_skip):
@@ -182,7 +184,7 @@ class Rows:
         return columns if self._has_all_fields(last == "" if last.dtype.kind == "U" else np.isnan(last), data, height) else None
 
     def _has_all_fields(self, is_missing: Array, data: bytes, height: int) -> bool:
-        """Of rows whose last value is missing, whether there is a field for it."""
+        """Whether all rows whose last value is missing have a field for it."""
         rows = np.flatnonzero(is_missing)
         if not len(rows) or len(self.layout.names) == 1:
             return True

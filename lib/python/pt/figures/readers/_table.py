@@ -1,4 +1,4 @@
-"""Tables of text: CSV, TSV, columns between blanks, with their names in a first line or without."""
+"""Tables of text: CSV, TSV or columns between blanks, with or without a first line of names."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _MOST_BYTE: Final = 255
 
 
 def read_table(lines: Lines, mapping: Mapping[str, str]) -> Table:
-    """mapping: names of the columns that are positions, if they have others than usual."""
+    """Reads a table. mapping: names of the position columns, if they are unusual."""
     comment = ""
     start = lines.place()
     while (line := lines.line()) is not None and (not line.strip() or is_comment(line)):
@@ -26,7 +26,7 @@ def read_table(lines: Lines, mapping: Mapping[str, str]) -> Table:
         start = lines.place()
     if line is None:
         raise lines.refuse("the file has no rows")
-    if line.strip().isdecimal() and lines.peek(1):  # as scanners write the number of points
+    if line.strip().isdecimal() and lines.peek(1):  # scanners write the number of points first
         start = lines.place()
         line = lines.line() or ""
     layout, has_names = _layout(line, comment, lines)
@@ -43,12 +43,12 @@ def read_table(lines: Lines, mapping: Mapping[str, str]) -> Table:
 
 
 def _layout(line: str, comment: str, lines: Lines) -> tuple[Layout, bool]:
-    """What the first line that is no comment says, and whether it has names."""
+    """The layout that the first line which is not a comment suggests, and whether that line has names."""
     separator = next((each for each in _SEPARATORS if each in line), "")
     has_comma = separator != "," and re.search(r"\d,\d", line + lines.peek(1000).decode("utf-8", "replace")) is not None
     decimal = "," if has_comma else "."
     if separator == "," and re.fullmatch(r"\s*([-+]?\d+,\d+\s+)+[-+]?\d+,\d+\s*", line):
-        separator, decimal = "", ","  # only blanks tell numbers with decimal commas apart
+        separator, decimal = "", ","  # decimal commas leave only blanks as separators
     try:
         first = fields_of(line, separator)
     except csv.Error:
@@ -67,7 +67,7 @@ def _layout(line: str, comment: str, lines: Lines) -> tuple[Layout, bool]:
 
 
 def _default_names(first: list[str], decimal: str) -> list[str]:
-    """x, y, z, and the number of each further column; a first column of words is that of species."""
+    """Names for columns without any: x, y, z, and then their numbers; a first column of words is the species."""
     is_labelled = len(first) > 3 and not is_number(first[0], decimal)
     names = (["species"] if is_labelled else []) + ["x", "y", "z"]
     return (names + [str(i) for i in range(len(names) + 1, len(first) + 1)])[:len(first)]

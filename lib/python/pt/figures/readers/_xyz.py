@@ -45,7 +45,7 @@ class Xyz(TextFrames):
         return Table(rows.columns(), cell, rows.notes, is_text=True)
 
     def _names(self) -> tuple[list[str], int | None]:
-        """Of the columns; and how many a row must have at least, where more may follow."""
+        """Names of the columns, and the least number of fields in a row if more may follow."""
         properties = self._pairs.get("Properties")
         if properties is None:
             first = self.lines.peek(1 << 16).split(b"\n", 1)[0].decode("utf-8", "replace").split()
