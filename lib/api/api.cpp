@@ -28,8 +28,8 @@ namespace pt {
 
 namespace {
 
-// This thread's last call on a context, if it was refused because of what other calls do, or of the process. The
-// message is kept here, because the context's own belongs to the call that is under way.
+// This thread's last call on a context, if it was refused because another call was under way, or because the context
+// belongs to another process. The message is kept here, because the context's own belongs to the call under way.
 struct Refusal {
     const pt_context *context = nullptr;
     const char *message = nullptr;
@@ -41,8 +41,8 @@ struct Refusal {
 };
 thread_local Refusal refusal;
 
-// Runs a call that may come at any time on a context, or fails without one. A call that is refused touches nothing of
-// the context.
+// Runs a call that is allowed at any time. Fails if context is NULL. A call that is refused touches nothing of the
+// context.
 template <typename Call>
 pt_result guard_any_time(pt_context *context, Call &&call) noexcept {
     if (!context)
@@ -59,7 +59,7 @@ pt_result guard_any_time(pt_context *context, Call &&call) noexcept {
     return result;
 }
 
-// The same for all others, which wait until no samples are under way between calls.
+// The same for all other calls, which are refused while samples are under way (pt/async.h).
 template <typename Call>
 pt_result guard_context(pt_context *context, Call &&call) noexcept {
     return guard_any_time(context, [&](Renderer &renderer) {
@@ -70,7 +70,7 @@ pt_result guard_context(pt_context *context, Call &&call) noexcept {
     });
 }
 
-// What pt_accumulate and pt_start are asked for.
+// The checked argument of pt_accumulate and pt_start.
 pt_accumulate_info validated_accumulate(const pt_accumulate_info *info, bool may_call_back) {
     const pt_accumulate_info accumulate = copy_in(info, "accumulate");
     Violations violations;
@@ -106,9 +106,9 @@ SamplesWanted samples_wanted(const pt_accumulate_info &info) {
         info.sample_count, info.target_error, info.sampling, {info.tile_samples, info.tile_samples + info.tile_count}};
 }
 
-// What is in use cannot be freed, so that pt_destroy can only say so. It does once: the log function itself may call
-// pt_destroy. A child of fork is told nothing: it may hold the context by no wish of its own, and another thread may
-// have had the log's locks.
+// A context in use cannot be freed: pt_destroy can only log that. It does so once, since the log function itself may
+// call pt_destroy. Nothing is logged in a forked child, which may hold the context unintentionally, and where a lock of
+// the log may have been held by a thread that the child lacks.
 void refuse_to_destroy(pt_context &context, const char *reason) noexcept {
     const bool told = refusal.context == &context || context.in_use.not_of_this_process();
     refusal = {&context, reason};
@@ -118,8 +118,8 @@ void refuse_to_destroy(pt_context &context, const char *reason) noexcept {
         });
 }
 
-// Calls read() with the error that pt_last_error speaks of; with NULL and a fixed message where the calling thread may
-// not look at the context's, or was refused.
+// Calls read() with the error that pt_last_error is about; or with NULL and a fixed message, if the calling thread was
+// refused or may not look at the context's error.
 template <typename Read>
 auto read_last_error(const pt_context *context, Read &&read) noexcept {
     if (!context)
@@ -272,7 +272,7 @@ pt_result pt_poll(pt_context *context, uint64_t nanoseconds, double *fraction) {
     });
 }
 
-// Beside any call that is under way, in which nothing else of the context is touched.
+// May run while another call is under way, so it touches nothing else of the context.
 pt_result pt_cancel(pt_context *context) {
     if (!context)
         return pt::guard(pt::thread_last_error, [] { pt::require_not_null(nullptr, "context"); });

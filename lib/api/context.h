@@ -1,5 +1,5 @@
-// What is behind a pt_context, and what it is made of. Made by api.cpp, and by tests whose settings no program can ask
-// for.
+// The struct behind a pt_context, and the check of what it is made from. Made by api.cpp, and by tests with settings
+// that no program can ask for.
 #pragma once
 
 #include "lib/api/guard.h"
@@ -12,7 +12,7 @@ struct pt_context {
     explicit pt_context(const pt::CreateSettings &settings) : renderer(settings) {}
 
     mutable pt::InUse in_use;
-    pt::LastError last_error; // of calls other than those refused by in_use; outlives the renderer, which may log
+    pt::LastError last_error; // except of calls that in_use refused; outlives the renderer, which may log
     pt::Renderer renderer;
 };
 

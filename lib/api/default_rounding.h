@@ -1,12 +1,12 @@
-// The rounding mode that the library computes in, whatever the caller's is.
+// Sets the rounding mode that the library computes in, whatever the caller's is.
 #pragma once
 
 #include <cfenv>
 
 namespace pt {
 
-// While it lives, this thread rounds to nearest. Threads started meanwhile inherit that: a driver's, which build
-// kernels and run them.
+// While it lives, this thread rounds to nearest. Threads that are started meanwhile inherit that, such as those with
+// which a driver builds and runs kernels.
 class DefaultRounding {
 public:
     DefaultRounding() noexcept : callers_(std::fegetround()) { set(FE_TONEAREST); }

@@ -45,12 +45,13 @@ const FilmTile &tile_of(const pt_film *film, std::uint32_t index) {
     return tiles[index];
 }
 
-// Whether lamps are found by chance, which says nothing of how large they are: only the scene does.
+// Whether the film may have missed lamps. It knows whether its samples find lamps by chance, but not how small the
+// scene's lamps are.
 bool may_miss_lamps(const FilmFacts &facts) {
     return finds_lamps_by_chance(facts.estimator, facts.max_path_length);
 }
 
-// Pixels without samples, to begin with.
+// Fills the image as if no pixel had samples.
 void write_nothing(const Image &image) {
     const auto &[pixels, quantity, format, row_bytes] = image.layout;
     const float value = quantity == PT_QUANTITY_STANDARD_ERROR ? std::numeric_limits<float>::infinity() : 0.0F;
@@ -88,7 +89,7 @@ pt_stats stats_of(const Film &film) {
     return stats;
 }
 
-// Goals of all tiles: those that a step does not name keep what they have.
+// Writes the goals of all tiles. Tiles that a step does not name keep the samples that they have.
 pt_result write_plan(Film &film, double target_error, std::uint32_t most, std::uint32_t *goals, std::uint32_t &count) {
     const std::size_t tile_count = film.tile_count();
     if (!goals) {

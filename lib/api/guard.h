@@ -1,4 +1,4 @@
-// Where exceptions end: turns them into a pt_result, with a message for pt_last_error and the broken rules for
+// The end of exceptions: turns them into a pt_result, with a message for pt_last_error and the broken rules for
 // pt_get_broken_rule.
 #pragma once
 
@@ -18,7 +18,7 @@ namespace pt {
 // Message of the last call that failed, and the rules that it is about.
 class LastError {
 public:
-    // Never throws: where there is no memory for the message, a fixed one stands in for it, without rules.
+    // Never throws: if there is no memory for the message, a fixed one replaces it, without rules.
     void store(std::string_view message, std::shared_ptr<const BrokenRules> broken_rules = nullptr) noexcept {
         try {
             text_.assign(message);
@@ -32,12 +32,12 @@ public:
 
     const char *c_str() const noexcept { return shown_ ? shown_ : text_.c_str(); }
 
-    // NULL if it is about none.
+    // NULL if the message is about no rule.
     const BrokenRules *broken_rules() const noexcept { return broken_rules_.get(); }
 
 private:
     std::string text_;
-    const char *shown_ = nullptr; // instead of text_
+    const char *shown_ = nullptr; // replaces text_ unless NULL
     std::shared_ptr<const BrokenRules> broken_rules_;
 };
 
@@ -61,9 +61,9 @@ private:
     }
 }
 
-// Runs a call of the C interface, which returns a pt_result or nothing (for PT_OK), or throws. An exception from a
-// caller's callback ends here too, as PT_ERROR_INTERNAL with its message: it must not reach the caller, who may be
-// written in C. Samples taken before it stay, as if the callback had asked to stop.
+// Runs the body of a call of the C interface, which returns a pt_result or nothing (for PT_OK), or throws. An exception
+// from a caller's callback ends here too, as PT_ERROR_INTERNAL with its message: it must not reach the caller, who may
+// be written in C. Samples taken before it stay, as if the callback had asked to stop.
 template <typename Call>
 pt_result guard(LastError &last_error, Call &&call) noexcept {
     const DefaultRounding rounding;

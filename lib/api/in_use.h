@@ -1,5 +1,5 @@
-// Which thread has a call on a context under way: neither the film nor Vulkan allows two calls at a time. And which
-// process has the context: after fork the driver's threads are missing in the child.
+// Tells which thread has a call on a context under way, since neither the film nor Vulkan allows two at a time; and
+// which process the context belongs to, since a forked child lacks the driver's threads.
 #pragma once
 
 #include <atomic>
@@ -25,7 +25,8 @@ public:
     void release() noexcept { user_.store(std::thread::id(), std::memory_order_release); }
 
     bool by_this_thread() const noexcept {
-        return user_.load(std::memory_order_relaxed) == std::this_thread::get_id(); // only this thread makes it so
+        return user_.load(std::memory_order_relaxed) ==
+               std::this_thread::get_id(); // relaxed: only this thread can make it equal
     }
 
     // Why no call of this process may touch the context, or NULL. From any thread.

@@ -23,14 +23,14 @@ struct BrokenRule {
     std::string text() const;
 };
 
-// The first rules in full, and the number of all: a scene of a million spheres may break as many.
+// The first rules in full, and the number of all of them: a scene of a million spheres may break millions.
 class BrokenRules {
 public:
     static constexpr std::size_t most_kept = 8;
 
     void add(BrokenRule rule);
 
-    // Whether further rules need not be put into words.
+    // Whether further rules are only counted: they need not be put into words.
     bool is_full() const { return first_.size() == most_kept; }
     void count_one() { ++count_; }
 

@@ -1,4 +1,4 @@
-// Digests of numbers and bytes by XXH3, which tell changes, not forgeries. Used for films and kept kernels.
+// Digests of numbers and bytes by XXH3: they detect changes, not forgeries. Used for films and kept kernels.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -12,7 +12,7 @@
 
 namespace pt {
 
-// The digest of a sequence of numbers, wherever they are in memory. -0 counts as 0.
+// The digest of a sequence of numbers and texts, which need not be contiguous in memory. -0 counts as 0.
 class Digest {
 public:
     Digest();

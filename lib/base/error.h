@@ -22,7 +22,7 @@ public:
 
     pt_result code() const { return code_; }
 
-    // NULL if it is about none. Shared, so that to keep them takes no memory.
+    // NULL if the error is about no rule. Shared, so that keeping them allocates nothing.
     const std::shared_ptr<const BrokenRules> &broken_rules() const { return broken_rules_; }
 
 private:

@@ -1,4 +1,4 @@
-// A mixing function of 64 bits, for seeds.
+// A mixing function for seeds of 64 bits.
 #pragma once
 
 #include <cstdint>

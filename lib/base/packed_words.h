@@ -1,6 +1,7 @@
-// Packs words, most of them small or one of seven frequent ones, into few bytes: how the build embeds SPIR-V
-// (cmake/SpirvToHeader.cmake). A word is the number of its hexadecimal digits, 0 to 8, and the digits; or 9 to 15 for
-// one of the seven. These are the digits of the bytes, the low one of each first.
+// Unpacks words, most of which are small or one of seven frequent ones, from few bytes: so the build embeds SPIR-V
+// (cmake/SpirvToHeader.cmake). The packed form is a sequence of hexadecimal digits, two in a byte, the low one first. A
+// word is the number of its digits, 0 to 8, and then these digits; or a single digit 9 to 15 for one of the seven
+// frequent words.
 #pragma once
 
 #include <array>
@@ -11,7 +12,7 @@
 
 namespace pt {
 
-// The first count words of packed, whose numbers 9 to 15 stand for those of frequent.
+// The first count words. frequent: those that the digits 9 to 15 stand for.
 std::vector<std::uint32_t> unpacked_words(std::size_t count, std::span<const std::uint8_t> packed,
                                           const std::array<std::uint32_t, 7> &frequent);
 

@@ -52,12 +52,12 @@ constexpr bool is_share(double value) {
 
 const char *share_rule(double value);
 
-// The broken rules of what one call was given.
+// The rules that the arguments of one call break.
 class Violations {
 public:
     void add(BrokenRule rule);
 
-    // If no more are kept, a rule is counted without being put into words.
+    // Whether further rules are only counted, by count_one(), and need not be put into words.
     bool only_count() const { return broken_.is_full(); }
     void count_one() { broken_.count_one(); }
 
@@ -68,10 +68,10 @@ private:
     BrokenRules broken_;
 };
 
-// A field of a struct, or the one of several that enter the value by which the others can be found: {"width", "*
-// height"}.
+// A field of a struct; if several fields enter the value, the first one and what the message adds about the others:
+// {"width", "* height"}.
 struct Member {
-    Member(const char *field, const char *others = "") : name(field), with(others) {} // so that a name alone is one
+    Member(const char *field, const char *others = "") : name(field), with(others) {} // implicit: a name alone will do
 
     const char *name;
     const char *with;
@@ -102,7 +102,7 @@ public:
             refuse(member, number_text(value), broken);
     }
 
-    // An element of a column that is known to break a rule: of many millions most are only counted.
+    // Refuses an element of a column that breaks a rule. Of many millions, most are only counted.
     template <typename Value>
     void refuse_element(const Member &member, std::size_t element, const Value &value, std::string_view rule) const {
         if (violations_.only_count())
@@ -111,7 +111,7 @@ public:
             refuse_component(member, static_cast<std::int32_t>(element), number_text(value), std::string(rule));
     }
 
-    // Every component of an array, which is named in the message.
+    // Checks every component of an array; the message names the component.
     template <typename Value, std::size_t N>
     void check_each(const Member &member, const Value (&values)[N], Rule rule) const {
         for (std::size_t i = 0; i < N; ++i)

@@ -1,4 +1,4 @@
-// Vectors of pt.h; those whose squared length may be beyond double, made harmless.
+// Vectors of pt.h, scaled so that their squared lengths stay within the range of double.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -12,8 +12,9 @@ inline glm::dvec3 vector(const double (&components)[3]) {
     return {components[0], components[1], components[2]};
 }
 
-// A vector times 2^-exponent, its largest component in [1/2, 1). Powers of two round nothing (components below
-// 2^-1000 of the largest apart), so vectors that differ by one of them have the same direction to the last bit.
+// A vector times 2^-exponent, so that its largest component is in [1/2, 1). Scaling by powers of two does not round
+// (except components below 2^-1000 of the largest), so vectors that differ by a power of two have the same direction to
+// the last bit.
 struct ScaledVector {
     glm::dvec3 vector;
     int exponent;
@@ -26,7 +27,7 @@ inline ScaledVector scaled(const glm::dvec3 &v) {
     return {{std::ldexp(v.x, -exponent), std::ldexp(v.y, -exponent), std::ldexp(v.z, -exponent)}, exponent};
 }
 
-// v / |v| for a finite v that is not 0. By division: a product with 1 / |v| would round twice, and axes would not
+// v / |v| for a finite v that is not 0. It divides, because multiplying by 1 / |v| would round twice and axes would not
 // stay exact.
 inline glm::dvec3 unit_vector(const glm::dvec3 &v) {
     const glm::dvec3 vector = scaled(v).vector;

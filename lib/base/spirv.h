@@ -73,10 +73,10 @@ constexpr std::uint32_t first_word(Opcode opcode, std::uint32_t word_count) {
     return word_count << 16U | opcode;
 }
 
-// Thrown for code with something that is not known here.
+// Thrown for code with anything that this file does not know.
 struct Unknown {};
 
-// Calls use(instruction, its offset) for each instruction from an offset on, until it returns false.
+// Calls use(instruction, its offset) for each instruction from an offset on, until use returns false.
 template <typename Use>
 void for_each_instruction(Words code, std::size_t offset, Use &&use) {
     while (offset < code.size()) {

@@ -20,7 +20,7 @@ void stream_copy(std::span<const std::byte> from, std::byte *to) {
         _mm_stream_si128(reinterpret_cast<__m128i *>(to + done),
                          _mm_loadu_si128(reinterpret_cast<const __m128i *>(from.data() + done)));
     std::ranges::copy(from.subspan(done), to + done);
-    _mm_sfence(); // what follows, on other threads too, sees the bytes
+    _mm_sfence(); // later reads, also by other threads, see the bytes
 }
 
 #else

@@ -1,4 +1,5 @@
-// Copies what will not be read soon past the processor's cache: an image's memory need not be fetched to be written.
+// Copies bytes that will not be read soon around the processor's cache, so that the memory of an image is not fetched
+// only to be overwritten.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +7,7 @@
 
 namespace pt {
 
-// to: memory for as many bytes.
+// to: memory for at least as many bytes.
 void stream_copy(std::span<const std::byte> from, std::byte *to);
 
 } // namespace pt

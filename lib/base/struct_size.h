@@ -11,8 +11,8 @@
 
 namespace pt {
 
-// Structs of this library have tens of bytes. A larger size than this must be an uninitialised field, and believing it
-// would mean reading memory that is not the struct's.
+// Structs of this library have tens of bytes. A larger size than this must be an uninitialised field; believing it
+// would mean reading beyond the struct.
 constexpr std::uint32_t max_struct_size = 65536;
 
 constexpr bool is_struct_size(std::uint32_t size) {
@@ -29,7 +29,8 @@ inline BrokenRule wrong_size(const char *name, std::int64_t index, std::uint32_t
     return {.subject = name, .index = index, .member = "struct_size", .value = std::to_string(size), .rule = rule};
 }
 
-// The struct_size of the caller's struct, which is called name in messages; index: if it is an element of an array.
+// The struct_size of the caller's struct. name: of the struct in messages; index: >= 0 if it is an element of an array.
+// Throws PT_ERROR_INVALID_ARGUMENT.
 inline std::uint32_t struct_size_of(const void *user, const char *name, std::int64_t index = -1) {
     require_not_null(user, name);
     std::uint32_t size = 0;
@@ -43,8 +44,8 @@ inline std::uint32_t struct_size_of(const void *user, const char *name, std::int
     return size;
 }
 
-// For a struct with so many bytes known to this library: bytes beyond, from a newer header, must not ask for anything
-// unknown here.
+// Throws PT_ERROR_UNSUPPORTED if a struct, from a newer header, asks for something beyond the bytes known to this
+// library.
 inline void require_known(const void *user, std::uint32_t size, std::size_t known, const char *name,
                           std::int64_t index) {
     const auto *bytes = static_cast<const unsigned char *>(user);
@@ -57,7 +58,7 @@ inline void require_known(const void *user, std::uint32_t size, std::size_t know
 }
 
 // The caller's struct as this library knows it. The rule is that of Linux' copy_struct_from_user: a shorter struct,
-// from an older header, is read as if zeros followed; all that is unknown of a longer one must be zero.
+// from an older header, is read as if zeros followed; the unknown part of a longer one must be zero.
 template <typename T>
 T copy_in(const T *user, const char *name, std::int64_t index = -1) {
     const std::uint32_t size = struct_size_of(user, name, index);
@@ -78,7 +79,7 @@ void copy_known(const T &result, T *user, std::uint32_t size) noexcept {
                 reinterpret_cast<const unsigned char *>(&result) + first, end - first);
 }
 
-// The same, checked.
+// The same, after checking the caller's struct_size.
 template <typename T>
 void copy_out(const T &result, T *user, const char *name) {
     copy_known(result, user, struct_size_of(user, name));

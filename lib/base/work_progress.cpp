@@ -1,4 +1,4 @@
-// Tells how far a call is; see work_progress.h.
+// Reports how far a call is; see work_progress.h.
 #include "lib/base/work_progress.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// How far a long call is, told to the caller's pt_progress_fn, which may end it.
+// Reports how far a long call is to the caller's pt_progress_fn, which may end the call.
 #pragma once
 
 #include <pt/pt.h>
@@ -22,11 +22,11 @@ public:
     WorkProgress(const WorkProgress &) = delete;
     WorkProgress &operator=(const WorkProgress &) = delete;
 
-    // The stage that begins now is this share of what is left of the whole, and has so much work, in any unit.
+    // Begins a stage, which is this share of what is left of the whole. work: how much it has to do, in any unit.
     void enter(double share_of_rest, double work);
 
-    // So much of the stage's work is done, for which so many elements were looked at. Their number decides when the
-    // caller is told.
+    // Notes that so much more of the stage's work is done, by looking at so many elements. The number of elements
+    // decides when to report.
     void add(double work, std::size_t elements) {
         done_ += work;
         untold_ += elements;
@@ -34,15 +34,15 @@ public:
             tell();
     }
 
-    // Where an element is a unit of work.
+    // The same if each element is one unit of work.
     void add(std::size_t elements) { add(static_cast<double>(elements), elements); }
 
-    // All is done but what cannot fail.
+    // Reports 1: all is done except what cannot fail.
     void finish();
 
 private:
-    // They take between half a millisecond and several: often enough for those who watch, rarely enough for slow
-    // callbacks.
+    // So many elements take between half a millisecond and several: often enough for people who watch, rarely enough
+    // for slow callbacks.
     static constexpr std::size_t elements_between_calls = std::size_t{1} << 17;
 
     void tell();

@@ -23,8 +23,8 @@ namespace {
 
 using Words = std::vector<std::uint32_t>;
 
-// The rules of glslangValidator -V, and to go on after an error, so that all are reported at once: where glslang stops
-// within an included file, it takes the next directive for another error.
+// The rules of glslangValidator -V; and going on after an error, so that all errors are reported at once. If glslang
+// stopped within an included file, it would take the next directive for another error.
 constexpr auto rules = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules | EShMsgCascadingErrors);
 
 // glslang's log ends with empty lines.
@@ -33,14 +33,14 @@ std::string trimmed(std::string log) {
     return log;
 }
 
-// Kept until the process ends: the tables of built-in functions take most of the time of the first compilation.
+// Never undone: making the tables of built-in functions takes most of the time of the first compilation.
 void start_glslang() {
     static const bool started = glslang::InitializeProcess();
     if (!started)
         throw std::runtime_error("glslang does not start");
 }
 
-// The options are those of the command in PtShaders.cmake: the words are equal to those that it embeds.
+// The options are those of the command in PtShaders.cmake, so that the words equal the embedded ones.
 Words spirv_of(const std::filesystem::path &path, const std::filesystem::path &directory) {
     const std::string name = path.string();
     const std::string text = read_source(path);
@@ -71,7 +71,7 @@ Words spirv_of(const std::filesystem::path &path, const std::filesystem::path &d
     return words;
 }
 
-// As the build does: drivers do not check the SPIR-V that they are given.
+// Validates as the build does: drivers do not check the SPIR-V that they are given.
 void validate(const Words &words, const std::filesystem::path &path) {
     std::string log;
     spvtools::SpirvTools tools(SPV_ENV_VULKAN_1_2);

@@ -1,5 +1,5 @@
-/* The interface between the library and the module libpt-glsl.so, which alone links glslang: its 7 MB are loaded only
- * where kernels are compiled while the program runs. The library finds its function by dlsym. Plain C types, no
+/* The interface between the library and the module libpt-glsl.so, which is the only one that links glslang: so its 7 MB
+ * are loaded only when kernels are compiled at run time. The library finds its function by dlsym. Plain C types, no
  * exceptions. */
 #ifndef PT_GLSL_MODULE_H
 #define PT_GLSL_MODULE_H
@@ -11,15 +11,15 @@
 extern "C" {
 #endif
 
-/* Receives the words of the SPIR-V, or the compiler's log, which is not zero-terminated. Both are the module's and hold
- * during the call. Must not throw. */
+/* Receive the words of the SPIR-V, or the compiler's log, which is not zero-terminated. Both belong to the module and
+ * are valid during the call. Must not throw. */
 typedef void (*pt_glsl_words_fn)(void *user, const uint32_t *words, size_t count);
 typedef void (*pt_glsl_log_fn)(void *user, const char *text, size_t size);
 
-/* Compiles the compute shader directory/name as it is now, with what it includes, to the SPIR-V that the build embeds
- * for the same text. An included file is looked for beside the file that includes it, then in directory. Calls words
- * once and returns 0, or calls log once, with lines that begin with the names of file and line, and returns -1. From
- * any thread. */
+/* Compiles the compute shader directory/name as it is now, with the files that it includes, to the same SPIR-V that the
+ * build embeds for the same text. An included file is looked for beside the file that includes it, then in directory.
+ * Calls words once and returns 0, or calls log once, with lines that begin with the names of file and line, and returns
+ * -1. From any thread. */
 typedef int32_t (*pt_compile_glsl_fn)(const char *directory, const char *name, pt_glsl_words_fn words,
                                       pt_glsl_log_fn log, void *user);
 

@@ -13,7 +13,7 @@ namespace pt::glsl {
 
 namespace {
 
-// A file that includes itself, by way of others maybe, is fine behind an include guard: it is then open twice.
+// A file that includes itself, perhaps by way of others, is fine if it has an include guard: it is then open twice.
 constexpr std::ptrdiff_t most_open_times = 2;
 
 // glslang refers to the text until it calls releaseInclude.
@@ -72,7 +72,7 @@ glslang::TShader::Includer::IncludeResult *Includer::includeLocal(const char *na
     }
 }
 
-// An empty name says that there is no file, and the text why.
+// For glslang, an empty name means that there is no file; the text says why.
 glslang::TShader::Includer::IncludeResult *
 Includer::includeSystem(const char * /*name*/, const char * /*including_file*/, std::size_t /*depth*/) {
     const std::string reason = std::exchange(reason_, "");

@@ -10,10 +10,11 @@
 
 namespace pt::glsl {
 
-// The whole file, without a byte order mark; throws std::runtime_error with the system's reason.
+// Reads a whole file, without a byte order mark; throws std::runtime_error with the system's reason.
 std::string read_source(const std::filesystem::path &path);
 
-// Looks beside the including file, then in the directory. glslang's messages name the files as they were found.
+// Looks beside the including file, then in the directory. glslang's messages use the paths under which files were
+// found.
 class Includer : public glslang::TShader::Includer {
 public:
     Includer(std::filesystem::path directory, const std::filesystem::path &main_file) :
@@ -22,8 +23,7 @@ public:
 
     IncludeResult *includeLocal(const char *name, const char *including_file, std::size_t depth) override;
 
-    // glslang calls this after includeLocal has found nothing, so that the reason is given here; and for #include
-    // <name>.
+    // glslang calls this after includeLocal has found nothing, so the reason is given here; and for #include <name>.
     IncludeResult *includeSystem(const char *name, const char *including_file, std::size_t depth) override;
 
     void releaseInclude(IncludeResult *result) override;
@@ -35,7 +35,7 @@ private:
     std::filesystem::path directory_;
     std::vector<std::filesystem::path> open_files_; // each included by the one before
     std::string reason_;                            // why the last #include line was refused
-    bool is_endless_ = false;                       // a file includes itself: no line is followed any more
+    bool is_endless_ = false;                       // a file includes itself: no further #include is followed
 };
 
 } // namespace pt::glsl

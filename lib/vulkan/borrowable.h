@@ -7,7 +7,7 @@
 
 namespace pt::vulkan {
 
-// Destroys its object with itself if it owns it, and leaves it alone if it has borrowed it.
+// Destroys its object in its destructor if it owns it, and leaves it alone if it has borrowed it.
 template <typename Object>
 class Borrowable {
 public:

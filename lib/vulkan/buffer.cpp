@@ -21,11 +21,11 @@ using Usage = vk::BufferUsageFlagBits;
 constexpr vk::MemoryPropertyFlags host_visible = Property::eHostVisible | Property::eHostCoherent;
 constexpr vk::MemoryPropertyFlags host_readable = host_visible | Property::eHostCached;
 
-// Transfers go through a staging buffer of this size at most. Copying it over a bus takes about a millisecond, many
-// times what a submission costs, and it holds down little of the host's memory.
+// Transfers go through a staging buffer of this size at most. Copying so much over a bus takes about a millisecond,
+// many times the cost of a submission, and it occupies little of the host's memory.
 constexpr std::uint64_t max_staging_bytes = 16U << 20;
 
-// A Vulkan buffer and its memory, which stays mapped if it has the properties named by mapped_if.
+// A Vulkan buffer and its memory, which stays mapped if it has the properties mapped_if.
 struct Allocation {
     Allocation(const Device &device, std::uint64_t bytes, vk::BufferUsageFlags usage,
                std::span<const vk::MemoryPropertyFlags> wanted_best_first,
@@ -111,7 +111,7 @@ struct Buffer::State {
     Device &device;
     std::uint64_t bytes;
     Allocation allocation;
-    std::optional<Allocation> staging; // once there was a transfer that needs it
+    std::optional<Allocation> staging; // since the first transfer that needed it
 };
 
 Buffer::Buffer(Device &device, BufferUse use, std::uint64_t bytes, const std::string &what) {
@@ -168,7 +168,7 @@ void Buffer::download(std::span<std::byte> data, std::uint64_t offset) {
     });
 }
 
-// In one transfer, if the staging buffer holds all pieces.
+// In one transfer if all pieces fit into the staging buffer.
 void Buffer::download(std::span<const BufferPiece> pieces) {
     const bool fit_together =
         std::accumulate(pieces.begin(), pieces.end(), std::uint64_t{0},
@@ -193,7 +193,7 @@ void Buffer::download(std::span<const BufferPiece> pieces) {
 }
 
 void Buffer::write(const vk::raii::CommandBuffer &commands, std::span<const std::byte> data) const {
-    if (data.empty()) // which Vulkan does not allow; a scene without surfaces has no words
+    if (data.empty()) // Vulkan does not allow it; a scene without surfaces has no words
         return;
     commands.updateBuffer<std::byte>(
         handle(), 0, vk::ArrayProxy<const std::byte>(static_cast<std::uint32_t>(data.size()), data.data()));

@@ -1,5 +1,5 @@
 // The caller's Vulkan handles, checked: pt_vulkan as the library uses it. Made by api.cpp, used by Instance,
-// LogicalDevice and Renderer, none of which owns what it names.
+// LogicalDevice and Renderer, none of which owns the handles.
 #pragma once
 
 #include "lib/vulkan/api.h"
@@ -13,7 +13,7 @@
 
 namespace pt::vulkan {
 
-// Holds a queue for this thread, if it has the caller's functions for that. For std::lock_guard.
+// Locks a queue for this thread by the caller's functions, if there are any. For std::lock_guard.
 class QueueLock {
 public:
     QueueLock() = default; // does nothing
@@ -53,7 +53,7 @@ CallerVulkan validated_vulkan(const pt_vulkan &vulkan);
 // Returns its physical device; the instance is the caller's, and must outlive it.
 vk::raii::PhysicalDevice validated_physical_device(const vk::raii::Instance &instance, const CallerVulkan &caller);
 
-// The parts of it that do not depend on the machine.
+// The parts of that check which do not depend on the machine.
 void require_compute(std::span<const vk::QueueFamilyProperties> families, std::uint32_t queue_family);
 void require_suitable(const pt_device_info &physical_device);
 

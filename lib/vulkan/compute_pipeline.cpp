@@ -25,7 +25,7 @@ vk::raii::DescriptorSetLayout create_set_layout(const Device &device, std::span<
         {.bindingCount = static_cast<std::uint32_t>(bindings.size()), .pBindings = bindings.data()});
 }
 
-// Drivers silently accept a kernel that reads or writes where its layout has nothing, and an edited kernel may do so
+// Drivers silently accept a kernel that uses bindings which its layout lacks, as an edited kernel may do
 // (pt_create_info.shader_dir).
 void require_bindings(std::span<const std::uint32_t> spirv, std::span<const vk::DescriptorType> types) {
     const auto is_there = [&](std::uint32_t binding) { return binding < types.size() && types[binding] != no_binding; };
@@ -70,7 +70,7 @@ vk::raii::Pipeline create_pipeline(Device &device, const vk::raii::PipelineLayou
         return pipeline;
     } catch (const vk::SystemError &error) {
         const pt_result result = result_of(static_cast<vk::Result>(error.code().value()));
-        // Any failure but lack of memory or a lost device is the kernel's fault.
+        // Any failure except lack of memory or a lost device is the kernel's fault.
         throw Error(result == PT_ERROR_INTERNAL || result == PT_ERROR_NO_DEVICE ? PT_ERROR_SHADER : result,
                     std::string("building a kernel: ") + error.what());
     }

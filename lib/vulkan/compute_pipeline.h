@@ -1,4 +1,4 @@
-// A compute kernel, specialised, with the buffers that it is bound to.
+// A specialised compute kernel, and the buffers bound to it.
 #pragma once
 
 #include "lib/vulkan/buffer.h"
@@ -12,8 +12,8 @@
 
 namespace pt::vulkan {
 
-// A part of a buffer, for a binding. Its offset is a multiple of Limits::storage_buffer_alignment, for a texel buffer
-// of 256 bytes, which suits every device.
+// A part of a buffer, for a binding. Its offset is a multiple of Limits::storage_buffer_alignment or, for a texel
+// buffer, of 256 bytes, which suits every device.
 struct BufferRange {
     BufferRange() = default; // none
     explicit BufferRange(const Buffer &whole) : buffer(whole.handle()), bytes(whole.size()) {}
@@ -40,7 +40,7 @@ private:
     vk::DescriptorSet set_; // freed with its pool
 };
 
-// In place of a binding's type: there is no binding of this number.
+// Stands for a binding's type if there is no binding with its number.
 inline constexpr auto no_binding = static_cast<vk::DescriptorType>(VK_DESCRIPTOR_TYPE_MAX_ENUM);
 
 class ComputePipeline {
@@ -50,12 +50,12 @@ public:
     ComputePipeline(Device &device, std::span<const std::uint32_t> spirv, std::span<const vk::DescriptorType> bindings,
                     std::uint32_t push_constant_bytes, std::span<const std::uint32_t> constants);
 
-    // buffers[i] goes to binding i; NULL where there is none.
+    // buffers[i] is bound to binding i; NULL if there is no such binding.
     DescriptorSet bind(std::span<Buffer *const> buffers) const;
     DescriptorSet bind(std::span<const BufferRange> ranges) const;
 
-    // Records a dispatch of group_count workgroups along x, and rows of them along y. offsets: of the dynamic bindings
-    // into their buffers, in bytes.
+    // Records a dispatch of group_count x rows workgroups. offsets: for each dynamic binding, where it begins in its
+    // buffer, in bytes.
     void dispatch(const vk::raii::CommandBuffer &commands, const DescriptorSet &set,
                   std::span<const std::byte> push_constants, std::uint32_t group_count,
                   std::span<const std::uint32_t> offsets = {}, std::uint32_t rows = 1) const;

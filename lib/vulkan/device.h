@@ -1,5 +1,5 @@
-// Submissions to a logical device, one after the other, and waiting for them. Owned by RenderDevice; buffers and
-// pipelines are made on it.
+// A logical device: submits work to it, in order, and waits for it. Owned by RenderDevice; buffers and pipelines are
+// made on it.
 #pragma once
 
 #include "lib/vulkan/instance.h"
@@ -25,42 +25,42 @@ struct Limits {
     std::uint64_t max_allocation_bytes;
     std::uint32_t max_uniform_range;        // bytes that a uniform binding can see: 16 to 64 KiB, a multiple of 256
     std::uint32_t max_workgroup_count;      // along x
-    std::uint64_t storage_buffer_alignment; // of the offsets of bindings
+    std::uint64_t storage_buffer_alignment; // offsets of bindings are multiples of it, bytes
     std::uint64_t loop_trip_budget;         // loop trips after which the driver silently stops an invocation
 };
 
 // How a device is used. Tests choose other values than a device's own, to reach paths that it would not take.
 struct DevicePolicy {
-    std::chrono::nanoseconds patience; // a submission that takes longer means that the device is lost
+    std::chrono::nanoseconds patience; // if a submission takes longer, the device is lost
     bool share_memory;                 // the host reads and writes buffers in place where their memory is fast for both
     bool scene_in_constants;   // kernels run faster with the scene's numbers compiled in than read from a buffer
-    std::uint32_t invocations; // as many keep it busy; 0: any number does
+    std::uint32_t invocations; // so many keep it busy; 0: any number does
     std::uint32_t queue_depth; // submissions to have under way: 2 where it would idle while the host prepares the next
-    // For so long a submission is polled before the thread sleeps: falling asleep and waking takes longer than many
+    // How long a submission is polled before the thread sleeps: falling asleep and waking take longer than many
     // submissions.
     std::chrono::nanoseconds polling{0};
     // Ray-surface tests a second that any such device manages. It sizes the first slice; measured times size the
-    // others. By default an eighth of what two CPU cores do.
+    // others. The default is an eighth of what two CPU cores do.
     double tests_per_second = 2.5e8;
     // Loops over up to so many surfaces are unrolled. The default is for CPUs: lavapipe reads constant places once for
     // all invocations, which makes 60 spheres twice as fast as a tree over them with vectors of 512 bits and 1.3 times
     // with 256; 100 spheres 1.3 and 1.0 times at path length 3, 1.7 and 1.2 times at 6. Each surface takes 10
     // milliseconds to compile, which sets the limit.
     std::uint32_t unrolled = 112;
-    // Tiles are told apart from so many samples of a pixel on (lib/film/adaptive_rule.h), with paths of two vertices
-    // from four times as many. On GPUs a check of the error takes as long as some samples, so pictures that need no
-    // more are done sooner without. 0, or a power of two from 16 on.
+    // Number of samples of a pixel from which on tiles may get different numbers (lib/film/adaptive_rule.h); four times
+    // as many with paths of two vertices. On GPUs a check of the error takes as long as some samples, so pictures that
+    // need few samples are done sooner without checks. 0, or a power of two >= 16.
     std::uint32_t adaptive_from = 256;
     std::uint32_t walk_trips = 0; // specialization constant ID_WALK_TRIPS, in scenes with a tree
-    // Kernels run faster where integers are compared, not floats (shaders/maths.glsl), and where what differs between
-    // invocations is read from uniform buffers, not storage buffers.
+    // Kernels run faster if they compare integers instead of floats (shaders/maths.glsl), and if values that differ
+    // between invocations are read from uniform buffers instead of storage buffers.
     bool compiles_for_cpu = false;
-    bool resolve_on_device = false; // its kernels make images and error estimates of a film faster than the host does
+    bool resolve_on_device = false; // kernels make images and error estimates of a film faster than the host does
 };
 
 DevicePolicy default_policy(const pt_device_info &info);
 
-// A GPU's, but for its patience: with it tests reach on a CPU what only GPUs do.
+// A GPU's policy, except for its patience: with it, tests reach on a CPU what otherwise only GPUs do.
 DevicePolicy gpu_like_policy();
 
 // Binary semaphores of a submission, or none: it waits before its kernels, and signals at its end.
@@ -71,8 +71,8 @@ struct Semaphores {
 
 class Device {
 public:
-    // The instance must outlive the device. A device that hangs is never destroyed, nor is its instance: both go with
-    // the process.
+    // The instance must outlive the device. A device that hangs is never destroyed, nor is its instance: both stay
+    // until the process ends.
     Device(Instance &instance, const vk::raii::PhysicalDevice &physical_device, LogicalDevice logical_device);
     Device(Instance &instance, const vk::raii::PhysicalDevice &physical_device, LogicalDevice logical_device,
            const DevicePolicy &policy);
@@ -86,17 +86,17 @@ public:
     const DevicePolicy &policy() const { return policy_; }
     std::uint64_t allocated_bytes() const { return allocated_bytes_; }
 
-    // Whether so many bytes, including those in use, are no more than it has. Drivers may promise memory that they do
-    // not have and fail when it is touched, so this is asked before much is allocated.
+    // Whether the device has at least so much memory, including what is in use. Drivers may promise memory that they do
+    // not have and fail when it is touched, so ask this before allocating much.
     bool has_memory(std::uint64_t bytes) const { return bytes <= info_.memory_bytes; }
 
     bool lost() const { return lost_; }
 
-    // Whether submissions that were given up are still under way, or were when the device was abandoned. Then what they
-    // use must not be destroyed.
+    // Whether submissions that were given up are still under way, or were when the device was abandoned. If so, what
+    // they use must not be destroyed.
     bool hangs() const;
 
-    // From now on neither the device nor anything on it is destroyed: they go with the process.
+    // From now on neither the device nor anything on it is destroyed: they stay until the process ends.
     void abandon() noexcept { abandoned_ = true; }
 
     // Throws PT_ERROR_DEVICE_LOST, with the message of the first loss, once the device is lost.
@@ -106,30 +106,32 @@ public:
     using Ticket = std::uint32_t;
 
     // Records commands and submits them. What earlier submissions wrote is visible to the commands, and what they write
-    // is visible to the host after finish(). Submissions run one after the other; as many as queue_depth may be under
-    // way, besides one of submit() and one for a caller who waits on the device.
+    // is visible to the host after finish(). Submissions run in order. At most queue_depth may be under way, besides
+    // one of submit() and one for a caller who waits on the device.
     Ticket start(const Record &record, const Semaphores &semaphores = {});
 
     using Clock = std::chrono::steady_clock;
 
-    // Waits for a submission until it ends or the time has come. Returns whether finish() would not wait any more.
+    // Waits until a submission ends, but no longer than until the given time. Returns whether finish() would return at
+    // once.
     bool is_done(Ticket ticket, Clock::time_point until);
 
-    // Looks which submissions have ended while nobody waited. Of their ends it is only known that they lie between the
-    // last look and this one.
+    // Notes which submissions have ended while nobody waited. All that is known about the times of their ends is that
+    // they lie between the last look and this one.
     void look();
 
     // Whether all submissions have ended, waited for or not.
     bool is_at_rest() const;
 
-    // Waits and returns the seconds from submission, or from the end of the one before if that was later, to
-    // completion. Where ends are known only within bounds, the value nearest to the expected seconds.
+    // Waits for a submission. Returns the seconds from its start, or from the end of the one before if that was later,
+    // to its end; if ends are known only within bounds, the possible value nearest to the expected seconds.
     double finish(Ticket ticket, double expected_seconds = 0.0);
 
-    // Waits for what is under way, also after finish() failed. False if it does not end within the device's patience.
+    // Waits for everything under way, also after finish() failed. False if it does not end within the device's
+    // patience.
     bool comes_to_rest() noexcept;
 
-    // Both at once.
+    // Starts a submission and waits for it.
     double submit(const Record &record) { return finish(start(record)); }
 
     const vk::raii::Device &handle() const { return logical_device_.handle(); }
@@ -145,7 +147,7 @@ public:
     void count_release(std::uint64_t bytes) { allocated_bytes_ -= bytes; }
 
 private:
-    // When something happened, as far as is known.
+    // When something happened, as far as that is known.
     struct Moment {
         Clock::time_point earliest;
         Clock::time_point latest;
@@ -155,10 +157,10 @@ private:
     struct Submission {
         vk::raii::CommandBuffer commands;
         vk::raii::Fence fence;
-        bool pending = false; // finish() is to come
+        bool pending = false; // finish() has not been called yet
         Clock::time_point start{};
-        Clock::time_point last_look{}; // that found it unfinished
-        std::optional<Moment> end{};   // once it has been seen
+        Clock::time_point last_look{}; // the last one that found it unfinished
+        std::optional<Moment> end{};   // set once the end has been seen
     };
 
     void record_work(const vk::raii::CommandBuffer &commands, const Record &record) const;
@@ -183,11 +185,11 @@ private:
     std::uint64_t allocated_bytes_ = 0;
     std::string lost_message_ = "the device was lost";
     bool lost_ = false;
-    bool gave_up_ = false; // on a submission whose end was not seen
+    bool gave_up_ = false; // gave up a submission whose end was not seen
     bool abandoned_ = false;
 };
 
-// Makes what the commands before it wrote visible to those after it.
+// Records a barrier that makes what earlier commands wrote visible to later ones.
 void barrier_between_commands(const vk::raii::CommandBuffer &commands);
 
 } // namespace pt::vulkan

@@ -65,7 +65,7 @@ bool is_index(const std::string &text) {
     return !text.empty() && text.size() < 32 && text.find_first_not_of("0123456789") == std::string::npos;
 }
 
-// Why a device does not fit the words that ask for one; empty if it does. Indices are not handled here.
+// Why a device does not match the words that ask for one; empty if it does. Indices are not handled here.
 std::string mismatch(const pt_device_info &device, const std::string &wanted) {
     if (wanted.empty())
         return "";
@@ -162,7 +162,8 @@ std::size_t choose_device(std::span<const pt_device_info> devices, const std::st
 
 namespace {
 
-// The items of a list of indices and UUIDs, separated by commas; empty if it is none: names may have commas.
+// The items of a list of indices and UUIDs separated by commas; empty if it is not such a list, since names may have
+// commas.
 std::vector<std::string> listed(const std::string &wanted) {
     std::vector<std::string> items;
     for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {
@@ -177,8 +178,8 @@ std::vector<std::string> listed(const std::string &wanted) {
     return items;
 }
 
-// A chosen device that is the same as another chosen one: listed at the same place, or by a second driver of the same
-// name for the same hardware, which has the same UUID.
+// The chosen device, if there is one, that is the same as another one: listed at the same index, or the same hardware
+// listed by a second driver of the same name, with the same UUID.
 std::optional<std::size_t> same_device_among(std::span<const pt_device_info> devices,
                                              std::span<const std::size_t> chosen, std::size_t other) {
     const std::string uuid = uuid_digits(devices[other]);
@@ -197,7 +198,7 @@ Error named_twice(const std::string &wanted, const std::string &item, const pt_d
                                device.name + "), which is in the list already"}};
 }
 
-// The best device that fits, and the others of its kind.
+// The best suitable device, and the other suitable ones of its kind.
 std::vector<std::size_t> all_of_the_best_kind(std::span<const pt_device_info> devices) {
     const std::uint32_t kind = devices[choose_device(devices, "")].kind;
     std::vector<std::size_t> chosen;

@@ -15,8 +15,8 @@ namespace pt::vulkan {
 
 pt_device_info describe(const vk::raii::PhysicalDevice &device);
 
-// Index of the device that pt_create_info.device asks for, "" for the best. Throws PT_ERROR_NO_DEVICE with the reason
-// against each device if none fits.
+// Index of the device that pt_create_info.device asks for, "" for the best. Throws PT_ERROR_NO_DEVICE, with a reason
+// for each device, if none fits.
 std::size_t choose_device(std::span<const pt_device_info> devices, const std::string &wanted);
 
 // Indices of the devices that pt_create_info.device asks for, one or several, at least one and each once. Throws

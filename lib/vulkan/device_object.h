@@ -7,8 +7,8 @@
 
 namespace pt::vulkan {
 
-// Destroys its object with itself, unless the device hangs: what work under way uses must not be destroyed (Vulkan
-// specification, "Object Lifetime"), and freed memory, which that work may still write to, goes to others.
+// Destroys its object in its destructor, unless the device hangs: what work under way uses must not be destroyed
+// (Vulkan specification, "Object Lifetime"), and memory that this work may still write to would be given to others.
 template <typename Object>
 class DeviceObject {
 public:

@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char *validation_layer = "VK_LAYER_KHRONOS_validation";
 
-// The parameters are types of the C header, or of Vulkan-Hpp itself where that is newer.
+// The parameters have types of the C header or, with newer versions of Vulkan-Hpp, its own.
 template <typename Severity, typename Types, typename Data>
 VKAPI_ATTR VkBool32 VKAPI_CALL on_message(Severity severity, Types /*types*/, const Data *data, void *user) {
     const bool is_error = static_cast<vk::DebugUtilsMessageSeverityFlagBitsEXT>(severity) >=
@@ -41,8 +41,8 @@ bool contains(const std::vector<Properties> &list, Name name, const char *wanted
     return std::ranges::any_of(list, [&](const Properties &item) { return std::strcmp(item.*name, wanted) == 0; });
 }
 
-// The variables that decide which drivers the loader finds, and what to do about them. Nowhere else does the library
-// read the environment, and here only to explain it.
+// Explains which environment variables decide which drivers the loader finds, and what to do. The library reads the
+// environment nowhere else, and here only to explain it.
 std::string driver_advice(const vk::raii::Context &context) {
     const std::uint32_t version = context.enumerateInstanceVersion();
     std::string advice = " (Vulkan loader " + std::to_string(VK_API_VERSION_MAJOR(version)) + "." +
@@ -55,14 +55,14 @@ std::string driver_advice(const vk::raii::Context &context) {
     return advice + "): install the GPU's Vulkan driver, or mesa-vulkan-drivers to render on the CPU";
 }
 
-// Memory that ran out says nothing about the drivers.
+// Lack of memory says nothing about the drivers.
 void throw_if_out_of_memory(const vk::SystemError &error, const std::string &what_was_being_done) {
     const pt_result result = result_of(static_cast<vk::Result>(error.code().value()));
     if (result == PT_ERROR_OUT_OF_HOST_MEMORY || result == PT_ERROR_OUT_OF_DEVICE_MEMORY)
         throw Error(result, what_was_being_done + ": " + error.what());
 }
 
-// If messages are given, the validation layer is on and reports to them.
+// If messages is not NULL, the validation layer is on and reports to it.
 vk::raii::Instance create_instance(const vk::raii::Context &context,
                                    const vk::DebugUtilsMessengerCreateInfoEXT *messages) {
     std::vector<const char *> layers;
@@ -100,9 +100,10 @@ vk::raii::Instance create_instance(const vk::raii::Context &context,
     }
 }
 
-// The loader unloads drivers with the last instance, and NVIDIA's takes static thread-local storage of the process for
-// good each time it is loaded: after thirty times none is left, and no further instance can be created (driver
-// 580.159). So it stays, if it is there, which also halves the time that further instances take.
+// The loader unloads drivers with the last instance, and NVIDIA's driver takes static thread-local storage of the
+// process for good each time it is loaded: after thirty times none is left, and no further instance can be created
+// (driver 580.159). So the driver, if there is one, is kept loaded, which also halves the time that further instances
+// take.
 void keep_nvidia_driver_loaded() noexcept {
     for (const char *name : {"libGLX_nvidia.so.0", "libEGL_nvidia.so.0"}) // one of them is the driver
         if (void *const driver = dlopen(name, RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE))
@@ -112,7 +113,8 @@ void keep_nvidia_driver_loaded() noexcept {
 Borrowable<vk::raii::Instance> owned_instance(const vk::raii::Context &context, const Log &log, bool validation) {
     const vk::DebugUtilsMessengerCreateInfoEXT messages = messenger_info(log);
     try {
-        // In the chain of structs, the messenger also hears of the creation and destruction of the instance.
+        // Since it is in the chain of structs, the messenger also reports on the creation and destruction of the
+        // instance.
         auto instance =
             Borrowable<vk::raii::Instance>::owned(create_instance(context, validation ? &messages : nullptr));
         keep_nvidia_driver_loaded();

@@ -27,7 +27,8 @@ public:
     // At least one; throws PT_ERROR_NO_DEVICE otherwise.
     std::vector<vk::raii::PhysicalDevice> physical_devices() const;
 
-    // From now on the Vulkan instance is not destroyed, whoever made it: while a device of it exists it may not be.
+    // From now on the Vulkan instance is never destroyed, whoever made it: it must not be while one of its devices
+    // exists.
     void abandon();
 
 private:

@@ -17,18 +17,19 @@ struct KernelStore {
     void *user = nullptr;
 };
 
-// A head before a driver's bytes says what they are: a driver trusts what it reads, so it must never see others.
+// A header in front of a driver's bytes identifies them: a driver trusts what it reads, so it must never see other
+// bytes.
 struct KernelSeal {
     char magic[8];
     char key[32];
     std::uint64_t size_bytes; // of what follows
-    std::uint64_t checksum;   // of it
+    std::uint64_t checksum;   // of what follows
 };
 
-// key: 32 characters.
+// The seal for data under a key of 32 characters.
 KernelSeal kernel_seal(const std::string &key, std::span<const std::byte> data);
 
-// The bytes after the seal; nothing unless they are just what was sealed under this key.
+// The bytes after the seal; empty unless they are exactly what was sealed under this key.
 std::span<const std::byte> unsealed_kernels(const std::string &key, std::span<const std::byte> bytes);
 
 } // namespace pt::vulkan

@@ -13,7 +13,7 @@ namespace pt::vulkan {
 
 namespace {
 
-// A family that computes, preferably one that does not draw: that is the one for work in the background.
+// A queue family for compute, preferably one without graphics: that is meant for background work.
 std::uint32_t compute_family(const vk::raii::PhysicalDevice &device) {
     const std::vector<vk::QueueFamilyProperties> families = device.getQueueFamilyProperties();
     std::uint32_t best = 0;
@@ -27,7 +27,7 @@ std::uint32_t compute_family(const vk::raii::PhysicalDevice &device) {
 }
 
 vk::raii::Device create_device(const vk::raii::PhysicalDevice &physical_device, std::uint32_t family) {
-    // The specification demands that this extension be enabled where it exists.
+    // The specification demands that this extension be enabled if it exists.
     constexpr const char *portability_subset = "VK_KHR_portability_subset";
     std::vector<const char *> extensions;
     for (const vk::ExtensionProperties &extension : physical_device.enumerateDeviceExtensionProperties())

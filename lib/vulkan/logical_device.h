@@ -1,4 +1,4 @@
-// A VkDevice with the one queue of it that is used: made by the library, or the caller's.
+// A VkDevice and the one queue of it that is used: the library's own, or the caller's.
 #pragma once
 
 #include "lib/vulkan/borrowable.h"
@@ -11,7 +11,7 @@ namespace pt::vulkan {
 
 class LogicalDevice {
 public:
-    // A new one, owned, with a queue that computes.
+    // Creates a device with a queue for compute, and owns it.
     static LogicalDevice create(const vk::raii::PhysicalDevice &physical_device);
     // The caller's, which is left alone.
     static LogicalDevice borrow(const vk::raii::PhysicalDevice &physical_device, const CallerVulkan &caller);
@@ -20,7 +20,7 @@ public:
     bool is_borrowed() const { return !device_.is_owned(); }
     std::uint32_t queue_family() const { return queue_family_; }
 
-    // Submits to the queue, and locks it for this thread meanwhile. Returns the time at which it had the lock.
+    // Submits to the queue, which it locks for this thread meanwhile. Returns the time at which it got the lock.
     std::chrono::steady_clock::time_point submit(const vk::SubmitInfo &work, vk::Fence fence) const;
 
     // From now on the device is not destroyed, whoever made it.
@@ -33,7 +33,7 @@ private:
     Borrowable<vk::raii::Device> device_;
     vk::raii::Queue queue_;
     std::uint32_t queue_family_;
-    QueueLock queue_lock_; // does nothing where the device is the library's own: no other thread knows its queue
+    QueueLock queue_lock_; // does nothing for the library's own device, whose queue no other thread knows
 };
 
 } // namespace pt::vulkan

@@ -1,4 +1,4 @@
-// Which of a device's types of memory a buffer gets.
+// Chooses which of a device's memory types a buffer gets.
 #pragma once
 
 #include "lib/base/error.h"
@@ -22,7 +22,7 @@ auto allocate_where_there_is_room(std::span<const std::uint32_t> types, Allocate
         try {
             return allocate(type);
         } catch (const vk::OutOfDeviceMemoryError &) {
-            continue; // its heap is full: the next type may lie in another
+            continue; // its heap is full, but the next type may be in another heap
         }
     }
     return allocate(types.back());

@@ -11,7 +11,7 @@ namespace pt::vulkan {
 
 namespace {
 
-// Far more than the kernels of a context take: larger data cannot be ours.
+// Far more than the kernels of a context take: anything larger cannot be ours.
 constexpr std::uint64_t most_bytes = std::uint64_t{1} << 28;
 
 } // namespace
@@ -46,7 +46,7 @@ void PipelineCache::load(const KernelStore &store, const Log &log) {
     }
 }
 
-// Throws nothing, since it ends calls that have done their work: if memory is short, nothing is kept.
+// Never throws, since it comes at the end of calls that have done their work: if memory is short, nothing is kept.
 void PipelineCache::save(const Log &log) noexcept {
     if (!store_.store || !std::exchange(has_news_, false))
         return;

@@ -20,17 +20,17 @@ public:
 
     const vk::raii::PipelineCache &handle() const { return cache_; }
 
-    // Takes over what the caller has kept under a key, if it is whole and the driver accepts it, and hands over by
-    // save() what is new. key: 32 hexadecimal digits.
+    // Loads what the caller has kept under a key, if it is intact and the driver accepts it; from now on save() hands
+    // over what is new. key: 32 hexadecimal digits.
     void use(const KernelStore &store, std::string key, const Log &log);
 
-    // From now on what save() hands over belongs to another key.
+    // From now on save() hands over under another key.
     void set_key(std::string key) noexcept { key_ = std::move(key); }
 
-    // A kernel was built.
+    // Notes that a kernel was built.
     void note_kernel() { has_news_ = true; }
 
-    // Hands the kernels to the caller, if some were built since and the driver's bytes have changed.
+    // Hands the kernels to the caller, if some were built since the last time and the driver's bytes have changed.
     void save(const Log &log) noexcept;
 
     void abandon() { cache_.release(); }
@@ -42,7 +42,7 @@ private:
     vk::raii::PipelineCache cache_ = nullptr;
     KernelStore store_;
     std::string key_;
-    std::uint64_t kept_checksum_ = 0; // of what the caller has
+    std::uint64_t kept_checksum_ = 0; // of what the caller has kept
     bool has_news_ = false;
 };
 

@@ -9,13 +9,13 @@
 
 namespace pt::vulkan {
 
-// The pt_result of a VkResult; PT_ERROR_INTERNAL for all that are not in the table.
+// The pt_result of a VkResult; PT_ERROR_INTERNAL for those not in the table.
 pt_result result_of(vk::Result result);
 
-// Throws the pt::Error of what Vulkan threw, which says what was being done.
+// Throws a pt::Error for what Vulkan threw; its message says what was being done.
 [[noreturn]] void throw_translated(const vk::SystemError &error, std::string_view what_was_being_done);
 
-// Runs a function; what Vulkan throws is translated.
+// Runs a function, and translates what Vulkan throws.
 template <typename Function>
 decltype(auto) translated(std::string_view what_was_being_done, Function &&function) {
     try {

@@ -1,4 +1,4 @@
-// Submissions that somebody waits for in the order of their starts. Whatever fails, all are waited for at the end.
+// Submissions that are waited for in the order in which they were started; in the end all of them, whatever fails.
 #pragma once
 
 #include "lib/vulkan/device.h"
@@ -10,14 +10,14 @@ namespace pt::vulkan {
 
 class SubmissionsUnderWay {
 public:
-    // most: as many as will be under way at a time. The device must outlive it.
+    // most: how many will be under way at a time. The device must outlive this object.
     SubmissionsUnderWay(Device &device, std::size_t most) : device_(device) { tickets_.reserve(most); }
     SubmissionsUnderWay(const SubmissionsUnderWay &) = delete;
     SubmissionsUnderWay &operator=(const SubmissionsUnderWay &) = delete;
     ~SubmissionsUnderWay() {
         try {
             finish_all();
-        } catch (...) { // the device is lost, and whoever failed tells of it
+        } catch (...) { // the device is lost; the call that failed reports it
         }
     }
 
