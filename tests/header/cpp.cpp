@@ -2,6 +2,7 @@
 // Sizes and offsets are in abi/struct_layout.txt.
 #include <pt/accuracy.h>
 #include <pt/async.h>
+#include <pt/denoise.h>
 #include <pt/devices.h>
 #include <pt/errors.h>
 #include <pt/film.h>
@@ -20,7 +21,7 @@ constexpr bool are_plain = (... && (std::is_trivial_v<Struct> && std::is_standar
 static_assert(are_plain<pt_device_info, pt_material, pt_sphere, pt_plane, pt_scene, pt_camera, pt_render>);
 static_assert(are_plain<pt_accumulate_info, pt_image, pt_stats, pt_error_estimate, pt_function_accuracy, pt_vulkan,
                         pt_create_info>);
-static_assert(are_plain<pt_broken_rule, pt_buffer_image, pt_column, pt_sphere_array>);
+static_assert(are_plain<pt_broken_rule, pt_buffer_image, pt_column, pt_denoise_info, pt_sphere_array>);
 
 static_assert(std::is_same_v<pt_result, int32_t>);
 static_assert(PT_OK == 0 && PT_CANCELLED == 1 && PT_TARGET_REACHED == 2 && PT_PENDING == 3);
@@ -64,6 +65,7 @@ static_assert(
 static_assert(std::is_same_v<decltype(&pt_readback_to_buffer), pt_result (*)(pt_context *, const pt_buffer_image *)>);
 static_assert(std::is_same_v<decltype(&pt_get_stats), pt_result (*)(pt_context *, pt_stats *)>);
 static_assert(std::is_same_v<decltype(&pt_get_error_estimate), pt_result (*)(pt_context *, pt_error_estimate *)>);
+static_assert(std::is_same_v<decltype(&pt_denoise), pt_result (*)(const pt_denoise_info *, pt_error_estimate *)>);
 static_assert(
     std::is_same_v<decltype(&pt_get_accuracy), pt_result (*)(pt_context *, pt_function_accuracy *, uint32_t *)>);
 static_assert(

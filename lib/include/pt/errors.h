@@ -20,7 +20,7 @@ typedef struct pt_broken_rule {
     int32_t component;    /**< which element of member, if that is an array or a pt_column; otherwise -1 */
     int64_t index;        /**< which element of subject, if that is an array of structs; otherwise -1 */
     /** "materials", "spheres", "planes" or "sphere_arrays" of pt_scene; "scene", "camera", "render", "accumulate",
-     * "image", "stats", "create" or "vulkan" for the struct itself; or the name of another argument */
+     * "image", "stats", "create", "vulkan" or "denoise" for the struct itself; or the name of another argument */
     const char *subject;
     const char *member; /**< of the subject's struct, or "center.type"; "" for a rule about the argument itself */
     const char *with;   /**< what else enters the value, as "* height" beside "width"; else "" */

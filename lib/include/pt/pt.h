@@ -5,7 +5,8 @@
  * programs need is in other headers: pt/async.h (samples that are taken while the program goes on), pt/map.h (images
  * without a copy), pt/stats.h (what was done, and the image's error), pt/errors.h (the last error as data),
  * pt/devices.h (which devices there are), pt/film.h (films that are saved and added), pt/vulkan.h (a device of the
- * caller's own), pt/shaders.h (changed kernels) and pt/accuracy.h (how well a device computes).
+ * caller's own), pt/denoise.h (images without noise), pt/shaders.h (changed kernels) and pt/accuracy.h (how well a
+ * device computes).
  *
  * - World: right-handed, lengths in scene units, positions in double, angles in radians, time in [0, 1]. Color is
  *   linear RGB radiance, unclamped. Row 0 of an image is the top row.

@@ -85,6 +85,12 @@ class pt_function_accuracy(ctypes.Structure):
     _fields_ = [("name", c_char * 40), ("worst_error", c_double), ("bound", c_double), ("worst_input", c_double)]
 
 
+class pt_denoise_info(Sized):
+    _fields_ = [("struct_size", c_uint32), ("width", c_uint32), ("height", c_uint32), ("reserved", c_uint32),
+                ("first", POINTER(c_float)), ("second", POINTER(c_float)), ("albedo", POINTER(c_float)),
+                ("normal", POINTER(c_float)), ("denoised", POINTER(c_float)), ("library", c_char_p)]
+
+
 class pt_device_info(ctypes.Structure):
     _fields_ = [("kind", c_uint32), ("suitable", c_uint32), ("memory_bytes", c_uint64), ("uuid", c_uint8 * 16),
                 ("name", c_char * 256), ("driver", c_char * 256), ("reason", c_char * 256)]

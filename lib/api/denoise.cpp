@@ -1,0 +1,66 @@
+// The C boundary of denoising, which takes no context; see api.cpp.
+#include <pt/denoise.h>
+
+#include "lib/api/context.h"
+#include "lib/api/guard.h"
+#include "lib/base/rules.h"
+#include "lib/base/struct_size.h"
+#include "lib/denoise/combination.h"
+#include "lib/denoise/open_image_denoise.h"
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace pt {
+
+namespace {
+
+void check_pixels(const Subject &subject, const char *member, const float *values, std::size_t value_count) {
+    if (!values) {
+        subject.refuse(member, "NULL", "must not be NULL");
+        return;
+    }
+    for (std::size_t i = 0; i < value_count; ++i)
+        if (!std::isfinite(values[i]))
+            subject.refuse_element(member, i, values[i], finite_rule(values[i]));
+}
+
+pt_denoise_info validated_denoise(const pt_denoise_info *user) {
+    const pt_denoise_info info = copy_in(user, "denoise");
+    Violations violations;
+    const Subject subject(violations, "denoise");
+    const std::uint64_t pixel_count = std::uint64_t{info.width} * info.height;
+    subject.require(pixel_count >= 1 && pixel_count <= UINT32_MAX, {"width", "* height"}, pixel_count,
+                    "must be in [1, 2^32 - 1]");
+    subject.require(info.reserved == 0, "reserved", info.reserved, "must be 0");
+    violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
+    check_pixels(subject, "first", info.first, 3 * pixel_count);
+    check_pixels(subject, "second", info.second, 3 * pixel_count);
+    check_pixels(subject, "albedo", info.albedo, 3 * pixel_count);
+    check_pixels(subject, "normal", info.normal, 3 * pixel_count);
+    if (!info.denoised)
+        subject.refuse("denoised", "NULL", "must not be NULL");
+    violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
+    return info;
+}
+
+ErrorEstimate denoise(const pt_denoise_info &info) {
+    const std::size_t value_count = std::size_t{3} * info.width * info.height;
+    std::vector<float> first(value_count);
+    std::vector<float> second(value_count);
+    const std::array<FilterTask, 2> tasks{{{info.first, first.data()}, {info.second, second.data()}}};
+    run_open_image_denoise(info.library, {info.width, info.height, info.albedo, info.normal}, tasks);
+    return combine({info.width, info.height, info.first, info.second, first.data(), second.data()}, info.denoised);
+}
+
+} // namespace
+
+} // namespace pt
+
+pt_result pt_denoise(const pt_denoise_info *info, pt_error_estimate *error) {
+    return pt::guard(pt::thread_last_error, [&] {
+        pt::struct_size_of(error, "error"); // before the work
+        pt::copy_out(pt::stated(pt::denoise(pt::validated_denoise(info))), error, "error");
+    });
+}

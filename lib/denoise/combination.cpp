@@ -1,0 +1,203 @@
+#include "lib/denoise/combination.h"
+
+#include "lib/film/tile_errors.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace pt {
+
+namespace {
+
+constexpr std::size_t channel_count = 3;
+constexpr std::size_t tile_width = 16; // pixels: hundreds of values, so that a tile's own choice adds little
+constexpr double few_tiles = 8.0;
+constexpr double normal_90 = 1.28; // one-sided
+constexpr double normal_95 = 1.96; // two-sided
+
+// The median of M over the 3 x 3 pixels about one, repeated at the image's edges.
+double median_about(const FilteredHalves &halves, std::size_t x, std::size_t y, std::size_t channel) {
+    std::array<double, 9> values{};
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const std::size_t column = std::clamp<std::size_t>(x + i % 3, 1, halves.width) - 1;
+        const std::size_t row = std::clamp<std::size_t>(y + i / 3, 1, halves.height) - 1;
+        const std::size_t index = (row * halves.width + column) * channel_count + channel;
+        values[i] = 0.5 * (double{halves.first[index]} + halves.second[index]);
+    }
+    std::nth_element(values.begin(), values.begin() + 4, values.end());
+    return values[4];
+}
+
+// The terms of (1) in one value.
+struct Terms {
+    double mean;       // M
+    double difference; // d
+    double variance;   // s^2
+    double shared;     // s (s - f): the noise of a half that its filtered half lacks
+    double weight;     // of relative squares
+
+    double square(double share) const { return variance - 2.0 * share * shared + share * share * squared(difference); }
+};
+
+// D(A) D(B), whose factors are independent, stands for the square of the limit: the square of F would have the filter's
+// noise in it, and weigh dark places too little. But a filter that spreads a lamp over dark pixels must not hide there,
+// so it counts no more than the raw pixel, or four times what is about it.
+Terms terms_at(const FilteredHalves &halves, std::size_t x, std::size_t y, std::size_t channel) {
+    constexpr double most_above_median = 4.0;
+    const std::size_t index = (y * halves.width + x) * channel_count + channel;
+    const double first = halves.first[index];
+    const double second = halves.second[index];
+    const double first_filtered = halves.first_filtered[index];
+    const double second_filtered = halves.second_filtered[index];
+    const double mean = 0.5 * (first + second);
+    const double noise = 0.5 * (first - second);
+    const double most = std::max(mean, most_above_median * median_about(halves, x, y, channel));
+    const double limit_square = std::clamp(first_filtered * second_filtered, 0.0, squared(most));
+    return {.mean = mean,
+            .difference = 0.5 * (first_filtered + second_filtered) - mean,
+            .variance = squared(noise),
+            .shared = noise * (noise - 0.5 * (first_filtered - second_filtered)),
+            .weight = 1.0 / (limit_square + relative_offset)};
+}
+
+// A number for each tile, row by row.
+struct Tiles {
+    explicit Tiles(const FilteredHalves &halves) :
+        columns((halves.width + tile_width - 1) / tile_width),
+        rows((halves.height + tile_width - 1) / tile_width),
+        numbers(columns * rows) {}
+
+    double &of_pixel(std::size_t x, std::size_t y) { return numbers[y / tile_width * columns + x / tile_width]; }
+
+    std::size_t columns;
+    std::size_t rows;
+    std::vector<double> numbers;
+};
+
+// Sums over tiles and those about them, with half of the weight for each step away: along one axis, of `count` tiles
+// that are `step` apart.
+void spread(std::vector<double> &numbers, std::size_t first, std::size_t count, std::size_t step) {
+    double before = 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+        double &here = numbers[first + i * step];
+        const double after = i + 1 < count ? numbers[first + (i + 1) * step] : 0.0;
+        const double sum = before + 2.0 * here + after;
+        before = here;
+        here = sum;
+    }
+}
+
+void spread(Tiles &tiles) {
+    for (std::size_t row = 0; row < tiles.rows; ++row)
+        spread(tiles.numbers, row * tiles.columns, tiles.columns, 1);
+    for (std::size_t column = 0; column < tiles.columns; ++column)
+        spread(tiles.numbers, column, tiles.rows, tiles.columns);
+}
+
+// Between two tiles, and how near to the second.
+struct Place {
+    std::size_t first;
+    std::size_t second;
+    double share;
+
+    Place(std::size_t pixel, std::size_t count) {
+        const double position = (static_cast<double>(pixel) + 0.5) / tile_width - 0.5; // 0: in the first one's middle
+        const double inside = std::clamp(position, 0.0, static_cast<double>(count - 1));
+        first = static_cast<std::size_t>(inside);
+        second = std::min(first + 1, count - 1);
+        share = inside - static_cast<double>(first);
+    }
+};
+
+// Linear between the middles of tiles, so that there are no seams.
+double at(const Tiles &tiles, const Place &x, const Place &y) {
+    const auto in_row = [&](std::size_t row) {
+        const double *const numbers = &tiles.numbers[row * tiles.columns];
+        return std::lerp(numbers[x.first], numbers[x.second], x.share);
+    };
+    return std::lerp(in_row(y.first), in_row(y.second), y.share);
+}
+
+template <typename Visit>
+void for_each_pixel(const FilteredHalves &halves, Visit &&visit) {
+    for (std::size_t y = 0; y < halves.height; ++y)
+        for (std::size_t x = 0; x < halves.width; ++x)
+            visit(x, y);
+}
+
+// The t of each tile.
+Tiles best_shares(const FilteredHalves &halves) {
+    Tiles shares(halves);
+    Tiles differences(halves);
+    for_each_pixel(halves, [&](std::size_t x, std::size_t y) {
+        for (std::size_t channel = 0; channel < channel_count; ++channel) {
+            const Terms terms = terms_at(halves, x, y, channel);
+            shares.of_pixel(x, y) += terms.weight * terms.shared;
+            differences.of_pixel(x, y) += terms.weight * squared(terms.difference);
+        }
+    });
+    spread(shares);
+    spread(differences);
+    for (std::size_t tile = 0; tile < shares.numbers.size(); ++tile) {
+        const double whole = differences.numbers[tile];
+        shares.numbers[tile] = whole > 0.0 ? std::clamp(shares.numbers[tile] / whole, 0.0, 1.0) : 0.0;
+    }
+    return shares;
+}
+
+// How many equal tiles would have the same ratio of their squares to their sum.
+double effective_count(const Tiles &sums) {
+    double sum = 0.0;
+    double squares = 0.0;
+    for (const double number : sums.numbers) {
+        sum += number;
+        squares += squared(number);
+    }
+    return sum > 0.0 ? squared(sum) / squares : 0.0;
+}
+
+// The root of the mean of squares, of which there are sums by tile. Tiles differ by noise, which makes the standard
+// error of the sum, and by what they show, which makes it larger.
+Interval root_mean(const Tiles &sums, const Tiles &value_counts, bool uncertain) {
+    double sum = 0.0;
+    double count = 0.0;
+    for (std::size_t tile = 0; tile < sums.numbers.size(); ++tile) {
+        sum += sums.numbers[tile];
+        count += value_counts.numbers[tile];
+    }
+    const double mean = sum / count;
+    double variance = 0.0;
+    for (std::size_t tile = 0; tile < sums.numbers.size(); ++tile)
+        variance += squared(sums.numbers[tile] - mean * value_counts.numbers[tile]);
+    const double deviation = std::sqrt(variance) / count;
+    const auto root = [&](double deviations) { return std::sqrt(std::max(mean, 0.0) + deviations * deviation); };
+    return {root(normal_90), std::sqrt(std::max(mean - normal_95 * deviation, 0.0)),
+            root(normal_95) * (uncertain ? uncertain_factor : 1.0)};
+}
+
+} // namespace
+
+ErrorEstimate combine(const FilteredHalves &halves, float *to) {
+    const Tiles shares = best_shares(halves);
+    Tiles squares(halves);
+    Tiles relative_squares(halves);
+    Tiles value_counts(halves);
+    for_each_pixel(halves, [&](std::size_t x, std::size_t y) {
+        const double share = at(shares, Place(x, shares.columns), Place(y, shares.rows));
+        for (std::size_t channel = 0; channel < channel_count; ++channel) {
+            const Terms terms = terms_at(halves, x, y, channel);
+            *to++ = static_cast<float>(terms.mean + share * terms.difference);
+            squares.of_pixel(x, y) += terms.square(share);
+            relative_squares.of_pixel(x, y) += terms.weight * terms.square(share);
+        }
+        value_counts.of_pixel(x, y) += channel_count;
+    });
+    const bool uncertain = effective_count(squares) < few_tiles;
+    const bool relative_uncertain = effective_count(relative_squares) < few_tiles;
+    return {root_mean(squares, value_counts, uncertain), root_mean(relative_squares, value_counts, relative_uncertain),
+            (uncertain ? std::uint32_t{PT_UNCERTAIN_RMSE} : 0U) |
+                (relative_uncertain ? std::uint32_t{PT_UNCERTAIN_RELATIVE_RMSE} : 0U)};
+}
+
+} // namespace pt

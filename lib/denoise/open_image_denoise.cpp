@@ -1,0 +1,123 @@
+#include "lib/denoise/open_image_denoise.h"
+
+#include "lib/base/error.h"
+
+#include <dlfcn.h>
+#include <memory>
+#include <string>
+
+namespace pt {
+
+namespace {
+
+constexpr const char *system_library = "libOpenImageDenoise.so.2";
+
+// Of the C interface of Open Image Denoise 2, as its documentation has it (openimagedenoise.org, "Open Image Denoise
+// API"). Handles are opaque pointers; enumerations are as large as int.
+constexpr int oidn_device_type_cpu = 1;
+constexpr int oidn_format_float3 = 3;
+constexpr int oidn_error_none = 0;
+constexpr int oidn_error_out_of_memory = 4;
+constexpr int oidn_error_unsupported_hardware = 5;
+
+class Library {
+public:
+    // It stays loaded: threads that it has started may still end.
+    explicit Library(const std::string &path) : path_(path), handle_(dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)) {
+        find("oidnNewDevice", new_device);
+        find("oidnCommitDevice", commit_device);
+        find("oidnReleaseDevice", release_device);
+        find("oidnGetDeviceError", get_device_error);
+        find("oidnNewFilter", new_filter);
+        find("oidnSetSharedFilterImage", set_image);
+        find("oidnSetFilterBool", set_bool);
+        find("oidnCommitFilter", commit_filter);
+        find("oidnExecuteFilter", execute_filter);
+        find("oidnReleaseFilter", release_filter);
+    }
+
+    void *(*new_device)(int type);
+    void (*commit_device)(void *device);
+    void (*release_device)(void *device);
+    int (*get_device_error)(void *device, const char **message); // which is then forgotten
+    void *(*new_filter)(void *device, const char *type);
+    void (*set_image)(void *filter, const char *name, void *data, int format, std::size_t width, std::size_t height,
+                      std::size_t byte_offset, std::size_t pixel_stride, std::size_t row_stride); // 0: no gaps
+    void (*set_bool)(void *filter, const char *name, bool value);
+    void (*commit_filter)(void *filter);
+    void (*execute_filter)(void *filter);
+    void (*release_filter)(void *filter);
+
+private:
+    template <typename Function>
+    void find(const char *name, Function &function) {
+        function = handle_ ? reinterpret_cast<Function>(dlsym(handle_, name)) : nullptr;
+        if (function)
+            return;
+        const std::string rule = std::string("Open Image Denoise 2 cannot be loaded: ") + dlerror() +
+                                 "; pip install pyoidn brings it, as pyoidn/oidn/lib/" + system_library;
+        throw Error(PT_ERROR_UNSUPPORTED,
+                    BrokenRule{.subject = "denoise", .member = "library", .value = '"' + path_ + '"', .rule = rule});
+    }
+
+    std::string path_;
+    void *handle_;
+};
+
+pt_result result_of(int error) {
+    switch (error) {
+    case oidn_error_out_of_memory:
+        return PT_ERROR_OUT_OF_HOST_MEMORY;
+    case oidn_error_unsupported_hardware:
+        return PT_ERROR_UNSUPPORTED;
+    default:
+        return PT_ERROR_INTERNAL;
+    }
+}
+
+// Errors are kept by the device, NULL for those of its creation.
+void require_success(const Library &library, void *device) {
+    const char *message = nullptr;
+    const int error = library.get_device_error(device, &message);
+    if (error != oidn_error_none)
+        throw Error(result_of(error), std::string("Open Image Denoise: ") + (message ? message : "no message"));
+}
+
+using Handle = std::unique_ptr<void, void (*)(void *)>;
+
+// The library reads what it is given as an input.
+void *input(const float *data) {
+    return const_cast<float *>(data);
+}
+
+void filter(const Library &library, void *device, const Guides &guides, const FilterTask &task) {
+    const Handle filter(library.new_filter(device, "RT"), library.release_filter);
+    require_success(library, device);
+    const auto set_image = [&](const char *name, void *data) {
+        library.set_image(filter.get(), name, data, oidn_format_float3, guides.width, guides.height, 0, 0, 0);
+    };
+    set_image("color", input(task.radiance));
+    set_image("albedo", input(guides.albedo));
+    set_image("normal", input(guides.normal));
+    set_image("output", task.filtered);
+    library.set_bool(filter.get(), "hdr", true);
+    library.set_bool(filter.get(), "cleanAux", true);
+    library.commit_filter(filter.get());
+    library.execute_filter(filter.get());
+    require_success(library, device);
+}
+
+} // namespace
+
+void run_open_image_denoise(const char *path, const Guides &guides, std::span<const FilterTask> tasks) {
+    const Library library(path ? path : system_library);
+    const Handle device(library.new_device(oidn_device_type_cpu), library.release_device);
+    if (!device)
+        require_success(library, nullptr);
+    library.commit_device(device.get());
+    require_success(library, device.get());
+    for (const FilterTask &task : tasks)
+        filter(library, device.get(), guides, task);
+}
+
+} // namespace pt

@@ -1,0 +1,55 @@
+/** @file
+ * pt: a denoised picture that states its error, by Open Image Denoise.
+ *
+ * Two images A and B are made of one scene with other seeds and equally many samples each, so that each tells the error
+ * of what a filter D makes of the other: B is the limit plus noise that D(A) knows nothing of. What comes out lies
+ * between the raw image (A + B) / 2 and the denoised one (D(A) + D(B)) / 2, at each place where the error is least.
+ */
+#ifndef PT_DENOISE_H
+#define PT_DENOISE_H
+
+#include <pt/pt.h>
+#include <pt/stats.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** What is denoised. Images are R, G, B (x, y, z) as float32, row by row from the top without gaps, as pt_readback
+ * writes them in PT_FORMAT_RGB32F. */
+typedef struct pt_denoise_info {
+    uint32_t struct_size; /**< sizeof(pt_denoise_info) */
+    uint32_t width;       /**< pixels, >= 1, as of all images here */
+    uint32_t height;      /**< pixels, >= 1; width * height <= 2^32 - 1 */
+    uint32_t reserved;    /**< 0 */
+    const float *first;   /**< radiance: PT_QUANTITY_RADIANCE; finite */
+    /** the same with another pt_render.seed and all else equal, the number of samples in each pixel too: two parts of
+     * one sequence depend on each other, so that errors would be stated too small */
+    const float *second;
+    const float *albedo; /**< PT_QUANTITY_ALBEDO */
+    const float *normal; /**< PT_QUANTITY_NORMAL */
+    float *denoised;     /**< receives the picture; none of the others */
+    /** File of Open Image Denoise 2; NULL: libOpenImageDenoise.so.2, where the system finds libraries. It is loaded by
+     * the first call, and stays. */
+    const char *library;
+} pt_denoise_info;
+
+/** Denoises an image, and says how good the result is.
+ *
+ * The result is independent of the number of threads, which Open Image Denoise starts itself, on CPUs alone. Nothing is
+ * taken from, or changed in, any context.
+ *
+ * error receives the error of the denoised picture, and error->struct_size must be set. Its squares are estimated
+ * without bias, but for what the choice by places and the weights of the relative error add; bounds are of 95%
+ * confidence, as tiles of 16 x 16 pixels differ. PT_UNCERTAIN_RMSE and PT_UNCERTAIN_RELATIVE_RMSE: what is known comes
+ * from fewer than 8 such tiles. Light that no sample has met is not in it.
+ *
+ * Any thread; the message of a failure is that of pt_last_error(NULL). PT_ERROR_INVALID_ARGUMENT: a rule is broken.
+ * PT_ERROR_UNSUPPORTED: the library is not there, is of another version, or does not run on this processor. */
+PT_API pt_result pt_denoise(const pt_denoise_info *info, pt_error_estimate *error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,126 @@
+// A stand-in for Open Image Denoise, with the functions that libpt takes from it: a mean over 5 x 5 pixels, and planted
+// faults. FAKE_OIDN=identity filters nothing, shift moves the mean by a pixel, darken takes a twentieth of it away; an
+// error's number makes the filter fail with it.
+#include <algorithm>
+#include <cstddef>
+#include <cstdlib>
+#include <map>
+#include <string>
+#include <utility>
+
+namespace {
+
+constexpr int invalid_argument = 2;
+
+struct Device {
+    int error = 0;
+    bool is_committed = false;
+};
+
+struct Filter {
+    Device &device;
+    std::map<std::string, float *> images{};
+    std::map<std::string, bool> flags{};
+    std::size_t width = 0;
+    std::size_t height = 0;
+};
+
+std::string wish() {
+    const char *const text = std::getenv("FAKE_OIDN");
+    return text ? text : "";
+}
+
+// Over the pixels that are there.
+float mean_about(const Filter &filter, const float *color, std::ptrdiff_t x, std::ptrdiff_t y, std::size_t channel,
+                 std::ptrdiff_t radius) {
+    const auto width = static_cast<std::ptrdiff_t>(filter.width);
+    const auto height = static_cast<std::ptrdiff_t>(filter.height);
+    double sum = 0.0;
+    int count = 0;
+    for (std::ptrdiff_t row = std::max<std::ptrdiff_t>(y - radius, 0); row <= std::min(y + radius, height - 1); ++row)
+        for (std::ptrdiff_t column = std::max<std::ptrdiff_t>(x - radius, 0); column <= std::min(x + radius, width - 1);
+             ++column, ++count)
+            sum += color[static_cast<std::size_t>(row * width + column) * 3 + channel];
+    return static_cast<float>(sum / count);
+}
+
+void run(const Filter &filter) {
+    const std::ptrdiff_t radius = wish() == "identity" ? 0 : 2;
+    const std::ptrdiff_t shift = wish() == "shift" ? 1 : 0;
+    const float factor = wish() == "darken" ? 0.95F : 1.0F;
+    const float *const color = filter.images.at("color");
+    float *const output = filter.images.at("output");
+    for (std::size_t pixel = 0; pixel < filter.width * filter.height; ++pixel)
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            const auto x = static_cast<std::ptrdiff_t>(pixel % filter.width) + shift;
+            output[3 * pixel + channel] =
+                factor * mean_about(filter, color, std::min(x, static_cast<std::ptrdiff_t>(filter.width) - 1),
+                                    static_cast<std::ptrdiff_t>(pixel / filter.width), channel, radius);
+        }
+}
+
+} // namespace
+
+extern "C" {
+
+void *oidnNewDevice(int type) {
+    constexpr int cpu = 1;
+    return type == cpu ? new Device : nullptr;
+}
+
+void oidnCommitDevice(void *device) {
+    static_cast<Device *>(device)->is_committed = true;
+}
+
+void oidnReleaseDevice(void *device) {
+    delete static_cast<Device *>(device);
+}
+
+int oidnGetDeviceError(void *device, const char **message) {
+    const int error = std::exchange(static_cast<Device *>(device)->error, 0);
+    *message = error != 0 ? "as planted" : nullptr;
+    return error;
+}
+
+void *oidnNewFilter(void *device, const char *type) {
+    auto &of = *static_cast<Device *>(device);
+    if (!of.is_committed || std::string(type) != "RT")
+        of.error = invalid_argument;
+    return new Filter{of};
+}
+
+void oidnSetSharedFilterImage(void *filter, const char *name, void *data, int format, std::size_t width,
+                              std::size_t height, std::size_t offset, std::size_t pixel_stride,
+                              std::size_t row_stride) {
+    constexpr int float3 = 3;
+    auto &of = *static_cast<Filter *>(filter);
+    if (format != float3 || offset != 0 || pixel_stride != 0 || row_stride != 0)
+        of.device.error = invalid_argument;
+    of.images[name] = static_cast<float *>(data);
+    of.width = width;
+    of.height = height;
+}
+
+void oidnSetFilterBool(void *filter, const char *name, bool value) {
+    static_cast<Filter *>(filter)->flags[name] = value;
+}
+
+void oidnCommitFilter(void *filter) {
+    auto &of = *static_cast<Filter *>(filter);
+    const bool is_whole = of.images["color"] && of.images["albedo"] && of.images["normal"] && of.images["output"];
+    if (!is_whole || !of.flags["hdr"] || !of.flags["cleanAux"])
+        of.device.error = invalid_argument;
+}
+
+void oidnExecuteFilter(void *filter) {
+    const auto &of = *static_cast<Filter *>(filter);
+    if (of.device.error == 0)
+        of.device.error = std::atoi(wish().c_str());
+    if (of.device.error == 0)
+        run(of);
+}
+
+void oidnReleaseFilter(void *filter) {
+    delete static_cast<Filter *>(filter);
+}
+}
