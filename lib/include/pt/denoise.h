@@ -40,9 +40,10 @@ typedef struct pt_denoise_info {
  * taken from, or changed in, any context.
  *
  * error receives the error of the denoised picture, and error->struct_size must be set. Its squares are estimated
- * without bias, but for what the choice by places and the weights of the relative error add; bounds are of 95%
- * confidence, as tiles of 16 x 16 pixels differ. PT_UNCERTAIN_RMSE and PT_UNCERTAIN_RELATIVE_RMSE: what is known comes
- * from fewer than 8 such tiles. Light that no sample has met is not in it.
+ * without bias, but for the choice by places, and with a standard error, as tiles of 16 x 16 pixels differ: rmse and
+ * relative_rmse are 1.28 of these above the estimate, bounds 1.96 to both sides. PT_UNCERTAIN_RMSE and
+ * PT_UNCERTAIN_RELATIVE_RMSE: what is known comes from fewer than 8 such tiles, and the upper bound is doubled. Light
+ * that no sample has met is not in it.
  *
  * Any thread; the message of a failure is that of pt_last_error(NULL). PT_ERROR_INVALID_ARGUMENT: a rule is broken.
  * PT_ERROR_UNSUPPORTED: the library is not there, is of another version, or does not run on this processor. */

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 from pt._callbacks import Log, Progress
 from pt._camera import Camera, RenderSettings
 from pt._context import Context
+from pt._denoise import denoise
 from pt._enums import (NO_OBJECT, DeviceKind, Estimator, Feature, Format, LogLevel, Projection, Quantity, Result, Sampler,
                        Sampling,
                        Uncertain)
@@ -39,7 +40,7 @@ __all__ = [
     "InvalidSceneError", "InvalidStateError", "Log", "LogLevel", "Material", "NO_OBJECT", "NoDeviceError",
     "OutOfDeviceMemoryError", "OutOfHostMemoryError", "Plane", "Progress", "Projection", "Quantity", "RenderSettings",
     "Result", "Sampler", "Sampling", "Scene", "ShaderError", "Sphere", "SphereArray", "Stats", "Uncertain", "UnsupportedError",
-    "devices", "figure", "render", "version",
+    "denoise", "devices", "figure", "render", "version",
 ]
 
 __version__: str  # the library's

@@ -13,6 +13,7 @@ import numpy.typing as npt
 from pt import _structs as structs
 from pt._callbacks import CallbackGuard, Log, Progress, log_function
 from pt._camera import Camera, RenderSettings
+from pt._denoise import render_denoised
 from pt._enums import CreateFlag, Format, Quantity, Result, Sampling
 from pt._errors import InvalidStateError
 from pt._film import Film, bytes_from
@@ -213,11 +214,17 @@ class Context:
                      self.readback(Quantity.SAMPLE_COUNT), self.error_estimate(), self.stats())
 
     def render(self, scene: Scene, camera: Camera, settings: RenderSettings, samples: int, *,
-               target_error: float = 0.0, progress: Progress | None = None) -> Image:
+               target_error: float = 0.0, progress: Progress | None = None, denoise: bool = False) -> Image:
         """Sets all three, accumulates samples and returns the image, even if progress ended the sampling early.
-        InvalidStateError: it ended before the first sample."""
+
+        denoise   takes half of the samples with each of two seeds, and denoises them, as pt.denoise says; a target error
+                  is that of the result
+
+        InvalidStateError: it ended before the first sample, or before there was something to denoise."""
         self.set_scene(scene)
         self.set_camera(camera)
+        if denoise:
+            return render_denoised(self, settings, samples, target_error, progress)
         self.set_render(settings)
         self.accumulate(samples, target_error=target_error, progress=progress)
         return self.image()

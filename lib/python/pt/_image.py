@@ -23,12 +23,15 @@ class Image:
     error_estimate   how good the image is as a whole
     stats            what it took
     exposure         exposure in stops of the picture that _repr_png_ and save make; None: automatic
+    raw              of a denoised image the mean of the samples, which standard_error is of, while radiance and
+                     error_estimate are of the result; else None
     """
 
     def __init__(self, radiance: npt.NDArray[np.float32], standard_error: npt.NDArray[np.float32],
                  sample_count: npt.NDArray[Any], error_estimate: ErrorEstimate, stats: Stats,
-                 exposure: float | None = None) -> None:
+                 exposure: float | None = None, raw: npt.NDArray[np.float32] | None = None) -> None:
         self.radiance = radiance
+        self.raw = raw
         self.standard_error = standard_error
         self.sample_count: npt.NDArray[np.uint32] = sample_count[:, :, 0].astype(np.uint32)
         self.error_estimate = error_estimate

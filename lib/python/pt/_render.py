@@ -16,8 +16,8 @@ from pt.figures._options import Direction
 def render(positions: npt.ArrayLike, radii: npt.ArrayLike, colors: npt.ArrayLike | None = None, *,
            size: tuple[int, int] = (640, 480), samples: int | None = None, error: float | None = None,
            camera: Camera | None = None, up: Direction = "z", floor: bool = False, material: Material | None = None,
-           max_path_length: int = 4, seed: int = 0, device: str | None = None, context: Context | None = None,
-           progress: Progress | None = None) -> Figure:
+           max_path_length: int = 4, denoise: bool = False, seed: int = 0, device: str | None = None,
+           context: Context | None = None, progress: Progress | None = None) -> Figure:
     """Renders spheres as figure() does, but only from arrays, and sooner: 640 x 480 pixels, 64 samples.
 
     positions   shape (n, 3), n >= 1
@@ -36,4 +36,5 @@ def render(positions: npt.ArrayLike, radii: npt.ArrayLike, colors: npt.ArrayLike
         samples = 64
     return figure(Particles(centers), radius=real_column("radii", radii, 1, len(centers)), color=colors, size=size,
                   samples=samples, error=error, camera=camera, up=up, floor=floor, material=material,
-                  max_path_length=max_path_length, seed=seed, device=device, context=context, progress=progress)
+                  max_path_length=max_path_length, denoise=denoise, seed=seed, device=device, context=context,
+                  progress=progress)

@@ -163,14 +163,15 @@ class Staged:
         options = self.options
         settings = RenderSettings(*self.layout.size, max_path_length=options.max_path_length, seed=options.seed)
         image = context.render(scene, camera, settings, options.most_samples, target_error=options.error or 0.0,
-                               progress=options.progress)
+                               progress=options.progress, denoise=options.denoise)
         cell, radii = self.drawn.cell, self.drawn.radii
         edges = [] if cell is None else cell_edges(cell.origin, cell.vectors)
         shares = read_shares(context, camera, settings, Overlaid(len(lamps), radii, edges, self.options.outlines))
         stage: Any = SURROUND_BRIGHTNESS if len(lamps) > 1 else 1.0
         if scene.planes:
             bare = Scene(lamps, scene.planes)
-            stage = context.render(bare, camera, settings, math.ceil(image.stats.mean_sample_count)).radiance
+            stage = context.render(bare, camera, settings, math.ceil(image.stats.mean_sample_count),
+                                   denoise=options.denoise).radiance
         return Figure(image, self, stage, shares)
 
 

@@ -109,6 +109,8 @@ class Options:
     error: float | None = _samples(None, "E", "ends when the image's relative error is at or below it: 0.02 or, on the command "
                                    "line, 2%", read=_share,
                                    rule=(lambda share: 0.0 < share < math.inf, "> 0 and finite"))
+    denoise: bool = _samples(False, "", "filters the noise away, and states the error of that; takes Open Image Denoise, which "
+                             "the extra denoise installs")
     seed: int = _samples(0, "N", "of the random numbers", read=int, rule=(lambda seed: 0 <= seed < 2**64, "at least 0 and below 2^64"))
     max_path_length: int = _python(4, "", "as of RenderSettings")
     device: str | None = _samples(None, "NAME", "what to render on, as of pt render")

@@ -1,0 +1,113 @@
+"""Images without noise, by Open Image Denoise."""
+
+from __future__ import annotations
+
+import ctypes
+import importlib.util
+import os
+import pathlib
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+import numpy.typing as npt
+
+from pt import _structs as structs
+from pt._camera import RenderSettings
+from pt._enums import Quantity, Result
+from pt._errors import InvalidStateError
+from pt._film import Film
+from pt._image import Image
+from pt._library import checked, library
+from pt._stats import ErrorEstimate, Stats, error_estimate_of
+
+if TYPE_CHECKING:
+    from pt._callbacks import Progress
+    from pt._context import Context
+
+Pixels = npt.NDArray[np.float32]
+
+OTHER_SEED: Final = 2**63  # the bit in which the seeds of both images differ
+FIRST_SAMPLES: Final = 16  # of each of both, where a target error ends them
+
+
+def denoise(first: npt.ArrayLike, second: npt.ArrayLike, albedo: npt.ArrayLike, normal: npt.ArrayLike, *,
+            library_path: str | os.PathLike[str] | None = None) -> tuple[Pixels, ErrorEstimate]:
+    """A picture without noise, and its error.
+
+    first, second   radiance, shape (height, width, 3): two images of one scene with other RenderSettings.seed and all else
+                    equal. Two parts of one sequence depend on each other, and the error would be stated too small
+    albedo, normal  Quantity.ALBEDO and NORMAL, of the same shape
+    library_path    of Open Image Denoise 2; None: that of the module pyoidn, else the system's
+
+    The result lies between the mean of both and what the filter makes of them, where its error is least. UnsupportedError:
+    the library is not there; `pip install pyoidn`, or this package's extra denoise, brings it. ValueError: shapes differ.
+    """
+    images = [np.ascontiguousarray(image, np.float32) for image in (first, second, albedo, normal)]
+    shape = images[0].shape
+    if len(shape) != 3 or shape[2] != 3 or any(image.shape != shape for image in images):
+        raise ValueError(f"shapes = {[image.shape for image in images]}: must all be (height, width, 3)")
+    result = np.empty(shape, np.float32)
+    path = find_library() if library_path is None else os.fspath(library_path)
+    pointers = [image.ctypes.data_as(ctypes.POINTER(ctypes.c_float)) for image in (*images, result)]
+    info = structs.pt_denoise_info(
+        width=shape[1], height=shape[0], library=None if path is None else os.fsencode(path),
+        **dict(zip(("first", "second", "albedo", "normal", "denoised"), pointers)))
+    error, loaded = structs.pt_error_estimate(), library()
+    checked(loaded, loaded.pt_denoise(info, error))
+    return result, error_estimate_of(error)
+
+
+def find_library() -> str | None:
+    """That of the module pyoidn, which is not imported."""
+    spec = importlib.util.find_spec("pyoidn")
+    for folder in spec.submodule_search_locations or () if spec else ():
+        path = pathlib.Path(folder, "oidn", "lib", "libOpenImageDenoise.so.2")
+        if path.exists():
+            return str(path)
+    return None
+
+
+def render_denoised(context: Context, settings: RenderSettings, samples: int, target_error: float,
+                    progress: Progress | None) -> Image:
+    """Takes half of the samples with each of two seeds; the context has a scene and a camera. With a target error it looks
+    after 16 samples of each, and whenever there are half as many again."""
+    most = max(samples // 2, 1)
+    halves = [settings, replace(settings, seed=settings.seed ^ OTHER_SEED)]
+    films: list[Film | None] = [None, None]
+    done, image, taken, is_stopped = 0, None, 0, False
+
+    def share_of_all(fraction: float) -> bool:
+        nonlocal is_stopped
+        is_stopped = bool(progress and progress((taken + (count - done) * fraction) / (2 * most)))
+        return is_stopped
+
+    while done < most and not is_stopped and (image is None or image.error_bounds[1] > target_error > 0.0):
+        count = min(most, max(FIRST_SAMPLES, done + done // 2)) if target_error else most
+        parts = []
+        for index, half in enumerate(halves):
+            if is_stopped:
+                break
+            context.set_render(half)
+            if film := films[index]:
+                context.add_film(film)
+            if context.accumulate(count - done, progress=share_of_all if progress else None) == Result.CANCELLED:
+                break
+            taken += count - done
+            films[index] = context.film() if target_error else None
+            parts.append((context.readback(), context.stats()))
+        if len(parts) < len(halves):
+            break
+        image, done = _joined(context, parts), count
+    if image is None:
+        raise InvalidStateError("the samples ended before there were two images to denoise")
+    return image
+
+
+def _joined(context: Context, parts: list[tuple[Pixels, Stats]]) -> Image:
+    (first, of_first), (second, of_second) = parts
+    radiance, error = denoise(first, second, context.readback(Quantity.ALBEDO), context.readback(Quantity.NORMAL))
+    summed = ("sample_count", "max_sample_count", "mean_sample_count", "rejected_samples")
+    stats = replace(of_second, **{name: getattr(of_first, name) + getattr(of_second, name) for name in summed})
+    counts = np.full((*first.shape[:2], 1), stats.sample_count)
+    return Image(radiance, np.abs(first - second) / 2, counts, error, stats, raw=(first + second) / 2)
