@@ -1,4 +1,5 @@
-// The commands of the program, one in each of these rooms. Each adds itself with its options.
+// The commands of the program, each in a folder of its own. Each function adds its command, with its options, to the
+// program.
 #pragma once
 
 #include "cli/base/options.h"

@@ -1,5 +1,5 @@
 // The program `pt`: chooses the command, and turns every exception into an exit code. `pt NAME ...` runs `pt-NAME ...`
-// where NAME is no command of the program's own, as git and cargo do.
+// if NAME is not one of its own commands, as git and cargo do.
 #include "cli/base/devices.h"
 #include "cli/base/exit_code.h"
 #include "cli/base/text.h"
@@ -24,12 +24,12 @@
 
 namespace {
 
-// Keeps the numbers of closed standard streams from going to other files: what is printed would be written into them.
-// To be called before any file is opened. A stream that is closed fails afterwards as it did before, with EBADF.
+// Keeps the numbers of closed standard streams from being given to other files, into which output would then be
+// written. Call it before any file is opened. A closed stream still fails with EBADF afterwards.
 void occupy_closed_streams() {
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
         if (fcntl(stream, F_GETFD) == -1 && errno == EBADF) {
-            // This gets the lowest free number, which is the one wanted: those before it are in use.
+            // open() takes the lowest free number. That is this stream's, since those below it are in use.
             static_cast<void>(open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY));
         }
     }
@@ -40,8 +40,8 @@ int fail(cli::ExitCode code, const std::string &message) {
     return static_cast<int>(code);
 }
 
-// The program of that name in the first absolute folder of PATH that has it; empty if there is none. Empty and relative
-// entries are skipped, so that nothing of the current folder runs.
+// The path of a program in the first absolute folder of PATH that has it; empty if there is none. Empty and relative
+// entries are skipped, so that nothing in the current folder is run.
 std::string find_program(const std::string &file) {
     const char *variable = std::getenv("PATH");
     std::istringstream folders(variable == nullptr ? "" : variable);
@@ -54,7 +54,7 @@ std::string find_program(const std::string &file) {
     return {};
 }
 
-// Replaces this process by `pt-NAME`. arguments end with a null pointer, and begin with NAME. Returns only if there is
+// Replaces this process by `pt-NAME`. arguments begins with NAME and ends with a null pointer. Returns only if there is
 // no such program.
 void run_other_program(std::string_view name, char *const *arguments) {
     std::string program = find_program("pt-" + std::string(name));
@@ -74,7 +74,7 @@ bool may_name_program(std::string_view name) {
     return !name.empty() && name.front() != '-' && name.find_first_not_of(letters) == std::string_view::npos;
 }
 
-// The extra of the Python package that installs the program of that name; empty for programs that do not belong to this
+// The argument of pip install that installs the program of that name; empty for programs that do not belong to this
 // project.
 std::string_view package_of(std::string_view name) {
     return name == "figure"    ? "'./lib/python[figure]'"
@@ -122,7 +122,7 @@ int run(int argument_count, char **arguments) {
 } // namespace
 
 int main(int argument_count, char **arguments) {
-    // CLI11 allocates where it has promised not to throw.
+    // CLI11 allocates memory in functions that it has declared noexcept.
     std::set_terminate([] {
         std::fputs("pt: out of memory, or an internal error\n", stderr);
         std::_Exit(static_cast<int>(cli::ExitCode::internal));

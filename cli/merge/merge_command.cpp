@@ -31,16 +31,16 @@ struct MergeOptions {
     std::optional<std::uint32_t> sample_count;
 
     OutputOptions output;
-    std::vector<SceneOverride> display; // how pictures are shown
+    std::vector<SceneOverride> display; // overrides of the scene's display section
 };
 
 // What a sum of films contains, and what is missing.
 struct MergeReport {
-    RenderReport picture; // as far as a film says it
+    RenderReport picture; // as far as a film knows it
     pt_film_info info;
     std::size_t part_count;
     Ranges samples; // that all pixels have
-    Ranges missing; // of those that there should be, some pixel has not
+    Ranges missing; // those that some pixel should have but lacks
 };
 
 void check(const MergeOptions &options) {
@@ -53,7 +53,7 @@ void check(const MergeOptions &options) {
     check_names(output, parts);
 }
 
-// Looks at all parts, so that everything that is wrong is reported at once.
+// Adds up the parts. Looks at all of them, so that everything wrong is reported at once.
 std::unique_ptr<FilmHandle> sum_of(const std::vector<std::string> &parts) {
     std::unique_ptr<FilmHandle> sum;
     std::optional<ExitCode> failed;
@@ -74,7 +74,7 @@ std::unique_ptr<FilmHandle> sum_of(const std::vector<std::string> &parts) {
     return sum;
 }
 
-// From the first to the last sample of any pixel.
+// The range from the first to the last sample of any pixel.
 pt_sample_range hull_of(const std::vector<Ranges> &tiles) {
     pt_sample_range hull{std::numeric_limits<std::uint64_t>::max(), 0};
     for (const Ranges &ranges : tiles) {
@@ -84,7 +84,7 @@ pt_sample_range hull_of(const std::vector<Ranges> &tiles) {
     return hull;
 }
 
-// The samples that any of them has, in ascending order.
+// The samples in any of these ranges, as ranges in ascending order.
 Ranges united(Ranges ranges) {
     std::sort(ranges.begin(), ranges.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
     Ranges all;
@@ -167,7 +167,7 @@ nlohmann::ordered_json stats_json(const MergeReport &report) {
     return stats;
 }
 
-// "8 films of 320x160 pixels: 64 spp, samples [0, 64)", and a line of what is missing, if anything is.
+// "8 films of 320x160 pixels: 64 spp, samples [0, 64)", and a line about missing samples, if there are any.
 std::string summary_text(const MergeReport &report) {
     return concat(report.part_count, report.part_count == 1 ? " film of " : " films of ", report.info.columns, "x",
                   report.info.rows, " pixels: ", report.picture.stats.sample_count, " spp, samples ",
@@ -180,7 +180,7 @@ std::string missing_text(const MergeReport &report) {
                                            " samples per pixel are missing: ", ranges_text(report.missing));
 }
 
-// Whether all files could be written.
+// Returns whether all files could be written.
 bool write_outputs(const FilmHandle &film, const MergeOptions &options, MergeReport &report) {
     const OutputOptions &output = options.output;
     RenderedImage image{report.picture.window.part, film.read_image(PT_QUANTITY_RADIANCE), {}};
@@ -226,7 +226,7 @@ void add_merge_command(CLI::App &program, Run &chosen) {
     command.add_option("PART", options.parts, "Films of one picture (pt render --film or --checkpoint), in any order")
         ->required()
         ->type_name("PART");
-    constexpr std::size_t film_layers = 3; // the first of all; of what camera rays meet first a film knows nothing
+    constexpr std::size_t film_layers = 3; // the first ones; a film does not know what camera rays meet first
     add_output_options(command, options.output, layer_names.names().first(film_layers));
     command.option_defaults()->group("Samples");
     add_number<std::uint32_t>(command, "--first-sample", natural_number, options.first_sample,

@@ -10,7 +10,7 @@
 namespace cli {
 namespace {
 
-// Runs take their samples in order, so those that one has left are the first of the next.
+// Runs take their samples in order, so those that one has left must be the first ones of the next.
 void require_first_samples(const std::string &path, const std::vector<pt_sample_range> &ranges,
                            const RenderTask &task) {
     const std::uint64_t first = task.render.first_sample;
@@ -44,8 +44,8 @@ bool Checkpoint::finish(std::uint32_t sample_count) {
     return sample_count > 0 && sample_count == written_count_;
 }
 
-// The device waits while the film is copied, and no longer. The next checkpoint begins early enough to be there one
-// interval after this one is begun, if it takes as long as the last: no more than an interval's samples can be lost.
+// The device waits only while the film is copied. The next checkpoint begins so early that, if it takes as long as the
+// last, it is complete one interval after this one began: at most an interval's samples can be lost.
 void Checkpoint::save(std::uint32_t sample_count) {
     take_in();
     saved_at_ = Clock::now();
@@ -65,7 +65,7 @@ void Checkpoint::write() {
     write_time_ = Clock::now() - saved_at_;
 }
 
-// Takes in how the last one ended.
+// Takes in the result of the last checkpoint.
 void Checkpoint::take_in() {
     if (!task_.is_begun())
         return;

@@ -19,7 +19,7 @@ std::chrono::steady_clock::duration clock_duration(double seconds) {
     return std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(seconds));
 }
 
-// first_row: counted from the top of the window.
+// The settings of a piece. first_row: counted from the top of the window.
 pt_render piece_of(const RenderTask &task, std::uint32_t first_row, std::uint32_t rows) {
     const Rectangle &part = task.window.part;
     pt_render piece = task.render;
@@ -28,8 +28,8 @@ pt_render piece_of(const RenderTask &task, std::uint32_t first_row, std::uint32_
     return piece;
 }
 
-// Adds what is known of a piece of so many rows to what is known of those before. The bounds of several pieces are
-// joined as if all erred to the same side.
+// Adds the figures of a piece of so many rows to those of earlier pieces. Bounds are joined as if all pieces erred in
+// the same direction.
 void join(RenderedImage &image, const pt_stats &piece, const pt_error_estimate &error, std::uint32_t rows) {
     if (image.rows_done == 0) {
         image.stats = piece;
@@ -45,7 +45,7 @@ void join(RenderedImage &image, const pt_stats &piece, const pt_error_estimate &
     whole.mean_sample_count = mean(whole.mean_sample_count, piece.mean_sample_count);
     whole.rejected_samples += piece.rejected_samples;
     whole.device_bytes = std::max(whole.device_bytes, piece.device_bytes);
-    whole.submit_count = piece.submit_count; // of the context
+    whole.submit_count = piece.submit_count; // a total of the context's already
     whole.device_seconds = piece.device_seconds;
     image.error.uncertain |= error.uncertain;
     using Error = pt_error_estimate;
@@ -56,7 +56,7 @@ void join(RenderedImage &image, const pt_stats &piece, const pt_error_estimate &
     }
 }
 
-// Adds the samples that the context has of a piece; false if there are none.
+// Adds the samples of a piece that the context has; returns false if there are none.
 bool add_piece(const Context &context, std::uint32_t rows, RenderedImage &image) {
     const pt_stats stats = context.stats();
     if (stats.sample_count == 0)
@@ -140,40 +140,40 @@ void ImageRender::enter_piece() {
     progress_.enter_part(image_.rows_done / height, end);
     if (has_target()) // the next check
         progress_.expect(forecast_sample_count(context_.stats().sample_count, 1.0, 1.0, task_.sample_count));
-    // Each piece gets its share of the time, plus what earlier pieces have left over.
+    // Each piece gets its share of the time, plus what earlier pieces have not used.
     if (task_.options.time_limit)
         time_end_ = start_ + clock_duration(*task_.options.time_limit * end);
     is_time_over_ = false;
 }
 
-// Continues from the samples that the context has until there are enough, the target error is reached, or it is asked
-// to stop. The library checks the target error at counts that do not depend on the steps.
+// Continues from the samples that the context has until there are enough, the target error is reached, or stop() says
+// so. The library checks the target error at counts that do not depend on the steps.
 void ImageRender::render_piece() {
-    constexpr std::uint32_t first_end = 16; // where an error is known, and tiles take as many again from there on
+    constexpr std::uint32_t first_end = 16; // the first number at which an error is known; from there on tiles double
     pt_stats done = context_.stats();
     std::uint32_t wanted = first_step_length;
     bool ended = done.sample_count >= task_.sample_count;
     while (!ended && !stops()) {
         const std::uint32_t before = done.max_sample_count;
-        std::uint32_t length = std::min(wanted, task_.sample_count - before); // 0: those that pixels lack of the most
+        std::uint32_t length = std::min(wanted, task_.sample_count - before); // 0: only for pixels that lack samples
         if (has_target())
             length = std::min(length, std::max(first_end, 2 * std::bit_floor(before)) - before);
         const Clock::time_point start = Clock::now();
         const pt_result result = take(length, done.mean_sample_count);
         const double seconds = seconds_between(start, Clock::now());
         done = look(result);
-        if (done.max_sample_count > before) // else it was ended within a sample, and says nothing
+        if (done.max_sample_count > before) // otherwise it ended within a sample: its duration says nothing
             wanted = next_step_length(done.max_sample_count - before, seconds);
         ended = has_ended(result, done);
     }
 }
 
-// done: mean number of samples of a pixel before this step.
+// Takes a step. done: mean number of samples of a pixel before it.
 pt_result ImageRender::take(std::uint32_t length, double done) {
     std::function<bool(double)> goes_on = [&](double fraction) {
         const double taken = fraction * std::max(length, 1U);
         progress_.update_samples(done + taken, Clock::now());
-        const bool has_sample = taken >= 1.0; // else there is nothing new to be seen
+        const bool has_sample = taken >= 1.0; // otherwise there is nothing new to see
         return !stops() && !(has_sample && pauses());
     };
     auto info = sized<pt_accumulate_info>();
@@ -187,13 +187,13 @@ pt_result ImageRender::take(std::uint32_t length, double done) {
     return result;
 }
 
-// Whether a step has completed everything.
+// Whether everything is complete after a step.
 bool ImageRender::has_ended(pt_result result, const pt_stats &done) const {
     return result == PT_TARGET_REACHED || (result == PT_OK && done.max_sample_count >= task_.sample_count);
 }
 
-// Runs after a step. To find the error takes a look at the whole image, so if it is only shown, that may take a
-// hundredth of the time.
+// Runs after a step. Finding the error means examining the whole image, so if it is only needed for progress, that may
+// take a hundredth of the time.
 pt_stats ImageRender::look(pt_result result) {
     constexpr double share = 0.01;
     const Clock::time_point start = Clock::now();
@@ -216,7 +216,7 @@ pt_stats ImageRender::look(pt_result result) {
     return done;
 }
 
-// With a target error the number of samples is a guess, which is corrected at each check of the error.
+// With a target error the total number of samples is a guess, which is corrected at each check of the error.
 void ImageRender::show(const pt_stats &done, bool ended, const std::optional<pt_error_estimate> &error,
                        Clock::time_point now) {
     const auto sample_count = static_cast<std::uint32_t>(std::lround(done.mean_sample_count));

@@ -1,6 +1,6 @@
-// Takes the samples of an image: in steps, between which it looks at what there is (for the progress that is shown,
-// previews, checkpoints, and the limit of its time), and in pieces of rows, one after the other, where a device has no
-// memory for the whole. However they are split, the image has the same bits.
+// Takes the samples of an image: in steps, between which it attends to progress, previews, checkpoints and the time
+// limit; and in pieces of rows, one after the other, if the device has not enough memory for the whole image. However
+// they are split, the image has the same bits.
 #pragma once
 
 #include "cli/base/context.h"
@@ -20,23 +20,23 @@
 
 namespace cli {
 
-// Between steps the device idles for a moment, and its work is divided best if there are many samples to choose from.
-// So a step has at least as many samples as the first one, and aims at this duration.
+// Between steps the device idles for a moment, and work can be divided best if a step has many samples. So a step has
+// at least as many samples as the first one, and aims at this duration.
 inline constexpr std::uint32_t first_step_length = 16;
 inline constexpr double step_seconds = 2.0;
 
-// The length of the step that follows one of this length and duration. The first step also builds the kernel, so it
-// suggests too few samples, not too many.
+// The length of the step after one of this length and duration. The first step also builds the kernel, so its duration
+// suggests too few samples rather than too many.
 inline std::uint32_t next_step_length(std::uint32_t length, double seconds) {
-    constexpr double most = 1U << 30; // where the clock saw no time pass
+    constexpr double most = 1U << 30; // if the clock saw no time pass
     const double wanted = seconds > 0.0 ? std::floor(length * (step_seconds / seconds)) : most;
     return static_cast<std::uint32_t>(std::clamp(wanted, double{first_step_length}, most));
 }
 
-// How many samples a target error takes in all, where `sample_count` samples have the error `error`, which may be
-// infinite. Of independent samples, the error falls with the root of their number: stratified samples need fewer, and
-// the guess falls as they come. More than the samples done at the next look, so that no share of it is 1 before the
-// target is reached.
+// A guess how many samples a target error takes in all, if `sample_count` samples have the error `error`, which may be
+// infinite. The error of independent samples falls with the root of their number; stratified samples need fewer, so the
+// guess falls as they come. It is more than the samples at the next look, so that progress does not show 100% before
+// the target is reached.
 inline std::uint32_t forecast_sample_count(std::uint32_t sample_count, double error, double target_error,
                                            std::uint32_t most) {
     const double ratio = error / target_error;
@@ -45,36 +45,36 @@ inline std::uint32_t forecast_sample_count(std::uint32_t sample_count, double er
     return static_cast<std::uint32_t>(std::min(std::max(std::ceil(guess), least), static_cast<double>(most)));
 }
 
-// Returns true if no more samples should be taken, because a signal has come or nothing would become of them. Once
-// true, it stays true.
+// Returns true if no more samples should be taken, because a signal has come or they would not be used. Once true, it
+// stays true.
 using Stop = std::function<bool()>;
 
-// Hands the render settings over for the first piece, and returns how many rows a piece has: as many as the options say
-// or all of the window's, halved until the device has the memory. Throws Failure.
+// Calls pt_set_render for the first piece, and returns how many rows a piece has: as many as the options say, or all
+// rows of the window, halved until the device has enough memory. Throws Failure.
 std::uint32_t fit_pieces(const Context &context, const RenderTask &task);
 
-// On stderr, by the options and whether it is a terminal.
+// The style of progress on stderr, from the options and whether stderr is a terminal.
 ProgressStyle progress_style(const RenderOptions &options);
 
 class ImageRender {
 public:
-    // Writes a picture, in a thread of its own; false if not all could be written, after which none is written unless
-    // SIGUSR1 asks.
+    // Writes a preview, in a thread of its own. If it returns false, because a file could not be written, no more
+    // previews are written unless SIGUSR1 asks.
     using WritePreview = std::function<bool(const RenderedImage &)>;
 
-    // After fit_pieces, which says how many rows a piece has. The time of the task begins now.
+    // rows: of a piece, from fit_pieces(), which must have been called. The task's time limit begins now.
     ImageRender(const Context &context, const RenderTask &task, std::uint32_t rows, Stop stop,
                 WritePreview write_preview);
 
     struct Result {
         RenderedImage image;
-        bool timed_out;      // whether some piece has fewer samples than without a limit of time
-        bool has_checkpoint; // with all the samples
+        bool timed_out;      // whether some piece has fewer samples because of the time limit
+        bool has_checkpoint; // the checkpoint has all samples
     };
 
-    // Once. Renders whole rows, for rows are what the library can be asked for, and reads the window's columns. Ends
-    // early, between or within pieces, once it is to stop. The samples that the context has are the first ones of the
-    // first piece. Afterwards nothing is being written. Throws Failure.
+    // To be called once. Renders whole rows, since the library renders nothing less, and reads the window's columns.
+    // Samples that the context has already are the first ones of the first piece. Ends early, between or within pieces,
+    // once stop() is true. Afterwards nothing is being written. Throws Failure.
     Result run();
 
 private:
@@ -97,19 +97,19 @@ private:
     const RenderTask &task_;
     std::uint32_t rows_;
     Stop stop_;
-    WritePreview write_preview_; // empty for frames: the file of one is to mean that it is done
+    WritePreview write_preview_; // empty for frames, since a frame's file means that the frame is done
     Clock::time_point start_ = Clock::now();
     Progress progress_;
     RenderedImage image_{};
-    std::uint32_t piece_rows_ = 0; // of the present piece
+    std::uint32_t piece_rows_ = 0; // rows of the present piece
 
-    Clock::time_point next_error_; // when the error is to be looked at for being shown
+    Clock::time_point next_error_; // when the error is next computed for progress
     Clock::time_point time_end_ = Clock::time_point::max();
-    bool is_time_over_ = false; // of the piece
+    bool is_time_over_ = false; // for this piece
     bool has_timed_out_ = false;
     Clock::time_point last_preview_ = start_;
     std::atomic<bool> has_preview_failed_ = false;
-    RenderedImage preview_{}; // that is being written
+    RenderedImage preview_{}; // the preview that is being written
     BackgroundTask preview_task_;
     std::optional<Checkpoint> checkpoint_;
 };

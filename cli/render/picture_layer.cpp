@@ -14,8 +14,8 @@ struct FileLayer {
     LayerKind kind;
 };
 
-// Z, N.X, N.Y, N.Z and id are what programs look for; of the others each is a layer by its name ("OpenEXR: Technical
-// Introduction", channel names). Layers whose channels are alike have one.
+// Z, N.X, N.Y, N.Z and id are the names that programs look for. Each of the others is a layer with its own name
+// ("OpenEXR: Technical Introduction", channel names). Layers whose channels are all equal have one.
 constexpr std::array<FileLayer, 7> file_layers{{
     {PT_QUANTITY_STANDARD_ERROR, "standard_error", 3, LayerKind::color},
     {PT_QUANTITY_SAMPLE_COUNT, "sample_count", 1, LayerKind::color},

@@ -27,29 +27,29 @@ inline constexpr ValueNames layer_names({
 // A layer of the part of a picture that is rendered.
 struct PictureLayer {
     std::uint32_t quantity;             // PT_QUANTITY_*
-    std::vector<float> values;          // pixel by pixel, row by row from the top; empty for objects,
-    std::vector<std::uint32_t> numbers; // of which there is one for each pixel
+    std::vector<float> values;          // pixel by pixel, row by row from the top; empty for objects
+    std::vector<std::uint32_t> numbers; // for objects: one index a pixel, in the same order
 
     // All values start as 0.
     PictureLayer(std::uint32_t of_quantity, std::size_t pixel_count);
 
-    // Takes what the library says of pixels from that one on, three numbers for each.
+    // Takes over the library's numbers, three a pixel, for pixels from first_pixel on.
     void take(std::span<const float> triples, std::size_t first_pixel);
 
-    // Reads rows of the part from a context in which these are the first.
+    // Reads rows of the part from a context that renders them as its first rows.
     void read(const Context &context, const Rectangle &part, std::uint32_t first_row, std::uint32_t rows);
 
-    // The layer as a file has it; refers to this object.
+    // The layer as it goes into a file; refers to this object.
     ImageLayer in_file() const;
 };
 
-// What is rendered of a picture, from which its files are made.
+// The rendered part of a picture, from which its files are made.
 struct RenderedImage {
     Rectangle part;                     // of the picture
     std::vector<float> radiance;        // of this part; black below rows_done
-    std::vector<PictureLayer> layers{}; // each .exr of the radiance has them, .png the alpha
-    std::uint32_t rows_done = 0;        // of it, with samples
-    pt_stats stats{};                   // of these rows; sample_count is the least of the pieces
+    std::vector<PictureLayer> layers{}; // all go into .exr files of radiance; alpha also into .png
+    std::uint32_t rows_done = 0;        // rows of the part that have samples
+    pt_stats stats{};                   // of these rows; sample_count is the least of all pieces
     pt_error_estimate error{};          // likewise
 };
 

@@ -41,7 +41,7 @@ RenderOptions options_of_frame(const RenderOptions &options, std::uint32_t frame
     return numbered;
 }
 
-// Files appear whole or not at all, so one that exists is done.
+// Files are written whole or not at all, so one that exists is done.
 bool is_done(const OutputOptions &frame) {
     return std::ranges::all_of(outputs_of(frame), [](const NamedFile &file) {
         std::error_code ignored;
@@ -87,8 +87,8 @@ public:
     }
 
 private:
-    // The seed differs from frame to frame, or all would have the same noise, which would seem to stand before the
-    // picture.
+    // The seed differs from frame to frame. Otherwise all frames would have the same noise, like a screen in front of
+    // the animation.
     RenderTask task_of(const RenderOptions &options, std::uint32_t frame) const {
         std::vector<SceneOverride> overrides = overrides_of_frame(scene_, frame);
         overrides.insert(overrides.end(), options.overrides.begin(), options.overrides.end());
@@ -113,8 +113,8 @@ private:
 
     const RenderOptions &options_;
     ValidationLog &log_;
-    SceneFile scene_;                // read once, so that all frames are of one scene
-    std::optional<Context> context_; // for all frames: kernels are kept
+    SceneFile scene_;                // read once, so that all frames show the same scene
+    std::optional<Context> context_; // one for all frames, so that kernels are kept
     bool is_target_missed_ = false;
 };
 
@@ -144,7 +144,7 @@ int run_render(const RenderOptions &options) {
     const int code = options.watch    ? render_watched(options, log)
                      : options.frames ? render_frames(options, log)
                                       : render_once(options, log);
-    // Only now, for the layer reports leaks when the context goes.
+    // Only now, since the layer reports leaks when the context is destroyed.
     return log.count > 0 ? static_cast<int>(ExitCode::internal) : code;
 }
 

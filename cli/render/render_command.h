@@ -1,5 +1,5 @@
-// The command `pt render`: scene file and options in, images out; its ways, of --frames, --parts and --watch, and what
-// all of them do on a context with one picture.
+// The command `pt render`: scene file and options in, images out. Declares its variants --frames, --parts and --watch,
+// and how all of them render one picture on a context.
 #pragma once
 
 #include "cli/base/context.h"
@@ -15,16 +15,16 @@
 
 namespace cli {
 
-// How a rendering ended that no signal has stopped.
+// How a rendering ended, if no signal has stopped it.
 struct Ending {
     bool has_target;
     bool target_reached;
-    bool timed_out; // before it ended by itself, though the target may be reached as it happens
+    bool timed_out; // the time limit ended it; it may have reached the target all the same
     bool has_checkpoint;
     bool all_written;
 };
 
-// A file that is missing weighs more than samples that are; a checkpoint says that they can still be had.
+// A missing file matters more than missing samples, which a checkpoint can still supply.
 constexpr ExitCode outcome_of(const Ending &ending) {
     if (!ending.all_written)
         return ExitCode::file;
@@ -33,8 +33,7 @@ constexpr ExitCode outcome_of(const Ending &ending) {
     return ending.has_target && !ending.target_reached ? ExitCode::target_missed : ExitCode::done;
 }
 
-// outcome: ExitCode::signal for a rendering that was stopped. signal: the one that stopped it or came later; 0 for
-// none.
+// outcome: ExitCode::signal for a stopped rendering. signal: the one that stopped it or came later; 0: none.
 constexpr int exit_code_of(ExitCode outcome, int signal) {
     if (outcome != ExitCode::done && outcome != ExitCode::signal)
         return static_cast<int>(outcome);
@@ -47,13 +46,12 @@ struct RenderTimes {
     std::chrono::steady_clock::time_point create_start{};
 };
 
-// Hands scene and settings over, takes samples and writes the files. A signal stops it with the samples done so far;
-// so does superseded(), but then nothing is written. Returns outcome_of() what it came to, or ExitCode::signal. Throws
-// Failure.
+// Sets scene, camera and settings, takes samples and writes the files. A signal stops it with the samples so far; so
+// does superseded(), but then nothing is written. Returns outcome_of() the ending, or ExitCode::signal. Throws Failure.
 ExitCode render_picture(const Context &context, const RenderTask &task, const RenderTimes &times,
                         const Stop &superseded);
 
-// All return the exit code, and throw Failure.
+// Returns the exit code; throws Failure. So do the functions below.
 int run_render(const RenderOptions &options);
 
 // Messages of the validation layer. Each means a mistake in this program or its library.
@@ -68,7 +66,7 @@ struct ValidationLog {
     }
 };
 
-// What the options say about the context. The result refers to both arguments.
+// The pt_create_info that the options ask for. It refers to both arguments.
 pt_create_info render_create_info(const RenderOptions &options, ValidationLog &log);
 
 // Renders parts of a picture for another program, which shares it among machines and adds their films, as pt-farm does.
@@ -78,14 +76,15 @@ pt_create_info render_create_info(const RenderOptions &options, ValidationLog &l
 // (exposure, a number or "auto"; tonemap; gamma, null for the sRGB curve). Then answers requests until standard input
 // ends; without any, no device is looked for.
 //
-// A request is words of 32 bits in the machine's byte order: the first sample, the sample after the last, the number of
-// tiles, and their indices (pt_accumulate_info.tile_samples), each once. Its answer is a line with two numbers, the
-// kind of device (PT_DEVICE_*) and the bytes that follow: the film. A request that makes no sense is ExitCode::usage.
+// A request consists of 32-bit words in the machine's byte order: the first sample, the sample after the last, the
+// number of tiles, and their indices (pt_accumulate_info.tile_samples), each once. Its answer is a line with two
+// numbers, the kind of device (PT_DEVICE_*) and the bytes that follow: the film. An invalid request ends the program
+// with ExitCode::usage.
 int render_parts(const RenderTask &task, ValidationLog &log);
 
-// The picture is rendered again whenever its sources change, on one context. Ends when a signal has come: with 0 if it
-// came while waiting. Throws Failure where no change of a source could help, and for the first picture where the fault
-// is not in a scene or shader.
+// Renders the picture again, on one context, whenever its sources change. Ends when a signal has come; with 0 if it
+// came while waiting. Throws Failure if no change of a source could help, and for the first picture if the fault is not
+// in a scene or shader.
 int render_watched(const RenderOptions &options, ValidationLog &log);
 
 } // namespace cli

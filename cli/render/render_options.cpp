@@ -16,7 +16,7 @@
 namespace cli {
 namespace {
 
-// "depth,normal": their quantities, without that of the radiance. known: the names that there are.
+// The quantities of a text such as "depth,normal", except the radiance. known: the names that are allowed.
 std::vector<std::uint32_t> parse_layers(const std::string &text, std::span<const std::string_view> known) {
     const ValueRule rule{.form = ValueRule::Form::name, .kind = "layer", .names = known};
     std::vector<std::uint32_t> quantities;
@@ -32,7 +32,7 @@ std::vector<std::uint32_t> parse_layers(const std::string &text, std::span<const
     return quantities;
 }
 
-// An option whose text parse() turns into an optional value; rule: what is said if it cannot.
+// Adds an option whose text parse() turns into an optional value. rule: what the message says if it cannot.
 template <typename Target, typename Parse>
 CLI::Option *add_parsed(CLI::App &command, const std::string &name, Target &target, Parse parse,
                         const std::string &rule, const std::string &help) {
@@ -92,7 +92,7 @@ void add_lasting_options(CLI::App &command, RenderOptions &options) {
                               "Index of the first sample: parts have samples of one sequence (default: 0)");
 }
 
-// For another program, which reads standard output and makes what is refused here.
+// Adds --parts, for another program: it reads standard output and writes the outputs that are refused here.
 void add_parts_option(CLI::App &command, RenderOptions &options) {
     command.option_defaults()->group("Checkpoints and parts");
     CLI::Option *parts = command.add_flag("--parts", options.parts,

@@ -25,7 +25,7 @@ struct FrameRange {
     std::uint32_t last; // not before the first
 };
 
-// "0-23", or just "5"; nothing for any other text.
+// Parses "0-23", or just "5"; nothing for any other text.
 inline std::optional<FrameRange> parse_frames(std::string_view text) {
     const std::size_t dash = text.find('-');
     const auto first = parse_number<std::uint32_t>(text.substr(0, dash));
@@ -33,8 +33,8 @@ inline std::optional<FrameRange> parse_frames(std::string_view text) {
     return first && last && *first <= *last ? std::optional(FrameRange{*first, *last}) : std::nullopt;
 }
 
-// The name of a frame's file: the last row of # signs is its number, with zeros in front up to as many digits. Nothing
-// if there is no #.
+// The name of a frame's file: the last run of # signs is replaced by its number, with leading zeros to as many digits.
+// Nothing if there is no #.
 inline std::optional<std::string> numbered_name(const std::string &pattern, std::uint32_t frame) {
     const std::size_t last = pattern.rfind('#');
     if (last == std::string::npos)
@@ -48,16 +48,16 @@ inline std::optional<std::string> numbered_name(const std::string &pattern, std:
 
 struct OutputOptions {
     std::vector<std::string> images;   // paths, like all here
-    std::optional<ImageFormat> format; // of an image that is standard output
-    std::vector<std::uint32_t> layers; // of each .exr beside its radiance, PT_QUANTITY_*
-    std::string film;                  // empty: none, as of the report
+    std::optional<ImageFormat> format; // of an image to standard output
+    std::vector<std::uint32_t> layers; // in each .exr beside the radiance: PT_QUANTITY_*
+    std::string film;                  // empty: none; so for the report
     std::string stats;
     bool quiet = false;
 
-    // For images whose names have been checked.
+    // The images to be written. Their names must have been checked.
     std::vector<ImageTarget> targets() const;
 
-    // Whether an image or the report goes to standard output, so that lines for people must not.
+    // Whether an image or the report goes to standard output, so that messages for people must not.
     bool takes_standard_output() const;
 };
 
@@ -70,33 +70,33 @@ void for_each_output(Options &options, Use use) {
     use("--stats", options.stats);
 }
 
-// The options write into `options` when the command line is parsed. All but that of quiet. layers: those that the
-// command can write.
+// Adds all output options except --quiet; they write into `options` when the command line is parsed. layers: those that
+// the command can write.
 void add_output_options(CLI::App &command, OutputOptions &options, std::span<const std::string_view> layers);
 
-// For an image on standard output. names: the formats that the command can write.
+// Adds --format, for an image to standard output. names: the formats that the command can write.
 void add_format(CLI::App &command, std::optional<ImageFormat> &format, std::span<const std::string_view> names);
 
 struct RenderOptions {
     std::string scene;
-    std::vector<SceneOverride> overrides; // of its values, also by options that say the same
+    std::vector<SceneOverride> overrides; // of the scene's values, including those by options of their own
     OutputOptions output;
     bool alpha = false;
     std::optional<Rectangle> crop;
 
     double target_error = 0.0; // relative; 0: take all samples
     std::uint32_t sampling = PT_SAMPLING_BEST;
-    std::optional<double> time_limit; // seconds, of each frame
+    std::optional<double> time_limit; // seconds for each frame
     std::uint32_t first_sample = 0;
 
-    bool parts = false;     // as they are asked for, in place of all outputs
+    bool parts = false;     // render parts on request, without other outputs
     std::string checkpoint; // path of the film; empty: none
     bool resume = false;
     std::optional<double> checkpoint_seconds; // nothing: 30
     std::optional<double> preview_seconds;    // nothing: only when SIGUSR1 asks
 
-    std::optional<FrameRange> frames; // of an animation; nothing: a picture
-    bool skip_existing = false;       // of these frames
+    std::optional<FrameRange> frames; // of an animation; nothing: a single picture
+    bool skip_existing = false;       // frames whose files exist
 
     std::string device;
     std::uint32_t submit_milliseconds = 0; // 0: the library's default

@@ -30,7 +30,7 @@ void write_image(ImageWriter &writer, const ImageTarget &target, const RenderRep
     }
 }
 
-// Runs something; if it fails, says so on stderr and returns false.
+// Runs a function; if it fails, says so on stderr and returns false.
 bool succeeds(const std::function<void()> &write) {
     try {
         write();
@@ -74,8 +74,8 @@ void check_alpha(const RenderOptions &options) {
               "--alpha: needs -o FILE.exr or FILE.png, which have the channel");
 }
 
-// A checkpoint of hours is not replaced by one of seconds unless that goes on from it. One that cannot be written costs
-// itself and not the rendering, which says so when it tries.
+// Refuses to replace an existing checkpoint, perhaps of hours, by one that does not go on from it. If a checkpoint
+// cannot be written, only the checkpoint is lost, and the rendering goes on: the message comes when it is tried.
 void check_checkpoint(const RenderOptions &options) {
     if (options.checkpoint.empty())
         return;

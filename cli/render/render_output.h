@@ -15,18 +15,18 @@
 
 namespace cli {
 
-// With the options that name them.
+// The files to be written, with the options that name them.
 std::vector<NamedFile> outputs_of(const OutputOptions &options, const std::string &checkpoint = "");
 
-// Throws Failure(ExitCode::usage) if options do not go together, an output's name tells no known format, or the output
-// is another one or a source.
+// Throws Failure(ExitCode::usage) if options contradict each other, an output's name has no known format, or an output
+// is the same file as another or as a source.
 void check_names(const RenderOptions &options);
 
-// The same for images made from other files, which are to be kept.
+// The same for images made from other files, which must not be overwritten.
 void check_names(const OutputOptions &options, const std::vector<NamedFile> &sources);
 
-// Throws Failure if an image is too large for its format (ExitCode::usage), or a file cannot be written, as far as that
-// can be known before (ExitCode::file). window: of the images.
+// Throws Failure if an image is too large for its format (ExitCode::usage) or, as far as that can be known before, if a
+// file cannot be written (ExitCode::file). window: of the images.
 void check_files(const OutputOptions &options, const ImageWindow &window);
 
 // Checks these files and everything else about the outputs that can be known before an hour of rendering.

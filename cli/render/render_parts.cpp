@@ -45,7 +45,7 @@ struct Part {
     std::vector<std::uint32_t> tile_samples; // as in pt_accumulate_info
 };
 
-// Nothing at the end of standard input.
+// Reads a request; nothing at the end of standard input.
 std::optional<Part> read_part(std::size_t all_tiles) {
     std::array<std::uint32_t, 3> header{};
     if (!read_words(header))

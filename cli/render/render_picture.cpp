@@ -26,7 +26,7 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Returns false if it was stopped.
+// Sets the scene. Returns false if it was stopped.
 bool take_scene(const Context &context, const RenderTask &task, const Stop &superseded) {
     Progress progress(std::cerr, progress_style(task.options), 0, 0, Clock::now());
     return describe_scene(context, task.scene, [&](double share) {
@@ -35,7 +35,7 @@ bool take_scene(const Context &context, const RenderTask &task, const Stop &supe
     });
 }
 
-// With a film of one piece of the image, the other pieces could not be continued.
+// A film of only one piece of the image could not be continued for the other pieces.
 void require_one_piece(const RenderTask &task, std::uint32_t rows) {
     const RenderOptions &options = task.options;
     const std::string option = !options.checkpoint.empty() ? "--checkpoint" : "--film";
@@ -46,7 +46,7 @@ void require_one_piece(const RenderTask &task, std::uint32_t rows) {
                                           : concat("has room for ", rows, " rows at a time")));
 }
 
-// Takes over the samples of the checkpoint.
+// Takes over the samples of the checkpoint, if the options ask for that.
 void resume_if_asked(const Context &context, const RenderTask &task) {
     const RenderOptions &options = task.options;
     if (!options.resume)
@@ -59,7 +59,7 @@ void resume_if_asked(const Context &context, const RenderTask &task) {
     }
 }
 
-// An image that was ended by its time may happen to have the target error, and may still lack samples that others have.
+// An image that the time limit has ended may happen to have the target error, although some pixels lack samples.
 const char *ending_of(const RenderReport &report, bool interrupted, bool timed_out) {
     if (interrupted)
         return "signal";
@@ -68,7 +68,7 @@ const char *ending_of(const RenderReport &report, bool interrupted, bool timed_o
     return report.target_reached() ? "error" : "samples";
 }
 
-// Tells how much memory an image in pieces takes, before it is rendered.
+// Prints, before an image is rendered in pieces, how much memory it takes.
 void print_pieces(const Context &context, const RenderTask &task, std::uint32_t rows) {
     print_message(concat((task.window.part.height + rows - 1) / rows, " pieces of up to ", rows,
                          " rows: ", memory_text(context.stats().device_bytes), " on the device, ",
@@ -102,7 +102,7 @@ bool write_outputs(ImageWriter &writer, const Context &context, const RenderTask
     return written.size() == output.images.size() + (output.film.empty() ? 0 : 1);
 }
 
-// Nothing if no output is tone-mapped.
+// The tone map of the outputs; nothing if none is tone-mapped.
 std::optional<ToneMap> tone_map_of(const RenderTask &task, std::span<const float> radiance) {
     return needs_tone_map(task.options.output) ? std::optional(task.scene.display.tone_map(radiance)) : std::nullopt;
 }
@@ -149,7 +149,7 @@ ExitCode render_picture(const Context &context, const RenderTask &task, const Re
         print_pieces(context, task, rows);
     report.create_seconds = seconds_since(times.create_start);
 
-    // Not earlier: drivers are shared objects too, and loading one would wait for the loading of the image module.
+    // Not earlier: drivers are shared objects, too, and loading them would wait until the image module is loaded.
     ImageWriter writer;
     if (needs_module(options.output))
         writer.load_module();
@@ -160,7 +160,7 @@ ExitCode render_picture(const Context &context, const RenderTask &task, const Re
         so_far.error = image.error;
         so_far.tone_map = tone_map_of(task, image.radiance);
         writer.wait();
-        const OutputOptions files = without_standard_output(options.output); // a stream takes one image
+        const OutputOptions files = without_standard_output(options.output); // a stream takes only one image
         return write_images(writer, files, so_far, image).size() == files.images.size();
     };
     const Stop stop = [&] { return interrupt_signal() != 0 || writer.failed() || superseded(); };

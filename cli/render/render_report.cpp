@@ -78,7 +78,7 @@ std::string estimate_text(const RenderReport &report) {
            percent_text(error.relative_rmse_high) + ")" + uncertainty_text(error.uncertain);
 }
 
-// "64", or of pixels that have different numbers "37.3 (16 to 256)".
+// "64" or, if pixels have different numbers, "37.3 (16 to 256)".
 std::string samples_text(const pt_stats &stats) {
     if (stats.sample_count == stats.max_sample_count)
         return std::to_string(stats.sample_count);
@@ -166,12 +166,12 @@ std::string error_text(const RenderReport &report) {
     return estimate_text(report) + (report.target_error > 0.0 ? "; " + target_text(report) : "");
 }
 
-// No time and no date: equal runs give equal files. samplesPerPixel has
-// pbrt's name and type, which other tools read. Numbers that may not fit OpenEXR's signed 32-bit integer are texts.
+// There is no time and no date, so that equal runs give equal files. samplesPerPixel has the name and type of pbrt,
+// which other tools read. Numbers that may not fit into OpenEXR's signed 32-bit integers are texts.
 std::vector<ImageAttribute> image_metadata(const RenderReport &report, const ToneMap *tone_map) {
     std::vector<ImageAttribute> attributes;
     const auto add = [&](const char *name, auto value) { attributes.push_back({name, std::move(value)}); };
-    // The largest of OpenEXR's numbers stands for all beyond.
+    // OpenEXR's largest integer stands for all larger numbers.
     const auto whole = [](std::uint32_t number) {
         return static_cast<std::int32_t>(std::min<std::uint32_t>(number, std::numeric_limits<std::int32_t>::max()));
     };

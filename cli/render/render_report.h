@@ -1,4 +1,4 @@
-// The facts of a finished rendering and their forms: image metadata, the --stats file and a line for people.
+// The facts of a finished rendering, as image metadata, as the --stats file and as a line for people.
 #pragma once
 
 #include "cli/image/image_module.h"
@@ -21,7 +21,7 @@ struct RenderReport {
     std::string scene;
     pt_render render;
     ImageWindow window;                   // of the images
-    std::uint32_t requested_sample_count; // the most, if there is a target
+    std::uint32_t requested_sample_count; // with a target error, the most
     double target_error;                  // relative; 0: none
     pt_stats stats;
     pt_error_estimate error;
@@ -29,7 +29,7 @@ struct RenderReport {
     double create_seconds;
     double accumulate_seconds;
     double total_seconds;
-    std::optional<ToneMap> tone_map; // of .png and .jpg; nothing if none is written
+    std::optional<ToneMap> tone_map; // of .png and .jpg files; nothing if none is written
     std::string ended_by;            // "samples", "error", "time" or "signal"
     std::vector<std::string> warnings;
 
@@ -38,18 +38,17 @@ struct RenderReport {
 
 nlohmann::ordered_json stats_json(const RenderReport &report);
 
-// Its parts that are about the error and the tone map.
+// The parts of that file about the error and the tone map.
 nlohmann::ordered_json error_json(const pt_error_estimate &error);
 nlohmann::ordered_json tone_map_json(const RenderReport &report);
 
 // "256x128, 64 spp in 1.23 s on llvmpipe"
 std::string summary_text(const RenderReport &report);
 
-// "error 0.42% (0.40% to 0.44%); target reached after 64 samples", of the relative error.
+// "error 0.42% (0.40% to 0.44%); target reached after 64 samples", for the relative error.
 std::string error_text(const RenderReport &report);
 
-// What the metadata of an image say of the rendering. tone_map: what was made of the radiance for a display, nullptr if
-// nothing was.
+// An image's metadata about the rendering. tone_map: how the radiance was mapped for a display; nullptr if it was not.
 std::vector<ImageAttribute> image_metadata(const RenderReport &report, const ToneMap *tone_map);
 
 } // namespace cli

@@ -14,7 +14,7 @@
 namespace cli {
 namespace {
 
-// The index of a sample is at most 2^32 - 1.
+// The number of samples that fit: an index is at most 2^32 - 1.
 std::uint32_t limited_samples(std::uint32_t count, std::uint32_t first, bool is_upper_limit) {
     const std::uint64_t left = (std::uint64_t{1} << 32) - first;
     refuse_if(count > left && !is_upper_limit,
@@ -36,10 +36,11 @@ ImageWindow chosen_window(const std::optional<Rectangle> &crop, const pt_render 
     return window;
 }
 
-// The most that this process could ever have: memory and swap space, within its limits. What others use is not counted.
+// The most memory that this process could ever have: RAM and swap space, within its limits, whatever other processes
+// use.
 std::uint64_t most_bytes() {
-    // The limit of a container, as seen from inside of it (Linux, cgroup v2). The file says "max" where there is no
-    // limit, and does not exist outside of containers.
+    // The limit of a container, as seen from inside (Linux, cgroup v2). The file says "max" if there is no limit, and
+    // does not exist outside containers.
     std::uint64_t container = 0;
     if (!(std::ifstream("/sys/fs/cgroup/memory.max") >> container))
         container = std::numeric_limits<std::uint64_t>::max();
@@ -56,7 +57,7 @@ std::uint32_t image_count(const RenderOptions &options) {
     return 1 + static_cast<std::uint32_t>(options.wanted_layers().size());
 }
 
-// What the library says about a scene is the fault of the scene, even if it names no field.
+// Whatever the library refuses about a scene is the scene's fault, even if the message names no field.
 void require_scene(const Context &context, const SceneFile &scene, pt_result result) {
     if (result < 0) {
         const LibraryError error = context.last_error();
@@ -71,7 +72,7 @@ RenderTask::RenderTask(RenderOptions chosen, SceneFile file) :
     scene(std::move(file)),
     render(scene.render) {
     constexpr std::uint32_t usual_samples = 64;
-    constexpr std::uint32_t most_samples = 65536; // where a target error or a time says when to stop
+    constexpr std::uint32_t most_samples = 65536; // if a target error or a time limit decides when to stop
     render.first_sample = options.first_sample;
     const bool stops_otherwise = has_target() || options.time_limit;
     sample_count = limited_samples(scene.sample_count.value_or(stops_otherwise ? most_samples : usual_samples),
@@ -117,7 +118,7 @@ void require(const Context &context, const RenderTask &task, pt_result result) {
 }
 
 bool describe_scene(const Context &context, const SceneFile &file, const std::function<bool(double)> &goes_on) {
-    std::function<bool(double)> listener = goes_on; // the library's pointer is to what may change
+    std::function<bool(double)> listener = goes_on; // a copy, since the library's pointer must not be const
     pt_scene scene = file.scene();
     const std::vector<pt_sphere_array> arrays = file.sphere_arrays();
     scene.sphere_arrays = arrays.data();

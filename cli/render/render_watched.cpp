@@ -20,10 +20,10 @@
 namespace cli {
 namespace {
 
-// How long a signal that comes just before the wait begins may go unnoticed.
+// A signal that comes just before a wait begins goes unnoticed for so long at the most.
 constexpr std::chrono::milliseconds patience{200};
 
-// A pipe can be read only once, and reading it waits for its writer.
+// Refuses pipes: one can be read only once, and reading it waits for its writer.
 void require_files(const RenderOptions &options) {
     const std::vector<std::string> &images = options.output.images;
     refuse_if(options.frames.has_value(), "--watch: shows one picture, not --frames");
@@ -58,11 +58,11 @@ public:
     }
 
 private:
-    // To end a watch while it waits is success.
+    // Ending a watch while it waits is success.
     int exit_code() const { return exit_code_of(outcome_, outcome_ == ExitCode::signal ? interrupt_signal() : 0); }
 
-    // Where an edit can help, a failure is told and waited out; so it can where the shaders are edited, and lose
-    // samples or the device, which then wants another context.
+    // Renders. If it fails and an edit can help, prints the message and waits for the edit. Edited shaders may also
+    // lose samples or the device, after which another context is needed.
     void render_or_tell() {
         outcome_ = ExitCode::done;
         try {
@@ -86,7 +86,7 @@ private:
         check_names(options_);
         RenderTask task(options_, read_scene_file(options_.scene, options_.overrides));
         const std::vector<std::string> columns = column_paths(task.scene);
-        sources_.follow({columns.begin(), columns.end()}); // before they are read
+        sources_.follow({columns.begin(), columns.end()}); // before the files are read
         task.load();
         check_outputs(task);
         times.create_start = std::chrono::steady_clock::now();
@@ -97,7 +97,7 @@ private:
             edited_.clear();
     }
 
-    // One context for all pictures: another start would take longer than most edits are worth.
+    // One context serves all pictures: starting another would take longer than most edits are worth.
     void refresh_context() {
         if (!context_) {
             context_.emplace(render_create_info(options_, log_));
@@ -126,7 +126,7 @@ private:
         print_unless_quiet("changed: " + listed(names));
     }
 
-    // Names what was edited since the last good picture.
+    // Prints the names of the files edited since the last good picture.
     void tell_suspects() const {
         if (!edited_.empty())
             print_message("the likely cause: " + listed(edited_) + ", edited since the last picture");
@@ -136,8 +136,8 @@ private:
     ValidationLog &log_;
     SourceWatch sources_;
     std::optional<Context> context_;
-    ExitCode outcome_ = ExitCode::done; // of the last rendering; also if it failed, which an edit may mend
-    std::set<std::string> edited_;      // files, since the last picture
+    ExitCode outcome_ = ExitCode::done; // of the last rendering, also if it failed: an edit may fix that
+    std::set<std::string> edited_;      // files edited since the last picture
     bool is_first_ = true;
     bool is_told_ = false;
 };

@@ -28,7 +28,8 @@ std::optional<std::string> state_of(const fs::path &path) {
                   status.st_dev, ":", status.st_ino);
 }
 
-// Files are stamped with a clock of some milliseconds: one that was just changed may change again within the same.
+// The clock that stamps files ticks every few milliseconds, so a file just changed may change again without a new
+// stamp.
 bool is_fresh(const fs::path &path) {
     std::error_code error;
     const fs::file_time_type written = fs::last_write_time(path, error);
@@ -103,14 +104,14 @@ bool SourceWatch::changed(std::chrono::milliseconds timeout) {
     const auto next_look = last_look_ + (seen_ != begun_ ? settling : interval);
     const auto wait = std::chrono::ceil<std::chrono::milliseconds>(std::min(next_look, end) - Clock::now());
     if (wait.count() > 0)
-        poll(nullptr, 0, static_cast<int>(wait.count())); // which a signal ends
+        poll(nullptr, 0, static_cast<int>(wait.count())); // a signal ends it
     if (Clock::now() >= next_look)
         look();
     return seen_ != begun_ && Clock::now() - seen_since_ >= settling;
 }
 
 std::vector<std::string> SourceWatch::changed_names() const {
-    std::vector<std::pair<const fs::path, std::optional<std::string>>> differing; // those of both, twice
+    std::vector<std::pair<const fs::path, std::optional<std::string>>> differing; // those that both have come twice
     std::ranges::set_symmetric_difference(begun_, seen_, std::back_inserter(differing));
     std::set<std::string> names;
     for (const auto &[path, contents] : differing)

@@ -1,4 +1,4 @@
-// The files that a picture is made of (the scene, its data, and the kernels), and whether they have changed since it
+// The files that a picture is made from (the scene, its data, and the kernels), and whether they have changed since it
 // was begun.
 #pragma once
 
@@ -12,31 +12,31 @@
 
 namespace cli {
 
-// GLSL files in that folder and in those within it; none if its name is empty.
+// The GLSL files in a folder and its subfolders; none if its name is empty.
 std::set<std::filesystem::path> shader_files(const std::filesystem::path &shader_dir);
 
 // Contents by path; nothing for a file that does not exist.
 using SourceFiles = std::map<std::filesystem::path, std::optional<std::string>>;
 
-// Looks at the files ten times a second: that sees what other machines write, too.
+// Looks at the files ten times a second, and so sees what other machines write, too.
 class SourceWatch {
 public:
     SourceWatch(std::filesystem::path scene, std::filesystem::path shader_dir);
 
-    // The files are to be used as they are now: changes from here on count.
+    // The files are about to be used as they are now: later changes count.
     void begin();
 
-    // What the scene takes its spheres from, from here on: these files, as they are now. They may be larger than
-    // memory: what stands for them here changes when they are written.
+    // From now on also watches these files, from which the scene takes its spheres. They may be larger than memory, so
+    // their state is kept instead of their contents; it changes when they are written.
     void follow(const std::set<std::filesystem::path> &data);
 
     bool has_data() const { return !data_.empty(); }
 
-    // Whether their contents differ from then, and have been the same for a moment: saving takes some steps. Waits for
-    // so long at the most, until there is something to be told or a signal comes.
+    // Whether contents differ from those at begin(), and have been stable for a moment, since saving takes several
+    // steps. Waits until that is so, a signal comes or the time is over.
     bool changed(std::chrono::milliseconds timeout);
 
-    // Those that differ.
+    // The names of the files that differ.
     std::vector<std::string> changed_names() const;
 
 private:
@@ -53,7 +53,7 @@ private:
     std::filesystem::path scene_;
     std::filesystem::path shader_dir_;
     std::set<std::filesystem::path> data_;
-    std::map<std::filesystem::path, Kept> kept_; // read again only when their state is another
+    std::map<std::filesystem::path, Kept> kept_; // contents, read again only if the file's state has changed
     SourceFiles begun_;
     SourceFiles seen_;             // at the last look
     Clock::time_point seen_since_; // with these contents

@@ -36,7 +36,7 @@ bool is_lit(const SceneFile &scene) {
     return false;
 }
 
-// The largest of the channels' sums. Specular lobes reflect all of their weight where light falls in along the normal.
+// The largest of the channels' sums. Specular lobes reflect all of their weight if light arrives along the normal.
 float reflected_share(const pt_material &material) {
     float largest = 0.0F;
     for (std::size_t i = 0; i < 3; ++i)
@@ -70,9 +70,9 @@ bool is_black(std::span<const float> radiance) {
     return !radiance.empty() && std::ranges::all_of(radiance, [](float value) { return value == 0.0F; });
 }
 
-// In the relative error light far below 0.1 counts as none (pt_error_estimate), so a picture that is dark all over is
-// on target with any noise. Pictures of the units that light meters have may be, where emission is some hundredths of a
-// unit; scaling all emission scales the picture, and its noise, to the bit.
+// For the relative error, light far below 0.1 counts as none (pt_error_estimate), so a picture that is dark everywhere
+// reaches its target with any noise. Pictures in units in which emission is only some hundredths may be so dark.
+// Scaling all emission scales the picture and its noise.
 std::optional<std::string> picture_below_its_target(const RenderReport &report, std::span<const float> radiance) {
     // The average is 0.18 / 2^4.5 = 1/126, a twelfth of 0.1: a target of 1% allows noise of an eighth of the average.
     constexpr double most_stops = 4.5;
@@ -87,7 +87,7 @@ std::optional<std::string> picture_below_its_target(const RenderReport &report, 
            formatted("%.0f", stops) + ", or ask for much less";
 }
 
-// Whether a warning before has said so.
+// Whether an earlier warning has said that the picture is black.
 bool is_known_to_be_black(const RenderReport &report) {
     return std::ranges::any_of(report.warnings,
                                [](const auto &warning) { return warning.ends_with("the picture is black"); });

@@ -1,6 +1,6 @@
-// The scenes of `pt selftest`, whose images are known exactly, the judgement of an image of one, and the report of all.
-// The scenes are few and small, and look for what may be wrong on a single device: other roundings, lamps of extreme
-// sizes, lobes of extreme sharpness, motion.
+// The scenes of `pt selftest`, whose images are known exactly, the judgement of their images, and the report. The
+// scenes are few and small, and test what may be wrong on a single device: roundings, lamps of extreme sizes, lobes of
+// extreme sharpness, motion.
 #pragma once
 
 #include "cli/scene/scene_file.h"
@@ -21,32 +21,33 @@ struct SelftestCheck {
     std::string unit;
     std::string detail; // what was measured, for a report of the fault
 
-    // Written so that an error that is not a number fails.
+    // Written so that NaN fails.
     bool passed() const { return error <= bound; }
 };
 
 struct SelftestScene {
     std::string name;
     SceneFile scene;
-    double expected;     // radiance of the whole image, grey, to this power
-    double relative_std; // of that of one sample, at most; 0: every sample of every pixel has the same value
+    double expected;     // mean of radiance^power over the image, which is grey
+    double relative_std; // upper bound of a sample's standard deviation / expected; 0: all samples are equal
     double rounding;     // largest relative error of a sample that float32 may make
     int power = 1;       // 0: expected is the share of pixels that are not black
 
-    // How far the image may be off, as a multiple of what is expected.
+    // How far the image may be off, relative to expected.
     double bound() const;
 
-    // Without noise every number of the image is judged, else the mean of each channel: the worst of them counts.
+    // Judges every number of the image if there is no noise, otherwise the mean of each channel; the worst counts.
     SelftestCheck judge(std::span<const float> radiance) const;
 };
 
-// All of them.
+// All scenes.
 std::vector<SelftestScene> selftest_scenes();
 
-// The one of them with the longest paths.
+// The scene with the longest paths.
 SelftestScene lamp_in_a_ball();
 
-// Scenes whose samples are cosines of the directions that kernels sample, in means, second moments and sides.
+// Scenes whose samples are cosines of the directions that kernels sample. They test means, second moments, and the
+// share on each side.
 std::vector<SelftestScene> direction_scenes();
 
 struct SelftestReport {

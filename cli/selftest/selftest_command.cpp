@@ -1,4 +1,4 @@
-// The command `pt selftest`: whether a device computes what it should.
+// The command `pt selftest`: checks whether a device computes what it should.
 #include "cli/base/devices.h"
 #include "cli/base/exit_code.h"
 #include "cli/base/file.h"
@@ -69,7 +69,7 @@ std::vector<SelftestCheck> check_functions(const Context &context) {
     return checks;
 }
 
-// One call for each count.
+// Renders a scene; one call of pt_accumulate for each count.
 std::vector<float> render(const Context &context, const SceneFile &scene,
                           const std::vector<std::uint32_t> &sample_counts) {
     describe_scene(context, scene, [](double) { return true; });
@@ -91,7 +91,7 @@ double differing_values(std::span<const float> a, std::span<const float> b) {
     });
 }
 
-// The sum of the samples is exact, so that its bits do not depend on the calls in which they were taken.
+// The sum of samples is exact, so its bits must not depend on how the samples are split over calls.
 SelftestCheck check_splits(const Context &context) {
     const SelftestScene ball = lamp_in_a_ball();
     const std::uint32_t count = ball.scene.sample_count.value();

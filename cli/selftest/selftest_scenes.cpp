@@ -11,15 +11,15 @@
 namespace cli {
 namespace {
 
-// Probability that a right device fails one check: over all scenes, about one in a million.
+// Probability that a correct device fails one check; over all scenes, about one in a million.
 constexpr double false_alarm = 1e-7;
 
 // Bernstein's inequality (Boucheron, Lugosi and Massart, Concentration Inequalities, 2013, section 2.8), which holds
 // for skewed samples too: for n independent samples of variance s^2 and deviations up to m,
 //     P(|error| > t) <= 2 exp(-n t^2 / (2 s^2 + 2 m t / 3)).
-// Solved for t. A sample that is 0, or with probability p another value, has s^2 = (1 - p) / p and deviates by s^2
-// upwards and 1 downwards: m = s^2 + 6 s holds for all p up to 0.97, and leaves smooth integrands six standard
-// deviations. Samples of a stratified sampler are not independent, but less noisy.
+// This is solved for t. A sample that has one value with probability p, and is 0 otherwise, has s^2 = (1 - p) / p, and
+// deviates by s^2 upwards and 1 downwards: m = s^2 + 6 s is enough for all p up to 0.97, and allows smooth integrands
+// six standard deviations. Samples of a stratified sampler are not independent, but less noisy.
 double noise_bound(double relative_std, double sample_count) {
     const double log_probability = std::log(2.0 / false_alarm);
     const double variance = relative_std * relative_std;
@@ -27,7 +27,7 @@ double noise_bound(double relative_std, double sample_count) {
     return (linear + std::sqrt(linear * linear + 2.0 * sample_count * variance * log_probability)) / sample_count;
 }
 
-// The mean of every third value to a power; to the power 0, the share of those that are not 0.
+// The mean of a channel's values to a power; to the power 0, the share of values that are not 0.
 double channel_mean(std::span<const float> radiance, std::size_t channel, int power) {
     double sum = 0.0;
     for (std::size_t i = channel; i < radiance.size(); i += 3)
@@ -35,27 +35,27 @@ double channel_mean(std::span<const float> radiance, std::size_t channel, int po
     return sum / (static_cast<double>(radiance.size()) / 3.0);
 }
 
-constexpr double unit_roundoff = 0x1p-24; // of float32: half a unit in the last place of the largest significand
+constexpr double unit_roundoff = 0x1p-24; // of float32: largest relative error of rounding
 
-// A sample is the product of some 50 operations. Vulkan's worst, the division, is off by 2.5 ulp, 5 roundoffs.
+// A sample takes some 50 operations. The worst in Vulkan, division, is off by 2.5 ulp, which is 5 roundoffs.
 constexpr double sample_rounding = 50 * 5 * unit_roundoff;
 
-// members: all but the sizes.
+// members: the scene except for sizes.
 SceneFile scene_of(std::uint32_t side, std::uint32_t sample_count, const std::string &members) {
     return parse_scene(concat(R"({"film": {"width": )", side, R"(, "height": )", side, R"(}, "render": {"spp": )",
                               sample_count, members, "}"),
                        "");
 }
 
-// Emission is added as it is, to an exact sum: rounded once.
+// Emission is added unchanged to an exact sum, and rounded once.
 SelftestScene inside_a_lamp() {
     const SceneFile scene = scene_of(16, 16, R"(, "max_path_length": 3}, "materials": {"lamp": {"emission": 0.1}},
         "spheres": [{"center": [0, 0, 2], "radius": 50, "material": "lamp"}])");
     return {"inside a lamp", scene, double{scene.materials[0].emission[0]}, 0.0, unit_roundoff};
 }
 
-// A white ball in a black lamp of radiance 1: every path ends on the lamp after at most one reflection of weight 1, the
-// quotient of albedo / pi * cos and cos / pi: two products, three divisions, and the product with the emission.
+// A white ball in a black lamp of radiance 1: every path ends on the lamp after at most one reflection of weight 1,
+// which is albedo / pi * cos over cos / pi: two products, three divisions, and the product with the emission.
 SelftestScene white_furnace() {
     const SceneFile scene = scene_of(16, 16, R"(, "max_path_length": 3, "estimator": "bsdf"},
         "materials": {"lamp": {"emission": 1}, "white": {"diffuse": 1}},
@@ -64,7 +64,7 @@ SelftestScene white_furnace() {
     return {"white furnace", scene, 1.0, 0.0, (3 * 1 + 3 * 5) * unit_roundoff};
 }
 
-// A point of a floor, which the camera looks at in an angle so narrow that what lies about it varies by 1e-8.
+// A point of a floor, which the camera sees in so narrow an angle that light varies by 1e-8 around it.
 SceneFile floor_scene(const std::string &members) {
     return scene_of(32, 64,
                     R"(, "max_path_length": 2},
@@ -72,10 +72,11 @@ SceneFile floor_scene(const std::string &members) {
                         members);
 }
 
-// The irradiance of a uniform sphere of radius r wholly above a plane is that of the point at its centre with its
-// power: pi L (r / d)^2 cos (Snyder 1996); reflected, albedo / pi times that. The noise: a lamp sampled by its solid
-// angle varies with the cosine over its angle a, sin a = r / d: by less than sin a tan + 1 - cos a. What a direction by
-// the cosine adds has probability p = sin^2 a cos, and a weight of p^2 at most.
+// The irradiance of a uniform sphere of radius r wholly above a plane is that of a point at its centre with the same
+// power: pi L (r / d)^2 cos (Snyder 1996). The reflected radiance is albedo / pi times that. The noise: sampled by its
+// solid angle, the lamp's contribution varies with the cosine over its half angle a, sin a = r / d, by less than sin a
+// tan + 1 - cos a. A direction sampled by the cosine finds the lamp with probability p = sin^2 a cos, and contributes
+// with a weight of at most p^2.
 SelftestScene floor_under_lamp(const std::string &name, const std::string &members) {
     const SceneFile scene = floor_scene(members);
     const pt_sphere &lamp = scene.spheres[0];
@@ -105,7 +106,7 @@ SelftestScene tiny_far_lamp() {
         "planes": [{"normal": [0, 1, 0], "offset": 1, "material": "floor"}])");
 }
 
-// It touches the plane's point: within the spot it departs from the plane by a part in 1e18.
+// The ball touches the plane at that point: within the spot seen, it departs from the plane by a part in 1e18.
 SelftestScene huge_ball_as_floor() {
     return floor_under_lamp("floor is a ball of 1e7", R"(
         "materials": {"lamp": {"emission": 10}, "floor": {"diffuse": 0.8}},
@@ -114,23 +115,24 @@ SelftestScene huge_ball_as_floor() {
 }
 
 // A glossy floor in a dome of radiance 1. The integral of (n + 2) / (2 pi) cos^n g cos over the directions about the
-// mirror direction r, where cos is to the normal and g to r, is that of the component along r, so (n + 2) / (n + 2)
-// times r's own cosine. Of this lobe, 1e-3 wide, the horizon cuts nothing off. The noise: the cosine varies over the
-// lobe, whose component in the plane of incidence has variance 1 / n, by tan / sqrt(n).
+// mirror direction r, where cos is the cosine to the normal and cos g that to r, comes only from the directions'
+// component along r, so it is (n + 2) / (n + 2) times r's own cosine. The lobe is 1e-3 wide, so the horizon cuts off
+// nothing. The noise: over the lobe, whose component in the plane of incidence has variance 1 / n, the cosine varies by
+// tan / sqrt(n).
 SelftestScene sharp_lobe() {
     const SceneFile scene = floor_scene(R"(
         "materials": {"dome": {"emission": 1}, "floor": {"specular": 1, "glossiness": 1e6}},
         "spheres": [{"center": [0, 0, 0], "radius": 1e4, "material": "dome"}],
         "planes": [{"normal": [0, 1, 0], "offset": 1, "material": "floor"}])");
-    constexpr double tangent = 2.0; // of the way to the point looked at
+    constexpr double tangent = 2.0; // of the angle between the floor's normal and the view
     return {"lobe of 1e-3 radians", scene, 1.0 / std::sqrt(1.0 + tangent * tangent),
             tangent / std::sqrt(double{scene.materials[1].glossiness}), sample_rounding};
 }
 
 // A lamp of radius 1 recedes along the axis, from distance a to b. It fills pi / (z^2 - 1) of the image plane at
-// distance 1: on average pi / (b - a) times the integral of 1 / (z^2 - 1), which is log((z - 1) / (z + 1)) / 2, always
-// within the image, a square of side 2 tan(fov / 2), which is more than 2 / sqrt(a^2 - 1). The noise: a share p of the
-// samples is 1.
+// distance 1: on average pi / (b - a) times the integral of 1 / (z^2 - 1), which is log((z - 1) / (z + 1)) / 2. It is
+// always within the image, a square of side 2 tan(fov / 2) > 2 / sqrt(a^2 - 1). The noise: a share p of the samples is
+// 1, the others 0.
 SelftestScene receding_lamp() {
     const SceneFile scene = scene_of(64, 64, R"(, "max_path_length": 1}, "materials": {"lamp": {"emission": 1}},
         "camera": {"position": [0, 0, 0], "look_at": [0, 0, -1], "vertical_fov": 29.2},
@@ -147,13 +149,14 @@ SelftestScene receding_lamp() {
 struct DirectionKind {
     const char *name;
     const char *estimator;
-    const char *floor; // members of its material
+    const char *floor; // members of the floor's material
     double power;      // a direction of cosine c about the normal has density proportional to c^power
     double scale;      // its sample is scale * c
 };
 
-// A floor under a sky of radiance 1, seen from straight above by parallel rays, one sample to a pixel: by the sampler
-// random, so that samples are independent. more_planes take all but a share of the directions, whatever their cosines.
+// A floor under a sky of radiance 1, seen from straight above by parallel rays, one sample to a pixel: with the sampler
+// "random", so that samples are independent. more_planes block all directions except the given share, independently of
+// their cosines.
 SelftestScene direction_scene(const DirectionKind &kind, const std::string &what, int exponent,
                               const std::string &more_planes, double share) {
     const auto moment = [&](int e) {
@@ -186,7 +189,7 @@ SelftestCheck SelftestScene::judge(std::span<const float> radiance) const {
     double worst = expected;
     const auto compare = [&](double measured) {
         const double error = std::abs(measured / expected - 1.0);
-        if (!(error <= worst_error)) { // also if it is NaN
+        if (!(error <= worst_error)) { // true for NaN, too
             worst_error = std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
             worst = measured;
         }
@@ -200,10 +203,11 @@ SelftestCheck SelftestScene::judge(std::span<const float> radiance) const {
     return {"scene", name, worst_error, bound(), "relative", formatted("%.9g, exact is %.9g", worst, expected)};
 }
 
-// A wall of albedo rho, a sphere of radius R, about a black lamp of radius r. A direction from the wall by the cosine
-// finds the lamp with probability q = (r / R)^2, else the wall again: paths of L vertices carry
+// A wall of albedo rho, a sphere of radius R, around a black lamp of radius r. A direction from the wall, sampled by
+// the cosine, finds the lamp with probability q = (r / R)^2, otherwise the wall again: paths of L vertices carry
 //     rho Le q sum_{j <= L - 2} (rho (1 - q))^j.
-// The noise: with probability q the path ends on the lamp and lacks the rest: less than sqrt(q) of the value.
+// The noise: with probability q a path ends on the lamp and lacks the rest, so its standard deviation is less than
+// sqrt(q) of the value.
 SelftestScene lamp_in_a_ball() {
     constexpr double rho = 0.5;
     constexpr double emission = 100.0;
@@ -221,9 +225,10 @@ std::vector<SelftestScene> selftest_scenes() {
             huge_ball_as_floor(), tiny_far_lamp(), sharp_lobe(),     receding_lamp()};
 }
 
-// With f the reflection, a sample is f * c over the density: 2 c of a white diffuse floor whose directions are uniform;
-// (n + 2) / 2 c^n of a lobe of exponent n whose directions follow the cosine; (n + 2) / (n + 1) c of one that they
-// follow. A wall, a black plane that stands upright beside the camera's rays, takes half of all directions.
+// With f the reflection and c the cosine, a sample is f * c over the density: 2 c for a white diffuse floor with
+// uniform directions; (n + 2) / 2 c^n for a lobe of exponent n with directions by the cosine; (n + 2) / (n + 1) c for
+// the lobe with directions by the lobe itself. A wall, a black upright plane beside the camera's rays, blocks half of
+// all directions.
 std::vector<SelftestScene> direction_scenes() {
     constexpr double n = 20.0;
     constexpr int wall_count = 4;

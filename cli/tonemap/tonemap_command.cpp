@@ -1,4 +1,4 @@
-// The command `pt tonemap`: the display side of a file of radiance once more, without rendering.
+// The command `pt tonemap`: makes a picture for a display from a file of radiance, without rendering again.
 #include "cli/base/devices.h"
 #include "cli/base/exit_code.h"
 #include "cli/base/file.h"
@@ -18,8 +18,8 @@ namespace {
 struct TonemapOptions {
     std::string input;
     std::string output;
-    std::optional<ImageFormat> format;  // of an output that is standard output
-    std::vector<SceneOverride> display; // how the image is shown
+    std::optional<ImageFormat> format;  // of an output to standard output
+    std::vector<SceneOverride> display; // overrides of the display section
     bool quiet = false;
 };
 
@@ -30,8 +30,8 @@ void check(const TonemapOptions &options) {
     require_distinct_files({{"the image", options.input}}, {{"the output", options.output}});
 }
 
-// Of a picture, or of a part of it. Another program's pixels may lie outside of the picture: then they are a picture
-// of their own.
+// The window of a picture, or of a part of it. In another program's file, pixels may lie outside the picture: then they
+// are a picture of their own.
 ImageWindow window_of(const DecodedImage &image) {
     const auto inside = [](std::int32_t first, std::uint32_t count, std::uint32_t full) {
         return first >= 0 && static_cast<std::uint64_t>(first) + count <= full;
@@ -61,7 +61,7 @@ std::vector<float> radiance_of(const DecodedImage &image) {
     return radiance;
 }
 
-// Of each pixel, where the file has a channel of that name and the format takes it; otherwise empty.
+// Alpha of each pixel, if the file has the channel A and the format takes it; otherwise empty.
 std::vector<float> alpha_of(const DecodedImage &image, ImageFormat format) {
     const auto channel = std::find(image.channels.begin(), image.channels.end(), "A");
     if (channel == image.channels.end() || format != ImageFormat::png)
@@ -71,14 +71,14 @@ std::vector<float> alpha_of(const DecodedImage &image, ImageFormat format) {
     for (auto i = static_cast<std::size_t>(channel - image.channels.begin()); i < image.values.size();
          i += image.channels.size()) {
         const float share = image.values[i];
-        if (!(share >= 0.0F && share <= 1.0F)) // nor NaN
+        if (!(share >= 0.0F && share <= 1.0F)) // NaN fails, too
             refuse(image, alpha.size(), ": A is " + std::to_string(share) + ", not in [0, 1]");
         alpha.push_back(share);
     }
     return alpha;
 }
 
-// What the file says of its rendering, and what is made of it now.
+// What the file says about its rendering, and how it is tone-mapped now.
 std::vector<ImageAttribute> attributes_of(const DecodedImage &image, const ToneMap &tone_map) {
     std::vector<ImageAttribute> attributes{{"software", "pt " + version_text()}};
     for (const ImageAttribute &each : image.attributes) {

@@ -17,10 +17,11 @@
 
 enum { WIDTH = 128, HEIGHT = 96 };
 
-/* What a frame of 60 a second can spare for waiting, again and again until its samples are done. */
+/* How long a poll may wait in a program with 60 frames a second, nanoseconds; repeated until the frame's samples are
+ * done. */
 static const uint64_t poll_nanoseconds = 2000000;
 
-/* What the program does besides. An interactive one handles input here, and draws the frame before. */
+/* The program's other work. An interactive program handles input here, and draws the previous frame. */
 typedef struct other_work {
     unsigned long times;
 } other_work;
@@ -63,7 +64,7 @@ static pt_result set_up(pt_context *context) {
     return result;
 }
 
-/* The camera goes once around the ball. Discards the samples of the frame before. */
+/* Moves the camera, which goes once around the ball. This discards the samples of the previous frame. */
 static pt_result move_camera(pt_context *context, double turns) {
     const double angle = turns * 6.283185307179586;
     pt_camera camera = {.struct_size = sizeof camera, .target = {0.0, 1.0, 0.0}};
@@ -74,7 +75,7 @@ static pt_result move_camera(pt_context *context, double turns) {
     return pt_set_camera(context, &camera);
 }
 
-/* A frame: its samples are taken by the device while the program goes on, which has to poll for that. */
+/* Takes the samples of a frame. The device works while the program goes on, which has to poll. */
 static pt_result render_frame(pt_context *context, const pt_accumulate_info *samples, const pt_image *image,
                               other_work *work) {
     pt_result result = pt_start(context, samples);
@@ -88,7 +89,7 @@ static pt_result render_frame(pt_context *context, const pt_accumulate_info *sam
     return result;
 }
 
-/* Frames, and how many a second there were. */
+/* Prints the number of frames, and how many a second there were. */
 static pt_result render_frames(pt_context *context, unsigned frames, const pt_accumulate_info *samples,
                                const pt_image *image) {
     other_work work = {0};
@@ -112,7 +113,8 @@ static pt_result render_frames(pt_context *context, unsigned frames, const pt_ac
     return result;
 }
 
-/* 1 if the file is whole. PFM wants the bottom row first; -1 says that the floats are little-endian. */
+/* Writes a file; returns 1 if it is whole. PFM wants the bottom row first; -1 says that the floats are
+ * little-endian. */
 static int write_pfm(const char *path, const float *pixels) {
     FILE *file = fopen(path, "wb");
     int row;
@@ -132,7 +134,7 @@ int main(int argc, char **argv) {
     const unsigned frames = argc > 1 ? (unsigned)strtoul(argv[1], NULL, 10) : 120;
     const pt_accumulate_info samples = {.struct_size = sizeof samples,
                                         .sample_count = argc > 2 ? (uint32_t)strtoul(argv[2], NULL, 10) : 2};
-    /* A camera that moves never stays for so long that a kernel of the scene's own would pay. */
+    /* A moving camera never rests long enough for a kernel of the scene's own to pay off. */
     const pt_create_info create = {.struct_size = sizeof create, .flags = PT_CREATE_NO_SCENE_KERNELS};
     pt_context *context;
     pt_result result = pt_create(&create, &context);

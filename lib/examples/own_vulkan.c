@@ -22,7 +22,7 @@ typedef struct own_vulkan {
     pthread_mutex_t queue_mutex;
 } own_vulkan;
 
-/* Vulkan 1.2 is what pt needs of the instance. */
+/* pt needs an instance of Vulkan 1.2. */
 static VkResult make_instance(own_vulkan *own) {
     const VkApplicationInfo application = {.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
                                            .apiVersion = VK_API_VERSION_1_2};
@@ -31,7 +31,7 @@ static VkResult make_instance(own_vulkan *own) {
     return vkCreateInstance(&info, NULL, &own->instance);
 }
 
-/* Finds a queue family that computes. */
+/* Finds a queue family for compute. */
 static int has_compute(VkPhysicalDevice device, uint32_t *family) {
     VkQueueFamilyProperties families[MAX_FAMILIES];
     uint32_t count = MAX_FAMILIES;
@@ -43,7 +43,7 @@ static int has_compute(VkPhysicalDevice device, uint32_t *family) {
     return 0;
 }
 
-/* Takes the first device with Vulkan 1.2 and a queue that computes. */
+/* Takes the first device with Vulkan 1.2 and a queue for compute. */
 static VkResult choose_device(own_vulkan *own) {
     VkPhysicalDevice devices[MAX_DEVICES];
     uint32_t count = MAX_DEVICES;
@@ -80,7 +80,7 @@ static VkResult make_device(own_vulkan *own) {
     return result;
 }
 
-/* On failure, what was made so far stays in own, for unmake. */
+/* On failure, own keeps what was made so far, for unmake(). */
 static VkResult make(own_vulkan *own) {
     VkResult result = make_instance(own);
 
@@ -107,7 +107,7 @@ static void unlock_queue(void *user) {
 }
 
 static pt_result render_on(pt_context *context, float *pixels, uint64_t size_bytes) {
-    /* A sphere around the camera that shines in red, green and blue of 1, 2 and 4: every pixel is that. */
+    /* A sphere around the camera that emits red, green and blue of 1, 2 and 4, so every pixel has these values. */
     static const pt_material material = {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, {1.0f, 2.0f, 4.0f}, 0.0f, 0};
     static const pt_sphere sphere = {{0.0, 0.0, 0.0}, 5.0, {0.0, 0.0, 0.0}, 0, 0};
     const pt_scene scene = {
@@ -134,7 +134,7 @@ static pt_result render_on(pt_context *context, float *pixels, uint64_t size_byt
     return result;
 }
 
-/* The context ends before the Vulkan that it was lent. */
+/* The context must be destroyed before the Vulkan objects lent to it. */
 static pt_result render(own_vulkan *own, float *pixels, uint64_t size_bytes) {
     const pt_vulkan vulkan = {.struct_size = sizeof vulkan,
                               .queue_family = own->queue_family,
@@ -157,7 +157,7 @@ static pt_result render(own_vulkan *own, float *pixels, uint64_t size_bytes) {
     return result;
 }
 
-/* Lets the queue signal a fence: the device still works for this program. */
+/* Has the queue signal a fence: the device still works for this program. */
 static VkResult use_queue(own_vulkan *own) {
     const uint64_t nanoseconds = 5000000000u;
     const VkFenceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};

@@ -80,7 +80,8 @@ static pt_result render(pt_context *context, const particles *all, uint32_t samp
     return result;
 }
 
-/* 1 if the file is whole. PFM wants the bottom row first; -1 says that the floats are little-endian. */
+/* Writes a file; returns 1 if it is whole. PFM wants the bottom row first; -1 says that the floats are
+ * little-endian. */
 static int write_pfm(const char *path, const float *pixels) {
     FILE *file = fopen(path, "wb");
     int row;

@@ -22,7 +22,7 @@ enum { WIDTH = 128, HEIGHT = 96 };
 
 static atomic_int stop; /* set by a signal or by the main thread, read by the thread that renders */
 
-/* What both threads see; the context belongs to the thread that renders while that runs. */
+/* What both threads share. While the rendering thread runs, only that uses the context. */
 typedef struct render_job {
     pt_context *context;
     uint32_t samples;
@@ -37,7 +37,8 @@ static void request_stop(int signal_number) {
     atomic_store(&stop, 1);
 }
 
-/* Runs on the thread that renders, after every submission. What is not 0 ends pt_accumulate with PT_CANCELLED. */
+/* Runs on the rendering thread, after every submission. Returning anything except 0 ends pt_accumulate with
+ * PT_CANCELLED. */
 static int32_t on_progress(void *user, double fraction) {
     render_job *job = user;
     atomic_store(&job->step_permille, (int)(fraction * 1000.0));
@@ -79,7 +80,7 @@ static unsigned char display_value(float radiance) {
     return (unsigned char)(255.0f * powf(radiance / (1.0f + radiance), 1.0f / 2.2f)); /* Reinhard et al. 2002 */
 }
 
-/* Writes beside the file and renames, so that a viewer that watches it never sees half an image. */
+/* Writes another file and renames it, so that a viewer that watches the file never sees half an image. */
 static int write_ppm(const float *pixels) {
     static unsigned char bytes[WIDTH * HEIGHT * 3];
     FILE *file = fopen("progressive.ppm.part", "wb");
@@ -96,7 +97,7 @@ static int write_ppm(const float *pixels) {
     return whole && rename("progressive.ppm.part", "progressive.ppm") == 0;
 }
 
-/* Shows the samples so far. */
+/* Shows the image of the samples so far. */
 static pt_result show(render_job *job, uint32_t sample_count) {
     static float pixels[WIDTH * HEIGHT * 3];
     const pt_image image = {.struct_size = sizeof image, .data = pixels, .size_bytes = sizeof pixels};
@@ -148,7 +149,7 @@ static void *render_thread(void *user) {
     return NULL;
 }
 
-/* Waits until the thread has ended; after so many seconds (0: never) asks it to stop, but not before it has samples. */
+/* Waits until the thread has ended. After so many seconds (0: never) asks it to stop, but not before it has samples. */
 static void watch(render_job *job, double seconds) {
     const struct timespec pause = {0, 20000000};
     double waited = 0.0; /* nearly: sleeps are a little longer */

@@ -8,7 +8,7 @@
 
 enum { WIDTH = 128, HEIGHT = 96 };
 
-/* The four verbs. Each call is made only if those before it succeeded; what is > 0 is a remark and no failure. */
+/* The four verbs. Each call is made only if those before it succeeded; a result > 0 is a remark, not a failure. */
 static pt_result render(pt_context *context, float *pixels, uint64_t size_bytes) {
     static const pt_material materials[] = {
         {{0.8f, 0.8f, 0.8f}, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, 0.0f, 0},    /* white, matt */
@@ -63,7 +63,8 @@ static pt_result render(pt_context *context, float *pixels, uint64_t size_bytes)
     return result;
 }
 
-/* 1 if the file is whole. PFM wants the bottom row first; -1 says that the floats are little-endian. */
+/* Writes a file; returns 1 if it is whole. PFM wants the bottom row first; -1 says that the floats are
+ * little-endian. */
 static int write_pfm(const char *path, const float *pixels) {
     FILE *file = fopen(path, "wb");
     int row;

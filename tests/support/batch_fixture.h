@@ -18,7 +18,7 @@ struct Estimate {
 // The red channel of the image of each batch.
 using Batches = std::vector<std::vector<double>>;
 
-// Of the mean over a set of pixels.
+// The mean over a set of pixels, estimated from the batches.
 inline Estimate estimate_over(const Batches &batches, std::span<const std::size_t> pixels) {
     std::vector<double> values;
     for (const std::vector<double> &image : batches) {
@@ -35,7 +35,7 @@ inline Estimate estimate_of_pixel(const Batches &batches, std::size_t pixel) {
     return estimate_over(batches, std::span(&pixel, 1));
 }
 
-// How many standard errors a mean of batches may be off, either way, with a probability of a false alarm: the
+// How many standard errors a mean of batches may be off in either direction, at a probability of a false alarm: the
 // quantile of Student's t, by D. L. Wallace's approximation (Ann. Math. Statist. 30, 1959), within 0.02 of it for 8
 // degrees and more.
 inline double student_bound(double false_alarm, std::size_t batch_count) {
@@ -44,8 +44,8 @@ inline double student_bound(double false_alarm, std::size_t batch_count) {
     return std::sqrt(degrees * std::expm1(z * z / degrees));
 }
 
-// Standard errors between an estimate and what it should be. The rounding of float32 counts as an error of 1e-6: a
-// path's radiance is rounded at most some dozens of times by 2^-24, and those errors average out in part.
+// The number of standard errors between an estimate and the expected value. The rounding of float32 counts as an error
+// of 1e-6: a path's radiance is rounded at most some dozens of times by 2^-24, and those errors average out in part.
 inline double deviation(const Estimate &estimate, double expected) {
     const double rounding = 1e-6 * std::abs(expected);
     return (estimate.mean - expected) / std::hypot(estimate.standard_error, rounding);
@@ -58,9 +58,8 @@ protected:
         ASSERT_EQ(pt_set_camera(context(), &camera), PT_OK) << pt_last_error(context());
     }
 
-    // Batches of the scene that is set, each with a seed of its own. Plain Halton knows no seed: its batches are
-    // successive parts of the sequence, which even out each other's errors, so that the standard error is an upper
-    // bound.
+    // Renders batches of the current scene, each with its own seed. Plain Halton does not use the seed: its batches are
+    // successive parts of the sequence, whose errors partly cancel, so the standard error is an upper bound.
     Batches render_batches(pt_render render, uint32_t batch_count, uint32_t samples) {
         Batches batches;
         for (uint32_t batch = 0; batch < batch_count; ++batch) {

@@ -1,6 +1,6 @@
-// Tests on a real device through pt.h. The validation layer watches: what it or the library warns of fails the test.
-// From the environment: PT_TEST_DEVICE chooses the device as pt_create_info.device does; with PT_TEST_NO_VALIDATION
-// set, contexts are made without the layer, for leak checks.
+// Tests on a real device through pt.h. The validation layer is on: a warning from it or from the library fails the
+// test. Environment variables: PT_TEST_DEVICE chooses the device like pt_create_info.device; if PT_TEST_NO_VALIDATION
+// is set, contexts are made without the layer, for leak checks.
 #pragma once
 
 #include "tests/support/image_target.h"
@@ -46,7 +46,7 @@ protected:
 
     virtual Context create_fixtures_context() { return create_context(); }
 
-    // The layer reports leaks when a context is destroyed, so that comes first.
+    // The layer reports leaks when a context is destroyed, so destroy it before looking at messages.
     void TearDown() override {
         context_.reset();
         for (const std::string &line : complaints_)
@@ -57,7 +57,7 @@ protected:
 
     using Create = std::function<pt_result(const pt_create_info *, pt_context **)>;
 
-    // Another context, with what adjust makes of the fixture's settings. To be destroyed before the test ends.
+    // Makes another context from the fixture's settings, changed by adjust. Destroy it before the test ends.
     Context create_context(
         const std::function<void(pt_create_info &)> &adjust = [](pt_create_info &) {},
         const Create &create = &pt_create) {
@@ -87,7 +87,7 @@ protected:
     pt_stats stats() { return stats_of(context()); }
     pt_error_estimate error() { return error_of(context()); }
 
-    // Where a few samples are several submissions; to GPUs they may be one.
+    // Whether a few samples take several submissions, as on CPUs; on GPUs they may take one.
     static bool is_on_cpu(pt_context *on) {
         pt_device_info info{};
         EXPECT_EQ(pt_get_context_device(on, &info), PT_OK) << pt_last_error(on);

@@ -1,4 +1,4 @@
-// What a call throws, for tests that expect it to. Used by the tests of lib/vulkan/.
+// Catches what a call throws, for tests that expect an error. Used by the tests of lib/vulkan/.
 #pragma once
 
 #include "lib/base/error.h"
@@ -7,7 +7,7 @@
 
 #include <string>
 
-// What a function throws.
+// The error that a function throws.
 template <typename Function>
 pt::Error error_of(Function &&function) {
     try {

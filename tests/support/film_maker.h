@@ -1,4 +1,4 @@
-// Films of made-up samples, put together sample by sample: what every sum of films is to be compared with.
+// Makes films of invented samples, sample by sample: sums of films are compared with them.
 #pragma once
 
 #include "lib/base/digest.h"
@@ -42,26 +42,27 @@ inline pt::SampleSet set_of(const std::set<std::uint32_t> &indices) {
     return samples;
 }
 
-// Of one channel, in units of 2^-60, below 2^24; one in 16 was rejected. By Steele's and Vigna's mixing of 64 bits
-// (2014).
+// Mixes 64 bits (Steele and Vigna, 2014).
 inline std::uint64_t mixed(std::uint64_t number) {
     number = (number ^ (number >> 30)) * 0xbf58476d1ce4e5b9U;
     number = (number ^ (number >> 27)) * 0x94d049bb133111ebU;
     return number ^ (number >> 31);
 }
 
+// One sample in 16 is rejected.
 inline bool is_rejected(const Pixel &pixel, std::uint32_t index) {
     return mixed(pixel.first * 7919U + pixel.second * 104729U + index) % 16 == 0;
 }
 
 __extension__ using Wide = unsigned __int128;
 
+// One channel of a sample, in units of 2^-60; the value is below 2^24.
 inline Wide value_of(const Pixel &pixel, std::uint32_t index, std::uint32_t channel) {
     const std::uint64_t key = ((std::uint64_t{pixel.first} << 20 | pixel.second) << 34) ^ (std::uint64_t{index} << 2);
     return Wide{mixed(key | channel)} << (mixed(key + 3) % 20);
 }
 
-// Of one pixel in place `at` of the sums of its tile.
+// Sets the sums of one pixel, at place `at` of its tile.
 inline void set_pixel(pt::PixelSums &sums, std::size_t at, const Pixel &pixel, const std::set<std::uint32_t> &indices,
                       std::uint64_t split) {
     Wide totals[2][3] = {};
@@ -81,7 +82,7 @@ inline void set_pixel(pt::PixelSums &sums, std::size_t at, const Pixel &pixel, c
     }
 }
 
-// A film of these tiles, of which each pixel of one has the same samples.
+// A film of these tiles; all pixels of a tile must have the same samples.
 inline Bytes film_of(const pt::FilmIdentity &identity, const std::vector<pt::Rectangle> &tiles,
                      const Samples &samples) {
     pt::FilmHeader header{identity, {}};
@@ -104,8 +105,8 @@ inline Bytes film_of(const pt::FilmIdentity &identity, const std::vector<pt::Rec
     return bytes;
 }
 
-// The tiles that a film of these samples has to have, found pixel by pixel: runs in rows, and equal runs in rows one
-// below the other.
+// The tiles that a film of these samples must have, found pixel by pixel: runs in rows, and equal runs in successive
+// rows.
 inline std::vector<pt::Rectangle> tiles_of(const Samples &samples) {
     std::vector<pt::Rectangle> tiles;
     const auto at = [&](std::int64_t row, std::int64_t column) -> const std::set<std::uint32_t> * {

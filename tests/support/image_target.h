@@ -1,4 +1,4 @@
-// A pt_image of floats, without gaps unless it is told of them. Used by the tests that read images.
+// Makes a pt_image for floats, without gaps unless asked for. Used by the tests that read images.
 #pragma once
 
 #include <pt/pt.h>

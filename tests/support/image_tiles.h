@@ -1,4 +1,4 @@
-// What the tiles of an image say of its error, where a test knows what its pixels show.
+// Gives an error estimator the tiles of an image whose pixels a test has made up.
 #pragma once
 
 #include "lib/film/error_estimate.h"
@@ -14,10 +14,10 @@ namespace pt {
 struct ImageValues {
     std::vector<float> mean;
     std::vector<float> standard_error;
-    std::vector<float> lesser; // of the means of the film's parts
+    std::vector<float> lesser; // the lesser of the means of the film's two parts
 };
 
-// After so many samples in every pixel.
+// Adds the tiles of an image with sample_count samples in every pixel.
 inline void add_tiles(ErrorEstimator &estimator, std::size_t width, const ImageValues &image,
                       std::uint64_t sample_count) {
     const TileGrid grid{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(image.mean.size() / 3 / width)};

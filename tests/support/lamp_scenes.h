@@ -1,4 +1,4 @@
-// Scenes of many lamps that are hard to choose among, and what is known of their lamps in double. Used by the tests of
+// Scenes of many lamps among which it is hard to choose, and facts about their lamps in double. Used by the tests of
 // the tree of lamps.
 #pragma once
 
@@ -14,7 +14,7 @@
 
 struct LampScene {
     std::string name;
-    pt::Scene scene; // lamps alone
+    pt::Scene scene; // only lamps
 };
 
 namespace lamp_scenes {
@@ -34,7 +34,7 @@ inline void add_lamp(pt::Scene &scene, const glm::dvec3 &centre, double radius, 
     scene.spheres.push_back({centre, radius, motion, static_cast<std::uint32_t>(scene.materials.size() - 1)});
 }
 
-// In a box above the ground, with powers over some decades.
+// Lamps in a box above the ground, with powers over some decades.
 inline pt::Scene in_a_box(std::uint32_t count, double decades, double motion = 0.0) {
     std::mt19937 generator(7);
     std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -48,7 +48,7 @@ inline pt::Scene in_a_box(std::uint32_t count, double decades, double motion = 0
     return scene;
 }
 
-// In tight clusters, some of which a horizon cuts.
+// Lamps in tight clusters, some of which a horizon cuts.
 inline pt::Scene in_clusters(std::uint32_t count) {
     std::mt19937 generator(8);
     std::normal_distribution<double> normal;
@@ -62,7 +62,7 @@ inline pt::Scene in_clusters(std::uint32_t count) {
     return scene;
 }
 
-// Balls in balls: of different sizes about the same middles.
+// Balls in balls: lamps of different sizes about the same centres.
 inline pt::Scene nested(std::uint32_t count) {
     pt::Scene scene;
     for (std::uint32_t i = 0; i < count; ++i)
@@ -70,7 +70,7 @@ inline pt::Scene nested(std::uint32_t count) {
     return scene;
 }
 
-// One of 10^8 times the power among others.
+// A lamp among others that have 10^-8 of its power.
 inline pt::Scene with_a_strong_one(std::uint32_t count) {
     pt::Scene scene = in_a_box(count, 1);
     scene.materials[count / 3].emission = glm::vec3(1e9F);

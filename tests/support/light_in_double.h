@@ -1,5 +1,5 @@
-// Images of random scenes beside those of a path tracer of their own in double, block of pixels by block. Used by tests
-// of whole images.
+// Compares images of random scenes with those of an independent path tracer in double, block of pixels by block. Used
+// by tests of whole images.
 #pragma once
 
 #include "tests/support/context_fixture.h"
@@ -20,7 +20,8 @@ inline constexpr glm::uvec2 picture(24, 16);
 inline constexpr glm::uvec2 block(8, 8);
 inline constexpr std::uint32_t image_count = 12;
 inline constexpr std::uint32_t samples_of_image = 32;
-// That one of 72 blocks is off by more, in standard errors that 12 images tell, has a chance of 1/330; seeds are fixed.
+// The chance that any of 72 blocks is off by more, in standard errors estimated from 12 images, is 1/330. Seeds are
+// fixed.
 inline constexpr double most_errors = 6.5;
 
 struct Given {
@@ -65,15 +66,15 @@ inline double mean_of_block(const std::vector<float> &image, glm::uvec2 first) {
     return sum / (3.0 * block.x * block.y);
 }
 
-// In standard errors that the images tell.
+// Deviations in standard errors, which are estimated from the images.
 struct Deviation {
     double of_image = 0.0;
-    double largest = 0.0; // of the blocks', without a sign
+    double largest = 0.0; // largest magnitude among blocks
 };
 
 class LightInDouble : public ContextFixture {
 protected:
-    // The images have other seeds and, as the points of one sampler do not depend on the seed, other samples.
+    // Images differ in their seeds and, since one sampler's points do not depend on the seed, in their samples.
     static Deviation deviation(pt_context *context, const Given &given, const Blocks &exact, pt_render render) {
         std::vector<std::vector<float>> images;
         for (render.seed = 1; render.seed <= image_count; ++render.seed) {
@@ -108,7 +109,7 @@ private:
         const double black = 1e-12;
         const double deviation =
             (found.mean - exact.mean) / std::sqrt(found.variance / image_count + exact.variance + black);
-        return std::isfinite(deviation) ? deviation : std::numeric_limits<double>::infinity(); // no number is no match
+        return std::isfinite(deviation) ? deviation : std::numeric_limits<double>::infinity(); // NaN must not pass
     }
 };
 

@@ -1,4 +1,4 @@
-// A camera whose view is twice as high as it is deep: of 90 degrees, level, at rest.
+// A level camera at rest with a vertical field of view of 90 degrees: the view is twice as high as it is deep.
 #pragma once
 
 #include "lib/scene/camera.h"

@@ -7,8 +7,8 @@
 #include <memory>
 #include <optional>
 
-// Where the work is to be shared by several devices and there may be one alone, it is taken more than once. like_gpus:
-// CPUs are used as GPUs are.
+// Makes a context on several devices: each is used devices_of_each times, since there may be only one. like_gpus: uses
+// CPUs as if they were GPUs.
 inline pt_result create_shared(uint32_t devices_of_each, const pt_create_info &info, pt_context **context,
                                bool like_gpus = false, std::optional<uint32_t> adaptive_from = std::nullopt) {
     return pt::guard(pt::thread_last_error, [&] {
@@ -20,7 +20,7 @@ inline pt_result create_shared(uint32_t devices_of_each, const pt_create_info &i
     });
 }
 
-// With a tree from so many spheres on.
+// Makes a context that has a tree from so many spheres on.
 inline pt_result create_with_tree_from(uint32_t spheres, const pt_create_info *info, pt_context **context) {
     return pt::guard(pt::thread_last_error, [&] {
         pt::CreateSettings settings = pt::validated_create(*info);
