@@ -1,7 +1,7 @@
 """The symbols that libpt gives to programs, and its soname. Called by CTest as
 exported_symbols_test.py LIBRARY ARCHIVE HEADERS LIST C_COMPILER, where HEADERS is a folder.
 
-The list is the contract: a symbol that is gone breaks programs, one that is new is a promise to keep."""
+The list is the contract: a symbol that is missing breaks programs; a new one is a promise that must be kept."""
 
 import pathlib
 import re

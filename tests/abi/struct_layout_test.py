@@ -1,9 +1,9 @@
 """Sizes and offsets of the structs in the headers of a folder, against a table. Called by CTest as
-struct_layout_test.py HEADERS TABLE PACKAGE C_COMPILER; with the first and the last argument alone it prints the table.
+struct_layout_test.py HEADERS TABLE PACKAGE C_COMPILER; with only the first and the last argument it prints the table.
 
-A struct may grow at its tail, which adds lines to the table and changes the struct's size; whatever else differs breaks
-programs that were compiled before. The structs and enumerations of the Python package, whose folder has PACKAGE, are what
-PACKAGE/../generate.py writes, and its structs have the layout of the table too."""
+A struct may grow at its tail, which adds lines to the table and changes the struct's size; any other difference breaks
+programs that were compiled before. The structs and enumerations of the Python package in the folder PACKAGE must be
+what PACKAGE/../generate.py writes, and its structs have the layout of the table too."""
 
 import ctypes
 import importlib.util

@@ -1,5 +1,5 @@
-// Pixels of scenes whose radiance is known exactly (tests/data/analytic/README.md), each judged by the standard
-// deviation that a sample of it has and by the noise of batches. Run one alone with --gtest_filter=*contact*.
+// Pixels of scenes whose radiance is known exactly (tests/data/analytic/README.md), each judged by its known standard
+// deviation of a sample and by the noise of batches. Run one alone with --gtest_filter=*contact*.
 #include "tests/analytic/analytic_fixture.h"
 #include "tests/analytic/contexts.h"
 #include "tests/analytic/crop.h"

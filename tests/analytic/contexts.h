@@ -1,5 +1,5 @@
-// How contexts are made. The same tests are two programs: one makes contexts as every program does, the other so that
-// spheres are in a tree however few they are.
+// How contexts are made. The same tests make two programs: one makes contexts like any program, the other puts spheres
+// into a tree however few there are.
 #pragma once
 
 #include <pt/pt.h>

@@ -1,4 +1,4 @@
-// Images of every shape: each pixel covers what it should of an emitting sphere. Run alone with
+// Images of many shapes: each pixel shows the right share of an emitting sphere. Run alone with
 // --gtest_filter=ImageSize*.
 #include "tests/analytic/analytic_fixture.h"
 #include "tests/analytic/judge.h"

@@ -1,4 +1,4 @@
-// Whether the mean of samples agrees with an exact value. Used by the tests against exact values.
+// Judges whether the mean of samples agrees with an exact value. Used by the tests against exact values.
 #pragma once
 
 #include "tests/support/batch_fixture.h"

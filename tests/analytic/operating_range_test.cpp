@@ -1,5 +1,5 @@
-// How far the exact values hold: scales, distances, lamps, lobes and brightness up to where they break. It fails
-// nothing and takes minutes; it prints a table. Run it with
+// How far images agree with exact values: scales, distances, lamps, lobes and brightness up to where they stop. It
+// never fails, takes minutes, and prints a table. Run it with
 //     pt_analytic_tests --gtest_also_run_disabled_tests --gtest_filter=*OperatingRange*
 #include "tests/analytic/analytic_fixture.h"
 #include "tests/analytic/crop.h"

@@ -1,4 +1,4 @@
-// Contexts as every program makes them.
+// Contexts like those of any program.
 #include "tests/analytic/contexts.h"
 
 namespace analytic {

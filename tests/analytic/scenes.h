@@ -1,4 +1,4 @@
-// The scenes of tests/data/analytic and what their pixels are exactly. Used by the tests against exact values.
+// The scenes of tests/data/analytic and the exact values of their pixels. Used by the tests against exact values.
 #pragma once
 
 #include "cli/scene/scene_file.h"

@@ -1,5 +1,5 @@
-// Rays by way of spots (shaders/spots.glsl) change noise alone: in scenes that have all kinds of them the image is that
-// of directions by chance, which send none. Run alone with --gtest_filter=SpotAgreement*.
+// Rays through spots (shaders/spots.glsl) change only the noise: in scenes with all kinds of spots, the image converges
+// to that of an estimator that does not use them. Run alone with --gtest_filter=SpotAgreement*.
 #include "tests/analytic/analytic_fixture.h"
 #include "tests/support/batch_fixture.h"
 #include "tests/support/scene_of.h"

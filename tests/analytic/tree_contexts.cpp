@@ -1,4 +1,4 @@
-// Contexts with a tree from the first sphere on, which reach inside the library.
+// Contexts with a tree from the first sphere on. To make them takes the library's internals.
 #include "tests/analytic/contexts.h"
 #include "tests/support/shared_context.h"
 

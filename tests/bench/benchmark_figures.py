@@ -1,4 +1,4 @@
-"""What the benchmark says of what it measured: points, costs, ratios, and the report for people."""
+"""The results of the benchmark: points, costs, ratios, and the report for people."""
 
 import statistics
 

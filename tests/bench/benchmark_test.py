@@ -1,5 +1,5 @@
-"""Tests of the benchmark: how it reckons, that its scenes and references belong together, and that it runs. No clock is
-judged. PT_LIBRARY names the library."""
+"""Tests of the benchmark: its arithmetic, that its scenes and references belong together, and that it runs. No times
+are judged. PT_LIBRARY names the library."""
 
 import contextlib
 import io

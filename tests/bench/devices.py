@@ -1,4 +1,4 @@
-"""What pt says of devices."""
+"""Finds out what pt says about devices."""
 
 import json
 import subprocess

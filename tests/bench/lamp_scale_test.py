@@ -1,5 +1,5 @@
-"""Tests of lamp_scale.py: what its clouds are, and that it runs over a list and a tree of lamps. No clock is judged.
-Arguments: those of unittest; PT_LIBRARY names the library."""
+"""Tests of lamp_scale.py: its clouds, and that it runs with a list and a tree of lamps. No times are judged. Arguments:
+those of unittest; PT_LIBRARY names the library."""
 
 import json
 import math

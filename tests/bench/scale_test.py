@@ -1,4 +1,4 @@
-"""Tests of scale.py: how it reckons, what clouds are, and that it runs over a list and a tree of spheres. No clock is
+"""Tests of scale.py: its arithmetic and clouds, and that it runs with a list and a tree of spheres. No times are
 judged. Arguments: those of unittest; PT_LIBRARY names the library."""
 
 import json

@@ -1,5 +1,5 @@
-// Films of the shipped scenes against checksums in tests/data/film_checksums.txt, which a change that is not about
-// radiance leaves as they are: on a CPU, on a CPU that is used as GPUs are, and on two devices in short submissions.
+// Films of the shipped scenes against checksums in tests/data/film_checksums.txt, which only changes of radiance may
+// change: on a CPU, on a CPU used like a GPU, and on two devices with short submissions.
 #include "cli/scene/scene_file.h"
 #include "lib/base/digest.h"
 #include "tests/support/context_calls.h"

@@ -1,4 +1,4 @@
-// Tests of cli/base/environment: which variables widen_vectors() adds to which.
+// Tests of cli/base/environment: which variables widen_vectors() adds, given others.
 #include "cli/base/environment.h"
 #include "cli/base/exit_code.h"
 #include "tests/cli/temporary_folder.h"

@@ -1,4 +1,4 @@
-"""Tests of `pt render --error` and of what is told about the error of an image. Arguments: see command_line.py."""
+"""Tests of `pt render --error` and of what is said about the error of an image. Arguments: see command_line.py."""
 
 import json
 import signal

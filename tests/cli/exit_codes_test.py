@@ -1,5 +1,5 @@
 """Tests that every row of the table of exit codes in cli/README.md is true: for each code, command lines that end with
-it, and what they leave. Arguments: see command_line.py."""
+it, and the files that they leave. Arguments: see command_line.py."""
 
 import os
 import re

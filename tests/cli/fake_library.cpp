@@ -1,12 +1,11 @@
-// Owns a stand-in for libpt that needs no device and fails on demand, for tests of the command line: which exit code
-// follows, and what is left of the outputs. Linked into the program pt_with_fake_library, which the tests
-// in Python run. FAKE_PT_FAIL=function:result makes that function fail; FAKE_PT_SAMPLE_MS is the least length of one
-// sample; FAKE_PT_SIGNAL=number:submission makes the program get a signal in that submission, of which a sample takes
-// four, counted from 1 over all calls; FAKE_PT_FAIL=name:1 gives the device a name that is not UTF-8;
-// FAKE_PT_SCENE_SIGNAL=number makes it get one while it hands over the scene;
-// FAKE_PT_LOG=function makes a function send a line to the log. FAKE_PT_MESSAGE is the message of failures, and
-// FAKE_PT_RULE=subject,index,member,component,with,value,rule the rule that they are about. FAKE_PT_ALLOCATION=number
-// makes the program's allocation of that number fail, counted from the beginning of main.
+// A stand-in for libpt that needs no device and fails on demand, for tests of the command line: of exit codes, and of
+// the outputs that are left. Linked into the program pt_with_fake_library, which the tests in Python run.
+// FAKE_PT_FAIL=function:result makes that function fail; FAKE_PT_SAMPLE_MS is the least length of one sample;
+// FAKE_PT_SIGNAL=number:submission sends the program a signal in that submission, counted from 1 over all calls, four
+// to a sample; FAKE_PT_FAIL=name:1 gives the device a name that is not UTF-8; FAKE_PT_SCENE_SIGNAL=number sends it one
+// during pt_set_scene; FAKE_PT_LOG=function makes a function send a line to the log. FAKE_PT_MESSAGE is the message of
+// failures, and FAKE_PT_RULE=subject,index,member,component,with,value,rule the broken rule that they are about.
+// FAKE_PT_ALLOCATION=number makes the program's allocation of that number fail, counted from the start of main.
 #include <pt/accuracy.h>
 #include <pt/devices.h>
 #include <pt/errors.h>

@@ -1,4 +1,4 @@
-// Tests of cli/base/file: files that appear whole or not at all, and what killed programs leave.
+// Tests of cli/base/file: files that are written whole or not at all, and what killed programs leave.
 #include "cli/base/exit_code.h"
 #include "cli/base/file.h"
 #include "tests/cli/temporary_folder.h"

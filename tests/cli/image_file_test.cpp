@@ -1,4 +1,4 @@
-// Tests of cli/image_file and the module behind it: what is written is read back by OpenImageIO itself.
+// Tests of cli/image/image_file and the module behind it: OpenImageIO itself reads back what was written.
 
 #include "cli/base/exit_code.h"
 #include "cli/image/image_file.h"

@@ -1,4 +1,4 @@
-// Tests of how samples are dealt out.
+// Tests of cli/render/image_render: how samples are divided into steps.
 #include "cli/render/image_render.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-"""Signals while the program renders: exit codes, and what is left behind.
+"""Tests of signals while the program renders: exit codes, and files left behind.
 
 Arguments: see command_line.py.
 """

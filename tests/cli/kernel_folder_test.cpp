@@ -1,4 +1,4 @@
-// Tests of cli/kernel_folder: what drivers have made of kernels, kept in files.
+// Tests of cli/base/kernel_folder: kernels as drivers have compiled them, kept in files.
 #include "cli/base/kernel_folder.h"
 
 #include "tests/cli/temporary_folder.h"

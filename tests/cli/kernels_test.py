@@ -1,4 +1,4 @@
-"""Tests of the kernels that the program keeps from start to start.
+"""Tests of the kernels that the program keeps from run to run.
 
 Arguments: see command_line.py.
 """

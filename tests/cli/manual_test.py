@@ -1,6 +1,6 @@
 """Tests that cli/README.md says what the program does: its examples run, its tables have every command, option, key and
-exit code, and the ranges that it names are those that are kept. The first scene of README.md runs too. Arguments: see
-command_line.py."""
+exit code, and the ranges that it names are those that are enforced. The first scene of README.md runs, too. Arguments:
+see command_line.py."""
 
 import json
 import os

@@ -1,5 +1,5 @@
-"""Tests of `pt merge`: parts that were rendered apart have the bits of the whole, and what does not belong is told. Arguments:
-see command_line.py."""
+"""Tests of `pt merge`: parts that were rendered apart add up to the bits of the whole, and films that do not belong are
+refused with a reason. Arguments: see command_line.py."""
 
 import json
 import os

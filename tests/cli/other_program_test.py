@@ -1,4 +1,4 @@
-"""`pt NAME` runs `pt-NAME` of the PATH, and nothing that is not there on purpose.
+"""`pt NAME` runs `pt-NAME` from the PATH, and nothing that is there by accident.
 
 Arguments: see command_line.py.
 """

@@ -1,4 +1,4 @@
-// Tests of cli/parallel: every thing has its turn, once.
+// Tests of tasks in parallel (cli/base/tasks.h): each is run exactly once.
 #include "cli/base/tasks.h"
 
 #include <gtest/gtest.h>

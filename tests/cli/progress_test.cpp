@@ -1,4 +1,4 @@
-// Tests of cli/progress.
+// Tests of cli/base/progress.
 #include "cli/base/progress.h"
 
 #include <nlohmann/json.hpp>

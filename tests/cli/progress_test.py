@@ -1,4 +1,4 @@
-"""What the program says of its progress, to files and to terminals.
+"""Tests of the progress that the program prints, to files and to terminals.
 
 Arguments: see command_line.py.
 """

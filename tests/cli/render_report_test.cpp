@@ -1,4 +1,4 @@
-// Tests of cli/render_report.
+// Tests of cli/render/render_report.
 #include "cli/base/devices.h"
 #include "cli/render/render_report.h"
 

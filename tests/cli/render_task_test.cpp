@@ -1,4 +1,5 @@
-// Tests of cli/render_task: the rank of command line, scene file and defaults, and who is to blame.
+// Tests of cli/render/render_task: the precedence of command line, scene file and defaults, and which of them is
+// blamed.
 #include "cli/render/render_task.h"
 
 #include <gtest/gtest.h>

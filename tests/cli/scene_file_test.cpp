@@ -1,4 +1,4 @@
-// Tests of cli/scene_file, with json_items, scene_reader and the table of keys behind it.
+// Tests of cli/scene/scene_file, with json_items, scene_reader and the table of keys behind it.
 #include "cli/scene/scene_file.h"
 
 #include "cli/base/exit_code.h"

@@ -1,4 +1,4 @@
-// Tests of cli/scene/scene_override: what takes the place of values of the scene, and animations.
+// Tests of cli/scene/scene_override: values that replace those of the scene, and animations.
 #include "cli/base/exit_code.h"
 #include "cli/render/render_options.h"
 #include "cli/scene/scene_file.h"

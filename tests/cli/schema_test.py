@@ -1,5 +1,5 @@
-"""Tests of `pt schema` against the scenes here, and against what the program reads and refuses: a scene is changed in
-each of its places, and program and schema have to agree.
+"""Tests of `pt schema` against the scenes here, and against what the program reads and refuses: scenes are changed in
+every place, and program and schema must agree.
 
 Arguments: see command_line.py.
 """

@@ -1,5 +1,5 @@
-// Tests of cli/selftest: the judgement passes what is right and fails what is wrong, and the report says so. Whether
-// the scenes are right is tested where there is a device, by selftest_test.py.
+// Tests of cli/selftest: right images pass and wrong ones fail, and the report says so. selftest_test.py tests on a
+// device whether the scenes are right.
 #include "cli/selftest/selftest.h"
 
 #include <gtest/gtest.h>

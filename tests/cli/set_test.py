@@ -1,4 +1,4 @@
-"""Tests of `pt render --set`: values in place of the scene's reach the picture, and mistakes are told as the option's.
+"""Tests of `pt render --set`: values that replace the scene's reach the picture, and mistakes are blamed on the option.
 
 Arguments: see command_line.py.
 """

@@ -1,4 +1,4 @@
-// Which files a picture is made of, and when they count as changed.
+// Tests of cli/render/source_watch: which files a picture is made from, and when they count as changed.
 #include "cli/render/source_watch.h"
 #include "tests/cli/temporary_folder.h"
 

@@ -1,5 +1,5 @@
-"""Tests of what ends a rendering, or looks at it: samples, time, target error and signals, with the exit code of each, and
-the picture so far. Arguments: see command_line.py."""
+"""Tests of what ends a rendering (samples, time, target error, signals), with the exit code of each, and of previews.
+Arguments: see command_line.py."""
 
 import json
 import os

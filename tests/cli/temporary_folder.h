@@ -1,5 +1,4 @@
-// Owns an empty folder for the length of a test.
-// Called by the tests that write files.
+// An empty folder that lives as long as a test. Used by the tests that write files.
 #pragma once
 
 #include <filesystem>

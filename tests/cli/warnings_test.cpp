@@ -1,4 +1,4 @@
-// Tests of cli/warnings: each rule, on both sides of its bound.
+// Tests of cli/render/warnings: each rule, on both sides of its bound.
 #include "cli/render/warnings.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
-"""Tests of the warnings of `pt render`: where they are said, and where not. Arguments: see command_line.py.
+"""Tests of the warnings of `pt render`: where they are printed, and where not. Arguments: see command_line.py.
 
-What they are about is tested in warnings_test.cpp."""
+warnings_test.cpp tests what causes them."""
 
 import json
 import os

@@ -1,4 +1,4 @@
-"""What the tests of `pt render --watch` share: a program that goes on running, and what it says meanwhile."""
+"""Helpers of the tests of `pt render --watch`: a program that keeps running, and its output meanwhile."""
 
 import json
 import os

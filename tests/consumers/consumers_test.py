@@ -1,7 +1,7 @@
 """Programs of other people, built from the installed library by what its users have: pkg-config, CMake, Python,
 Debian's packages. Called by CTest as consumers_test.py STEP with the paths below; the step `install` comes before the others.
 
-What is installed is moved before anybody looks at it, and no program finds the build folder."""
+The installed files are moved before they are used, and no program finds the build folder."""
 
 import argparse
 import json

@@ -1,4 +1,4 @@
-// pt_get_accuracy by its contract: counts, rows, and a context that stays as it was.
+// The contract of pt_get_accuracy: counts, rows, and a context that stays as it was.
 #include "lib/kernel/accuracy.h"
 #include "tests/device/api_fixture.h"
 

@@ -1,5 +1,5 @@
-// The growth rule of structs on a real device, for each struct and each size that it can have had: callers compiled
-// with older and newer headers get what the struct would say with zeros in place of what they do not know.
+// The growth rule of structs on a real device, for each struct and each size that it may have had: for callers compiled
+// with older or newer headers, fields that one side does not know count as zeros.
 #include "tests/device/api_fixture.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // The coverage of pixels, through pt.h. Where every surface shines with a radiance of 1 and nothing is reflected, the
-// mean radiance is the share of the samples that meet one: the sums are exact, so that coverage has to have the same
-// bits, of whatever samples. Run alone with --gtest_filter=Coverage*.
+// mean radiance is the share of the samples that meet one: sums are exact, so coverage must have the same bits,
+// whatever the samples. Run alone with --gtest_filter=Coverage*.
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"

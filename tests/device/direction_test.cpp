@@ -1,5 +1,5 @@
-// Random directions, drawn on the device by the shipped functions: the right distribution, by chi-square. Each by
-// itself is compared in tests/accuracy/. Run alone with --gtest_filter=Direction*.
+// Random directions, drawn on the device by the shipped functions: the right distribution, by chi-square.
+// tests/device/accuracy/ compares single directions. Run alone with --gtest_filter=Direction*.
 #include "directions.spv.h"
 #include "tests/device/probe.h"
 #include "tests/support/statistics.h"

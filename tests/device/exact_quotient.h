@@ -1,4 +1,4 @@
-// Whether floats are the quotients of sums that they should be: by exact whole numbers, and long double.
+// Checks whether floats are the correct quotients of sums, by exact integers and long double.
 #pragma once
 
 #include "lib/film/quotient.h"

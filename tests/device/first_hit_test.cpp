@@ -1,5 +1,5 @@
 // What camera rays meet first, through pt.h: depth, normal, albedo and object of every pixel against long double, and
-// that reading them is nothing to the samples. Run alone with --gtest_filter=FirstHit*.
+// that reading them does not affect the samples. Run alone with --gtest_filter=FirstHit*.
 #include "lib/film/pixel_format.h"
 #include "tests/device/first_hit_scenes.h"
 #include "tests/support/context_calls.h"

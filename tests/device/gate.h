@@ -1,4 +1,4 @@
-// Work that a device cannot end before the test lets it, however fast the one and however slow the other is.
+// Work that a device cannot finish before the test allows it, however fast the device and slow the test.
 #pragma once
 
 #include "lib/vulkan/api.h"

@@ -1,4 +1,4 @@
-// pt_prepare, and kernels that the caller keeps from context to context, by their contract.
+// The contract of pt_prepare, and of kernels that the caller keeps from context to context.
 #include "tests/device/api_fixture.h"
 #include "tests/support/context_calls.h"
 #include "tests/support/coursework_scene.h"

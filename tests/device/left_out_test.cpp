@@ -1,4 +1,4 @@
-// What the kernel leaves out where a scene has no need of it changes no picture: the handling of insides where the
+// Code that the kernel omits because a scene does not need it changes no picture: the handling of insides where the
 // camera is in no sphere, planes as obstacles where no lamp is behind one, and as lights where none emits; the sides of
 // vertices and the ends of shadow rays.
 #include "tests/device/kernel_render.h"

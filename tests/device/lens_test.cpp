@@ -1,5 +1,5 @@
-// What a camera with a lens sees, of random scenes beside a path tracer of its own in double, and where all is known.
-// Run alone with --gtest_filter=Lens*.
+// Images through a lens: of random scenes against an independent path tracer in double, and of scenes that are known
+// exactly. Run alone with --gtest_filter=Lens*.
 #include "tests/support/light_in_double.h"
 #include "tests/support/scene_of.h"
 #include "tests/support/shared_context.h"

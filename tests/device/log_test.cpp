@@ -1,4 +1,4 @@
-// What a context says to its log without being asked for validation.
+// What a context writes to its log without validation.
 #include "tests/device/api_fixture.h"
 
 #include <pt/devices.h>

@@ -1,4 +1,4 @@
-// Samples that are under way between calls: pt_start, pt_poll and pt_cancel by their contract.
+// Samples that are under way between calls: the contract of pt_start, pt_poll and pt_cancel.
 #include "tests/device/api_fixture.h"
 #include "tests/device/every_call.h"
 #include "tests/support/context_calls.h"

@@ -1,6 +1,6 @@
-// Images of random scenes beside those of a path tracer of their own in double: trees, parallel rays, what is hidden
-// from the camera, nested balls, motion, spots, twins, all estimators and samplers. PT_TEST_SCENES says of how many; by
-// default one of each kind in a tree and one in a list. Run alone with --gtest_filter=RandomLight*.
+// Images of random scenes against those of an independent path tracer in double: trees, parallel rays, what is hidden
+// from the camera, nested balls, motion, spots, twins, all estimators and samplers. PT_TEST_SCENES is the number of
+// scenes; by default one of each kind in a tree and one in a list. Run alone with --gtest_filter=RandomLight*.
 #include "tests/support/batch_fixture.h"
 #include "tests/support/light_in_double.h"
 #include "tests/support/shared_context.h"

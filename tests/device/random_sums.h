@@ -1,4 +1,4 @@
-// Sums of samples as films hold them, random and at the edges: what kernels that read films are tested with.
+// Sums of samples as films hold them, random ones and edge cases, for tests of kernels that read films.
 #pragma once
 
 #include "lib/film/pixel_sums.h"

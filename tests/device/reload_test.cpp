@@ -1,4 +1,4 @@
-// pt_reload_shaders by its contract: kernels are exchanged on success alone, and the samples are those of one kernel.
+// The contract of pt_reload_shaders: kernels are replaced only on success, and all samples are of one kernel.
 #include "lib/render/renderer.h"
 #include "lib/scene/scene.h"
 #include "tests/device/api_fixture.h"

@@ -1,4 +1,4 @@
-// The caller's rounding mode: it changes no bit, and is as before after every call.
+// The caller's rounding mode: it changes no bit of an image, and every call restores it.
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"

@@ -1,4 +1,4 @@
-// What the device makes of Sobol's points: nets in every pixel, each shifted on its own. Run alone with
+// Sobol points as the device makes them: nets in every pixel, each scrambled on its own. Run alone with
 // --gtest_filter=*Sobol*.
 #include "tests/device/sample_numbers.h"
 

@@ -1,5 +1,5 @@
-// What pt_set_scene tells while it works, what stopping it leaves, and scenes that follow each other with a tree that
-// is kept: films of a context that has seen others before are those of one that has not.
+// The progress of pt_set_scene, what is left when it is stopped, and successive scenes that keep a tree's shape: a
+// context that had other scenes before makes the same films as a new one.
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/scene_of.h"

@@ -1,4 +1,4 @@
-// A copy of the kernels' GLSL sources that a test may edit, gone at its end.
+// A copy of the kernels' GLSL sources that a test may edit; removed when the test ends.
 #pragma once
 
 #include "tests/cli/temporary_folder.h"

@@ -1,5 +1,5 @@
-// Kernels compiled from GLSL while the program runs: the words that the build embeds, and what is said of files that
-// do not compile. Without a device.
+// Kernels compiled from GLSL while the program runs: they equal the words that the build embeds; and messages about
+// files that do not compile. Without a device.
 #include "lib/kernel/shader_source.h"
 
 #include "lib/base/error.h"

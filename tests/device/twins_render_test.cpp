@@ -1,5 +1,5 @@
-// Scenes in which surfaces stand twice, exactly or nearly, send the light of those in which each stands once. Run alone
-// with --gtest_filter=RenderedTwins*. Random ones are among the scenes of random_light_test.cpp.
+// Scenes that contain surfaces twice, exactly or nearly, have the same light as scenes that contain each once. Run
+// alone with --gtest_filter=RenderedTwins*. Random ones are among the scenes of random_light_test.cpp.
 #include "tests/device/kernel_render.h"
 #include "tests/invariance/invariance_scene.h"
 #include "tests/support/batch_fixture.h"

@@ -1,5 +1,5 @@
-// Tests on a real device beneath pt.h: instance and device, and what the validation layer says fails the test; it is
-// off with PT_TEST_NO_VALIDATION set. PT_TEST_DEVICE names another device than the best.
+// Tests on a real device beneath pt.h: an instance and a device. Any message of the validation layer fails the test;
+// PT_TEST_NO_VALIDATION turns the layer off. PT_TEST_DEVICE names a device other than the best.
 #pragma once
 
 #include "lib/vulkan/device.h"

@@ -1,4 +1,4 @@
-// Work that is handed to a device: how it is waited for, and what is left where it fails.
+// Work that is submitted to a device: waiting for it, and what is left if it fails.
 #include "lib/vulkan/buffer.h"
 #include "lib/vulkan/device.h"
 #include "tests/device/vulkan_fixture.h"

@@ -1,5 +1,5 @@
-// Samples whose walks an invocation ends one after the other, against those that it takes step by step
-// (tree_path.glsl): all bits of films, where a driver rounds as the kernel is written.
+// Samples whose walks through the tree an invocation finishes one by one, against those that it takes step by step
+// (tree_path.glsl): all bits of films, if the driver rounds as the kernel is written.
 #include "tests/device/kernel_render.h"
 #include "tests/device/tree_scenes.h"
 

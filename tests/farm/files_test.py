@@ -1,4 +1,4 @@
-"""Parts as plain files, by the commands of lib/python/FARM.md word by word but for the scene's size: their sum is the
+"""Parts as plain files, by the commands of lib/python/FARM.md, verbatim except for the scene's size: their sum is the
 picture of one process. Arguments: the program pt, and FARM.md. GNU parallel is tried where it is installed."""
 
 import os

@@ -1,4 +1,4 @@
-"""Parts of a rendering, without workers: what is missing, and how it is cut."""
+"""Parts of a rendering, without workers: which are missing, and how they are cut."""
 
 import unittest
 

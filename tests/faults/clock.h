@@ -1,6 +1,5 @@
-// The library's clock in the fault tests, which stands still but for what the tests let take time: so no submission
-// is overdue because the machine is slow, slices are cut in the same way each time, and a wait of seconds for a device
-// that hangs takes none.
+// The library's clock in the fault tests. It advances only when the tests say so: no submission is overdue because the
+// machine is slow, slices are always cut in the same way, and waiting seconds for a device that hangs takes no time.
 #pragma once
 
 #include <chrono>

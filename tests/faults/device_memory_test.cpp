@@ -1,4 +1,4 @@
-// Device memory of which there is too little, as the device says beforehand: drivers may promise more.
+// Too little device memory, as the device itself states: drivers may promise more.
 #include "tests/faults/vulkan_calls.h"
 #include "tests/support/context_calls.h"
 

@@ -1,4 +1,4 @@
-// What is kept and how it is found again; see kept_objects.h.
+// Which objects are kept, and how they are found again; see kept_objects.h.
 #include "tests/faults/kept_objects.h"
 
 #include <algorithm>

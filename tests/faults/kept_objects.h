@@ -1,5 +1,5 @@
-// Vulkan's instance, devices and pipelines, kept from life to life: the library makes and destroys them as ever, but
-// the driver, which takes a quarter of a second for that, makes each once.
+// Vulkan's instance, devices and pipelines, kept from life to life: the library creates and destroys them as usual, but
+// the driver, which takes a quarter of a second for that, makes each only once.
 #pragma once
 
 #include <vulkan/vulkan_core.h>

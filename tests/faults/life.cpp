@@ -1,4 +1,4 @@
-// The calls of a life and what is expected of them; see life.h.
+// The calls of a life, and what they must do; see life.h.
 #include "tests/faults/life.h"
 
 #include "tests/faults/allocations.h"

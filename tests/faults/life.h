@@ -1,5 +1,5 @@
-// The life of a context, call by call, in which each call may fail once: then the contract of pt.h is expected of it,
-// and the call is made again. Told by the tests of host memory and of Vulkan calls.
+// The life of a context, call by call. Each call may fail once: then the contract of pt.h for failures is checked, and
+// the call is made again. Used by the tests of host memory and of Vulkan calls.
 #pragma once
 
 #include <pt/pt.h>

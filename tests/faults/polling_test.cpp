@@ -1,4 +1,4 @@
-// What pt_start builds so that pt_poll builds nothing: told by the pipelines that Vulkan is asked for.
+// pt_start builds everything, so that pt_poll builds nothing, as the pipelines that Vulkan is asked for show.
 #include "tests/faults/clock.h"
 #include "tests/faults/vulkan_calls.h"
 #include "tests/support/image_target.h"

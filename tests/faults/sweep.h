@@ -1,4 +1,4 @@
-// Lives in which something happens at the first place where it may, at the second, and so on, until there is none.
+// Lives in which a fault happens at the first possible place, then at the second, and so on until there is none.
 #pragma once
 
 #include "tests/faults/life.h"

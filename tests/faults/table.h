@@ -1,4 +1,4 @@
-// What was tried and what came of it, printed as a table.
+// A printed table of what was tried and what happened.
 #pragma once
 
 #include <cstdio>

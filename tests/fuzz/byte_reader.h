@@ -1,5 +1,5 @@
-// The fuzzer's bytes as a sequence of values. Where the bytes are used up every value is 0, so a prefix of an input is
-// an input. Used by all that makes scenes from bytes.
+// The fuzzer's bytes as a sequence of values. After the last byte every value is 0, so a prefix of an input is an
+// input. Used by everything that makes scenes from bytes.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What both flavours have in common; see examine.h.
+// The common part of both variants; see examine.h.
 #include "tests/fuzz/examine.h"
 
 #include <algorithm>

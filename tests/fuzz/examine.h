@@ -1,5 +1,5 @@
-// What must hold for every input, in two flavours: examine_numbers.cpp (host, no device) and examine_image.cpp
-// (rendered). A program links one of them. What does not hold ends the process.
+// Checks what must hold for every input, in two variants: examine_numbers.cpp (host, no device) and examine_image.cpp
+// (rendered). A program links one of them. A check that fails ends the process.
 #pragma once
 
 #include "tests/fuzz/input.h"

@@ -1,5 +1,5 @@
-// Films added to a context, which then either has the film that it had, or sums that it can go on with. The bytes are
-// what follows the lines of the context's identity, which differ from device to device.
+// Films added to a context, which afterwards has either its earlier film or sums with which it can go on. The fuzzer's
+// bytes follow the lines of the context's identity, which differ from device to device.
 #include "tests/fuzz/film_input.h"
 #include "tests/fuzz/require.h"
 #include "tests/support/image_target.h"

@@ -1,5 +1,4 @@
-// What one run hands to the library. Made by the targets from bytes or a scene file, varied by neighbours, judged by
-// examine.h.
+// The input of one run of the library. Made by the targets from bytes or a scene file, checked by examine.h.
 #pragma once
 
 #include "tests/fuzz/byte_reader.h"

@@ -1,4 +1,4 @@
-// NPY files from bytes: what is accepted has all of its numbers, and what is not is refused in words that name the
+// NPY files from bytes: accepted files have all of their numbers, and others are refused with a message that names the
 // file.
 #include "tests/fuzz/mutation.h"
 #include "tests/fuzz/require.h"

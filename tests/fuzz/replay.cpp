@@ -1,7 +1,7 @@
 // Runs a target without libFuzzer, for any compiler:
 //     replay CORPUS_FOLDER COUNT
-// takes every file of the corpus and then COUNT changes of them, the same each time. An input that ends the process is
-// left as ./failed-input.
+// runs every file of the corpus and then COUNT mutations of them, the same each time. An input that ends the process is
+// kept as ./failed-input.
 #include "tests/fuzz/mutation.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What a target expects to hold. Used by all targets.
+// Ends the process if a condition does not hold. Used by all targets.
 #pragma once
 
 #include <string_view>

@@ -1,4 +1,4 @@
-/* pt.h is C: this program is compiled as strict C99 and goes through the four verbs. Exit status 0 if all went well. */
+/* pt.h is C: this program is compiled as strict C99, and renders an image. Exit status 0 if all went well. */
 #include <pt/accuracy.h>
 #include <pt/pt.h>
 

@@ -1,5 +1,5 @@
 // The headers as C++, and their binary interface: numbers and types that programs were compiled with must never change.
-// Sizes and offsets are in abi/struct_layout.txt.
+// Sizes and offsets are in tests/abi/struct_layout.txt.
 #include <pt/accuracy.h>
 #include <pt/async.h>
 #include <pt/denoise.h>

@@ -1,5 +1,5 @@
-// Which tiles take more samples, on films whose errors are known: a tile with the variance v has the square error v /
-// n.
+// Which tiles take more samples, on films whose errors are known: with n samples, a tile of variance v has the squared
+// error v / n.
 #include "lib/film/adaptive_rule.h"
 
 #include <gtest/gtest.h>

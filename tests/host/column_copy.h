@@ -1,4 +1,4 @@
-// A column of numbers at any address and distance. Used by the tests of spheres that are given by columns.
+// A column of numbers at any address and with any stride. Used by the tests of spheres that are given by columns.
 #pragma once
 
 #include <pt/pt.h>

@@ -1,4 +1,4 @@
-// The bytes of films: what was written before stays readable, and what is not a film is refused.
+// The bytes of films: films of earlier versions stay readable, and anything else is refused.
 #include "lib/film/film_bytes.h"
 
 #include "lib/base/digest.h"

@@ -1,5 +1,5 @@
-// The end of exceptions that have no message; names of results; the log. What other exceptions become is seen in
-// faults.
+// The end of exceptions that have no message; names of results; the log. tests/faults/ tests what other exceptions
+// become.
 #include "lib/api/guard.h"
 #include "lib/base/log.h"
 

@@ -1,4 +1,4 @@
-// Surfaces that the camera does not see: where they keep paths, and what the kernel is told of them.
+// Surfaces that the camera does not see: where they confine paths, and what the kernel is told about them.
 #include "lib/kernel/gpu_scene.h"
 #include "lib/kernel/hidden_surfaces.h"
 #include "lib/kernel/scene_features.h"

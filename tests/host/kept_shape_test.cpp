@@ -1,5 +1,5 @@
-// Trees that have the shape of another: their words are those of a tree of this shape, they are what a new tree is but
-// for the order, and there is none where a new one is called for.
+// Trees that keep the shape of another: their words are those of a tree of this shape, they differ from a new tree only
+// in the order of spheres, and none is made if a new tree is needed.
 #include "tests/host/heap_tree.h"
 
 #include "lib/kernel/prepared_scene.h"

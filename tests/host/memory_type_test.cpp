@@ -1,4 +1,4 @@
-// The choice among invented types of memory, and what becomes of a heap that is full.
+// The choice among invented types of memory, and heaps that are full.
 #include "lib/vulkan/memory_type.h"
 
 #include "tests/support/expected_error.h"

@@ -1,4 +1,4 @@
-// Whether points are nets in base 2, and how much of their binary digits numbers have in common. Used by the tests of
+// Checks whether points are nets in base 2, and how many binary digits numbers have in common. Used by the tests of
 // point sequences and their table.
 #pragma once
 

@@ -1,4 +1,4 @@
-// When a scene gets a kernel of its own.
+// Tests of when a scene gets its own kernel.
 #include "lib/kernel/own_kernel_clock.h"
 
 #include <gtest/gtest.h>

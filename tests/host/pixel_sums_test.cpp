@@ -1,4 +1,4 @@
-// What sums of consecutive pixels say: what quotient.h says of each.
+// The quotients of sums of consecutive pixels are those of quotient.h for each pixel.
 #include "lib/film/pixel_sums.h"
 
 #include "lib/film/quotient.h"

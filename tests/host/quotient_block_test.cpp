@@ -1,4 +1,4 @@
-// Quotients of eight pixels at once: those of quotient.h, which are compared with exact ones elsewhere.
+// Quotients of eight pixels at once: they equal those of quotient.h, which other tests compare with exact ones.
 #include "lib/film/quotient_block.h"
 
 #include "lib/film/quotient.h"

@@ -1,4 +1,4 @@
-// What is left of SPIR-V whose specialization constants are known.
+// What remains of SPIR-V once its specialization constants are known.
 #include "lib/kernel/specialised_code.h"
 
 #include "lib/kernel/scene_features.h"

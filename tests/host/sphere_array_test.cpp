@@ -1,4 +1,4 @@
-// Spheres that are given by columns are those that structs would give, whatever the columns' types and distances.
+// Spheres given by columns equal those given by structs, whatever the columns' types and strides.
 #include "lib/scene/scene.h"
 #include "lib/scene/scene_digest.h"
 #include "tests/host/column_copy.h"

@@ -1,5 +1,5 @@
-// The tree buffer: boxes hold what is below them at all times, lamps and twins are in the scene's order, and what is
-// known of a camera errs on the safe side.
+// The tree buffer: boxes hold what is below them at all times, lamps and twins are in the scene's order, and facts
+// about a camera err on the safe side.
 #include "tests/host/heap_tree.h"
 
 #include <gtest/gtest.h>

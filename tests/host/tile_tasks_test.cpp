@@ -1,4 +1,4 @@
-// What tiles take: in any order and cut in any way, all that they lack and nothing twice.
+// The samples that tiles take: in any order and cut in any way, everything that they lack and nothing twice.
 #include "lib/render/tile_tasks.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// How parts of a tree are divided: nothing is lost, few spheres as the best of all cuts does it, many about so, and as
-// well by a sample as by all.
+// How parts of a tree are divided: nothing is lost; for few spheres by the best of all cuts, for many nearly so; and a
+// sample of them is as good as all.
 #include "lib/tree/binned_cut.h"
 #include "lib/tree/swept_cut.h"
 

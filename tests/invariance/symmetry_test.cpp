@@ -1,5 +1,5 @@
-// Changes of a scene that must keep its image but not its noise: the order of surfaces, a mirror, a rotation. Renders
-// with different seeds tell the noise. Run alone with --gtest_filter=Symmetry*.
+// Changes of a scene that must keep its image but not its noise: the order of surfaces, a mirror, a rotation. The noise
+// is estimated from renders with different seeds. Run alone with --gtest_filter=Symmetry*.
 #include "tests/invariance/invariance_scene.h"
 #include "tests/support/batch_fixture.h"
 

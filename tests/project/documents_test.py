@@ -1,6 +1,6 @@
-"""Tests of what the project's pages say of itself: links lead somewhere, names and numbers are those of the code, and
-the library's page names every function; and that comments name files that are there. Arguments: the project's
-folder."""
+"""Tests of what the project's pages say about the project: links lead somewhere, names and numbers are those in the
+code, and the library's page names every function. Also tests that files named in comments exist. Arguments: the
+project's folder."""
 
 import pathlib
 import re

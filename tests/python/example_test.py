@@ -1,5 +1,5 @@
-"""The package's example runs, and writes what it says; so do the programs in its pages. Arguments: the project's
-folder."""
+"""The package's example runs and writes the files that it names; so do the programs in its pages. Arguments: the
+project's folder."""
 
 import contextlib
 import pathlib

@@ -1,5 +1,5 @@
-"""Progress, and what is raised while the library is at work: it stops the call, comes out of it, and leaves a context
-that goes on as if nothing had been."""
+"""Progress, and exceptions while the library is at work: they stop the call, which raises them and leaves a usable
+context."""
 
 import signal
 import sys

@@ -1,4 +1,4 @@
-"""pt.render, the camera that it fits, what is read into whose memory, and errors that are asked for."""
+"""pt.render, the camera that it fits, images read into the caller's arrays, and target errors."""
 
 import unittest
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""Scenes of Tachyon: every section by exact values, what its own pictures show, and files that are damaged."""
+"""Scenes of Tachyon: every section by exact values, agreement with Tachyon's own pictures, and damaged files."""
 
 import json
 import math

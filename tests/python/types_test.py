@@ -1,4 +1,4 @@
-"""mypy --strict accepts the package and its example, and knows the types of what it gives. Arguments: the package's
+"""mypy --strict accepts the package and its example, and knows the types of its results. Arguments: the package's
 folder."""
 
 import os

@@ -1,4 +1,4 @@
-// The error that a render states without a reference, against its error by converged references.
+// The error that a rendering states without a reference, against its true error by converged references.
 #include "lib/film/error_estimate.h"
 #include "lib/film/film_parts.h"
 #include "tests/render/reference_image.h"

@@ -1,10 +1,9 @@
 // Changes the scene of one context as often as is wanted, and looks at the process's memory:
 //   pt_soak [scenes]        1000 if not said
-// What is kept from scene to scene, and given back with the context, no leak check finds; those of contexts themselves
-// are found by the tests of faults. A growth of the smallest piece that malloc gives, 32 bytes with its header, in each
-// round is to be found: so much the heap may grow, and by four pages in all for what the driver's threads keep, as they
-// happen to run. Growth is taken from the end of the first quarter, when caches are filled. Exit code 1: memory grew
-// more.
+// No leak check finds what is kept from scene to scene and freed with the context; leaks of contexts themselves are
+// found by tests/faults/. This must detect a growth of malloc's smallest piece, 32 bytes with its header, in each
+// round: the heap may grow by less than that a round, plus four pages in all for what the driver's threads keep by
+// chance. Growth counts from the end of the first quarter, when caches are filled. Exit code 1: memory grew more.
 #include <pt/pt.h>
 #include <pt/stats.h>
 

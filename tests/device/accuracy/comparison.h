@@ -1,4 +1,4 @@
-// The errors of a function over many inputs: held against their bounds, and printed as a row of the table of accuracy.
+// The errors of a function over many inputs: compared with their bounds, and printed as a row of the table of accuracy.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -1,4 +1,5 @@
-// The elementary functions on the device, by the library's own measurement, and that the measurement sees errors.
+// The elementary functions on the device, by the library's own measurement, and whether that measurement detects
+// errors.
 #include "lib/kernel/accuracy.h"
 
 #include "accuracy_skips.spv.h"
