@@ -125,7 +125,9 @@ TEST_F(Lens, IsAsWideAndFocusedAsStated) {
 // its light is in that pixel, with as much of it as the ball covers, however wide the lens; a pixel's width out of
 // focus it is not. The image is 24 x 16 pixels and 16 high at the focus, so that a pixel's side is 1 there.
 TEST_F(Lens, IsSharpToThePixelInFocus) {
-    for (const double distance : {80.0, 8e6}) // the latter starts ahead of the lens
+    // The latter starts ahead of the lens. Rays then miss their point by up to 2^-24 of the way that is left, here 2 R:
+    // 0.001 of a pixel.
+    for (const double distance : {80.0, 8e4})
         for (const double beyond : {0.0, 5.0}) {
             Given given;
             given.planes.clear();
@@ -246,7 +248,12 @@ TEST_F(Lens, WithoutADiameterIsAPinhole) {
         };
         read(pinhole, first_hits);
         read(lens, through_lens);
-        EXPECT_EQ(through_lens, first_hits) << quantity;
+        // Of two kernels, each of which its driver may round in its own way.
+        for (std::size_t i = 0; i < first_hits.size(); ++i) {
+            const bool is_equal = through_lens[i] == first_hits[i]; // as infinite depths are
+            EXPECT_TRUE(is_equal || std::abs(through_lens[i] - first_hits[i]) <= 1e-6 * std::max(1.0F, first_hits[i]))
+                << quantity << ": " << through_lens[i] << " and " << first_hits[i];
+        }
     }
     EXPECT_NE(render_image(context(), lens.scene(), lens.camera, render, 4), of_pinhole);
 }
