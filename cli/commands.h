@@ -1,5 +1,4 @@
-// The commands of the program, each in a folder of its own. Each function adds its command, with its options, to the
-// program.
+// The commands of the program, each in a folder of its own. Each function adds one command with its options.
 #pragma once
 
 #include "cli/base/options.h"

@@ -36,8 +36,7 @@ ImageWindow chosen_window(const std::optional<Rectangle> &crop, const pt_render 
     return window;
 }
 
-// The most memory that this process could ever have: RAM and swap space, within its limits, whatever other processes
-// use.
+// The most memory that this process could ever have: RAM and swap space, within its limits, whatever others use.
 std::uint64_t most_bytes() {
     // The limit of a container, as seen from inside (Linux, cgroup v2). The file says "max" if there is no limit, and
     // does not exist outside containers.

@@ -28,8 +28,7 @@ std::optional<std::string> state_of(const fs::path &path) {
                   status.st_dev, ":", status.st_ino);
 }
 
-// The clock that stamps files ticks every few milliseconds, so a file just changed may change again without a new
-// stamp.
+// The clock that stamps files ticks every few milliseconds: a file just changed may change again within one tick.
 bool is_fresh(const fs::path &path) {
     std::error_code error;
     const fs::file_time_type written = fs::last_write_time(path, error);

@@ -46,8 +46,7 @@ std::vector<SelftestScene> selftest_scenes();
 // The scene with the longest paths.
 SelftestScene lamp_in_a_ball();
 
-// Scenes whose samples are cosines of the directions that kernels sample. They test means, second moments, and the
-// share on each side.
+// Scenes whose samples are cosines of sampled directions. They test means, second moments and the share on each side.
 std::vector<SelftestScene> direction_scenes();
 
 struct SelftestReport {

@@ -131,8 +131,7 @@ SelftestScene sharp_lobe() {
 
 // A lamp of radius 1 recedes along the axis, from distance a to b. It fills pi / (z^2 - 1) of the image plane at
 // distance 1: on average pi / (b - a) times the integral of 1 / (z^2 - 1), which is log((z - 1) / (z + 1)) / 2. It is
-// always within the image, a square of side 2 tan(fov / 2) > 2 / sqrt(a^2 - 1). The noise: a share p of the samples is
-// 1, the others 0.
+// always within the image, a square of side 2 tan(fov / 2) > 2 / sqrt(a^2 - 1). Noise: a share p of the samples is 1.
 SelftestScene receding_lamp() {
     const SceneFile scene = scene_of(64, 64, R"(, "max_path_length": 1}, "materials": {"lamp": {"emission": 1}},
         "camera": {"position": [0, 0, 0], "look_at": [0, 0, -1], "vertical_fov": 29.2},
@@ -155,8 +154,7 @@ struct DirectionKind {
 };
 
 // A floor under a sky of radiance 1, seen from straight above by parallel rays, one sample to a pixel: with the sampler
-// "random", so that samples are independent. more_planes block all directions except the given share, independently of
-// their cosines.
+// "random", so that samples are independent. more_planes block all but a share of the directions, whatever the cosine.
 SelftestScene direction_scene(const DirectionKind &kind, const std::string &what, int exponent,
                               const std::string &more_planes, double share) {
     const auto moment = [&](int e) {
@@ -206,8 +204,7 @@ SelftestCheck SelftestScene::judge(std::span<const float> radiance) const {
 // A wall of albedo rho, a sphere of radius R, around a black lamp of radius r. A direction from the wall, sampled by
 // the cosine, finds the lamp with probability q = (r / R)^2, otherwise the wall again: paths of L vertices carry
 //     rho Le q sum_{j <= L - 2} (rho (1 - q))^j.
-// The noise: with probability q a path ends on the lamp and lacks the rest, so its standard deviation is less than
-// sqrt(q) of the value.
+// The noise: with probability q a path ends on the lamp and lacks the rest: a deviation below sqrt(q) of the value.
 SelftestScene lamp_in_a_ball() {
     constexpr double rho = 0.5;
     constexpr double emission = 100.0;
