@@ -94,7 +94,7 @@ ErrorReader::ErrorReader(vulkan::Device &device, const vulkan::ComputePipeline &
     estimate_(estimate),
     film_(film),
     errors_(device, vulkan::BufferUse::HostRead,
-            groups_in_row(grid_of(0)) * grid_of(0).rows() * sizeof(gpu::TileErrors), "error of an image"),
+            std::size_t{groups_in_row(grid_of(0))} * grid_of(0).rows() * sizeof(gpu::TileErrors), "error of an image"),
     tile_counts_(device, vulkan::BufferUse::HostWritten, film.grid().count() * sizeof(gpu::uvec2), "samples of tiles"),
     tile_squares_(device, vulkan::BufferUse::HostRead, film.grid().count() * sizeof(glm::vec2), "errors of tiles") {
     for (DeviceFilm::Strip &strip : film.strips()) {

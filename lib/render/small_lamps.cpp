@@ -104,10 +104,11 @@ void add_pieces(std::vector<LampPiece> &pieces, Disc disc, std::uint32_t width, 
         if (row < 0.0 || row >= rows)
             continue;
         const std::uint32_t y = middle(row, row_count);
-        const double end = std::clamp(std::ceil(disc.x + half), 0.0, columns);
-        for (double column = std::clamp(std::floor(disc.x - half), 0.0, columns); column < end; ++column) {
+        const auto begin = static_cast<std::uint32_t>(std::clamp(std::floor(disc.x - half), 0.0, columns));
+        const auto end = static_cast<std::uint32_t>(std::clamp(std::ceil(disc.x + half), 0.0, columns));
+        for (std::uint32_t column = begin; column < end; ++column) {
             const std::uint32_t x = middle(column, width);
-            const double length = std::min(disc.x + half, column + 1.0) - std::max(disc.x - half, column);
+            const double length = std::min(disc.x + half, column + 1.0) - std::max(disc.x - half, 1.0 * column);
             const auto is_there = [x, y](const LampPiece &piece) { return piece.x == x && piece.y == y; };
             auto piece = std::find_if(pieces.begin() + static_cast<std::ptrdiff_t>(first), pieces.end(), is_there);
             if (piece == pieces.end())
