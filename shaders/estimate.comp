@@ -16,8 +16,8 @@ layout(push_constant) uniform Push { EstimateConstants estimate; };
 
 layout(set = 0, binding = BINDING_RESOLVED) writeonly buffer Groups { TileErrors groups[]; } estimated;
 
-// For each tile of the film: its samples in the older and the newer part, where tiles differ; and what its own samples
-// say about the sum of the squares of its relative errors, and about that of light that no sample has met.
+// For each tile of the film: its samples in the older and the newer part, where tiles differ; and, on request, what its own
+// samples say about the sum of the squares of its relative errors, and about that of light that no sample has met.
 layout(set = 0, binding = BINDING_TILE_COUNTS) readonly buffer TileCounts { uvec2 counts[]; } tile_samples;
 layout(set = 0, binding = BINDING_TILE_SQUARES) writeonly buffer TileSquares { vec2 squares[]; } tile_squares;
 
@@ -364,8 +364,9 @@ void main()
     barrier();
     write_errors(gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x, invocation, size);
 
-    // What tiles say about themselves. If a pixel lacks samples in one of the parts, nothing is known.
-    if (invocation < TILES && first < size.x)
+    // On request, what tiles say about themselves: into memory that the host reads, so a look that does not need them is
+    // spared it. If a pixel lacks samples in one of the parts, nothing is known.
+    if (estimate.by_tile == 1u && invocation < TILES && first < size.x)
         tile_squares.squares[first_tile + tile] =
             of_tile.findings.unknown > 0u
                 ? vec2(infinity)

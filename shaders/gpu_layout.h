@@ -402,6 +402,7 @@ struct EstimateConstants {
     uint row_count;
     uint first_tile;       // of the strip, in the film
     uvec2 sample_counts;   // of each pixel in the older and in the newer part; ANY_COUNT: those that its tile has
+    uint by_tile;          // 1: what each tile says of itself is asked for too
     float relative_offset; // in film units
     float relative_scale;
 };
@@ -427,7 +428,7 @@ static_assert(sizeof(ResolveConstants) == 48 && offsetof(ResolveConstants, row_w
 static_assert(sizeof(FirstHitConstants) == 92 && offsetof(FirstHitConstants, pixel_count) == 88);
 static_assert(WORKGROUP_SIZE % FILTER_RAYS == 0);
 static_assert(sizeof(CoverageConstants) == 100 && offsetof(CoverageConstants, seed) == 64);
-static_assert(sizeof(EstimateConstants) == 32 && offsetof(EstimateConstants, sample_counts) == 16);
+static_assert(sizeof(EstimateConstants) == 36 && offsetof(EstimateConstants, sample_counts) == 16);
 static_assert(sizeof(TileErrors) == 88 && offsetof(TileErrors, rejected) == 80);
 static_assert(sizeof(AddConstants) == 20 && offsetof(AddConstants, added_stride) == 16);
 } // namespace pt::gpu

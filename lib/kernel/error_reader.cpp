@@ -12,7 +12,7 @@ namespace pt {
 
 namespace {
 
-// How many rows of tiles a kernel's workgroups look at, each of at most ESTIMATE_WORKGROUP_SIZE pixels.
+// How many workgroups look at a row of tiles, each at ESTIMATE_WORKGROUP_SIZE pixels side by side or fewer.
 std::uint32_t groups_in_row(const TileGrid &grid) {
     return (grid.width + gpu::ESTIMATE_WORKGROUP_SIZE - 1) / gpu::ESTIMATE_WORKGROUP_SIZE;
 }
@@ -162,6 +162,7 @@ void ErrorReader::record_strip(const vk::raii::CommandBuffer &commands, std::siz
         static_cast<std::uint32_t>(film_.grid().tile_at(0, film_.strips()[strip].first_pixel / grid.width));
     constants.sample_counts =
         query.samples.even() ? counts_of(query.samples.sets().front()) : gpu::uvec2(gpu::ANY_COUNT);
+    constants.by_tile = query.by_tile.empty() ? 0 : 1;
     constants.relative_offset = units.offset;
     constants.relative_scale = units.scale;
     estimate_.dispatch(commands, sets_[strip], std::as_bytes(std::span(&constants, 1)), groups_in_row(grid), {},
