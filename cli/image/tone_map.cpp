@@ -3,6 +3,7 @@
 #include "cli/base/tasks.h"
 #include "cli/base/text.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>

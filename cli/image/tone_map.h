@@ -6,15 +6,12 @@
 #include "cli/base/names.h"
 #include "cli/image/image_file.h"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace cli {

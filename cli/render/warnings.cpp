@@ -4,7 +4,6 @@
 #include "cli/base/text.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <iterator>
 #include <optional>
 #include <utility>

@@ -12,9 +12,9 @@ namespace {
 
 constexpr std::size_t channel_count = 3;
 constexpr std::size_t tile_width = 16; // pixels: hundreds of values, so that a tile's own choice adds little
-constexpr double few_tiles = 8.0;
-constexpr double normal_90 = 1.28; // one-sided
-constexpr double normal_95 = 1.96; // two-sided
+constexpr double few_tiles =
+    8.0; // an estimate from fewer is uncertain, as one from as few pixels is (error_estimate.cpp)
+constexpr double normal_90 = 1.28; // for the normal distribution, 90% lie below so many standard deviations
 
 // The median of M over the 3 x 3 pixels about one, repeated at the image's edges.
 double median_about(const FilteredHalves &halves, std::size_t x, std::size_t y, std::size_t channel) {

@@ -13,9 +13,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// For the normal distribution, 95% lie within this many standard deviations.
-constexpr double normal_95 = 1.96;
-
 // An estimate from fewer pixels is uncertain: its root is typically off by 1 / (2 sqrt(8)) = 18% or more.
 constexpr double few_pixels = 8.0;
 

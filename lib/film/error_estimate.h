@@ -26,6 +26,9 @@ struct ErrorEstimate {
 // With fewer samples the difference of the film's parts says too little.
 inline constexpr std::uint32_t min_estimate_samples = 16;
 
+// For the normal distribution, 95% lie within this many standard deviations.
+inline constexpr double normal_95 = 1.96;
+
 // How far the bounds are from an estimate that is uncertain, beyond what the spread over tiles says: calibrated.
 inline constexpr double uncertain_factor = 2.0;
 

@@ -1,6 +1,5 @@
 #include "lib/film/film_errors.h"
 
-#include <algorithm>
 #include <cstddef>
 
 namespace pt {

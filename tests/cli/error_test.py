@@ -3,7 +3,7 @@
 import json
 import signal
 
-from command_line import COURSEWORK, PT, RESULT, CommandLineTest, main, read_exr_channels
+from command_line import COURSEWORK, PT, CommandLineTest, main, read_exr_channels
 
 KEYS = [name + end for name in ("rmse", "relative_rmse") for end in ("", "_low", "_high")]
 

@@ -6,14 +6,11 @@ Arguments: see command_line.py.
 
 import json
 import os
-import resource
-import signal
 import subprocess
 import time
 import unittest
 
-from command_line import (COURSEWORK, PATIENCE, RESULT, CommandLineTest, default_signals, main, png_chunks,
-                          read_exr_attributes)
+from command_line import COURSEWORK, PATIENCE, RESULT, CommandLineTest, default_signals, main, png_chunks
 
 SCENE = '{"film": {"width": 4, "height": 3}, "render": {"spp": 2}}'
 
@@ -176,23 +173,6 @@ class LinksOfOthers(CommandLineTest):
                 self.expect(6, *command, f"open/{name}", error=f"cannot write open/{name}: the link open/{name} {self.RULE}")
                 self.assertEqual((self.read("of root"), self.files()),
                                  ("kept", ["of root", "open", "r.exr", "s.json"]))
-
-
-class FullDisk(CommandLineTest):
-    def test_a_failed_write_leaves_the_old_file_and_the_other_picture_is_written(self):
-        self.write("a.exr", "old")
-
-        def full_disk():
-            default_signals()
-            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-            resource.setrlimit(resource.RLIMIT_FSIZE, (7500, 7500))
-
-        done = subprocess.run([self.program, "render", COURSEWORK, "-o", "a.png", "-o", "a.exr", "--spp", "1"],
-                              cwd=self.folder, preexec_fn=full_disk, capture_output=True, text=True, check=False)
-        self.assertEqual(done.returncode, 6, done.stderr)
-        self.assertIn("pt: cannot write a.exr: File too large", done.stderr)
-        self.assertEqual(self.read("a.exr"), "old")
-        self.assertEqual(self.files(), ["a.exr", "a.png"])
 
 
 class EqualRuns(CommandLineTest):

@@ -5,7 +5,6 @@ Arguments: see command_line.py.
 
 import os
 import re
-import unittest
 
 from command_line import COURSEWORK, PT, CommandLineTest, main
 

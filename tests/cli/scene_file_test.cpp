@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import operator
-from ctypes import c_uint32
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias
