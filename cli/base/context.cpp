@@ -15,7 +15,7 @@ struct OptionName {
     const char *option;
 };
 
-constexpr std::array<OptionName, 9> option_names{{
+constexpr std::array<OptionName, 10> option_names{{
     {"render", "width", "--size: width"},
     {"render", "height", "--size: height"},
     {"render", "max_path_length", "--max-path-length"},
@@ -25,6 +25,7 @@ constexpr std::array<OptionName, 9> option_names{{
     {"create", "device", "--device"},
     {"create", "shader_dir", "--shader-dir"},
     {"create", "submit_milliseconds", "--submit-ms"},
+    {"denoise", "library", "--denoise"},
 }};
 
 std::string brackets(const std::optional<std::size_t> &index) {

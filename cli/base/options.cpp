@@ -104,8 +104,9 @@ public:
     std::string make_option(const CLI::Option *option, bool is_positional) const override {
         const std::string value = is_positional ? "" : make_option_opts(option);
         const std::string others = related("needs", option->get_needs()) + related("not with", option->get_excludes());
-        return entry(make_option_name(option, is_positional) + value, option->get_description() + others,
-                     column_width_);
+        std::string name = make_option_name(option, is_positional); // "--flag{default}", whose value may be left out
+        name = CLI::detail::find_and_replace(CLI::detail::find_and_replace(std::move(name), "{", "[="), "}", "]");
+        return entry(name + value, option->get_description() + others, column_width_);
     }
 
     std::string make_option_opts(const CLI::Option *option) const override {

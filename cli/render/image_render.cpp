@@ -20,9 +20,11 @@ std::chrono::steady_clock::duration clock_duration(double seconds) {
 }
 
 // The settings of a piece. first_row: counted from the top of the window.
-pt_render piece_of(const RenderTask &task, std::uint32_t first_row, std::uint32_t rows) {
+pt_render piece_of(const RenderTask &task, std::uint32_t half, std::uint32_t first_row, std::uint32_t rows) {
+    constexpr std::uint64_t other_seed = std::uint64_t{1} << 63; // as in the package pt for Python
     const Rectangle &part = task.window.part;
     pt_render piece = task.render;
+    piece.seed ^= half * other_seed;
     piece.first_row = part.y + first_row;
     piece.row_count = std::min(rows, part.height - first_row);
     return piece;
@@ -76,7 +78,7 @@ std::uint32_t fit_pieces(const Context &context, const RenderTask &task) {
     const std::uint32_t height = task.window.part.height;
     std::uint32_t rows = task.options.piece_rows == 0 ? height : std::min(task.options.piece_rows, height);
     for (;; rows = (rows + 1) / 2) {
-        const pt_render piece = piece_of(task, 0, rows);
+        const pt_render piece = piece_of(task, 0, 0, rows);
         const pt_result result = pt_set_render(context.get(), &piece);
         const bool too_large = result == PT_ERROR_UNSUPPORTED || result == PT_ERROR_OUT_OF_DEVICE_MEMORY;
         if (too_large && rows > 1)
@@ -96,15 +98,11 @@ ImageRender::ImageRender(const Context &context, const RenderTask &task, std::ui
     task_(task),
     rows_(rows),
     stop_(std::move(stop)),
-    write_preview_(task.options.frames ? nullptr : std::move(write_preview)),
+    write_preview_(task.options.frames || task.half_count() > 1 ? nullptr : std::move(write_preview)),
     progress_(std::cerr, progress_style(task.options), std::uint64_t{task.render.width} * task.window.part.height,
-              task.sample_count, start_) {
+              std::uint64_t{task.sample_count} * task.half_count(), start_) {
     constexpr double usual_checkpoint_seconds = 30.0;
     const RenderOptions &options = task.options;
-    image_.part = task.window.part;
-    image_.radiance.resize(3 * image_.part.pixel_count());
-    for (const std::uint32_t layer : options.wanted_layers())
-        image_.layers.emplace_back(layer, image_.part.pixel_count());
     progress_.begin_at(context.stats().sample_count);
     if (options.time_limit)
         progress_.limit_time(*options.time_limit);
@@ -113,7 +111,13 @@ ImageRender::ImageRender(const Context &context, const RenderTask &task, std::ui
                             [this](const std::string &message) { progress_.say(message); });
 }
 
-ImageRender::Result ImageRender::run() {
+ImageRender::Result ImageRender::run(std::uint32_t half) {
+    half_ = half;
+    image_ = {.part = task_.window.part};
+    image_.radiance.resize(3 * image_.part.pixel_count());
+    if (half + 1 == task_.half_count())
+        for (const std::uint32_t layer : task_.options.wanted_layers())
+            image_.layers.emplace_back(layer, image_.part.pixel_count());
     while (image_.rows_done < image_.part.height && !stop_()) {
         enter_piece();
         render_piece();
@@ -131,13 +135,14 @@ ImageRender::Result ImageRender::run() {
 }
 
 void ImageRender::enter_piece() {
-    const pt_render piece = piece_of(task_, image_.rows_done, rows_);
-    if (image_.rows_done > 0)
+    const pt_render piece = piece_of(task_, half_, image_.rows_done, rows_);
+    if (image_.rows_done > 0 || half_ > 0)
         context_.require(pt_set_render(context_.get(), &piece));
     piece_rows_ = piece.row_count;
     const double height = image_.part.height;
     const double end = (image_.rows_done + piece_rows_) / height;
-    progress_.enter_part(image_.rows_done / height, end);
+    const double halves = task_.half_count();
+    progress_.enter_part((half_ + image_.rows_done / height) / halves, (half_ + end) / halves);
     if (has_target()) // the next check
         progress_.expect(forecast_sample_count(context_.stats().sample_count, 1.0, 1.0, task_.sample_count));
     // Each piece gets its share of the time, plus what earlier pieces have not used.
@@ -172,7 +177,7 @@ void ImageRender::render_piece() {
 pt_result ImageRender::take(std::uint32_t length, double done) {
     std::function<bool(double)> goes_on = [&](double fraction) {
         const double taken = fraction * std::max(length, 1U);
-        progress_.update_samples(done + taken, Clock::now());
+        progress_.update_samples((done + taken) * task_.half_count(), Clock::now());
         const bool has_sample = taken >= 1.0; // otherwise there is nothing new to see
         return !stops() && !(has_sample && pauses());
     };
@@ -198,7 +203,7 @@ pt_stats ImageRender::look(pt_result result) {
     constexpr double share = 0.01;
     const Clock::time_point start = Clock::now();
     std::optional<pt_error_estimate> error;
-    if (has_target() || (progress_.shows_error() && start >= next_error_))
+    if (has_target() || (progress_.shows_error() && task_.half_count() == 1 && start >= next_error_))
         error = context_.error_estimate();
     const Clock::time_point now = Clock::now();
     if (error)

@@ -72,10 +72,11 @@ public:
         bool has_checkpoint; // the checkpoint has all samples
     };
 
-    // To be called once. Renders whole rows, since the library renders nothing less, and reads the window's columns.
-    // Samples that the context has already are the first ones of the first piece. Ends early, between or within pieces,
-    // once stop() is true. Afterwards nothing is being written. Throws Failure.
-    Result run();
+    // To be called once for each half of the samples, of which only the last has layers. Renders whole rows, since the
+    // library renders nothing less, and reads the window's columns. Samples that the context has already are the first
+    // ones of the first piece. Ends early, between or within pieces, once stop() is true. Afterwards nothing is being
+    // written. Throws Failure.
+    Result run(std::uint32_t half = 0);
 
 private:
     using Clock = std::chrono::steady_clock;
@@ -97,9 +98,10 @@ private:
     const RenderTask &task_;
     std::uint32_t rows_;
     Stop stop_;
-    WritePreview write_preview_; // empty for frames, since a frame's file means that the frame is done
+    WritePreview write_preview_; // empty for halves, and for frames: a frame's file means that the frame is done
     Clock::time_point start_ = Clock::now();
     Progress progress_;
+    std::uint32_t half_ = 0;
     RenderedImage image_{};
     std::uint32_t piece_rows_ = 0; // rows of the present piece
 

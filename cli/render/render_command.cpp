@@ -1,6 +1,7 @@
 #include "cli/render/render_command.h"
 
 #include "cli/base/interrupt.h"
+#include "cli/render/denoise.h"
 #include "cli/render/render_output.h"
 
 #include <algorithm>
@@ -140,6 +141,8 @@ pt_create_info render_create_info(const RenderOptions &options, ValidationLog &l
 }
 
 int run_render(const RenderOptions &options) {
+    if (!options.denoiser.empty())
+        require_denoiser(options.denoiser);
     ValidationLog log;
     const int code = options.watch    ? render_watched(options, log)
                      : options.frames ? render_frames(options, log)

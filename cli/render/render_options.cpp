@@ -55,6 +55,8 @@ void add_picture_options(CLI::App &command, RenderOptions &options) {
     command.add_flag("--alpha", options.alpha,
                      "Give .exr and .png an alpha channel: the share of a pixel's samples that see a surface");
     command.option_defaults()->group("Picture");
+    command.add_flag("--denoise{libOpenImageDenoise.so.2}", options.denoiser,
+                     "Take out noise, by the library Open Image Denoise 2, and state the error of the result");
     add_parsed(command, "--crop", options.crop, &parse_rectangle,
                "must be four whole numbers like 10,20,640,480: x, y, width and height",
                "Render this part of the picture alone, in pixels from its top left corner")
@@ -99,8 +101,8 @@ void add_parts_option(CLI::App &command, RenderOptions &options) {
                                           "Render the parts that are asked for on standard input, and write their "
                                           "films to standard output: for programs that share a picture, as pt-farm");
     for (const char *other :
-         {"--output", "--format", "--layers", "--alpha", "--film", "--stats", "--crop", "--time", "--checkpoint",
-          "--resume", "--preview-every", "--piece-rows", "--watch", "--skip-existing"}) {
+         {"--output", "--format", "--layers", "--alpha", "--denoise", "--film", "--stats", "--crop", "--time",
+          "--checkpoint", "--resume", "--preview-every", "--piece-rows", "--watch", "--skip-existing"}) {
         parts->excludes(command.get_option(other));
     }
 }
@@ -151,6 +153,9 @@ constexpr const char *render_help =
     "stops sampling once the upper one is at or below E. --stats has both with bounds (rmse_low,\n"
     "rmse_high, ...; null where unknown), uncertain, target_error (null without --error) and\n"
     "target_reached. The layer standard-error is a radiance, infinite with a single sample.\n\n"
+    "--denoise takes half of the samples with each of two seeds, so that each half tells the error of what\n"
+    "the filter makes of the other; error and picture are those of the result. An .exr keeps the mean of\n"
+    "the samples as the layer raw. `pip install pyoidn` brings the library.\n\n"
     "With --error or --time, --spp is the most samples of a pixel, by default 65536.\n\n"
     "--exposure auto brings the average of the picture to middle grey, 0.18 (Reinhard et al. 2002): the\n"
     "exponential of the mean of the logarithms of its pixels, each the mean of its three channels; black\n"
@@ -208,6 +213,9 @@ std::vector<std::uint32_t> RenderOptions::wanted_layers() const {
     std::vector<std::uint32_t> wanted = output.layers;
     if (alpha)
         wanted.push_back(PT_QUANTITY_COVERAGE);
+    for (const std::uint32_t guide : {PT_QUANTITY_ALBEDO, PT_QUANTITY_NORMAL})
+        if (!denoiser.empty() && std::ranges::find(wanted, guide) == wanted.end())
+            wanted.push_back(guide);
     return wanted;
 }
 

@@ -82,6 +82,7 @@ struct RenderOptions {
     std::vector<SceneOverride> overrides; // of the scene's values, including those by options of their own
     OutputOptions output;
     bool alpha = false;
+    std::string denoiser; // file of Open Image Denoise; empty: the picture is as its samples make it
     std::optional<Rectangle> crop;
 
     double target_error = 0.0; // relative; 0: take all samples
@@ -107,7 +108,7 @@ struct RenderOptions {
     bool watch = false;
     std::string progress = "auto";
 
-    // The quantities that have to be read for the layers and for alpha: PT_QUANTITY_*.
+    // The quantities that have to be read for the layers, alpha and denoising: PT_QUANTITY_*.
     std::vector<std::uint32_t> wanted_layers() const;
 };
 

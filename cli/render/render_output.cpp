@@ -18,6 +18,8 @@ void write_image(ImageWriter &writer, const ImageTarget &target, const RenderRep
     ImageData image{.window = report.window, .attributes = attributes};
     if (tone_map == nullptr) {
         std::vector<ImageLayer> layers{{"", LayerKind::color, 3, rendered.radiance}};
+        if (!rendered.raw.empty())
+            layers.push_back({"raw", LayerKind::color, 3, rendered.raw});
         for (const PictureLayer &other : rendered.layers)
             layers.push_back(other.in_file());
         image.layers = layers;
@@ -74,6 +76,22 @@ void check_alpha(const RenderOptions &options) {
               "--alpha: needs -o FILE.exr or FILE.png, which have the channel");
 }
 
+void check_denoise(const RenderOptions &options) {
+    if (options.denoiser.empty())
+        return;
+    const auto has = [&](std::uint32_t layer) { return std::ranges::count(options.output.layers, layer) > 0; };
+    refuse_if(options.target_error > 0.0, "--error: --denoise takes all samples of --spp, and then states the error");
+    refuse_if(options.time_limit.has_value(),
+              "--time: --denoise takes all samples of --spp, half of them by each seed");
+    refuse_if(!options.checkpoint.empty() || !options.output.film.empty(),
+              "--checkpoint, --film: a film has the samples of one seed, --denoise takes them by two");
+    refuse_if(options.preview_seconds.has_value(), "--preview-every: --denoise shows what both halves make");
+    refuse_if(options.alpha, "--alpha: is the share of the samples, which says nothing of colors by --denoise");
+    refuse_if(has(PT_QUANTITY_STANDARD_ERROR) || has(PT_QUANTITY_SAMPLE_COUNT),
+              "--layers standard-error, sample-count: are of the samples; the error of --denoise is known for the "
+              "whole picture alone");
+}
+
 // Refuses to replace an existing checkpoint, perhaps of hours, by one that does not go on from it. If a checkpoint
 // cannot be written, only the checkpoint is lost, and the rendering goes on: the message comes when it is tried.
 void check_checkpoint(const RenderOptions &options) {
@@ -102,6 +120,7 @@ void check_names(const RenderOptions &options) {
     refuse_if(options.checkpoint == standard_stream,
               "--checkpoint -: goes to a file, not to standard output; give its name");
     check_alpha(options);
+    check_denoise(options);
     const std::vector<NamedFile> outputs = outputs_of(options.output, options.checkpoint);
     require_distinct_files(sources, outputs);
     if (!options.shader_dir.empty())

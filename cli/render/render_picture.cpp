@@ -9,6 +9,7 @@
 #include "cli/base/progress.h"
 #include "cli/base/text.h"
 #include "cli/film/film.h"
+#include "cli/render/denoise.h"
 #include "cli/render/render_output.h"
 #include "cli/render/warnings.h"
 
@@ -123,7 +124,7 @@ RenderReport report_of(const Context &context, const RenderTask &task) {
     report.scene = task.scene.path;
     report.render = task.render;
     report.window = task.window;
-    report.requested_sample_count = task.sample_count;
+    report.requested_sample_count = task.sample_count * task.half_count();
     report.target_error = task.options.target_error;
     context.require(pt_get_context_device(context.get(), &report.device));
     return report;
@@ -165,15 +166,27 @@ ExitCode render_picture(const Context &context, const RenderTask &task, const Re
     };
     const Stop stop = [&] { return interrupt_signal() != 0 || writer.failed() || superseded(); };
     const Clock::time_point accumulate_start = Clock::now();
-    const ImageRender::Result rendered = ImageRender(context, task, rows, stop, write_preview).run();
-    const RenderedImage &image = rendered.image;
+    std::optional<ImageRender> render(std::in_place, context, task, rows, stop, write_preview);
+    ImageRender::Result rendered = render->run();
+    RenderedImage &image = rendered.image;
+    RenderedImage other{};
+    if (task.half_count() > 1)
+        other = render->run(1).image;
+    render.reset(); // erases the line of progress
     report.accumulate_seconds = seconds_since(accumulate_start);
+    report.is_denoised = task.half_count() > 1 && !stop();
+    if (report.is_denoised)
+        image = denoised(task.options, image, std::move(other));
     report.total_seconds = seconds_since(times.start);
 
     report.stats = image.stats;
     report.error = image.error;
     const bool interrupted = interrupt_signal() != 0 && !superseded();
     report.ended_by = ending_of(report, interrupted, rendered.timed_out);
+    if (interrupted && task.half_count() > 1) {
+        print_message(concat("stopped by ", interrupt_name(), "; nothing was written, as --denoise takes all samples"));
+        return ExitCode::signal;
+    }
     const std::string checkpoint = rendered.has_checkpoint ? options.checkpoint : "";
     if (interrupted) {
         print_interruption(task, report.stats.sample_count, image.rows_done, checkpoint);

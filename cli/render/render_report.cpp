@@ -135,7 +135,8 @@ nlohmann::ordered_json stats_json(const RenderReport &report) {
                                  {"max_path_length", render.max_path_length},
                                  {"sampler", samplers.name(render.sampler)},
                                  {"estimator", estimators.name(render.estimator)},
-                                 {"device", device_json(report.device)}};
+                                 {"device", device_json(report.device)},
+                                 {"denoised", report.is_denoised}};
     stats.update(error_json(report.error));
     stats.update(nlohmann::ordered_json{
         {"target_error", report.target_error > 0.0 ? nlohmann::ordered_json(report.target_error) : nullptr},
@@ -159,7 +160,9 @@ nlohmann::ordered_json stats_json(const RenderReport &report) {
 
 std::string summary_text(const RenderReport &report) {
     return window_text(report.window) + ", " + samples_text(report.stats) +
-           formatted(" spp in %.2f s on ", report.total_seconds) + report.device.name;
+           formatted(report.is_denoised ? " spp, denoised, in %.2f s on " : " spp in %.2f s on ",
+                     report.total_seconds) +
+           report.device.name;
 }
 
 std::string error_text(const RenderReport &report) {
@@ -177,7 +180,8 @@ std::vector<ImageAttribute> image_metadata(const RenderReport &report, const Ton
     };
     add("software", "pt " + version_text());
     add("samplesPerPixel", whole(report.stats.sample_count));
-    add("pt.quantity", std::string(tone_map != nullptr ? "tone-mapped radiance" : "radiance"));
+    add("pt.quantity", std::string(tone_map != nullptr ? "tone-mapped " : "") +
+                           (report.is_denoised ? "denoised radiance" : "radiance"));
     if (tone_map != nullptr)
         add_tone_map(attributes, *tone_map);
     if (!report.window.is_whole())

@@ -26,6 +26,7 @@ struct RenderReport {
     pt_stats stats;
     pt_error_estimate error;
     pt_device_info device;
+    bool is_denoised;
     double create_seconds;
     double accumulate_seconds;
     double total_seconds;

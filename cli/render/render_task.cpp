@@ -53,7 +53,8 @@ std::uint64_t most_bytes() {
 }
 
 std::uint32_t image_count(const RenderOptions &options) {
-    return 1 + static_cast<std::uint32_t>(options.wanted_layers().size());
+    const std::uint32_t of_denoising = options.denoiser.empty() ? 0 : 4; // the other half, both filtered, the result
+    return 1 + static_cast<std::uint32_t>(options.wanted_layers().size()) + of_denoising;
 }
 
 // Whatever the library refuses about a scene is the scene's fault, even if the message names no field.
@@ -76,6 +77,7 @@ RenderTask::RenderTask(RenderOptions chosen, SceneFile file) :
     const bool stops_otherwise = has_target() || options.time_limit;
     sample_count = limited_samples(scene.sample_count.value_or(stops_otherwise ? most_samples : usual_samples),
                                    render.first_sample, stops_otherwise);
+    sample_count = std::max(sample_count / half_count(), 1U);
     window = chosen_window(options.crop, render);
 }
 

@@ -14,7 +14,7 @@ struct RenderTask {
     SceneFile scene;            // before load(), without the columns that are in files
     pt_render render;           // settings of the whole picture
     ImageWindow window;         // the part of the picture that is wanted
-    std::uint32_t sample_count; // if something else may end the rendering, the most
+    std::uint32_t sample_count; // of each half; if something else may end the rendering, the most
 
     // Throws Failure for a crop or samples that do not exist.
     RenderTask(RenderOptions chosen, SceneFile file);
@@ -23,6 +23,9 @@ struct RenderTask {
     void load();
 
     bool has_target() const { return options.target_error > 0.0; }
+
+    // A picture is denoised from two halves of its samples, which other seeds make independent.
+    std::uint32_t half_count() const { return options.denoiser.empty() ? 1 : 2; }
 };
 
 // Throws Failure if the images take more memory than this process can ever have; it blames whatever gave the size.

@@ -1,4 +1,5 @@
-"""Images as NumPy sees them, as pictures, and in files: with the bytes of the program. Arguments: the program pt."""
+"""Images as NumPy sees them, as pictures, and in files: with the bytes of the program. Arguments: the program pt, and a library
+that stands in for Open Image Denoise."""
 
 import io
 import json
@@ -7,28 +8,18 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from unittest import mock
 
 import numpy as np
 import pt
-from pictures import CAMERA, SCENE, cloud, settings
+from pictures import CAMERA, SCENE, SCENE_FILE, cloud, settings
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from exr import read_exr_channels  # noqa: E402
 from png import parse_png  # noqa: E402
 
 PROGRAM = sys.argv.pop(1)
-
-SCENE_FILE = {
-    "camera": {"position": [0, 1.5, 5], "look_at": [0, 1, 0], "vertical_fov": 45},
-    "film": {"width": 24, "height": 16},
-    "materials": {
-        "glossy": {"diffuse": [0.4, 0.1, 0.1], "specular": 0.4, "glossiness": 100},
-        "lamp": {"emission": [4, 3, 2]},
-        "white": {"diffuse": 0.8}
-    },
-    "spheres": [{"center": [0, 1, 0], "radius": 1, "material": "glossy"},
-                {"center": [2, 4, 2], "radius": 1, "material": "lamp"}],
-    "planes": [{"normal": [0, 1, 0], "offset": 0, "material": "white"}]
-}
+FAKE_DENOISER = sys.argv.pop(1)
 
 
 def decode_png(data):
@@ -52,7 +43,7 @@ class Pictures(unittest.TestCase):
 
     def picture_of_the_program(self, *options):
         (self.folder / "scene.json").write_text(json.dumps(SCENE_FILE))
-        subprocess.run([PROGRAM, "render", self.folder / "scene.json", "--spp", "16", "-o", self.folder / "x.png",
+        subprocess.run([PROGRAM, "render", self.folder / "scene.json", *(() if "--spp" in options else ("--spp", "16")), "-o", self.folder / "x.png",
                         *options], check=True, capture_output=True)
         return decode_png((self.folder / "x.png").read_bytes())
 
@@ -63,6 +54,21 @@ class Pictures(unittest.TestCase):
         np.testing.assert_array_equal(decode_png(self.image._repr_png_()), expected)
         self.image.save(self.folder / "mine.png")
         self.assertEqual((self.folder / "mine.png").read_bytes(), self.image._repr_png_())
+
+    def test_denoised_bits_are_the_program_s(self):
+        with pt.Context() as context, mock.patch("pt._denoise.find_library", lambda: FAKE_DENOISER):
+            image = context.render(SCENE, CAMERA, settings(seed=7), 17, denoise=True)
+        paths = [self.folder / name for name in ("denoised.exr", "denoised.json")]
+        expected = self.picture_of_the_program(f"--denoise={FAKE_DENOISER}", "--seed", "7", "--spp", "17", "-o", paths[0],
+                                               "--stats", paths[1])
+        np.testing.assert_array_equal(image.to_srgb8(), expected)
+        channels = read_exr_channels(paths[0])
+        for layer, pixels in ("", image.radiance), ("raw.", image.raw):
+            np.testing.assert_array_equal(pixels, np.stack([channels[layer + name] for name in "RGB"], axis=2))
+        stats = json.loads(paths[1].read_text())
+        error = image.error_estimate
+        self.assertEqual([stats["rmse"], stats["rmse_high"], stats["relative_rmse_low"], stats["spp"]],
+                         [error.rmse, error.rmse_high, error.relative_rmse_low, image.stats.sample_count])
 
     def test_an_exposure_that_is_asked_for(self):
         expected = self.picture_of_the_program("--exposure", "-1.5")

@@ -10,6 +10,20 @@ SCENE = pt.Scene([pt.Sphere((0, 1, 0), 1, GLOSSY), pt.Sphere((2, 4, 2), 1, LAMP)
 CAMERA = pt.Camera(position=(0, 1.5, 5), target=(0, 1, 0))
 WIDTH, HEIGHT = 24, 16
 
+# The same for the program.
+SCENE_FILE = {
+    "camera": {"position": [0, 1.5, 5], "look_at": [0, 1, 0], "vertical_fov": 45},
+    "film": {"width": 24, "height": 16},
+    "materials": {
+        "glossy": {"diffuse": [0.4, 0.1, 0.1], "specular": 0.4, "glossiness": 100},
+        "lamp": {"emission": [4, 3, 2]},
+        "white": {"diffuse": 0.8}
+    },
+    "spheres": [{"center": [0, 1, 0], "radius": 1, "material": "glossy"},
+                {"center": [2, 4, 2], "radius": 1, "material": "lamp"}],
+    "planes": [{"normal": [0, 1, 0], "offset": 0, "material": "white"}]
+}
+
 
 def settings(**fields):
     return pt.RenderSettings(**{"width": WIDTH, "height": HEIGHT, **fields})

@@ -1,0 +1,103 @@
+"""Tests of `pt render --denoise`, by a library that stands in for Open Image Denoise (OPEN_IMAGE_DENOISE in the
+environment). That its bits are those of the Python package is tested there, that errors are true where the library is.
+
+Arguments: see command_line.py.
+"""
+
+import json
+import os
+import struct
+
+from command_line import (COURSEWORK, PT, CommandLineTest, main, png_chunks, read_exr_attributes, read_exr_channels,
+                          read_png)
+
+DENOISE = "--denoise=" + os.environ["OPEN_IMAGE_DENOISE"]
+SIZE = ("--size", "40x24")
+OTHER_SEED = str(2**63)
+
+
+def mean(first, second):
+    return [[struct.unpack("f", struct.pack("f", (a + b) / 2))[0] for a, b in zip(*rows)] for rows in zip(first, second)]
+
+
+class DenoiseTest(CommandLineTest):
+    def render(self, *options, code=0, error=None, **environment):
+        self.expect(code, "render", COURSEWORK, *SIZE, *options, error=error, **environment)
+
+    def channels(self, name):
+        return read_exr_channels(self.path(name))
+
+
+class Denoise(DenoiseTest):
+    def test_what_does_not_go_with_it_is_refused(self):
+        for options in (("--error", "1%"), ("--time", "9"), ("--film", "a.ptfilm"), ("--checkpoint", "a.ptfilm"),
+                        ("--preview-every", "9"), ("--alpha",), ("--layers", "depth,standard-error"),
+                        ("--layers", "sample-count")):
+            self.render("-o", "a.exr", DENOISE, *options, code=2, error=options[0])
+            self.assertIn("--denoise", self.errors)
+        self.expect(2, "render", COURSEWORK, DENOISE, "--parts", error="--denoise excludes --parts")
+        self.assertEqual(self.files(), [])
+
+    def test_a_signal_leaves_nothing(self):
+        for submission in "5", "20":  # of 32, in the first half and in the second
+            self.render("-o", "a.png", DENOISE, "--spp", "8", code=130, FAKE_PT_SIGNAL=f"2:{submission}",
+                        error="stopped by SIGINT; nothing was written, as --denoise takes all samples")
+        self.assertEqual(self.files(), [])
+
+    def test_progress_is_of_both_halves(self):
+        self.render("-o", "a.png", DENOISE, "--spp", "64", "--progress", "json", FAKE_PT_SAMPLE_MS=10)
+        lines = [json.loads(line) for line in self.errors.splitlines() if line.startswith("{")]
+        for key in "fraction", "samples_per_pixel", "seconds":
+            self.assertEqual([line[key] for line in lines], sorted(line[key] for line in lines), key)
+        self.assertEqual({line["samples_per_pixel_total"] for line in lines}, {64})
+        self.assertTrue(any(0.0 < line["fraction"] < 0.5 for line in lines))
+        self.assertEqual((lines[-1]["fraction"], lines[-1]["samples_per_pixel"]), (1.0, 64))
+
+
+class RealDeviceDenoise(DenoiseTest):
+    program = PT
+
+    def stated(self, **environment):
+        self.render("-o", "a.exr", DENOISE, "--spp", "17", "--stats", "a.json", **environment)
+        return json.loads(self.read("a.json"))
+
+    def test_the_raw_image_is_beside_it(self):
+        stats = self.stated()
+        self.assertEqual((stats["denoised"], stats["spp"], stats["spp_requested"]), (True, 16, 16))
+        self.assertIn("40x24, 16 spp, denoised, in ", self.output)
+        for name, seed in ("first", "0"), ("second", OTHER_SEED):
+            self.render("-o", f"{name}.exr", "--spp", "8", "--seed", seed, "--layers", "depth,normal")
+        first, second, denoised = (self.channels(f"{name}.exr") for name in ("first", "second", "a"))
+        self.assertEqual(list(denoised), ["B", "G", "R", "raw.B", "raw.G", "raw.R"])
+        for name in "RGB":
+            self.assertEqual(denoised[f"raw.{name}"], mean(first[name], second[name]))
+            self.assertNotEqual(denoised[name], denoised[f"raw.{name}"])
+        attributes = read_exr_attributes(self.path("a.exr"))
+        self.assertEqual(attributes["pt.quantity"], ("string", b"denoised radiance"))
+        self.assertEqual(attributes["samplesPerPixel"], ("int", struct.pack("<i", 16)))
+        self.assertEqual(attributes["pt.relativeError"], ("float", struct.pack("<f", stats["relative_rmse"])))
+        self.render("-o", "b.exr", "-o", "b.png", DENOISE, "--spp", "16", "--layers", "depth,normal", "--piece-rows", "7")
+        self.assertEqual(self.channels("b.exr"),
+                         {**denoised, **{name: first[name] for name in ("N.X", "N.Y", "N.Z", "Z")}})
+        self.assertIn(("tEXt", b"pt.quantity\0tone-mapped denoised radiance"), list(png_chunks(self.contents("b.png"))))
+        self.expect(0, "tonemap", "b.exr", "c.png")
+        self.assertEqual(read_png(self.path("c.png")), read_png(self.path("b.png")))
+
+    def test_without_the_library_nothing_is_rendered(self):
+        for name in "none.so", os.devnull:
+            self.render("-o", "a.png", f"--denoise={name}", "--device", "none", code=6,
+                        error=f'--denoise = "{name}": Open Image Denoise 2 cannot be loaded')
+            self.assertIn("; pip install pyoidn brings it", self.errors)
+        self.assertEqual(self.files(), [])
+
+    def test_the_error_is_that_of_the_result(self):
+        # A filter that does nothing gives the mean of the samples. One that also shifts the picture is worse.
+        errors = {wish: self.stated(FAKE_OIDN=wish)["rmse"] for wish in ("shift", "", "identity")}
+        image = self.channels("a.exr")
+        self.assertEqual(image["R"], image["raw.R"])
+        self.assertLess(errors[""], errors["shift"])
+        self.assertLess(errors["shift"], errors["identity"])
+
+
+if __name__ == "__main__":
+    main()
