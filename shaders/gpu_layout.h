@@ -63,7 +63,8 @@ PT_CONSTANT ID_UNROLLED = 36;        // surfaces over which loops are unrolled, 
 PT_CONSTANT ID_INTEGER_ORDER = 37;   // 1: integers are compared faster than floats (shaders/maths.glsl)
 PT_CONSTANT ID_UNIFORM_READS = 38;   // 1: words of the scene buffer, which has few, are read by the uniform binding
 PT_CONSTANT ID_LENS = 39;           // 1: camera rays start on a lens; then STARTS_AHEAD is 1
-PT_CONSTANT CONSTANT_COUNT = 40;
+PT_CONSTANT ID_CAPSULES = 40;       // 1: some spheres are swept along a segment
+PT_CONSTANT CONSTANT_COUNT = 41;
 // With SCENE_IN_CONSTANTS the floats of the scene buffer follow, component i of word w as constant_id
 // CONSTANT_COUNT + 4 w + i.
 PT_CONSTANT CONSTANT_SCENE_WORDS = 64;
@@ -182,7 +183,8 @@ PT_CONSTANT NO_SURFACE = 0xffffffffu;
 //   emission[S]       radiance R, G, B; mean of the three
 //   diffuse[S]        albedo / pi; probability of choosing the specular lobe
 //   specular[S]       factor (n + 2) / (2 pi); glossiness n (only with GLOSS)
-//   motion[spheres]   way of the centre while the shutter is open; 0 (only with MOTION)
+//   motion[spheres]   way of the centre while the shutter is open; 0. Of a capsule, which is a sphere that is swept from
+//                     one end to the other: the way between these; 1 / its length (only with MOTION or CAPSULES)
 //   curvature[planes] curvature; way of the surface while the shutter is open (only with CURVATURE)
 //   tree              of lamps, if they have one (below), which is read from the storage buffer
 //   spots[SPOT_COUNT] lamp and surface: MATERIAL_INDEX_BITS + each, as the bits of floats; what the surface reflects of
@@ -214,7 +216,8 @@ PT_CONSTANT MATERIAL_INDEX_BITS = 0x3f800000;
 //                     low sides of the children's boxes in steps from the corner, a byte a child, along x and y
 //                     low sides along z, high sides along x, y and z
 //   sphere[places]    x, y, z of the centre at time 0; the radius, as the bits of a float
-//   motion[places]    way of the centre in a unit of time, as bits of floats; 0 (only if some sphere moves)
+//   motion[places]    way of the centre in a unit of time, as bits of floats; 0. Of a capsule: as in the scene buffer
+//                     (only if some sphere moves or is swept)
 //   surface[places]   four to a word: the place of the material in the table, or TREE_LAMP_BIT + the number of a lamp
 //   color[places]     four to a word: what multiplies the diffuse reflection, the root of each component times
 //                     TREE_COLOR_STEPS in ten bits (only with TREE_COLORS)

@@ -11,8 +11,9 @@ void see_sphere(inout Hit hit, vec3 origin, vec3 direction, uint sphere, float t
     vec3 from_side = centre_radius.xyz;
     if (ORTHOGRAPHIC + LENS > 0 && KNOWN_SIDES == 0)
         from_side = to_centre;
-    bool outside = dot(from_side, from_side) > centre_radius.w * centre_radius.w;
-    keep_closer(hit, sphere_distance(to_centre, centre_radius.w, direction, false, false, outside), sphere);
+    vec4 axis = axis_at(sphere);
+    bool outside = is_outside(from_side, axis, centre_radius.w);
+    keep_closer(hit, swept_distance(to_centre, axis, centre_radius.w, direction, false, false, outside), sphere);
 }
 
 void see_plane(inout Hit hit, vec3 origin, vec3 direction, uint plane, float time)
@@ -40,7 +41,7 @@ Hit closest_hit(vec3 origin, vec3 direction, float time)
 bool is_blocked(Start start, float time, ShadowRay shadow)
 {
     bool blocked = false;
-    FOR_EACH(sphere, 0u, SPHERE_COUNT, shade_sphere(blocked, start, shadow, sphere, sphere_at(sphere, time)));
+    FOR_EACH(sphere, 0u, SPHERE_COUNT, shade_sphere(blocked, start, shadow, sphere, sphere_at(sphere, time), axis_at(sphere)));
     if (PLANES_BLOCK == 1)
         FOR_EACH(plane, SPHERE_COUNT, SURFACE_COUNT,
                  shade_plane(blocked, start, shadow, plane, level_at(plane, start.origin, time), time));
@@ -51,8 +52,9 @@ void meet_sphere(inout Hit hit, inout bool blocked, Start start, vec3 direction,
                  float time)
 {
     vec4 centre_radius = sphere_at(sphere, time);
-    keep_closer(hit, distance_to_sphere(start, direction, sphere, centre_radius), sphere);
-    shade_sphere(blocked, start, shadow, sphere, centre_radius);
+    vec4 axis = axis_at(sphere);
+    keep_closer(hit, distance_to_sphere(start, direction, sphere, centre_radius, axis), sphere);
+    shade_sphere(blocked, start, shadow, sphere, centre_radius, axis);
 }
 
 void meet_plane(inout Hit hit, inout bool blocked, Start start, vec3 direction, ShadowRay shadow, uint plane,

@@ -66,6 +66,59 @@ bool sphere_blocks(vec3 to_centre, float radius, vec3 direction, bool at_end, fl
     return !at_end && b > 0.0 && met_before;
 }
 
+// A capsule is a ball swept from one end of a segment to the other, so a ray meets it where it meets the first of the
+// swept balls, and leaves it where it leaves the last. Which these are, is found here; distances are then those to a
+// ball, with all that is said of these above.
+//
+// With the unit vector u of the axis, its length L, c = u . direction, the part p of u across the ray and the part l of
+// the way to the first end, the ball at s on the axis is met at b + s c - sqrt(r^2 - |l + s p|^2). This is least where
+// its derivative is 0: at s = (n - c h) / |p|, with n = -l . p / |p| and the half chord h of the nearest approach,
+// h^2 = r^2 - |l + n p / |p||^2 (p . p + c c = 1 has been used). With the other sign of h the ball is the last that the
+// ray leaves. Both are convex in s, so on the segment it is the value clamped to [0, L]. Along the axis |p| = 0, and the
+// sign of c h tells the end.
+//
+// Rounding of u, p and the ball's place moves the ball across the ray by d = 2^-22 (|to_first| + L) at most, as would
+// ends that are other by so much. A ball that is off by e = d / |p| along the axis is met later by e^2 / (2 h |p|), of
+// second order; but where |p|^2 < 2 d / h, nearly along the axis, it might not be met at all. With h - d for h it is met
+// wherever the ray meets the endless cylinder, and later by d / |p| at most. That is what d does to the distance anyway.
+//
+// Returns the way from the first end to the middle of that ball.
+vec3 swept_to(vec3 to_first, vec4 axis, float radius, vec3 direction, bool to_last)
+{
+    vec3 unit = axis.xyz * axis.w;
+    float cosine = dot(unit, direction);
+    vec3 sideways = unit - cosine * direction;
+    float squared_sine = dot(sideways, sideways);
+    float inverse_sine = squared_sine > 0.0 ? inversesqrt(squared_sine) : 0.0;
+    vec3 across = to_first - dot(to_first, direction) * direction;
+    vec3 unit_sideways = sideways * inverse_sine;
+    float nearest = -dot(across, unit_sideways);
+    vec3 apart = across + nearest * unit_sideways;
+    float rounded = 2.384185791015625e-7 * (dot(abs(to_first), vec3(1.0)) + dot(axis.xyz, unit));
+    float half_chord = at_least(sqrt(at_least(radius * radius - dot(apart, apart), 0.0)) - rounded, 0.0);
+    float share = (nearest - (to_last ? -cosine : cosine) * half_chord) * axis.w;
+    float sine = squared_sine * inverse_sine;
+    return (share >= sine ? 1.0 : share > 0.0 ? share / sine : 0.0) * axis.xyz;
+}
+
+// The tests of spheres for spheres that may be swept. Where no ray gets inside one, the first ball tells all. From inside
+// the last one does; a ray that starts on the far wall starts on another ball.
+float swept_distance(vec3 to_first, vec4 axis, float radius, vec3 direction, bool leaving, bool inside, bool outside)
+{
+    if (CAPSULES == 0)
+        return sphere_distance(to_first, radius, direction, leaving, inside, outside);
+    bool to_last = INSIDE == 1 && (leaving ? inside : !outside);
+    vec3 to_centre = to_first + swept_to(to_first, axis, radius, direction, to_last);
+    bool leaving_ball = leaving && !(to_last && axis.w > 0.0);
+    return sphere_distance(to_centre, radius, direction, leaving_ball, inside, !to_last);
+}
+
+bool is_outside(vec3 to_first, vec4 axis, float radius)
+{
+    vec3 to_centre = CAPSULES == 1 ? to_first + to_nearest(to_first, axis) : to_first;
+    return dot(to_centre, to_centre) > radius * radius;
+}
+
 // Distance along the unit vector direction to a plane, or NO_HIT. level: of the plane at the ray's origin; leaving: the
 // ray starts on it. With the height h, the slope s of the height along the ray and the curvature k, the roots of k / 2
 // t^2 + s t + h = 0 are 2 |h| / q and q / k up to their signs, with q = |s| + sqrt(s^2 - 2 k h), in which nothing
@@ -121,13 +174,13 @@ struct ShadowRay {
 const ShadowRay NO_SHADOW_RAY = ShadowRay(vec3(0.0), 0.0, NO_SURFACE);
 
 // The tests that all walks share. A walk fetches a surface once for all its rays, so these take what was fetched.
-float distance_to_sphere(Start start, vec3 direction, uint sphere, vec4 centre_radius)
+float distance_to_sphere(Start start, vec3 direction, uint sphere, vec4 centre_radius, vec4 axis)
 {
     bool leaving = sphere == start.surface;
     vec3 to_centre = centre_radius.xyz - start.origin;
     vec3 from_side = KNOWN_SIDES == 1 ? centre_radius.xyz : to_centre;
-    bool outside = dot(from_side, from_side) > centre_radius.w * centre_radius.w;
-    return sphere_distance(to_centre, centre_radius.w, direction, leaving, start.inside, outside);
+    bool outside = is_outside(from_side, axis, centre_radius.w);
+    return swept_distance(to_centre, axis, centre_radius.w, direction, leaving, start.inside, outside);
 }
 
 float distance_to_plane(Start start, vec3 direction, uint plane, Level level, float time)
@@ -143,14 +196,17 @@ bool blocks(ShadowRay shadow, float distance, uint surface)
     return before && surface != shadow.lamp;
 }
 
-void shade_sphere(inout bool blocked, Start start, ShadowRay shadow, uint sphere, vec4 centre_radius)
+void shade_sphere(inout bool blocked, Start start, ShadowRay shadow, uint sphere, vec4 centre_radius, vec4 axis)
 {
     if (INSIDE == 1 || CLOSE_LAMPS == 1) {
-        blocked = blocked || blocks(shadow, distance_to_sphere(start, shadow.direction, sphere, centre_radius), sphere);
+        float distance = distance_to_sphere(start, shadow.direction, sphere, centre_radius, axis);
+        blocked = blocked || blocks(shadow, distance, sphere);
         return;
     }
     bool at_end = sphere == start.surface || (sphere < WALKED_LAMPS && sphere == shadow.lamp);
     vec3 to_centre = centre_radius.xyz - start.origin;
+    if (CAPSULES == 1)
+        to_centre += swept_to(to_centre, axis, centre_radius.w, shadow.direction, false);
     bool between = sphere_blocks(to_centre, centre_radius.w, shadow.direction, at_end, shadow.distance);
     blocked = blocked || between;
 }
@@ -167,7 +223,7 @@ ShadowRay ended_as_met(ShadowRay shadow, Start start, float time)
 {
     if (CLOSE_LAMPS == 1 && shadow.distance > 0.0 && is_walked_lamp(shadow.lamp)) {
         vec4 lamp = sphere_among(WALKED_LAMPS, shadow.lamp, time);
-        float distance = distance_to_sphere(start, shadow.direction, shadow.lamp, lamp);
+        float distance = distance_to_sphere(start, shadow.direction, shadow.lamp, lamp, NO_AXIS);
         shadow.distance = distance < NO_HIT ? distance : shadow.distance;
     }
     return shadow;

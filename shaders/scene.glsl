@@ -46,6 +46,7 @@ layout(constant_id = ID_HIDDEN_SKIES) const uint HIDDEN_SKIES = 0;
 layout(constant_id = ID_HIDDEN_OTHERS) const uint HIDDEN_OTHERS = 0;
 layout(constant_id = ID_HIDDEN_PLANES) const uint HIDDEN_PLANES = 0;
 layout(constant_id = ID_UNIFORM_READS) const uint UNIFORM_READS = 0;
+layout(constant_id = ID_CAPSULES) const uint CAPSULES = 0;
 layout(constant_id = ID_UNROLLED) const uint UNROLLED = 112;
 
 layout(set = 0, binding = BINDING_SCENE_UNIFORM) uniform SceneUniform {
@@ -115,13 +116,28 @@ const uint EMITTING_SPHERES = LAMP_COUNT + SKY_COUNT;
 const uint DIFFUSE = 2u * SURFACE_COUNT;
 const uint SPECULAR = 3u * SURFACE_COUNT;
 const uint MOTIONS = HAS_TABLE ? EMISSION + EMITTING_SPHERES + PLANES_EMIT * PLANE_COUNT : (3u + GLOSS) * SURFACE_COUNT;
-const uint CURVATURES = MOTIONS + MOTION * SPHERE_COUNT;
+const uint HAS_WAYS = MOTION + CAPSULES > 0u ? 1u : 0u;
+const uint CURVATURES = MOTIONS + HAS_WAYS * SPHERE_COUNT;
 const uint LAMP_TREE = CURVATURES + CURVATURE * PLANE_COUNT;
 // ... one that only the uniform buffer has, and those that only the storage buffer has.
 const uint SPOTS = LAMP_TREE + LAMP_TREE_WORDS;
 const uint INDICES = LAMP_TREE + LAMP_TREE_WORDS;
 const uint TREE_FRAME = INDICES + (SURFACE_COUNT + 3u) / 4u;
 const uint TABLE = TREE_FRAME + 5u * TREE;
+
+// A sphere that does not move may be swept from one end of a segment to the other: a capsule. Its axis is the way
+// between the ends, 1 / the length.
+const vec4 NO_AXIS = vec4(0.0);
+
+vec4 axis_of(vec4 way) { return way.w > 0.0 ? way : NO_AXIS; }
+
+vec3 moved(vec4 way, float time) { return CAPSULES == 1 && way.w > 0.0 ? vec3(0.0) : time * way.xyz; }
+
+// The way from the first end of an axis to its point that is nearest to where the first end is seen from.
+vec3 to_nearest(vec3 to_first, vec4 axis)
+{
+    return clamp(-dot(to_first, axis.xyz * axis.w) * axis.w, 0.0, 1.0) * axis.xyz;
+}
 
 #include "tree.glsl"
 
@@ -202,16 +218,18 @@ vec4 sphere_at(uint sphere, float time)
 {
     vec4 centre_radius = scene_word(sphere);
     if (MOTION == 1)
-        centre_radius.xyz += time * scene_word(MOTIONS + sphere).xyz;
+        centre_radius.xyz += moved(scene_word(MOTIONS + sphere), time);
     return centre_radius;
 }
+
+vec4 axis_at(uint sphere) { return CAPSULES == 1 ? axis_of(scene_word(MOTIONS + sphere)) : NO_AXIS; }
 
 // ... or any of the first count spheres, by an index that may differ between invocations.
 vec4 sphere_among(uint count, uint sphere, float time)
 {
     vec4 centre_radius = scene_word_among(0u, count, sphere);
     if (MOTION == 1)
-        centre_radius.xyz += time * scene_word_among(MOTIONS, count, sphere).xyz;
+        centre_radius.xyz += moved(scene_word_among(MOTIONS, count, sphere), time);
     return centre_radius;
 }
 
@@ -226,6 +244,15 @@ vec4 sphere_of(uint surface, float time)
     if (TREE == 1u && surface >= SURFACE_COUNT)
         return tree_sphere(surface - SURFACE_COUNT, time);
     return sphere_among(SPHERE_COUNT, surface, time);
+}
+
+vec4 axis_of_surface(uint surface)
+{
+    if (CAPSULES == 0)
+        return NO_AXIS;
+    if (TREE == 1u && surface >= SURFACE_COUNT)
+        return tree_axis(surface - SURFACE_COUNT);
+    return axis_of(scene_word_among(MOTIONS, SPHERE_COUNT, surface));
 }
 
 // ... and of any lamp, by its number.

@@ -34,10 +34,15 @@ vec4 tree_sphere_of(uvec4 word, ivec3 base, vec3 rest, uint place, float time)
 {
     vec3 centre = (vec3(ivec3(word.xyz) - base) - rest) * tree_step();
     if (MOTION == 1) {
-        vec3 way = uintBitsToFloat(tree_word(tree_first_motion() + place).xyz);
-        centre += (tree_shutter_open() + time * tree_shutter_time()) * way;
+        vec4 way = uintBitsToFloat(tree_word(tree_first_motion() + place));
+        centre += moved(way, tree_shutter_open() + time * tree_shutter_time());
     }
     return vec4(centre, uintBitsToFloat(word.w));
+}
+
+vec4 tree_axis(uint place)
+{
+    return CAPSULES == 1 ? axis_of(uintBitsToFloat(tree_word(tree_first_motion() + place))) : NO_AXIS;
 }
 
 vec4 tree_sphere_from(ivec3 base, vec3 rest, uint place, float time)

@@ -36,27 +36,33 @@ void keep_closer_of_tree(inout Hit hit, inout uvec4 hit_word, float distance, ui
 }
 
 // Distance along a direction to a sphere of the tree, or NO_HIT, and the sphere as the ray's start sees it.
-float distance_in_tree(Start start, GridRay ray, vec3 direction, uint surface, vec4 ball, float time)
+float distance_in_tree(Start start, GridRay ray, vec3 direction, uint surface, vec4 ball, vec4 axis, float time)
 {
     bool leaving = surface == start.surface;
-    if (TREE_INSIDE == 0)
+    if (TREE_INSIDE == 0) {
+        if (CAPSULES == 1)
+            ball.xyz += swept_to(ball.xyz, axis, ball.w, direction, false);
         return ray.advance + distance_from_outside(ball.xyz, ball.w, direction, leaving);
+    }
     vec3 from_side = KNOWN_SIDES == 1 ? tree_sphere(surface - SURFACE_COUNT, time).xyz : ball.xyz;
-    bool outside = dot(from_side, from_side) > ball.w * ball.w;
-    return ray.advance + sphere_distance(ball.xyz, ball.w, direction, leaving, start.inside, outside);
+    bool outside = is_outside(from_side, axis, ball.w);
+    return ray.advance + swept_distance(ball.xyz, axis, ball.w, direction, leaving, start.inside, outside);
 }
 
 // As a ray of the same direction would meet it before the lamp. A lamp that is not in the tree goes before all that is.
-bool blocks_in_tree(Start start, GridRay ray, ShadowRay shadow, uint surface, uvec4 word, vec4 ball, float time)
+bool blocks_in_tree(Start start, GridRay ray, ShadowRay shadow, uint surface, uvec4 word, vec4 ball, vec4 axis,
+                    float time)
 {
     if (INSIDE == 1 || CLOSE_LAMPS == 1) {
-        float distance = distance_in_tree(start, ray, shadow.direction, surface, ball, time);
+        float distance = distance_in_tree(start, ray, shadow.direction, surface, ball, axis, time);
         bool before = distance < shadow.distance;
         if (CLOSE_LAMPS == 1 && TREE_LAMPS > 0u && distance == shadow.distance && shadow.lamp >= SURFACE_COUNT)
             before = goes_before(word, surface, tree_sphere_word(shadow.lamp - SURFACE_COUNT), shadow.lamp);
         return before && surface != shadow.lamp;
     }
     bool at_end = surface == start.surface || surface == shadow.lamp;
+    if (CAPSULES == 1)
+        ball.xyz += swept_to(ball.xyz, axis, ball.w, shadow.direction, false);
     return sphere_blocks(ball.xyz, ball.w, shadow.direction, at_end, shadow.distance - ray.advance);
 }
 
@@ -66,7 +72,7 @@ ShadowRay ended_as_met_in_tree(ShadowRay shadow, Start start, float time)
     if (CLOSE_LAMPS == 1 && TREE_LAMPS > 0u && shadow.distance > 0.0 && shadow.lamp >= SURFACE_COUNT) {
         GridRay ray = grid_ray(start.origin, shadow.direction);
         vec4 ball = tree_sphere_from(ray.base, ray.rest, shadow.lamp - SURFACE_COUNT, time);
-        float distance = distance_in_tree(start, ray, shadow.direction, shadow.lamp, ball, time);
+        float distance = distance_in_tree(start, ray, shadow.direction, shadow.lamp, ball, NO_AXIS, time);
         shadow.distance = distance < NO_HIT ? distance : shadow.distance;
     }
     return shadow;
@@ -212,10 +218,11 @@ void test_sphere(inout Walk walk, uint place, GridRay ray, bool in_shadow)
     uint surface = SURFACE_COUNT + place;
     uvec4 word = tree_sphere_word(place);
     vec4 ball = tree_sphere_of(word, ray.base, ray.rest, place, walk.time);
+    vec4 axis = tree_axis(place);
     if (in_shadow) {
-        walk.blocked = blocks_in_tree(walk.start, ray, walk.shadow, surface, word, ball, walk.time);
+        walk.blocked = blocks_in_tree(walk.start, ray, walk.shadow, surface, word, ball, axis, walk.time);
     } else {
-        float distance = distance_in_tree(walk.start, ray, walk.direction, surface, ball, walk.time);
+        float distance = distance_in_tree(walk.start, ray, walk.direction, surface, ball, axis, walk.time);
         keep_closer_of_tree(walk.hit, walk.hit_word, distance, surface, word);
     }
 }

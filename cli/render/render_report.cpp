@@ -23,7 +23,8 @@ constexpr ValueNames feature_names({{"lamps", PT_FEATURE_LAMPS},
                                     {"tree", PT_FEATURE_TREE},
                                     {"orthographic", PT_FEATURE_ORTHOGRAPHIC},
                                     {"hidden", PT_FEATURE_HIDDEN},
-                                    {"lens", PT_FEATURE_LENS}});
+                                    {"lens", PT_FEATURE_LENS},
+                                    {"capsules", PT_FEATURE_CAPSULES}});
 constexpr ValueNames uncertainty_names({{"rmse", PT_UNCERTAIN_RMSE},
                                         {"relative_rmse", PT_UNCERTAIN_RELATIVE_RMSE},
                                         {"unseen", PT_UNCERTAIN_UNSEEN},

@@ -20,6 +20,8 @@ std::vector<bool> used_materials(const SceneFile &scene) {
     std::vector<bool> used(scene.materials.size());
     for (const pt_sphere &sphere : scene.spheres)
         used[sphere.material] = true;
+    for (const Capsule &capsule : scene.capsules)
+        used[capsule.ball.material] = true;
     for (const SphereColumns &each : scene.sphere_columns)
         used[each.material] = true;
     for (const pt_plane &plane : scene.planes)

@@ -1,15 +1,19 @@
 #include "cli/scene/scene_file.h"
 
 #include "cli/base/file.h"
+#include "cli/base/text.h"
 #include "cli/scene/scene_keys.h"
 
 #include <algorithm>
 #include <iterator>
 #include <span>
+#include <string>
 #include <utility>
 
 namespace cli {
 namespace {
+
+constexpr std::array<float, 3> white{1.0F, 1.0F, 1.0F};
 
 pt_sphere_array colored(std::span<const pt_sphere> spheres, std::span<const std::array<float, 3>> colors) {
     constexpr auto stride = static_cast<std::uint32_t>(sizeof(pt_sphere));
@@ -23,6 +27,18 @@ pt_sphere_array colored(std::span<const pt_sphere> spheres, std::span<const std:
     return array;
 }
 
+pt_sphere_array array_of(std::span<const Capsule> capsules) {
+    constexpr auto stride = static_cast<std::uint32_t>(sizeof(Capsule));
+    auto array = sized<pt_sphere_array>();
+    array.count = static_cast<std::uint32_t>(capsules.size());
+    array.center = {&capsules[0].ball.center, stride, PT_TYPE_FLOAT64};
+    array.radius = {&capsules[0].ball.radius, stride, PT_TYPE_FLOAT64};
+    array.material = {&capsules[0].ball.material, stride, PT_TYPE_UINT32};
+    array.color = {&capsules[0].color, stride, PT_TYPE_FLOAT32};
+    array.end = {&capsules[0].end, stride, PT_TYPE_FLOAT64};
+    return array;
+}
+
 // Keys of the file that pt.h calls otherwise.
 constexpr std::array<std::array<std::string_view, 2>, 6> renamed{{{"camera.target", "camera.look_at"},
                                                                   {"camera.shutter_open", "camera.shutter[0]"},
@@ -31,16 +47,26 @@ constexpr std::array<std::array<std::string_view, 2>, 6> renamed{{{"camera.targe
                                                                   {"render.height", "film.height"},
                                                                   {"accumulate.sample_count", "render.spp"}}};
 
-// Of an element of a column, whose components are spheres. The file's single spheres may be an array before others.
+// Of an element of a column, whose components are spheres. The file's single ones may be arrays before others.
 JsonPath path_in_arrays(const SceneFile &scene, const BrokenRule &rule) {
     const std::size_t of_spheres = scene.sphere_colors.empty() ? 0 : 1;
-    const bool is_single = *rule.index < of_spheres;
-    const std::size_t item =
-        is_single ? scene.item_of(rule.component.value_or(0)) : scene.sphere_columns[*rule.index - of_spheres].item;
-    JsonPath path{{"spheres"}, {{}, item, true}, {rule.member}};
-    if (rule.component && !is_single)
+    const std::size_t of_single = of_spheres + (scene.capsules.empty() ? 0 : 1);
+    const bool is_single = *rule.index < of_single;
+    const SphereColumns *const many = is_single ? nullptr : &scene.sphere_columns[*rule.index - of_single];
+    const std::string_view section = many ? many->section : *rule.index < of_spheres ? "spheres" : "capsules";
+    const std::size_t item = many ? many->item : scene.item_of(section, rule.component.value_or(0));
+    JsonPath path{{std::string(section)}, {{}, item, true}, {rule.member}};
+    if (rule.component && !is_single && rule.member != "material") // which is one for all
         path.push_back({{}, *rule.component, true});
     return path;
+}
+
+// A material by its name, as the file has it, where a sphere may not be of it.
+BrokenRule with_names(const SceneFile &scene, const BrokenRule &rule) {
+    BrokenRule named = rule;
+    if (rule.subject == "sphere_arrays" && rule.member == "material")
+        named.value = concat('"', scene.material_names[std::stoul(rule.value)], '"');
+    return named;
 }
 
 // Of the field that breaks a rule; empty if it is none of the file's. Materials have names there.
@@ -58,7 +84,7 @@ JsonPath path_of(const SceneFile &scene, const BrokenRule &rule) {
         path.push_back({rule.subject});
         if (rule.index) {
             const bool is_named = rule.subject == "materials" && *rule.index < scene.material_names.size();
-            const std::size_t item = rule.subject == "spheres" ? scene.item_of(*rule.index) : *rule.index;
+            const std::size_t item = rule.subject == "spheres" ? scene.item_of("spheres", *rule.index) : *rule.index;
             path.push_back(is_named ? JsonStep{scene.material_names[item]} : JsonStep{{}, item, true});
         }
         path.push_back({rule.member});
@@ -88,12 +114,16 @@ std::string place_text(const SceneFile &scene, const JsonPath &path) {
 } // namespace
 
 void SceneFile::add_sphere(const pt_sphere &sphere, const std::optional<std::array<float, 3>> &color) {
-    constexpr std::array<float, 3> white{1.0F, 1.0F, 1.0F};
     if (color && sphere_colors.empty())
         sphere_colors.assign(spheres.size(), white);
     spheres.push_back(sphere);
     if (!sphere_colors.empty() || color)
         sphere_colors.push_back(color.value_or(white));
+}
+
+void SceneFile::add_capsule(const pt_sphere &ball, const double (&end)[3],
+                            const std::optional<std::array<float, 3>> &color) {
+    capsules.push_back({ball, std::to_array(end), color.value_or(white)});
 }
 
 pt_scene SceneFile::scene() const {
@@ -111,15 +141,17 @@ std::vector<pt_sphere_array> SceneFile::sphere_arrays() const {
     std::vector<pt_sphere_array> arrays;
     if (!sphere_colors.empty())
         arrays.push_back(colored(spheres, sphere_colors));
+    if (!capsules.empty())
+        arrays.push_back(array_of(capsules));
     std::transform(sphere_columns.begin(), sphere_columns.end(), std::back_inserter(arrays),
                    [](const SphereColumns &each) { return each.spheres(); });
     return arrays;
 }
 
-std::size_t SceneFile::item_of(std::size_t sphere) const {
+std::size_t SceneFile::item_of(std::string_view section, std::size_t index) const {
     for (const SphereColumns &each : sphere_columns)
-        sphere += each.item <= sphere ? 1 : 0;
-    return sphere;
+        index += each.section == section && each.item <= index ? 1 : 0;
+    return index;
 }
 
 bool SceneFile::gives(const JsonPath &key) const {
@@ -132,8 +164,9 @@ std::string SceneFile::explain(const BrokenRule &rule) const {
         return rule_text(cause->name_of(path_there), rule);
     if (is_of_command(*this, rule, path_there))
         return in_words_of_options(rule);
-    return rule_text(
-        place_text(*this, path_there) + ": " + (path_there.empty() ? field_text(rule) : path_text(path_there)), rule);
+    return rule_text(place_text(*this, path_there) + ": " +
+                         (path_there.empty() ? field_text(rule) : path_text(path_there)),
+                     with_names(*this, rule));
 }
 
 std::string SceneFile::explain(const LibraryError &error) const {

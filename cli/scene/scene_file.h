@@ -37,6 +37,13 @@ constexpr pt_render default_render() {
     return render;
 }
 
+// With one color, so that all are one array.
+struct Capsule {
+    pt_sphere ball; // at one end
+    std::array<double, 3> end;
+    std::array<float, 3> color;
+};
+
 struct SceneFile {
     std::string path;
     std::string text;                        // of which refusals tell the lines
@@ -46,6 +53,7 @@ struct SceneFile {
     std::vector<pt_material> materials;
     std::vector<pt_sphere> spheres;
     std::vector<std::array<float, 3>> sphere_colors; // of each sphere where any has one, else empty
+    std::vector<Capsule> capsules;
     std::vector<pt_plane> planes;
     std::vector<SphereColumns> sphere_columns; // without what their files have, before load_columns
     std::vector<AnimatedValue> animation;
@@ -55,12 +63,13 @@ struct SceneFile {
     Display display;
 
     void add_sphere(const pt_sphere &sphere, const std::optional<std::array<float, 3>> &color);
+    void add_capsule(const pt_sphere &ball, const double (&end)[3], const std::optional<std::array<float, 3>> &color);
 
-    // Both point into this object. Spheres are in the first array if any of them has a color; each item that is many
-    // spheres is another.
+    // Both point into this object. Spheres are in the first array if any of them has a color, capsules in the next;
+    // each item that is many of either is another.
     pt_scene scene() const;
     std::vector<pt_sphere_array> sphere_arrays() const;
-    std::size_t item_of(std::size_t sphere) const; // index in the file's section of spheres[sphere]
+    std::size_t item_of(std::string_view section, std::size_t index) const; // among all of its items, of single ones
 
     bool gives(const JsonPath &key) const;
 

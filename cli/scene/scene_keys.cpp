@@ -161,34 +161,53 @@ constexpr std::array material_keys{
         [](Item item, Value value) { item.material.flags = value.get<bool>() ? PT_MATERIAL_HIDDEN_FROM_CAMERA : 0; }},
 };
 
+constexpr SceneKey center_key{"center",    lengths,
+                              "At time 0", "",
+                              required,    [](Item item, Value value) { put(value, item.sphere.center); },
+                              "",          &pt_sphere_array::center};
+constexpr SceneKey radius_key{"radius", radius,
+                              "",       "",
+                              required, [](Item item, Value value) { item.sphere.radius = value.get<double>(); },
+                              "",       &pt_sphere_array::radius};
+constexpr SceneKey material_key{
+    "material", material_name,
+    "Its name", "",
+    required,   [](Item item, Value value) {
+                                    item.material_name = value.get_ref<const std::string &>(); }};
+constexpr SceneKey color_key{"color",
+                             share,
+                             "Multiplies the material's diffuse",
+                             "1",
+                             optional,
+                             [](Item item, Value value) {
+                                 float color[3];
+                                 put(value, color);
+                                 item.color = std::to_array(color);
+                             },
+                             "",
+                             &pt_sphere_array::color};
+
 constexpr std::array sphere_keys{
-    SceneKey{"center", lengths, "At time 0", "", required,
-             [](Item item, Value value) { put(value, item.sphere.center); }, "", &pt_sphere_array::center},
-    SceneKey{"radius", radius, "", "", required,
-             [](Item item, Value value) { item.sphere.radius = value.get<double>(); }, "", &pt_sphere_array::radius},
-    SceneKey{"material", material_name, "Its name", "", required,
-             [](Item item, Value value) { item.material_name = value.get_ref<const std::string &>(); }},
+    center_key, radius_key, material_key,
     SceneKey{"motion", lengths, "Way from time 0 to time 1; the camera's shutter says which part is seen", "[0, 0, 0]",
              optional, [](Item item, Value value) { put(value, item.sphere.motion); }, "", &pt_sphere_array::motion},
-    SceneKey{"color", share, "Multiplies the material's diffuse", "1", optional,
-             [](Item item, Value value) {
-                 float color[3];
-                 put(value, color);
-                 item.color = std::to_array(color);
-             },
-             "", &pt_sphere_array::color},
-};
+    color_key};
+
+constexpr std::array capsule_keys{
+    SceneKey{"center", lengths, "One end", "", required, center_key.store, "", center_key.column},
+    SceneKey{"end", lengths, "The other", "", required, [](Item item, Value value) { put(value, item.end); }, "",
+             &pt_sphere_array::end},
+    radius_key, material_key, color_key};
 
 constexpr std::array plane_keys{
     SceneKey{"normal", direction, "Of any length", "", required,
              [](Item item, Value value) { put(value, item.plane.normal); }},
     SceneKey{"offset", ValueRule{}, "Minus the distance from the origin along the normal, times its length", "",
              required, [](Item item, Value value) { item.plane.offset = value.get<double>(); }},
-    SceneKey{"material", material_name, "Its name", "", required,
-             [](Item item, Value value) { item.material_name = value.get_ref<const std::string &>(); }},
+    material_key,
 };
 
-constexpr std::array<SceneSection, 6> sections{{
+constexpr std::array<SceneSection, 7> sections{{
     {"camera", SectionForm::members,
      "A pinhole, a thin lens, or parallel rays, under which a thing is as large in the picture wherever it is",
      camera_keys},
@@ -196,6 +215,7 @@ constexpr std::array<SceneSection, 6> sections{{
     {"render", SectionForm::members, "How it is made", render_keys},
     {"materials", SectionForm::objects, "By their names", material_keys},
     {"spheres", SectionForm::array, "Hollow: they are seen, lit and shine inside as outside", sphere_keys},
+    {"capsules", SectionForm::array, "Balls swept along a segment; they do not emit", capsule_keys},
     {"planes", SectionForm::array, "Where dot(normal, x) + offset = 0", plane_keys},
 }};
 

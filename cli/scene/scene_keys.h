@@ -20,9 +20,10 @@ struct SceneItem {
     SceneFile &scene;
     pt_material material{};
     pt_sphere sphere{};
+    double end[3]{}; // of a capsule, whose other end is the sphere
     std::optional<std::array<float, 3>> color = std::nullopt;
     pt_plane plane{};
-    std::string material_name{}; // of the sphere or plane
+    std::string material_name{}; // of the sphere, capsule or plane
 };
 
 struct SceneKey {
@@ -47,6 +48,9 @@ struct SceneSection {
     SectionForm form;
     std::string_view words;
     std::span<const SceneKey> keys;
+
+    // Whether an item may be many, by columns.
+    bool may_be_many() const { return name == "spheres" || name == "capsules"; }
 };
 
 // All but `animation`, whose keys are paths.

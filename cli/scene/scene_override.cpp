@@ -57,13 +57,13 @@ void add_set(CLI::App &command, std::vector<SceneOverride> &overrides) {
         ->group("Picture");
 }
 
-// A key of the camera, of a material, of a sphere or of a plane.
+// A key of the camera, of a material or of a surface.
 bool can_move(const JsonPath &path) {
     const auto is_key_in = [&](const char *section, std::size_t length) {
         return path.size() == length && path[0].key == section && !path.back().in_array;
     };
     const bool is_of_camera = is_key_in("camera", 2) && path[1].key != "shutter";
-    const bool is_of_element = is_key_in("spheres", 3) || is_key_in("planes", 3);
+    const bool is_of_element = is_key_in("spheres", 3) || is_key_in("capsules", 3) || is_key_in("planes", 3);
     return is_of_camera || (is_of_element && path[1].in_array) || (is_key_in("materials", 3) && !path[1].in_array);
 }
 

@@ -125,8 +125,8 @@ private:
             if (find_key(*section_, member.key()) == nullptr)
                 refuse_unknown_key(place, member.key(), key_names(*section_));
         SceneItem item{scene_};
-        const bool is_many = section_->name == "spheres" && value.contains("center") && value["center"].is_string();
-        SphereColumns columns{place.index};
+        const bool is_many = section_->may_be_many() && value.contains("center") && value["center"].is_string();
+        SphereColumns columns{section_->name, place.index};
         for (const SceneKey &key : section_->keys) {
             const auto found = value.find(key.name);
             if (found == value.end() && key.is_required)
@@ -162,6 +162,8 @@ private:
         item.plane.material = material;
         if (section_->name == "spheres")
             scene_.add_sphere(item.sphere, item.color);
+        else if (section_->name == "capsules")
+            scene_.add_capsule(item.sphere, item.end, item.color);
         else
             scene_.planes.push_back(item.plane);
     }
@@ -189,6 +191,8 @@ private:
         }
         for (pt_sphere &sphere : scene_.spheres)
             sphere.material = indices[sphere.material];
+        for (Capsule &capsule : scene_.capsules)
+            capsule.ball.material = indices[capsule.ball.material];
         for (SphereColumns &each : scene_.sphere_columns)
             each.material = indices[each.material];
         for (pt_plane &plane : scene_.planes)
@@ -232,7 +236,7 @@ private:
     std::set<const SceneSection *> begun_;
     std::set<std::size_t> used_overrides_;
 
-    // Names of materials are numbered as spheres and planes have them.
+    // Names of materials are numbered as surfaces have them.
     struct UsedName {
         std::string name;
         JsonPath first_place;

@@ -95,7 +95,7 @@ Schema section_schema(const SceneSection &section) {
         break;
     case SectionForm::array:
         schema = {{"type", "array"},
-                  {"items", section.name == "spheres" ? any_of({object, object_of(section, true)}) : object}};
+                  {"items", section.may_be_many() ? any_of({object, object_of(section, true)}) : object}};
         break;
     }
     schema["description"] = section.words;
@@ -109,7 +109,7 @@ Schema animation() {
     const Schema key{{"type", "array"}, {"items", {frame, value}}, {"minItems", 2}, {"maxItems", 2}};
     return {{"description", "Key frames, [frame, value] each, of values by their paths like camera.position"},
             {"type", "object"},
-            {"propertyNames", {{"pattern", "^(camera|materials|spheres|planes)[.[]"}}},
+            {"propertyNames", {{"pattern", "^(camera|materials|spheres|capsules|planes)[.[]"}}},
             {"additionalProperties", {{"type", "array"}, {"items", key}, {"minItems", 1}}}};
 }
 

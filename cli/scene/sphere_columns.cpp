@@ -216,8 +216,8 @@ void load_columns(SceneFile &scene) {
             column.array = parse_npy(read_file(path), path);
             check_fit(*column.key, column.array, each.columns.front().array, path);
         } catch (const Failure &failure) {
-            throw Failure(failure.code(),
-                          concat(scene.path, ": spheres[", each.item, "].", column.key->name, ": ", failure.what()));
+            throw Failure(failure.code(), concat(scene.path, ": ", each.section, "[", each.item, "].", column.key->name,
+                                                 ": ", failure.what()));
         }
     });
 }

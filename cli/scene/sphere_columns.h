@@ -1,5 +1,6 @@
-// An item of the section `spheres` that is many spheres, whose properties are columns: {"center": "a.npy", ...}, and
-// the files of these in NumPy's format NPY (numpy.org/doc/stable/reference/generated/numpy.lib.format.html).
+// An item of the sections `spheres` or `capsules` that is many of them, whose properties are columns: {"center":
+// "a.npy", ...}, and the files of these in NumPy's format NPY
+// (numpy.org/doc/stable/reference/generated/numpy.lib.format.html).
 #pragma once
 
 #include "cli/base/json.h"
@@ -11,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace cli {
@@ -46,7 +48,8 @@ struct SphereColumn {
 };
 
 struct SphereColumns {
-    std::size_t item = 0; // its index in the section
+    std::string_view section; // spheres or capsules
+    std::size_t item = 0;     // its index there
     std::uint32_t material = 0;
     std::vector<SphereColumn> columns{}; // those that are given
 

@@ -8,6 +8,7 @@
 #include "lib/kernel/scene_blocks.h"
 #include "lib/scene/seen_scene.h"
 #include "lib/scene/twins.h"
+#include "lib/scene/way_word.h"
 
 #include <algorithm>
 #include <bit>
@@ -67,8 +68,8 @@ public:
 
     void sphere(std::uint32_t surface, const SeenSphere &sphere) {
         words_[surface] = glm::vec4(glm::vec3(sphere.open), static_cast<float>(sphere.radius));
-        if (features_.motion)
-            words_[blocks_.motion + surface] = glm::vec4(glm::vec3(sphere.way), 0.0F);
+        if (features_.motion || features_.capsules)
+            words_[blocks_.motion + surface] = way_word(sphere.way, sphere.swept);
     }
 
     void plane(std::uint32_t surface, const CurvedPlane &plane) {

@@ -24,6 +24,25 @@ bool lies_apart(const MovingBall &ball, const MovingBall &surface) {
     return is_beside || is_within;
 }
 
+namespace {
+
+// A capsule is swept at once, so that no end of it belongs to a time. What is apart from the ball about it is from it.
+MovingBall ball_about(const SeenSphere &sphere) {
+    if (!sphere.swept)
+        return sphere;
+    const glm::dvec3 half = 0.5 * sphere.way;
+    return {sphere.open + half, glm::dvec3(0.0), sphere.radius + glm::length(half)};
+}
+
+bool lies_apart(const MovingBall &ball, const SeenSphere &surface) {
+    if (!surface.swept)
+        return pt::lies_apart(ball, static_cast<const MovingBall &>(surface));
+    const MovingBall about = ball_about(surface);
+    return least_distance(ball.open - about.open, ball.way) > with_margin(ball.radius + about.radius);
+}
+
+} // namespace
+
 bool lies_apart(const MovingBall &ball, const CurvedPlane &flat) {
     const double open = glm::dot(flat.normal, ball.open) + flat.offset;
     const double close = glm::dot(flat.normal, ball.close()) + flat.offset;
@@ -39,11 +58,12 @@ bool lies_apart(const MovingBall &ball, const PointBox &box) {
 }
 
 bool lies_apart(const SeenSphere &hidden, const SeenScene &scene, const SphereTree *tree, const Camera &camera) {
-    const auto is_in_touch = [&](const auto &surface) { return !surface.hidden && !lies_apart(hidden, surface); };
+    const MovingBall ball = ball_about(hidden);
+    const auto is_in_touch = [&](const auto &surface) { return !surface.hidden && !lies_apart(ball, surface); };
     const auto of_scene = [&](const PointBox &box) {
         return PointBox{box.low - camera.position, box.high - camera.position};
     };
-    return !scene.any_surface(is_in_touch) && (tree == nullptr || lies_apart(hidden, of_scene(tree->bounds())));
+    return !scene.any_surface(is_in_touch) && (tree == nullptr || lies_apart(ball, of_scene(tree->bounds())));
 }
 
 } // namespace pt

@@ -34,10 +34,6 @@ double film_unit(const std::vector<Material> &materials) {
     return std::ldexp(1.0, std::clamp(exponent - 8, -120, 120));
 }
 
-bool does_move(const Sphere &sphere) {
-    return sphere.motion != glm::dvec3(0.0);
-}
-
 void add_lamps(std::vector<Sphere> &spheres, const SphereTree &tree) {
     for (std::uint32_t lamp = 0; lamp < tree.lamp_materials().size(); ++lamp)
         spheres.push_back(tree.lamp(lamp));
@@ -58,6 +54,8 @@ std::string digest_with_tree(const PreparedScene &prepared) {
     digest.add(prepared.tree->grid().step);
     prepared.tree->for_each_in_scene_order([&](const SphereTree::HeldSphere &sphere) {
         digest.add(sphere.place);
+        if (sphere.swept)
+            digest.add(std::uint64_t{sphere.swept});
         digest.add((std::uint64_t{sphere.material} << 32) | sphere.color);
     });
     for (const Material &material : prepared.used_materials)
@@ -112,7 +110,7 @@ std::shared_ptr<const SphereTree> tree_over(const SphereSource &spheres, const s
 
 PreparedScene::PreparedScene(Scene of) :
     scene(std::move(of)),
-    moves(std::ranges::any_of(scene.spheres, does_move)),
+    moves(std::ranges::any_of(scene.spheres, &Sphere::moves)),
     sphere_order(order_along_line(scene.spheres)),
     lamp_order(order_in_lamp_tree(scene)) {
     note_materials(is_used(scene));

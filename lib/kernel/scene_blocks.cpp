@@ -12,7 +12,7 @@ SceneBlocks::SceneBlocks(const Features &features) {
     emission = surfaces;
     motion =
         features.scene_in_uniform ? (3 + gloss) * surfaces : emission + features.emitting_spheres() + emitting_planes;
-    curvature = motion + (features.motion ? features.sphere_count : 0);
+    curvature = motion + (features.motion || features.capsules ? features.sphere_count : 0);
     lamp_tree = curvature + (features.curvature ? features.plane_count : 0);
     index = lamp_tree + (features.lamp_tree ? lamp_tree_words(features.lamp_count, features.motion) : 0);
     if (features.scene_in_uniform) {

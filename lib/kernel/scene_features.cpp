@@ -148,6 +148,8 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
     // Of those in the tree the places are kept as they are at time 0.
     const bool tree_is_late = tree && tree->moves() && camera.shutter_open > 0.0;
     features.motion = scene.moves && (camera.shutter_close > camera.shutter_open || tree_is_late);
+    features.capsules =
+        std::ranges::any_of(surfaces.spheres, &SeenSphere::swept) || (tree != nullptr && tree->has_capsules());
     features.scene_in_uniform = !features.tree;
     if (features.tree || SceneBlocks(features).word_count > gpu::UNIFORM_SCENE_WORDS) {
         features.scene_in_uniform = false;
@@ -228,6 +230,7 @@ std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Fe
     constants[gpu::ID_CLOSE_LAMPS] = features.close_lamps ? 1 : 0;
     constants[gpu::ID_STARTS_AHEAD] = features.starts_ahead ? 1 : 0;
     constants[gpu::ID_ORTHOGRAPHIC] = features.orthographic ? 1 : 0;
+    constants[gpu::ID_CAPSULES] = features.capsules ? 1 : 0;
     constants[gpu::ID_LENS] = features.lens ? 1 : 0;
     constants[gpu::ID_HIDDEN_LAMPS] = features.hidden.lamps;
     constants[gpu::ID_HIDDEN_SKIES] = features.hidden.skies;
@@ -289,6 +292,7 @@ std::uint32_t feature_bits(const Features &features) {
     bits |= features.orthographic ? PT_FEATURE_ORTHOGRAPHIC : 0;
     bits |= features.hidden.any() ? PT_FEATURE_HIDDEN : 0;
     bits |= features.lens ? PT_FEATURE_LENS : 0;
+    bits |= features.capsules ? PT_FEATURE_CAPSULES : 0;
     return bits;
 }
 

@@ -28,6 +28,7 @@ struct Features {
     std::uint32_t sampler;
     bool gloss;        // some material in use has a specular lobe
     bool motion;       // some sphere moves while the shutter is open
+    bool capsules;     // some sphere is swept along a segment
     bool curvature;    // some sphere is held as a plane with a curvature
     bool inside;       // the camera is inside a sphere held by centre and radius, or too near to its surface to tell
     bool planes_block; // some plane may stand between a surface that a path reaches and a lamp

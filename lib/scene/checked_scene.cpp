@@ -178,7 +178,7 @@ CheckedScene checked_scene(const pt_scene &scene, WorkProgress &progress) {
                    static_cast<double>(materials.size() + spheres.size() + planes.size()) + elements_of(arrays));
     check_all(materials, checker, progress);
     check_all(spheres, checker, progress);
-    check_sphere_arrays(arrays, scene.material_count, violations, progress);
+    check_sphere_arrays(arrays, materials, violations, progress);
     check_all(planes, checker, progress);
     violations.throw_if_any(PT_ERROR_INVALID_SCENE);
     return {owned_all<Material>(materials), SphereSource(spheres, arrays), owned_all<Plane>(planes)};

@@ -31,8 +31,11 @@ inline bool is_glossy(const Material &material) {
 struct Sphere {
     glm::dvec3 center;
     double radius;
-    glm::dvec3 motion;
+    glm::dvec3 motion;      // or, of a capsule, the way from one end to the other
     std::uint32_t material; // index into Scene::materials
+    bool swept = false;     // is a capsule
+
+    bool moves() const { return !swept && motion != glm::dvec3(0.0); }
 };
 
 // dot(normal, x) + offset = 0

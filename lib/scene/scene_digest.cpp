@@ -63,6 +63,8 @@ std::string digest_of(const Scene &scene) {
         digest.add(sphere.center);
         digest.add(sphere.radius);
         digest.add(sphere.motion);
+        if (sphere.swept) // so that scenes without capsules keep the digest that their films have
+            digest.add(std::uint64_t{sphere.swept});
         materials.add(sphere.material);
     }
     for (const Plane &plane : scene.planes) {

@@ -35,14 +35,15 @@ SeenSphere::SeenSphere(const Sphere &sphere, const Material &of_sphere, const Ca
     index(of_index),
     emits(pt::emits(of_sphere)),
     hidden(of_sphere.hidden),
-    is_flat(is_large(*this, emits ? nearly_flat_lamp : nearly_flat) && moves_little(*this)) {}
+    swept(sphere.swept),
+    is_flat(!swept && is_large(*this, emits ? nearly_flat_lamp : nearly_flat) && moves_little(*this)) {}
 
 // Held by its centre, its surface is off by 2^-24 of the radius. Where that is more than 1/256 of its distance, as for
 // lamps, the picture would be wrong while it is so near. Parallel rays start on a disc and not in a point: to be so
 // near to that is no harm to a view that is wider.
 bool moves_too_far(const SeenSphere &sphere, const Camera &camera) {
-    return is_large(sphere, nearly_flat_lamp) && sphere.radius > nearly_flat_lamp * camera.start_radius &&
-           !moves_little(sphere);
+    return !sphere.swept && is_large(sphere, nearly_flat_lamp) &&
+           sphere.radius > nearly_flat_lamp * camera.start_radius && !moves_little(sphere);
 }
 
 } // namespace pt

@@ -55,7 +55,15 @@ const ColumnKind kinds[] = {
     {"motion", &pt_sphere_array::motion, 3, is_real, real_types, false},
     {"material", &pt_sphere_array::material, 1, is_index, index_types, false},
     {"color", &pt_sphere_array::color, 3, is_color, color_types, false},
+    {"end", &pt_sphere_array::end, 3, is_real, real_types, false},
 };
+
+// Lamps are chosen and sampled by the cone that a ball subtends.
+const char *const dark_rule = "must be of a material without emission: capsules are no lamps";
+
+bool is_dark(const pt_material &material) {
+    return std::ranges::all_of(material.emission, [](float component) { return component == 0.0F; });
+}
 
 std::uint32_t component_bytes(std::uint32_t type) {
     if (type == PT_TYPE_FLOAT64)
@@ -94,6 +102,10 @@ bool check_layout(const Subject &subject, const pt_sphere_array &array) {
     bool readable = true;
     for (const ColumnKind &kind : kinds)
         readable &= check_layout(subject, array.*kind.column, array.count, kind);
+    if (is_there(array.end) && is_there(array.motion)) {
+        subject.refuse("motion.data", "set", "must be NULL where end.data is set: capsules do not move");
+        return false;
+    }
     return readable;
 }
 
@@ -154,6 +166,15 @@ public:
             [&](std::size_t i, std::uint32_t value) { subject_.refuse_element("material", i, value, rule); });
     }
 
+    void check_dark(const pt_column &column, std::span<const pt_material> materials) const {
+        check_elements(
+            elements(column), progress_, [&column](std::size_t i) { return element<std::uint32_t>(column, i); },
+            [materials](std::uint32_t material) {
+                return material >= materials.size() || is_dark(materials[material]);
+            },
+            [&](std::size_t i, std::uint32_t value) { subject_.refuse_element("material", i, value, dark_rule); });
+    }
+
 private:
     // A single value for all spheres is looked at once.
     std::size_t elements(const pt_column &column) const { return column.stride_bytes == 0 ? 1 : count_; }
@@ -163,8 +184,9 @@ private:
     WorkProgress &progress_;
 };
 
-void check_values(const Subject &subject, const pt_sphere_array &array, std::uint32_t material_count,
+void check_values(const Subject &subject, const pt_sphere_array &array, std::span<const pt_material> materials,
                   WorkProgress &progress) {
+    const auto material_count = static_cast<std::uint32_t>(materials.size());
     const ColumnChecker checker(subject, array.count, progress);
     checker.check_vectors<is_coordinate>("center", array.center, length_rule);
     checker.check_numbers<is_positive_length>("radius", array.radius, positive_length_rule);
@@ -176,6 +198,13 @@ void check_values(const Subject &subject, const pt_sphere_array &array, std::uin
         subject.require(material_count > 0, "material", 0U, material_rule(material_count));
     if (is_there(array.color) && array.color.type != PT_TYPE_SRGB8)
         checker.check_vectors<is_share>("color", array.color, share_rule);
+    if (!is_there(array.end))
+        return;
+    checker.check_vectors<is_coordinate>("end", array.end, length_rule);
+    if (is_there(array.material))
+        checker.check_dark(array.material, materials);
+    else if (!materials.empty())
+        subject.require(is_dark(materials.front()), "material", 0U, dark_rule);
 }
 
 } // namespace
@@ -215,12 +244,12 @@ double elements_of(std::span<const pt_sphere_array> arrays) {
     return elements;
 }
 
-void check_sphere_arrays(std::span<const pt_sphere_array> arrays, std::uint32_t material_count, Violations &violations,
-                         WorkProgress &progress) {
+void check_sphere_arrays(std::span<const pt_sphere_array> arrays, std::span<const pt_material> materials,
+                         Violations &violations, WorkProgress &progress) {
     for (std::size_t i = 0; i < arrays.size(); ++i) {
         const Subject subject(violations, "sphere_arrays", i);
         if (arrays[i].count > 0 && check_layout(subject, arrays[i]))
-            check_values(subject, arrays[i], material_count, progress);
+            check_values(subject, arrays[i], materials, progress);
     }
 }
 

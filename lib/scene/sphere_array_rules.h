@@ -25,8 +25,8 @@ double elements_of(std::span<const pt_sphere_array> arrays);
 
 // Checks the columns and their contents; each element is a unit of work. If the columns of an array cannot be read,
 // nothing else of that array is checked.
-void check_sphere_arrays(std::span<const pt_sphere_array> arrays, std::uint32_t material_count, Violations &violations,
-                         WorkProgress &progress);
+void check_sphere_arrays(std::span<const pt_sphere_array> arrays, std::span<const pt_material> materials,
+                         Violations &violations, WorkProgress &progress);
 
 // "must be < material_count (5)"
 std::string material_rule(std::uint32_t material_count);

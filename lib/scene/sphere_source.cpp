@@ -45,6 +45,13 @@ void read_columns(const pt_sphere_array &columns, At at, std::span<Sphere> spher
     else
         for (Sphere &sphere : spheres)
             sphere.motion = glm::dvec3(0.0);
+    for (Sphere &sphere : spheres)
+        sphere.swept = is_there(columns.end);
+    if (is_there(columns.end))
+        with_vectors(columns.end, [&](auto end) {
+            for (std::size_t i = 0; i < spheres.size(); ++i)
+                spheres[i].motion = glm::dvec3(end(at(i))) - spheres[i].center;
+        });
     if (is_there(columns.material))
         for (std::size_t i = 0; i < spheres.size(); ++i)
             spheres[i].material = element<std::uint32_t>(columns.material, at(i));

@@ -53,7 +53,7 @@ bool are_twins(const SeenSphere &a, const SeenSphere &b) {
     if (a.is_flat && b.is_flat)
         return are_alike(curved_plane(a), curved_plane(b), same_size);
     const double apart = std::min(tolerance(a), tolerance(b));
-    return glm::length(a.open - b.open) <= apart && glm::length(a.close() - b.close()) <= apart &&
+    return a.swept == b.swept && glm::length(a.open - b.open) <= apart && glm::length(a.close() - b.close()) <= apart &&
            std::abs(a.radius - b.radius) <= same_size * std::min(a.radius, b.radius);
 }
 

@@ -19,7 +19,8 @@ SphereExtent::SphereExtent(const SphereSource &spheres, std::span<const std::uin
         low = glm::min(low, glm::min(sphere.center, end) - sphere.radius);
         high = glm::max(high, glm::max(sphere.center, end) + sphere.radius);
         largest_radius = std::max(largest_radius, sphere.radius);
-        moves = moves || sphere.motion != glm::dvec3(0.0);
+        moves = moves || sphere.moves();
+        has_capsules = has_capsules || sphere.swept;
         lamp_count += materials[sphere.material].emits ? 1 : 0;
     });
 }

@@ -35,6 +35,7 @@ struct SphereExtent {
     glm::dvec3 high{-std::numeric_limits<double>::infinity()};
     double largest_radius = 0.0;
     bool moves = false;
+    bool has_capsules = false;
     std::uint32_t lamp_count = 0;
 
     // materials: all materials of the scene.

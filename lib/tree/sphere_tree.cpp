@@ -108,6 +108,7 @@ SphereTree::SphereTree(const SphereExtent &extent, const SphereSource &spheres,
                        std::span<const std::uint32_t> left_out) :
     grid_(extent.grid()),
     moves_(extent.moves),
+    has_capsules_(extent.has_capsules),
     has_colors_(spheres.has_colors()),
     scene_sphere_count_(static_cast<std::uint32_t>(spheres.size())),
     left_out_(left_out.begin(), left_out.end()) {
@@ -122,7 +123,7 @@ void SphereTree::make_room(std::size_t node_count, WorkProgress &progress) {
     first_sphere_ =
         (node_count_ * gpu::TREE_NODE_WORDS + gpu::TREE_ALIGNMENT - 1) / gpu::TREE_ALIGNMENT * gpu::TREE_ALIGNMENT;
     first_motion_ = first_sphere_ + sphere_count_;
-    first_surface_ = first_motion_ + (moves_ ? sphere_count_ : 0);
+    first_surface_ = first_motion_ + (has_ways() ? sphere_count_ : 0);
     first_color_ = first_surface_ + quarter;
     first_lamp_ = first_color_ + (has_colors_ ? quarter : 0);
     words_.reserve(first_lamp_ + lamp_materials_.capacity());
@@ -149,7 +150,7 @@ void SphereTree::write_spheres(const SphereSource &spheres, std::span<const Tree
         const auto component = static_cast<int>(place % 4);
         const TreeMaterial &material = materials[sphere.material];
         words_[first_sphere_ + place] = sphere_word(sphere, grid_);
-        if (moves_)
+        if (has_ways())
             words_[first_motion_ + place] = motion_word(sphere);
         if (has_colors_)
             words_[first_color_ + place / 4][component] = color_word(color);
@@ -215,18 +216,19 @@ std::vector<std::uint32_t> SphereTree::places_in_scene_order() const {
 SphereTree::HeldSphere SphereTree::held(std::uint32_t place) const {
     const auto component = static_cast<int>(place % 4);
     const glm::uvec4 &word = words_[first_sphere_ + place];
-    const glm::uvec4 way = moves_ ? words_[first_motion_ + place] : glm::uvec4(0);
+    const glm::uvec4 way = has_ways() ? words_[first_motion_ + place] : glm::uvec4(0);
     const std::uint32_t surface = words_[first_surface_ + place / 4][component];
     const bool is_lamp = (surface & gpu::TREE_LAMP_BIT) != 0;
     return {{word.x, word.y, word.z, word.w, way.x, way.y, way.z},
             is_lamp ? words_[first_lamp_ + (surface & ~gpu::TREE_LAMP_BIT)].y : surface,
-            has_colors_ ? words_[first_color_ + place / 4][component] : color_word(glm::vec3(1.0F))};
+            has_colors_ ? words_[first_color_ + place / 4][component] : color_word(glm::vec3(1.0F)),
+            is_swept(way)};
 }
 
-// A sphere as the kernel has it, from time 0 to 1.
+// A sphere as the kernel has it, from time 0 to 1 or from end to end.
 MovingBall SphereTree::ball_at(std::uint32_t place) const {
     const glm::uvec4 &word = words_[first_sphere_ + place];
-    return {grid_.point(centre_of(word)), moves_ ? way_of(words_[first_motion_ + place]) : glm::dvec3(0.0),
+    return {grid_.point(centre_of(word)), has_ways() ? way_of(words_[first_motion_ + place]) : glm::dvec3(0.0),
             radius_of(word)};
 }
 
@@ -235,13 +237,14 @@ bool SphereTree::is_far(const Camera &camera) const {
     return !(std::max({steps.x, steps.y, steps.z}) <= 2.0 * Grid::reach);
 }
 
-// The box of a sphere as the kernel has it, at any time. The margin of the kernel covers what rounding adds.
+// The box of a sphere as the kernel has it, at any time, or of a capsule. The margin of the kernel covers what rounding
+// adds.
 GridBox SphereTree::box_of_place(std::uint32_t place) const {
     const glm::uvec4 &word = words_[first_sphere_ + place];
     const int radius = ceiling(radius_of(word) * grid_.steps_per_unit);
     const glm::ivec3 centre = centre_of(word);
     GridBox box{centre - radius, centre + radius};
-    if (moves_) {
+    if (has_ways()) {
         const glm::dvec3 way = way_of(words_[first_motion_ + place]) / grid_.step;
         box.low += glm::ivec3(glm::floor(glm::min(way, 0.0)));
         box.high += glm::ivec3(glm::ceil(glm::max(way, 0.0)));
@@ -275,6 +278,8 @@ Sphere SphereTree::lamp(std::uint32_t number) const {
 
 MovingBall SphereTree::seen_ball(std::uint32_t place, const Camera &camera) const {
     const MovingBall ball = ball_at(place);
+    if (has_capsules_ && is_swept(words_[first_motion_ + place]))
+        return {ball.open - camera.position, ball.way, ball.radius};
     return {ball.open + camera.shutter_open * ball.way - camera.position,
             (camera.shutter_close - camera.shutter_open) * ball.way, ball.radius};
 }

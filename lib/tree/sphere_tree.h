@@ -60,6 +60,7 @@ public:
         std::array<std::uint32_t, 7> place; // on the grid, with radius and way
         std::uint32_t material;             // of those in use
         std::uint32_t color;
+        bool swept;
     };
 
     // Calls use(HeldSphere) for all spheres, in the order of the scene.
@@ -78,6 +79,7 @@ public:
     std::uint32_t node_count() const { return node_count_; }
     std::uint32_t depth() const { return depth_; }
     bool moves() const { return moves_; }
+    bool has_capsules() const { return has_capsules_; }
 
     // For each place, the index of its sphere in the scene; and the number of spheres in the scene.
     std::span<const std::uint32_t> spheres() const { return *spheres_; }
@@ -125,6 +127,7 @@ private:
     bool has_alike(WorkProgress &progress) const;
     std::vector<std::uint32_t> places_in_scene_order() const;
     HeldSphere held(std::uint32_t place) const;
+    bool has_ways() const { return moves_ || has_capsules_; }
     MovingBall ball_at(std::uint32_t place) const;
     MovingBall seen_ball(std::uint32_t place, const Camera &camera) const;
     GridBox box_of_place(std::uint32_t place) const;
@@ -135,6 +138,7 @@ private:
 
     Grid grid_;
     bool moves_;
+    bool has_capsules_;
     bool has_colors_;
     std::uint32_t scene_sphere_count_;
     std::vector<std::uint32_t> left_out_; // of these

@@ -1,6 +1,8 @@
 // Rounds spheres to words; see sphere_words.h.
 #include "lib/tree/sphere_words.h"
 
+#include "lib/scene/way_word.h"
+
 namespace pt {
 
 glm::uvec4 sphere_word(const Sphere &sphere, const Grid &grid) {
@@ -8,9 +10,7 @@ glm::uvec4 sphere_word(const Sphere &sphere, const Grid &grid) {
 }
 
 glm::uvec4 motion_word(const Sphere &sphere) {
-    const glm::vec3 way = glm::vec3(sphere.motion) + 0.0F; // -0 is made +0, for twins
-    return {std::bit_cast<std::uint32_t>(way.x), std::bit_cast<std::uint32_t>(way.y),
-            std::bit_cast<std::uint32_t>(way.z), 0};
+    return std::bit_cast<glm::uvec4>(way_word(sphere.motion, sphere.swept));
 }
 
 std::uint32_t color_word(const glm::vec3 &color) {
@@ -18,10 +18,10 @@ std::uint32_t color_word(const glm::vec3 &color) {
     return steps.r | steps.g << 10 | steps.b << 20;
 }
 
-std::array<std::uint32_t, 7> words_of(const Sphere &sphere, const Grid &grid) {
+std::array<std::uint32_t, 8> words_of(const Sphere &sphere, const Grid &grid) {
     const glm::uvec4 place = sphere_word(sphere, grid);
     const glm::uvec4 motion = motion_word(sphere);
-    return {place.x, place.y, place.z, place.w, motion.x, motion.y, motion.z};
+    return {place.x, place.y, place.z, place.w, motion.x, motion.y, motion.z, motion.w};
 }
 
 std::array<float, 4> ball_of(const Sphere &sphere, const Grid &grid) {

@@ -21,7 +21,7 @@ glm::uvec4 motion_word(const Sphere &sphere);
 std::uint32_t color_word(const glm::vec3 &color);
 
 // Everything that the kernel knows about where a sphere is.
-std::array<std::uint32_t, 7> words_of(const Sphere &sphere, const Grid &grid);
+std::array<std::uint32_t, 8> words_of(const Sphere &sphere, const Grid &grid);
 
 // Centre and radius, in grid steps, of the ball around the sphere's way, as the kernel has it. Equal for twins.
 std::array<float, 4> ball_of(const Sphere &sphere, const Grid &grid);
@@ -32,6 +32,10 @@ inline glm::ivec3 centre_of(const glm::uvec4 &sphere) {
 
 inline double radius_of(const glm::uvec4 &sphere) {
     return std::bit_cast<float>(sphere.w);
+}
+
+inline bool is_swept(const glm::uvec4 &motion) {
+    return motion.w != 0;
 }
 
 inline glm::dvec3 way_of(const glm::uvec4 &motion) {

@@ -109,6 +109,35 @@ class RealDevice(ColumnsTest):
                             # The library decodes to float32, here to double: an ulp of a color is one of the light.
                             self.assertLessEqual(abs(a - b), 2**-20 * abs(a))
 
+    def test_columns_are_the_capsules_that_they_list(self):
+        ends = [0.5, 0.5, -4.0, 1.25, -0.5, -6.5, -1.0, 0.75, -4.0]
+        singles = [{"center": CENTERS[3 * i:3 * i + 3], "end": ends[3 * i:3 * i + 3], "radius": 0.5 * RADII[i],
+                    "material": "a", "color": [1, 0.5, 0.25]} for i in range(3)]
+        self.scene(capsules=singles)
+        expected = self.radiance()
+        self.scene(*[{key: one[key] for key in one if key != "end"} for one in singles])
+        self.assertNotEqual(self.radiance(), expected)
+        self.files_of()
+        self.write("e.npy", npy("<f4", (3, 3), ends))
+        self.write("r.npy", npy("<f8", (3,), [0.5 * radius for radius in RADII]))
+        columns = {"center": "c.npy", "end": "e.npy", "radius": "r.npy", "material": "a", "color": [1, 0.5, 0.25]}
+        self.scene(capsules=[columns])
+        self.assertEqual(self.radiance(), expected)
+        self.write("e.npy", npy("<f4", (3, 2), ends[:6]))
+        self.expect(3, "render", "s.json", "-o", "a.png", error="capsules[0].end: e.npy: has the shape (3, 2), must be")
+        self.write("e.npy", npy("<f4", (3, 3), [float("inf")] + ends[1:]))
+        self.expect(3, "render", "s.json", "-o", "a.png", error=": capsules[0].end[0] = (inf, 0.5, -4): must be finite")
+        self.scene(capsules=[{**singles[0], "material": "sky"}])
+        self.expect(3, "render", "s.json", "-o", "a.png",
+                    error=': capsules[0].material = "sky": must be of a material without emission')
+        self.scene(capsules=[{**columns, "end": [1, 1, -5], "material": "sky"}])
+        self.expect(3, "render", "s.json", "-o", "a.png", error=': capsules[0].material = "sky": must be of a material')
+        self.scene(capsules=[{**singles[0], "motion": [1, 0, 0]}])
+        self.expect(3, "render", "s.json", "-o", "a.png", error='unknown key "motion", known: ')
+        del singles[1]["end"]
+        self.scene(capsules=singles)
+        self.expect(3, "render", "s.json", "-o", "a.png", error='capsules[1]: "end" is missing')
+
     def test_rules_of_the_library_lead_back_to_the_file(self):
         self.files_of()
         self.write("r.npy", npy("<f4", (3,), [1, -1, 1]))

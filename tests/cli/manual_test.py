@@ -14,10 +14,11 @@ with open(os.path.join(os.path.dirname(SCENES), "README.md"), encoding="utf-8") 
     MANUAL = file.read()
 
 SECTIONS = {"camera": "{%s}", "film": "{%s}", "render": "{%s}", "materials": '{"a": {%s}}',
-            "spheres": "[{%s}]", "planes": "[{%s}]"}
+            "spheres": "[{%s}]", "capsules": "[{%s}]", "planes": "[{%s}]"}
 # What a section has to have beside the key that is looked at.
 REQUIRED = {"camera": {"position": [0, 0, 1], "look_at": [0, 0, 0]},
             "spheres": {"center": [0, 0, -5], "radius": 1, "material": "red"},
+            "capsules": {"center": [0, 0, -5], "end": [1, 0, -5], "radius": 1, "material": "red"},
             "planes": {"normal": [0, 1, 0], "offset": 0, "material": "red"}}
 # Keys that cannot stand together: examples are tried without the ones and without the others.
 EITHER = {"camera": (["vertical_fov", "aperture", "focus"], ["projection", "vertical_extent"])}

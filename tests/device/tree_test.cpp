@@ -68,11 +68,9 @@ struct Compared {
     bool shrunk_same;
 };
 
-Compared compare(const pt::Scene &scene, const pt::Camera &camera) {
-    const std::vector<pt_sphere> spheres_of_caller = caller_spheres(scene.spheres);
-    const pt::PreparedScene prepared({scene.materials, {spheres_of_caller, {}}, scene.planes}, 1);
+Compared compare(const pt::PreparedScene &prepared, const pt::Camera &camera) {
     // Testing every sphere takes loop trips, of which some drivers allow 65,535.
-    const std::size_t spheres = scene.spheres.size();
+    const std::size_t spheres = prepared.tree->sphere_count();
     KernelRender render(pt::gpu_scene(prepared, camera, KernelRender::settings(spheres > 100 ? 2 : 4)));
     render.take(spheres > 400 ? 2 : spheres > 40 ? 4 : 8);
     Probe probe = render.probe_of_tree();
@@ -84,6 +82,42 @@ Compared compare(const pt::Scene &scene, const pt::Camera &camera) {
     const FilmWords tested = render.film_by(probe);
     render.radiance(tested);
     return {walked == tested, shrunk == tested};
+}
+
+Compared compare(const pt::Scene &scene, const pt::Camera &camera) {
+    const std::vector<pt_sphere> spheres_of_caller = caller_spheres(scene.spheres);
+    return compare(pt::PreparedScene({scene.materials, {spheres_of_caller, {}}, scene.planes}, 1), camera);
+}
+
+// Sweeps half of the spheres that are no lamps to others of them. Some begin where another does, and are met at the
+// same distance.
+Compared compare_with_capsules(const pt::Scene &scene, const pt::Camera &camera) {
+    std::vector<pt_sphere> spheres;
+    std::vector<pt_sphere> capsules; // whose motion is the other end
+    for (const pt_sphere &sphere : caller_spheres(scene.spheres)) {
+        const bool is_swept = sphere.material != 0 && spheres.size() > capsules.size();
+        (is_swept ? capsules : spheres).push_back(sphere);
+        if (!is_swept)
+            continue;
+        const std::size_t other = capsules.size() % spheres.size();
+        std::ranges::copy(spheres[other].center, capsules.back().motion);
+        if (capsules.size() % 3 == 0) {
+            std::ranges::copy(capsules.front().center, capsules.back().center);
+            capsules.back().radius = capsules.front().radius;
+        }
+    }
+    std::vector<pt_sphere_array> arrays;
+    constexpr std::uint32_t stride = sizeof(pt_sphere);
+    if (!capsules.empty())
+        arrays.push_back({sizeof(pt_sphere_array),
+                          static_cast<std::uint32_t>(capsules.size()),
+                          {capsules[0].center, stride, PT_TYPE_FLOAT64},
+                          {&capsules[0].radius, stride, PT_TYPE_FLOAT64},
+                          {},
+                          {&capsules[0].material, stride, PT_TYPE_UINT32},
+                          {},
+                          {capsules[0].motion, stride, PT_TYPE_FLOAT64}});
+    return compare(pt::PreparedScene({scene.materials, {spheres, arrays}, scene.planes}, 1), camera);
 }
 
 TEST(Tree, WalksFindWhatTestingEverySphereFinds) {
@@ -98,6 +132,21 @@ TEST(Tree, WalksFindWhatTestingEverySphereFinds) {
         caught += compared.shrunk_same ? 0 : 1;
     }
     EXPECT_GT(caught, scene_count() / 4) << "boxes that are too small are not noticed";
+}
+
+TEST(Tree, WalksFindCapsulesThatTestingEveryOneFinds) {
+    TreeScenes scenes(2);
+    const std::size_t count = 2 * scene_count() / 3;
+    std::size_t caught = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const pt::Scene scene = scenes.next(scene_count() > 100 ? 2000 : 100);
+        const pt::Camera camera = scenes.camera(scene);
+        SCOPED_TRACE("scene " + std::to_string(i) + ": " + scenes.kind() + ", " + std::to_string(scene.spheres.size()));
+        const Compared compared = compare_with_capsules(scene, camera);
+        EXPECT_TRUE(compared.same);
+        caught += compared.shrunk_same ? 0 : 1;
+    }
+    EXPECT_GT(caught, count / 4) << "boxes that are too small are not noticed";
 }
 
 // A heap of balls that overlap, with a lamp, at the end of a floor.

@@ -49,6 +49,22 @@ class Columns(unittest.TestCase):
         without = pt.SphereArray(POSITIONS, RADII, INDICES)
         np.testing.assert_array_equal(radiance(self.context, one_by_one), radiance(self.context, scene_of(without)))
 
+    def test_ends_make_capsules(self):
+        self.check((), end=POSITIONS)  # of no length
+        ends = POSITIONS + np.float32([0.3, 0, 0])
+        capsules = radiance(self.context, scene_of(pt.SphereArray(POSITIONS, RADII, INDICES, color=COLORS, end=ends)))
+        self.assertTrue(self.context.stats().features & pt.Feature.CAPSULES)
+        self.assertFalse(np.array_equal(capsules, self.plain))
+        turned = pt.SphereArray(POSITIONS, RADII, INDICES, color=COLORS, end=np.asfortranarray(ends.astype(float)))
+        self.assertEqual(turned.copied, ("end",))
+        np.testing.assert_array_equal(radiance(self.context, scene_of(turned)), capsules)
+        with self.assertRaisesRegex(ValueError, "end"):
+            pt.SphereArray(POSITIONS, RADII, INDICES, end=ends[1:])
+        for spoilt, message in (({"motion": ends}, r"sphere_arrays\[0\].motion"), ({"material": LAMP}, "emission")):
+            array = pt.SphereArray(POSITIONS, RADII, **{"material": INDICES, **spoilt}, end=ends)
+            with self.assertRaisesRegex(pt.Error, message):
+                radiance(self.context, scene_of(array))
+
     def test_double_precision(self):
         self.check((), POSITIONS.astype(float), RADII.astype(float), colors=COLORS.astype(float))
 

@@ -204,6 +204,9 @@ private:
             const glm::dvec3 outward = (distance * direction - to_centre) / sphere.radius;
             nearest = {distance, enters ? outward : -outward, sphere.material, i};
         }
+        for (std::uint32_t i = 0; i < scene_.sphere_array_count; ++i)
+            for (std::uint32_t row = 0; row < scene_.sphere_arrays[i].count; ++row)
+                meet_capsule(nearest, origin, direction, scene_.sphere_arrays[i], row);
         for (std::uint32_t i = 0; i < scene_.plane_count; ++i) {
             const pt_plane &plane = scene_.planes[i];
             if (is_of_camera && is_hidden(plane.material))
@@ -216,6 +219,57 @@ private:
                            scene_.sphere_count + i};
         }
         return nearest;
+    }
+
+    template <typename Element>
+    static const Element *at(const pt_column &column, std::uint32_t row) {
+        return reinterpret_cast<const Element *>(static_cast<const unsigned char *>(column.data) +
+                                                 std::size_t{row} * column.stride_bytes);
+    }
+
+    // The side, between the planes through both ends, and the balls there: a ray enters the union of the three at the
+    // least distance at which it enters one of them, and leaves it at the greatest.
+    static void meet_capsule(Hit &nearest, const glm::dvec3 &origin, const glm::dvec3 &direction,
+                             const pt_sphere_array &array, std::uint32_t row) {
+        const double *const a = at<double>(array.center, row);
+        const double *const b = at<double>(array.end, row);
+        const double radius = *at<double>(array.radius, row);
+        const glm::dvec3 first(a[0], a[1], a[2]);
+        const glm::dvec3 last(b[0], b[1], b[2]);
+        const double length = glm::length(last - first);
+        double enters = std::numeric_limits<double>::infinity();
+        double leaves = -enters;
+        for (const glm::dvec3 &end : {first, last}) {
+            const double along = glm::dot(end - origin, direction);
+            const glm::dvec3 across = end - origin - along * direction;
+            if (const double square = radius * radius - glm::dot(across, across); square > 0.0) {
+                enters = std::min(enters, along - std::sqrt(square));
+                leaves = std::max(leaves, along + std::sqrt(square));
+            }
+        }
+        const glm::dvec3 axis = (last - first) / length;
+        const glm::dvec3 slope = direction - glm::dot(direction, axis) * axis;
+        const glm::dvec3 from = origin - first - glm::dot(origin - first, axis) * axis;
+        const double quadratic = glm::dot(slope, slope);
+        const double half_linear = glm::dot(slope, from);
+        const double discriminant = half_linear * half_linear - quadratic * (glm::dot(from, from) - radius * radius);
+        if (length > 0.0 && quadratic > 0.0 && discriminant > 0.0)
+            for (const double root : {-std::sqrt(discriminant), std::sqrt(discriminant)}) {
+                const double distance = (root - half_linear) / quadratic;
+                const double height = glm::dot(origin + distance * direction - first, axis);
+                if (height < 0.0 || height > length)
+                    continue;
+                enters = std::min(enters, distance);
+                leaves = std::max(leaves, distance);
+            }
+        const double distance = enters > 0.0 ? enters : leaves;
+        if (!(distance > 0.0 && distance < nearest.distance))
+            return;
+        const glm::dvec3 point = origin + distance * direction;
+        const double height = length > 0.0 ? std::clamp(glm::dot(point - first, axis), 0.0, length) : 0.0;
+        const glm::dvec3 outward = (point - first - (length > 0.0 ? height * axis : glm::dvec3(0.0))) / radius;
+        nearest = {distance, enters > 0.0 ? outward : -outward, *at<std::uint32_t>(array.material, row),
+                   std::numeric_limits<std::uint32_t>::max()};
     }
 
     const pt_scene &scene_;

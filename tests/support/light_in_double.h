@@ -25,14 +25,44 @@ inline constexpr std::uint32_t samples_of_image = 32;
 inline constexpr double most_errors = 6.5;
 
 struct Given {
+    struct Capsule {
+        double center[3];
+        double end[3];
+        double radius;
+        std::uint32_t material;
+    };
+
     std::vector<pt_material> materials{{{0.8F, 0.6F, 0.4F}, {0, 0, 0}, {0, 0, 0}, 0, 0},
                                        {{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0, 0},
                                        {{0.2F, 0.2F, 0.2F}, {0, 0, 0}, {3, 4, 5}, 0, 0}};
     std::vector<pt_sphere> spheres;
     std::vector<pt_plane> planes{{{0, 1, 0}, 1.5, 1, 0}};
     pt_camera camera{};
+    std::vector<Capsule> capsules{};
 
-    pt_scene scene() const { return scene_of(materials, spheres, planes); }
+    pt_scene scene() const {
+        pt_scene scene = scene_of(materials, spheres, planes);
+        if (capsules.empty())
+            return scene;
+        array_ = array();
+        scene.sphere_arrays = &array_;
+        scene.sphere_array_count = 1;
+        return scene;
+    }
+
+    pt_sphere_array array() const {
+        constexpr std::uint32_t stride = sizeof(Capsule);
+        pt_sphere_array array{};
+        array.struct_size = sizeof array;
+        array.count = static_cast<std::uint32_t>(capsules.size());
+        array.center = {capsules[0].center, stride, PT_TYPE_FLOAT64};
+        array.end = {capsules[0].end, stride, PT_TYPE_FLOAT64};
+        array.radius = {&capsules[0].radius, stride, PT_TYPE_FLOAT64};
+        array.material = {&capsules[0].material, stride, PT_TYPE_UINT32};
+        return array;
+    }
+
+    mutable pt_sphere_array array_{}; // what scene() points to
 };
 
 using Blocks = std::vector<DoublePathTracer::Estimate>;

@@ -21,7 +21,8 @@ enum {
     PT_FEATURE_TREE = 16,
     PT_FEATURE_ORTHOGRAPHIC = 32, /**< parallel camera rays */
     PT_FEATURE_HIDDEN = 64,       /**< surfaces that the camera does not see */
-    PT_FEATURE_LENS = 128         /**< camera rays start on a lens */
+    PT_FEATURE_LENS = 128,        /**< camera rays start on a lens */
+    PT_FEATURE_CAPSULES = 256     /**< some spheres are swept along a segment */
 };
 
 /** What has been done, and what it took. */

@@ -116,6 +116,7 @@ class Feature(enum.IntFlag):
     ORTHOGRAPHIC = 32  # parallel camera rays
     HIDDEN = 64  # surfaces that the camera does not see
     LENS = 128  # camera rays start on a lens
+    CAPSULES = 256  # some spheres are swept along a segment
 
 
 class Uncertain(enum.IntFlag):

@@ -1,0 +1,402 @@
+// Capsules: beside exact intersections in double, in light beside a path tracer of its own in double, and where they
+// are spheres or tell nothing of how the scene is held. PT_TEST_MANY asks for 100 random scenes. Run alone with
+// --gtest_filter=Capsule*.
+#include "tests/support/light_in_double.h"
+#include "tests/support/scene_of.h"
+#include "tests/support/shared_context.h"
+
+#include <pt/film.h>
+#include <pt/stats.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace capsules {
+
+namespace {
+
+using namespace light_in_double;
+
+// Spheres, capsules and planes, and what looks at them.
+struct Case {
+    std::string name;
+    Given given;
+};
+
+glm::dvec3 vector_of(const double (&components)[3]) {
+    return {components[0], components[1], components[2]};
+}
+
+struct Nearest {
+    double distance = std::numeric_limits<double>::infinity();
+    std::size_t index = 0;
+};
+
+// Of the capsules, from a point outside.
+Nearest nearest_of(const std::vector<Given::Capsule> &capsules, const glm::dvec3 &point) {
+    Nearest nearest;
+    for (std::size_t i = 0; i < capsules.size(); ++i) {
+        const glm::dvec3 first = vector_of(capsules[i].center);
+        const glm::dvec3 way = vector_of(capsules[i].end) - first;
+        const double square = glm::dot(way, way);
+        const double share = square > 0.0 ? std::clamp(glm::dot(point - first, way) / square, 0.0, 1.0) : 0.0;
+        const double distance = glm::length(point - first - share * way) - capsules[i].radius;
+        if (distance < nearest.distance)
+            nearest = {distance, i};
+    }
+    return nearest;
+}
+
+pt_camera camera_at(const glm::dvec3 &position, const glm::dvec3 &target, double vertical_fov) {
+    pt_camera camera{};
+    camera.struct_size = sizeof camera;
+    for (int axis = 0; axis < 3; ++axis) {
+        camera.position[axis] = position[axis];
+        camera.target[axis] = target[axis];
+    }
+    camera.up[1] = 1;
+    camera.vertical_fov = vertical_fov;
+    return camera;
+}
+
+// Through the centre of a pixel, as long as its depth is 1.
+glm::dvec3 ray_of(const pt_camera &camera, std::uint32_t pixel) {
+    const glm::dvec3 forward = glm::normalize(vector_of(camera.target) - vector_of(camera.position));
+    const glm::dvec3 right = glm::normalize(glm::cross(forward, vector_of(camera.up)));
+    const glm::dvec3 up = glm::cross(right, forward);
+    const double size = 2.0 * std::tan(0.5 * camera.vertical_fov) / picture.y;
+    return forward + size * ((pixel % picture.x + 0.5 - 0.5 * picture.x) * right -
+                             (pixel / picture.x + 0.5 - 0.5 * picture.y) * up);
+}
+
+// Rods and balls about the origin, a lamp above, a floor, from so far away. With many there is a tree.
+Given random_scene(std::uint32_t seed, std::uint32_t rods, std::uint32_t balls, double distance) {
+    std::mt19937 engine(seed);
+    const auto uniform = [&](double low, double high) {
+        return low + (high - low) * std::generate_canonical<double, 53>(engine);
+    };
+    Given given;
+    const double size = 2.0 / std::cbrt(static_cast<double>(rods + balls));
+    const auto place = [&](double(&point)[3]) {
+        const std::array at{uniform(-2, 2), uniform(-1.2, 1.5), uniform(-2, 2)};
+        std::ranges::copy(at, point);
+    };
+    for (std::uint32_t i = 0; i < balls; ++i) {
+        pt_sphere ball{{0, 0, 0}, size * uniform(0.2, 0.6), {0, 0, 0}, i % 2, 0};
+        place(ball.center);
+        if (i % 3 == 0)
+            ball.motion[i % 2] = uniform(-1, 1);
+        given.spheres.push_back(ball);
+    }
+    given.spheres.push_back({{3, 5, uniform(-3, 3)}, 1.5, {0, 0, 0.5}, 2, 0});
+    for (std::uint32_t i = 0; i < rods; ++i) {
+        Given::Capsule rod{{0, 0, 0}, {0, 0, 0}, size * uniform(0.05, 0.4), i % 2};
+        place(rod.center);
+        for (int axis = 0; axis < 3; ++axis)
+            rod.end[axis] = rod.center[axis] + size * uniform(-2, 2);
+        given.capsules.push_back(rod);
+    }
+    given.camera = camera_at({0.28 * distance, 0, 0.96 * distance}, {0, 0, 0}, 2.0 * std::atan(2.0 / distance));
+    given.camera.up[0] = 0.3;
+    given.camera.shutter_close = balls > 0 ? 0.75 : 0.0;
+    return given;
+}
+
+// The camera in a capsule, in which there are a ball and a lamp.
+Given inside() {
+    Given given = random_scene(9, 5, 3, 3.0);
+    given.planes.clear();
+    given.spheres.back() = {{0, 2.4, -2}, 0.5, {0, 0, 0}, 2, 0};
+    given.capsules.push_back({{-1, 0, -4}, {2, 0.5, 4}, 5.0, 1});
+    return given;
+}
+
+class Capsules : public LightInDouble {
+protected:
+    std::vector<float> image(const Given &given, std::uint32_t samples = 4) {
+        return render_image(context(), given.scene(), given.camera, picture_of(PT_SAMPLER_SOBOL), samples);
+    }
+
+    std::vector<float> read(std::uint32_t quantity) {
+        std::vector<float> values(std::size_t{3} * picture.x * picture.y);
+        const pt_image target = image_target(values, quantity);
+        EXPECT_EQ(pt_readback(context(), &target), PT_OK) << pt_last_error(context());
+        return values;
+    }
+
+    std::vector<float> first_hits(const Given &given, std::uint32_t quantity) {
+        const pt_scene scene = given.scene();
+        const pt_render render = picture_of(PT_SAMPLER_SOBOL);
+        EXPECT_EQ(pt_set_scene(context(), &scene), PT_OK) << pt_last_error(context());
+        EXPECT_EQ(pt_set_camera(context(), &given.camera), PT_OK) << pt_last_error(context());
+        EXPECT_EQ(pt_set_render(context(), &render), PT_OK) << pt_last_error(context());
+        return read(quantity);
+    }
+
+    // Pixels whose depth or object is not what a search along the ray through the centre finds in double: the distance
+    // to a capsule is a bound on how far the ray may go on.
+    std::size_t wrong_pixels(const Given &seen, const Given &truth) {
+        const std::vector<float> depths = first_hits(seen, PT_QUANTITY_DEPTH);
+        std::vector<std::uint32_t> objects(std::size_t{picture.x} * picture.y);
+        pt_image target = image_target({}, PT_QUANTITY_OBJECT);
+        target.format = PT_FORMAT_R32UI;
+        target.data = objects.data();
+        target.size_bytes = objects.size() * sizeof objects[0];
+        EXPECT_EQ(pt_readback(context(), &target), PT_OK) << pt_last_error(context());
+        const glm::dvec3 position = vector_of(truth.camera.position);
+        std::size_t met = 0;
+        std::size_t wrong = 0;
+        for (std::uint32_t i = 0; i < objects.size(); ++i) {
+            const glm::dvec3 ray = ray_of(truth.camera, i);
+            double depth = 0.0;
+            Nearest nearest;
+            for (int step = 0; step < 20'000 && depth < 1000.0; ++step) {
+                nearest = nearest_of(truth.capsules, position + depth * ray);
+                if (nearest.distance < 1e-9)
+                    break;
+                depth += nearest.distance / glm::length(ray);
+            }
+            const bool meets = nearest.distance < 1e-9;
+            met += meets ? 1 : 0;
+            // float32 holds what is seen from 8 away to 8 2^-24, and the huge one to 2^-23 of its radius; at a grazing
+            // angle the depth is off by the root.
+            const bool is_near = std::abs(depths[3 * i] - depth) < 2e-4 * depth;
+            const bool is_object = objects[i] == seen.spheres.size() + nearest.index;
+            wrong += meets != std::isfinite(depths[3 * i]) || (meets && !(is_near && is_object)) ? 1 : 0;
+        }
+        EXPECT_GT(met, 170U);
+        return wrong;
+    }
+};
+
+// Negative control: capsules that are shorter by three tenths are told from them.
+TEST_F(Capsules, HaveTheLightOfAPathTracerInDouble) {
+    std::vector<Case> cases{
+        {"few", random_scene(1, 6, 3, 8.0)}, {"from inside", inside()}, {"a tree", random_scene(4, 200, 100, 8.0)}};
+    for (std::uint32_t seed = 100; std::getenv("PT_TEST_MANY") && seed < 200; ++seed)
+        cases.push_back({std::to_string(seed), random_scene(seed, 1 + seed % 9 * 10, seed % 4 * 10, 4.0 + seed % 5)});
+    for (const auto &[name, given] : cases) {
+        const bool has_tree = given.capsules.size() + given.spheres.size() > 112;
+        const Blocks exact = exact_blocks(given, has_tree ? 100 : 600);
+        EXPECT_LT(largest_error(given, exact, PT_SAMPLER_SOBOL), most_errors) << name;
+        EXPECT_TRUE(stats().features & PT_FEATURE_CAPSULES) << name;
+        EXPECT_EQ((stats().features & PT_FEATURE_TREE) != 0, has_tree) << name;
+        if (name != "few")
+            continue;
+        Given shorter = given;
+        for (Given::Capsule &rod : shorter.capsules)
+            for (int axis = 0; axis < 3; ++axis)
+                rod.end[axis] += 0.3 * (rod.center[axis] - rod.end[axis]);
+        EXPECT_GT(largest_error(shorter, exact, PT_SAMPLER_SOBOL), most_errors);
+    }
+}
+
+// Ends that coincide make a sphere, to the bit: beside other capsules, and where there are none, in a kernel without
+// them.
+TEST_F(Capsules, AreSpheresWhereTheirEndsCoincide) {
+    for (const bool all : {false, true}) {
+        Given given = all ? random_scene(4, 200, 100, 8.0) : random_scene(1, 6, 3, 8.0);
+        if (all)
+            given.camera.shutter_close = 0.0; // compilers may round motion otherwise in another kernel
+        Given spheres = given;
+        spheres.capsules.clear();
+        for (std::size_t i = 0; i < given.capsules.size(); ++i) {
+            Given::Capsule &capsule = given.capsules[i];
+            if (i % 2 == 0 && !all) {
+                spheres.capsules.push_back(capsule);
+                continue;
+            }
+            std::ranges::copy(capsule.center, capsule.end);
+            pt_sphere sphere{{0, 0, 0}, capsule.radius, {0, 0, 0}, capsule.material, 0};
+            std::ranges::copy(capsule.center, sphere.center);
+            spheres.spheres.push_back(sphere);
+        }
+        const std::vector<float> of_capsules = image(given);
+        EXPECT_TRUE(stats().features & PT_FEATURE_CAPSULES);
+        const std::vector<float> of_spheres = image(spheres);
+        EXPECT_EQ((stats().features & PT_FEATURE_CAPSULES) != 0, !all);
+        EXPECT_EQ(of_capsules, of_spheres);
+    }
+}
+
+TEST_F(Capsules, HaveTheSameBitsOfAScaledScene) {
+    for (const Given &given : {inside(), random_scene(4, 200, 100, 8.0)}) {
+        Given large = given;
+        const auto scale = [](double(&vector)[3]) {
+            for (double &component : vector)
+                component *= 0x1p20;
+        };
+        for (pt_sphere &sphere : large.spheres) {
+            scale(sphere.center);
+            scale(sphere.motion);
+            sphere.radius *= 0x1p20;
+        }
+        for (Given::Capsule &capsule : large.capsules) {
+            scale(capsule.center);
+            scale(capsule.end);
+            capsule.radius *= 0x1p20;
+        }
+        for (pt_plane &plane : large.planes)
+            plane.offset *= 0x1p20;
+        scale(large.camera.position);
+        scale(large.camera.target);
+        EXPECT_EQ(image(large), image(given));
+        Given longer = large;
+        longer.capsules[0].end[0] *= 1.25;
+        EXPECT_NE(image(longer), image(given));
+    }
+}
+
+// Short submissions, and two devices, which cut the samples otherwise.
+TEST_F(Capsules, PartsHaveTheBitsOfTheWhole) {
+    const Context hurried = create_context([](pt_create_info &info) { info.submit_milliseconds = 1; });
+    const Context shared = create_context(
+        [](pt_create_info &) {}, [](const auto *info, auto **made) { return create_shared(2, *info, made, true); });
+    ASSERT_TRUE(hurried && shared);
+    const Given given = random_scene(4, 200, 100, 8.0);
+    const pt_render render = picture_of(PT_SAMPLER_SOBOL);
+    const std::vector<float> whole = render_image(context(), given.scene(), given.camera, render, 16);
+    for (pt_context *const other : {hurried.get(), shared.get()})
+        EXPECT_EQ(render_image(other, given.scene(), given.camera, render, 16), whole);
+}
+
+// Grazing, tiny, huge, touching and nested ones, along the view; in a tree with others. Negative control: radii that
+// are larger by 3%.
+TEST_F(Capsules, AreMetWhereTheirDistanceIsZero) {
+    Given given = random_scene(11, 40, 0, 8.0);
+    given.planes.clear();
+    given.spheres.resize(1);
+    given.capsules.push_back({{0, 0, 0}, {0.28, 0, 0.96}, 0.3, 0});         // along the view
+    given.capsules.push_back({{0, 0, 0}, {0.28, 0, 0.96}, 0.15, 0});        // nested
+    given.capsules.push_back({{-1, 1, 0}, {-1 + 1e-9, 1, 0}, 0.25, 0});     // nearly a ball
+    given.capsules.push_back({{-900, -1.5, -3}, {900, -1.4, -3}, 0.2, 0});  // long
+    given.capsules.push_back({{0, -1030, -20}, {90, -1030, -20}, 1000, 0}); // huge
+    EXPECT_EQ(wrong_pixels(given, given), 0U);
+    Given thicker = given;
+    for (Given::Capsule &rod : thicker.capsules)
+        rod.radius *= 1.03;
+    EXPECT_GT(wrong_pixels(thicker, given), 50U);
+    const std::vector<Given::Capsule> others = random_scene(12, 400, 0, 8.0).capsules;
+    given.capsules.insert(given.capsules.end(), others.begin(), others.end());
+    EXPECT_EQ(wrong_pixels(given, given), 0U);
+    EXPECT_TRUE(stats().features & PT_FEATURE_TREE);
+}
+
+// Along one that is 10,000 radii long, what is met is the side of an endless cylinder, to the rounding of the length.
+TEST_F(Capsules, AreCylindersWhereTheirEndsAreFar) {
+    constexpr double radius = 0.1;
+    constexpr double length = 1000.0;
+    for (const bool backwards : {false, true}) {
+        Given given;
+        given.planes.clear();
+        given.camera = camera_at({0, 0.05, 0.15}, {1, 0.05, 0.15}, 0.2);
+        given.capsules.push_back({{-20, 0, 0}, {length - 20, 0, 0}, radius, 0});
+        if (backwards)
+            std::ranges::swap(given.capsules[0].center, given.capsules[0].end);
+        const std::vector<float> depths = first_hits(given, PT_QUANTITY_DEPTH);
+        std::size_t met = 0;
+        for (std::uint32_t i = 0; i < picture.x * picture.y; ++i) {
+            const glm::dvec3 ray = ray_of(given.camera, i);
+            const glm::dvec2 from(0.05, 0.15);
+            const glm::dvec2 slope(ray.y, ray.z);
+            const double half_linear = glm::dot(from, slope);
+            const double square = glm::dot(slope, slope);
+            const double rest = glm::dot(from, from) - radius * radius;
+            const double discriminant = half_linear * half_linear - square * rest;
+            const bool meets = half_linear < 0.0 && discriminant > 0.0;
+            EXPECT_EQ(std::isfinite(depths[3 * i]), meets) << i;
+            if (!meets || !std::isfinite(depths[3 * i]))
+                continue;
+            ++met;
+            EXPECT_NEAR(glm::length(from + static_cast<double>(depths[3 * i]) * slope), radius, 0x1p-21 * length) << i;
+        }
+        EXPECT_GT(met, 50U);
+    }
+}
+
+// Parallel rays along the axis meet the nearer end alone, and across it a rectangle and two half discs.
+TEST_F(Capsules, AreSeenInParallel) {
+    constexpr double radius = 0.75;
+    Given given;
+    given.planes.clear();
+    for (const double first : {-1.0, 1.0}) {
+        given.camera = camera_at({0, 0, 10}, {0, 0, 0}, 0.0);
+        given.camera.projection = PT_PROJECTION_ORTHOGRAPHIC;
+        given.camera.vertical_extent = 2.0;
+        given.capsules = {{{0, 0, first}, {0, 0, -first}, radius, 1}};
+        const std::vector<float> depths = first_hits(given, PT_QUANTITY_DEPTH);
+        for (std::uint32_t i = 0; i < picture.x * picture.y; ++i) {
+            const double x = 0.125 * (i % picture.x + 0.5 - 0.5 * picture.x);
+            const double y = 0.125 * (i / picture.x + 0.5 - 0.5 * picture.y);
+            const double rest = radius * radius - x * x - y * y;
+            ASSERT_EQ(std::isfinite(depths[3 * i]), rest > 0.0) << i;
+            if (rest > 0.0) {
+                EXPECT_NEAR(depths[3 * i], 9.0 - std::sqrt(rest), 1e-5) << i;
+            }
+        }
+    }
+    given.capsules = {{{-1, 0.25, 0}, {1, -0.25, 0}, 0.5, 1}};
+    given.camera.vertical_extent = 4.0;
+    image(given, 64);
+    double covered = 0.0;
+    for (const float share : read(PT_QUANTITY_COVERAGE))
+        covered += share / (3.0 * picture.x * picture.y);
+    const double area = 2.0 * 0.5 * std::hypot(2.0, 0.5) + std::numbers::pi * 0.25;
+    EXPECT_NEAR(covered, area / 24.0, 2e-3);
+    // The cosine of the normal and the ray, over a disc and over a rectangle.
+    const double facing = 2.0 / 3.0 * std::numbers::pi * 0.25 + std::numbers::pi / 4.0 * std::hypot(2.0, 0.5);
+    glm::dvec3 normal(0.0);
+    double albedo = 0.0;
+    const std::vector<float> normals = read(PT_QUANTITY_NORMAL);
+    const std::vector<float> albedos = read(PT_QUANTITY_ALBEDO);
+    for (std::size_t i = 0; i < normals.size(); i += 3) {
+        normal += glm::dvec3(normals[i], normals[i + 1], normals[i + 2]);
+        albedo += albedos[i];
+    }
+    const double pixels = picture.x * picture.y;
+    EXPECT_NEAR(normal.z / pixels, facing / 24.0, 1e-3);
+    EXPECT_NEAR(glm::length(glm::dvec2(normal)) / pixels, 0.0, 1e-3);
+    EXPECT_NEAR(albedo / pixels, 0.5 * area / 24.0, 2e-3);
+}
+
+TEST_F(Capsules, AreRefusedWithTheReason) {
+    Given given = random_scene(1, 6, 3, 8.0);
+    const auto refusal = [&](pt_sphere_array &array) {
+        pt_scene scene = given.scene();
+        scene.sphere_arrays = &array;
+        EXPECT_EQ(pt_set_scene(context(), &scene), PT_ERROR_INVALID_SCENE);
+        return std::string(pt_last_error(context()));
+    };
+    const auto expect_end = [](const std::string &message, const std::string &end) {
+        EXPECT_NE(message.find(end), std::string::npos) << message;
+    };
+    given.capsules[1].material = 2;
+    pt_sphere_array array = given.array();
+    expect_end(refusal(array), "sphere_arrays[0].material[1] = 2: must be of a material without emission");
+    given.capsules[1].material = 0;
+    given.capsules[2].end[1] = std::numeric_limits<double>::infinity();
+    array = given.array();
+    const std::string infinite = refusal(array);
+    expect_end(infinite, "sphere_arrays[0].end[2] = (");
+    expect_end(infinite, "): must be finite");
+    given.capsules[2].end[1] = 0.0;
+    array = given.array();
+    array.motion = array.center;
+    expect_end(refusal(array), "must be NULL where end.data is set: capsules do not move");
+    array = given.array();
+    array.end.type = PT_TYPE_UINT32;
+    expect_end(refusal(array), "end.type = 3: must be PT_TYPE_FLOAT32 (1) or PT_TYPE_FLOAT64 (2)");
+}
+
+} // namespace
+
+} // namespace capsules
