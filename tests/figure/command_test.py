@@ -64,7 +64,8 @@ class Command(unittest.TestCase):
         self.assertIn("-i f-%03d.png", EPILOG)
 
     def test_a_written_scene_renders_to_the_same_radiance(self):
-        for arguments in (("water.xyz",), ("points.npy", "--floor", "--style", "glossy"),
+        for arguments in (("water.xyz",), ("water.xyz", "--model", "sticks"),
+                          ("points.npy", "--vectors", "y,z,x", "--bonds", "0.5"), ("points.npy", "--floor", "--style", "glossy"),
                           ("points.npy", "--projection", "orthographic", "--radius", "0.2", "--color", "orange", "--up", "-x"),
                           ("points.npy", "--color", "x", "--style", "ambient-occlusion")):
             self.run_figure(*arguments, "--size", "48x32", "--spp", "4", "--write-scene", "s.json", "-o", "a.exr", "-q")

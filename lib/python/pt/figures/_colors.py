@@ -107,7 +107,7 @@ def _named(particles: Particles, color: str, given: Options, notes: list[str]) -
     if color in ("type", "element") and color not in particles.columns:
         return _of_types(particles, given, {})
     if color.startswith("|"):
-        parts = [column(particles, name) for name in _components(particles, color.strip("|"))]
+        parts = [column(particles, name) for name in components(particles, color.strip("|"))]
         return _of_values(np.sqrt(np.asarray(sum(np.square(part) for part in parts))), title, given, notes)
     if color.count(",") == 2:
         return _direct(np.stack([column(particles, name) for name in color.split(",")], axis=-1), notes), None
@@ -121,7 +121,7 @@ def _named(particles: Particles, color: str, given: Options, notes: list[str]) -
     return _of_values(values, title, given, notes)
 
 
-def _components(particles: Particles, name: str) -> list[str]:
+def components(particles: Particles, name: str) -> list[str]:
     """The columns of a vector's components: those of "vx,vy,vz", or those that "velocity" and "v" stand for."""
     ways = [[f"{name}[{k}]" for k in range(3)], [f"{name}{axis}" for axis in "xyz"], [f"{name}_{axis}" for axis in "xyz"]]
     found = [way for way in ways if all(each in particles.columns for each in way)]

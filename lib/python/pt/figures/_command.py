@@ -24,8 +24,8 @@ from pt.figures._series import frames, turntable
 
 EPILOG = """\
 DATA is of a simulation, a molecule or a point cloud. The camera goes as near as it can with all of every ball in the
-picture; lengths follow from the data, so that their units do not matter. Bonds are not drawn. All of --frames and
---turntable have one camera and one scale, and names with # signs for their number:
+picture; lengths follow from the data, so that their units do not matter. All of --frames and --turntable have one camera and
+one scale, and names with # signs for their number:
   ffmpeg -framerate 25 -i f-%03d.png -pix_fmt yuv420p f.mp4    (after -o f-###.png)
 """
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import inspect
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, Concatenate, Final, ParamSpec
 
@@ -20,6 +20,7 @@ from pt._fit import Array, Doubles, chunks
 from pt._image import Image
 from pt._scene import Scene, SphereArray
 from pt.figures._accept import load
+from pt.figures._bonds import ball_radii, bonds_of
 from pt.figures._colors import Legend, colors_of, srgb
 from pt.figures._compose import compose, lay_over
 from pt.figures._files import encode_exr, encode_jpeg, write_scene
@@ -29,6 +30,7 @@ from pt.figures._options import Options, described
 from pt.figures._overlay import Overlaid, Shares, cell_corners, cell_edges, read_shares
 from pt.figures._particles import Cell, Particles
 from pt.figures._radii import radii_of
+from pt.figures._rods import Rods, vectors_of
 from pt.figures._stage import SURROUND_BRIGHTNESS
 from pt.figures._where import holds
 
@@ -45,6 +47,7 @@ class Drawn:
 
     colors   shape (n, 3), or (3,) if all have the same
     scale    scene units per unit of the data
+    settled  options that followed from the data, in the units of the data
     """
 
     centers: Array
@@ -54,11 +57,26 @@ class Drawn:
     cell: Cell | None
     scale: float
     notes: list[str] = field(default_factory=list)
+    rods: Sequence[Rods] = ()
+    settled: dict[str, float] = field(default_factory=dict)
 
     @property
     def balls(self) -> Balls:
         corners = np.zeros((0, 3)) if self.cell is None else cell_corners(self.cell.origin, self.cell.vectors)
-        return Balls(self.centers, self.radii, corners)
+        if not self.rods:
+            return Balls(self.centers, self.radii, corners)
+        return Balls(np.concatenate([self.centers, *map(self.ends, self.rods)]), self.all_radii, corners)
+
+    def ends(self, rods: Rods) -> Array:
+        result: Array = self.centers[rods.atoms] + rods.ways
+        return result
+
+    @property
+    def all_radii(self) -> Array:
+        """Of balls, then of rods."""
+        if not self.rods:
+            return self.radii
+        return np.concatenate([self.radii, *(np.full(len(each.atoms), each.radius) for each in self.rods)])
 
 
 def prepare(particles: Particles, options: Options, scale: float | None = None) -> Drawn:
@@ -70,6 +88,17 @@ def prepare(particles: Particles, options: Options, scale: float | None = None) 
         particles = particles.wrapped()
     radii = radii_of(particles, options.radius, notes)
     colors, legend = colors_of(particles, options, notes)
+    rods: list[Rods] = []
+    settled: dict[str, float] = {}
+    if options.vectors is not None:
+        vectors, vector_scale = vectors_of(particles, options.vectors, options.vector_scale, radii)
+        rods.append(vectors)
+        settled.update({"vector_scale": vector_scale} if vector_scale else {})
+    if options.bond_rule is not None:
+        bonds = bonds_of(particles, options, radii, notes)
+        rods.append(bonds)
+        settled.update({"bond_radius": bonds.radius} if len(bonds.atoms) else {})
+        radii = ball_radii(radii, options.drawn_model, bonds.radius, options.radius is not None)
     conditions = [options.where] if isinstance(options.where, str) else options.where
     shown = np.logical_and.reduce([holds(particles, each) for each in conditions]) if conditions else None
     positions = particles.positions
@@ -79,11 +108,12 @@ def prepare(particles: Particles, options: Options, scale: float | None = None) 
         positions = positions[shown]
         radii = radii[shown] if len(radii) > 1 else radii
         colors = colors[shown] if colors.ndim == 2 else colors
+        rods = [each.among(shown) for each in rods]
     _check(particles.name, radii, shown)
     cell = particles.cell if options.box == "lines" else None
     centers, radii, cell, scale = _in_range(positions, radii, cell, scale)
     return Drawn(centers, np.broadcast_to(radii, len(centers)) if len(radii) == 1 else radii, colors, legend, cell,
-                 scale, notes)
+                 scale, notes, [each.times(scale, LEAST_LENGTH) for each in rods], settled)
 
 
 def _check(name: str, radii: Array, shown: Array | None) -> None:
@@ -148,8 +178,11 @@ class Staged:
         if drawn.colors.ndim == 1:  # one for all: a part of the material
             material = replace(material, diffuse=linear(drawn.colors / 255.0) * np.array(material.diffuse))
             colors = None
-        return Scene(stage.lamps, [stage.floor] if stage.floor else [],
-                     [SphereArray(drawn.centers, drawn.radii, material, color=colors)])
+        arrays = [SphereArray(drawn.centers, drawn.radii, material, color=colors)]
+        for each in (rods for rods in drawn.rods if len(rods.atoms)):
+            arrays.append(SphereArray(drawn.centers[each.atoms], each.radius, material, end=drawn.ends(each),
+                                      color=None if colors is None else colors[each.atoms]))
+        return Scene(stage.lamps, [stage.floor] if stage.floor else [], arrays)
 
     def save_scene(self, path: Path) -> None:
         write_scene(path, self.scene, self.layout.camera, self.layout.size, self.options)
@@ -164,7 +197,7 @@ class Staged:
         settings = RenderSettings(*self.layout.size, max_path_length=options.max_path_length, seed=options.seed)
         image = context.render(scene, camera, settings, options.most_samples, target_error=options.error or 0.0,
                                progress=options.progress, denoise=options.denoise)
-        cell, radii = self.drawn.cell, self.drawn.radii
+        cell, radii = self.drawn.cell, self.drawn.all_radii
         edges = [] if cell is None else cell_edges(cell.origin, cell.vectors)
         shares = read_shares(context, camera, settings, Overlaid(len(lamps), radii, edges, self.options.outlines))
         stage: Any = SURROUND_BRIGHTNESS if len(lamps) > 1 else 1.0

@@ -59,15 +59,19 @@ def write_scene(path: Path, scene: Scene, camera: Camera, size: tuple[int, int],
     """A scene file of the program pt, and beside it NPY files of its particles' columns."""
     format_of(path, ("json",))
     place = pathlib.Path(path)
-    array = scene.sphere_arrays[0]
-    item: dict[str, Any] = {}
-    for name, column in (("center", array.center), ("radius", array.radius), ("color", array.color)):
-        if column is not None and name == "radius" and not column.strides[0]:
-            item[name] = float(column[0])  # the same for all
-        elif column is not None:
-            file = place.with_name(f"{place.stem}-{name}.npy")
-            item[name] = file.name
-            write_atomically(file, functools.partial(np.save, arr=np.ascontiguousarray(column), allow_pickle=False))
+    items: list[dict[str, Any]] = []
+    for number, array in enumerate(scene.sphere_arrays):
+        kind = f"capsules-{number}-" if number else ""
+        item: dict[str, Any] = {}
+        for name in ("center", "end", "radius", "color"):
+            column = getattr(array, name)
+            if column is not None and name == "radius" and not column.strides[0]:
+                item[name] = float(column[0])  # the same for all
+            elif column is not None:
+                file = place.with_name(f"{place.stem}-{kind}{name}.npy")
+                item[name] = file.name
+                write_atomically(file, functools.partial(np.save, arr=np.ascontiguousarray(column), allow_pickle=False))
+        items.append({**item, "material": "particles"})
     document: dict[str, Any] = {
         "camera": camera_section(camera),
         "film": {"width": size[0], "height": size[1], "exposure": 0, "tonemap": "none"},
@@ -79,7 +83,9 @@ def write_scene(path: Path, scene: Scene, camera: Camera, size: tuple[int, int],
     for plane in scene.planes:
         document["materials"]["floor"] = material_section(plane.material)
         document["planes"].append({"normal": list(plane.normal), "offset": plane.offset, "material": "floor"})
-    document["materials"]["particles"] = material_section(array.material)
-    document["spheres"].append({**item, "material": "particles"})
+    document["materials"]["particles"] = material_section(scene.sphere_arrays[0].material)
+    document["spheres"].append(items[0])
+    if items[1:]:
+        document["capsules"] = items[1:]
     text = json.dumps(document, indent=2) + "\n"
     write_atomically(place, lambda file: file.write(text.encode()))

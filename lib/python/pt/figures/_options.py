@@ -19,6 +19,8 @@ from pt._scene import Material
 
 Color: TypeAlias = "str | Mapping[str, str] | Sequence[float] | npt.ArrayLike | None"
 Radius: TypeAlias = "float | str | Mapping[str, float] | npt.ArrayLike | None"
+Bonds: TypeAlias = "bool | str | float | npt.ArrayLike | None"
+Vectors: TypeAlias = "str | npt.ArrayLike | None"
 Direction: TypeAlias = "str | Sequence[float] | npt.NDArray[Any]"
 Columns: TypeAlias = "Mapping[str, str] | str | None"
 
@@ -86,6 +88,22 @@ class Options:
         "angstroms); of all types, \"O=0.7,H=0.3\", in Python {\"O\": 0.7} and arrays too; with a factor, \"0.5*diameter\". By "
         "default the data's, else covalent where distances are of angstroms, else half of what most neighbours are apart")
 
+    bonds: Bonds = _particles(
+        None, "auto|CUTOFF", "auto, in Python True too: atoms no farther apart than their covalent radii (Cordero 2008) and 0.45 "
+        "angstroms, as in Open Babel; all within a cutoff; in Python pairs of indices, shape (k, 2), too. By default none")
+    wall_bonds: str = _particles("halves", "", "of bonds through the walls of a periodic cell", choices=("halves", "none"))
+    model: str = _particles("auto", "", "ball-and-stick has balls of half their radii, unless radius is given; sticks (licorice) "
+                            "has none; both have bonds. auto is ball-and-stick with bonds, otherwise space-filling",
+                            choices=("auto", "space-filling", "ball-and-stick", "sticks"))
+    bond_radius: float | None = _particles(
+        None, "R", "in the units of the data. By default 0.07 of the median length of a bond, in sticks 0.14", read=float,
+        rule=(lambda radius: 0.0 < radius < math.inf, "> 0 and finite"))
+    vectors: Vectors = _particles(None, "vx,vy,vz", "columns, or v or velocity as in color, or in Python an array of shape (n, 3): "
+                                  "each is a capsule from the particle's center, in its color")
+    vector_scale: float | None = _particles(
+        None, "S", "length of a vector of 1. By default the longest one is as long as 4 median radii", read=float,
+        rule=(lambda scale: 0.0 < scale < math.inf, "> 0 and finite"))
+
     size: tuple[int, int] | None = _view(None, "WxH", "pixels, with the color bar. By default as many as 1024x768 have, in the "
                                          "shape of the data", read=two("x", int))
     view: Direction = _view(VIEWS[0], "SIDE|X,Y,Z", f"{', '.join(VIEWS)}, or the direction to the camera")
@@ -130,6 +148,18 @@ class Options:
     def reading(self) -> dict[str, Any]:
         """The options for load() and frames(), except which frames."""
         return {"columns": self.columns, "format": self.format, "drop_nonfinite": self.drop_nonfinite}
+
+    @property
+    def bond_rule(self) -> Bonds:
+        """The bonds that are drawn; None: none are. A model of sticks has some."""
+        given = not (self.bonds is None or self.bonds is False)
+        return self.bonds if given else "auto" if self.drawn_model != "space-filling" else None
+
+    @property
+    def drawn_model(self) -> str:
+        if self.model != "auto":
+            return self.model
+        return "space-filling" if self.bonds is None or self.bonds is False else "ball-and-stick"
 
     @property
     def most_samples(self) -> int:

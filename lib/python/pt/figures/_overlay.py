@@ -34,7 +34,7 @@ class Shares:
 @dataclass(frozen=True)
 class Overlaid:
     """first      index of the first particle among all spheres
-    radii      shape (n,)
+    radii      shape (n,): of particles, then of bonds and vectors, which count as particles
     segments   pairs of end points of lines, each of shape (3,), scene units
     """
 

@@ -10,6 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from pt._fit import Doubles
+from pt.figures._bonds import BALL_SHARE
 from pt.figures._colors import ColorBar, Swatches
 from pt.figures._figure import Drawn, Staged, prepare, view_of
 from pt.figures._layout import Layout, View
@@ -37,6 +38,7 @@ def _common(trajectory: Iterator[Particles], options: Options) -> tuple[Options,
         if view is None:
             options = replace(options, radius=_rule(particles, drawn, options))
             view, scale = view_of(drawn, options), drawn.scale
+        options = replace(options, **drawn.settled)
         mine = view.reaches(drawn.balls)
         reaches = mine if reaches is None else np.maximum(reaches, mine)
         if isinstance(drawn.legend, ColorBar):
@@ -55,7 +57,9 @@ def _rule(particles: Particles, drawn: Drawn, options: Options) -> Radius:
     distances."""
     if options.radius is not None or particles.radii is not None:
         return options.radius
-    return float(drawn.radii[0]) / drawn.scale if drawn.radii.strides == (0,) else "covalent"
+    if drawn.radii.strides == (0,):
+        return float(drawn.radii[0]) / drawn.scale
+    return f"{BALL_SHARE}*covalent" if options.drawn_model == "ball-and-stick" else "covalent"
 
 
 def turntable(particles: Particles, count: int, options: Options) -> Iterator[Staged]:

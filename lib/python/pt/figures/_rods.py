@@ -1,0 +1,64 @@
+"""What is drawn from particles to other places, as capsules: halves of bonds, and vectors."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Final
+
+import numpy as np
+
+from pt._columns import check_finite
+from pt._fit import Array, Doubles
+from pt.figures._colors import components
+from pt.figures._options import Vectors
+from pt.figures._particles import Particles
+from pt.figures._radii import column
+
+LONGEST: Final = 4.0  # of the vectors, in median radii of particles; by taste
+WIDTH: Final = 0.3  # radius of vectors, in the same
+
+
+@dataclass(frozen=True)
+class Rods:
+    """k capsules, each of the color of the particle that it begins in.
+
+    atoms    shape (k,): indices of these particles
+    others   shape (k,): particles that must be shown, too
+    ways     shape (k, 3): from the center of the particle to that of the other end
+    radius   for all
+    """
+
+    atoms: Array
+    others: Array
+    ways: Doubles
+    radius: float
+
+    def among(self, shown: Array) -> Rods:
+        """Those whose particles are shown, with the indices of the particles that are left."""
+        kept = shown[self.atoms] & shown[self.others]
+        index = np.cumsum(shown) - 1
+        return replace(self, atoms=index[self.atoms[kept]], others=index[self.others[kept]], ways=self.ways[kept])
+
+    def times(self, scale: float, least: float) -> Rods:
+        return replace(self, ways=self.ways * scale, radius=max(self.radius * scale, least))
+
+
+def vectors_of(particles: Particles, given: Vectors, scale: float | None, radii: Array) -> tuple[Rods, float]:
+    """Vectors, and their scale, which is 0 if it is not given and all are 0."""
+    if isinstance(given, str):
+        names = components(particles, given)
+        if len(names) != 3:
+            raise ValueError(f"vectors = {given!r}: must be three columns like vx,vy,vz, or what stands for them, like v")
+        vectors = np.stack([column(particles, name) for name in names], axis=-1)
+    else:
+        vectors = np.asarray(given)
+    if vectors.dtype.kind not in "fiu" or vectors.shape != (len(particles), 3):
+        raise ValueError(f"vectors = {vectors.dtype} of shape {vectors.shape}: must be numbers of shape ({len(particles)}, 3)")
+    check_finite("vectors", vectors)
+    vectors = vectors.astype(np.float64)
+    lengths = np.linalg.norm(vectors, axis=1)
+    longest, unit = float(lengths.max()), float(np.median(radii))
+    if scale is None:
+        scale = LONGEST * unit / longest if longest > 0.0 else 0.0
+    atoms = np.flatnonzero(lengths)
+    return Rods(atoms, atoms, vectors[atoms] * scale, WIDTH * unit), scale

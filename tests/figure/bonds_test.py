@@ -1,0 +1,210 @@
+"""Bonds and vectors of figures: exact numbers of known molecules and crystals, all pairs by brute force, and the picture."""
+
+import itertools
+import unittest
+import unittest.mock
+
+import numpy as np
+import pt
+from pt.figures import _bonds
+from pt.figures._bonds import bonds_of
+from pt.figures._figure import prepare
+from pt.figures._options import Options
+from pt.figures._particles import Cell, Particles
+from pt.figures._series import frames
+
+ANGLES = np.arange(6)[:, None] * np.pi / 3
+RING = np.hstack([np.cos(ANGLES), np.sin(ANGLES), 0 * ANGLES])
+BENZENE = Particles(np.vstack([1.397 * RING, (1.397 + 1.084) * RING]), elements=np.repeat(np.uint8([6, 1]), 6))
+FACES = np.array([[0, 0, 0], [0, 0.5, 0.5], [0.5, 0, 0.5], [0.5, 0.5, 0]])
+PAIR = Particles(np.array([[-1.0, 0, 0], [1, 0, 0]]), elements=np.uint8([6, 6]))
+
+
+def fullerene():
+    """C60, a truncated icosahedron with edges of 1.43 angstroms: even permutations of three triples, with all signs."""
+    golden = (1 + 5**0.5) / 2
+    triples = ((0, 1, 3 * golden), (1, 2 + golden, 2 * golden), (2, 1 + 2 * golden, golden))
+    points = {tuple(np.roll(np.multiply(triple, signs), turn).round(9) + 0.0) for triple in triples
+              for signs in itertools.product((1, -1), repeat=3) for turn in range(3)}
+    return Particles(np.array(sorted(points)) * 0.5 * 1.43, elements=np.full(len(points), 6, np.uint8))
+
+
+def crystal(basis, numbers, length, times):
+    steps = np.array(list(itertools.product(range(times), repeat=3)))
+    positions = (steps[:, None] + basis).reshape(-1, 3) * length
+    return Particles(positions, elements=np.tile(np.uint8(numbers), len(steps)), cell=Cell.of([times * length] * 3))
+
+
+def found_in(particles, bonds=True, wall_bonds="halves"):
+    return bonds_of(particles, Options(bonds=bonds, wall_bonds=wall_bonds), np.ones(1), [])
+
+
+def count(particles, bonds=True):
+    return len(found_in(particles, bonds).atoms) / 2
+
+
+class Known(unittest.TestCase):
+    def test_molecules(self):
+        self.assertEqual((count(BENZENE), count(fullerene())), (12, 90))
+        np.testing.assert_array_equal(np.bincount(found_in(fullerene()).atoms), np.full(60, 3))
+
+    def test_the_limit_is_the_sum_of_the_radii_and_the_tolerance(self):
+        """Cordero 2008: 0.76 for C and 0.31 for H, so C-C ends at 1.97 = 1.410 * 1.397, C-H at 1.52 = 1.402 * 1.084."""
+        for factor, expected in ((1.40, 12), (1.405, 6), (1.415, 0)):
+            scaled = Particles(BENZENE.positions * factor, elements=BENZENE.elements)
+            self.assertEqual(count(scaled), expected, factor)
+        for distance, expected in ((0.39, 0), (0.41, 1)):  # nearer ones are alternative places of one atom
+            self.assertEqual(count(Particles(PAIR.positions * distance / 2, elements=PAIR.elements)), expected)
+        with unittest.mock.patch.object(_bonds, "TOLERANCE", 0.0):
+            self.assertEqual(count(BENZENE), 6)  # C-H takes 1.07
+        with unittest.mock.patch.object(_bonds, "TOLERANCE", 1.1):
+            self.assertGreater(count(BENZENE), 12)
+
+    def test_crystals(self):
+        """Diamond has 4 bonds an atom, rock salt 6, also in the smallest cell and after particles have left theirs."""
+        diamond = np.vstack([FACES, FACES + 0.25]), [6] * 8, 3.567
+        salt = np.vstack([FACES, FACES + (0.5, 0, 0)]), [11] * 4 + [17] * 4, 5.64
+        for (basis, numbers, length), times, each in ((diamond, 1, 4), (diamond, 2, 4), (salt, 1, 6), (salt, 2, 6)):
+            particles = crystal(basis, numbers, length, times)
+            turns = np.random.default_rng(1).integers(-2, 3, particles.positions.shape)
+            left = Particles(particles.positions + turns * length * times, elements=particles.elements,
+                             cell=particles.cell)
+            for some in (particles, left):
+                found = found_in(some)
+                np.testing.assert_array_equal(np.bincount(found.atoms), np.full(len(numbers) * times**3, each))
+            inside = found_in(particles, wall_bonds="none")
+            ways = particles.positions[inside.others] - particles.positions[inside.atoms]
+            np.testing.assert_allclose(inside.ways, 0.5 * ways, atol=1e-12)
+            self.assertLess(len(inside.atoms), len(numbers) * times**3 * each)
+        open_cell = Particles(particles.positions, elements=particles.elements, cell=Cell.of([11.28] * 3, periodic=False))
+        self.assertEqual(count(open_cell), len(inside.atoms) / 2)
+
+
+class BruteForce(unittest.TestCase):
+    def test_all_pairs_in_an_oblique_cell(self):
+        """Against all images: cells thinner than the cutoff, particles far outside, one edge that is not periodic."""
+        random = np.random.default_rng(7)
+        for vectors, periodic, cutoff in (([[4, 0, 0], [1, 5, 0], [-1, 0.5, 6]], True, 1.3),
+                                          ([[2, 0, 0], [1.2, 2, 0], [0.3, -0.8, 2]], True, 2.9),
+                                          ([[4, 0, 0], [1, 5, 0], [-1, 0.5, 6]], (True, False, True), 1.7)):
+            cell = Cell.of(vectors, (0.3, -1, 2), periodic)
+            positions = random.uniform(-4, 6, (20, 3))
+            found = found_in(Particles(positions, cell=cell), cutoff)
+            reaches = [range(-11, 12) if repeats else range(1) for repeats in cell.periodic]
+            shifts = np.array(list(itertools.product(*reaches))) @ cell.vectors
+            expected = []
+            for i, j in itertools.product(range(20), repeat=2):
+                ways = positions[j] - positions[i] + shifts
+                lengths = np.linalg.norm(ways, axis=1)
+                expected += [(i, j, *way) for way in 0.5 * ways[(lengths > 1e-9) & (lengths <= cutoff)]]
+            got = np.column_stack([found.atoms, found.others, found.ways])
+            ordered = [rows[np.lexsort(rows.round(6).T[::-1])] for rows in (got, np.array(expected))]
+            np.testing.assert_allclose(*ordered, atol=1e-9)
+            self.assertGreater(len(expected), 20)
+
+    def test_many_blocks_of_rows(self):
+        positions = np.random.default_rng(3).uniform(size=(500, 3))
+        distances = np.linalg.norm(positions[:, None] - positions, axis=2)
+        expected = ((distances <= 0.1) & (distances > 0)).sum()
+        with unittest.mock.patch.object(_bonds, "ROWS_AT_ONCE", 7):
+            self.assertEqual(2 * count(Particles(positions), 0.1), expected)
+
+    def test_given_pairs_take_the_nearest_image(self):
+        particles = Particles(np.array([[0.5, 0, 0], [9.5, 0, 0], [5, 0, 0]]), cell=Cell.of([10, 10, 10]))
+        found = found_in(particles, [[0, 1], [0, 2]])
+        np.testing.assert_allclose(found.ways[:, 0], (-0.5, 2.25, 0.5, -2.25))
+        self.assertEqual(found_in(particles, [[0, 1], [0, 2]], "none").others.tolist(), [2, 0])
+
+
+class Looks(unittest.TestCase):
+    def test_radii_and_halves(self):
+        drawn = prepare(PAIR, Options(bonds=True))
+        self.assertEqual(len(drawn.rods[0].atoms), 0)
+        self.assertIn("no two particles are near enough", " ".join(drawn.notes))
+        near = Particles(PAIR.positions * 0.7, elements=PAIR.elements)
+        for options, ball, stick in (({"bonds": True}, 0.38, 0.07 * 1.4), ({"model": "sticks"}, 0.14 * 1.4, 0.14 * 1.4),
+                                     ({"model": "ball-and-stick", "radius": 0.3, "bond_radius": 0.2}, 0.3, 0.2),
+                                     ({"model": "space-filling", "bonds": 1.5}, 0.76, 0.07 * 1.4)):
+            drawn = prepare(near, Options(**options))
+            np.testing.assert_allclose((*drawn.radii, drawn.rods[0].radius), (ball, ball, stick), rtol=1e-6)
+            np.testing.assert_allclose(drawn.ends(drawn.rods[0]), np.zeros((2, 3)), atol=1e-12)
+        self.assertFalse(prepare(near, Options(bonds=False)).rods)
+        far = prepare(Particles(near.positions * 1e-12), Options(bonds=2e-12, radius=1e-13))  # other units, other scale
+        np.testing.assert_allclose(far.ends(far.rods[0]), np.zeros((2, 3)), atol=1e-9)
+        np.testing.assert_allclose(far.rods[0].radius / far.scale, 0.07 * 1.4e-12)
+
+    def test_bonds_are_between_shown_particles(self):
+        drawn = prepare(BENZENE, Options(bonds=True, where="element == C"))
+        self.assertEqual((len(drawn.rods[0].atoms), drawn.rods[0].atoms.max()), (12, 5))
+        rear = Particles(BENZENE.positions[::-1], elements=BENZENE.elements[::-1])
+        drawn = prepare(rear, Options(bonds=True, where="element == C"))
+        np.testing.assert_allclose(np.linalg.norm(drawn.ends(drawn.rods[0]), axis=1), 1.397 * np.sqrt(0.75))
+        self.assertEqual(len(prepare(BENZENE, Options(bonds=True, where="element == H")).rods[0].atoms), 0)
+
+    def test_series_have_one_radius(self):
+        def read():
+            return (Particles(BENZENE.positions * factor, elements=BENZENE.elements) for factor in (1, 1.2))
+        first, second = frames(read, Options(model="ball-and-stick", size=(40, 30)))
+        self.assertEqual(first.drawn.rods[0].radius, second.drawn.rods[0].radius)
+        np.testing.assert_array_equal(first.drawn.radii, second.drawn.radii)
+
+    def test_halves_have_the_colors_of_their_atoms(self):
+        """In the picture: red to the left of the middle, blue to the right, nothing there without bonds; and the ends of
+        bonds through walls are in it."""
+        options = {"radius": 0.2, "color": np.uint8([[255, 0, 0], [0, 0, 255]]), "size": (61, 31), "view": "front",
+                   "samples": 4}
+        with pt.Context() as context:
+            bonded = pt.figure(PAIR, bonds=2.5, bond_radius=0.15, context=context, **options).to_srgb8()
+            bare = pt.figure(PAIR, context=context, **options).to_srgb8()
+            walled = Particles(PAIR.positions, cell=Cell.of([4, 4, 4], (-2, -2, -2)))
+            through = pt.figure(walled, bonds=2.5, bond_radius=0.15, box="none", context=context, **options)
+            without = pt.figure(walled, bonds=2.5, bond_radius=0.15, box="none", wall_bonds="none", context=context,
+                                **options)
+        left, right = bonded[15, 23].astype(int), bonded[15, 37].astype(int)
+        self.assertTrue(left[0] > 2 * left[2] and right[2] > 2 * right[0], (left, right))
+        self.assertTrue((bare[15, 20:41] == 255).all())
+        self.assertEqual((len(through.scene.sphere_arrays[1]), len(without.scene.sphere_arrays[1])), (4, 2))
+        self.assertTrue((through.to_srgb8()[:, [0, -1]] == 255).all())
+        self.assertGreater(through.camera.position[1] / without.camera.position[1], 1.3)
+
+    def test_vectors(self):
+        """From the centers; the longest one is 4 median radii long, times the scale otherwise; of the shown particles."""
+        vectors = np.array([[0.0, 0, 3], [0, 0, 0], [4, 0, 3]])
+        particles = Particles(10 * np.eye(3), dict(zip(("vx", "vy", "vz"), vectors.T)))
+        for given in ("v", "vx,vy,vz", vectors):
+            drawn = prepare(particles, Options(vectors=given, radius=0.5))
+            np.testing.assert_allclose(drawn.ends(drawn.rods[0]), [[10, 0, 1.2], [1.6, 0, 11.2]])
+            np.testing.assert_allclose((drawn.rods[0].radius, drawn.settled["vector_scale"]), (0.15, 0.4))
+        drawn = prepare(particles, Options(vectors="v", vector_scale=2, where="vx > 0"))
+        np.testing.assert_allclose(drawn.ends(drawn.rods[0]), [[8, 0, 16]])
+
+        def read():
+            return (Particles(particles.positions, {"v[0]": vectors[:, 0] * k, "v[1]": vectors[:, 1] * k,
+                                                    "v[2]": vectors[:, 2] * k}) for k in (0, 1, 2))
+        staged = list(frames(read, Options(vectors="v", radius=0.5, size=(40, 30))))
+        lengths = [np.linalg.norm(each.drawn.rods[0].ways, axis=1) for each in staged]
+        np.testing.assert_allclose(lengths[1], (1.2, 2))
+        np.testing.assert_allclose(lengths[2], 2 * lengths[1])
+        self.assertEqual(len(lengths[0]), 0)
+
+    def test_what_is_refused(self):
+        for words, options in (
+                ("bonds = 'auto': array has no elements: must be a cutoff or pairs", {"bonds": True}),
+                ("bonds = 'x': must be auto, a cutoff > 0, or pairs", {"bonds": "x"}), ("bonds = 0: must be", {"bonds": 0}),
+                ("bonds = nan: must be", {"bonds": float("nan")}), ("bonds = '-1': must be", {"bonds": "-1"}),
+                (r"bonds = of shape \(1, 3\)", {"bonds": [[0, 1, 2]]}), (r"and float64: must be", {"bonds": [[0.0, 1]]}),
+                (r"bonds\[1\] = \[1, 7\]: must be two different particles, from 0 to 2", {"bonds": [[0, 1], [1, 7]]}),
+                (r"bonds\[0\] = \[1, 1\]", {"bonds": [[1, 1]]}), ("model = 'cartoon': must be auto", {"model": "cartoon"}),
+                ("bond_radius = 0: must be > 0", {"bonds": 1, "bond_radius": 0}),
+                ("vectors = 'u,w': must be three columns like vx,vy,vz", {"vectors": "u,w"}),
+                (r"vectors = float64 of shape .2, 3.: must be numbers of shape .3, 3.", {"vectors": np.zeros((2, 3))}),
+                (r"vectors\[1, 2\] = nan: must be finite", {"vectors": [[0, 0, 0], [0, 0, np.nan], [0, 0, 0]]}),
+                ("vector_scale = 0: must be > 0", {"vector_scale": 0}), ("wall_bonds = 'x': must be halves, none", {"wall_bonds": "x"})):
+            with self.subTest(words=words), self.assertRaisesRegex(ValueError, words):
+                prepare(Particles(np.eye(3)), Options(**options))
+        with self.assertRaisesRegex(ValueError, "the cutoff, or the covalent radii, must be about as large as"):
+            found_in(Particles(np.eye(3), cell=Cell.of([1, 1, 1])), 1e3)
+
+
+if __name__ == "__main__":
+    unittest.main()
