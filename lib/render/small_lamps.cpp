@@ -39,11 +39,13 @@ double ahead(double way) {
 }
 
 // The distance from the origin, along a unit vector, at which a ray enters a ball, or leaves it if it begins inside;
-// infinity if it misses.
+// infinity if it misses. Of one that moves or is swept it is the first place, which hides no more than all of it does
+// unless the ray begins inside.
 double way_to(const MovingBall &ball, const glm::dvec3 &direction) {
     const double along = glm::dot(ball.open, direction);
     const double beside = glm::length(ball.open - along * direction);
-    if (beside >= ball.radius)
+    const bool has_way = ball.way != glm::dvec3(0.0);
+    if (beside >= ball.radius || (has_way && may_hold_origin(ball)))
         return never;
     const double half_chord = std::sqrt((ball.radius - beside) * (ball.radius + beside));
     const double way = glm::length(ball.open) > ball.radius ? along - half_chord : along + half_chord;

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <numbers>
 #include <random>
+#include <span>
 #include <vector>
 
 namespace small_lamps {
@@ -36,11 +37,14 @@ pt_sphere sphere_at(double x, double y, double depth, double radius, std::uint32
 
 // Of a list, or of a tree.
 std::vector<pt::LampPiece> pieces_of(const std::vector<pt_sphere> &spheres, const std::vector<pt_plane> &planes = {},
-                                     const pt::Camera &seen_by = camera, bool has_tree = false) {
+                                     const pt::Camera &seen_by = camera, bool has_tree = false,
+                                     std::span<const pt_sphere_array> arrays = {}) {
     const pt_material materials[] = {{{0.5F, 0.5F, 0.5F}, {}, {}, 0.0F, 0},
                                      {{}, {}, {1.0F, 2.0F, 40.0F}, 0.0F, 0},
                                      {{0.5F, 0.5F, 0.5F}, {}, {}, 0.0F, PT_MATERIAL_HIDDEN_FROM_CAMERA}};
-    const pt_scene scene = scene_of(materials, spheres, planes);
+    pt_scene scene = scene_of(materials, spheres, planes);
+    scene.sphere_arrays = arrays.data();
+    scene.sphere_array_count = static_cast<std::uint32_t>(arrays.size());
     const pt::PreparedScene prepared(pt::checked_scene(scene), has_tree ? 1 : 1000);
     EXPECT_EQ(prepared.tree != nullptr, has_tree);
     return pt::small_lamps_in_view(prepared, seen_by, 400, 200, 0, 200);
@@ -134,6 +138,23 @@ TEST(SmallLamps, AreThoseThatTheCameraSees) {
 }
 
 // The variance of a lamp that a sample meets with the probability p: E^2 p (1 - p).
+// The camera and a lamp that only the other end of a capsule holds.
+TEST(SmallLamps, AreSeenFromWithinACapsule) {
+    const pt_sphere first = sphere_at(0, 0, -10, 50, dark);
+    const pt_sphere last = sphere_at(0, 0, 120, 50, dark);
+    const std::vector<pt_sphere_array> capsule{{sizeof(pt_sphere_array),
+                                                1,
+                                                {first.center, 0, PT_TYPE_FLOAT64},
+                                                {&first.radius, 0, PT_TYPE_FLOAT64},
+                                                {},
+                                                {},
+                                                {},
+                                                {last.center, 0, PT_TYPE_FLOAT64}}};
+    for (const bool has_tree : {false, true})
+        EXPECT_EQ(pieces_of({sphere_at(0.5, 0.5, 100, radius, lamp)}, {}, camera, has_tree, capsule).size(), 1U);
+    EXPECT_TRUE(pieces_of({sphere_at(0.5, 0.5, 100, radius, lamp), first}).empty());
+}
+
 TEST(SmallLamps, AddWhatSamplesShouldHaveMet) {
     const std::vector<pt::LampPiece> pieces{{3, 4, 0.125, 0.25, glm::dvec3(8, 0, 16)},
                                             {5, 6, 0.25, 0.5, glm::dvec3(4)}};
