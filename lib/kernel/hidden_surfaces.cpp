@@ -29,7 +29,7 @@ namespace {
 // A capsule is swept at once, so that no end of it belongs to a time. What is apart from the ball about it is from it.
 MovingBall ball_about(const SeenSphere &sphere) {
     if (!sphere.swept)
-        return sphere;
+        return static_cast<const MovingBall &>(sphere);
     const glm::dvec3 half = 0.5 * sphere.way;
     return {sphere.open + half, glm::dvec3(0.0), sphere.radius + glm::length(half)};
 }

@@ -117,6 +117,17 @@ TEST(HiddenSurfaces, WithPathsOnBothSidesAreMetFromBoth) {
     EXPECT_FALSE(in_a_room(HiddenDark).known_sides);
 }
 
+// A capsule is all of its balls at once, while of balls that move each is at its time.
+TEST(HiddenSurfaces, ThatAreCapsulesAreMetAllAlong) {
+    const auto with = [](double z, bool is_swept) {
+        const pt::Sphere hidden{{0, 0, z}, 1, {0, 0, 6}, HiddenDark, is_swept};
+        return features_of(scene_of({{{0, 0, -20}, 1, {0, 0, 6}, Dark}, hidden}));
+    };
+    EXPECT_FALSE(with(-23, false).inside);
+    EXPECT_TRUE(with(-23, true).inside);
+    EXPECT_FALSE(with(-40, true).inside);
+}
+
 TEST(HiddenSurfaces, ALampAtTheCameraIsSampledUnlessPathsAreInIt) {
     const auto with = [](double radius) {
         return features_of(scene_of({sphere(-5, 1, Dark), sphere(0, radius, HiddenLamp)}));
