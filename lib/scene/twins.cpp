@@ -135,7 +135,10 @@ bool has_close_lamps(const std::vector<SeenSphere> &spheres, const Line &line, c
         const auto is_close = [&](std::uint32_t other) {
             return !is_twin[other] && nearly_coincide(lamp, spheres[other]);
         };
-        if (lamp.emits && !is_twin[line.index(i)] && line.any_near(i, two_spheres * lamp.radius, is_close))
+        // A capsule is on the line where it begins, however far from there it comes near the lamp.
+        const auto is_in = [&](const SeenSphere &other) { return other.swept && nearly_coincides_within(lamp, other); };
+        if (lamp.emits && !is_twin[line.index(i)] &&
+            (line.any_near(i, two_spheres * lamp.radius, is_close) || std::ranges::any_of(spheres, is_in)))
             return true;
     }
     return false;

@@ -342,7 +342,9 @@ bool SphereTree::finds_close_lamps(WorkProgress &progress) const {
         const std::uint32_t place = words_[first_lamp_ + lamp].x;
         const MovingBall ball = ball_at(place);
         const auto is_close = [&](std::uint32_t other) {
-            return other != place && nearly_coincide(ball, ball_at(other));
+            const bool is_capsule = has_capsules_ && is_swept(words_[first_motion_ + other]);
+            return other != place &&
+                   (is_capsule ? nearly_coincides_within(ball, ball_at(other)) : nearly_coincide(ball, ball_at(other)));
         };
         // A sphere that nearly coincides with the lamp holds its centre.
         const glm::ivec3 centre = centre_of(words_[first_sphere_ + place]);

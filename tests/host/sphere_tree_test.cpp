@@ -123,6 +123,53 @@ TEST(SphereTree, KnowsLampsThatNearlyCoincideWithSpheres) {
     }
 }
 
+pt::SphereTree tree_with(const pt_sphere_array &capsules, const std::vector<pt_sphere> &spheres,
+                         const std::vector<std::uint32_t> &left_out = {}) {
+    pt::WorkProgress nobody;
+    return {pt::SphereSource(spheres, {&capsules, 1}), left_out, two_materials, nobody};
+}
+
+// A capsule from x = 30 to 90, about a lamp at 60.
+TEST(SphereTree, KnowsLampsInCapsules) {
+    std::vector<pt_sphere> spheres = heap(40, 0.0);
+    for (pt_sphere &sphere : spheres)
+        sphere.material = 0;
+    spheres.push_back({{60, 0.2, 0}, 1, {0, 0, 0}, 1, 0});
+    const double first[] = {30, 0, 0};
+    const double last[] = {90, 0, 0};
+    for (const double radius : {0.7, 1.0}) {
+        const pt_sphere_array capsule{
+            sizeof(pt_sphere_array),   1, {first, 0, PT_TYPE_FLOAT64}, {&radius, 0, PT_TYPE_FLOAT64}, {}, {}, {},
+            {last, 0, PT_TYPE_FLOAT64}};
+        EXPECT_EQ(tree_with(capsule, spheres).has_close_lamps(), radius > 0.9);
+    }
+}
+
+// A kernel that reads the ways of spheres in the list reads those of the tree.
+TEST(SphereTree, HasWaysIfWhatIsLeftOutHasThem) {
+    const auto has_ways = [](const pt::SphereTree &tree) {
+        const pt::gpu::TreeFrame frame = tree.frame(camera_at(glm::dvec3(0.0)));
+        return frame.first_surface == frame.first_motion + tree.sphere_count();
+    };
+    const double radius = 1.0;
+    const double last[] = {3, 0, 0};
+    std::vector<pt_sphere> spheres = heap(100, 0.0);
+    pt_sphere_array one{sizeof(pt_sphere_array),
+                        1,
+                        {spheres[0].center, 0, PT_TYPE_FLOAT64},
+                        {&radius, 0, PT_TYPE_FLOAT64},
+                        {},
+                        {},
+                        {},
+                        {}};
+    EXPECT_FALSE(has_ways(tree_with(one, spheres, {0, 100})));
+    one.end = {last, 0, PT_TYPE_FLOAT64};
+    EXPECT_TRUE(has_ways(tree_with(one, spheres, {0, 100})));
+    one.end = {};
+    spheres[0].motion[0] = 1.0;
+    EXPECT_TRUE(has_ways(tree_with(one, spheres, {0, 100})));
+}
+
 // 16 bytes and 4 of material, and with all four children there is a node of 48 for three spheres; with some empty, for
 // two.
 TEST(SphereTree, TakesNoMoreThan48BytesASphere) {

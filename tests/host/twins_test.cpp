@@ -159,4 +159,18 @@ TEST(CloseLamps, AreLessThanAQuarterOfTheirRadiiApart) {
     }
 }
 
+// Wherever along it.
+TEST(CloseLamps, MayBeInCapsules) {
+    const auto close = [](double aside, double radius, bool is_swept) {
+        const Sphere lamp{viewpoint + glm::dvec3(aside, 3, -5), 1, {0, 0, 0}, glowing};
+        return without_twins(
+                   scene_of({lamp, {viewpoint + glm::dvec3(0, -9, -5), radius, {0, 20, 0}, plain, is_swept}}, {}))
+            .close_lamps;
+    };
+    EXPECT_TRUE(close(0.2, 1, true));
+    EXPECT_FALSE(close(0.2, 1, false));
+    EXPECT_FALSE(close(0.26, 1, true));
+    EXPECT_FALSE(close(0, 0.7, true));
+}
+
 } // namespace
