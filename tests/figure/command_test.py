@@ -78,8 +78,9 @@ class Command(unittest.TestCase):
                 subprocess.run([PROGRAM, "compare", self.folder / "a.exr", self.folder / "b.exr", "--max-mse", "0"], check=True,
                                stdout=subprocess.DEVNULL)
         self.run_figure("water.xyz", "--write-scene", "only.json", "--legend", "l.svg", code=0)
-        self.assertEqual(self.names("*.svg") + self.names("only*"), ["l.svg", "only-center.npy", "only-color.npy",
-                                                                     "only-radius.npy", "only.json"])
+        self.assertEqual(self.names("*.svg") + self.names("only*"), [
+            "l.svg", "only-capsules-1-center.npy", "only-capsules-1-end.npy", "only-center.npy", "only-color.npy",
+            "only-radius.npy", "only.json"])
 
     def test_an_error_that_is_not_reached_is_told_by_the_code(self):
         self.run_figure("water.xyz", *SMALL, "--error", "0.001%", "-o", "a.png", code=7)

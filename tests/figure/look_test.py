@@ -179,7 +179,7 @@ class Background(unittest.TestCase):
         """Exact numbers: a stage of 0.5, half of a pixel covered by a ball of 0.8, a shadow, nothing, all."""
         stage, particles = 0.5, np.array([[0.5, 0, 0, 1]])
         radiance = np.float32([[0.5 * 0.75 + 0.5 * 0.5, 0.25, 0.5, 0.75]])[:, :, None].repeat(3, axis=2)
-        shares = Shares(particles, np.zeros((1, 4)), np.zeros((1, 4)))
+        shares = Shares(particles, np.zeros((1, 4)))
         light, alpha = compose(radiance, stage, shares, 0.0)
         np.testing.assert_allclose(alpha, [[0.5, 0.25, 0, 1]], atol=1e-15)
         np.testing.assert_allclose(light[..., 0], [[0.375, 0, 0, 0.75]], atol=1e-15)

@@ -1,15 +1,16 @@
-"""What is laid over figures: coverage, lines of cells that balls hide, outlines; against rays in double precision."""
+"""Coverage, the edges of cells, which balls hide, and outlines; against rays in double precision."""
 
 import unittest
 import unittest.mock
 
 import numpy as np
 import pt
-from pt.figures import _overlay
+from pt.figures import _figure, _overlay
 from pt.figures._figure import Staged
 from pt.figures._options import Options
-from pt.figures._overlay import PER_SIDE, Overlaid, cell_edges, line_width, read_shares
+from pt.figures._overlay import PER_SIDE, Overlaid, line_width, read_shares
 from pt.figures._particles import Cell, Particles
+from pt.figures._rods import cell_edges
 
 SIZE = (60, 44)
 CELL = Cell(np.array([-2.0, -2, -2]), np.array([[4.0, 0, 0], [1, 4, 0], [0, 0.5, 4]]), np.ones(3, bool))
@@ -17,14 +18,16 @@ CENTERS = np.array([[0.3, -0.5, 0.0], [1.5, 1, 1], [-1, -1.2, -1]])
 RADII = np.array([1.6, 0.5, 0.7])
 
 
-def shares_of(projection, outlines, context, size):
-    staged = Staged.of(Particles(CENTERS, cell=CELL), Options(radius=RADII, size=size, projection=projection))
-    camera = staged.layout.camera
+def shares_of(staged, context):
     context.set_scene(staged.scene)
-    context.set_camera(camera)
-    settings = pt.RenderSettings(*size)
-    return camera, read_shares(context, camera, settings, Overlaid(2, staged.drawn.radii, cell_edges(
-        CELL.origin, CELL.vectors), outlines))
+    context.set_camera(staged.layout.camera)
+    settings = pt.RenderSettings(*staged.layout.size)
+    return read_shares(context, staged.layout.camera, settings, Overlaid(
+        2, sum(map(len, staged.scene.sphere_arrays)), staged.drawn.radii, staged.options.outlines))
+
+
+def staged_of(projection, size, **options):
+    return Staged.of(Particles(CENTERS, cell=CELL), Options(radius=RADII, size=size, projection=projection, **options))
 
 
 def rays(camera, size):
@@ -42,15 +45,29 @@ def rays(camera, size):
     return np.broadcast_to(position, ways.shape), ways / np.linalg.norm(ways, axis=-1, keepdims=True)
 
 
-def first_hits(origins, ways):
-    """Distance and index of the ball that each ray meets first."""
-    distances = np.full((*ways.shape[:-1], len(CENTERS)), np.inf)
-    for k, (center, radius) in enumerate(zip(CENTERS, RADII)):
-        to = center - origins
-        along = (to * ways).sum(axis=-1)
-        square = radius**2 - ((to * to).sum(axis=-1) - along**2)
-        distances[..., k] = np.where(square >= 0, along - np.sqrt(np.maximum(square, 0)), np.inf)
-    return distances.min(axis=-1), np.where(np.isfinite(distances.min(axis=-1)), distances.argmin(axis=-1), -1)
+def first_hits(origins, ways, capsules=((), (), 0.0)):
+    """Index of the ball or, after those, the capsule of one radius that each ray meets first; -1: of none."""
+    begins, ends, radius = capsules
+    distances = np.full((*ways.shape[:-1], len(CENTERS) + len(begins)), np.inf)
+    for k, (center, size) in enumerate(zip(CENTERS, RADII)):
+        distances[..., k] = to_ball(origins - center, ways, size)
+    for k, (begin, end) in enumerate(zip(begins, ends), len(CENTERS)):
+        axis = (end - begin) / np.linalg.norm(end - begin)
+        start, way = (each - (each @ axis)[..., None] * axis for each in (origins - begin, ways))  # across the axis
+        scale = np.linalg.norm(way, axis=-1)
+        side = to_ball(start, way / scale[..., None], radius) / scale
+        along = (origins - begin) @ axis + np.where(np.isfinite(side), side, 0) * (ways @ axis)
+        side[(along < 0) | (along > np.linalg.norm(end - begin))] = np.inf
+        distances[..., k] = np.minimum(side, np.minimum(to_ball(origins - begin, ways, radius),
+                                                        to_ball(origins - end, ways, radius)))
+    return np.where(np.isfinite(distances.min(axis=-1)), distances.argmin(axis=-1), -1)
+
+
+def to_ball(start, way, radius):
+    """Distances, from outside, to a ball at the origin; way: of unit vectors."""
+    along = -(start * way).sum(axis=-1)
+    square = radius**2 - ((start * start).sum(axis=-1) - along**2)
+    return np.where(square >= 0, along - np.sqrt(np.maximum(square, 0)), np.inf)
 
 
 def share(hits, size=SIZE):
@@ -66,64 +83,66 @@ class Lines(unittest.TestCase):
     def tearDownClass(cls):
         cls.context.close()
 
-    def test_coverage_and_lines(self):
-        """A ray is on a line where it passes an edge nearer than half the line's width, measured in the picture, before
-        what it meets. One or two hits of 16 at a border may round otherwise."""
+    def test_coverage_and_what_is_in_front(self):
+        """One or two hits of 16 at a border may round otherwise."""
         for projection in ("perspective", "orthographic"):
-            camera, shares = shares_of(projection, False, self.context, SIZE)
-            origins, ways = rays(camera, SIZE)
-            depths, balls = first_hits(origins, ways)
-            self.assertEqual(shares.particles.max(), 1.0)  # within balls
-            self.assertLess(np.abs(shares.particles - share(balls >= 0)).max(), 2.5 / 16)
-            right, above, back = camera.axes()
-            covered = np.zeros(balls.shape, bool)
-            seen = depths * -(ways @ back)  # along the view
-            for begin, end in cell_edges(CELL.origin, CELL.vectors):
-                points = begin + np.linspace(0, 1, 1000)[:, None] * (end - begin)
-                to = points - np.array(camera.position)
-                depth = -(to @ back)
-                half = camera.vertical_extent / 2 if camera.vertical_extent else depth * np.tan(camera.vertical_fov / 2)
-                scale = 0.5 * SIZE[1] * PER_SIDE / half
-                x, y = 0.5 * SIZE[0] * PER_SIDE + scale * (to @ right), 0.5 * SIZE[1] * PER_SIDE - scale * (to @ above)
-                for column, row, far in zip(x, y, depth):
-                    window = tuple(slice(max(int(place) - 3, 0), int(place) + 4) for place in (row, column))
-                    down, across = np.mgrid[window] + 0.5
-                    near = np.hypot(across - column, down - row) <= 0.5 * line_width(SIZE) * PER_SIDE
-                    covered[window] |= near & (far <= seen[window] * (1 + 1e-5))
-            self.assertLess(np.abs(shares.lines - share(covered)).max(), 2.5 / 16)
-            hidden = share(covered)[share(balls == 0) == 1]
-            self.assertTrue((hidden == 0).any() and share(covered).max() >= 0.25)
-            self.assertTrue((shares.outlines == 0).all())
+            staged = staged_of(projection, SIZE)
+            shapes = shares_of(staged, self.context).shapes
+            edges = staged.scene.sphere_arrays[1]
+            shown = first_hits(*rays(staged.layout.camera, SIZE), (*cell_edges(CELL), edges.radius[0]))
+            self.assertEqual(shapes.max(), 1.0)  # within balls
+            self.assertLess(np.abs(shapes - share(shown >= 0)).max(), 2.5 / 16)
+            self.context.set_render(pt.RenderSettings(*(PER_SIDE * side for side in SIZE)))
+            objects = self.context.readback(pt.Quantity.OBJECT, format=pt.Format.R32UI)[:, :, 0].astype(int) - 2
+            objects[(objects < 0) | (objects >= len(CENTERS) + 12)] = -1
+            edge, ball = (share(each) for each in (shown >= len(CENTERS), (shown >= 0) & (shown < len(CENTERS))))
+            self.assertTrue((edge.max() > 0.9) and ((edge > 0) & (ball > 0)).any())  # before balls, and hidden by them
+            self.assertLess((objects != shown).mean(), 0.002)
+            self.assertTrue((first_hits(*rays(staged.layout.camera, SIZE), (*cell_edges(CELL), edges.radius[0] * 1.2))
+                             != objects).mean() > 0.004)
 
-    def test_depths_along_a_line_into_the_distance(self):
-        """Against points of the line, which go through the pinhole of a wide view."""
-        size, camera = (80, 60), pt.Camera((0, 0, 0), (0, 0, -1), vertical_fov=np.pi / 2)
-        begin, end = np.array([-1.0, 0, -1.2]), np.array([3, 1.0, -8])
-        rows, columns, depths = _overlay._line_hits(camera, size, [(begin, end)], 2.0)
-        points = begin + np.linspace(0, 1, 20_000)[:, None] * (end - begin)
-        scale = 0.5 * size[1] * PER_SIDE / -points[:, 2]
-        x, y = 0.5 * size[0] * PER_SIDE + scale * points[:, 0], 0.5 * size[1] * PER_SIDE - scale * points[:, 1]
-        self.assertGreater(len(rows), 200)
-        for row, column, depth in zip(rows + 0.5, columns + 0.5, depths):
-            nearest = np.hypot(x - column, y - row).argmin()
-            self.assertAlmostEqual(depth / -points[nearest, 2], 1.0, places=2)
+    def test_edges_have_their_width_in_pixels(self):
+        """Of two slanting edges in a plane across the view, along each row, within 5%, from samples a quarter of a pixel
+        apart in 60 rows; which 20% more are not."""
+        flat = Particles(np.zeros((1, 3)), cell=Cell.of([[4.5, 0, 0], [0, 1e-5, 0], [2.3, 0, 6]], (-3.4, 0, -3)))
+        for size in ((200, 100), (1250, 100)):
+            for projection in ("perspective", "orthographic"):
+                def width():
+                    staged = Staged.of(flat, Options(radius=0.01, size=size, projection=projection, view="front"))
+                    shapes = shares_of(staged, self.context).shapes[20:80]
+                    return shapes.sum(axis=1).mean() * 0.5 * np.cos(np.arctan(2.3 / 6))
+                expected = 1.0 if size[0] == 200 else 2.0
+                self.assertLess(abs(width() / expected - 1.0), 0.05)
+                with unittest.mock.patch.object(_figure, "line_width", lambda size: 1.2 * line_width(size)):
+                    self.assertGreater(abs(width() / expected - 1.0), 0.05)
+
+    def test_a_camera_among_the_particles(self):
+        """There a pixel is measured half of the extent away."""
+        camera = pt.Camera((0, 0, 0), (0, 0, -1), vertical_fov=np.pi / 2)
+        particles = Particles(np.array([[0.0, 0, -3]]), cell=Cell.of([8, 8, 8], (-4, -4, -4)))
+        edges = Staged.of(particles, Options(radius=0.1, camera=camera, size=(80, 64))).scene.sphere_arrays[1]
+        np.testing.assert_allclose(edges.radius, 0.5 * 8 / 64)
 
     def test_outlines_go_round_the_balls(self):
-        """Of a ball before nothing and before others; inside of a ball and away from balls there are none."""
+        """Of a ball before nothing and before others; inside of a ball, along edges of the cell before it, and away from balls
+        there are none."""
         for projection in ("perspective", "orthographic"):
             size = (160, 120)
-            camera, shares = shares_of(projection, True, self.context, size)
+            staged = staged_of(projection, size, outlines=True)
+            shares = shares_of(staged, self.context)
             with unittest.mock.patch.object(_overlay, "BAND_ROWS", 1000):  # bands make no seams
-                whole = shares_of(projection, True, self.context, size)[1]
-            for name in ("particles", "lines", "outlines"):
+                whole = shares_of(staged, self.context)
+            for name in ("shapes", "outlines"):
                 np.testing.assert_array_equal(getattr(shares, name), getattr(whole, name))
-            _, balls = first_hits(*rays(camera, size))
+            capsules = *cell_edges(CELL), staged.scene.sphere_arrays[1].radius[0]
+            shown = first_hits(*rays(staged.layout.camera, size), capsules)
+            balls = np.where(shown < len(CENTERS), shown, -2)  # -2: an edge
             edges, rims = np.zeros(balls.shape, bool), np.zeros(balls.shape, bool)
             for axis in (0, 1):
                 for step in (1, -1):
                     other = np.roll(balls, step, axis)
-                    edges |= (balls >= 0) & (balls != other)
-                    rims |= (balls >= 0) & (other < 0)
+                    edges |= (balls >= 0) & (balls != other) & (other != -2)
+                    rims |= (balls >= 0) & (other == -1)
             outline, near = shares.outlines, share(edges, size) > 0
             reach = 2
             around = np.zeros_like(near)

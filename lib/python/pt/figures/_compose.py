@@ -1,4 +1,4 @@
-"""Puts a rendered figure in front of its background, and lines over it."""
+"""Puts a rendered figure in front of its background, and outlines over it."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ import numpy.typing as npt
 from pt._fit import Doubles
 from pt.figures._overlay import Shares
 
-LINE_LIGHT: Final = 0.09  # a dark grey of 33% in sRGB
 OUTLINE_LIGHT: Final = 0.01  # nearly black
 
 
@@ -27,14 +26,13 @@ def compose(radiance: npt.NDArray[np.float32], stage: Any, shares: Shares, expos
     darkens.
     """
     behind = np.clip(stage * 2.0**exposure, 0.0, 1.0)
-    share = shares.particles[:, :, None]
+    share = shares.shapes[:, :, None]
     light = np.clip(radiance * 2.0**exposure, 0.0, 1.0) + (1.0 - share) * (1.0 - behind)
     light = np.clip(light, 0.0, 1.0)
-    alpha = np.maximum(shares.particles, 1.0 - light.min(axis=2))
+    alpha = np.maximum(shares.shapes, 1.0 - light.min(axis=2))
     light = np.maximum(light - (1.0 - alpha[:, :, None]), 0.0)
-    for grey, covered in ((OUTLINE_LIGHT, shares.outlines), (LINE_LIGHT, shares.lines)):
-        light += covered[:, :, None] * (grey - light)
-        alpha += covered * (1.0 - alpha)
+    light += shares.outlines[:, :, None] * (OUTLINE_LIGHT - light)
+    alpha += shares.outlines * (1.0 - alpha)
     return light, alpha
 
 

@@ -27,11 +27,11 @@ from pt.figures._files import encode_exr, encode_jpeg, write_scene
 from pt.figures._layout import Balls, Layout, View
 from pt.figures._legend import raster, save
 from pt.figures._options import Options, described
-from pt.figures._overlay import Overlaid, Shares, cell_corners, cell_edges, read_shares
+from pt.figures._overlay import Overlaid, Shares, line_width, pixels_per_length, read_shares
 from pt.figures._particles import Cell, Particles
 from pt.figures._radii import radii_of
-from pt.figures._rods import Rods, vectors_of
-from pt.figures._stage import SURROUND_BRIGHTNESS
+from pt.figures._rods import Rods, cell_corners, cell_edges, vectors_of
+from pt.figures._stage import EDGES, SURROUND_BRIGHTNESS
 from pt.figures._where import holds
 
 LEAST_LENGTH: Final = 1e-18  # the least that the library accepts
@@ -62,7 +62,7 @@ class Drawn:
 
     @property
     def balls(self) -> Balls:
-        corners = np.zeros((0, 3)) if self.cell is None else cell_corners(self.cell.origin, self.cell.vectors)
+        corners = np.zeros((0, 3)) if self.cell is None else cell_corners(self.cell)
         if not self.rods:
             return Balls(self.centers, self.radii, corners)
         return Balls(np.concatenate([self.centers, *map(self.ends, self.rods)]), self.all_radii, corners)
@@ -182,6 +182,10 @@ class Staged:
         for each in (rods for rods in drawn.rods if len(rods.atoms)):
             arrays.append(SphereArray(drawn.centers[each.atoms], each.radius, material, end=drawn.ends(each),
                                       color=None if colors is None else colors[each.atoms]))
+        if drawn.cell is not None:
+            begins, ends = cell_edges(drawn.cell)
+            pixels = pixels_per_length(self.layout.camera, self.layout.size[1], self.layout.distance)
+            arrays.append(SphereArray(begins, 0.5 * line_width(self.layout.size) / pixels, EDGES, end=ends))
         return Scene(stage.lamps, [stage.floor] if stage.floor else [], arrays)
 
     def save_scene(self, path: Path) -> None:
@@ -197,9 +201,8 @@ class Staged:
         settings = RenderSettings(*self.layout.size, max_path_length=options.max_path_length, seed=options.seed)
         image = context.render(scene, camera, settings, options.most_samples, target_error=options.error or 0.0,
                                progress=options.progress, denoise=options.denoise)
-        cell, radii = self.drawn.cell, self.drawn.all_radii
-        edges = [] if cell is None else cell_edges(cell.origin, cell.vectors)
-        shares = read_shares(context, camera, settings, Overlaid(len(lamps), radii, edges, self.options.outlines))
+        count = sum(map(len, scene.sphere_arrays))
+        shares = read_shares(context, camera, settings, Overlaid(len(lamps), count, self.drawn.all_radii, options.outlines))
         stage: Any = SURROUND_BRIGHTNESS if len(lamps) > 1 else 1.0
         if scene.planes:
             bare = Scene(lamps, scene.planes)
@@ -290,7 +293,7 @@ class Figure(Image):
 
     def save_scene(self, path: Path) -> None:
         """Writes a scene file for `pt render`, and beside it NPY files of the particles. It does not have the
-        background, outlines, lines of the cell, color bar or seed."""
+        background, outlines, color bar or seed."""
         self._staged.save_scene(path)
 
     def _repr_png_(self) -> bytes:

@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from pt._camera import Camera
 from pt._files import Path, format_of, write_atomically
-from pt._scene import Scene
+from pt._scene import Material, Scene
 from pt._scene_file import camera_section, material_section
 from pt.figures._errors import module
 from pt.figures._options import Options
@@ -60,6 +60,7 @@ def write_scene(path: Path, scene: Scene, camera: Camera, size: tuple[int, int],
     format_of(path, ("json",))
     place = pathlib.Path(path)
     items: list[dict[str, Any]] = []
+    names: dict[Material, str] = {}
     for number, array in enumerate(scene.sphere_arrays):
         kind = f"capsules-{number}-" if number else ""
         item: dict[str, Any] = {}
@@ -71,7 +72,8 @@ def write_scene(path: Path, scene: Scene, camera: Camera, size: tuple[int, int],
                 file = place.with_name(f"{place.stem}-{kind}{name}.npy")
                 item[name] = file.name
                 write_atomically(file, functools.partial(np.save, arr=np.ascontiguousarray(column), allow_pickle=False))
-        items.append({**item, "material": "particles"})
+        assert isinstance(array.material, Material)
+        items.append({**item, "material": names.setdefault(array.material, "edges" if names else "particles")})
     document: dict[str, Any] = {
         "camera": camera_section(camera),
         "film": {"width": size[0], "height": size[1], "exposure": 0, "tonemap": "none"},
@@ -83,7 +85,7 @@ def write_scene(path: Path, scene: Scene, camera: Camera, size: tuple[int, int],
     for plane in scene.planes:
         document["materials"]["floor"] = material_section(plane.material)
         document["planes"].append({"normal": list(plane.normal), "offset": plane.offset, "material": "floor"})
-    document["materials"]["particles"] = material_section(scene.sphere_arrays[0].material)
+    document["materials"].update((name, material_section(material)) for material, name in names.items())
     document["spheres"].append(items[0])
     if items[1:]:
         document["capsules"] = items[1:]

@@ -104,9 +104,13 @@ def _shape(extents: Doubles) -> tuple[int, int]:
 
 @dataclass(frozen=True)
 class Layout:
+    """distance: from the camera to the middle of what is shown, along the view; of a camera within that, half of its
+    extent."""
+
     size: tuple[int, int]
     axes: Doubles
     camera: Camera
+    distance: float
     stage: Stage
 
     @staticmethod
@@ -119,7 +123,7 @@ class Layout:
         radius = 0.5 * float(extents.size.max())
         if view.camera is not None:
             camera, position = view.camera, np.asarray(view.camera.position)
-            distance = abs(float(forward @ (center - position)))
+            distance = max(abs(float(forward @ (center - position))), radius)
         elif view.projection == "orthographic":
             aspect = view.size[0] / view.size[1]
             height = float(max(extents.size[1], extents.size[0] / aspect)) / (1.0 - 2.0 * MARGIN)
@@ -138,7 +142,7 @@ class Layout:
             if up @ position <= height:
                 raise ValueError("floor: the camera is below it, by the view, and would see nothing else")
             plane = Plane(up, -height, FLOOR)
-        return Layout(view.size, axes, camera, make_stage(style, axes, distance, center, radius, plane))
+        return Layout(view.size, axes, camera, distance, make_stage(style, axes, distance, center, radius, plane))
 
 
 def _rotation(axis: Doubles, angle: float) -> Doubles:

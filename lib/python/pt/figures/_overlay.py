@@ -1,10 +1,10 @@
-"""What is laid over a rendered figure: the share of each pixel that particles cover, the cell's lines, which particles
-hide, and outlines. All of it follows from what camera rays meet first, 16 rays a pixel."""
+"""What is laid over a rendered figure, outlines, and the share of each pixel that is not background. Both follow from
+what camera rays meet first, 16 rays a pixel."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any, Final
 
@@ -17,7 +17,6 @@ from pt._fit import Array, Doubles
 
 PER_SIDE: Final = 4  # rays along each side of a pixel
 BAND_ROWS: Final = 32  # few enough that their hits take less memory on the device than the picture does
-ROUNDING: Final = 1e-5  # relative, of depths in float32 and of what they are computed from
 LEAST_STEP: Final = 0.1  # depth behind an outline, as a share of the radius: less has no outline
 LEAST_RADIUS: Final = 2.5  # of a ball with an outline, in line widths: smaller ones would be all outline
 
@@ -26,21 +25,20 @@ LEAST_RADIUS: Final = 2.5  # of a ball with an outline, in line widths: smaller 
 class Shares:
     """Shares of each pixel, shape (height, width), from 0 to 1."""
 
-    particles: Doubles
-    lines: Doubles
+    shapes: Doubles
     outlines: Doubles
 
 
 @dataclass(frozen=True)
 class Overlaid:
-    """first      index of the first particle among all spheres
-    radii      shape (n,): of particles, then of bonds and vectors, which count as particles
-    segments   pairs of end points of lines, each of shape (3,), scene units
+    """first   index of the first particle among all spheres and capsules
+    count   of particles, bonds, vectors and edges of the cell, in this order
+    radii   shape (n,): of those that have outlines: all but the edges
     """
 
     first: int
+    count: int
     radii: Array
-    segments: Sequence[tuple[Doubles, Doubles]]
     outlines: bool
 
 
@@ -49,44 +47,21 @@ def line_width(size: tuple[int, int]) -> float:
     return max(1.0, 0.0016 * max(size))
 
 
-def cell_edges(origin: Doubles, vectors: Doubles) -> list[tuple[Doubles, Doubles]]:
-    """The twelve edges of the cell."""
-    corners = cell_corners(origin, vectors)
-    return [(corners[k], corners[k | 1 << edge]) for k in range(8) for edge in range(3) if not k >> edge & 1]
-
-
-def cell_corners(origin: Doubles, vectors: Doubles) -> Doubles:
-    """The corners of the cell, shape (8, 3): bit i of a corner's index says whether it is at the end of edge i."""
-    ends = np.arange(8)[:, None] >> np.arange(3) & 1
-    corners: Doubles = origin + ends @ vectors
-    return corners
-
-
 def read_shares(context: Context, camera: Camera, settings: RenderSettings, overlaid: Overlaid) -> Shares:
     """Shares of the pixels. The context must have the scene and the camera; its render settings are replaced."""
     width, height = settings.width, settings.height
-    shares = Shares(*(np.zeros((height, width)) for _ in range(3)))
-    radius = 0.5 * line_width((width, height)) * PER_SIDE
-    lines = _line_hits(camera, (width, height), overlaid.segments, radius)
+    shares = Shares(np.zeros((height, width)), np.zeros((height, width)))
     margin = math.ceil(0.5 * line_width((width, height))) + 1 if overlaid.outlines else 0
     for first in range(0, height, BAND_ROWS):
         end = min(first + BAND_ROWS, height)
         top, bottom = max(first - margin, 0), min(end + margin, height)
-        objects, depths = _first_hits(context, settings, top, bottom, overlaid.outlines or len(lines[0]) > 0)
-        is_particle = objects - np.uint32(overlaid.first) < len(overlaid.radii)
+        objects, depths = _first_hits(context, settings, top, bottom, overlaid.outlines)
+        index = objects - np.uint32(overlaid.first)
         wanted = slice((first - top) * PER_SIDE, (end - top) * PER_SIDE)
-        shares.particles[first:end] = _share(is_particle[wanted])
-        if len(lines[0]):
-            covered = np.zeros(objects.shape, bool)
-            here = (lines[0] >= top * PER_SIDE) & (lines[0] < bottom * PER_SIDE)
-            rows, columns, ways = (each[here] for each in lines)
-            rows -= top * PER_SIDE
-            shown = ways * (1.0 - ROUNDING) <= depths[rows, columns]
-            covered[rows[shown], columns[shown]] = True
-            shares.lines[first:end] = _share(covered[wanted])
+        shares.shapes[first:end] = _share(index[wanted] < overlaid.count)
         if overlaid.outlines:
-            pixels = _pixels_per_length(camera, height, depths)
-            covered = _outlines(objects, depths, is_particle, overlaid, pixels, line_width((width, height)))
+            pixels = pixels_per_length(camera, height, depths)
+            covered = _outlines(index, depths, overlaid, pixels, line_width((width, height)))
             shares.outlines[first:end] = _share(covered[wanted])
     return shares
 
@@ -107,61 +82,24 @@ def _first_hits(context: Context, settings: RenderSettings, top: int, bottom: in
     return objects, depths
 
 
-def _pixels_per_length(camera: Camera, height: int, depths: Array) -> Array:
+def pixels_per_length(camera: Camera, height: int, depths: Any) -> Any:
     """Pixels per length across the view, at these depths."""
     if camera.vertical_extent is not None:
-        return np.broadcast_to(height / camera.vertical_extent, depths.shape)
+        return height / camera.vertical_extent
     assert camera.vertical_fov is not None
-    scale: Array = 0.5 * height / (depths * math.tan(0.5 * camera.vertical_fov))
-    return scale
+    return 0.5 * height / (depths * math.tan(0.5 * camera.vertical_fov))
 
 
-def _line_hits(camera: Camera, size: tuple[int, int], segments: Sequence[tuple[Doubles, Doubles]], radius: float
-               ) -> tuple[Array, Array, Array]:
-    """Rows and columns of the hits that lines pass nearer than radius, and the lines' depths there."""
-    axes = np.array(camera.axes())
-    limits = np.array(size) * PER_SIDE
-    wide = np.arange(2 * math.ceil(1.5 * radius) + 1) - math.ceil(1.5 * radius)  # at 45 degrees, sqrt(2) times radius
-    power = -1.0 if camera.vertical_extent is None else 1.0
-    found = [np.zeros((3, 0))]
-    for segment in segments:
-        seen = (np.array(segment) - camera.position) @ axes.T * (1, 1, -1)  # to the right, up, and depth
-        seen = seen[np.argsort(seen[:, 2])]
-        if seen[1, 2] <= 0.0:
-            continue  # behind the camera
-        hidden = max(0.0, (1e-6 * seen[1, 2] - seen[0, 2]) / (seen[1, 2] - seen[0, 2] or 1.0))
-        seen[0] += hidden * (seen[1] - seen[0])
-        scale = _pixels_per_length(camera, size[1], seen[:, 2])[:, None] * PER_SIDE
-        begin, end = 0.5 * limits + scale * seen[:, :2] * (1, -1)
-        way = end - begin
-        steep = int(abs(way[1]) > abs(way[0]))  # then it is followed row by row, otherwise column by column
-        first, last = np.clip(np.sort((begin[steep], end[steep])) + (-radius, radius), 0, limits[steep]).astype(int)
-        along = np.arange(first, last)
-        across = begin[1 - steep] + (along + 0.5 - begin[steep]) * way[1 - steep] / (way[steep] or 1.0)
-        hits = np.stack(np.broadcast_arrays(along[:, None], np.floor(across)[:, None] + wide))[[steep, 1 - steep]]
-        offset = hits + 0.5 - begin[:, None, None]
-        share = np.clip(np.tensordot(way, offset, 1) / (way @ way or 1.0), 0.0, 1.0)
-        near = np.hypot(*(share * way[:, None, None] - offset)) <= radius
-        near &= ((hits >= 0) & (hits < limits[:, None, None])).all(axis=0)
-        # Along a straight line in the picture, the inverse of the depth is linear in a perspective (Blinn 1992,
-        # "Hyperbolic interpolation"); with parallel rays the depth itself is.
-        nearest, farthest = seen[:, 2]**power
-        found.append(np.stack([hits[1][near], hits[0][near], (nearest + share[near] * (farthest - nearest))**power]))
-    rows, columns, depths = np.concatenate(found, axis=1)
-    return rows.astype(np.intp), columns.astype(np.intp), depths
-
-
-def _outlines(objects: Array, depths: Array, is_particle: Array, overlaid: Overlaid, pixels: Array, width: float
-              ) -> Array:
+def _outlines(index: Array, depths: Array, overlaid: Overlaid, pixels: Any, width: float) -> Array:
     """The outlines of balls: where a ball ends in front of something that is not a ball, or is farther by more than a
     tenth of the ball's radius."""
-    index = np.where(is_particle, objects - np.uint32(overlaid.first), 0)
-    radii = overlaid.radii[index if overlaid.radii.strides[0] else np.zeros_like(index)]
-    large = is_particle & (radii * pixels >= LEAST_RADIUS * width)
-    edges = np.zeros(objects.shape, bool)
+    has_outline, is_shape = index < len(overlaid.radii), index < overlaid.count
+    radii = overlaid.radii[np.where(has_outline, index, 0) if overlaid.radii.strides[0] else np.zeros_like(index)]
+    large = has_outline & (radii * pixels >= LEAST_RADIUS * width)
+    edges = np.zeros(index.shape, bool)
     for here, other in _neighbours():
-        edges[here] |= (large[here] & (objects[here] != objects[other]) &
-                        (~is_particle[other] | (depths[other] > depths[here] + LEAST_STEP * radii[here])))
+        edges[here] |= (large[here] & (index[here] != index[other]) &
+                        (~is_shape[other] | (depths[other] > depths[here] + LEAST_STEP * radii[here])))
     reach = math.floor(0.5 * width * PER_SIDE)
     covered = edges.copy()
     padded = np.pad(edges, reach)

@@ -1,4 +1,4 @@
-"""What is drawn from particles to other places, as capsules: halves of bonds, and vectors."""
+"""What is drawn as capsules: halves of bonds and vectors, which begin in particles, and the edges of the cell."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from pt._columns import check_finite
 from pt._fit import Array, Doubles
 from pt.figures._colors import components
 from pt.figures._options import Vectors
-from pt.figures._particles import Particles
+from pt.figures._particles import Cell, Particles
 from pt.figures._radii import column
 
 LONGEST: Final = 4.0  # of the vectors, in median radii of particles; by taste
@@ -62,3 +62,15 @@ def vectors_of(particles: Particles, given: Vectors, scale: float | None, radii:
         scale = LONGEST * unit / longest if longest > 0.0 else 0.0
     atoms = np.flatnonzero(lengths)
     return Rods(atoms, atoms, vectors[atoms] * scale, WIDTH * unit), scale
+
+
+def cell_corners(cell: Cell) -> Doubles:
+    """Shape (8, 3): bit i of a corner's index says whether it is at the end of edge i."""
+    corners: Doubles = cell.origin + (np.arange(8)[:, None] >> np.arange(3) & 1) @ cell.vectors
+    return corners
+
+
+def cell_edges(cell: Cell) -> Doubles:
+    """Both ends of the twelve edges, shape (2, 12, 3)."""
+    pairs = [(k, k | 1 << edge) for k in range(8) for edge in range(3) if not k >> edge & 1]
+    return np.stack([cell_corners(cell)[list(ends)] for ends in zip(*pairs)])

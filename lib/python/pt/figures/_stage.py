@@ -18,6 +18,7 @@ KEY_HALF_ANGLE: Final = math.radians(14.0)  # shadows as soft as of a window see
 KEY_AZIMUTH: Final = math.radians(-35.0)  # chosen by eye: shapes show best, and shadows fall where there is room
 KEY_ELEVATION: Final = math.radians(40.0)
 FLOOR: Final = Material(diffuse=0.8)
+EDGES: Final = Material(diffuse=0.09)  # of the cell
 FLOOR_GAP: Final = 1e-4  # share of the radius: where a ball touched the floor, roundings would decide which is in front
 
 
