@@ -83,6 +83,28 @@ class Sections(unittest.TestCase):
         self.assertEqual(mirror, pt.Material((0, 0.5, 1), 0.75, glossiness=1e6))
         self.assertEqual(parsed(("Metal", "Plastic")).scene.materials[0].specular, (0.05, 0.05, 0.05))
 
+    def test_cylinders_are_capsules(self):
+        """As VMD writes them, with and without caps, and a chain."""
+        tube = "FCylinder\n  Base 1 2 3\n  Apex 4 5 6.5\n  Rad 0.25\n metal\n"
+        caps = ("Ring\nCenter 1 2 3 \nNormal 0.6 0.6 0.5 \nInner 0.0  Outer 0.25 \n metal\n"
+                "Ring\nCenter 4 5 6.5 \nNormal -0.6 -0.6 -0.5 \nInner 0.0  Outer 0.25 \n metal\n")
+        chain = "PolyCylinder Points 3  0 0 1  0 2 1  3 2 1 Rad 0.5 gold\nPolyCylinder Points 1 7 8 9 Rad 2 gold\n"
+        found = parsed(("Plane", tube + caps + chain + "Plane"))
+        spheres, capsules = found.scene.sphere_arrays
+        self.assertEqual((len(spheres), found.notes), (2, []))
+        np.testing.assert_array_equal(capsules.center, [[1, 2, -3], [0, 0, -1], [0, 2, -1], [7, 8, -9]])
+        np.testing.assert_array_equal(capsules.end, [[4, 5, -6.5], [0, 2, -1], [3, 2, -1], [7, 8, -9]])
+        np.testing.assert_array_equal(capsules.radius, [0.25, 0.5, 0.5, 2])
+        self.assertEqual(capsules.material.tolist(), [0, 0, 0, 0])
+        self.assertEqual(found.camera.target, (1, 2, -5.75))  # from -0.5 to -11
+        for ring in ("Center 1 2 3 Normal 0 0 1 Inner 0.1 Outer 0.25", "Center 1 2 3 Normal 0 0 1 Inner 0 Outer 0.5",
+                     "Center 1 2 4 Normal 0 0 1 Inner 0 Outer 0.25"):
+            with self.subTest(ring), self.assertRaisesRegex(ValueError, "a.dat:29: RING is a ring: only spheres, cylinders"):
+                parsed(("Plane", f"{tube}\n\nRing {ring} metal\nPlane"))
+            found = parsed(("Plane", f"Ring {ring} metal\n{tube}Ring {ring} metal\nPlane"), leave_out_others=True)
+            self.assertEqual(found.notes, ["2 x RING, a ring: left out"])
+            self.assertEqual(len(found.scene.sphere_arrays[1]), 1)
+
     def test_equal_textures_are_one_material(self):
         sphere = "Sphere Center 0 0 0 Rad 1 Texture Ambient 0 Diffuse 1 Specular 0 Opacity 1 Color {} TexFunc 0\n"
         more = "".join(map(sphere.format, ("1 0 0", "0 1 0", "1 0 0")))
@@ -119,7 +141,11 @@ class Sections(unittest.TestCase):
                 ("TexFunc 0", "TexFunc 11", "17: TEXFUNC: must be a whole number from 0 to 10"),
                 ("Resolution 64", "Resolution 6.5", "3: RESOLUTION = 6.5: must be a whole number from 1 to 2^32 - 1"),
                 ("End_Scene", "", "23: the file ends where END_SCENE must be: it was cut short"),
-                ("Sphere Center 0", "FCylinder Base 0", "20: FCYLINDER is a finite cylinder: "),
+                ("Sphere Center 0", "Cylinder Center 0", "20: CYLINDER is a cylinder without ends: only spheres, "),
+                ("Sphere Center 0", "FCylinder Center 0", '20: "Center" must be BASE'),
+                ("Sphere Center 0", "PolyCylinder Points 0", "20: POINTS = 0: must be a whole number from 1 to 2^32 - 1"),
+                ("Sphere Center 0", "PolyCylinder Points 2", '20: POINTS = "Rad": must be a finite number'),
+                ("Sphere Center 0 2 7", "FCylinder Base 0 0 0 Apex 1 1 1 Rad 0 gold", "20: RAD = 0: must be above 0"),
                 ("Sphere Center 0", "Ball Center 0", '20: "BALL": must be CAMERA, ')):
             with self.subTest(new), self.assertRaises(ValueError) as caught:
                 parsed((old, new))
@@ -127,9 +153,9 @@ class Sections(unittest.TestCase):
 
     def test_others_are_left_out_if_asked_for(self):
         triangle = "Tri V0 0 0 0 V1 1 0 0 V2 0 1 0 gold\n"
-        tube = "FCylinder Base 0 0 0 Apex 1 1 1 Rad 0.1 Texture Ambient 0 Diffuse 1 Specular 0 Opacity 1 Color 1 1 1 TexFunc 0\n"
+        tube = "Cylinder Center 0 0 0 Axis 1 1 1 Rad 0.1 Texture Ambient 0 Diffuse 1 Specular 0 Opacity 1 Color 1 1 1 TexFunc 0\n"
         found = parsed(("Plane", triangle + tube + triangle + "Plane"), leave_out_others=True)
-        self.assertEqual(found.notes, ["2 x TRI, a triangle: left out", "1 x FCYLINDER, a finite cylinder: left out"])
+        self.assertEqual(found.notes, ["2 x TRI, a triangle: left out", "1 x CYLINDER, a cylinder without ends: left out"])
         self.assertEqual((len(found.scene.sphere_arrays[0]), len(found.scene.planes)), (2, 1))
 
     def test_what_is_left_out_is_told_once(self):
@@ -147,9 +173,9 @@ class Lamps(unittest.TestCase):
     """In a world whose camera at (0, 0, 8) looks at the origin."""
 
     @staticmethod
-    def around(spheres=(), planes=()):
+    def around(spheres=(), planes=(), way=(0, 0, 0)):
         table = np.array(spheres, float).reshape(-1, 4)
-        return _lights.Surroundings(table[:, :3], table[:, 3], list(planes), np.array([0.0, 0, 8]), np.zeros(3))
+        return _lights.Surroundings(table[:, :3], table[:, :3] + way, table[:, 3], list(planes), np.array([0.0, 0, 8]), np.zeros(3))
 
     def only_lamp(self, light, *surfaces):
         lamps, warnings = _lights.lamps_of([light], self.around(*surfaces))
@@ -176,6 +202,10 @@ class Lamps(unittest.TestCase):
         light = _lights.Light("", (1, 1, 1), (3, 4, 0))
         self.assertAlmostEqual(self.only_lamp(light, [(3, 4, 2, 1.9)]).radius, 0.05, 12)
         self.assertAlmostEqual(self.only_lamp(light, [(3, 4, 2, 2.125)]).radius, 0.0625, 12)  # it is inside
+        along = self.around([(0, 0, 0, 0.5)], way=(4, 4, 0))  # the capsule's axis
+        for point, gap in (((3, 1, 0), math.sqrt(2)), ((2, 2, 3), 3), ((-3, 0, 4), 5), ((7, 8, 0), 5), ((1, 1, 0), 0)):
+            self.assertAlmostEqual(along.clearance(np.array(point)), abs(gap - 0.5), 12)
+        self.assertAlmostEqual(self.around([(0, 0, 0, 0.5)], way=(9, 0, 0)).extent([]), 9.5, 12)
         plane = pt.Plane((0, 2, 0), -7.9375, 0)
         self.assertAlmostEqual(self.only_lamp(light, [], [plane]).radius, 0.03125 / 2, 12)
         seen = _lights.Light("", (1, 1, 1), (0, 0, 7.875), radius=0.125)
@@ -281,13 +311,14 @@ class Command(unittest.TestCase):
     def test_it_writes_the_scene_that_was_read(self):
         with tempfile.TemporaryDirectory() as folder:
             given, written = pathlib.Path(folder, "a.dat"), pathlib.Path(folder, "a.json")
-            given.write_text(SCENE)
+            given.write_text(SCENE.replace("Plane", "FCylinder Base 1 2 3 Apex 4 5 6 Rad 0.5 gold\nPlane"))
             self.assertEqual(_command.main([str(given), "-o", str(written)]), 0)
             scene = json.loads(written.read_text())
             given.write_text(SCENE.replace("Sphere", "Ball"))
             with mock.patch("sys.stderr") as stderr:
                 self.assertEqual(_command.main([str(given), "-o", str(written)]), 3)
             self.assertIn("a.dat:19", stderr.write.call_args_list[0].args[0])
+        self.assertEqual(scene["capsules"], [{"center": [1, 2, -3], "end": [4, 5, -6], "radius": 0.5, "material": "texture 0"}])
         self.assertEqual(scene["spheres"][1], {"center": [0, 2, -7], "radius": 1, "material": "texture 1"})
         self.assertEqual(scene["materials"]["texture 1"], {"diffuse": [0, 0.5, 1], "specular": 0.75, "glossiness": 1e6})
         self.assertEqual([each["material"] for each in scene["spheres"]], [

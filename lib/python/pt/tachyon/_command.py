@@ -22,7 +22,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("input", help="the scene of Tachyon")
     parser.add_argument("-o", "--output", required=True, metavar="SCENE.json", help="scene file to write; - is standard output")
     parser.add_argument("--leave-out-others", action="store_true",
-                        help="leave out triangles, cylinders and whatever else cannot be rendered, and count them")
+                        help="leave out triangles and whatever else cannot be rendered, and count them")
     options = parser.parse_args(arguments)
     try:
         found = read(options.input, leave_out_others=options.leave_out_others)
@@ -44,7 +44,10 @@ def scene_file(found: TachyonScene) -> dict[str, Any]:
     """The sections of a scene file, ready for JSON."""
     materials: dict[str, Material] = {f"texture {index}": each for index, each in enumerate(found.scene.materials)}
     names = {each: name for name, each in materials.items()}
-    spheres = list(_spheres_of(found.scene.sphere_arrays))
+    spheres: list[dict[str, Any]] = []
+    capsules: list[dict[str, Any]] = []
+    for array in found.scene.sphere_arrays:
+        (spheres if array.end is None else capsules).extend(_items_of(array))
     for sphere in found.scene.spheres:
         assert isinstance(sphere.material, Material)
         name = names.setdefault(sphere.material, f"light {len(names) + 1 - len(found.scene.materials)}")
@@ -53,13 +56,14 @@ def scene_file(found: TachyonScene) -> dict[str, Any]:
     return {"camera": camera_section(found.camera),
             "film": {"width": found.settings.width, "height": found.settings.height},
             "materials": {name: material_section(each) for name, each in materials.items()},
-            "spheres": spheres,
+            "spheres": spheres, "capsules": capsules,
             "planes": [{"normal": plane.normal, "offset": plane.offset, "material": f"texture {plane.material}"}
                        for plane in found.scene.planes]}
 
 
-def _spheres_of(arrays: Any) -> Iterator[dict[str, Any]]:
-    for array in arrays:
-        assert isinstance(array, SphereArray) and isinstance(array.material, np.ndarray)
-        for center, radius, index in zip(array.center.tolist(), array.radius.tolist(), array.material.tolist()):
-            yield {"center": center, "radius": radius, "material": f"texture {index}"}
+def _items_of(array: SphereArray) -> Iterator[dict[str, Any]]:
+    assert isinstance(array.material, np.ndarray)
+    columns = {"center": array.center, "radius": array.radius, "end": array.end}
+    for row, index in enumerate(array.material.tolist()):
+        yield {"material": f"texture {index}",
+               **{name: column[row].tolist() for name, column in columns.items() if column is not None}}

@@ -35,6 +35,7 @@ class Surroundings:
     """What limits the size of lamps: the surfaces of the scene, and its camera."""
 
     centers: FloatArray  # (n, 3)
+    ends: FloatArray  # (n, 3): of capsules; of spheres, their centers
     radii: FloatArray  # (n,)
     planes: list[Plane]
     camera: FloatArray  # (3,), its position
@@ -42,14 +43,18 @@ class Surroundings:
 
     def clearance(self, point: FloatArray) -> float:
         """The distance from the point to the nearest surface."""
-        gaps = np.abs(np.linalg.norm(self.centers - point, axis=1) - self.radii).tolist()
+        ways = self.ends - self.centers
+        squares = np.maximum((ways * ways).sum(axis=1), np.finfo(np.float64).tiny)
+        shares = np.clip(((point - self.centers) * ways).sum(axis=1) / squares, 0.0, 1.0)
+        nearest = self.centers + shares[:, None] * ways
+        gaps = np.abs(np.linalg.norm(nearest - point, axis=1) - self.radii).tolist()
         gaps += [abs(float(np.dot(plane.normal, point)) + plane.offset) / float(np.linalg.norm(plane.normal))
                  for plane in self.planes]
         return float(min(gaps, default=np.inf))
 
     def extent(self, lights: list[Light]) -> float:
         """The largest distance from the target to anything except planes; above 0."""
-        reach = np.linalg.norm(self.centers - self.target, axis=1) + self.radii
+        reach = np.linalg.norm(np.array([self.centers, self.ends]) - self.target, axis=2).max(axis=0) + self.radii
         places = [np.array(light.place) for light in lights if not light.is_directional] + [self.camera]
         return float(max([float(np.linalg.norm(place - self.target)) for place in places] + reach.tolist()))
 

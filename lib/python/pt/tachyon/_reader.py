@@ -1,4 +1,4 @@
-"""Tachyon's sections: camera, lights, spheres, planes and background. Other shapes can be left out, counted."""
+"""Tachyon's sections: camera, lights, shapes that can be rendered, background. Others can be left out, counted."""
 
 from __future__ import annotations
 
@@ -19,14 +19,13 @@ from pt.tachyon._words import Words
 
 OTHERS = {
     "TRI": "a triangle", "STRI": "a smooth triangle", "VCSTRI": "a smooth triangle",
-    "VERTEXARRAY": "a mesh of triangles", "CYLINDER": "a cylinder", "FCYLINDER": "a finite cylinder",
-    "POLYCYLINDER": "a chain of cylinders", "RING": "a ring", "BOX": "a box", "QUADRIC": "a quadric surface",
-    "SCAPE": "a landscape", "SCALARVOL": "a volume", "TPOLYFILE": "a file of triangles",
+    "VERTEXARRAY": "a mesh of triangles", "CYLINDER": "a cylinder without ends", "RING": "a ring", "BOX": "a box",
+    "QUADRIC": "a quadric surface", "SCAPE": "a landscape", "SCALARVOL": "a volume", "TPOLYFILE": "a file of triangles",
     "MGFFILE": "a file of shapes", "IMAGEDEF": "an image", "SPOTLIGHT": "a spotlight",
     "SKY_LIGHT": "light from all sides", "BACKGROUND_GRADIENT": "a background of two colors", "FOG": "fog",
     "START_CLIPGROUP": "a cut through shapes", "INCLUDE": "another file"}
-SECTIONS = ("CAMERA", "BACKGROUND", "LIGHT", "DIRECTIONAL_LIGHT", "TEXDEF", "TEXALIAS", "SPHERE", "PLANE", "SHADER_MODE",
-            "END_SCENE")
+SECTIONS = ("CAMERA", "BACKGROUND", "LIGHT", "DIRECTIONAL_LIGHT", "TEXDEF", "TEXALIAS", "SPHERE", "FCYLINDER",
+            "POLYCYLINDER", "PLANE", "SHADER_MODE", "END_SCENE")
 SKY_RADIUS = 1e6  # relative to the extent: a floor ends less than a pixel below the horizon
 
 
@@ -34,7 +33,7 @@ SKY_RADIUS = 1e6  # relative to the extent: a floor ends less than a pixel below
 class TachyonScene:
     """The contents of a file, with a lamp for each light and a ball around everything as the background.
 
-    scene      its spheres are one SphereArray, in the order of the file
+    scene      its spheres are one SphereArray, its cylinders another, each in the order of the file
     camera     with a target along Tachyon's viewing direction
     settings   the file's resolution; other settings have their defaults
     notes      what was left out, each with its line
@@ -49,21 +48,22 @@ class TachyonScene:
 def read(path: str | os.PathLike[str], *, leave_out_others: bool = False) -> TachyonScene:
     """Reads a scene file of Tachyon. Lengths stay as they are; the rest becomes:
 
-    colors                     linear, unchanged; `pt render --gamma 1` shows them as Tachyon does axes, left-handed z
-    has the other sign
+    colors                     linear, unchanged; `pt render --gamma 1` shows them as Tachyon does
+    axes, left-handed          z has the other sign
     ZOOM                       half of the height is seen at the tangent 0.5 / ZOOM; with ORTHOGRAPHIC the vertical_extent
                                is 1 / ZOOM
     DIFFUSE, SPECULAR > 0      diffuse, and a mirror: specular with the glossiness 1e6
     PHONG p, PHONG_SIZE n,     glossiness n, specular 2 p / (n + 2), so that the highlight is as bright
       without SPECULAR
+    FCYLINDER, POLYCYLINDER    capsules, whose ends are round; the flat caps (RING) that VMD puts on them are inside
     BACKGROUND                 a ball around everything that shines in this color, and so also lights the scene; none if
-    black a light, which has no a lamp that lights what the camera looks at as the light would; with a radius RAD it is
-    in
+                               black
+    a light, which has no      a lamp that lights what the camera looks at as the light would; with a radius RAD it is in
       size                     view, without one hidden from the camera, with a 50th of its distance as its radius.
                                Nearer surfaces get more from it and farther ones less, which Tachyon's lights do not know
 
-    leave_out_others   leaves out everything except spheres, planes, lights and the camera, and counts it in the notes,
-                       instead of refusing the file
+    leave_out_others   leaves out everything except these shapes, planes, lights and the camera, and counts it in the
+                       notes, instead of refusing the file
 
     ValueError: the file has anything else; the message names the line. OSError: it cannot be read.
     """
@@ -86,6 +86,8 @@ class _Reader:
         self.background: Triple = (0.0, 0.0, 0.0)
         self.spheres: list[tuple[float, float, float, float]] = []
         self.sphere_materials: list[int] = []
+        self.capsules: list[tuple[float, ...]] = []  # both ends and the radius
+        self.capsule_materials: list[int] = []
         self.planes: list[Plane] = []
         self.lights: list[Light] = []
         self.camera: dict[str, Triple] = {}
@@ -100,15 +102,23 @@ class _Reader:
             self.section(keyword)
         if not self.camera:
             self.words.refuse("there is no CAMERA")
-        table = np.array(self.spheres, np.float64).reshape(-1, 4)
-        centers, radii = table[:, :3], table[:, 3]
+        balls = np.array(self.spheres, np.float64).reshape(-1, 4)
+        capsules = np.array(self.capsules, np.float64).reshape(-1, 7)
+        centers, ends = np.vstack([balls[:, :3], capsules[:, :3]]), np.vstack([balls[:, :3], capsules[:, 3:6]])
+        radii = np.concatenate([balls[:, 3], capsules[:, 6]])
         position = self.camera["CENTER"]
-        target = view_target(centers, radii, self.planes, position, self.camera["VIEWDIR"])
-        around = Surroundings(centers, radii, self.planes, np.array(position), target)
+        target = view_target(np.vstack([centers, ends]), np.tile(radii, 2), self.planes, position,
+                             self.camera["VIEWDIR"])
+        around = Surroundings(centers, ends, radii, self.planes, np.array(position), target)
         lamps, warnings = lamps_of(self.lights, around)
         if any(self.background):
             lamps.append(Sphere(target, SKY_RADIUS * around.extent(self.lights), Material(emission=self.background)))
-        arrays = [SphereArray(centers, radii, np.array(self.sphere_materials, np.uint32))] if self.spheres else []
+        arrays = []
+        if self.spheres:
+            arrays.append(SphereArray(balls[:, :3], balls[:, 3], np.array(self.sphere_materials, np.uint32)))
+        if self.capsules:
+            arrays.append(SphereArray(capsules[:, :3], capsules[:, 6], np.array(self.capsule_materials, np.uint32),
+                                      end=capsules[:, 3:6]))
         scene = Scene(lamps, self.planes, arrays, materials=self.textures.materials)
         camera = Camera(position, target, self.camera["UPDIR"], self.vertical_fov,
                         vertical_extent=self.vertical_extent)
@@ -122,6 +132,13 @@ class _Reader:
             center = words.vector("CENTER")
             self.spheres.append((*center, words.named("RAD", positive=True)))
             self.sphere_materials.append(self.textures.reference())
+        elif keyword == "FCYLINDER":
+            self.chain([words.vector("BASE"), words.vector("APEX")])
+        elif keyword == "POLYCYLINDER":  # which Tachyon, too, draws with balls at all points
+            words.expect("POINTS")
+            self.chain([words.point("POINTS") for _ in range(words.size("POINTS"))])
+        elif keyword == "RING":
+            self.ring()
         elif keyword == "PLANE":
             point, normal = words.vector("CENTER"), words.direction("NORMAL")
             offset = -(normal[0] * point[0] + normal[1] * point[1] + normal[2] * point[2])
@@ -147,12 +164,29 @@ class _Reader:
         else:
             self.other(keyword)
 
+    def chain(self, points: list[Triple]) -> None:
+        radius, material = self.words.named("RAD", positive=True), self.textures.reference()
+        ends = points[1:] or points
+        self.capsules += [(*begin, *end, radius) for begin, end in zip(points, ends)]
+        self.capsule_materials += [material] * len(ends)
+
+    def ring(self) -> None:
+        """A ring is left out if it closes an end of the cylinder before it, as those of VMD do."""
+        words = self.words
+        center, _ = words.vector("CENTER"), words.direction("NORMAL")
+        inner, outer = words.named("INNER"), words.named("OUTER")
+        before = self.capsules[-1] if self.capsules else ()
+        if inner == 0.0 and (*center, outer) in ((*before[:3], *before[6:]), before[3:]):
+            self.textures.reference()
+        else:
+            self.other("RING")
+
     def other(self, keyword: str) -> None:
         if keyword not in OTHERS:
             self.words.refuse(f'"{keyword}": must be {", ".join(SECTIONS[:-1])} or {SECTIONS[-1]}')
         if not self.leaves_out_others:
-            self.words.refuse(f"{keyword} is {OTHERS[keyword]}: only spheres, planes, lights and a camera can be rendered. "
-                              "leave_out_others (pt-tachyon --leave-out-others) goes on without it")
+            self.words.refuse(f"{keyword} is {OTHERS[keyword]}: only spheres, cylinders with ends, planes, lights and a camera "
+                              "can be rendered. leave_out_others (pt-tachyon --leave-out-others) goes on without it")
         self.others[keyword] += 1
         while (word := (self.words.peek() or "").upper()) and word not in SECTIONS and word not in OTHERS:
             self.words.word(keyword)

@@ -95,9 +95,13 @@ class Words:
         return int(value)
 
     def vector(self, keyword: str) -> Triple:
-        """The keyword, and a point or direction behind it. Tachyon's world is left-handed: z changes its sign."""
+        """The keyword, and a point or direction behind it."""
         self.expect(keyword)
-        return self.number(keyword), self.number(keyword), -self.number(keyword)
+        return self.point(keyword)
+
+    def point(self, what: str) -> Triple:
+        """Tachyon's world is left-handed: z changes its sign."""
+        return self.number(what), self.number(what), -self.number(what)
 
     def direction(self, keyword: str) -> Triple:
         value = self.vector(keyword)
