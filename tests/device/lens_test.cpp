@@ -69,9 +69,9 @@ std::vector<Case> cases() {
     Given cut = random_scene(5, 7, 8.0);
     cut.camera.position[1] = -1.0;
     cut.spheres.push_back({{0.28 * 8.0 + 1.6, -1.0, 0.96 * 8.0}, 1.0, {0, 0, 0}, 0, 0});
-    return {{"few", random_scene(1, 7, 8.0), 1000},
-            {"few, a narrow view", random_scene(2, 9, 8000.0), 1000},
-            {"few, the lens cut by surfaces", cut, 1000},
+    return {{"few", random_scene(1, 7, 8.0), 400},
+            {"few, a narrow view", random_scene(2, 9, 8000.0), 400},
+            {"few, the lens cut by surfaces", cut, 400},
             {"a tree", random_scene(3, 300, 8.0), 100},
             {"a tree, a narrow view", random_scene(4, 300, 8000.0), 100}};
 }

@@ -57,15 +57,10 @@ private:
     Image original_;
 };
 
-// Powers of two change no mantissa, and nothing in the kernel knows a length of its own.
+// Powers of two change no mantissa, and nothing in the kernel knows a length of its own. Such a one, or one to be
+// compared with squares, would show the more the farther it is from all others.
 TEST_P(Invariance, UnitOfLength) {
-    for (int exponent = -20; exponent <= 20; exponent += 4) {
-        SCOPED_TRACE(exponent);
-        InvarianceScene scaled = scene();
-        scaled.scale(std::ldexp(1.0, exponent));
-        expect_same_bits(scaled);
-    }
-    for (const int exponent : {-50, 50}) { // lengths of 2^-52 = 2e-16 and of 2^55 = 3e16
+    for (const int exponent : {-50, -20, -4, 20, 50}) { // lengths of 2^-52 = 2e-16 to 2^55 = 3e16
         SCOPED_TRACE(exponent);
         InvarianceScene scaled = scene();
         scaled.scale(std::ldexp(1.0, exponent));

@@ -17,7 +17,7 @@ constexpr uint32_t width = 256;
 constexpr uint32_t height = 128;
 // Batches differ in their seeds: quasi-random samples of one seed are not independent of each other.
 constexpr uint32_t batch_count = 16;
-constexpr uint32_t batch_samples = 32;
+constexpr uint32_t batch_samples = 16;
 constexpr uint32_t block_size = 8;
 
 struct Case {
