@@ -1,5 +1,7 @@
 // Where parallel camera rays start.
 #include "lib/kernel/ray_start.h"
+#include "lib/scene/seen_sphere.h"
+#include "lib/scene/start_disc.h"
 
 #include <gtest/gtest.h>
 
@@ -42,6 +44,17 @@ TEST(ParallelStart, IsFiveEighthsOfTheDiagonalBeforeTheFirstSurface) {
     EXPECT_NEAR(start_before({across}, {}, camera), 1e4 - 3 - before, 1e-9) << "it comes no nearer on its way";
     const pt::Sphere towards{place, 3, -100.0 * camera.forward, 0};
     EXPECT_NEAR(start_before({towards}, {}, camera), 1e4 - 103 - before, 1e-9);
+}
+
+// Otherwise vertices would tell the sides of all surfaces, which those that coincide in part confuse.
+TEST(ParallelStart, IsOnOneSideOfALongCapsuleAcrossTheView) {
+    pt::Camera camera = parallel_along({0.48, 0.6, -0.64}, 2.0);
+    pt::Sphere capsule{position - 500.0 * camera.right, 0.25, 1000.0 * camera.right, 0, true};
+    camera.start_radius = std::sqrt(2.0);
+    for (const double before : {1.25 * camera.start_radius, 0.9 * camera.start_radius, 0.0}) {
+        capsule.center = position - 500.0 * camera.right + (0.25 + before) * camera.forward;
+        EXPECT_EQ(pt::divides_start(pt::seen_ball(capsule, camera), camera), before < camera.start_radius) << before;
+    }
 }
 
 TEST(ParallelStart, IsAtThePositionWhereNothingIsInView) {
