@@ -204,6 +204,9 @@ class Looks(unittest.TestCase):
                 prepare(Particles(np.eye(3)), Options(**options))
         with self.assertRaisesRegex(ValueError, "the cutoff, or the covalent radii, must be about as large as"):
             found_in(Particles(np.eye(3), cell=Cell.of([1, 1, 1])), 1e3)
+        with (unittest.mock.patch.object(_bonds, "MOST_FOUND", 100),
+              self.assertRaisesRegex(ValueError, "more than 1e[+]02 pairs are within about 9")):
+            found_in(Particles(np.random.default_rng(0).uniform(size=(11, 3))), 9.0)
 
 
 if __name__ == "__main__":

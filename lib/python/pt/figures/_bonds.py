@@ -21,6 +21,7 @@ LEAST_DISTANCE: Final = 0.4
 BALL_SHARE: Final = 0.5  # radius of a ball that has a stick, as a share of that of a ball alone; by taste
 STICK_SHARES: Final = {"space-filling": 0.07, "ball-and-stick": 0.07, "sticks": 0.14}  # of the median bond; by taste
 MOST_COMPARED: Final = 400_000_000  # pairs, which takes about a minute
+MOST_FOUND: Final = 40_000_000  # of these, in both orders, which takes 4 GB
 ROWS_AT_ONCE: Final = 2048
 SLACK: Final = 1.0 + 2.0**-30  # so that roundings put no neighbour two cells away
 
@@ -91,6 +92,7 @@ def _near(particles: Particles, cutoff: float | None, cell: Cell | None, notes: 
     vectors = np.zeros((3, 3)) if cell is None else cell.vectors
     places = positions[sources] + shifts @ vectors
     found = []
+    total = 0
     for atoms, images in _candidates(places, len(positions), largest):
         ways = places[images] - places[atoms]
         others = sources[images]
@@ -102,6 +104,8 @@ def _near(particles: Particles, cutoff: float | None, cell: Cell | None, notes: 
         # A particle that has left the cell is bonded to the others where it is, with no wall between them.
         shifted = (shifts[images] != shifts[atoms]).any(axis=1)
         found.append((atoms, others, ways[near], shifted))
+        total += len(atoms)
+        _check_count(total, largest, MOST_FOUND)
     joined = [np.concatenate(each) for each in zip(*found)]
     return joined[0], joined[1], joined[2], joined[3]
 
@@ -155,9 +159,9 @@ def _candidates(places: Doubles, count: int, cutoff: float) -> Iterator[tuple[Ar
         yield atoms[different], images[different]
 
 
-def _check_count(count: float, cutoff: float) -> None:
-    if count > MOST_COMPARED:
-        raise ValueError(f"bonds: more than {MOST_COMPARED:.0e} pairs are within about {cutoff:g}: the cutoff, or the "
+def _check_count(count: float, cutoff: float, most: int = MOST_COMPARED) -> None:
+    if count > most:
+        raise ValueError(f"bonds: more than {most:.0e} pairs are within about {cutoff:g}: the cutoff, or the "
                          "covalent radii, must be about as large as the distances between neighbours")
 
 
