@@ -77,10 +77,10 @@ bool sphere_blocks(vec3 to_centre, float radius, vec3 direction, bool at_end, fl
 // ray leaves. Both are convex in s, so on the segment it is the value clamped to [0, L]. Along the axis |p| = 0, and the
 // sign of c h tells the end.
 //
-// Rounding of u, p and the ball's place moves the ball across the ray by d = 2^-22 (|to_first| + L) at most, as would
-// ends that are other by so much. A ball that is off by e = d / |p| along the axis is met later by e^2 / (2 h |p|), of
-// second order; but where |p|^2 < 2 d / h, nearly along the axis, it might not be met at all. With h - d for h it is met
-// wherever the ray meets the endless cylinder, and later by d / |p| at most. That is what d does to the distance anyway.
+// Rounding of u, p and the ball's place acts like a shift of the ends by d = 2^-22 (|to_first| + L) at most, across the
+// ray. A ball that is off by e = d / |p| along the axis is met later by e^2 / (2 h |p|), of second order; but where
+// |p|^2 < 2 d / h, nearly along the axis, it might not be met at all. With h - d for h it is met wherever the ray meets
+// the endless cylinder, and later by d / |p| at most, which is no more than a shift by d changes the distance.
 //
 // Returns the way from the first end to the middle of that ball.
 vec3 swept_to(vec3 to_first, vec4 axis, float radius, vec3 direction, bool to_last)

@@ -126,7 +126,7 @@ const uint TREE_FRAME = INDICES + (SURFACE_COUNT + 3u) / 4u;
 const uint TABLE = TREE_FRAME + 5u * TREE;
 
 // A sphere that does not move may be swept from one end of a segment to the other: a capsule. Its axis is the way
-// between the ends, 1 / the length.
+// between the ends; 1 / the length.
 const vec4 NO_AXIS = vec4(0.0);
 
 vec4 axis_of(vec4 way) { return way.w > 0.0 ? way : NO_AXIS; }

@@ -158,7 +158,7 @@ void read_animation_item(SceneFile &scene, const JsonPlace &place, const json &v
     const std::string name(place.key);
     const auto parsed = parse_path(name);
     if (!parsed || !parsed->rest.empty() || !can_move(parsed->path)) {
-        refuse(place, "the name must be that of a key of the camera, of a material, of a sphere or of a plane, like "
+        refuse(place, "the name must be that of a key of the camera, of a material or of a surface, like "
                       "camera.position or spheres[0].center; the shutter has no frames");
     }
     if (!value.is_array() || value.empty())

@@ -137,7 +137,6 @@ TEST(SmallLamps, AreThoseThatTheCameraSees) {
     EXPECT_TRUE(pieces_of({moving}, {}, open).empty());
 }
 
-// The variance of a lamp that a sample meets with the probability p: E^2 p (1 - p).
 // The camera and a lamp that only the other end of a capsule holds.
 TEST(SmallLamps, AreSeenFromWithinACapsule) {
     const pt_sphere first = sphere_at(0, 0, -10, 50, dark);
@@ -155,6 +154,7 @@ TEST(SmallLamps, AreSeenFromWithinACapsule) {
     EXPECT_TRUE(pieces_of({sphere_at(0.5, 0.5, 100, radius, lamp), first}).empty());
 }
 
+// The variance of a lamp that a sample meets with the probability p: E^2 p (1 - p).
 TEST(SmallLamps, AddWhatSamplesShouldHaveMet) {
     const std::vector<pt::LampPiece> pieces{{3, 4, 0.125, 0.25, glm::dvec3(8, 0, 16)},
                                             {5, 6, 0.25, 0.5, glm::dvec3(4)}};

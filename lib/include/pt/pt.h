@@ -165,7 +165,7 @@ typedef struct pt_sphere_array {
     pt_column color;
     /** x, y, z of a second center; FLOAT32 or FLOAT64; default none. With it each is a capsule: all points that are no
      * farther than the radius from the segment between center and end. Capsules do not emit and do not move
-     * (PT_ERROR_INVALID_SCENE); their surface is off by a 2^21th of their length and radius where these are larger than
+     * (PT_ERROR_INVALID_SCENE); their surface is off by 2^-21 of their length and radius where these are larger than
      * the distance. They are spheres otherwise, in counts, trees and numbers of objects. */
     pt_column end;
 } pt_sphere_array;

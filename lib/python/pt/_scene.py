@@ -98,8 +98,8 @@ class SphereArray:
     motion     shape (n, 3) or (3,): displacement from time 0 to time 1; none by default
     color      shape (n, 3) or (3,), multiplies the material's diffuse: linear floats in [0, 1], or sRGB in uint8, as in
                pictures and color maps; 1 by default
-    end        shape (n, 3): a second center; then each is a capsule, swept from one to the other. These neither
-               emit nor move
+    end        shape (n, 3) or (3,): a second center; then each is a capsule, swept from one to the other. These
+               neither emit nor move
 
     Arrays of float32, float64, uint32 (indices) and uint8 (colors) in the machine's byte order are read in place if
     their rows are contiguous and ascend, at any distance: slices a[::2], the first columns a[:, :3] of a table, fields
