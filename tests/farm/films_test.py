@@ -25,7 +25,7 @@ except ImportError:
     sys.exit(77)
 from pt import farm
 from pt.farm import _coordinator, _task
-from pt.farm._crew import MOST_FAILURES
+from pt.farm._crew import LOOK_SECONDS, MOST_FAILURES
 from pt.farm._part import Part
 from pt.farm._sum import Sum, write_film
 
@@ -172,7 +172,11 @@ class Farm(unittest.TestCase):
                         held.append(self.process_of(stopped))
                         os.kill(held[0], signal.SIGSTOP)
                     if killed is not None:
+                        address = self.cluster.workers[killed].worker_address
                         os.kill(self.process_of(killed), signal.SIGKILL)
+                        while address in self.cluster.scheduler.workers:  # lest its parts are late before they are lost
+                            time.sleep(0.01)
+                        time.sleep(LOOK_SECONDS)
                     open(go, "w").close()
             if seen.repeated and held:
                 os.kill(held.pop(), signal.SIGCONT)
