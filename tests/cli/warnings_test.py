@@ -59,17 +59,6 @@ class RealDevice(CommandLineTest):
             self.assertEqual("is the camera inside of a ball" in self.errors, is_told, self.errors)
             self.assertEqual(read_png(self.path("a.png"))[2] == [[0] * 12] * 2, is_told)
 
-    def test_shipped_scenes(self):
-        for name in ("coursework-diffuse", "many-lamps", "two-lamps"):
-            self.expect(0, "render", os.path.join(SCENES, name + ".json"), "-o", "a.png", "--size", "32x16", "--spp",
-                        "4")
-            self.assertEqual(self.errors, "", name)
-        for name in ("coursework", "coursework-motion"):
-            self.expect(0, "render", os.path.join(SCENES, name + ".json"), "-o", "a.png", "--size", "32x16", "--spp",
-                        "4")
-            self.assertEqual(self.errors.count("warning"), 1, self.errors)
-            self.assertIn(MATERIALS, self.errors)
-
 
 if __name__ == "__main__":
     main()
