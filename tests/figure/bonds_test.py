@@ -209,5 +209,45 @@ class Looks(unittest.TestCase):
             found_in(Particles(np.random.default_rng(0).uniform(size=(11, 3))), 9.0)
 
 
+class Trails(unittest.TestCase):
+    @staticmethod
+    def frame(places, ids=None, periodic=(True, True, False)):
+        return Particles(np.array(places, float), {} if ids is None else {"id": np.array(ids)},
+                         cell=Cell.of([10, 10, 10], periodic=periodic))
+
+    @staticmethod
+    def steps(series, trails, **options):
+        """Begin, end and particle of each capsule in the last picture."""
+        drawn = list(frames(lambda: iter(series), Options(radius=0.5, size=(40, 30), **options), trails))[-1].drawn
+        return [(begin.tolist(), end.tolist(), atom) for rods in drawn.rods
+                for begin, end, atom in zip(drawn.begins(rods), drawn.ends(rods), rods.atoms)]
+
+    def test_places_in_earlier_frames(self):
+        """7 goes straight on; 3 goes far, then through a wall; 5 is new; 9 stands still."""
+        def series(periodic):
+            return [self.frame([[1, 1, 1], [9, 5, 1], [5, 5, 5]], (7, 3, 9), periodic),
+                    self.frame([[9.5, 5, 9], [5, 5, 5], [2, 1, 1]], (3, 9, 7), periodic),
+                    self.frame([[0.5, 5, 9], [4, 4, 4], [2, 3, 1], [5, 5, 5]], (3, 5, 7, 9), periodic)]
+        straight, far = [([2, 3, 1], [2, 1, 1], 2), ([2, 1, 1], [1, 1, 1], 2)], ([9.5, 5, 9], [9, 5, 1], 0)
+        some, every = series((True, True, False)), series(False)
+        self.assertEqual(self.steps(some, 0), [])
+        self.assertEqual(self.steps(some, 1), straight[:1])
+        for trails in (2, 7):
+            self.assertEqual(self.steps(some, trails), [straight[0], far, straight[1]])
+        self.assertEqual(self.steps(some, 2, where="id == 7"), [(*step[:2], 0) for step in straight])
+        self.assertEqual(len(self.steps(every, 2)), 4)  # nothing is a wall
+        self.assertEqual(len(self.steps(series(True), 2)), 2)
+
+    def test_wrapped_frames(self):
+        series = [self.frame([[x, 5, 5]]) for x in (9.5, 10.5, 11.5)]
+        self.assertEqual(len(self.steps(series, 2)), 2)
+        self.assertEqual(self.steps(series, 2, wrap=True), [([1.5, 5, 5], [0.5, 5, 5], 0)])
+
+    def test_without_ids_numbers_must_agree(self):
+        few, more = self.frame([[1, 1, 1]]), self.frame([[1, 1, 1], [2, 2, 2]])
+        with self.assertRaisesRegex(ValueError, "trails: array: of 1 particles and, later, 2, there must be a column id"):
+            self.steps([few, more], 1)
+
+
 if __name__ == "__main__":
     unittest.main()

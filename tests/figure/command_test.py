@@ -10,7 +10,8 @@ import unittest
 
 import numpy as np
 import pt
-from pt.figures._command import EPILOG, numbered, parser
+from pt.figures._command import EPILOG, numbered, parser, staged
+from pt.figures._options import Options
 
 if importlib.util.find_spec("matplotlib") is None:
     print("matplotlib is not installed")
@@ -62,6 +63,9 @@ class Command(unittest.TestCase):
         self.assertEqual(len({(self.folder / name).read_bytes() for name in self.names("*.png")}), 6)
         self.assertEqual(numbered("a#b##.png", 7), "a#b07.png")
         self.assertIn("-i f-%03d.png", EPILOG)
+        given = parser().parse_args([str(self.folder / "points.npy"), "--frames", "0-2", "--trails", "1"])
+        trails = [[len(rods.atoms) for rods in each.drawn.rods] for _, each in staged(given, Options(size=(48, 32)))]
+        self.assertEqual(trails, [[], [30], [30]])
 
     def test_a_written_scene_renders_to_the_same_radiance(self):
         for arguments in (("water.xyz",), ("water.xyz", "--model", "sticks"),
@@ -105,6 +109,7 @@ class Command(unittest.TestCase):
                 (2, "JPEG has no alpha", ("water.xyz", "-o", "a.jpg", "--background", "transparent")),
                 (2, "must have # signs", ("water.xyz", "-o", "a.png", "--turntable", "4")),
                 (2, "not with --frames", ("water.xyz", "-o", "a#.png", "--turntable", "4", "--frames", "0-1")),
+                (2, "--trails: only with --frames", ("points.npy", "-o", "a.png", "--trails", "4")),
                 (2, "which standard input cannot be", ("-", "-o", "a#.png", "--frames", "0-1")),
                 (2, "must be LO,HI", ("water.xyz", "-o", "a.png", "--color-range", "3")),
                 (2, "must be WxH", ("water.xyz", "-o", "a.png", "--size", "3")),

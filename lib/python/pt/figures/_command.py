@@ -59,6 +59,8 @@ def parser() -> argparse.ArgumentParser:
     add("--write-scene", metavar="SCENE", help="scene file for `pt render`, with NPY files beside it")
     add("--turntable", type=at_least(2, int), metavar="N", help="N pictures once round the vertical axis, lamps and all")
     add("--frames", type=typed(two("-", int), "two frames like 0-99"), metavar="A-B", help="a picture of each frame")
+    add("--trails", type=at_least(1, int), default=0, metavar="N", help="of --frames: where each particle was in the N "
+        "frames before; steps through walls of a periodic cell are left out")
     add("--progress", choices=("auto", "json", "none"), default="auto")
     add("-q", "--quiet", action="store_true", help="print errors only")
     groups: dict[str, Any] = {}
@@ -101,6 +103,8 @@ def check(given: argparse.Namespace) -> None:
         refuse("-o, --write-scene or --legend is missing: there is nothing to write")
     if given.turntable and given.frames:
         refuse("--turntable: not with --frames")
+    if given.trails and not given.frames:
+        refuse("--trails: only with --frames")
     if given.frames and given.data == "-":
         refuse("--frames: read the file twice, which standard input cannot be")
     if given.data != "-" and not os.access(given.data, os.R_OK):
@@ -137,7 +141,8 @@ def staged(given: argparse.Namespace, options: Options) -> Any:
     """Yields the number of each picture (None if it is the only one) and what it shows."""
     if given.frames:
         first, last = given.frames
-        return zip(range(first, last + 1), frames(lambda: read_frames(given.data, first, last, **options.reading), options))
+        return zip(range(first, last + 1), frames(lambda: read_frames(given.data, first, last, **options.reading), options,
+                                                  given.trails))
     particles = load(given.data, frame=options.frame, **options.reading)
     if given.turntable:
         return enumerate(turntable(particles, given.turntable, options))

@@ -32,6 +32,7 @@ from pt.figures._particles import Cell, Particles
 from pt.figures._radii import radii_of
 from pt.figures._rods import Rods, cell_corners, cell_edges, vectors_of
 from pt.figures._stage import EDGES, SURROUND_BRIGHTNESS
+from pt.figures._trails import trails_of
 from pt.figures._where import holds
 
 LEAST_LENGTH: Final = 1e-18  # the least that the library accepts
@@ -67,9 +68,12 @@ class Drawn:
             return Balls(self.centers, self.radii, corners)
         return Balls(np.concatenate([self.centers, *map(self.ends, self.rods)]), self.all_radii, corners)
 
+    def begins(self, rods: Rods) -> Array:
+        centers = self.centers[rods.atoms]
+        return centers if rods.starts is None else centers + rods.starts
+
     def ends(self, rods: Rods) -> Array:
-        result: Array = self.centers[rods.atoms] + rods.ways
-        return result
+        return self.begins(rods) + rods.ways
 
     @property
     def all_radii(self) -> Array:
@@ -79,8 +83,11 @@ class Drawn:
         return np.concatenate([self.radii, *(np.full(len(each.atoms), each.radius) for each in self.rods)])
 
 
-def prepare(particles: Particles, options: Options, scale: float | None = None) -> Drawn:
-    """Makes particles into balls. Radii, ranges of colors and categories come from all particles, shown or not."""
+def prepare(particles: Particles, options: Options, scale: float | None = None, past: Sequence[Particles] = ()) -> Drawn:
+    """Makes particles into balls. Radii, ranges of colors and categories come from all particles, shown or not.
+
+    past   earlier frames, through which trails lead
+    """
     notes = list(particles.notes)
     if not len(particles.positions):
         raise ValueError(f"{particles.name} has no particles")
@@ -94,6 +101,8 @@ def prepare(particles: Particles, options: Options, scale: float | None = None) 
         vectors, vector_scale = vectors_of(particles, options.vectors, options.vector_scale, radii)
         rods.append(vectors)
         settled.update({"vector_scale": vector_scale} if vector_scale else {})
+    if past:
+        rods.append(trails_of(particles, past, radii))
     if options.bond_rule is not None:
         bonds = bonds_of(particles, options, radii, notes)
         rods.append(bonds)
@@ -180,7 +189,7 @@ class Staged:
             colors = None
         arrays = [SphereArray(drawn.centers, drawn.radii, material, color=colors)]
         for each in (rods for rods in drawn.rods if len(rods.atoms)):
-            arrays.append(SphereArray(drawn.centers[each.atoms], each.radius, material, end=drawn.ends(each),
+            arrays.append(SphereArray(drawn.begins(each), each.radius, material, end=drawn.ends(each),
                                       color=None if colors is None else colors[each.atoms]))
         if drawn.cell is not None:
             begins, ends = cell_edges(drawn.cell)

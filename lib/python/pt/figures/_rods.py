@@ -20,27 +20,31 @@ WIDTH: Final = 0.3  # radius of vectors, in the same
 
 @dataclass(frozen=True)
 class Rods:
-    """k capsules, each of the color of the particle that it begins in.
+    """k capsules, each of the color of a particle.
 
     atoms    shape (k,): indices of these particles
     others   shape (k,): particles that must be shown, too
-    ways     shape (k, 3): from the center of the particle to that of the other end
+    ways     shape (k, 3): from one end to the other
     radius   for all
+    starts   shape (k, 3): from the center of the particle to the first end; None: that is in the center
     """
 
     atoms: Array
     others: Array
     ways: Doubles
     radius: float
+    starts: Doubles | None = None
 
     def among(self, shown: Array) -> Rods:
         """Those whose particles are shown, with the indices of the particles that are left."""
         kept = shown[self.atoms] & shown[self.others]
         index = np.cumsum(shown) - 1
-        return replace(self, atoms=index[self.atoms[kept]], others=index[self.others[kept]], ways=self.ways[kept])
+        return replace(self, atoms=index[self.atoms[kept]], others=index[self.others[kept]], ways=self.ways[kept],
+                       starts=None if self.starts is None else self.starts[kept])
 
     def times(self, scale: float, least: float) -> Rods:
-        return replace(self, ways=self.ways * scale, radius=max(self.radius * scale, least))
+        return replace(self, ways=self.ways * scale, radius=max(self.radius * scale, least),
+                       starts=None if self.starts is None else self.starts * scale)
 
 
 def vectors_of(particles: Particles, given: Vectors, scale: float | None, radii: Array) -> tuple[Rods, float]:

@@ -4,6 +4,7 @@ radii."""
 from __future__ import annotations
 
 import math
+from collections import deque
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 
@@ -18,12 +19,17 @@ from pt.figures._options import Options, Radius
 from pt.figures._particles import Particles
 
 
-def frames(read: Callable[[], Iterator[Particles]], options: Options) -> Iterator[Staged]:
-    """Stages each frame. All frames are read twice, the first time to find what fits all of them."""
+def frames(read: Callable[[], Iterator[Particles]], options: Options, trails: int = 0) -> Iterator[Staged]:
+    """Stages each frame. All frames are read twice, the first time to find what fits all of them.
+
+    trails   through how many frames before it the trails of a picture lead
+    """
     options, view, reaches, scale = _common(read(), options)
     layout = Layout.of(view, reaches, options.style, options.floor)
+    past: deque[Particles] = deque(maxlen=trails)
     for particles in read():
-        yield Staged(prepare(particles, options, scale), layout, options)
+        yield Staged(prepare(particles, options, scale, past), layout, options)
+        past.appendleft(particles.wrapped() if options.wrap else particles)
 
 
 def _common(trajectory: Iterator[Particles], options: Options) -> tuple[Options, View, Doubles, float]:
