@@ -95,7 +95,7 @@ int run(int argument_count, char **arguments) {
     program.set_help_flag("-h,--help", "Print this help and exit");
     for (const auto add :
          {cli::add_render_command, cli::add_tonemap_command, cli::add_compare_command, cli::add_merge_command,
-          cli::add_selftest_command, cli::add_schema_command, cli::add_devices_command})
+          cli::add_denoise_command, cli::add_selftest_command, cli::add_schema_command, cli::add_devices_command})
         add(program, chosen);
 
     const std::string name = argument_count > 1 ? arguments[1] : "";

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string_view>
 #include <zstd.h>
@@ -115,6 +116,26 @@ std::vector<pt_sample_range> FilmHandle::ranges(std::uint32_t tile) const {
     std::vector<pt_sample_range> ranges(count);
     require(pt_get_film_ranges(film_, tile, ranges.data(), &count));
     return ranges;
+}
+
+pt_sample_range FilmHandle::hull() const {
+    pt_sample_range hull{std::numeric_limits<std::uint64_t>::max(), 0};
+    for (std::uint32_t tile = 0; tile < info().tile_count; ++tile) {
+        const std::vector<pt_sample_range> of_tile = ranges(tile);
+        hull.first = std::min(hull.first, of_tile.front().first);
+        hull.end = std::max(hull.end, of_tile.back().end);
+    }
+    return hull;
+}
+
+// Films of two seeds cannot be added, so the library names all in which they differ.
+void FilmHandle::require_same_picture(const std::string &path, std::span<const std::byte> bytes) {
+    constexpr std::array<std::string_view, 4> allowed{"seed", "estimator_version", "kernel", "device"};
+    const pt_result result = pt_merge_film(film_, bytes.data(), bytes.size());
+    LibraryError error = last_error(nullptr);
+    std::erase_if(error.rules, [&](const BrokenRule &rule) { return std::ranges::count(allowed, rule.member) > 0; });
+    if (!error.rules.empty())
+        throw Failure(exit_code_of(result), film_words(path, error));
 }
 
 std::vector<float> FilmHandle::read_image(std::uint32_t quantity) const {

@@ -28,6 +28,11 @@ public:
     pt_stats stats() const;
     pt_error_estimate error_estimate() const;
     std::vector<pt_sample_range> ranges(std::uint32_t tile) const;
+    pt_sample_range hull() const; // from the first to the last sample of any pixel
+
+    // Throws Failure(ExitCode::usage), with a line for each difference, unless a film of another seed is of the same
+    // picture in all that does not just decide bits.
+    void require_same_picture(const std::string &path, std::span<const std::byte> bytes);
 
     // The image of the film's rectangle, three components for each pixel. quantity: PT_QUANTITY_*.
     std::vector<float> read_image(std::uint32_t quantity) const;

@@ -8,14 +8,13 @@
 #include "cli/commands.h"
 #include "cli/film/film.h"
 #include "cli/image/image_file.h"
+#include "cli/render/film_report.h"
 #include "cli/render/render_output.h"
 #include "cli/render/render_report.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cstdio>
-#include <limits>
 #include <memory>
 
 namespace cli {
@@ -74,16 +73,6 @@ std::unique_ptr<FilmHandle> sum_of(const std::vector<std::string> &parts) {
     return sum;
 }
 
-// The range from the first to the last sample of any pixel.
-pt_sample_range hull_of(const std::vector<Ranges> &tiles) {
-    pt_sample_range hull{std::numeric_limits<std::uint64_t>::max(), 0};
-    for (const Ranges &ranges : tiles) {
-        hull.first = std::min(hull.first, ranges.front().first);
-        hull.end = std::max(hull.end, ranges.back().end);
-    }
-    return hull;
-}
-
 // The samples in any of these ranges, as ranges in ascending order.
 Ranges united(Ranges ranges) {
     std::sort(ranges.begin(), ranges.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
@@ -110,23 +99,6 @@ pt_sample_range wanted_range(const MergeOptions &options, const pt_sample_range 
     return {first, options.sample_count ? first + *options.sample_count : std::max(first, hull.end)};
 }
 
-RenderReport picture_of(const FilmHandle &film, const pt_film_info &info, const pt_sample_range &hull) {
-    RenderReport picture{};
-    picture.render.width = info.width;
-    picture.render.height = info.height;
-    picture.window = {{info.x, info.y, info.columns, info.rows}, info.width, info.height};
-    picture.render.max_path_length = info.max_path_length;
-    picture.render.seed = info.seed;
-    picture.render.first_sample = static_cast<std::uint32_t>(hull.first);
-    picture.render.estimator = info.estimator;
-    picture.render.sampler = info.sampler;
-    picture.stats = film.stats();
-    picture.error = film.error_estimate();
-    picture.requested_sample_count = picture.stats.sample_count;
-    std::snprintf(picture.device.name, sizeof picture.device.name, "%s", info.device);
-    return picture;
-}
-
 nlohmann::ordered_json json_of(const Ranges &ranges) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const pt_sample_range &range : ranges)
@@ -138,8 +110,8 @@ MergeReport merge_report(const FilmHandle &film, const MergeOptions &options) {
     std::vector<Ranges> tiles;
     for (std::uint32_t i = 0; i < film.info().tile_count; ++i)
         tiles.push_back(film.ranges(i));
-    const pt_sample_range hull = hull_of(tiles);
-    MergeReport report{picture_of(film, film.info(), hull), film.info(), options.parts.size(), {}, {}};
+    const pt_sample_range hull = film.hull();
+    MergeReport report{film_report(film), film.info(), options.parts.size(), {}, {}};
     report.samples = missing_of(hull, missing_in_any(hull, tiles));
     report.missing = missing_in_any(wanted_range(options, hull), tiles);
     return report;

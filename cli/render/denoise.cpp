@@ -1,5 +1,7 @@
 #include "cli/render/denoise.h"
 
+#include "cli/base/context.h"
+
 #include <pt/denoise.h>
 
 #include <algorithm>
@@ -38,22 +40,16 @@ void require_denoiser(const std::string &library) {
     denoise(library, {0, 0, 1, 1}, {black.data(), black.data(), black.data(), black.data()}, result.data());
 }
 
-RenderedImage denoised(const RenderOptions &options, const RenderedImage &first, RenderedImage second) {
-    const auto layer = [&](std::uint32_t quantity) {
-        return std::ranges::find(second.layers, quantity, &PictureLayer::quantity)->values.data();
-    };
+RenderedImage denoised(const std::string &library, const RenderedImage &first, RenderedImage second,
+                       std::span<const float> albedo, std::span<const float> normal) {
     std::vector<float> result(first.radiance.size());
     second.error =
-        denoise(options.denoiser, first.part,
-                {first.radiance.data(), second.radiance.data(), layer(PT_QUANTITY_ALBEDO), layer(PT_QUANTITY_NORMAL)},
+        denoise(library, first.part, {first.radiance.data(), second.radiance.data(), albedo.data(), normal.data()},
                 result.data());
     second.raw.resize(result.size());
     std::ranges::transform(first.radiance, second.radiance, second.raw.begin(),
                            [](float a, float b) { return (a + b) / 2; });
     second.radiance = std::move(result);
-    std::erase_if(second.layers, [&](const PictureLayer &each) {
-        return std::ranges::find(options.output.layers, each.quantity) == options.output.layers.end();
-    });
     second.stats.sample_count += first.stats.sample_count;
     second.stats.max_sample_count += first.stats.max_sample_count;
     second.stats.mean_sample_count += first.stats.mean_sample_count;

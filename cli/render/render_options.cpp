@@ -5,6 +5,7 @@
 #include "cli/base/options.h"
 #include "cli/base/text.h"
 #include "cli/commands.h"
+#include "cli/render/denoise.h"
 #include "cli/render/picture_layer.h"
 #include "cli/render/render_command.h"
 
@@ -55,7 +56,7 @@ void add_picture_options(CLI::App &command, RenderOptions &options) {
     command.add_flag("--alpha", options.alpha,
                      "Give .exr and .png an alpha channel: the share of a pixel's samples that see a surface");
     command.option_defaults()->group("Picture");
-    command.add_flag("--denoise{libOpenImageDenoise.so.2}", options.denoiser,
+    command.add_flag(concat("--denoise{", usual_denoiser, "}"), options.denoiser,
                      "Take out noise, by the library Open Image Denoise 2, and state the error of the result");
     add_parsed(command, "--crop", options.crop, &parse_rectangle,
                "must be four whole numbers like 10,20,640,480: x, y, width and height",
@@ -186,7 +187,7 @@ void add_format(CLI::App &command, std::optional<ImageFormat> &format, std::span
         ->group("Output");
 }
 
-void add_output_options(CLI::App &command, OutputOptions &options, std::span<const std::string_view> layers) {
+void add_image_outputs(CLI::App &command, OutputOptions &options) {
     command.option_defaults()->group("Output");
     command
         .add_option("-o,--output", options.images,
@@ -196,6 +197,12 @@ void add_output_options(CLI::App &command, OutputOptions &options, std::span<con
         ->take_all()
         ->type_name("IMAGE");
     add_format(command, options.format, image_formats.names());
+    add_text(command, "--stats", options.stats, "JSON",
+             "Write what is known of the image as JSON; - is standard output, the summary then goes to stderr");
+}
+
+void add_output_options(CLI::App &command, OutputOptions &options, std::span<const std::string_view> layers) {
+    add_image_outputs(command, options);
     const auto read_layers = [&options, layers](const std::string &text) {
         options.layers = parse_layers(text, layers);
     };
@@ -205,8 +212,6 @@ void add_output_options(CLI::App &command, OutputOptions &options, std::span<con
         ->type_name(listed(layers, "|") + ",...");
     add_text(command, "--film", options.film, "FILM",
              "Write the film (.ptfilm): the exact sums of the samples, for `pt merge`; -o may be left out then");
-    add_text(command, "--stats", options.stats, "JSON",
-             "Write what is known of the image as JSON; - is standard output, the summary then goes to stderr");
 }
 
 std::vector<std::uint32_t> RenderOptions::wanted_layers() const {

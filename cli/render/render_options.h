@@ -70,8 +70,10 @@ void for_each_output(Options &options, Use use) {
     use("--stats", options.stats);
 }
 
-// Adds all output options except --quiet; they write into `options` when the command line is parsed. layers: those that
-// the command can write.
+// Adds the options for images and the report; they write into `options` when the command line is parsed.
+void add_image_outputs(CLI::App &command, OutputOptions &options);
+
+// Adds all output options except --quiet. layers: those that the command can write.
 void add_output_options(CLI::App &command, OutputOptions &options, std::span<const std::string_view> layers);
 
 // Adds --format, for an image to standard output. names: the formats that the command can write.

@@ -13,9 +13,11 @@
 #include "cli/render/render_output.h"
 #include "cli/render/warnings.h"
 
+#include <algorithm>
 #include <iostream>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace cli {
@@ -108,6 +110,20 @@ std::optional<ToneMap> tone_map_of(const RenderTask &task, std::span<const float
     return needs_tone_map(task.options.output) ? std::optional(task.scene.display.tone_map(radiance)) : std::nullopt;
 }
 
+// The second half has the guides; only layers that are asked for are kept.
+RenderedImage denoised_halves(const RenderOptions &options, const RenderedImage &first, RenderedImage second) {
+    const auto guide = [&](std::uint32_t quantity) -> std::span<const float> {
+        return std::ranges::find(second.layers, quantity, &PictureLayer::quantity)->values;
+    };
+    const std::span<const float> albedo = guide(PT_QUANTITY_ALBEDO);
+    const std::span<const float> normal = guide(PT_QUANTITY_NORMAL);
+    RenderedImage image = denoised(options.denoiser, first, std::move(second), albedo, normal);
+    std::erase_if(image.layers, [&](const PictureLayer &each) {
+        return std::ranges::count(options.output.layers, each.quantity) == 0;
+    });
+    return image;
+}
+
 void print_interruption(const RenderTask &task, std::uint32_t done, std::uint32_t rows_done,
                         const std::string &checkpoint) {
     const std::uint32_t height = task.window.part.height;
@@ -176,7 +192,7 @@ ExitCode render_picture(const Context &context, const RenderTask &task, const Re
     report.accumulate_seconds = seconds_since(accumulate_start);
     report.is_denoised = task.half_count() > 1 && !stop();
     if (report.is_denoised)
-        image = denoised(task.options, image, std::move(other));
+        image = denoised_halves(options, image, std::move(other));
     report.total_seconds = seconds_since(times.start);
 
     report.stats = image.stats;

@@ -46,7 +46,7 @@ class Usage(CommandLineTest):
     def test_misspelt_names_get_a_suggestion(self):
         render = ["render", COURSEWORK, "-o", "a.png"]
         for arguments, error in ((["rendr", COURSEWORK], 'unknown command "rendr", did you mean "render"? (see pt'),
-                                 (["scene.json"], 'command "scene.json", known: render, tonemap, compare, merge, '
+                                 (["scene.json"], 'command "scene.json", known: render, tonemap, compare, merge, denoise, '
                                                   'selftest, schema, devices'),
                                  (["render", COURSEWORK, "--outptu", "a.png"],
                                   'unknown option "--outptu", did you mean "--output"? (see pt render --help)'),

@@ -1,4 +1,4 @@
-"""Tests of `pt render --denoise`, by a library that stands in for Open Image Denoise (OPEN_IMAGE_DENOISE in the
+"""Tests of `pt render --denoise` and `pt denoise`, by a library that stands in for Open Image Denoise (OPEN_IMAGE_DENOISE in the
 environment). That its bits are those of the Python package is tested there, that errors are true where the library is.
 
 Arguments: see command_line.py.
@@ -82,6 +82,41 @@ class RealDeviceDenoise(DenoiseTest):
         self.assertIn(("tEXt", b"pt.quantity\0tone-mapped denoised radiance"), list(png_chunks(self.contents("b.png"))))
         self.expect(0, "tonemap", "b.exr", "c.png")
         self.assertEqual(read_png(self.path("c.png")), read_png(self.path("b.png")))
+
+    def denoise(self, *films, guides="first.exr", code=0, error=None):
+        self.expect(code, "denoise", *films, guides, "-o", "b.exr", "--stats", "b.json", DENOISE, error=error)
+
+    def test_films_denoise_to_the_same_picture(self):
+        whole = self.stated()
+        self.render("-o", "first.exr", "--film", "first.ptfilm", "--spp", "8", "--layers", "albedo,normal")
+        for first in "0", "5":  # the second half in two parts
+            self.render("--film", f"part{first}.ptfilm", "--spp", "5" if first == "0" else "3", "--seed", OTHER_SEED,
+                        "--first-sample", first)
+        self.expect(0, "merge", "part5.ptfilm", "part0.ptfilm", "--film", "second.ptfilm")
+        self.denoise("first.ptfilm", "second.ptfilm")
+        self.assertEqual(self.channels("b.exr"), self.channels("a.exr"))
+        stats = json.loads(self.read("b.json"))
+        self.assertEqual(stats, {key: whole[key] for key in stats})
+        self.assertEqual((stats["spp"], stats["denoised"]), (16, True))
+
+        files = self.files()
+        for name, options in {"seed": ("--spp", "8"), "part": ("--spp", "7", "--seed", "3"),
+                              "length": ("--spp", "8", "--seed", "3", "--max-path-length", "3"),
+                              "uneven": ("--spp", "4096", "--error", "5%")}.items():
+            self.render("--film", f"{name}.ptfilm", *options)
+        self.render("-o", "plain.exr", "--spp", "1")
+        self.render("-o", "crop.exr", "--spp", "1", "--layers", "albedo,normal", "--crop", "0,0,9,9")
+        rest = self.files()
+        for second, guides, code, error in (
+                ("seed", "first", 2, "seed.ptfilm: seed = 0: must be another than in the other film"),
+                ("part", "first", 2, "part.ptfilm: is 40x24 with 7 samples per pixel, first.ptfilm is 40x24 with 8"),
+                ("length", "first", 2, "length.ptfilm: max_path_length = 3: must be "),
+                ("uneven", "first", 2, "uneven.ptfilm: has "),
+                ("second", "plain", 6, "plain.exr"),
+                ("second", "crop", 2, "crop.exr: is 9x9 at 0,0 of 40x24: must be 40x24")):
+            self.denoise("first.ptfilm", f"{second}.ptfilm", guides=f"{guides}.exr", code=code, error=error)
+        self.assertEqual(self.files(), rest)
+        self.assertLess(set(files), set(rest))
 
     def test_without_the_library_nothing_is_rendered(self):
         for name in "none.so", os.devnull:

@@ -6,7 +6,7 @@ import re
 import sys
 
 # Rooms in order: each may include itself and those before it.
-ORDERS = {"cli": ("base", "image", "film", "scene", "render", "merge", "tonemap", "compare", "selftest"),
+ORDERS = {"cli": ("base", "image", "film", "scene", "render", "merge", "denoise", "tonemap", "compare", "selftest"),
           "lib": ("base", "scene", "tree", "film", "denoise", "vulkan", "glsl_module", "kernel", "render", "api")}
 
 

@@ -1,0 +1,143 @@
+// The command `pt denoise`: two films of one picture by other seeds in, a denoised image out.
+#include "cli/base/devices.h"
+#include "cli/base/file.h"
+#include "cli/base/json.h"
+#include "cli/base/options.h"
+#include "cli/base/text.h"
+#include "cli/commands.h"
+#include "cli/film/film.h"
+#include "cli/image/image_file.h"
+#include "cli/render/denoise.h"
+#include "cli/render/film_report.h"
+#include "cli/render/render_output.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace cli {
+namespace {
+
+struct DenoiseOptions {
+    std::string first; // films
+    std::string second;
+    std::string guides; // .exr
+    std::string library = usual_denoiser;
+    OutputOptions output;
+    std::vector<SceneOverride> display; // overrides of the scene's display section
+};
+
+void check(const DenoiseOptions &options) {
+    refuse_if(options.output.images.empty(), "-o is missing: there is nothing to write");
+    check_names(options.output,
+                {{"the film", options.first}, {"the film", options.second}, {"the guides", options.guides}});
+    require_denoiser(options.library);
+}
+
+// A film whose pixels all have equally many samples. Of others nothing says the error.
+RenderReport even_report(const std::string &path, const FilmHandle &film) {
+    const RenderReport report = film_report(film);
+    const pt_stats &stats = report.stats;
+    refuse_if(stats.sample_count != stats.max_sample_count || stats.sample_count == 0,
+              concat(path, ": has ", stats.sample_count, " to ", stats.max_sample_count,
+                     " samples per pixel: must have the same number in all; render it without --error"));
+    return report;
+}
+
+RenderedImage image_of(const FilmHandle &film, const RenderReport &report) {
+    RenderedImage image{report.window.part, film.read_image(PT_QUANTITY_RADIANCE)};
+    image.stats = report.stats;
+    return image;
+}
+
+// The halves, which differ in their seeds alone.
+struct Halves {
+    RenderReport report; // of the first
+    RenderedImage first;
+    RenderedImage second;
+};
+
+Halves read_halves(const DenoiseOptions &options) {
+    FilmHandle first(options.first, read_film_file(options.first));
+    const std::vector<std::byte> bytes = read_film_file(options.second);
+    const FilmHandle second(options.second, bytes);
+    const RenderReport report = even_report(options.first, first);
+    const RenderReport other = even_report(options.second, second);
+    refuse_if(report.render.seed == other.render.seed,
+              concat(options.second, ": seed = ", other.render.seed,
+                     ": must be another than in the other film, as parts of one sequence depend on each other"));
+    first.require_same_picture(options.second, bytes);
+    refuse_if(report.window != other.window || report.stats.sample_count != other.stats.sample_count,
+              concat(options.second, ": is ", window_text(other.window), " with ", other.stats.sample_count,
+                     " samples per pixel, ", options.first, " is ", window_text(report.window), " with ",
+                     report.stats.sample_count, ": must be alike"));
+    return {report, image_of(first, report), image_of(second, other)};
+}
+
+DecodedImage read_guides(const std::string &path, const ImageWindow &window) {
+    DecodedImage guides = read_image(path);
+    const Rectangle part{static_cast<std::uint32_t>(guides.x), static_cast<std::uint32_t>(guides.y), guides.width,
+                         guides.height};
+    const ImageWindow other{part, guides.full_width, guides.full_height};
+    refuse_if(other != window,
+              concat(path, ": is ", window_text(other), ": must be ", window_text(window), ", as the films are"));
+    return guides;
+}
+
+nlohmann::ordered_json stats_json_of(const RenderReport &report, const RenderedImage &second) {
+    nlohmann::ordered_json stats{{"version", version_text()},
+                                 {"width", report.render.width},
+                                 {"height", report.render.height},
+                                 {"spp", report.stats.sample_count},
+                                 {"max_path_length", report.render.max_path_length},
+                                 {"denoised", true}};
+    stats.update(error_json(second.error));
+    stats.update(nlohmann::ordered_json{{"tone_map", tone_map_json(report)}});
+    return stats;
+}
+
+int run_denoise(const DenoiseOptions &options) {
+    const OutputOptions &output = options.output;
+    check(options);
+    Halves halves = read_halves(options);
+    RenderReport &report = halves.report;
+    check_files(output, report.window);
+    const DecodedImage guides = read_guides(options.guides, report.window);
+    const RenderedImage image =
+        denoised(options.library, halves.first, std::move(halves.second), guides.layer("albedo"), guides.layer("N"));
+    report.stats = image.stats;
+    report.error = image.error;
+    report.is_denoised = true;
+    if (needs_tone_map(output))
+        report.tone_map = display_of(options.display).tone_map(image.radiance);
+    ImageWriter writer;
+    const bool all_written = write_images(writer, output, report, image).size() == output.images.size();
+    write_report_file(output.stats, json_text(stats_json_of(report, image)));
+    if (!output.quiet)
+        print_for_people(concat(window_text(report.window), ", ", report.stats.sample_count, " spp, denoised\n",
+                                automatic_exposure_line(report.tone_map), error_text(report), "\n"),
+                         output.takes_standard_output());
+    return static_cast<int>(all_written ? ExitCode::done : ExitCode::file);
+}
+
+constexpr const char *denoise_help =
+    "The films are those of `pt render --film`, `--checkpoint` or `pt merge` with other --seed and all else\n"
+    "equal, without --error. Each tells the error of what the filter makes of the other, so the result\n"
+    "states its error, as by `pt render --denoise`. Needs no device.\n";
+
+} // namespace
+
+void add_denoise_command(CLI::App &program, Run &chosen) {
+    const auto [command, options] = add_command(program, chosen, "denoise", "Take noise out of a picture kept as films",
+                                                denoise_help, &run_denoise);
+    add_text(command, "FIRST", options.first, "FIRST", "Film with half of the samples")->required();
+    add_text(command, "SECOND", options.second, "SECOND", "Film of the same picture by another seed")->required();
+    add_text(command, "GUIDES", options.guides, "GUIDES", "Image of it by `--layers albedo,normal` (.exr)")->required();
+    add_image_outputs(command, options.output);
+    add_text(command, "--denoise", options.library, "FILE", "Open Image Denoise 2")->capture_default_str();
+    add_scene_options(command, options.display, false);
+    command.option_defaults()->group("Messages");
+    add_quiet(command, options.output.quiet);
+}
+
+} // namespace cli
