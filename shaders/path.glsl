@@ -48,6 +48,8 @@ float share_beside_spots(Spots spots, Path path, Vertex first, float time)
 // it samples every lamp if there are few, and paths leave it in several branches if they go further than one direction.
 vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
 {
+    const float directions = float(BRANCH_COUNT);
+    const vec3 whole = vec3(1.0); // the throughput
     Vertex vertex = vertex_at(arrival, time);
     Material material = material_to_leave(vertex.surface, 1u);
     Lamps lamps;
@@ -62,8 +64,7 @@ vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
         uint i = BRANCH_COUNT;
         [[unroll]] do {
             vec2 place = every_lamp_numbers(key, i);
-            LampLight lamp = light_of_lamp(vec3(1.0), vertex, material, choice_of(lamps, i), place, 1.0,
-                                          float(BRANCH_COUNT));
+            LampLight lamp = light_of_lamp(whole, vertex, material, choice_of(lamps, i), place, 1.0, directions);
             radiance += lamp.light * (is_hidden(lamp.shadow, start, time) ? 0.0 : lamp.weight);
             ++i;
         } while (i < LAMP_COUNT);
@@ -78,10 +79,22 @@ vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
     uint branch = 0u;
     do {
         SampleKey branch_numbers = branch_key(key, branch);
+        LampLight lamp = no_lamp_light();
+        if (SAMPLE_EVERY_LAMP && branch < LAMP_COUNT) {
+            vec2 place = every_lamp_numbers(key, branch);
+            lamp = light_of_lamp(whole, vertex, material, choice_of(lamps, branch), place, 1.0, directions);
+        }
+        if (SAMPLE_LAMPS && !SAMPLE_EVERY_LAMP) {
+            ChosenLampNumbers chosen = chosen_lamp_numbers(branch_numbers, first_vertex_blocks());
+            lamp = light_of_chosen_lamp(whole, vertex, material, lamps, chosen, directions, directions);
+        }
+
+        vec4 numbers = direction_numbers(branch_numbers, first_vertex_blocks(), vertex_blocks(1u, LAMP_COUNT));
+        numbers.z = lobe_number(numbers.z, branch, directions);
         Path path = path_from(arrival);
         if (SPOT_COUNT > 0u)
             departure_share = 1.0;
-        leave(path, vertex, material, lamps, Way(key, branch_numbers, first_vertex_blocks(), branch, true), time);
+        leave(path, vertex, material, lamp, lamps, SAMPLE_EVERY_LAMP ? 0.0 : directions, time, numbers, directions);
         if (SPOT_COUNT > 0u)
             departure_share = share_beside_spots(spots, path, vertex, time);
         if (MAX_PATH_LENGTH > 2u && path.alive) {

@@ -36,13 +36,38 @@ Walk leave_last_vertex(inout TreeSample current, out Departure departure, out La
 {
     float time = current.camera.time;
     bool at_first = current.path.vertex_count == 1u;
+    bool every_lamp = SAMPLE_EVERY_LAMP && at_first;
+    float directions = at_first ? float(BRANCH_COUNT) : 1.0;
+    float lamp_choices = every_lamp ? 0.0 : directions;
     SampleKey key = branch_key(current.key, min(current.branch, BRANCH_COUNT - 1u));
     uint begin = at_first ? first_vertex_blocks() : later_vertex_blocks(current.path.vertex_count);
     Vertex vertex = vertex_at(current.path.arrival, time);
     Material material = material_to_leave(vertex.surface, current.path.vertex_count);
-    if (SAMPLE_LAMPS)
+
+    // The light of a lamp: the branch's own, or one that is chosen.
+    LampLight lamp = no_lamp_light();
+    if (SAMPLE_LAMPS) {
         lamps = lamps_from(vertex, time);
-    departure = depart(current.path, vertex, material, lamps, Way(current.key, key, begin, current.branch, at_first));
+        LampChoice choice;
+        vec2 place;
+        if (every_lamp) {
+            uint own = min(current.branch, LAMP_COUNT - 1u);
+            choice = choice_of(lamps, own);
+            place = every_lamp_numbers(current.key, own);
+        } else {
+            ChosenLampNumbers chosen = chosen_lamp_numbers(key, begin);
+            choice = choose(lamps, chosen.which);
+            place = chosen.place;
+        }
+        float samples = lamp_samples(choice, lamp_choices);
+        if (!every_lamp || current.branch < LAMP_COUNT)
+            lamp = light_of_lamp(current.path.throughput, vertex, material, choice, place, samples, directions);
+    }
+
+    vec4 numbers = direction_numbers(key, begin, vertex_blocks(at_first ? 1u : 2u, LAMP_COUNT));
+    if (at_first)
+        numbers.z = lobe_number(numbers.z, current.branch, directions);
+    departure = depart(current.path, vertex, material, lamp, lamp_choices, numbers, directions);
     departure.carries_light = departure.carries_light && current.branch < BRANCH_COUNT;
     return walk_onwards(vertex, current.path, departure, time);
 }
