@@ -200,8 +200,20 @@ TEST_F(Capsules, HaveTheLightOfAPathTracerInDouble) {
     }
 }
 
-// Ends that coincide make a sphere, to the bit: beside other capsules, and where there are none, in a kernel without
-// them.
+// How much two images differ, as a share of their light.
+double difference(const std::vector<float> &a, const std::vector<float> &b) {
+    double differences = 0.0;
+    double light = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        differences += std::abs(double{a[i]} - b[i]);
+        light += b[i];
+    }
+    return differences / light;
+}
+
+// Ends that coincide make a sphere: to the bit beside other capsules, and where there are none, in a kernel without
+// them, as far as compilers round both alike. What a ray meets depends on rounding within 2^-22 of the silhouettes of
+// 100 balls, so for fewer than 1e-4 of the rays; a single ball more or less is a hundredth.
 TEST_F(Capsules, AreSpheresWhereTheirEndsCoincide) {
     for (const bool all : {false, true}) {
         Given given = all ? random_scene(4, 200, 100, 8.0) : random_scene(1, 6, 3, 8.0);
@@ -224,7 +236,10 @@ TEST_F(Capsules, AreSpheresWhereTheirEndsCoincide) {
         EXPECT_TRUE(stats().features & PT_FEATURE_CAPSULES);
         const std::vector<float> of_spheres = image(spheres);
         EXPECT_EQ((stats().features & PT_FEATURE_CAPSULES) != 0, !all);
-        EXPECT_EQ(of_capsules, of_spheres);
+        if (all)
+            EXPECT_LT(difference(of_capsules, of_spheres), 1e-4);
+        else
+            EXPECT_EQ(of_capsules, of_spheres);
     }
 }
 
