@@ -91,7 +91,7 @@ std::vector<std::uint32_t> left_out_of(const CheckedScene &checked, const std::v
     return left_out;
 }
 
-PreparedScene with_nobody_told(CheckedScene checked, std::uint32_t tree_from) {
+PreparedScene with_nobody_told(CheckedScene checked, std::optional<std::uint32_t> tree_from) {
     WorkProgress nobody;
     return {std::move(checked), tree_from, nullptr, nobody};
 }
@@ -116,18 +116,20 @@ PreparedScene::PreparedScene(Scene of) :
     note_materials(is_used(scene));
 }
 
-PreparedScene::PreparedScene(CheckedScene checked, std::uint32_t tree_from) :
+PreparedScene::PreparedScene(CheckedScene checked, std::optional<std::uint32_t> tree_from) :
     PreparedScene(with_nobody_told(std::move(checked), tree_from)) {}
 
-PreparedScene::PreparedScene(CheckedScene checked, std::uint32_t tree_from, const PreparedScene *before,
+PreparedScene::PreparedScene(CheckedScene checked, std::optional<std::uint32_t> tree_from, const PreparedScene *before,
                              WorkProgress &progress) :
     PreparedScene(prepared(std::move(checked), tree_from, before ? before->tree.get() : nullptr, progress)) {}
 
-PreparedScene PreparedScene::prepared(CheckedScene checked, std::uint32_t tree_from, const SphereTree *before,
-                                      WorkProgress &progress) {
-    if (checked.spheres.size() >= tree_from) {
+PreparedScene PreparedScene::prepared(CheckedScene checked, std::optional<std::uint32_t> tree_from,
+                                      const SphereTree *before, WorkProgress &progress) {
+    const std::uint32_t from =
+        tree_from.value_or(checked.spheres.has_capsules() ? tree_of_capsules_from : default_tree_from);
+    if (checked.spheres.size() >= from) {
         const std::vector<std::uint32_t> hidden = hidden_spheres(checked, progress);
-        if (checked.spheres.size() - hidden.size() >= tree_from) {
+        if (checked.spheres.size() - hidden.size() >= from) {
             const std::vector<std::uint32_t> left_out = left_out_of(checked, hidden, progress);
             if (left_out.size() < checked.spheres.size())
                 return with_tree(checked, left_out, before, progress);

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,11 @@ namespace pt {
 // (DevicePolicy::unrolled). On an H200 a tree is as fast as testing each sphere from 160 on with three vertices, and
 // from 115 on with six.
 inline constexpr std::uint32_t default_tree_from = 113;
+
+// Where some spheres are capsules, testing each takes several times as long, and on lavapipe the kernel of a list is
+// compiled for seconds: 24 balls and capsules took as long either way, 84 in a list 2.8 times as long (a box of 12
+// edges).
+inline constexpr std::uint32_t tree_of_capsules_from = 24;
 
 struct PreparedScene {
     Scene scene; // without what is in the tree
@@ -36,11 +42,13 @@ struct PreparedScene {
     // Without a tree.
     explicit PreparedScene(Scene of);
 
-    // With a tree if the camera may see at least tree_from spheres. Nothing of the caller's memory is read afterwards.
-    PreparedScene(CheckedScene checked, std::uint32_t tree_from);
+    // With a tree if the camera may see at least tree_from spheres, else as many as one pays from. Nothing of the
+    // caller's memory is read afterwards.
+    PreparedScene(CheckedScene checked, std::optional<std::uint32_t> tree_from);
 
     // The same, but the tree keeps the shape of the one before, if there was one and it still fits. before may be NULL.
-    PreparedScene(CheckedScene checked, std::uint32_t tree_from, const PreparedScene *before, WorkProgress &progress);
+    PreparedScene(CheckedScene checked, std::optional<std::uint32_t> tree_from, const PreparedScene *before,
+                  WorkProgress &progress);
 
     // All spheres that emit, including those in the tree.
     std::vector<Sphere> lamps() const;
@@ -51,8 +59,8 @@ struct PreparedScene {
 
 private:
     // before: NULL if there was no tree.
-    static PreparedScene prepared(CheckedScene checked, std::uint32_t tree_from, const SphereTree *before,
-                                  WorkProgress &progress);
+    static PreparedScene prepared(CheckedScene checked, std::optional<std::uint32_t> tree_from,
+                                  const SphereTree *before, WorkProgress &progress);
 
     // left_out: indices of the spheres that are not in the tree.
     static PreparedScene with_tree(const CheckedScene &checked, const std::vector<std::uint32_t> &left_out,

@@ -49,8 +49,8 @@ struct CreateSettings {
     vulkan::KernelStore kernel_store;
     std::uint32_t devices_of_each = 1; // render devices on each that is named: tests share work where there is one
     bool like_gpus = false;            // CPUs are used as GPUs are: for tests without one
-    std::uint32_t tree_from = default_tree_from; // for tests of trees over few spheres
-    std::optional<std::uint32_t> adaptive_from;  // likewise: for tests of few samples
+    std::optional<std::uint32_t> tree_from{};   // for tests of trees over few spheres
+    std::optional<std::uint32_t> adaptive_from; // likewise: for tests of few samples
 };
 
 // All Vulkan devices of this machine.
@@ -185,7 +185,7 @@ private:
     ShaderSource source_;
     KernelCode code_;
     vulkan::Instance instance_;
-    std::uint32_t tree_from_;
+    std::optional<std::uint32_t> tree_from_;
     std::vector<std::unique_ptr<RenderDevice>> devices_; // at least one
     FilmView view_{devices_};
     std::optional<PreparedScene> scene_;

@@ -89,8 +89,12 @@ SphereSource::SphereSource(std::span<const pt_sphere> spheres, std::span<const p
     starts_.push_back(0);
     for (const pt_sphere_array &part : parts_)
         starts_.push_back(starts_.back() + part.count);
-    has_colors_ = std::ranges::any_of(
-        arrays, [](const pt_sphere_array &array) { return array.count > 0 && is_there(array.color); });
+    const auto any_has = [arrays](pt_column pt_sphere_array::*column) {
+        return std::ranges::any_of(
+            arrays, [column](const pt_sphere_array &array) { return array.count > 0 && is_there(array.*column); });
+    };
+    has_colors_ = any_has(&pt_sphere_array::color);
+    has_capsules_ = any_has(&pt_sphere_array::end);
 }
 
 Sphere SphereSource::operator[](std::size_t index) const {

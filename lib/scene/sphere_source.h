@@ -28,6 +28,8 @@ public:
     // Whether spheres may have colors of their own; otherwise all colors are 1.
     bool has_colors() const { return has_colors_; }
 
+    bool has_capsules() const { return has_capsules_; }
+
     // One sphere, with the factor for its material's diffuse. For many spheres the functions below are faster.
     Sphere operator[](std::size_t index) const;
     glm::vec3 color(std::size_t index) const;
@@ -103,6 +105,7 @@ private:
     std::vector<pt_sphere_array> parts_; // the structs as columns, then the arrays
     std::vector<std::uint32_t> starts_;  // index of the first sphere of each part, and the number of all
     bool has_colors_;
+    bool has_capsules_;
 };
 
 } // namespace pt
