@@ -1,6 +1,7 @@
 #include "cli/render/image_render.h"
 
 #include "cli/base/interrupt.h"
+#include "cli/film/film.h"
 
 #include <bit>
 #include <chrono>
@@ -98,7 +99,7 @@ ImageRender::ImageRender(const Context &context, const RenderTask &task, std::ui
     task_(task),
     rows_(rows),
     stop_(std::move(stop)),
-    write_preview_(task.options.frames || task.half_count() > 1 ? nullptr : std::move(write_preview)),
+    write_preview_(task.options.frames || is_half() ? nullptr : std::move(write_preview)),
     progress_(std::cerr, progress_style(task.options), std::uint64_t{task.render.width} * task.window.part.height,
               std::uint64_t{task.sample_count} * task.half_count(), start_) {
     constexpr double usual_checkpoint_seconds = 30.0;
@@ -111,11 +112,13 @@ ImageRender::ImageRender(const Context &context, const RenderTask &task, std::ui
                             [this](const std::string &message) { progress_.say(message); });
 }
 
-ImageRender::Result ImageRender::run(std::uint32_t half) {
-    half_ = half;
+ImageRender::Result ImageRender::run(const Round &round) {
+    round_ = round;
+    if (is_half())
+        progress_.expect(std::uint64_t{round.expected} * task_.half_count());
     image_ = {.part = task_.window.part};
     image_.radiance.resize(3 * image_.part.pixel_count());
-    if (half + 1 == task_.half_count())
+    if (round.half + 1 == task_.half_count())
         for (const std::uint32_t layer : task_.options.wanted_layers())
             image_.layers.emplace_back(layer, image_.part.pixel_count());
     while (image_.rows_done < image_.part.height && !stop_()) {
@@ -129,24 +132,29 @@ ImageRender::Result ImageRender::run(std::uint32_t half) {
         image_.error = context_.error_estimate(); // unknown, without samples
     }
     preview_task_.finish();
+    if (round.film && !stop_())
+        save_film(context_, *round.film);
     const bool has_checkpoint =
         checkpoint_ && checkpoint_->finish(static_cast<std::uint32_t>(std::lround(image_.stats.mean_sample_count)));
     return {std::move(image_), has_timed_out_, has_checkpoint};
 }
 
 void ImageRender::enter_piece() {
-    const pt_render piece = piece_of(task_, half_, image_.rows_done, rows_);
-    if (image_.rows_done > 0 || half_ > 0)
+    const pt_render piece = piece_of(task_, round_.half, image_.rows_done, rows_);
+    if (image_.rows_done > 0 || is_half())
         context_.require(pt_set_render(context_.get(), &piece));
+    if (round_.film && !round_.film->empty())
+        add_film(context_, "the last round", *round_.film);
     piece_rows_ = piece.row_count;
     const double height = image_.part.height;
     const double end = (image_.rows_done + piece_rows_) / height;
     const double halves = task_.half_count();
-    progress_.enter_part((half_ + image_.rows_done / height) / halves, (half_ + end) / halves);
+    const double other = static_cast<double>(round_.other) / round_.expected;
+    progress_.enter_part((other + image_.rows_done / height) / halves, (other + end) / halves);
     if (has_target()) // the next check
         progress_.expect(forecast_sample_count(context_.stats().sample_count, 1.0, 1.0, task_.sample_count));
     // Each piece gets its share of the time, plus what earlier pieces have not used.
-    if (task_.options.time_limit)
+    if (task_.options.time_limit && !is_half())
         time_end_ = start_ + clock_duration(*task_.options.time_limit * end);
     is_time_over_ = false;
 }
@@ -157,10 +165,10 @@ void ImageRender::render_piece() {
     constexpr std::uint32_t first_end = 16; // the first number at which an error is known; from there on tiles double
     pt_stats done = context_.stats();
     std::uint32_t wanted = first_step_length;
-    bool ended = done.sample_count >= task_.sample_count;
+    bool ended = done.sample_count >= round_.end;
     while (!ended && !stops()) {
         const std::uint32_t before = done.max_sample_count;
-        std::uint32_t length = std::min(wanted, task_.sample_count - before); // 0: only for pixels that lack samples
+        std::uint32_t length = std::min(wanted, round_.end - before); // 0: only for pixels that lack samples
         if (has_target())
             length = std::min(length, std::max(first_end, 2 * std::bit_floor(before)) - before);
         const Clock::time_point start = Clock::now();
@@ -183,7 +191,7 @@ pt_result ImageRender::take(std::uint32_t length, double done) {
     };
     auto info = sized<pt_accumulate_info>();
     info.sample_count = length;
-    info.target_error = task_.options.target_error;
+    info.target_error = has_target() ? task_.options.target_error : 0.0;
     info.sampling = task_.options.sampling;
     info.progress = &call_listener;
     info.progress_user = &goes_on;
@@ -194,7 +202,7 @@ pt_result ImageRender::take(std::uint32_t length, double done) {
 
 // Whether everything is complete after a step.
 bool ImageRender::has_ended(pt_result result, const pt_stats &done) const {
-    return result == PT_TARGET_REACHED || (result == PT_OK && done.max_sample_count >= task_.sample_count);
+    return result == PT_TARGET_REACHED || (result == PT_OK && done.max_sample_count >= round_.end);
 }
 
 // Runs after a step. Finding the error means examining the whole image, so if it is only needed for progress, that may
@@ -203,7 +211,7 @@ pt_stats ImageRender::look(pt_result result) {
     constexpr double share = 0.01;
     const Clock::time_point start = Clock::now();
     std::optional<pt_error_estimate> error;
-    if (has_target() || (progress_.shows_error() && task_.half_count() == 1 && start >= next_error_))
+    if (has_target() || (progress_.shows_error() && !is_half() && start >= next_error_))
         error = context_.error_estimate();
     const Clock::time_point now = Clock::now();
     if (error)
@@ -227,7 +235,7 @@ void ImageRender::show(const pt_stats &done, bool ended, const std::optional<pt_
     const auto sample_count = static_cast<std::uint32_t>(std::lround(done.mean_sample_count));
     if (error)
         progress_.show_error(error->relative_rmse);
-    if (sample_count >= task_.sample_count)
+    if (sample_count >= task_.sample_count || is_half())
         return;
     if (ended) {
         progress_.expect(sample_count);

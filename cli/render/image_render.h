@@ -72,16 +72,25 @@ public:
         bool has_checkpoint; // the checkpoint has all samples
     };
 
-    // To be called once for each half of the samples, of which only the last has layers. Renders whole rows, since the
-    // library renders nothing less, and reads the window's columns. Samples that the context has already are the first
-    // ones of the first piece. Ends early, between or within pieces, once stop() is true. Afterwards nothing is being
-    // written. Throws Failure.
-    Result run(std::uint32_t half = 0);
+    // The samples that a run takes: of a picture that is denoised, those of a half, in one or several rounds.
+    struct Round {
+        std::uint32_t half;                    // only the last one has layers
+        std::uint32_t end;                     // samples of the half at the end
+        std::uint32_t other;                   // samples that the other half has
+        std::uint32_t expected;                // of a half, after all rounds
+        std::vector<std::byte> *film{nullptr}; // of the half: takes what earlier rounds left, leaves its own
+    };
+
+    // Renders whole rows, since the library renders nothing less, and reads the window's columns. Samples that the
+    // context has already are the first ones of the first piece. Ends early, between or within pieces, once stop() is
+    // true. Afterwards nothing is being written. Throws Failure.
+    Result run(const Round &round);
 
 private:
     using Clock = std::chrono::steady_clock;
 
-    bool has_target() const { return task_.has_target(); }
+    bool is_half() const { return task_.half_count() > 1; }
+    bool has_target() const { return task_.has_target() && !is_half(); }
     void enter_piece();
     void render_piece();
     pt_result take(std::uint32_t length, double done);
@@ -101,7 +110,7 @@ private:
     WritePreview write_preview_; // empty for halves, and for frames: a frame's file means that the frame is done
     Clock::time_point start_ = Clock::now();
     Progress progress_;
-    std::uint32_t half_ = 0;
+    Round round_{};
     RenderedImage image_{};
     std::uint32_t piece_rows_ = 0; // rows of the present piece
 

@@ -80,9 +80,8 @@ void check_denoise(const RenderOptions &options) {
     if (options.denoiser.empty())
         return;
     const auto has = [&](std::uint32_t layer) { return std::ranges::count(options.output.layers, layer) > 0; };
-    refuse_if(options.target_error > 0.0, "--error: --denoise takes all samples of --spp, and then states the error");
-    refuse_if(options.time_limit.has_value(),
-              "--time: --denoise takes all samples of --spp, half of them by each seed");
+    refuse_if(options.sampling == PT_SAMPLING_ADAPTIVE,
+              "--sampling adaptive: --denoise takes equally many samples in all pixels");
     refuse_if(!options.checkpoint.empty() || !options.output.film.empty(),
               "--checkpoint, --film: a film has the samples of one seed, --denoise takes them by two");
     refuse_if(options.preview_seconds.has_value(), "--preview-every: --denoise shows what both halves make");

@@ -14,6 +14,7 @@
 #include "cli/render/warnings.h"
 
 #include <algorithm>
+#include <array>
 #include <iostream>
 #include <optional>
 #include <span>
@@ -41,9 +42,11 @@ bool take_scene(const Context &context, const RenderTask &task, const Stop &supe
 // A film of only one piece of the image could not be continued for the other pieces.
 void require_one_piece(const RenderTask &task, std::uint32_t rows) {
     const RenderOptions &options = task.options;
-    const std::string option = !options.checkpoint.empty() ? "--checkpoint" : "--film";
-    const bool is_asked = !options.checkpoint.empty() || !options.output.film.empty();
-    refuse_if(is_asked && rows < task.window.part.height,
+    const std::string option = !options.checkpoint.empty()    ? "--checkpoint"
+                               : !options.output.film.empty() ? "--film"
+                               : task.has_rounds()            ? "--denoise with --error or --time"
+                                                              : "";
+    refuse_if(!option.empty() && rows < task.window.part.height,
               option + ": needs the whole image on the device, which " +
                   (options.piece_rows > 0 ? concat("--piece-rows ", rows, " forbids")
                                           : concat("has room for ", rows, " rows at a time")));
@@ -124,15 +127,50 @@ RenderedImage denoised_halves(const RenderOptions &options, const RenderedImage 
     return image;
 }
 
+// Takes both halves of the samples. With a target error or a time limit they grow in rounds by a half, as in the
+// package pt for Python, and each round is denoised, which tells its error. A stop leaves the picture of the last
+// round, if any.
+ImageRender::Result render_halves(const RenderTask &task, ImageRender &render, const Stop &stop) {
+    constexpr double growth = 1.5;
+    const Clock::time_point start = Clock::now();
+    const double target = task.options.target_error;
+    std::array<std::vector<std::byte>, 2> films;
+    ImageRender::Result result{};
+    std::uint32_t done = 0;
+    std::uint32_t expected = task.sample_count;
+    std::uint32_t end = task.has_rounds() ? std::min(first_step_length, task.sample_count) : task.sample_count;
+    while (end > done) {
+        const auto run = [&](std::uint32_t half, std::uint32_t other) {
+            return render.run({half, end, other, expected, task.has_rounds() ? &films[half] : nullptr}).image;
+        };
+        const RenderedImage first = run(0, done);
+        RenderedImage second = run(1, end);
+        if (stop())
+            break;
+        result.image = denoised_halves(task.options, first, std::move(second));
+        done = end;
+        const double error = result.image.error.relative_rmse_high;
+        if (task.has_target() && error <= target)
+            break;
+        const double in_time = task.options.time_limit ? *task.options.time_limit / seconds_since(start) : growth;
+        end = std::min(static_cast<std::uint32_t>(done * std::min(in_time, growth)), task.sample_count);
+        if (task.has_target())
+            expected = std::max(end, forecast_sample_count(done, error, target, task.sample_count));
+        result.timed_out = end <= done && done < task.sample_count;
+    }
+    return result;
+}
+
 void print_interruption(const RenderTask &task, std::uint32_t done, std::uint32_t rows_done,
                         const std::string &checkpoint) {
     const std::uint32_t height = task.window.part.height;
-    print_message(
-        concat("stopped by ", interrupt_name(), " after ", done, " of ", task.sample_count, " samples per pixel",
-               done == 0             ? "; nothing was written"
-               : rows_done == height ? ""
-                                     : concat(" in ", rows_done, " of ", height, " rows; the others are black"),
-               checkpoint.empty() ? "" : "; --resume goes on from " + checkpoint));
+    print_message(concat("stopped by ", interrupt_name(), " after ", done, " of ",
+                         task.sample_count * task.half_count(), " samples per pixel",
+                         done == 0 ? "; nothing was written"
+                         : rows_done == height
+                             ? ""
+                             : concat(" in ", rows_done, " of ", height, " rows; the others are black"),
+                         checkpoint.empty() ? "" : "; --resume goes on from " + checkpoint));
 }
 
 RenderReport report_of(const Context &context, const RenderTask &task) {
@@ -183,26 +221,18 @@ ExitCode render_picture(const Context &context, const RenderTask &task, const Re
     const Stop stop = [&] { return interrupt_signal() != 0 || writer.failed() || superseded(); };
     const Clock::time_point accumulate_start = Clock::now();
     std::optional<ImageRender> render(std::in_place, context, task, rows, stop, write_preview);
-    ImageRender::Result rendered = render->run();
-    RenderedImage &image = rendered.image;
-    RenderedImage other{};
-    if (task.half_count() > 1)
-        other = render->run(1).image;
+    report.is_denoised = task.half_count() > 1;
+    const ImageRender::Result rendered = report.is_denoised ? render_halves(task, *render, stop)
+                                                            : render->run({0, task.sample_count, 0, task.sample_count});
+    const RenderedImage &image = rendered.image;
     render.reset(); // erases the line of progress
     report.accumulate_seconds = seconds_since(accumulate_start);
-    report.is_denoised = task.half_count() > 1 && !stop();
-    if (report.is_denoised)
-        image = denoised_halves(options, image, std::move(other));
     report.total_seconds = seconds_since(times.start);
 
     report.stats = image.stats;
     report.error = image.error;
     const bool interrupted = interrupt_signal() != 0 && !superseded();
     report.ended_by = ending_of(report, interrupted, rendered.timed_out);
-    if (interrupted && task.half_count() > 1) {
-        print_message(concat("stopped by ", interrupt_name(), "; nothing was written, as --denoise takes all samples"));
-        return ExitCode::signal;
-    }
     const std::string checkpoint = rendered.has_checkpoint ? options.checkpoint : "";
     if (interrupted) {
         print_interruption(task, report.stats.sample_count, image.rows_done, checkpoint);
@@ -211,8 +241,8 @@ ExitCode render_picture(const Context &context, const RenderTask &task, const Re
     } else if (superseded()) {
         return ExitCode::signal;
     }
-    report.tone_map = tone_map_of(task, image.radiance);
     writer.wait();
+    report.tone_map = tone_map_of(task, image.radiance);
     const bool all_written = write_outputs(writer, context, task, report, image, times.start);
     if (interrupted && all_written)
         return ExitCode::signal;

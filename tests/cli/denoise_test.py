@@ -30,7 +30,7 @@ class DenoiseTest(CommandLineTest):
 
 class Denoise(DenoiseTest):
     def test_what_does_not_go_with_it_is_refused(self):
-        for options in (("--error", "1%"), ("--time", "9"), ("--film", "a.ptfilm"), ("--checkpoint", "a.ptfilm"),
+        for options in (("--sampling", "adaptive", "--error", "1%"), ("--film", "a.ptfilm"), ("--checkpoint", "a.ptfilm"),
                         ("--preview-every", "9"), ("--alpha",), ("--layers", "depth,standard-error"),
                         ("--layers", "sample-count")):
             self.render("-o", "a.exr", DENOISE, *options, code=2, error=options[0])
@@ -38,11 +38,28 @@ class Denoise(DenoiseTest):
         self.expect(2, "render", COURSEWORK, DENOISE, "--parts", error="--denoise excludes --parts")
         self.assertEqual(self.files(), [])
 
-    def test_a_signal_leaves_nothing(self):
+    def test_a_signal_leaves_the_last_round(self):
         for submission in "5", "20":  # of 32, in the first half and in the second
             self.render("-o", "a.png", DENOISE, "--spp", "8", code=130, FAKE_PT_SIGNAL=f"2:{submission}",
-                        error="stopped by SIGINT; nothing was written, as --denoise takes all samples")
+                        error="stopped by SIGINT after 0 of 8 samples per pixel; nothing was written")
         self.assertEqual(self.files(), [])
+        for submission in "150", "180":  # in the second round, from 16 to 24 samples of each half
+            self.render("-o", "a.exr", DENOISE, "--time", "999", code=130, FAKE_PT_SIGNAL=f"2:{submission}",
+                        error="stopped by SIGINT after 32 of 65536 samples per pixel")
+            self.render("-o", "b.exr", DENOISE, "--spp", "32")
+            self.assertEqual(self.channels("a.exr"), self.channels("b.exr"))
+
+    def test_rounds_end_in_time(self):
+        self.render("-o", "a.png", DENOISE, "--time", "0.5", "--stats", "a.json", "--progress", "json", FAKE_PT_SAMPLE_MS=5)
+        stats = json.loads(self.read("a.json"))
+        self.assertEqual((stats["ended_by"], stats["spp_requested"]), ("time", 65536))
+        self.assertTrue(32 <= stats["spp"] < 4096)
+        fractions = [json.loads(line)["fraction"] for line in self.errors.splitlines() if line.startswith("{")]
+        self.assertTrue(all(0.0 < fraction <= 1.0 for fraction in fractions), fractions)
+
+    def test_rounds_need_the_whole_image(self):
+        self.render("-o", "a.png", DENOISE, "--error", "1%", "--piece-rows", "7", code=2,
+                    error="--denoise with --error or --time: needs the whole image on the device, which --piece-rows 7")
 
     def test_progress_is_of_both_halves(self):
         self.render("-o", "a.png", DENOISE, "--spp", "64", "--progress", "json", FAKE_PT_SAMPLE_MS=10)
@@ -82,6 +99,19 @@ class RealDeviceDenoise(DenoiseTest):
         self.assertIn(("tEXt", b"pt.quantity\0tone-mapped denoised radiance"), list(png_chunks(self.contents("b.png"))))
         self.expect(0, "tonemap", "b.exr", "c.png")
         self.assertEqual(read_png(self.path("c.png")), read_png(self.path("b.png")))
+
+    def test_a_target_error_is_that_of_the_result(self):
+        stats = self.stated()
+        target = stats["relative_rmse_high"] / 2
+        self.render("-o", "a.exr", DENOISE, "--error", str(target), "--stats", "a.json")
+        stats = json.loads(self.read("a.json"))
+        self.assertEqual((stats["ended_by"], stats["target_reached"]), ("error", True))
+        self.assertTrue(32 <= stats["spp"] < 4096)
+        self.assertLessEqual(stats["relative_rmse_high"], target)
+        self.render("-o", "b.exr", DENOISE, "--spp", str(stats["spp"]))  # in one go
+        self.assertEqual(self.channels("a.exr"), self.channels("b.exr"))
+        self.assertEqual(self.run_pt("render", COURSEWORK, *SIZE, "-o", "a.exr", DENOISE, "--error", "1e-9", "--spp", "40"), 7)
+        self.assertIn("after 40 samples, raise --spp", self.output)
 
     def denoise(self, *films, guides="first.exr", code=0, error=None):
         self.expect(code, "denoise", *films, guides, "-o", "b.exr", "--stats", "b.json", DENOISE, error=error)
