@@ -1,6 +1,8 @@
-"""Parts as plain files, by the commands of lib/python/FARM.md, verbatim except for the scene's size: their sum is the
-picture of one process. Arguments: the program pt, and FARM.md. GNU parallel is tried where it is installed."""
+"""Parts as plain files and a denoised picture, by the commands of lib/python/FARM.md, verbatim except for the scene's size:
+they give the picture of one process. Arguments: the program pt, FARM.md, and a library that stands in for Open Image
+Denoise. GNU parallel and Dask are tried where they are installed."""
 
+import importlib.util
 import os
 import pathlib
 import shutil
@@ -9,34 +11,43 @@ import sys
 import tempfile
 import unittest
 
-PT, MANUAL = (os.path.abspath(path) for path in (sys.argv.pop(1), sys.argv.pop(1)))
+PT, MANUAL, FILTER = (os.path.abspath(sys.argv.pop(1)) for _ in range(3))
 SCENE = pathlib.Path(__file__).resolve().parents[2] / "cli/scenes/coursework-diffuse.json"
 
 
-def command(start):
-    """The line of the manual that starts so, with what belongs to it."""
+def commands(start):
+    """The lines of the manual that start so, with what belongs to them."""
     lines = pathlib.Path(MANUAL).read_text().replace("\\\n", " ").splitlines()
-    line, = (line for line in lines if line.startswith(start))
-    return line.replace("scene.json", f"{SCENE} --size 16x8")
+    return [line.replace("scene.json", f"{SCENE} --size 16x8") for line in lines if line.startswith(start)]
+
+
+def command(start):
+    line, = commands(start)
+    return line
 
 
 class Files(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def run_line(self, words, **more):
+        path = os.path.dirname(PT) + os.pathsep + os.environ["PATH"]
+        done = subprocess.run(["sh", "-c", words], cwd=self.folder, env={**os.environ, "PATH": path, **more},
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        self.assertEqual(done.returncode, 0, f"{words}\n{done.stdout}")
+
     def parts(self, line):
-        """Runs a line of the manual in a folder of its own, and then the one that adds what it wrote."""
-        with tempfile.TemporaryDirectory() as folder:
-            def run(words):
-                environment = {**os.environ, "PATH": os.path.dirname(PT) + os.pathsep + os.environ["PATH"]}
-                done = subprocess.run(["sh", "-c", words], cwd=folder, env=environment, stdout=subprocess.PIPE,
-                                      stderr=subprocess.STDOUT, text=True)
-                self.assertEqual(done.returncode, 0, f"{words}\n{done.stdout}")
-            run(line)
-            self.assertEqual(len(os.listdir(folder)), 16)
-            run(command("pt merge").replace("picture.png", "sum.exr"))
-            run(f"pt render {SCENE} --size 16x8 --spp 1024 -o one.exr -q")
-            run("pt compare sum.exr one.exr --max-mse 0")
-            os.remove(os.path.join(folder, "part-64.ptfilm"))
-            with self.assertRaises(AssertionError):  # exit code 7: samples are missing
-                run(command("pt merge"))
+        """Runs a line of the manual, and then the one that adds what it wrote."""
+        self.run_line(line)
+        self.assertEqual(len(os.listdir(self.folder)), 16)
+        self.run_line(command("pt merge").replace("picture.png", "sum.exr"))
+        self.run_line(f"pt render {SCENE} --size 16x8 --spp 1024 -o one.exr -q")
+        self.run_line("pt compare sum.exr one.exr --max-mse 0")
+        os.remove(os.path.join(self.folder, "part-64.ptfilm"))
+        with self.assertRaises(AssertionError):  # exit code 7: samples are missing
+            self.run_line(command("pt merge"))
 
     def test_xargs(self):
         self.parts(command("seq "))
@@ -44,6 +55,17 @@ class Files(unittest.TestCase):
     @unittest.skipUnless(shutil.which("parallel"), "GNU parallel is not installed")
     def test_parallel(self):
         self.parts(command("parallel "))
+
+    @unittest.skipUnless(importlib.util.find_spec("distributed"), "Dask's distributed is not installed")
+    def test_denoised(self):
+        os.symlink(FILTER, os.path.join(self.folder, "libOpenImageDenoise.so.2"))
+        lines = [*commands("pt-farm render scene.json --spp 32"), command("pt render scene.json --spp 1 "),
+                 command("pt denoise").replace("picture.png", "parts.exr"),
+                 f"pt render {SCENE} --size 16x8 --spp 64 --denoise -o one.exr", "pt compare parts.exr one.exr --max-mse 0"]
+        self.assertEqual(len(lines), 6)
+        for line in lines:
+            self.run_line(line.replace("pt-farm", f"{sys.executable} -m pt.farm._command"), PT_PROGRAM=PT,
+                          LD_LIBRARY_PATH=self.folder)
 
 
 if __name__ == "__main__":
