@@ -64,7 +64,8 @@ PT_CONSTANT ID_INTEGER_ORDER = 37;   // 1: integers are compared faster than flo
 PT_CONSTANT ID_UNIFORM_READS = 38;   // 1: words of the scene buffer, which has few, are read by the uniform binding
 PT_CONSTANT ID_LENS = 39;           // 1: camera rays start on a lens; then STARTS_AHEAD is 1
 PT_CONSTANT ID_CAPSULES = 40;       // 1: some spheres are swept along a segment
-PT_CONSTANT CONSTANT_COUNT = 41;
+PT_CONSTANT ID_TREE_CAPSULES = 41;  // 1: some of those are in the tree
+PT_CONSTANT CONSTANT_COUNT = 42;
 // With SCENE_IN_CONSTANTS the floats of the scene buffer follow, component i of word w as constant_id
 // CONSTANT_COUNT + 4 w + i.
 PT_CONSTANT CONSTANT_SCENE_WORDS = 64;

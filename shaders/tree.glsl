@@ -42,7 +42,7 @@ vec4 tree_sphere_of(uvec4 word, ivec3 base, vec3 rest, uint place, float time)
 
 vec4 tree_axis(uint place)
 {
-    return CAPSULES == 1 ? axis_of(uintBitsToFloat(tree_word(tree_first_motion() + place))) : NO_AXIS;
+    return TREE_CAPSULES == 1 ? axis_of(uintBitsToFloat(tree_word(tree_first_motion() + place))) : NO_AXIS;
 }
 
 vec4 tree_sphere_from(ivec3 base, vec3 rest, uint place, float time)

@@ -40,11 +40,15 @@ float distance_in_tree(Start start, GridRay ray, vec3 direction, uint surface, v
 {
     bool leaving = surface == start.surface;
     if (TREE_INSIDE == 0) {
-        if (CAPSULES == 1)
+        if (TREE_CAPSULES == 1)
             ball.xyz += swept_to(ball.xyz, axis, ball.w, direction, false);
         return ray.advance + distance_from_outside(ball.xyz, ball.w, direction, leaving);
     }
     vec3 from_side = KNOWN_SIDES == 1 ? tree_sphere(surface - SURFACE_COUNT, time).xyz : ball.xyz;
+    if (TREE_CAPSULES == 0) {
+        bool outside = dot(from_side, from_side) > ball.w * ball.w;
+        return ray.advance + sphere_distance(ball.xyz, ball.w, direction, leaving, start.inside, outside);
+    }
     bool outside = is_outside(from_side, axis, ball.w);
     return ray.advance + swept_distance(ball.xyz, axis, ball.w, direction, leaving, start.inside, outside);
 }
@@ -61,7 +65,7 @@ bool blocks_in_tree(Start start, GridRay ray, ShadowRay shadow, uint surface, uv
         return before && surface != shadow.lamp;
     }
     bool at_end = surface == start.surface || surface == shadow.lamp;
-    if (CAPSULES == 1)
+    if (TREE_CAPSULES == 1)
         ball.xyz += swept_to(ball.xyz, axis, ball.w, shadow.direction, false);
     return sphere_blocks(ball.xyz, ball.w, shadow.direction, at_end, shadow.distance - ray.advance);
 }

@@ -81,13 +81,19 @@ std::vector<std::uint32_t> hidden_spheres(const CheckedScene &checked, WorkProgr
     return hidden;
 }
 
+// So many capsules at the most are left out of the tree, such as the twelve edges of a cell. Every ray tests them, but
+// a walk then takes all spheres of the tree for balls: 300 or 3,000 in a cell took .81 and .77 of the CPU seconds.
+constexpr std::size_t few_capsules = 16;
+
 // With the hidden ones, so that no ray from the camera need ask what a sphere of the tree is made of.
 std::vector<std::uint32_t> left_out_of(const CheckedScene &checked, const std::vector<std::uint32_t> &hidden,
                                        WorkProgress &progress) {
     progress.enter(share_of_outlying, static_cast<double>(checked.spheres.size()));
     const std::vector<std::uint32_t> outlying = outlying_spheres(checked.spheres, progress);
+    std::vector<std::uint32_t> unwanted;
+    std::ranges::set_union(hidden, outlying, std::back_inserter(unwanted));
     std::vector<std::uint32_t> left_out;
-    std::ranges::set_union(hidden, outlying, std::back_inserter(left_out));
+    std::ranges::set_union(unwanted, checked.spheres.capsules(few_capsules), std::back_inserter(left_out));
     return left_out;
 }
 

@@ -148,8 +148,8 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
     // Of those in the tree the places are kept as they are at time 0.
     const bool tree_is_late = tree && tree->moves() && camera.shutter_open > 0.0;
     features.motion = scene.moves && (camera.shutter_close > camera.shutter_open || tree_is_late);
-    features.capsules =
-        std::ranges::any_of(surfaces.spheres, &SeenSphere::swept) || (tree != nullptr && tree->has_capsules());
+    features.tree_capsules = tree && tree->has_capsules();
+    features.capsules = features.tree_capsules || std::ranges::any_of(surfaces.spheres, &SeenSphere::swept);
     features.scene_in_uniform = !features.tree;
     if (features.tree || SceneBlocks(features).word_count > gpu::UNIFORM_SCENE_WORDS) {
         features.scene_in_uniform = false;
@@ -240,6 +240,7 @@ std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Fe
     constants[gpu::ID_TREE_LEVELS] = features.tree_levels;
     constants[gpu::ID_TREE_INSIDE] = features.tree_inside ? 1 : 0;
     constants[gpu::ID_TREE_COLORS] = features.tree_colors ? 1 : 0;
+    constants[gpu::ID_TREE_CAPSULES] = features.tree_capsules ? 1 : 0;
     constants[gpu::ID_TREE_LAMPS] = features.tree_lamps;
     if (features.lamp_tree) {
         constants[gpu::ID_LAMP_TREE_LEVELS] = LampTreeShape(features.lamp_count).levels();

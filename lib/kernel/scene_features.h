@@ -28,7 +28,7 @@ struct Features {
     std::uint32_t sampler;
     bool gloss;        // some material in use has a specular lobe
     bool motion;       // some sphere moves while the shutter is open
-    bool capsules;     // some sphere is swept along a segment
+    bool capsules;     // some sphere is swept along a segment, in the tree or not
     bool curvature;    // some sphere is held as a plane with a curvature
     bool inside;       // the camera is inside a sphere held by centre and radius, or too near to its surface to tell
     bool planes_block; // some plane may stand between a surface that a path reaches and a lamp
@@ -47,6 +47,7 @@ struct Features {
     std::uint32_t tree_levels;     // of nodes, rounded up, so that few trees want a kernel of their own
     bool tree_inside;              // the camera is inside one of them, or too near to its surface to tell
     bool tree_colors;              // with colors of their own
+    bool tree_capsules;            // some of them are capsules
     std::uint32_t tree_lamps;      // of lamp_count, those in the tree, which come last
 
     bool operator==(const Features &) const = default;

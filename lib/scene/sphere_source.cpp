@@ -89,12 +89,21 @@ SphereSource::SphereSource(std::span<const pt_sphere> spheres, std::span<const p
     starts_.push_back(0);
     for (const pt_sphere_array &part : parts_)
         starts_.push_back(starts_.back() + part.count);
-    const auto any_has = [arrays](pt_column pt_sphere_array::*column) {
-        return std::ranges::any_of(
-            arrays, [column](const pt_sphere_array &array) { return array.count > 0 && is_there(array.*column); });
-    };
-    has_colors_ = any_has(&pt_sphere_array::color);
-    has_capsules_ = any_has(&pt_sphere_array::end);
+    has_colors_ = std::ranges::any_of(
+        arrays, [](const pt_sphere_array &array) { return array.count > 0 && is_there(array.color); });
+    for (const pt_sphere_array &array : arrays)
+        capsule_count_ += is_there(array.end) ? array.count : 0;
+}
+
+std::vector<std::uint32_t> SphereSource::capsules(std::size_t most) const {
+    std::vector<std::uint32_t> indices;
+    if (capsule_count_ > most)
+        return indices;
+    for (std::size_t part = 0; part < parts_.size(); ++part)
+        if (is_there(parts_[part].end))
+            for (std::uint32_t index = starts_[part]; index < starts_[part + 1]; ++index)
+                indices.push_back(index);
+    return indices;
 }
 
 Sphere SphereSource::operator[](std::size_t index) const {

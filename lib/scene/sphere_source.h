@@ -28,7 +28,10 @@ public:
     // Whether spheres may have colors of their own; otherwise all colors are 1.
     bool has_colors() const { return has_colors_; }
 
-    bool has_capsules() const { return has_capsules_; }
+    bool has_capsules() const { return capsule_count_ > 0; }
+
+    // Indices of the capsules in ascending order; none if they are more than most.
+    std::vector<std::uint32_t> capsules(std::size_t most) const;
 
     // One sphere, with the factor for its material's diffuse. For many spheres the functions below are faster.
     Sphere operator[](std::size_t index) const;
@@ -105,7 +108,7 @@ private:
     std::vector<pt_sphere_array> parts_; // the structs as columns, then the arrays
     std::vector<std::uint32_t> starts_;  // index of the first sphere of each part, and the number of all
     bool has_colors_;
-    bool has_capsules_;
+    std::size_t capsule_count_ = 0;
 };
 
 } // namespace pt

@@ -19,16 +19,12 @@ SphereExtent::SphereExtent(const SphereSource &spheres, std::span<const std::uin
         low = glm::min(low, glm::min(sphere.center, end) - sphere.radius);
         high = glm::max(high, glm::max(sphere.center, end) + sphere.radius);
         largest_radius = std::max(largest_radius, sphere.radius);
-        note_way(sphere);
+        moves = moves || sphere.moves();
+        has_capsules = has_capsules || sphere.swept;
         lamp_count += materials[sphere.material].emits ? 1 : 0;
     });
     for (const std::uint32_t index : left_out)
-        note_way(spheres[index]);
-}
-
-void SphereExtent::note_way(const Sphere &sphere) {
-    moves = moves || sphere.moves();
-    has_capsules = has_capsules || sphere.swept;
+        moves = moves || spheres[index].moves();
 }
 
 // With one step more than needed on each side, because places are rounded: the box of tiny distant balls may consist of

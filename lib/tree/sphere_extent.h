@@ -35,7 +35,7 @@ struct SphereExtent {
     glm::dvec3 high{-std::numeric_limits<double>::infinity()};
     double largest_radius = 0.0;
     bool moves = false;        // some sphere does, in the tree or left out: a kernel reads the ways of all or of none
-    bool has_capsules = false; // likewise
+    bool has_capsules = false; // some sphere of the tree is one
     std::uint32_t lamp_count = 0;
 
     // materials: all materials of the scene.
@@ -44,9 +44,6 @@ struct SphereExtent {
 
     // A grid that reaches all of them.
     Grid grid() const;
-
-private:
-    void note_way(const Sphere &sphere);
 };
 
 } // namespace pt

@@ -180,8 +180,10 @@ protected:
 
 // Negative control: capsules that are shorter by three tenths are told from them.
 TEST_F(Capsules, HaveTheLightOfAPathTracerInDouble) {
-    std::vector<Case> cases{
-        {"few", random_scene(1, 6, 3, 8.0)}, {"from inside", inside()}, {"a tree", random_scene(4, 200, 100, 8.0)}};
+    std::vector<Case> cases{{"few", random_scene(1, 6, 3, 8.0)},
+                            {"from inside", inside()},
+                            {"a tree", random_scene(4, 200, 100, 8.0)},
+                            {"beside a tree", random_scene(5, 12, 120, 8.0)}};
     for (std::uint32_t seed = 100; std::getenv("PT_TEST_MANY") && seed < 200; ++seed)
         cases.push_back({std::to_string(seed), random_scene(seed, 1 + seed % 9 * 10, seed % 4 * 10, 4.0 + seed % 5)});
     for (const auto &[name, given] : cases) {
@@ -336,6 +338,28 @@ TEST_F(Capsules, AreCylindersWhereTheirEndsAreFar) {
         }
         EXPECT_GT(met, 50U);
     }
+}
+
+// Where a lamp of radius R, whose centre is d from the surface of a long capsule, is all above the horizon, the nearest
+// point has the irradiance pi L (R / d)^2, the form factor of a sphere, whatever
+// the curvature is. Over the width of the picture that changes by 1e-5, and the noise of 400,000 samples is less than
+// 5e-4. Negative control: a radius that is larger by 3% brings the surface nearer by 1.5% of d.
+TEST_F(Capsules, AreLitAsTheFormFactorOfALampSays) {
+    const auto brightness = [&](double radius) {
+        Given given;
+        given.planes.clear();
+        given.spheres = {{{0, 0, 3}, 0.5, {0, 0, 0}, 2, 0}};
+        given.capsules = {{{0, -1000, 0}, {0, 1000, 0}, radius, 0}};
+        given.camera = camera_at({2, 1, 4}, {0, 0, radius}, 1e-3);
+        const std::vector<float> radiance = image(given, 1024);
+        double red = 0.0;
+        for (std::size_t i = 0; i < radiance.size(); i += 3)
+            red += radiance[i];
+        return red / (picture.x * picture.y);
+    };
+    const double exact = 0.8 * 3.0 * (0.5 / 2.0) * (0.5 / 2.0);
+    EXPECT_NEAR(brightness(1.0), exact, 1e-3 * exact);
+    EXPECT_GT(brightness(1.03), 1.02 * exact);
 }
 
 // Parallel rays along the axis meet the nearer end alone, and across it a rectangle and two half discs.
