@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import os
 import weakref
 from types import TracebackType
 from typing import Any
@@ -16,6 +17,7 @@ from pt._camera import Camera, RenderSettings
 from pt._denoise import render_denoised
 from pt._enums import CreateFlag, Format, Quantity, Result, Sampling
 from pt._errors import InvalidStateError
+from pt._files import Path
 from pt._film import Film, bytes_from
 from pt._image import Image
 from pt._library import checked, library
@@ -37,6 +39,8 @@ class Context:
                           frame
     submit_milliseconds   intended length of a submission to a device, in [1, 1000]; decides how soon calls can be
                           stopped
+    shader_dir            a folder of GLSL files to compile in place of the library's kernels, as pt/shaders.h says;
+                          ShaderError where one does not compile
 
     Use it by `with`, or close() it; otherwise the garbage collector, or the end of the program, closes it.
 
@@ -54,7 +58,8 @@ class Context:
     """
 
     def __init__(self, device: str | None = None, *, log: Log | None = None, validation: bool = False,
-                 scene_kernels: bool = True, submit_milliseconds: int = 50) -> None:
+                 scene_kernels: bool = True, submit_milliseconds: int = 50,
+                 shader_dir: Path | None = None) -> None:
         self._library = library()
         self._in_call = False
         self._shape: tuple[int, int] | None = None
@@ -70,7 +75,8 @@ class Context:
         if not 1 <= submit_milliseconds <= 1000:
             raise ValueError(f"submit_milliseconds = {submit_milliseconds}: must be in [1, 1000]")
         info = structs.pt_create_info(device=None if device is None else device.encode(), flags=flags,
-                                      submit_milliseconds=submit_milliseconds)
+                                      submit_milliseconds=submit_milliseconds,
+                                      shader_dir=None if shader_dir is None else os.fsencode(shader_dir))
         if log is not None:
             info.log = log_pointer
         handle = ctypes.c_void_p()
@@ -129,6 +135,11 @@ class Context:
         time."""
         self._call("pt_set_render", settings._struct())
         self._shape = settings.shape()
+
+    def reload_shaders(self) -> None:
+        """Compiles the files of shader_dir as they are now. If the kernels differ, the samples so far are discarded.
+        ShaderError: a file does not compile; kernels and samples are as before. InvalidStateError: no shader_dir."""
+        self._call("pt_reload_shaders")
 
     def prepare(self) -> None:
         """Builds the kernels that accumulate needs, ahead of it. Cannot be interrupted.

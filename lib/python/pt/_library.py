@@ -31,6 +31,7 @@ PARAMETERS: Final[dict[str, list[Any]]] = {
     "pt_set_camera": [c_void_p, POINTER(structs.pt_camera)],
     "pt_set_render": [c_void_p, POINTER(structs.pt_render)],
     "pt_prepare": [c_void_p],
+    "pt_reload_shaders": [c_void_p],
     "pt_accumulate": [c_void_p, POINTER(structs.pt_accumulate_info)],
     "pt_readback": [c_void_p, POINTER(structs.pt_image)],
     "pt_get_stats": [c_void_p, POINTER(structs.pt_stats)],
