@@ -78,8 +78,8 @@ pt_create_info render_create_info(const RenderOptions &options, ValidationLog &l
 //
 // A request consists of 32-bit words in the machine's byte order: the first sample, the sample after the last, the
 // number of tiles, and their indices (pt_accumulate_info.tile_samples), each once. Its answer is a line with two
-// numbers, the kind of device (PT_DEVICE_*) and the bytes that follow: the film. An invalid request ends the program
-// with ExitCode::usage.
+// numbers, the kind of device (PT_DEVICE_*) and the bytes that follow: the film. Three words of 0 ask for the scene, as
+// write_scene has it, without a device. An invalid request ends the program with ExitCode::usage.
 int render_parts(const RenderTask &task, ValidationLog &log);
 
 // Renders the picture again, on one context, whenever its sources change. Ends when a signal has come; with 0 if it

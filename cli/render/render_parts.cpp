@@ -2,6 +2,7 @@
 #include "cli/base/text.h"
 #include "cli/film/film.h"
 #include "cli/render/render_command.h"
+#include "cli/scene/scene_writer.h"
 
 #include <pt/devices.h>
 
@@ -42,7 +43,7 @@ bool read_words(std::span<std::uint32_t> words) {
 
 struct Part {
     std::uint32_t first_sample;
-    std::vector<std::uint32_t> tile_samples; // as in pt_accumulate_info
+    std::vector<std::uint32_t> tile_samples; // as in pt_accumulate_info; empty: the scene is asked for
 };
 
 // Reads a request; nothing at the end of standard input.
@@ -51,6 +52,8 @@ std::optional<Part> read_part(std::size_t all_tiles) {
     if (!read_words(header))
         return std::nullopt;
     const auto [first, end, count] = header;
+    if (end == 0 && count == 0)
+        return Part{};
     std::vector<std::uint32_t> tiles(std::min<std::size_t>(count, all_tiles));
     const bool is_whole = read_words(tiles);
     const bool has_tile = !tiles.empty() && *std::ranges::max_element(tiles) < all_tiles;
@@ -110,6 +113,10 @@ int render_parts(const RenderTask &task, ValidationLog &log) {
     const std::size_t all_tiles = tiles(task.render.width) * tiles(task.render.height);
     std::optional<PartsRender> renderer;
     while (const std::optional<Part> part = read_part(all_tiles)) {
+        if (part->tile_samples.empty()) {
+            write_scene(std::cout, task.scene, task.render);
+            continue;
+        }
         if (!renderer)
             renderer.emplace(task, log);
         renderer->answer(*part);

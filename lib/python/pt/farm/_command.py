@@ -21,11 +21,12 @@ from pt._command_line import CODE_OF_RESULT, FILES, INTERNAL, NO_DEVICE, SIGNAL,
 from pt._enums import Sampling
 from pt._errors import Error
 from pt._film import Film
+from pt._program import Program, program
 from pt.farm._arguments import check, frames_of, parser, refuse
 from pt.farm._job import FileJob, read_job
 from pt.farm._options import FarmError, Options
 from pt.farm._render import render
-from pt.farm._renderer import Program, program
+from pt.farm._renderer import device_of
 from pt.farm._shown import Shown, Signals
 from pt.farm._sum import write_film
 
@@ -83,7 +84,7 @@ def write_pictures(film: Film, arguments: argparse.Namespace, facts: dict[str, A
 def described(job: FileJob, frame: int | None) -> tuple[FileJob, dict[str, Any]]:
     """A job with its settings, and what pt on this machine says of it. Error: pt refuses it."""
     job = job if frame is None else replace(job, arguments=(*job.arguments, "--frames", str(frame)))
-    reader = Program(job)
+    reader = Program(job.arguments, job.files, device_of(job))
     reader.close()
     facts = reader.facts
     settings = RenderSettings(facts["width"], facts["height"], first_sample=facts["first_sample"])
