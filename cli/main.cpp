@@ -80,6 +80,7 @@ std::string_view package_of(std::string_view name) {
     return name == "figure"    ? "'./lib/python[figure]'"
            : name == "tachyon" ? "./lib/python"
            : name == "farm"    ? "'./lib/python[farm]'"
+           : name == "view"    ? "'./lib/python[figure,view]'"
                                : "";
 }
 

@@ -13,7 +13,7 @@ render_packages="g++ cmake ninja-build libvulkan-dev mesa-vulkan-drivers glslang
 # EXR and JPEG, kernels compiled while a program runs, and Debian packages.
 build_packages="$render_packages pkg-config libopenimageio-dev glslang-dev dpkg-dev file"
 test_packages="$build_packages build-essential vulkan-validationlayers libgtest-dev python3 python3-jsonschema python3-numpy python3-pandas mypy
-    python3-ase python3-distributed python3-matplotlib python3-openimageio python3-xxhash doxygen clang-format-14 clang-tidy-14"
+    python3-aiohttp python3-ase python3-distributed python3-matplotlib python3-openimageio python3-xxhash doxygen clang-format-14 clang-tidy-14"
 
 install_packages() { # package...
     command -v apt-get >/dev/null || return 0

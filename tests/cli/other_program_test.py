@@ -68,7 +68,7 @@ class OtherProgram(CommandLineTest):
                 self.assertEqual((run.returncode, run.stdout), (2, ""), run.stderr)
 
     def test_what_is_missing_says_how_to_install_it(self):
-        for name, package in (("figure", "'./lib/python[figure]'"), ("farm", "'./lib/python[farm]'"),
+        for name, package in (("figure", "'./lib/python[figure]'"), ("farm", "'./lib/python[farm]'"), ("view", "'./lib/python[figure,view]'"),
                               ("tachyon", "./lib/python")):
             run = self.run_with(self.path("empty"), name, "data.xyz")
             self.assertEqual(run.returncode, 2)

@@ -15,6 +15,7 @@ import numpy.typing as npt
 from pt._camera import RenderSettings
 from pt._context import Context
 from pt._display import automatic_exposure, encode_png, linear, quantised, signal
+from pt._exr import encode_exr
 from pt._files import Path, format_of, write_atomically
 from pt._fit import Array, Doubles, chunks
 from pt._image import Image
@@ -23,7 +24,7 @@ from pt.figures._accept import load
 from pt.figures._bonds import ball_radii, bonds_of
 from pt.figures._colors import Legend, colors_of, srgb
 from pt.figures._compose import compose, lay_over
-from pt.figures._files import encode_exr, encode_jpeg, write_scene
+from pt.figures._files import encode_jpeg, write_scene
 from pt.figures._layout import Balls, Layout, View
 from pt.figures._legend import raster, save
 from pt.figures._options import Options, described

@@ -1,0 +1,126 @@
+"""pt-view: a picture in a page of the browser, as it refines."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import pathlib
+import shutil
+import signal
+import sys
+import threading
+import webbrowser
+from dataclasses import fields
+from typing import NoReturn
+
+from pt._command_line import CODE_OF_RESULT, FILES, INTERNAL, SCENE, USAGE, at_least
+from pt._errors import Error
+from pt._library import library_path
+from pt.figures._command import add_option, joined, typed
+from pt.figures._options import Options, two
+
+EPILOG = """\
+The page is served on 127.0.0.1 alone, to whoever knows the address. From another machine: ssh -L PORT:127.0.0.1:PORT HOST,
+with the port of the address. Ctrl-C ends it; nothing is written but what the page is told to save.
+"""
+VECTOR_BITS = "LP_NATIVE_VECTOR_WIDTH"
+
+
+def refuse(message: str, code: int = USAGE) -> NoReturn:
+    print(f"pt-view: {message}", file=sys.stderr)
+    sys.exit(code)
+
+
+def parser() -> argparse.ArgumentParser:
+    command = argparse.ArgumentParser(
+        prog="pt-view", description="Shows a scene, particles or a film in the browser while the picture refines.",
+        epilog=EPILOG, allow_abbrev=False, formatter_class=argparse.RawDescriptionHelpFormatter)
+    add = command.add_argument
+    add("what", metavar="SCENE|DATA|FILM", help="a scene (.json), a film (.ptfilm), or data as of pt figure")
+    add("--size", type=typed(two("x", int), "WxH"), metavar="WxH", help="pixels; by default the scene's")
+    add("--spp", type=at_least(1, int), default=65536, metavar="N", help="most samples of a pixel (default: 65536)")
+    add("--device", metavar="NAME", help="what to render on, as of pt render")
+    add("--shader-dir", metavar="DIR", help="kernels to compile and to edit in the page, with the scene")
+    add("--edit", action="store_true", help="the same with a copy of the kernels, in the folder pt-shaders, made if it is not there")
+    add("--port", type=at_least(0, int), default=0, metavar="N", help="by default a free one")
+    add("--no-browser", action="store_true", help="prints the address alone")
+    groups = {name: command.add_argument_group(f"{name} of DATA, as of pt figure") for name in ("data", "particles", "view", "look")}
+    for each in fields(Options):
+        if each.metadata["group"] in groups and each.name != "size":
+            add_option(groups[each.metadata["group"]], each)
+    return command
+
+
+def kernels() -> pathlib.Path | None:
+    """Where the library's kernels are as GLSL: with the package, installed, or in the clone."""
+    here = pathlib.Path(__file__).resolve()
+    places = (here.parents[1] / "shaders", pathlib.Path(library_path()).resolve().parents[1] / "share/pt/shaders",
+              here.parents[4] / "shaders")
+    return next((place for place in places if (place / "pathtrace.comp").exists()), None)
+
+
+def shader_dir(given: argparse.Namespace) -> pathlib.Path | None:
+    if given.shader_dir:
+        return pathlib.Path(given.shader_dir)
+    if not given.edit:
+        return None
+    folder, source = pathlib.Path("pt-shaders"), kernels()
+    if not folder.exists():
+        if source is None:
+            refuse("--edit: the kernels are not installed; --shader-dir DIR names a copy of shaders/", FILES)
+        shutil.copytree(source, folder, ignore=lambda _, names: {name for name in names if name.endswith(".md")})
+    print(f"pt-view: the kernels are in {folder}", file=sys.stderr)
+    return folder
+
+
+def widen_vectors() -> None:
+    """As cli/base/environment.cpp does, and tells why: the same bits and as fast as the program."""
+    try:
+        flags = pathlib.Path("/proc/cpuinfo").read_text()
+    except OSError:
+        return
+    if VECTOR_BITS not in os.environ and all(f"avx512{name}" in flags for name in ("f", "bw", "dq", "vl")):
+        os.environ[VECTOR_BITS] = "512"
+        own = pathlib.Path(os.environ.get("XDG_CACHE_HOME") or pathlib.Path.home() / ".cache", "pt")
+        cache = pathlib.Path(os.environ.get("MESA_SHADER_CACHE_DIR") or own, "shaders-512")
+        try:
+            cache.mkdir(parents=True, exist_ok=True)
+            os.environ["MESA_SHADER_CACHE_DIR"] = str(cache)
+        except OSError:
+            os.environ["MESA_SHADER_CACHE_DISABLE"] = "true"
+
+
+def main() -> None:
+    given = parser().parse_args(joined(sys.argv[1:]))
+    if not os.access(given.what, os.R_OK):
+        refuse(f"{given.what}: is not there or cannot be read", FILES)
+    if given.shader_dir and not os.path.isdir(given.shader_dir):
+        refuse(f"--shader-dir {given.shader_dir}: is no folder", FILES)
+    widen_vectors()
+    try:
+        from pt.view._view import View
+    except ImportError as error:
+        refuse(f"needs aiohttp: pip install './lib/python[view]' ({error})", INTERNAL)
+    try:
+        options = Options(**{name: value for name, value in vars(given).items()
+                             if name in Options.__annotations__ and name not in ("size", "device")})
+        view = View(given.what, size=given.size, samples=given.spp, device=given.device, shader_dir=shader_dir(given),
+                    port=given.port, options=options)
+    except Error as error:
+        refuse(str(error), CODE_OF_RESULT.get(error.result, INTERNAL))
+    except OSError as error:
+        refuse(str(error), FILES)
+    except (ValueError, TypeError) as error:
+        refuse(str(error), SCENE)
+    print(view.address, flush=True)
+    if not given.no_browser:
+        webbrowser.open(view.address)
+    ended = threading.Event()
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, lambda *_: ended.set())
+    ended.wait()
+    view.close()
+
+
+if __name__ == "__main__":
+    main()

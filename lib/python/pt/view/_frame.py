@@ -1,0 +1,70 @@
+"""What is shown at a moment: pixels, and what is told beside them."""
+
+from __future__ import annotations
+
+import json
+import math
+import pathlib
+import re
+import struct
+from dataclasses import dataclass
+from typing import Any, Final
+
+from pt._columns import Array
+from pt._enums import Quantity, Uncertain
+from pt._stats import ErrorEstimate
+
+LAYERS: Final = {"mean": Quantity.RADIANCE, "standard error": Quantity.STANDARD_ERROR, "samples": Quantity.SAMPLE_COUNT,
+                 "depth": Quantity.DEPTH, "normal": Quantity.NORMAL, "albedo": Quantity.ALBEDO}
+OF_SAMPLES: Final = 3  # the first layers; the others tell what camera rays meet first
+
+
+@dataclass(frozen=True)
+class Frame:
+    """number   counts published frames
+    state    what the page shows beside the pixels
+    pixels   of the layer, height x width x 3; None: there is no picture yet
+    values   the layers of samples, of which single pixels are told
+    """
+
+    number: int
+    state: dict[str, Any]
+    pixels: Array | None
+    values: tuple[Array, ...] = ()
+
+    def message(self, with_pixels: bool) -> bytes:
+        """The length of the state, the state as JSON, and the pixels as float32, aligned to 4 bytes."""
+        state = json.dumps({**self.state, "frame": self.number}).encode()
+        state += b" " * (-len(state) % 4)
+        pixels = b"" if self.pixels is None or not with_pixels else self.pixels.tobytes()
+        return struct.pack("<I", len(state)) + state + pixels
+
+    def pixel(self, x: int, y: int) -> dict[str, Any]:
+        if not self.values or not (0 <= y < len(self.values[0]) and 0 <= x < len(self.values[0][0])):
+            return {}
+        radiance, error, samples = (each[y, x].tolist() for each in self.values)
+        return {"x": x, "y": y, "radiance": radiance, "samples": int(samples[0]),
+                "error": error if all(map(math.isfinite, error)) else None}
+
+
+def facts_of(estimate: ErrorEstimate) -> dict[str, Any]:
+    known = math.isfinite(estimate.relative_rmse)
+    return {"error": estimate.relative_rmse if known else None, "low": estimate.relative_rmse_low if known else None,
+            "high": estimate.relative_rmse_high if known else None,
+            "uncertain": [name_of(flag) for flag in Uncertain if flag in estimate.uncertain]}
+
+
+def name_of(member: Any) -> str:
+    name: str = member.name.lower().replace("_", "-")
+    return name
+
+
+def faults_of(text: str) -> list[dict[str, Any]]:
+    """Messages with the names and lines of files where they have them."""
+    faults = []
+    for line in text.splitlines():
+        if found := re.match(r"(?:ERROR: |WARNING: )?([^\s:][^:]*):(\d+):(?:\d+:)? *(.*)", line):
+            faults.append({"file": pathlib.PurePath(found[1]).name, "line": int(found[2]), "text": found[3] or line})
+        elif line.strip():
+            faults.append({"file": None, "line": 0, "text": line.strip()})
+    return faults

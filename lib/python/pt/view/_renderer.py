@@ -1,0 +1,291 @@
+"""The thread that renders what a view shows, and publishes it as frames."""
+
+from __future__ import annotations
+
+import math
+import pathlib
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any, Final
+
+from pt._columns import Array
+from pt._context import Context
+from pt._enums import Quantity, Result
+from pt._errors import DeviceLostError, Error, InvalidSceneError
+from pt._pixels import Rectangle
+from pt._stats import ErrorEstimate
+from pt.view._frame import LAYERS, OF_SAMPLES, Frame, facts_of, faults_of, name_of
+from pt.view._source import Shown, Source, section_of
+
+MOVING_SECONDS: Final = 0.03  # for a sample of each pixel, while the camera moves
+STILL_SECONDS: Final = 0.25  # after which the camera no longer does
+PUBLISHED_SHARE: Final = 0.04  # of the time
+LOOK_SECONDS: Final = 0.5  # from one look at the files to the next
+SHADERS: Final = (".comp", ".glsl", ".h")
+
+
+class Renderer:
+    """source        what is shown
+    shader_dir    kernels that are compiled instead of the library's
+    published     called with each frame, on the thread that renders
+    """
+
+    def __init__(self, source: Source, published: Callable[[Frame], None], *, shader_dir: pathlib.Path | None = None,
+                 device: str | None = None, most: int = 65536, size: tuple[int, int] | None = None) -> None:
+        self._source, self._published, self._device, self._most = source, published, device, most
+        self._shader_dir = shader_dir
+        self._context: Context | None = None
+        self._faults: dict[str, str] = {}  # by what is at fault
+        self._history: list[list[float]] = []
+        self._guides: dict[str, Array] = {}
+        self._playing, self._moving, self._layer = True, False, "mean"
+        self._seconds = self._rate = self._next_publish = self._next_look = self._still = 0.0
+        self._scale, self._count, self._shape, self._cost = 1, 0, (0, 0), math.inf
+        self._condition = threading.Condition()
+        self._changes: dict[str, Any] = {}
+        self._is_watched = self._is_closed = False
+        self.frame = Frame(0, {}, None)
+        self._shown = source.read()
+        self._camera = self._shown.camera
+        self._settings = self._shown.settings
+        if size:
+            self._settings = replace(self._settings, width=size[0], height=size[1])
+        self._signatures = self._look()
+        self._publish()
+        self._thread = threading.Thread(target=self._run, name="pt-view", daemon=True)
+        self._thread.start()
+
+    def change(self, **changes: Any) -> None:
+        """camera, moving, size, layer, playing, method (fields of RenderSettings), files (True: look at them now)"""
+        with self._condition:
+            self._changes.update(changes)
+            self._condition.notify()
+
+    def watch(self, is_watched: bool) -> None:
+        """Whether anybody sees the frames."""
+        with self._condition:
+            self._is_watched = is_watched
+            self._condition.notify()
+
+    def close(self) -> None:
+        with self._condition:
+            self._is_closed = True
+            self._condition.notify()
+        self._thread.join()
+
+    def saved(self) -> tuple[str, bytes] | None:
+        """Name and contents of the scene with the present camera; None: there is no scene."""
+        return self._source.saved(self._camera)
+
+    # Everything below runs on the thread.
+
+    def _run(self) -> None:
+        while True:
+            with self._condition:
+                self._condition.wait_for(lambda: self._changes or self._is_closed or self._is_watched and self._runs(),
+                                         LOOK_SECONDS if self._is_watched else None)
+                changes, self._changes = self._changes, {}
+                if self._is_closed:
+                    break
+            try:
+                self._step(changes)
+            except DeviceLostError as error:
+                self._drop(error)
+            except (Error, ValueError, OSError) as error:
+                self._faults["rendering"] = (self._source.explained(error) if isinstance(error, InvalidSceneError)
+                                             else str(error))
+                self._publish()
+        if self._context:
+            self._context.close()
+
+    def _runs(self) -> bool:
+        """A picture that is stopped gets a sample all the same when it begins anew."""
+        wanted = self._playing or self._moving or not self._count
+        return wanted and self._count < self._most and "rendering" not in self._faults
+
+    def _drop(self, error: Error) -> None:
+        """The device is lost: the next change makes a new context."""
+        if self._context:
+            self._context.close()
+        self._context = None
+        self._faults["rendering"] = str(error)
+        self._publish(with_picture=False)
+
+    def _step(self, changes: dict[str, Any]) -> None:
+        now = time.monotonic()
+        restarts = self._take(changes)
+        if self._moving and now > self._still:
+            self._moving, restarts = False, self._scale > 1
+        if "files" in changes or now > self._next_look:
+            self._next_look = now + LOOK_SECONDS
+            restarts = self._read_again() or restarts
+        if self._context is None:
+            if not restarts and self._faults:
+                return
+            self._context = Context(self._device, submit_milliseconds=20, shader_dir=self._shader_dir)
+            self._faults.clear()
+            self._context.set_scene(self._shown.scene)
+            restarts = True
+        if restarts:
+            self._restart(self._context)
+        if self._is_watched and self._runs():
+            self._accumulate(self._context)
+        elif changes:
+            self._publish()
+
+    def _take(self, changes: dict[str, Any]) -> bool:
+        """Takes over changes; whether the picture begins anew."""
+        self._playing = changes.get("playing", self._playing)
+        self._layer = changes.get("layer", self._layer)
+        width, height = changes.get("size", (self._settings.width, self._settings.height))
+        settings = replace(self._settings, width=width, height=height, **changes.get("method", {}))
+        restarts = settings != self._settings or "camera" in changes
+        if changes.get("moving"):
+            self._moving, self._still = True, time.monotonic() + STILL_SECONDS
+        self._settings, self._camera = settings, changes.get("camera") or self._camera
+        return restarts
+
+    def _restart(self, context: Context) -> None:
+        """Takes over camera and settings. While the camera moves, pixels are as large as the device needs."""
+        pixels = self._settings.width * self._settings.height
+        self._scale = 1
+        if self._moving and self._rate:
+            self._scale = min(max(math.ceil(math.sqrt(pixels / (self._rate * MOVING_SECONDS))), 1), 16)
+        width, height = (max(side // self._scale, 1) for side in (self._settings.width, self._settings.height))
+        self._shape = height, width
+        self._faults.pop("rendering", None)
+        context.set_camera(self._camera)
+        context.set_render(replace(self._settings, width=width, height=height))
+        self._history, self._seconds, self._count, self._next_publish, self._cost = [], 0.0, 0, 0.0, math.inf
+        self._guides.clear()
+
+    def _accumulate(self, context: Context) -> None:
+        """Takes samples until the next frame is due, or something changes."""
+        begin = time.monotonic()
+        pixels = math.prod(self._shape)
+        due = max(self._next_publish - begin, 0.0)
+        count = min(max(int(due * self._rate / pixels), 1), self._most - self._count, max(2 * self._count, 1))
+        result = context.accumulate(count, progress=lambda _: bool(self._changes) or self._is_closed)
+        now = time.monotonic()
+        self._seconds += now - begin
+        taken = context.stats().sample_count - self._count
+        self._count += taken
+        if result == Result.OK and self._count > taken:  # the first one may have waited for its kernel
+            self._rate = count * pixels / (now - begin)
+        elif not self._rate:
+            self._rate = pixels / (now - begin)
+        if self._count and (now >= self._next_publish or self._count >= self._most):
+            self._publish()
+            self._cost = min(time.monotonic() - now, self._cost)  # the first frame may have waited for kernels
+            pause = min(max(self._cost / PUBLISHED_SHARE, min(self._seconds / 10, 2.0)), self._seconds)
+            pause = 0.0 if self._moving else max(pause, 0.1)
+            self._next_publish = time.monotonic() + pause
+
+    # Files.
+
+    def _look(self) -> dict[pathlib.Path, tuple[int, int]]:
+        """What tells whether files have changed."""
+        files = [*self._shown.files, *(self._shader_dir.glob("*") if self._shader_dir else ())]
+        found = {}
+        for path in files:
+            try:
+                facts = path.stat()
+                found[path] = (facts.st_mtime_ns, facts.st_size)
+            except OSError:
+                found[path] = (0, 0)
+        return found
+
+    def _read_again(self) -> bool:
+        """Reads what has changed; whether the picture begins anew."""
+        signatures = self._look()
+        changed = {path for path, facts in signatures.items() if self._signatures.get(path) != facts}
+        self._signatures = signatures
+        restarts = False
+        if changed.intersection(self._shown.files):
+            try:
+                shown = self._source.read()
+                if self._context:
+                    self._context.set_scene(shown.scene)
+                self._faults.pop("scene", None)
+                self._adopt(shown)
+                restarts = True
+            except (Error, ValueError, OSError) as error:
+                self._faults["scene"] = self._source.explained(error)
+                self._publish()
+        if any(path.suffix in SHADERS for path in changed.difference(self._shown.files)) and self._context:
+            try:
+                self._context.reload_shaders()
+                self._faults.pop("shaders", None)
+                restarts = True
+            except Error as error:
+                self._faults["shaders"] = str(error)
+                self._publish()
+        return restarts or bool(changed and not self._context)
+
+    def _adopt(self, shown: Shown) -> None:
+        """Takes over what the file says anew; what was chosen in the page, and not in the file, stays."""
+        if shown.camera != self._shown.camera:
+            self._camera = shown.camera
+        fields = {name: value for name, value in vars(shown.settings).items()
+                  if value != getattr(self._shown.settings, name)}
+        self._settings = replace(self._settings, **fields)
+        self._shown = shown
+        self._signatures = self._look()
+
+    # Frames.
+
+    def _publish(self, with_picture: bool = True) -> None:
+        pixels, values = self.frame.pixels, self.frame.values
+        facts: dict[str, Any] = {}
+        context = self._context
+        if context and self._count and with_picture:
+            values = tuple(context.readback(quantity) for quantity in list(LAYERS.values())[:OF_SAMPLES])
+            pixels = self._layer_pixels(context, values)
+            facts = {"rejected": context.stats().rejected_samples, "device": context.device.name}
+            if not self._moving:
+                estimate = context.error_estimate()
+                self._remember(estimate)
+                facts.update(facts_of(estimate), pivot=self._pivot(context))
+        kept = {name: self.frame.state.get(name) for name in
+                ("error", "low", "high", "uncertain", "pivot", "rejected", "device")}
+        camera = self._camera
+        self._emit({**kept, **facts, "name": self._source.path.name, "samples": self._count, "seconds": self._seconds, "playing": self._playing,
+                    "moving": self._moving, "layer": self._layer, "history": list(self._history),
+                    "size": [self._settings.width, self._settings.height], "camera": section_of(camera),
+                    "first_camera": section_of(self._shown.camera), "display": self._shown.display,
+                    "max_path_length": self._settings.max_path_length, "sampler": name_of(self._settings.sampler),
+                    "estimator": name_of(self._settings.estimator), "most": self._most,
+                    "faults": [fault for text in self._faults.values() for fault in faults_of(text)]}, pixels, values)
+
+    def _emit(self, state: dict[str, Any], pixels: Array | None, values: tuple[Array, ...]) -> None:
+        if pixels is not None:
+            state["height"], state["width"] = pixels.shape[:2]
+        self.frame = Frame(self.frame.number + 1, state, pixels, values)
+        self._published(self.frame)
+
+    def _layer_pixels(self, context: Context, values: tuple[Array, ...]) -> Array:
+        index = list(LAYERS).index(self._layer)
+        if index < OF_SAMPLES:
+            return values[index]
+        if self._layer not in self._guides:
+            self._guides[self._layer] = context.readback(LAYERS[self._layer])
+        return self._guides[self._layer]
+
+    def _pivot(self, context: Context) -> float | None:
+        """The depth of what is in the middle, about which the camera turns."""
+        if "pivot" not in self._guides:
+            rows, columns = self._shape
+            middle: Rectangle = (columns // 2, rows // 2, 1, 1)
+            self._guides["pivot"] = context.readback(Quantity.DEPTH, rectangle=middle)
+        depth = float(self._guides["pivot"][0, 0, 0])
+        return depth if math.isfinite(depth) else None
+
+    def _remember(self, estimate: ErrorEstimate) -> None:
+        """Adds a point to the curve, which keeps every other one when there are many."""
+        if math.isfinite(estimate.relative_rmse_high):
+            self._history.append([self._seconds, estimate.relative_rmse, estimate.relative_rmse_low,
+                                  estimate.relative_rmse_high])
+            if len(self._history) > 128:
+                del self._history[1:-1:2]

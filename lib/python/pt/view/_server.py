@@ -1,0 +1,241 @@
+"""The server of the page. It listens on 127.0.0.1 alone; whoever knows the token in its address may see and steer."""
+
+from __future__ import annotations
+
+import asyncio
+import hmac
+import json
+import pathlib
+import re
+import secrets
+import socket
+import threading
+import urllib.parse
+from collections.abc import Awaitable, Callable
+from typing import Any, Final, Protocol
+
+from aiohttp import WSMsgType, web
+
+from pt._enums import Estimator, Sampler
+from pt._exr import encode_exr
+from pt._files import write_atomically
+from pt.view._frame import LAYERS, Frame, name_of
+from pt.view._source import camera_of
+
+PAGE: Final = {path.name: path.read_bytes() for path in pathlib.Path(__file__).with_name("page").iterdir()
+               if path.suffix in (".html", ".css", ".js")}
+TYPES: Final = {".html": "text/html", ".css": "text/css", ".js": "text/javascript"}
+MOST_SOCKETS: Final = 16
+MOST_BYTES: Final = 2**20  # of a message: the text of a file
+MOST_PIXELS: Final = 2**24
+IDLE_SECONDS: Final = 10.0  # after which nobody looks
+NAMES: Final = r"(?:127\.0\.0\.1|localhost|\[::1\])(?::\d{1,5})?"  # of a host; at the other end of a tunnel the port differs
+HEADERS: Final = {
+    "Content-Security-Policy": "default-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' blob: data:; base-uri 'none'; "
+                               "form-action 'none'",
+    "X-Content-Type-Options": "nosniff", "Referrer-Policy": "no-referrer", "Cache-Control": "no-store",
+    "Cross-Origin-Resource-Policy": "same-origin"}
+
+
+class Show(Protocol):
+    frame: Frame
+
+    def change(self, **changes: Any) -> None: ...
+
+    def watch(self, is_watched: bool) -> None: ...
+
+    def saved(self) -> tuple[str, bytes] | None: ...
+
+
+class Server:
+    """A thread that serves from construction until close().
+
+    show    what is seen; set before the first request
+    files   those that may be read and written in the page, by the names that it shows
+    """
+
+    def __init__(self, files: Callable[[], dict[str, pathlib.Path]], port: int = 0) -> None:
+        self.show: Show | None = None
+        self._files = files
+        self._token = secrets.token_urlsafe(18)
+        self._sockets: set[web.WebSocketResponse] = set()
+        self._socket = socket.create_server(("127.0.0.1", port))
+        self.address = f"http://127.0.0.1:{self._socket.getsockname()[1]}/{self._token}/"
+        self._loop = asyncio.new_event_loop()
+        self._news = asyncio.Event()
+        self._thread = threading.Thread(target=self._run, name="pt-view-server", daemon=True)
+
+    def start(self, show: Show) -> None:
+        self.show = show
+        self._thread.start()
+
+    def published(self, _: Frame) -> None:
+        """Tells of a new frame; any thread."""
+        if self._thread.is_alive():
+            self._loop.call_soon_threadsafe(self._announce)
+
+    def close(self) -> None:
+        if self._thread.is_alive():
+            self._loop.call_soon_threadsafe(self._loop.stop)
+            self._thread.join()
+        self._socket.close()
+
+    def _run(self) -> None:
+        asyncio.set_event_loop(self._loop)
+        application = web.Application(middlewares=[self._checked], client_max_size=1024)
+        application.add_routes([web.get("/{token}/", self._page), web.get("/{token}/socket", self._connect),
+                                web.get("/{token}/picture.exr", self._exr), web.get("/{token}/scene", self._scene),
+                                web.get("/{token}/{name}", self._page)])
+        runner = web.AppRunner(application, access_log=None)
+        self._loop.run_until_complete(runner.setup())
+        self._loop.run_until_complete(web.SockSite(runner, self._socket, shutdown_timeout=0.1).start())
+        self._loop.run_forever()
+        for each in tuple(self._sockets):
+            self._loop.run_until_complete(each.close(code=1001))
+        self._loop.run_until_complete(runner.cleanup())
+        self._loop.close()
+
+    @web.middleware
+    async def _checked(self, request: web.Request, handler: Callable[[web.Request], Awaitable[web.StreamResponse]]
+                       ) -> web.StreamResponse:
+        """Refuses whoever does not know the token, and pages of others, which reach this server by another name or say
+        where they come from."""
+        host, origin = request.headers.get("Host", ""), request.headers.get("Origin")
+        if not re.fullmatch(NAMES, host) or origin not in (None, f"http://{host}"):
+            raise web.HTTPForbidden(text="pt view: this host or origin is refused\n")
+        if not hmac.compare_digest(request.match_info.get("token", "").encode(), self._token.encode()):
+            raise web.HTTPForbidden(text="pt view: the address needs its token\n")
+        response = await handler(request)
+        if not response.prepared:
+            response.headers.update(HEADERS)
+        return response
+
+    async def _page(self, request: web.Request) -> web.StreamResponse:
+        name = request.match_info.get("name", "index.html")
+        if name not in PAGE:
+            raise web.HTTPNotFound
+        return web.Response(body=PAGE[name], content_type=TYPES[pathlib.PurePath(name).suffix], charset="utf-8")
+
+    async def _exr(self, _: web.Request) -> web.StreamResponse:
+        """The mean radiance of the frame that was published last."""
+        assert self.show
+        if not self.show.frame.values:
+            raise web.HTTPNotFound
+        data = await self._loop.run_in_executor(None, encode_exr, self.show.frame.values[0])
+        return web.Response(body=data, content_type="image/x-exr")
+
+    async def _scene(self, _: web.Request) -> web.StreamResponse:
+        assert self.show
+        saved = await self._loop.run_in_executor(None, self.show.saved)
+        if saved is None:
+            raise web.HTTPNotFound
+        return web.Response(body=saved[1], headers={"Content-Disposition": f"attachment; filename*=UTF-8''{urllib.parse.quote(saved[0])}"})
+
+    async def _connect(self, request: web.Request) -> web.StreamResponse:
+        if len(self._sockets) >= MOST_SOCKETS:
+            raise web.HTTPServiceUnavailable(text=f"pt view: {MOST_SOCKETS} pages look already\n")
+        connection = web.WebSocketResponse(max_msg_size=MOST_BYTES, compress=False, heartbeat=20.0)
+        self._sockets.add(connection)
+        sender: asyncio.Task[None] | None = None
+        try:
+            await connection.prepare(request)
+            assert self.show
+            self.show.watch(True)
+            wanted = asyncio.Event()
+            sender = self._loop.create_task(self._send(connection, wanted))
+            async for message in connection:
+                if message.type == WSMsgType.TEXT:
+                    await self._answer(connection, message.data, wanted)
+        finally:
+            if sender:
+                sender.cancel()
+            self._sockets.discard(connection)
+            self._loop.call_later(IDLE_SECONDS, self._rest)
+        return connection
+
+    def _rest(self) -> None:
+        if not self._sockets and self.show:
+            self.show.watch(False)
+
+    def _announce(self) -> None:
+        self._news.set()
+        self._news = asyncio.Event()
+
+    async def _send(self, connection: web.WebSocketResponse, wanted: asyncio.Event) -> None:
+        """Sends the newest frame whenever the page wants one, so that a slow line gets fewer frames and not late ones."""
+        assert self.show
+        number, pixels = 0, None
+        try:
+            while True:
+                await wanted.wait()
+                while self.show.frame.number == number:
+                    await self._news.wait()
+                frame = self.show.frame
+                wanted.clear()
+                number, is_new = frame.number, frame.pixels is not pixels
+                pixels = frame.pixels
+                await connection.send_bytes(frame.message(is_new))
+        except ConnectionError:
+            pass  # the page is closed
+
+    async def _answer(self, connection: web.WebSocketResponse, text: str, wanted: asyncio.Event) -> None:
+        """Does what a message asks for, or says what is wrong with it."""
+        assert self.show
+        try:
+            message = json.loads(text)
+            if not isinstance(message, dict):
+                raise ValueError("a message is an object")
+            if "next" in message:
+                wanted.set()
+            elif "pixel" in message:
+                x, y = (_whole(each, 0, MOST_PIXELS) for each in message["pixel"])
+                await connection.send_json({"pixel": self.show.frame.pixel(x, y)})
+            elif "list" in message:
+                await connection.send_json({"files": list(self._files())})
+            elif "open" in message:
+                path = self._file(message["open"])
+                await connection.send_json({"opened": message["open"], "text": path.read_text("utf-8", "replace")})
+            elif "save" in message:
+                path, data = self._file(message["save"]), str(message["text"]).encode()
+                write_atomically(path, lambda file: file.write(data))
+                self.show.change(files=True)
+            else:
+                self.show.change(**changes_of(message))
+        except (ValueError, TypeError, KeyError, ArithmeticError, OSError, RecursionError) as error:
+            await connection.send_json({"refused": f"{type(error).__name__}: {error}"})
+
+    def _file(self, name: Any) -> pathlib.Path:
+        """Only what is listed, so that no name leads elsewhere."""
+        files = self._files()
+        if not isinstance(name, str) or name not in files:
+            raise ValueError("no such file is open to the page")
+        return files[name]
+
+
+def changes_of(message: dict[str, Any]) -> dict[str, Any]:
+    """What a page may change, checked. ValueError, TypeError, KeyError: it may not, or not so."""
+    changes: dict[str, Any] = {}
+    for name, value in message.items():
+        if name == "camera":
+            changes[name] = camera_of(value)
+        elif name == "size":
+            width, height = (_whole(each, 1, MOST_PIXELS) for each in value)
+            changes[name] = width, _whole(height, 1, MOST_PIXELS // width)
+        elif name in ("playing", "moving"):
+            changes[name] = value is True
+        elif name == "layer" and value in LAYERS:
+            changes[name] = value
+        elif name == "max_path_length":
+            changes.setdefault("method", {})[name] = _whole(value, 1, 1024)
+        elif name in ("sampler", "estimator"):
+            kinds: Any = Sampler if name == "sampler" else Estimator
+            changes.setdefault("method", {})[name] = {name_of(each): each for each in kinds}[value]
+        else:
+            raise ValueError(f"{name} = {value!r}: cannot be changed so")
+    return changes
+
+
+def _whole(value: Any, least: int, most: int) -> int:
+    if not isinstance(value, int) or isinstance(value, bool) or not least <= value <= most:
+        raise ValueError(f"{value!r}: must be a whole number from {least} to {most}")
+    return value

@@ -1,0 +1,144 @@
+"""What a view shows: a scene file, particles, or a film."""
+
+from __future__ import annotations
+
+import io
+import json
+import math
+import pathlib
+import re
+import tempfile
+import zipfile
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+from pt._camera import Camera, RenderSettings
+from pt._errors import Error
+from pt._film import Film
+from pt._program import Program
+from pt._scene import Scene
+from pt._scene_file import camera_section
+from pt.figures._accept import load
+from pt.figures._figure import Staged
+from pt.figures._files import write_scene
+from pt.figures._options import Options
+
+
+@dataclass
+class Shown:
+    """settings   size and method
+    display    exposure (a number or "auto"), tonemap and gamma (None: the sRGB curve)
+    files      those that it was read from
+    """
+
+    scene: Scene
+    camera: Camera
+    settings: RenderSettings
+    display: dict[str, Any]
+    files: list[pathlib.Path]
+
+
+class Source(Protocol):
+    path: pathlib.Path
+
+    def read(self) -> Shown:
+        """Reads it, perhaps again. Error, ValueError, OSError: it cannot be read."""
+
+    def explained(self, error: Exception) -> str:
+        """What is wrong, in the words of the file."""
+
+    def saved(self, camera: Camera) -> tuple[str, bytes]:
+        """Name and contents of a file with the scene and another camera."""
+
+
+class SceneSource:
+    """A scene file, which the program pt reads."""
+
+    def __init__(self, path: pathlib.Path) -> None:
+        self.path = path.resolve()
+
+    def read(self) -> Shown:
+        program = Program([str(self.path)])
+        try:
+            read = program.scene()
+        finally:
+            program.close()
+        display = {name: program.facts[name] for name in ("exposure", "tonemap", "gamma")}
+        return Shown(read.scene, read.camera, read.settings, display, [self.path, *map(pathlib.Path, read.files)])
+
+    def explained(self, error: Exception) -> str:
+        """What the library refuses is refused again by the program, which knows the line."""
+        try:
+            if not str(error).startswith(str(self.path)):
+                Program([str(self.path)]).film(0, 1, [0])
+        except Error as refusal:
+            error = refusal
+        return str(error).replace(f"{self.path.parent}/", "")
+
+    def saved(self, camera: Camera) -> tuple[str, bytes]:
+        """The text of the file with another section for the camera."""
+        text = self.path.read_text(encoding="utf-8")
+        comments = r"//[^\n]*|/\*.*?\*/"
+        blank = re.sub(rf'"(?:[^"\\\n]|\\.)*"|{comments}',
+                       lambda found: found[0] if found[0][0] == '"' else " " * len(found[0]), text, flags=re.DOTALL)
+        section = f'"camera": {json.dumps(section_of(camera))}'
+        if found := re.search(r'"camera"\s*:\s*\{[^{}]*\}', blank):
+            return self.path.name, (text[:found.start()] + section + text[found.end():]).encode()
+        begin = blank.index("{") + 1
+        comma = "" if blank[begin:].strip() == "}" else ","
+        return self.path.name, f"{text[:begin]}\n  {section}{comma}{text[begin:]}".encode()
+
+
+class FigureSource:
+    """Particles, as pt figure shows them."""
+
+    def __init__(self, path: pathlib.Path, options: Options) -> None:
+        self.path, self.options = path.resolve(), options
+        self.staged: Staged | None = None
+
+    def read(self) -> Shown:
+        options = self.options
+        self.staged = Staged.of(load(str(self.path), frame=options.frame, **options.reading), options)
+        settings = RenderSettings(*self.staged.layout.size, max_path_length=options.max_path_length, seed=options.seed)
+        exposure = "auto" if options.exposure is None else options.exposure
+        return Shown(self.staged.scene, self.staged.layout.camera, settings,
+                     {"exposure": exposure, "tonemap": "none", "gamma": None}, [self.path])
+
+    def explained(self, error: Exception) -> str:
+        return str(error)
+
+    def saved(self, camera: Camera) -> tuple[str, bytes]:
+        """The scene with its NPY files, in a ZIP."""
+        assert self.staged
+        packed = io.BytesIO()
+        with tempfile.TemporaryDirectory() as folder, zipfile.ZipFile(packed, "w") as archive:
+            write_scene(pathlib.Path(folder, f"{self.path.stem}.json"), self.staged.scene, camera, self.staged.layout.size,
+                        self.options)
+            for file in sorted(pathlib.Path(folder).iterdir()):
+                archive.write(file, file.name)
+        return f"{self.path.stem}.zip", packed.getvalue()
+
+
+def section_of(camera: Camera) -> dict[str, Any]:
+    """The section of a scene file, which the page shows as a line."""
+    shutter = {} if tuple(camera.shutter) == (0.0, 1.0) else {"shutter": list(camera.shutter)}
+    return {**camera_section(camera), **shutter}
+
+
+def camera_of(section: dict[str, Any]) -> Camera:
+    """The camera of a section. ValueError, TypeError, KeyError: it is none."""
+    others = {name: float(section[name]) for name in ("vertical_extent", "aperture", "focus") if name in section}
+    angle = section.get("vertical_fov")
+    first, last = map(float, section.get("shutter", (0.0, 1.0)))
+    camera = Camera(section["position"], section["look_at"], section.get("up", (0.0, 1.0, 0.0)),
+                    vertical_fov=None if angle is None else math.radians(angle), shutter=(first, last), **others)
+    if not all(map(math.isfinite, (*camera.position, *camera.target, *camera.up, angle or 0.0, *others.values(), first, last))):
+        raise ValueError("camera: must be finite")
+    return camera
+
+
+def source_of(path: pathlib.Path, options: Options) -> Source | Film:
+    """By the name: .json is a scene, .ptfilm a film, anything else particles."""
+    if path.suffix == ".ptfilm":
+        return Film.load(path)
+    return SceneSource(path) if path.suffix == ".json" else FigureSource(path, options)

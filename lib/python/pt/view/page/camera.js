@@ -1,0 +1,53 @@
+// How the mouse, fingers and keys move a camera, a section of a scene file. All return another one.
+
+const add = (a, b, scale = 1) => a.map((value, i) => value + scale * b[i]);
+const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+const unit = a => a.map(value => value / Math.hypot(...a));
+
+// Unit vectors to the right, up and forward in the picture.
+function axes(camera) {
+  const forward = unit(add(camera.look_at, camera.position, -1));
+  const right = unit(cross(forward, camera.up));
+  return [right, cross(right, forward), forward];
+}
+
+// The same picture, but with look_at at this depth: that is what the camera turns about. Where a lens has no focus of its
+// own, it keeps what was sharp.
+export function turnsAbout(camera, depth) {
+  const forward = axes(camera)[2];
+  const moved = {...camera, look_at: add(camera.position, forward, depth)};
+  if (camera.aperture && !camera.focus)
+    moved.focus = Math.hypot(...add(camera.look_at, camera.position, -1));
+  return moved;
+}
+
+// By angles: to the right about up, and upwards, short of the poles.
+export function orbit(camera, toRight, upwards) {
+  const up = unit(camera.up);
+  const back = add(camera.position, camera.look_at, -1), distance = Math.hypot(...back);
+  const level = unit(cross(up, back)); // to the right
+  const ahead = cross(level, up); // from the camera's axis, level
+  const height = Math.asin(Math.min(Math.max(dot(back, up) / distance, -1), 1));
+  const limit = Math.PI / 2 - 0.01;
+  const angle = Math.min(Math.max(height + upwards, -limit), limit);
+  const flat = add(ahead.map(value => value * Math.cos(toRight)), level, Math.sin(toRight));
+  const offset = add(flat.map(value => value * Math.cos(angle)), up, Math.sin(angle));
+  return {...camera, position: add(camera.look_at, offset, distance)};
+}
+
+// By shares of the picture's height, at the depth of look_at.
+export function pan(camera, toRight, upwards) {
+  const [right, above] = axes(camera);
+  const distance = Math.hypot(...add(camera.look_at, camera.position, -1));
+  const extent = camera.vertical_extent ?? 2 * distance * Math.tan((camera.vertical_fov ?? 45) * Math.PI / 360);
+  const way = add(right.map(value => value * toRight * extent), above, upwards * extent);
+  return {...camera, position: add(camera.position, way), look_at: add(camera.look_at, way)};
+}
+
+// factor < 1 is nearer.
+export function zoom(camera, factor) {
+  if (camera.vertical_extent)
+    return {...camera, vertical_extent: camera.vertical_extent * factor};
+  return {...camera, position: add(camera.look_at, add(camera.position, camera.look_at, -1), factor)};
+}

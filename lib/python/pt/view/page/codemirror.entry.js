@@ -1,0 +1,26 @@
+// What the page takes of CodeMirror. `npm ci && npm run build` in this folder makes codemirror.js of it.
+import {defaultKeymap, history, historyKeymap, indentWithTab} from "@codemirror/commands";
+import {bracketMatching, indentUnit} from "@codemirror/language";
+import {lintGutter} from "@codemirror/lint";
+import {highlightSelectionMatches, searchKeymap} from "@codemirror/search";
+import {EditorState} from "@codemirror/state";
+import {EditorView, drawSelection, highlightActiveLine, keymap, lineNumbers} from "@codemirror/view";
+
+export {HighlightStyle, StreamLanguage, syntaxHighlighting} from "@codemirror/language";
+export {setDiagnostics} from "@codemirror/lint";
+export {tags} from "@lezer/highlight";
+export {EditorState, EditorView};
+
+const theme = EditorView.theme({
+  "&": {backgroundColor: "#1b1d20", color: "#e4e7ea", fontSize: "13px"},
+  ".cm-scroller": {fontFamily: "ui-monospace, monospace"},
+  ".cm-gutters": {backgroundColor: "#1b1d20", color: "#6b747e", border: "none"},
+  ".cm-activeLine": {backgroundColor: "#ffffff0a"},
+  ".cm-cursor": {borderLeftColor: "#7fc8f8"},
+}, {dark: true});
+
+// What an editor of programs is expected to do. keys come before all others.
+export const basic = keys => [
+  lineNumbers(), lintGutter(), history(), drawSelection(), highlightActiveLine(), bracketMatching(), highlightSelectionMatches(),
+  indentUnit.of("    "), EditorState.tabSize.of(4), theme,
+  keymap.of([...keys, indentWithTab, ...defaultKeymap, ...historyKeymap, ...searchKeymap])];

@@ -1,0 +1,150 @@
+// The editor of kernels and of the scene: CodeMirror, with the colors of GLSL and JSON.
+import {EditorState, EditorView, HighlightStyle, StreamLanguage, basic, setDiagnostics, syntaxHighlighting, tags}
+  from "./codemirror.js";
+
+const $ = id => document.getElementById(id);
+
+const keywords = new Set(("attribute break buffer case const continue default discard do else for if in inout layout out " +
+  "precision restrict return shared struct switch uniform while true false").split(" "));
+const types = /^(void|bool|int|uint|float|double|[biud]?vec[234]|mat[234](x[234])?)$/;
+
+// A word at a time, as GLSL and JSON have them; comments of both may go over lines.
+const language = StreamLanguage.define({
+  startState: () => ({inComment: false}),
+  token(stream, state) {
+    if (state.inComment || stream.match("/*")) {
+      state.inComment = !stream.match(/^.*?\*\//);
+      if (state.inComment)
+        stream.skipToEnd();
+      return "comment";
+    }
+    if (stream.eatSpace())
+      return null;
+    if (stream.match(/^\/\/.*/))
+      return "comment";
+    if (stream.sol() && stream.match(/^#\s*\w+/))
+      return "meta";
+    if (stream.match(/^"(?:[^"\\]|\\.)*"?/))
+      return stream.match(/^\s*:/, false) ? "propertyName" : "string";
+    if (stream.match(/^(?:0[xX][\da-fA-F]+|(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)[uUfF]?/))
+      return "number";
+    const word = stream.match(/^[A-Za-z_]\w*/);
+    if (!word) {
+      stream.next();
+      return null;
+    }
+    if (keywords.has(word[0]))
+      return "keyword";
+    if (types.test(word[0]))
+      return "typeName";
+    if (/^[A-Z][A-Z0-9_]+$/.test(word[0]))
+      return "constant";
+    return stream.match(/^\s*\(/, false) ? "function" : null;
+  },
+  tokenTable: {constant: tags.constant(tags.name), function: tags.function(tags.name)},
+});
+
+const colors = syntaxHighlighting(HighlightStyle.define([
+  {tag: tags.comment, color: "#7d8794", fontStyle: "italic"},
+  {tag: tags.keyword, color: "#c792ea"},
+  {tag: tags.typeName, color: "#7fc8f8"},
+  {tag: tags.number, color: "#f2b279"},
+  {tag: tags.string, color: "#a5d6a7"},
+  {tag: tags.propertyName, color: "#7fc8f8"},
+  {tag: tags.meta, color: "#e58fb1"},
+  {tag: tags.constant(tags.name), color: "#f2d479"},
+  {tag: tags.function(tags.name), color: "#dce6f2"},
+]));
+
+export class Editor {
+  constructor(names, send) {
+    this.names = names;
+    this.send = send;
+    this.faults = [];
+    this.saved = "";
+    this.view = new EditorView({parent: $("text"), state: this.stateOf("")});
+    $("file").replaceChildren(...names.map(name => new Option(name)));
+    $("file").value = names.includes("phong.glsl") ? "phong.glsl" : names[0];
+    $("file").addEventListener("change", () => this.choose($("file").value));
+    $("keep").addEventListener("click", () => this.keep());
+    window.addEventListener("beforeunload", event => {
+      if (this.isEdited())
+        event.preventDefault();
+    });
+    this.choose($("file").value);
+  }
+
+  has(name) {
+    return this.names.includes(name);
+  }
+
+  stateOf(text) {
+    return EditorState.create({doc: text, extensions: [
+      basic([{key: "Mod-s", run: () => this.keep(), preventDefault: true}]), language, colors,
+      EditorView.updateListener.of(update => update.docChanged && this.mark())]});
+  }
+
+  get text() {
+    return this.view.state.doc.toString();
+  }
+
+  isEdited() {
+    return this.text !== this.saved;
+  }
+
+  mark() {
+    $("edited").textContent = this.isEdited() ? "not saved" : "";
+  }
+
+  choose(name, line) {
+    if (this.isEdited() && !confirm(`Leave ${this.name} without saving it?`)) {
+      $("file").value = this.name;
+      return;
+    }
+    this.line = line;
+    $("file").value = name;
+    this.send({open: name});
+  }
+
+  open(name, text) {
+    this.name = name;
+    this.saved = text;
+    this.view.setState(this.stateOf(text));
+    this.mark();
+    this.tell(this.faults);
+    if (this.line)
+      this.show(this.line);
+  }
+
+  keep() {
+    this.saved = this.text;
+    this.send({save: this.name, text: this.text});
+    this.mark();
+    return true;
+  }
+
+  show(line) {
+    const at = this.view.state.doc.line(Math.min(Math.max(line, 1), this.view.state.doc.lines));
+    this.view.dispatch({selection: {anchor: at.from}, effects: EditorView.scrollIntoView(at.from, {y: "center"})});
+    this.line = undefined;
+  }
+
+  // Faults stand at their lines, and all of them below the text.
+  tell(faults) {
+    if (this.told !== JSON.stringify([this.name, faults])) {
+      this.told = JSON.stringify([this.name, faults]);
+      this.faults = faults;
+      const doc = this.view.state.doc;
+      const here = faults.filter(fault => fault.file === this.name && fault.line >= 1 && fault.line <= doc.lines);
+      this.view.dispatch(setDiagnostics(this.view.state, here.map(fault => {
+        const {from, to} = doc.line(fault.line);
+        return {from, to, severity: "error", message: fault.text};
+      })));
+      $("faults").replaceChildren(...faults.filter(fault => this.has(fault.file)).map(fault => {
+        const item = Object.assign(document.createElement("li"), {textContent: `${fault.file}:${fault.line}: ${fault.text}`});
+        item.onclick = () => fault.file === this.name ? this.show(fault.line) : this.choose(fault.file, fault.line);
+        return item;
+      }));
+    }
+  }
+}

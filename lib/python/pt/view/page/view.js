@@ -1,0 +1,346 @@
+// The page: what comes from the socket is shown, what is done here is sent.
+import {orbit, pan, turnsAbout, zoom} from "./camera.js";
+import {automaticExposure, curves, layerBytes, toBytes} from "./tone.js";
+
+const $ = id => document.getElementById(id);
+const samplers = ["best", "random", "halton", "halton-cp", "sobol"];
+const estimators = ["best", "uniform", "cosine", "bsdf", "light", "mis"];
+const layers = ["mean", "standard error", "samples", "depth", "normal", "albedo"];
+
+let socket, editor;
+let state = {};   // as sent with the last frame
+let pixels;       // Float32Array of RGB, of the layer
+let display;      // exposure (a number), automatic, curve, gamma (0: the sRGB curve)
+let camera;       // what is on its way to the server, or there
+let pointer;      // the pixel under it
+let asks = false; // an answer about a pixel is outstanding
+
+function send(message) {
+  if (socket.readyState === WebSocket.OPEN)
+    socket.send(JSON.stringify(message));
+}
+
+// Frames.
+
+function receive(buffer) {
+  const length = new DataView(buffer).getUint32(0, true);
+  const next = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
+  if (buffer.byteLength > 4 + length)
+    pixels = new Float32Array(buffer, 4 + length);
+  const isFirst = display === undefined;
+  state = next;
+  if (isFirst)
+    begin();
+  if (!drag)
+    camera = state.camera;
+  paint();
+  tell();
+  askPixel();
+  requestAnimationFrame(() => send({next: state.frame}));
+}
+
+function paint() {
+  if (!pixels || pixels.length !== 3 * state.width * state.height)
+    return;
+  const isMean = state.layer === "mean";
+  if (display.automatic && isMean && !state.moving)
+    display.exposure = automaticExposure(pixels);
+  const canvas = $("picture");
+  if (canvas.width !== state.width || canvas.height !== state.height)
+    [canvas.width, canvas.height] = [state.width, state.height];
+  canvas.getContext("2d").putImageData(new ImageData(layerBytes(state.layer, pixels, display), state.width), 0, 0);
+  canvas.dataset.frame = state.frame;
+  fit();
+  $("stops").value = `${display.exposure.toFixed(2)} EV`;
+  $("exposure").value = display.exposure;
+}
+
+// Enlarges by whole factors, so that all pixels are equally large.
+function fit() {
+  const stage = $("stage"), canvas = $("picture");
+  const [width, height] = state.size;
+  let factor = Math.min(stage.clientWidth / width, stage.clientHeight / height);
+  factor = factor > 1 ? Math.floor(factor) : factor;
+  canvas.style.width = `${width * factor}px`;
+  canvas.style.height = `${height * factor}px`;
+}
+
+const percent = share => share == null ? "unknown" : `${(100 * share).toPrecision(3)}%`;
+
+function tell() {
+  const isFilm = !state.camera;
+  $("play").textContent = state.playing ? "Stop" : "Go on";
+  $("play").hidden = isFilm;
+  document.body.classList.toggle("film", isFilm);
+  const seconds = state.seconds == null ? "" : `, ${state.seconds.toFixed(1)} s`;
+  $("progress").textContent = `${Math.round(state.samples)} samples${seconds}`;
+  const doubt = state.uncertain?.length ? ", uncertain" : "";
+  $("error").textContent = state.moving ? "" : state.error == null ? "error from 16 samples on"
+    : `error ${percent(state.error)} (${percent(state.low)} to ${percent(state.high)}${doubt})`;
+  $("device").textContent = state.device ?? "";
+  for (const button of $("layers").children)
+    button.setAttribute("aria-pressed", button.textContent === state.layer);
+  for (const name of ["sampler", "estimator", "max_path_length"])
+    show($(name), state[name]);
+  show($("width"), state.size[0]);
+  show($("height"), state.size[1]);
+  if (camera)
+    $("camera").value = line(camera);
+  const atLines = state.faults.filter(fault => editor?.has(fault.file));
+  const loose = atLines.length ? [] : state.faults;
+  const rejected = state.rejected ? `${state.rejected} samples were left out: not finite, negative or too bright` : "";
+  $("note").textContent = [...loose.map(fault => (fault.file ? `${fault.file}:${fault.line}: ` : "") + fault.text), rejected]
+    .filter(Boolean).join("\n");
+  editor?.tell(state.faults);
+  chart();
+}
+
+// Not while it is being typed.
+function show(input, value) {
+  if (document.activeElement !== input)
+    input.value = value;
+}
+
+const rounded = value => Array.isArray(value) ? value.map(rounded) : typeof value === "number" ? +value.toPrecision(9) : value;
+const line = section => `"camera": ${JSON.stringify(Object.fromEntries(Object.entries(section).map(
+  ([name, value]) => [name, rounded(value)])))}`;
+
+// Error against seconds, both logarithmic, with its bounds as a band.
+function chart() {
+  const points = state.history.filter(point => point[0] > 0 && point[1] > 0);
+  const box = {left: 48, right: 252, top: 8, bottom: 100};
+  if (points.length < 2) {
+    $("chart").innerHTML = '<text x="130" y="60" text-anchor="middle">from 16 samples on</text>';
+    return;
+  }
+  const times = points.map(point => Math.log10(point[0]));
+  const errors = points.flatMap(point => [point[1], point[3], Math.max(point[2], point[1] / 8)]).map(Math.log10);
+  const [first, last] = [Math.min(...times), Math.max(...times)];
+  const [least, greatest] = [Math.min(...errors), Math.max(...errors)];
+  const x = time => box.left + (box.right - box.left) * (Math.log10(time) - first) / (last - first || 1);
+  const y = error => box.bottom - (box.bottom - box.top) * (Math.log10(error) - least) / (greatest - least || 1);
+  const path = index => points.map(point => `${x(point[0]).toFixed(1)},${y(Math.max(point[index], 10 ** least)).toFixed(1)}`);
+  const text = (words, left, top, anchor) => `<text x="${left}" y="${top}" text-anchor="${anchor}">${words}</text>`;
+  const time = value => `${(10 ** value).toPrecision(2).replace(/e.*/, "")} s`;
+  $("chart").innerHTML =
+    `<path class="axis" d="M${box.left},${box.top}V${box.bottom}H${box.right}"/>` +
+    `<path class="band" d="M${path(3).join("L")}L${path(2).reverse().join("L")}Z"/>` +
+    `<path class="curve" d="M${path(1).join("L")}"/>` +
+    text(percent(10 ** greatest), box.left - 4, box.top + 6, "end") + text(percent(10 ** least), box.left - 4, box.bottom, "end") +
+    text(time(first), box.left, box.bottom + 14, "start") + text(time(last), box.right, box.bottom + 14, "end");
+}
+
+// Pixels.
+
+function askPixel() {
+  if (pointer && !asks && pixels) {
+    asks = true;
+    send({pixel: [Math.floor(pointer.x * state.width), Math.floor(pointer.y * state.height)]});
+  }
+}
+
+function tellPixel(pixel) {
+  asks = false;
+  if (pixel.radiance === undefined)
+    return;
+  const shown = number => number.toPrecision(5);
+  const [r, g, b] = toBytes(pixel.radiance, display);
+  const layer = ["mean", "standard error", "samples"].includes(state.layer) ? ""
+    : `${state.layer} ${[0, 1, 2].slice(0, state.layer === "depth" ? 1 : 3)
+      .map(i => shown(pixels[3 * (pixel.y * state.width + pixel.x) + i])).join(" ")}`;
+  const parts = [`(${pixel.x}, ${pixel.y})`, `radiance ${pixel.radiance.map(shown).join(" ")}`,
+                 `standard error ${pixel.error ? pixel.error.map(number => number.toPrecision(2)).join(" ") : "unknown"}`,
+                 `sRGB ${r} ${g} ${b}`, `${pixel.samples} samples`, layer];
+  $("pixel").replaceChildren(Object.assign(document.createElement("i"), {style: `background: rgb(${r} ${g} ${b})`}),
+                             ...parts.filter(Boolean).map(text => Object.assign(document.createElement("span"), {textContent: text})));
+  $("pixel").dataset.value = JSON.stringify(pixel);
+}
+
+// The camera.
+
+let drag; // pointers that are down, by their ids
+
+function move(next) {
+  camera = next;
+  send({camera, moving: true});
+  $("camera").value = line(camera);
+}
+
+function pivoted() {
+  return state.pivot ? turnsAbout(camera, state.pivot) : camera;
+}
+
+function watchPointers() {
+  const stage = $("stage"), canvas = $("picture");
+  const down = new Map();
+  const middle = () => [...down.values()].reduce((sum, at) => [sum[0] + at.x / down.size, sum[1] + at.y / down.size], [0, 0]);
+  const spread = () => {
+    const [a, b] = [...down.values()];
+    return b ? Math.hypot(a.x - b.x, a.y - b.y) : 0;
+  };
+  stage.addEventListener("pointerdown", event => {
+    if (!camera)
+      return;
+    stage.setPointerCapture(event.pointerId);
+    if (!down.size)
+      camera = pivoted();
+    down.set(event.pointerId, {x: event.clientX, y: event.clientY});
+    drag = down;
+  });
+  stage.addEventListener("pointermove", event => {
+    const box = canvas.getBoundingClientRect();
+    const [x, y] = [(event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height];
+    pointer = x >= 0 && x < 1 && y >= 0 && y < 1 ? {x, y} : undefined;
+    askPixel();
+    if (!down.has(event.pointerId))
+      return;
+    const [before, apart] = [middle(), spread()];
+    down.set(event.pointerId, {x: event.clientX, y: event.clientY});
+    const after = middle();
+    const [right, below] = [(after[0] - before[0]) / box.height, (after[1] - before[1]) / box.height];
+    const pans = event.shiftKey || event.buttons & 6 || down.size > 1;
+    let next = pans ? pan(camera, -right, below) : orbit(camera, -Math.PI * right, Math.PI * below);
+    if (apart)
+      next = zoom(next, apart / Math.max(spread(), 1));
+    move(next);
+  });
+  for (const name of ["pointerup", "pointercancel"])
+    stage.addEventListener(name, event => {
+      down.delete(event.pointerId);
+      if (!down.size)
+        drag = undefined;
+    });
+  stage.addEventListener("pointerleave", () => pointer = undefined);
+  stage.addEventListener("contextmenu", event => event.preventDefault());
+  stage.addEventListener("wheel", event => {
+    event.preventDefault();
+    if (camera)
+      move(zoom(pivoted(), 2 ** (Math.sign(event.deltaY) * Math.min(Math.abs(event.deltaY), 100) / 400)));
+  }, {passive: false});
+}
+
+function watchKeys() {
+  const step = 0.05;
+  const moves = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};
+  document.addEventListener("keydown", event => {
+    if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest("input, select, #editor"))
+      return;
+    const way = moves[event.key];
+    if (event.key === " " && event.target.tagName !== "BUTTON")
+      play();
+    else if (!camera)
+      return;
+    else if (way)
+      move(event.shiftKey ? pan(pivoted(), step * way[0], step * way[1]) : orbit(pivoted(), 2 * step * way[0], 2 * step * way[1]));
+    else if (event.key === "+" || event.key === "=" || event.key === "-")
+      move(zoom(pivoted(), event.key === "-" ? 1.1 : 1 / 1.1));
+    else if (event.key === "0")
+      back();
+    else
+      return;
+    event.preventDefault();
+  });
+}
+
+const play = () => send({playing: !state.playing});
+const back = () => move(state.first_camera);
+
+// What is chosen once the first frame tells what there is.
+function begin() {
+  document.title = $("name").textContent = state.name;
+  const {exposure, tonemap, gamma} = state.display;
+  display = {exposure: exposure === "auto" ? 0 : exposure, automatic: exposure === "auto", curve: tonemap, gamma: gamma ?? 0};
+  fill($("curve"), Object.keys(curves), display.curve);
+  fill($("sampler"), samplers);
+  fill($("estimator"), estimators);
+  $("gamma").value = gamma ?? "";
+  $("automatic").checked = display.automatic;
+  for (const layer of state.camera ? layers : layers.slice(0, 3))
+    choice($("layers"), layer, () => send({layer}));
+  const [width, height] = state.size;
+  for (const part of [1, 2, 4, 8, 16])
+    choice($("sizes"), part === 1 ? "full" : `1/${part}`,
+           () => send({size: [Math.max(Math.floor(width / part), 1), Math.max(Math.floor(height / part), 1)]}));
+  const redisplay = () => {
+    display.automatic = $("automatic").checked;
+    display.curve = $("curve").value;
+    display.gamma = +$("gamma").value >= 0.1 ? +$("gamma").value : 0;
+    paint();
+    askPixel();
+  };
+  for (const name of ["curve", "gamma", "automatic"])
+    $(name).addEventListener("input", redisplay);
+  $("exposure").addEventListener("input", () => {
+    $("automatic").checked = false;
+    display.exposure = +$("exposure").value;
+    redisplay();
+  });
+  for (const name of ["sampler", "estimator"])
+    $(name).addEventListener("input", () => send({[name]: $(name).value}));
+  $("max_path_length").addEventListener("change", () => send({max_path_length: +$("max_path_length").value}));
+  for (const name of ["width", "height"])
+    $(name).addEventListener("change", () => send({size: [+$("width").value, +$("height").value]}));
+  $("play").addEventListener("click", play);
+  $("back").addEventListener("click", back);
+  $("copy").addEventListener("click", () => {
+    $("camera").select();
+    document.execCommand("copy"); // the other way needs a secure context
+  });
+  $("png").addEventListener("click", () => $("picture").toBlob(blob => {
+    const link = Object.assign(document.createElement("a"), {href: URL.createObjectURL(blob), download: "picture.png"});
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+  }));
+  new ResizeObserver(fit).observe($("stage"));
+  watchPointers();
+  watchKeys();
+}
+
+function fill(select, names, chosen) {
+  select.replaceChildren(...names.map(name => new Option(name, name, false, name === chosen)));
+}
+
+function choice(parent, text, act) {
+  const button = Object.assign(document.createElement("button"), {textContent: text, onclick: act});
+  parent.append(button);
+}
+
+// Files.
+
+async function edit(names) {
+  if (!names.length || editor)
+    return;
+  const {Editor} = await import("./editor.js");
+  $("editor").hidden = false;
+  editor = new Editor(names, send);
+  editor.tell(state.faults ?? []);
+}
+
+function connect() {
+  socket = new WebSocket(new URL("socket", location.href).href.replace(/^http/, "ws"));
+  socket.binaryType = "arraybuffer";
+  socket.onopen = () => {
+    asks = false;
+    send({list: true});
+    send({next: 0});
+  };
+  socket.onmessage = event => {
+    if (typeof event.data !== "string")
+      return receive(event.data);
+    const {pixel, files, opened, text, refused} = JSON.parse(event.data);
+    if (pixel)
+      tellPixel(pixel);
+    else if (files)
+      edit(files);
+    else if (opened)
+      editor.open(opened, text);
+    else if (refused)
+      $("note").textContent = refused;
+  };
+  socket.onclose = () => {
+    $("progress").textContent = "pt view has ended, or cannot be reached";
+    setTimeout(connect, 2000);
+  };
+}
+
+connect();

@@ -1,0 +1,368 @@
+"""The server of pt view, without a browser: who may speak to it, and what it answers. Arguments: the program pt, and whether
+kernels can be compiled while a program runs (0 or 1)."""
+
+import asyncio
+import http.client
+import json
+import os
+import pathlib
+import shutil
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+from unittest import mock
+
+import numpy as np
+import pt
+from pictures import CAMERA, SCENE, SCENE_FILE, settings
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from exr import read_exr_channels  # noqa: E402
+
+PROGRAM, HAS_COMPILER = sys.argv.pop(1), sys.argv.pop(1) == "1"
+SHADERS = pathlib.Path(__file__).resolve().parents[2] / "shaders"
+os.environ["PT_PROGRAM"] = PROGRAM
+
+import aiohttp  # noqa: E402
+from pt.view import View, _server  # noqa: E402
+from pt.view._frame import faults_of  # noqa: E402
+
+
+def text_of(scene):
+    return json.dumps(scene, indent=1)
+
+
+class Page:
+    """What a page does, one step at a time."""
+
+    def __init__(self, view):
+        self.address, self.loop, self.state, self.pixels = view.address, asyncio.new_event_loop(), {}, None
+
+    def __enter__(self):
+        self.session = self.run(self._session())
+        self.socket = self.run(self.session.ws_connect(self.address + "socket", max_msg_size=0))
+        return self
+
+    def __exit__(self, *_):
+        self.run(self.socket.close())
+        self.run(self.session.close())
+        self.loop.close()
+
+    async def _session(self):
+        return aiohttp.ClientSession()
+
+    def run(self, coroutine):
+        return self.loop.run_until_complete(asyncio.wait_for(coroutine, 60))
+
+    def send(self, message):
+        self.run(self.socket.send_str(message if isinstance(message, str) else json.dumps(message)))
+
+    def ask(self, message):
+        """The next answer that is no frame."""
+        self.send(message)
+        while True:
+            answer = self.run(self.socket.receive())
+            if answer.type == aiohttp.WSMsgType.TEXT:
+                return json.loads(answer.data)
+            self.take(answer.data)
+
+    def take(self, data):
+        length, = struct.unpack("<I", data[:4])
+        self.state = json.loads(data[4:4 + length])
+        if len(data) > 4 + length:
+            self.pixels = np.frombuffer(data, np.float32, offset=4 + length).reshape(self.state["height"], self.state["width"], 3)
+
+    def frame(self, holds=lambda state: True):
+        """The first frame from now on whose state is like that."""
+        while True:
+            self.send({"next": 0})
+            self.take(self.run(self.socket.receive()).data)
+            if holds(self.state):
+                return self.state
+
+    def get(self, name):
+        async def body():
+            async with self.session.get(self.address + name) as answer:
+                return answer.status, dict(answer.headers), await answer.read()
+        return self.run(body())
+
+
+class Views(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = pathlib.Path(folder.name)
+        cls.scene = cls.folder / "a scene.json"
+        cls.scene.write_text(text_of(SCENE_FILE))
+        cls.view = View(cls.scene, samples=64)
+        cls.addClassCleanup(cls.view.close)
+        cls.host, cls.token = cls.view.address.split("/")[2:4]
+
+    def request(self, path, method="GET", **headers):
+        connection = http.client.HTTPConnection(self.host)
+        connection.putrequest(method, path, skip_host="Host" in headers)
+        for name, value in headers.items():
+            connection.putheader(name.replace("_", "-"), value)
+        connection.endheaders()
+        answer = connection.getresponse()
+        answer.read()
+        connection.close()
+        return answer.status, answer.headers
+
+    def test_only_who_knows_the_token_from_here(self):
+        good = f"/{self.token}/"
+        status, headers = self.request(good)
+        self.assertEqual((status, headers["X-Content-Type-Options"]), (200, "nosniff"))
+        self.assertIn("default-src 'self'", headers["Content-Security-Policy"])
+        for name in ("view.js", "tone.js", "view.css", "codemirror.js"):
+            self.assertEqual(self.request(good + name)[0], 200)
+        port = self.host.partition(":")[2]
+        for host in (f"localhost:{port}", "127.0.0.1:9", "localhost", "[::1]:80"):  # a tunnel's end has another port
+            self.assertEqual(self.request(good, Host=host)[0], 200, host)
+            self.assertEqual(self.request(good, Host=host, Origin=f"http://{host}")[0], 200, host)
+        for host in ("example.org", f"127.0.0.1.example.org:{port}", f"example.org:{port}", "", "127.0.0.1:1:2", "127.0.0.2"):
+            self.assertEqual(self.request(good, Host=host)[0], 403, host)
+        for origin in ("http://example.org", "null", f"https://{self.host}", "http://127.0.0.1:9", f"http://{self.host}.example.org"):
+            self.assertEqual(self.request(good, Origin=origin)[0], 403, origin)
+        for token in ("", "x", self.token[:-1], self.token + "x", self.token.swapcase(), "%00"):
+            for name in ("", "socket", "view.js", "picture.exr", "scene"):
+                self.assertIn(self.request(f"/{token}/{name}")[0], (403, 404), (token, name))
+        for path in ("/", "*", f"/{self.token}", f"//{self.token}/"):
+            self.assertGreaterEqual(self.request(path)[0], 400, path)
+        for method in ("POST", "PUT", "DELETE", "OPTIONS"):
+            self.assertIn(self.request(good, method)[0], (403, 405))
+
+    def test_no_path_leads_to_a_file(self):
+        for name in ("../__init__.py", "..%2f__init__.py", "%2e%2e/__init__.py", "/etc/passwd", "%2fetc%2fpasswd", "a%20scene.json",
+                     "package.json", ".", "..", "view.js/", "view.js%00", "...", "x" * 3000):
+            self.assertIn(self.request(f"/{self.token}/{name}")[0], (403, 404), name)
+        with Page(self.view) as page:
+            self.assertEqual(page.ask({"list": True}), {"files": []})  # nothing is to be edited
+            for name in (str(self.scene), "a scene.json", "../x", None, 7, ["a"]):
+                self.assertIn("refused", page.ask({"open": name}))
+                self.assertIn("refused", page.ask({"save": name, "text": "x"}))
+        self.assertEqual(self.scene.read_text(), text_of(SCENE_FILE))
+
+    def test_a_socket_needs_them_too(self):
+        upgrade = {"Connection": "Upgrade", "Upgrade": "websocket", "Sec_WebSocket_Version": "13",
+                   "Sec_WebSocket_Key": "AAAAAAAAAAAAAAAAAAAAAA=="}
+        path = f"/{self.token}/socket"
+        self.assertEqual(self.request("/x/socket", **upgrade)[0], 403)
+        self.assertEqual(self.request(path, Origin="http://example.org", **upgrade)[0], 403)
+        self.assertEqual(self.request(path, Host="example.org", **upgrade)[0], 403)
+
+    def test_nonsense_is_refused_and_leaves_the_rest_alone(self):
+        camera = {"position": [0, 1, 5], "look_at": [0, 1, 0]}
+        nonsense = ("", "{", "[]", "7", "null", "[" * 5000, {"x": 1}, {"size": [0, 5]}, {"size": [1e9, 1]}, {"size": [2**13, 2**13]},
+                    {"size": "ab"}, {"layer": "x"}, {"layer": []}, {"max_path_length": 0}, {"max_path_length": True},
+                    {"sampler": "x"}, {"estimator": ["mis"]}, {"camera": 1}, {"camera": {}}, {"pixel": [1]}, {"pixel": [-1, 0]},
+                    {"pixel": [0.5, 0]}, {"camera": {**camera, "position": [0, 1]}}, {"camera": {**camera, "vertical_extent": 0}},
+                    '{"camera": {"position": [NaN, 0, 0], "look_at": [0, 0, 0]}}',
+                    {"camera": {**camera, "position": [10**400, 0, 0]}})
+        with Page(self.view) as page:
+            for message in nonsense:
+                self.assertIn("refused", page.ask(message), message)
+            self.assertEqual(page.ask({"pixel": [5000, 0]}), {"pixel": {}})
+            before = page.frame()
+            page.send({"camera": {**camera, "position": [0, 1, 0]}})  # the library's rule
+            self.assertIn("position", page.frame(lambda state: state["faults"])["faults"][0]["text"])
+            page.send({"camera": before["first_camera"]})
+            page.frame(lambda state: not state["faults"] and state["samples"])
+
+    def test_giant_messages_end_their_socket_alone(self):
+        with Page(self.view) as page, Page(self.view) as other:
+            page.send('{"save": "' + "x" * _server.MOST_BYTES + '"}')
+            for _ in range(100):
+                answer = page.run(page.socket.receive())
+                if answer.type == aiohttp.WSMsgType.CLOSE:
+                    break
+            self.assertEqual(answer.data, aiohttp.WSCloseCode.MESSAGE_TOO_BIG)
+            self.assertTrue(other.frame())
+
+    def test_a_thousand_sockets(self):
+        async def connect(session, kept):
+            try:
+                kept.append(await session.ws_connect(self.view.address + "socket"))
+            except aiohttp.WSServerHandshakeError as error:
+                return error.status
+            return 101
+
+        async def all_of_them():
+            kept = []
+            async with aiohttp.ClientSession(connector=aiohttp.TCPConnector(limit=40)) as session:
+                answers = await asyncio.gather(*(connect(session, kept) for _ in range(1000)))
+                for each in kept:
+                    await each.close()
+            return answers
+
+        answers = asyncio.run(all_of_them())
+        self.assertEqual({101: answers.count(101), 503: answers.count(503)}, {101: 16, 503: 984})
+        with Page(self.view) as page:
+            self.assertTrue(page.frame())
+
+    def test_frames_are_what_a_context_reads(self):
+        with Page(self.view) as page:
+            page.send({"playing": True, "camera": page.frame()["first_camera"]})
+            state = page.frame(lambda state: state["samples"] == 64)
+            with pt.Context() as context:
+                image = context.render(SCENE, CAMERA, settings(), 64)
+                for name, quantity in (("mean", "RADIANCE"), ("standard error", "STANDARD_ERROR"), ("samples", "SAMPLE_COUNT"),
+                                       ("depth", "DEPTH"), ("normal", "NORMAL"), ("albedo", "ALBEDO")):
+                    page.send({"layer": name})
+                    page.frame(lambda state: state["layer"] == name)
+                    np.testing.assert_array_equal(page.pixels, context.readback(pt.Quantity[quantity]), name)
+            page.send({"layer": "mean"})
+            self.assertEqual((state["error"], state["low"], state["high"]), (image.error, *image.error_bounds))
+            status, _, data = page.get("picture.exr")
+            (self.folder / "x.exr").write_bytes(data)
+            channels = read_exr_channels(self.folder / "x.exr")
+            np.testing.assert_array_equal(np.stack([channels[name] for name in "RGB"], axis=2).astype(np.float32), image.radiance)
+            pixel = page.ask({"pixel": [5, 7]})["pixel"]
+            self.assertEqual(pixel, {"x": 5, "y": 7, "radiance": image.radiance[7, 5].tolist(), "samples": 64,
+                                     "error": image.standard_error[7, 5].tolist()})
+            self.assertNotEqual(pixel["radiance"], image.radiance[5, 7].tolist())
+
+    def test_what_the_page_changes(self):
+        with Page(self.view) as page:
+            page.send({"size": [12, 9], "max_path_length": 2, "sampler": "halton-cp", "estimator": "light",
+                       "camera": {"position": [1, 1.5, 4], "look_at": [0, 1, 0], "vertical_fov": 60}})
+            page.frame(lambda state: state["samples"] == 64 and state["size"] == [12, 9])
+            camera = pt.Camera((1, 1.5, 4), (0, 1, 0), vertical_fov=np.radians(60))
+            with pt.Context() as context:
+                image = context.render(SCENE, camera, settings(width=12, height=9, max_path_length=2, sampler=pt.Sampler.HALTON_CP,
+                                                               estimator=pt.Estimator.LIGHT), 64)
+            np.testing.assert_array_equal(page.pixels, image.radiance)
+            status, headers, data = page.get("scene")
+            self.assertEqual(headers["Content-Disposition"], "attachment; filename*=UTF-8''a%20scene.json")
+            saved = json.loads(data)
+            self.assertEqual((saved["camera"]["position"], saved["spheres"]), ([1, 1.5, 4], SCENE_FILE["spheres"]))
+            page.send({"size": [24, 16], "max_path_length": 6, "sampler": "best", "estimator": "best",
+                       "camera": page.state["first_camera"]})
+            page.frame(lambda state: state["size"] == [24, 16])
+
+    def test_stops_and_rests(self):
+        with mock.patch.object(_server, "IDLE_SECONDS", 0.0):
+            view = View(self.scene)
+            try:
+                with Page(view) as page:
+                    page.frame(lambda state: state["samples"] > 1)
+                    page.send({"playing": False})
+                    stopped = page.frame(lambda state: not state["playing"])
+                    self.assertEqual(page.ask({"pixel": [0, 0]})["pixel"]["samples"], stopped["samples"])
+                    page.send({"playing": True})
+                    page.frame(lambda state: state["samples"] > stopped["samples"])
+                    with Page(view) as other:  # a second browser sees the same
+                        self.assertEqual(other.frame(lambda state: state["samples"])["size"], [24, 16])
+                renderer = view._show
+                while renderer._is_watched:  # until the server knows that all have gone
+                    pass
+                renderer._thread.join(0.3)  # the submission that was under way
+                count = renderer._count
+                renderer._thread.join(0.3)
+                self.assertEqual(renderer._count, count)
+            finally:
+                view.close()
+
+    def test_a_film(self):
+        with pt.Context() as context:
+            context.render(SCENE, CAMERA, settings(), 16)
+            film = context.film()
+        film.save(self.folder / "x.ptfilm")
+        view = View(self.folder / "x.ptfilm")
+        try:
+            with Page(view) as page:
+                self.assertEqual((page.frame()["samples"], page.state.get("camera")), (16, None))
+                np.testing.assert_array_equal(page.pixels, film.readback())
+                page.send({"layer": "standard error"})
+                page.frame()
+                np.testing.assert_array_equal(page.pixels, film.readback(pt.Quantity.STANDARD_ERROR))
+                self.assertEqual(page.get("scene")[0], 404)
+        finally:
+            view.close()
+
+    def test_faults_have_lines(self):
+        self.assertEqual(faults_of("pathtrace.comp does not compile:\nERROR: /a/b.glsl:7: 'x' : undeclared"),
+                         [{"file": None, "line": 0, "text": "pathtrace.comp does not compile:"},
+                          {"file": "b.glsl", "line": 7, "text": "'x' : undeclared"}])
+
+
+@unittest.skipUnless(HAS_COMPILER, "kernels cannot be compiled here")
+class Edits(unittest.TestCase):
+    def test_an_error_and_its_mend(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name, "kernels")
+            shutil.copytree(SHADERS, folder)
+            (folder / "outside.glsl").symlink_to(SHADERS / "film.glsl")
+            scene = pathlib.Path(name, "s.json")
+            scene.write_text(text_of(SCENE_FILE))
+            view = View(scene, samples=16, shader_dir=folder)
+            try:
+                with Page(view) as page:
+                    self.edit_kernel(page, folder)
+                    self.edit_scene(page, scene)
+            finally:
+                view.close()
+
+    def edit_kernel(self, page, folder):
+        files = page.ask({"list": True})["files"]
+        self.assertEqual(files[0], "s.json")
+        self.assertIn("pathtrace.comp", files)
+        self.assertNotIn("outside.glsl", files)
+        page.frame(lambda state: state["samples"] == 16)
+        before = page.pixels
+        text = page.ask({"open": "path.glsl"})["text"]
+        self.assertEqual(text, (folder / "path.glsl").read_text())
+        sought = "radiance = emitted_by(hit.surface);"
+        line = text[:text.index(sought)].count("\n") + 1
+        page.send({"save": "path.glsl", "text": text.replace(sought, "radiance = emited_by(hit.surface);")})
+        faults = page.frame(lambda state: state["faults"])["faults"]
+        self.assertIn(("path.glsl", line), [(fault["file"], fault["line"]) for fault in faults])
+        np.testing.assert_array_equal(page.pixels, before)
+        page.send({"save": "path.glsl", "text": text.replace(sought, "radiance = vec3(1.0) + emitted_by(hit.surface);")})
+        page.frame(lambda state: not state["faults"] and state["samples"] == 16)
+        more = page.pixels - before  # 1 where a surface is, and roundings
+        self.assertTrue(np.isclose(more, 1.0, atol=1e-5).any() and (more > -1e-5).all() and (more < 1.00001).all())
+        page.send({"save": "path.glsl", "text": text})
+        page.frame(lambda state: state["samples"] == 16 and np.array_equal(page.pixels, before))
+
+    def edit_scene(self, page, scene):
+        before = page.pixels
+        negative = text_of(SCENE_FILE).replace('"radius": 1', '"radius": -1', 1)
+        for spoilt, line, words in (("\n\n{\"sphere\": []}", 3, "sphere"), ("{\n\"spheres\": [,]}", 2, ""),
+                                    (negative, negative[:negative.index('"radius": -1')].count("\n") + 1, "must be > 0")):
+            page.send({"save": "s.json", "text": spoilt})
+            fault, = page.frame(lambda state: [fault["line"] for fault in state["faults"]] == [line])["faults"]
+            self.assertEqual(fault["file"], "s.json")
+            self.assertIn(words, fault["text"])
+            np.testing.assert_array_equal(page.pixels, before)
+        lamps = {**SCENE_FILE["materials"], "lamp": {"emission": [8, 6, 4]}}
+        page.send({"save": "s.json", "text": text_of({**SCENE_FILE, "materials": lamps})})
+        page.frame(lambda state: not state["faults"] and state["samples"] == 16)
+        np.testing.assert_array_equal(page.pixels, 2 * before)  # a power of two is exact
+
+
+class Command(unittest.TestCase):
+    def command(self, *arguments):
+        return [sys.executable, "-m", "pt.view._command", *map(str, arguments)]
+
+    def test_it_prints_its_address_and_ends(self):
+        with tempfile.TemporaryDirectory() as name:
+            scene = pathlib.Path(name, "s.json")
+            scene.write_text(text_of(SCENE_FILE))
+            with subprocess.Popen(self.command(scene, "--no-browser"), stdout=subprocess.PIPE, text=True) as process:
+                self.assertRegex(process.stdout.readline(), r"^http://127\.0\.0\.1:\d+/[\w-]{20,}/\n$")
+                process.send_signal(signal.SIGTERM)
+                self.assertEqual(process.wait(30), 0)
+            scene.write_text(text_of({**SCENE_FILE, "lights": []}))
+            done = subprocess.run(self.command(scene, "--no-browser"), capture_output=True, text=True)
+            self.assertEqual(done.returncode, 3)
+            self.assertIn("lights", done.stderr)
+        self.assertEqual(subprocess.run(self.command("absent.json"), capture_output=True).returncode, 6)
+
+
+if __name__ == "__main__":
+    unittest.main()
