@@ -8,10 +8,11 @@ import pathlib
 import shutil
 import signal
 import sys
+import tempfile
 import threading
 import webbrowser
 from dataclasses import fields
-from typing import NoReturn
+from typing import IO, NoReturn
 
 from pt._command_line import CODE_OF_RESULT, FILES, INTERNAL, SCENE, USAGE, at_least
 from pt._errors import Error
@@ -73,6 +74,21 @@ def shader_dir(given: argparse.Namespace) -> pathlib.Path | None:
     return folder
 
 
+def user_cache() -> pathlib.Path:
+    return pathlib.Path(os.environ.get("XDG_CACHE_HOME") or pathlib.Path.home() / ".cache", "pt")
+
+
+def open_browser(address: str) -> IO[str]:
+    """By way of a file that only the user can read, since all users see the arguments of a process. It has to stay for a
+    while."""
+    user_cache().mkdir(parents=True, exist_ok=True)
+    file = tempfile.NamedTemporaryFile("w", suffix=".html", dir=user_cache())
+    file.write(f'<meta http-equiv="refresh" content="0; url={address}">')
+    file.flush()
+    webbrowser.open(pathlib.Path(file.name).as_uri())
+    return file
+
+
 def widen_vectors() -> None:
     """As cli/base/environment.cpp does, and tells why: the same bits and as fast as the program."""
     try:
@@ -81,8 +97,7 @@ def widen_vectors() -> None:
         return
     if VECTOR_BITS not in os.environ and all(f"avx512{name}" in flags for name in ("f", "bw", "dq", "vl")):
         os.environ[VECTOR_BITS] = "512"
-        own = pathlib.Path(os.environ.get("XDG_CACHE_HOME") or pathlib.Path.home() / ".cache", "pt")
-        cache = pathlib.Path(os.environ.get("MESA_SHADER_CACHE_DIR") or own, "shaders-512")
+        cache = pathlib.Path(os.environ.get("MESA_SHADER_CACHE_DIR") or user_cache(), "shaders-512")
         try:
             cache.mkdir(parents=True, exist_ok=True)
             os.environ["MESA_SHADER_CACHE_DIR"] = str(cache)
@@ -113,13 +128,14 @@ def main() -> None:
     except (ValueError, TypeError) as error:
         refuse(str(error), SCENE)
     print(view.address, flush=True)
-    if not given.no_browser:
-        webbrowser.open(view.address)
+    way = None if given.no_browser else open_browser(view.address)
     ended = threading.Event()
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: ended.set())
     ended.wait()
     view.close()
+    if way:
+        way.close()
 
 
 if __name__ == "__main__":

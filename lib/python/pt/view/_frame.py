@@ -48,9 +48,9 @@ class Frame:
 
 
 def facts_of(estimate: ErrorEstimate) -> dict[str, Any]:
-    known = math.isfinite(estimate.relative_rmse)
-    return {"error": estimate.relative_rmse if known else None, "low": estimate.relative_rmse_low if known else None,
-            "high": estimate.relative_rmse_high if known else None,
+    """JSON has no infinity: what is not known is null."""
+    numbers = {"error": estimate.relative_rmse, "low": estimate.relative_rmse_low, "high": estimate.relative_rmse_high}
+    return {**{name: number if math.isfinite(number) else None for name, number in numbers.items()},
             "uncertain": [name_of(flag) for flag in Uncertain if flag in estimate.uncertain]}
 
 

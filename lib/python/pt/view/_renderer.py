@@ -21,7 +21,7 @@ from pt.view._source import Shown, Source, section_of
 
 MOVING_SECONDS: Final = 0.03  # for a sample of each pixel, while the camera moves
 STILL_SECONDS: Final = 0.25  # after which the camera no longer does
-PUBLISHED_SHARE: Final = 0.04  # of the time
+PUBLISHED_SHARE: Final = 0.03  # of the time
 LOOK_SECONDS: Final = 0.5  # from one look at the files to the next
 SHADERS: Final = (".comp", ".glsl", ".h")
 

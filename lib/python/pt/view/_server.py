@@ -88,7 +88,7 @@ class Server:
                                 web.get("/{token}/{name}", self._page)])
         runner = web.AppRunner(application, access_log=None)
         self._loop.run_until_complete(runner.setup())
-        self._loop.run_until_complete(web.SockSite(runner, self._socket, shutdown_timeout=0.1).start())
+        self._loop.run_until_complete(web.SockSite(runner, self._socket).start())
         self._loop.run_forever()
         for each in tuple(self._sockets):
             self._loop.run_until_complete(each.close(code=1001))

@@ -64,7 +64,8 @@ export class Editor {
     this.saved = "";
     this.view = new EditorView({parent: $("text"), state: this.stateOf("")});
     $("file").replaceChildren(...names.map(name => new Option(name)));
-    $("file").value = names.includes("phong.glsl") ? "phong.glsl" : names[0];
+    const last = decodeURIComponent(location.hash.slice(1)); // before the page was loaded again
+    $("file").value = [last, "phong.glsl", names[0]].find(name => this.has(name));
     $("file").addEventListener("change", () => this.choose($("file").value));
     $("keep").addEventListener("click", () => this.keep());
     window.addEventListener("beforeunload", event => {
@@ -108,6 +109,7 @@ export class Editor {
 
   open(name, text) {
     this.name = name;
+    history.replaceState(null, "", `#${encodeURIComponent(name)}`);
     this.saved = text;
     this.view.setState(this.stateOf(text));
     this.mark();

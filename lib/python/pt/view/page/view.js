@@ -31,7 +31,7 @@ function receive(buffer) {
   state = next;
   if (isFirst)
     begin();
-  if (!drag)
+  if (!drag && performance.now() > settled)
     camera = state.camera;
   paint();
   tell();
@@ -158,16 +158,19 @@ function tellPixel(pixel) {
 
 // The camera.
 
-let drag; // pointers that are down, by their ids
+let drag;        // pointers that are down, by their ids
+let settled = 0; // when the server's camera counts again: frames of cameras before the last move may be on their way
 
 function move(next) {
   camera = next;
+  settled = performance.now() + 300;
   send({camera, moving: true});
   $("camera").value = line(camera);
 }
 
+// About what is in the middle. While the camera moves that stays where it was.
 function pivoted() {
-  return state.pivot ? turnsAbout(camera, state.pivot) : camera;
+  return state.pivot && camera === state.camera && !state.moving ? turnsAbout(camera, state.pivot) : camera;
 }
 
 function watchPointers() {
