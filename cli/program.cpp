@@ -1,0 +1,106 @@
+// The choice of the command; see program.h.
+#include "cli/program.h"
+
+#include "cli/base/devices.h"
+#include "cli/base/exit_code.h"
+#include "cli/base/text.h"
+#include "cli/commands.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <unistd.h>
+#include <vector>
+
+namespace cli {
+
+namespace {
+
+// The path of a program in the first absolute folder of PATH that has it; empty if there is none. Empty and relative
+// entries are skipped, so that nothing in the current folder is run.
+std::string find_program(const std::string &file) {
+    const char *variable = std::getenv("PATH");
+    std::istringstream folders(variable == nullptr ? "" : variable);
+    for (std::string folder; std::getline(folders, folder, ':');) {
+        const std::filesystem::path path = std::filesystem::path(folder) / file;
+        std::error_code ignored;
+        if (path.is_absolute() && std::filesystem::is_regular_file(path, ignored) && access(path.c_str(), X_OK) == 0)
+            return path;
+    }
+    return {};
+}
+
+// Replaces this process by `pt-NAME`. arguments begins with NAME and ends with a null pointer. Returns only if there is
+// no such program.
+void run_other_program(std::string_view name, char *const *arguments) {
+    std::string program = find_program("pt-" + std::string(name));
+    if (program.empty())
+        return;
+    std::vector<char *> passed{program.data()};
+    do
+        passed.push_back(*++arguments);
+    while (passed.back() != nullptr);
+    execv(program.c_str(), passed.data());
+    throw Failure(ExitCode::file, program + ": cannot be run: " + std::strerror(errno));
+}
+
+// Whether a word may follow `pt-` in the name of a program: files and paths may not.
+bool may_name_program(std::string_view name) {
+    constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_";
+    return !name.empty() && name.front() != '-' && name.find_first_not_of(letters) == std::string_view::npos;
+}
+
+// The argument of pip install that installs the program of that name; empty for programs that do not belong to this
+// project.
+std::string_view package_of(std::string_view name) {
+    return name == "figure"    ? "'./lib/python[figure]'"
+           : name == "tachyon" ? "./lib/python"
+           : name == "farm"    ? "'./lib/python[farm]'"
+           : name == "view"    ? "'./lib/python[figure,view]'"
+                               : "";
+}
+
+} // namespace
+
+int run_program(int argument_count, char **arguments) {
+    CLI::App program("An offscreen path tracer for spheres and planes on any Vulkan device", "pt");
+    Run chosen;
+    program.require_subcommand(0, 1);
+    program.formatter(help_formatter());
+    program.footer("pt NAME runs the program pt-NAME, where NAME is none of these commands: figure, farm and tachyon\n"
+                   "come with the Python package.\n\n" +
+                   std::string(exit_code_help));
+    program.set_version_flag("--version", "pt " + version_text(), "Print the version and exit");
+    program.set_help_flag("-h,--help", "Print this help and exit");
+    for (const auto add : {add_render_command, add_tonemap_command, add_compare_command, add_merge_command,
+                           add_denoise_command, add_selftest_command, add_schema_command, add_devices_command})
+        add(program, chosen);
+
+    const std::string name = argument_count > 1 ? arguments[1] : "";
+    const std::vector<std::string> own = command_names(program);
+    if (may_name_program(name) && std::ranges::find(own, name) == own.end()) {
+        run_other_program(name, arguments + 1);
+        if (const std::string_view package = package_of(name); !package.empty())
+            throw Failure(ExitCode::usage, concat("there is no pt-", name,
+                                                  " in the PATH, which comes with the Python package: "
+                                                  "pip install ",
+                                                  package));
+    }
+    try {
+        program.parse(argument_count, arguments);
+    } catch (const CLI::ParseError &error) {
+        if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success))
+            return program.exit(error); // --help and --version
+        throw Failure(ExitCode::usage, usage_reason(program, error));
+    }
+    if (!chosen)
+        throw Failure(ExitCode::usage, "a command is missing: " + listed(own) + " (see pt --help)");
+    return chosen();
+}
+
+} // namespace cli
