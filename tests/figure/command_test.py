@@ -1,16 +1,20 @@
 """pt-figure: what it writes, and what it refuses. Arguments: the program pt, which renders written scenes; or none."""
 
+import contextlib
 import importlib.util
+import io
 import json
+import os
 import pathlib
 import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 import numpy as np
 import pt
-from pt.figures._command import EPILOG, numbered, parser, staged
+from pt.figures._command import EPILOG, main, numbered, parser, staged
 from pt.figures._options import Options
 
 if importlib.util.find_spec("matplotlib") is None:
@@ -32,6 +36,8 @@ class Command(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
+        self.addCleanup(os.chdir, os.getcwd())
+        os.chdir(self.folder)
         (self.folder / "water.xyz").write_text(2 * WATER)
         np.save(self.folder / "points.npy", np.random.default_rng(2).normal(size=(4, 30, 3)).astype(np.float32))
 
@@ -40,6 +46,15 @@ class Command(unittest.TestCase):
                               capture_output=True, **options)
         self.assertEqual(done.returncode, code, done.stderr.decode())
         return done
+
+    def call_figure(self, *arguments, code=0):
+        """The same in this process, as Python and NumPy take a third of a second to start. Returns what it says."""
+        said = io.StringIO()
+        with (unittest.mock.patch("sys.argv", ["pt-figure", *arguments]), contextlib.redirect_stderr(said),
+              contextlib.redirect_stdout(io.StringIO()), self.assertRaises(SystemExit) as ended):
+            main()
+        self.assertEqual(ended.exception.code, code, said.getvalue())
+        return said.getvalue()
 
     def names(self, pattern):
         return sorted(path.name for path in self.folder.glob(pattern))
@@ -57,8 +72,8 @@ class Command(unittest.TestCase):
         self.assertEqual(given.stdout, figure.encode("png"))
 
     def test_series(self):
-        self.run_figure("points.npy", *SMALL, "--frames", "1-3", "-o", "f-##.png")
-        self.run_figure("water.xyz", *SMALL, "--turntable", "3", "-o", "t#.png")
+        self.call_figure("points.npy", *SMALL, "--frames", "1-3", "-o", "f-##.png")
+        self.call_figure("water.xyz", *SMALL, "--turntable", "3", "-o", "t#.png")
         self.assertEqual(self.names("*.png"), ["f-01.png", "f-02.png", "f-03.png", "t0.png", "t1.png", "t2.png"])
         self.assertEqual(len({(self.folder / name).read_bytes() for name in self.names("*.png")}), 6)
         self.assertEqual(numbered("a#b##.png", 7), "a#b07.png")
@@ -72,7 +87,7 @@ class Command(unittest.TestCase):
                           ("points.npy", "--vectors", "y,z,x", "--bonds", "0.5"), ("points.npy", "--floor", "--style", "glossy"),
                           ("points.npy", "--projection", "orthographic", "--radius", "0.2", "--color", "orange", "--up", "-x"),
                           ("points.npy", "--color", "x", "--style", "ambient-occlusion")):
-            self.run_figure(*arguments, "--size", "48x32", "--spp", "4", "--write-scene", "s.json", "-o", "a.exr", "-q")
+            self.call_figure(*arguments, "--size", "48x32", "--spp", "4", "--write-scene", "s.json", "-o", "a.exr", "-q")
             scene = json.loads((self.folder / "s.json").read_text())
             columns = {name: np.load(self.folder / value) for name, value in scene["spheres"][-1].items()
                        if str(value).endswith(".npy")}
@@ -81,14 +96,14 @@ class Command(unittest.TestCase):
                 subprocess.run([PROGRAM, "render", self.folder / "s.json", "-o", self.folder / "b.exr", "-q"], check=True)
                 subprocess.run([PROGRAM, "compare", self.folder / "a.exr", self.folder / "b.exr", "--max-mse", "0"], check=True,
                                stdout=subprocess.DEVNULL)
-        self.run_figure("water.xyz", "--write-scene", "only.json", "--legend", "l.svg", code=0)
+        self.call_figure("water.xyz", "--write-scene", "only.json", "--legend", "l.svg", code=0)
         self.assertEqual(self.names("*.svg") + self.names("only*"), [
             "l.svg", "only-capsules-1-center.npy", "only-capsules-1-end.npy", "only-center.npy", "only-color.npy",
             "only-radius.npy", "only.json"])
 
     def test_an_error_that_is_not_reached_is_told_by_the_code(self):
-        self.run_figure("water.xyz", *SMALL, "--error", "0.001%", "-o", "a.png", code=7)
-        self.run_figure("water.xyz", *SMALL[:2], "--error", "30%", "-o", "b.png")
+        self.call_figure("water.xyz", *SMALL, "--error", "0.001%", "-o", "a.png", code=7)
+        self.call_figure("water.xyz", *SMALL[:2], "--error", "30%", "-o", "b.png")
         self.assertEqual(self.names("*.png"), ["a.png", "b.png"])
 
     def test_progress(self):
@@ -124,9 +139,8 @@ class Command(unittest.TestCase):
                 (4, "no device|'nothing'", ("water.xyz", "-o", "a.png", "--device", "nothing")),
                 (6, "none.xyz: is not there", ("none.xyz", "-o", "a.png"))):
             with self.subTest(words=words):
-                said = self.run_figure(*arguments, code=code).stderr.decode()
+                said = self.call_figure(*arguments, code=code)
                 self.assertRegex(said, words)
-                self.assertNotIn("Traceback", said)
         self.assertEqual(self.names("a*"), [])
 
     def test_every_option_is_in_the_manual(self):
