@@ -2,6 +2,10 @@
 # into headers. For what is built once; who changes sources builds without. Names in anonymous namespaces must differ
 # within a file.
 option(PT_UNITY "Compile the sources of each folder of the library and the program as one file" OFF)
+# GCC looks for garbage in hundreds of megabytes of headers each time that a file has added a little: a tenth of its time.
+if(PT_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT CMAKE_CXX_CLANG_TIDY)
+  add_compile_options(--param=ggc-min-heapsize=1000000) # KB
+endif()
 
 # pt_unite_folders(TARGET [folders that are compiled as one])
 function(pt_unite_folders target)
