@@ -65,7 +65,8 @@ PT_CONSTANT ID_UNIFORM_READS = 38;   // 1: words of the scene buffer, which has 
 PT_CONSTANT ID_LENS = 39;           // 1: camera rays start on a lens; then STARTS_AHEAD is 1
 PT_CONSTANT ID_CAPSULES = 40;       // 1: some spheres are swept along a segment
 PT_CONSTANT ID_TREE_CAPSULES = 41;  // 1: some of those are in the tree
-PT_CONSTANT CONSTANT_COUNT = 42;
+PT_CONSTANT ID_TREE_OPACITY = 42;   // 1: rays pass spheres of the tree at random
+PT_CONSTANT CONSTANT_COUNT = 43;
 // With SCENE_IN_CONSTANTS the floats of the scene buffer follow, component i of word w as constant_id
 // CONSTANT_COUNT + 4 w + i.
 PT_CONSTANT CONSTANT_SCENE_WORDS = 64;
@@ -216,7 +217,8 @@ PT_CONSTANT MATERIAL_INDEX_BITS = 0x3f800000;
 //                     first of these, and place of the first of the others, which are spheres: both consecutive; the
 //                     low sides of the children's boxes in steps from the corner, a byte a child, along x and y
 //                     low sides along z, high sides along x, y and z
-//   sphere[places]    x, y, z of the centre at time 0; the radius, as the bits of a float
+//   sphere[places]    x, y, z of the centre at time 0; the radius, as the bits of a float. With TREE_OPACITY the last
+//                     eight of these are the opacity times TREE_OPACITY_STEPS
 //   motion[places]    way of the centre in a unit of time, as bits of floats; 0. Of a capsule: as in the scene buffer
 //                     (only if some sphere moves or is swept)
 //   surface[places]   four to a word: the place of the material in the table, or TREE_LAMP_BIT + the number of a lamp
@@ -229,6 +231,7 @@ PT_CONSTANT TREE_NODE_WORDS = 3;
 PT_CONSTANT TREE_ALIGNMENT = 16; // 256 bytes: no device asks for more (Vulkan specification, "Limits")
 PT_CONSTANT TREE_LAMP_BIT = 0x80000000u;
 PT_CONSTANT TREE_COLOR_STEPS = 1023;
+PT_CONSTANT TREE_OPACITY_STEPS = 255u;
 
 // The tree as a camera sees it: a place p of the grid is at (p - camera) step + shift, relative to the camera.
 struct TreeFrame {

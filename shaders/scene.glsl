@@ -48,6 +48,7 @@ layout(constant_id = ID_HIDDEN_PLANES) const uint HIDDEN_PLANES = 0;
 layout(constant_id = ID_UNIFORM_READS) const uint UNIFORM_READS = 0;
 layout(constant_id = ID_CAPSULES) const uint CAPSULES = 0;
 layout(constant_id = ID_TREE_CAPSULES) const uint TREE_CAPSULES = 0;
+layout(constant_id = ID_TREE_OPACITY) const uint TREE_OPACITY = 0;
 layout(constant_id = ID_UNROLLED) const uint UNROLLED = 112;
 
 layout(set = 0, binding = BINDING_SCENE_UNIFORM) uniform SceneUniform {

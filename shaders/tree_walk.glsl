@@ -217,6 +217,23 @@ void enter_next(inout Walk walk, GridRay ray, bool in_shadow)
 
 bool is_in_tree(uint surface) { return surface >= SURFACE_COUNT && surface != NO_SURFACE; }
 
+// Whether a ray passes a sphere as though it were not there. A hash of the ray and the sphere decides (Enderton et al.
+// 2010, "Stochastic transparency"; the hash as in Wyman and McGuire 2017), so it depends neither on the order in which
+// spheres are tested nor on how samples are split. Each ray decides anew: light that passes n of them is the product of
+// n shares.
+bool passes(uvec4 word, GridRay ray, vec3 direction)
+{
+    if (TREE_OPACITY == 0)
+        return false;
+    uvec3 bits = word.xyz + (floatBitsToUint(direction) ^ uvec3(ray.base));
+    uint hash = bits.x * 0x9e3779b1u;
+    hash = (hash ^ (hash >> 15u) ^ bits.y) * 0x85ebca77u;
+    hash = (hash ^ (hash >> 13u) ^ bits.z) * 0xc2b2ae3du;
+    hash ^= hash >> 16u;
+    const float steps = float(TREE_OPACITY_STEPS) / 16777216.0; // of 24 bits, which a float holds
+    return float(hash >> 8u) * steps >= float(word.w & TREE_OPACITY_STEPS);
+}
+
 void test_sphere(inout Walk walk, uint place, GridRay ray, bool in_shadow)
 {
     uint surface = SURFACE_COUNT + place;
@@ -224,9 +241,12 @@ void test_sphere(inout Walk walk, uint place, GridRay ray, bool in_shadow)
     vec4 ball = tree_sphere_of(word, ray.base, ray.rest, place, walk.time);
     vec4 axis = tree_axis(place);
     if (in_shadow) {
-        walk.blocked = blocks_in_tree(walk.start, ray, walk.shadow, surface, word, ball, axis, walk.time);
+        bool between = blocks_in_tree(walk.start, ray, walk.shadow, surface, word, ball, axis, walk.time);
+        walk.blocked = between && !passes(word, ray, walk.shadow.direction);
     } else {
         float distance = distance_in_tree(walk.start, ray, walk.direction, surface, ball, axis, walk.time);
+        if (TREE_OPACITY == 1)
+            distance = passes(word, ray, walk.direction) ? NO_HIT : distance;
         keep_closer_of_tree(walk.hit, walk.hit_word, distance, surface, word);
     }
 }

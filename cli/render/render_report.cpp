@@ -24,7 +24,8 @@ constexpr ValueNames feature_names({{"lamps", PT_FEATURE_LAMPS},
                                     {"orthographic", PT_FEATURE_ORTHOGRAPHIC},
                                     {"hidden", PT_FEATURE_HIDDEN},
                                     {"lens", PT_FEATURE_LENS},
-                                    {"capsules", PT_FEATURE_CAPSULES}});
+                                    {"capsules", PT_FEATURE_CAPSULES},
+                                    {"opacity", PT_FEATURE_OPACITY}});
 constexpr ValueNames uncertainty_names({{"rmse", PT_UNCERTAIN_RMSE},
                                         {"relative_rmse", PT_UNCERTAIN_RELATIVE_RMSE},
                                         {"unseen", PT_UNCERTAIN_UNSEEN},

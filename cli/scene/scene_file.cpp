@@ -13,9 +13,18 @@
 namespace cli {
 namespace {
 
-constexpr std::array<float, 3> white{1.0F, 1.0F, 1.0F};
+bool is_opaque(const Look &look) {
+    return look.opacity == 1.0F;
+}
 
-pt_sphere_array colored(std::span<const pt_sphere> spheres, std::span<const std::array<float, 3>> colors) {
+// Rays ask for opacities only where there are some.
+void put_looks(pt_sphere_array &array, const Look &first, std::uint32_t stride, bool are_opaque) {
+    array.color = {&first.color, stride, PT_TYPE_FLOAT32};
+    if (!are_opaque)
+        array.opacity = {&first.opacity, stride, PT_TYPE_FLOAT32};
+}
+
+pt_sphere_array array_of(std::span<const pt_sphere> spheres, std::span<const Look> looks) {
     constexpr auto stride = static_cast<std::uint32_t>(sizeof(pt_sphere));
     auto array = sized<pt_sphere_array>();
     array.count = static_cast<std::uint32_t>(spheres.size());
@@ -23,7 +32,7 @@ pt_sphere_array colored(std::span<const pt_sphere> spheres, std::span<const std:
     array.radius = {&spheres[0].radius, stride, PT_TYPE_FLOAT64};
     array.motion = {&spheres[0].motion, stride, PT_TYPE_FLOAT64};
     array.material = {&spheres[0].material, stride, PT_TYPE_UINT32};
-    array.color = {colors.data(), sizeof colors[0], PT_TYPE_FLOAT32};
+    put_looks(array, looks[0], sizeof looks[0], std::ranges::all_of(looks, is_opaque));
     return array;
 }
 
@@ -34,8 +43,8 @@ pt_sphere_array array_of(std::span<const Capsule> capsules) {
     array.center = {&capsules[0].ball.center, stride, PT_TYPE_FLOAT64};
     array.radius = {&capsules[0].ball.radius, stride, PT_TYPE_FLOAT64};
     array.material = {&capsules[0].ball.material, stride, PT_TYPE_UINT32};
-    array.color = {&capsules[0].color, stride, PT_TYPE_FLOAT32};
     array.end = {&capsules[0].end, stride, PT_TYPE_FLOAT64};
+    put_looks(array, capsules[0].look, stride, std::ranges::all_of(capsules, is_opaque, &Capsule::look));
     return array;
 }
 
@@ -49,7 +58,7 @@ constexpr std::array<std::array<std::string_view, 2>, 6> renamed{{{"camera.targe
 
 // Of an element of a column, whose components are spheres. The file's single ones may be arrays before others.
 JsonPath path_in_arrays(const SceneFile &scene, const BrokenRule &rule) {
-    const std::size_t of_spheres = scene.sphere_colors.empty() ? 0 : 1;
+    const std::size_t of_spheres = scene.looks.empty() ? 0 : 1;
     const std::size_t of_single = of_spheres + (scene.capsules.empty() ? 0 : 1);
     const bool is_single = *rule.index < of_single;
     const SphereColumns *const many = is_single ? nullptr : &scene.sphere_columns[*rule.index - of_single];
@@ -113,23 +122,18 @@ std::string place_text(const SceneFile &scene, const JsonPath &path) {
 
 } // namespace
 
-void SceneFile::add_sphere(const pt_sphere &sphere, const std::optional<std::array<float, 3>> &color) {
-    if (color && sphere_colors.empty())
-        sphere_colors.assign(spheres.size(), white);
+void SceneFile::add_sphere(const pt_sphere &sphere, const std::optional<Look> &look) {
+    if (look && looks.empty())
+        looks.resize(spheres.size());
     spheres.push_back(sphere);
-    if (!sphere_colors.empty() || color)
-        sphere_colors.push_back(color.value_or(white));
-}
-
-void SceneFile::add_capsule(const pt_sphere &ball, const double (&end)[3],
-                            const std::optional<std::array<float, 3>> &color) {
-    capsules.push_back({ball, std::to_array(end), color.value_or(white)});
+    if (!looks.empty() || look)
+        looks.push_back(look.value_or(Look{}));
 }
 
 pt_scene SceneFile::scene() const {
     auto scene = sized<pt_scene>();
     scene.material_count = static_cast<std::uint32_t>(materials.size());
-    scene.sphere_count = sphere_colors.empty() ? static_cast<std::uint32_t>(spheres.size()) : 0;
+    scene.sphere_count = looks.empty() ? static_cast<std::uint32_t>(spheres.size()) : 0;
     scene.plane_count = static_cast<std::uint32_t>(planes.size());
     scene.materials = materials.data();
     scene.spheres = spheres.data();
@@ -139,8 +143,8 @@ pt_scene SceneFile::scene() const {
 
 std::vector<pt_sphere_array> SceneFile::sphere_arrays() const {
     std::vector<pt_sphere_array> arrays;
-    if (!sphere_colors.empty())
-        arrays.push_back(colored(spheres, sphere_colors));
+    if (!looks.empty())
+        arrays.push_back(array_of(spheres, looks));
     if (!capsules.empty())
         arrays.push_back(array_of(capsules));
     std::transform(sphere_columns.begin(), sphere_columns.end(), std::back_inserter(arrays),

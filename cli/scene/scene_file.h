@@ -37,11 +37,16 @@ constexpr pt_render default_render() {
     return render;
 }
 
-// With one color, so that all are one array.
+// What a sphere can have of its own beside its material.
+struct Look {
+    std::array<float, 3> color{1.0F, 1.0F, 1.0F};
+    float opacity = 1.0F;
+};
+
 struct Capsule {
     pt_sphere ball; // at one end
     std::array<double, 3> end;
-    std::array<float, 3> color;
+    Look look;
 };
 
 struct SceneFile {
@@ -52,7 +57,7 @@ struct SceneFile {
     std::vector<std::string> material_names; // like all arrays from here on in the order of the file
     std::vector<pt_material> materials;
     std::vector<pt_sphere> spheres;
-    std::vector<std::array<float, 3>> sphere_colors; // of each sphere where any has one, else empty
+    std::vector<Look> looks; // of each sphere where any has one, else empty
     std::vector<Capsule> capsules;
     std::vector<pt_plane> planes;
     std::vector<SphereColumns> sphere_columns; // without what their files have, before load_columns
@@ -62,10 +67,9 @@ struct SceneFile {
     std::optional<std::uint32_t> sample_count; // of a pixel
     Display display;
 
-    void add_sphere(const pt_sphere &sphere, const std::optional<std::array<float, 3>> &color);
-    void add_capsule(const pt_sphere &ball, const double (&end)[3], const std::optional<std::array<float, 3>> &color);
+    void add_sphere(const pt_sphere &sphere, const std::optional<Look> &look);
 
-    // Both point into this object. Spheres are in the first array if any of them has a color, capsules in the next;
+    // Both point into this object. Spheres are in the first array if any of them has a look, capsules in the next;
     // each item that is many of either is another.
     pt_scene scene() const;
     std::vector<pt_sphere_array> sphere_arrays() const;

@@ -28,6 +28,7 @@ constexpr ValueRule direction{.form = Form::numbers, .excludes_zeros = true, .co
 constexpr ValueRule times{.form = Form::numbers, .least = 0.0, .largest = 1.0, .is_of_library = true, .count = 2};
 constexpr ValueRule radiance{.form = Form::color, .least = 0.0, .largest = largest_length, .is_of_library = true};
 constexpr ValueRule share{.form = Form::color, .least = 0.0, .largest = 1.0, .is_of_library = true};
+constexpr ValueRule opacity_share{.least = 0.0, .largest = 1.0, .is_of_library = true};
 constexpr ValueRule distance{.least = 0.0, .largest = largest_length, .is_of_library = true};
 constexpr ValueRule radius{.least = least_length, .largest = largest_length, .is_of_library = true};
 constexpr ValueRule boolean{.form = Form::boolean};
@@ -161,6 +162,10 @@ constexpr std::array material_keys{
         [](Item item, Value value) { item.material.flags = value.get<bool>() ? PT_MATERIAL_HIDDEN_FROM_CAMERA : 0; }},
 };
 
+Look &look_of(Item item) {
+    return item.look ? *item.look : item.look.emplace();
+}
+
 constexpr SceneKey center_key{"center",    lengths,
                               "At time 0", "",
                               required,    [](Item item, Value value) { put(value, item.sphere.center); },
@@ -182,22 +187,37 @@ constexpr SceneKey color_key{"color",
                              [](Item item, Value value) {
                                  float color[3];
                                  put(value, color);
-                                 item.color = std::to_array(color);
+                                 look_of(item).color = std::to_array(color);
                              },
                              "",
                              &pt_sphere_array::color};
 
+constexpr SceneKey opacity_key{"opacity",
+                               opacity_share,
+                               "Share of rays that meet it; the others pass it, each at random",
+                               "1",
+                               optional,
+                               [](Item item, Value value) { look_of(item).opacity = value.get<float>(); },
+                               "",
+                               &pt_sphere_array::opacity};
+
 constexpr std::array sphere_keys{
-    center_key, radius_key, material_key,
+    center_key,
+    radius_key,
+    material_key,
     SceneKey{"motion", lengths, "Way from time 0 to time 1; the camera's shutter says which part is seen", "[0, 0, 0]",
              optional, [](Item item, Value value) { put(value, item.sphere.motion); }, "", &pt_sphere_array::motion},
-    color_key};
+    color_key,
+    opacity_key};
 
 constexpr std::array capsule_keys{
     SceneKey{"center", lengths, "One end", "", required, center_key.store, "", center_key.column},
     SceneKey{"end", lengths, "The other", "", required, [](Item item, Value value) { put(value, item.end); }, "",
              &pt_sphere_array::end},
-    radius_key, material_key, color_key};
+    radius_key,
+    material_key,
+    color_key,
+    opacity_key};
 
 constexpr std::array plane_keys{
     SceneKey{"normal", direction, "Of any length", "", required,

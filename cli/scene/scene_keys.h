@@ -21,7 +21,7 @@ struct SceneItem {
     pt_material material{};
     pt_sphere sphere{};
     double end[3]{}; // of a capsule, whose other end is the sphere
-    std::optional<std::array<float, 3>> color = std::nullopt;
+    std::optional<Look> look = std::nullopt;
     pt_plane plane{};
     std::string material_name{}; // of the sphere, capsule or plane
 };

@@ -161,9 +161,9 @@ private:
         item.sphere.material = material;
         item.plane.material = material;
         if (section_->name == "spheres")
-            scene_.add_sphere(item.sphere, item.color);
+            scene_.add_sphere(item.sphere, item.look);
         else if (section_->name == "capsules")
-            scene_.add_capsule(item.sphere, item.end, item.color);
+            scene_.capsules.push_back({item.sphere, std::to_array(item.end), item.look.value_or(Look{})});
         else
             scene_.planes.push_back(item.plane);
     }

@@ -5,6 +5,7 @@
 #include "lib/scene/scene_digest.h"
 #include "lib/scene/twins.h"
 #include "lib/tree/outlying.h"
+#include "shaders/gpu_layout.h"
 
 #include <algorithm>
 #include <cmath>
@@ -52,6 +53,8 @@ std::string digest_with_tree(const PreparedScene &prepared) {
     digest.add(digest_of(prepared.scene));
     digest.add(prepared.tree->grid().middle);
     digest.add(prepared.tree->grid().step);
+    if (prepared.tree->has_opacities()) // then the last bits of radii mean something else
+        digest.add(std::uint64_t{gpu::TREE_OPACITY_STEPS});
     prepared.tree->for_each_in_scene_order([&](const SphereTree::HeldSphere &sphere) {
         digest.add(sphere.place);
         if (sphere.swept)
@@ -81,11 +84,14 @@ std::vector<std::uint32_t> hidden_spheres(const CheckedScene &checked, WorkProgr
     return hidden;
 }
 
+constexpr auto opaque = static_cast<std::int16_t>(gpu::TREE_OPACITY_STEPS);
+
 // So many capsules at the most are left out of the tree, such as the twelve edges of a cell. Every ray tests them, but
 // a walk then takes all spheres of the tree for balls: 300 or 3,000 in a cell took .81 and .77 of the CPU seconds.
 constexpr std::size_t few_capsules = 16;
 
-// With the hidden ones, so that no ray from the camera need ask what a sphere of the tree is made of.
+// With the hidden ones, so that no ray from the camera need ask what a sphere of the tree is made of. Only walks
+// through the tree know opacities.
 std::vector<std::uint32_t> left_out_of(const CheckedScene &checked, const std::vector<std::uint32_t> &hidden,
                                        WorkProgress &progress) {
     progress.enter(share_of_outlying, static_cast<double>(checked.spheres.size()));
@@ -94,6 +100,8 @@ std::vector<std::uint32_t> left_out_of(const CheckedScene &checked, const std::v
     std::ranges::set_union(hidden, outlying, std::back_inserter(unwanted));
     std::vector<std::uint32_t> left_out;
     std::ranges::set_union(unwanted, checked.spheres.capsules(few_capsules), std::back_inserter(left_out));
+    if (checked.spheres.has_opacities())
+        std::erase_if(left_out, [&](std::uint32_t i) { return checked.spheres[i].opacity < opaque; });
     return left_out;
 }
 
@@ -131,8 +139,8 @@ PreparedScene::PreparedScene(CheckedScene checked, std::optional<std::uint32_t> 
 
 PreparedScene PreparedScene::prepared(CheckedScene checked, std::optional<std::uint32_t> tree_from,
                                       const SphereTree *before, WorkProgress &progress) {
-    const std::uint32_t from =
-        tree_from.value_or(checked.spheres.has_capsules() ? tree_of_capsules_from : default_tree_from);
+    const std::uint32_t by_default = checked.spheres.has_capsules() ? tree_of_capsules_from : default_tree_from;
+    const std::uint32_t from = checked.spheres.has_opacities() ? 1 : tree_from.value_or(by_default);
     if (checked.spheres.size() >= from) {
         const std::vector<std::uint32_t> hidden = hidden_spheres(checked, progress);
         if (checked.spheres.size() - hidden.size() >= from) {

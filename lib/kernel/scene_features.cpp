@@ -148,6 +148,7 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
     // Of those in the tree the places are kept as they are at time 0.
     const bool tree_is_late = tree && tree->moves() && camera.shutter_open > 0.0;
     features.motion = scene.moves && (camera.shutter_close > camera.shutter_open || tree_is_late);
+    features.tree_opacity = tree && tree->has_opacities();
     features.tree_capsules = tree && tree->has_capsules();
     features.capsules = features.tree_capsules || std::ranges::any_of(surfaces.spheres, &SeenSphere::swept);
     features.scene_in_uniform = !features.tree;
@@ -241,6 +242,7 @@ std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Fe
     constants[gpu::ID_TREE_INSIDE] = features.tree_inside ? 1 : 0;
     constants[gpu::ID_TREE_COLORS] = features.tree_colors ? 1 : 0;
     constants[gpu::ID_TREE_CAPSULES] = features.tree_capsules ? 1 : 0;
+    constants[gpu::ID_TREE_OPACITY] = features.tree_opacity ? 1 : 0;
     constants[gpu::ID_TREE_LAMPS] = features.tree_lamps;
     if (features.lamp_tree) {
         constants[gpu::ID_LAMP_TREE_LEVELS] = LampTreeShape(features.lamp_count).levels();
@@ -294,6 +296,7 @@ std::uint32_t feature_bits(const Features &features) {
     bits |= features.hidden.any() ? PT_FEATURE_HIDDEN : 0;
     bits |= features.lens ? PT_FEATURE_LENS : 0;
     bits |= features.capsules ? PT_FEATURE_CAPSULES : 0;
+    bits |= features.tree_opacity ? PT_FEATURE_OPACITY : 0;
     return bits;
 }
 

@@ -48,6 +48,7 @@ struct Features {
     bool tree_inside;              // the camera is inside one of them, or too near to its surface to tell
     bool tree_colors;              // with colors of their own
     bool tree_capsules;            // some of them are capsules
+    bool tree_opacity;             // rays pass some of them at random
     std::uint32_t tree_lamps;      // of lamp_count, those in the tree, which come last
 
     bool operator==(const Features &) const = default;

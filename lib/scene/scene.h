@@ -28,12 +28,16 @@ inline bool is_glossy(const Material &material) {
     return material.specular != glm::vec3(0.0F);
 }
 
+// Of spheres in scenes where all are opaque.
+inline constexpr std::int16_t no_opacity = -1;
+
 struct Sphere {
     glm::dvec3 center;
     double radius;
-    glm::dvec3 motion;      // or, of a capsule, the way from one end to the other
-    std::uint32_t material; // index into Scene::materials
-    bool swept = false;     // is a capsule
+    glm::dvec3 motion;                 // or, of a capsule, the way from one end to the other
+    std::uint32_t material;            // index into Scene::materials
+    bool swept = false;                // is a capsule
+    std::int16_t opacity = no_opacity; // in steps of 1 / TREE_OPACITY_STEPS (gpu_layout.h)
 
     bool moves() const { return !swept && motion != glm::dvec3(0.0); }
 };

@@ -56,6 +56,7 @@ const ColumnKind kinds[] = {
     {"material", &pt_sphere_array::material, 1, is_index, index_types, false},
     {"color", &pt_sphere_array::color, 3, is_color, color_types, false},
     {"end", &pt_sphere_array::end, 3, is_real, real_types, false},
+    {"opacity", &pt_sphere_array::opacity, 1, is_real, real_types, false},
 };
 
 // Lamps are chosen and sampled by the cone that a ball subtends.
@@ -63,6 +64,13 @@ const char *const dark_rule = "must be of a material without emission: capsules 
 
 bool is_dark(const pt_material &material) {
     return std::ranges::all_of(material.emission, [](float component) { return component == 0.0F; });
+}
+
+// Shadow rays never ask whether their lamp is there, nor camera rays of the tree whether a sphere is hidden.
+const char *const plain_rule = "must be of a material that neither emits nor is hidden, as there are opacities";
+
+bool is_plain(const pt_material &material) {
+    return is_dark(material) && (material.flags & PT_MATERIAL_HIDDEN_FROM_CAMERA) == 0;
 }
 
 std::uint32_t component_bytes(std::uint32_t type) {
@@ -166,13 +174,18 @@ public:
             [&](std::size_t i, std::uint32_t value) { subject_.refuse_element("material", i, value, rule); });
     }
 
-    void check_dark(const pt_column &column, std::span<const pt_material> materials) const {
+    // The material of each is the first where there is no column.
+    void check_materials_are(bool (*holds)(const pt_material &), const char *rule, const pt_column &column,
+                             std::span<const pt_material> materials) const {
+        if (!is_there(column)) {
+            if (!materials.empty())
+                subject_.require(holds(materials.front()), "material", 0U, rule);
+            return;
+        }
         check_elements(
             elements(column), progress_, [&column](std::size_t i) { return element<std::uint32_t>(column, i); },
-            [materials](std::uint32_t material) {
-                return material >= materials.size() || is_dark(materials[material]);
-            },
-            [&](std::size_t i, std::uint32_t value) { subject_.refuse_element("material", i, value, dark_rule); });
+            [&](std::uint32_t material) { return material >= materials.size() || holds(materials[material]); },
+            [&](std::size_t i, std::uint32_t value) { subject_.refuse_element("material", i, value, rule); });
     }
 
 private:
@@ -198,13 +211,14 @@ void check_values(const Subject &subject, const pt_sphere_array &array, std::spa
         subject.require(material_count > 0, "material", 0U, material_rule(material_count));
     if (is_there(array.color) && array.color.type != PT_TYPE_SRGB8)
         checker.check_vectors<is_share>("color", array.color, share_rule);
-    if (!is_there(array.end))
-        return;
-    checker.check_vectors<is_coordinate>("end", array.end, length_rule);
-    if (is_there(array.material))
-        checker.check_dark(array.material, materials);
-    else if (!materials.empty())
-        subject.require(is_dark(materials.front()), "material", 0U, dark_rule);
+    if (is_there(array.end)) {
+        checker.check_vectors<is_coordinate>("end", array.end, length_rule);
+        checker.check_materials_are(is_dark, dark_rule, array.material, materials);
+    }
+    if (is_there(array.opacity)) {
+        checker.check_numbers<is_share>("opacity", array.opacity, share_rule);
+        checker.check_materials_are(is_plain, plain_rule, array.material, materials);
+    }
 }
 
 } // namespace

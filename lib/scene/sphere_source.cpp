@@ -2,6 +2,9 @@
 #include "lib/scene/sphere_source.h"
 
 #include "lib/scene/column.h"
+#include "shaders/gpu_layout.h"
+
+#include <algorithm>
 
 namespace pt {
 
@@ -52,6 +55,13 @@ void read_columns(const pt_sphere_array &columns, At at, std::span<Sphere> spher
             for (std::size_t i = 0; i < spheres.size(); ++i)
                 spheres[i].motion = glm::dvec3(end(at(i))) - spheres[i].center;
         });
+    for (Sphere &sphere : spheres)
+        sphere.opacity = no_opacity;
+    if (is_there(columns.opacity))
+        with_numbers(columns.opacity, [&](auto opacity) {
+            for (std::size_t i = 0; i < spheres.size(); ++i)
+                spheres[i].opacity = static_cast<std::int16_t>(opacity(at(i)) * gpu::TREE_OPACITY_STEPS + 0.5);
+        });
     if (is_there(columns.material))
         for (std::size_t i = 0; i < spheres.size(); ++i)
             spheres[i].material = element<std::uint32_t>(columns.material, at(i));
@@ -89,8 +99,16 @@ SphereSource::SphereSource(std::span<const pt_sphere> spheres, std::span<const p
     starts_.push_back(0);
     for (const pt_sphere_array &part : parts_)
         starts_.push_back(starts_.back() + part.count);
-    has_colors_ = std::ranges::any_of(
-        arrays, [](const pt_sphere_array &array) { return array.count > 0 && is_there(array.color); });
+    const auto any_has = [arrays](pt_column pt_sphere_array::*column) {
+        return std::ranges::any_of(
+            arrays, [column](const pt_sphere_array &array) { return array.count > 0 && is_there(array.*column); });
+    };
+    has_colors_ = any_has(&pt_sphere_array::color);
+    has_opacities_ = any_has(&pt_sphere_array::opacity);
+    static constexpr float opaque = 1.0F;
+    for (pt_sphere_array &part : parts_)
+        if (has_opacities_ && !is_there(part.opacity))
+            part.opacity = {&opaque, 0, PT_TYPE_FLOAT32};
     for (const pt_sphere_array &array : arrays)
         capsule_count_ += is_there(array.end) ? array.count : 0;
 }

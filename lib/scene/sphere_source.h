@@ -28,6 +28,9 @@ public:
     // Whether spheres may have colors of their own; otherwise all colors are 1.
     bool has_colors() const { return has_colors_; }
 
+    // Whether rays may pass spheres; otherwise none has an opacity.
+    bool has_opacities() const { return has_opacities_; }
+
     bool has_capsules() const { return capsule_count_ > 0; }
 
     // Indices of the capsules in ascending order; none if they are more than most.
@@ -108,6 +111,7 @@ private:
     std::vector<pt_sphere_array> parts_; // the structs as columns, then the arrays
     std::vector<std::uint32_t> starts_;  // index of the first sphere of each part, and the number of all
     bool has_colors_;
+    bool has_opacities_;
     std::size_t capsule_count_ = 0;
 };
 

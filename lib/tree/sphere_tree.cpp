@@ -110,6 +110,7 @@ SphereTree::SphereTree(const SphereExtent &extent, const SphereSource &spheres,
     moves_(extent.moves),
     has_capsules_(extent.has_capsules),
     has_colors_(spheres.has_colors()),
+    has_opacities_(spheres.has_opacities()),
     scene_sphere_count_(static_cast<std::uint32_t>(spheres.size())),
     left_out_(left_out.begin(), left_out.end()) {
     lamp_materials_.reserve(extent.lamp_count);

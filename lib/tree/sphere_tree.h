@@ -80,6 +80,7 @@ public:
     std::uint32_t depth() const { return depth_; }
     bool moves() const { return moves_; }
     bool has_capsules() const { return has_capsules_; }
+    bool has_opacities() const { return has_opacities_; }
 
     // For each place, the index of its sphere in the scene; and the number of spheres in the scene.
     std::span<const std::uint32_t> spheres() const { return *spheres_; }
@@ -140,6 +141,7 @@ private:
     bool moves_;
     bool has_capsules_;
     bool has_colors_;
+    bool has_opacities_;
     std::uint32_t scene_sphere_count_;
     std::vector<std::uint32_t> left_out_; // of these
     std::uint32_t depth_ = 0;

@@ -5,8 +5,23 @@
 
 namespace pt {
 
+namespace {
+
+// The float next to a radius whose last bits are the opacity, so that reading it takes no time: a word of its own took
+// walks on lavapipe a fifth longer.
+std::uint32_t radius_bits(const Sphere &sphere) {
+    const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(sphere.radius));
+    if (sphere.opacity == no_opacity)
+        return bits;
+    const auto opacity = static_cast<std::uint32_t>(sphere.opacity);
+    constexpr std::uint32_t half = (gpu::TREE_OPACITY_STEPS + 1) / 2;
+    return ((bits + half - opacity) & ~gpu::TREE_OPACITY_STEPS) + opacity;
+}
+
+} // namespace
+
 glm::uvec4 sphere_word(const Sphere &sphere, const Grid &grid) {
-    return {grid.place(sphere.center), std::bit_cast<std::uint32_t>(static_cast<float>(sphere.radius))};
+    return {grid.place(sphere.center), radius_bits(sphere)};
 }
 
 glm::uvec4 motion_word(const Sphere &sphere) {

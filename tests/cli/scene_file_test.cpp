@@ -63,8 +63,15 @@ TEST(SceneFile, SpheresMayHaveColors) {
     EXPECT_EQ(scene.scene().sphere_count, 0U);
     ASSERT_EQ(scene.sphere_arrays().size(), 1U);
     EXPECT_EQ(scene.sphere_arrays()[0].count, 4U);
-    EXPECT_EQ(scene.sphere_colors,
-              (std::vector<std::array<float, 3>>{{1, 1, 1}, {0.5F, 0, 1}, {1, 1, 1}, {0.25F, 0.25F, 0.25F}}));
+    const std::array<std::array<float, 3>, 4> colors{{{1, 1, 1}, {0.5F, 0, 1}, {1, 1, 1}, {0.25F, 0.25F, 0.25F}}};
+    for (std::size_t i = 0; i < colors.size(); ++i)
+        EXPECT_EQ(scene.looks[i].color, colors[i]) << i;
+    EXPECT_EQ(scene.sphere_arrays()[0].opacity.data, nullptr);
+    const SceneFile passed =
+        parse_scene("{\"spheres\": [" + sphere("") + "," + sphere(R"(, "opacity": 0.5)") + "]," + rest, "s.json");
+    EXPECT_EQ(passed.looks[0].opacity, 1.0F);
+    EXPECT_EQ(passed.looks[1].opacity, 0.5F);
+    EXPECT_EQ(passed.sphere_arrays()[0].opacity.data, &passed.looks[0].opacity);
     cli::BrokenRule rule{"sphere_arrays", 0, "color", 3, "", "2", "must lie in [0, 1]"};
     EXPECT_EQ(scene.explain(rule), "s.json:4: spheres[3].color = 2: must lie in [0, 1]");
 }

@@ -116,7 +116,8 @@ Compared compare_with_capsules(const pt::Scene &scene, const pt::Camera &camera)
                           {},
                           {&capsules[0].material, stride, PT_TYPE_UINT32},
                           {},
-                          {capsules[0].motion, stride, PT_TYPE_FLOAT64}});
+                          {capsules[0].motion, stride, PT_TYPE_FLOAT64},
+                          {}});
     return compare(pt::PreparedScene({scene.materials, {spheres, arrays}, scene.planes}, 1), camera);
 }
 

@@ -148,7 +148,8 @@ TEST(SmallLamps, AreSeenFromWithinACapsule) {
                                                 {},
                                                 {},
                                                 {},
-                                                {last.center, 0, PT_TYPE_FLOAT64}}};
+                                                {last.center, 0, PT_TYPE_FLOAT64},
+                                                {}}};
     for (const bool has_tree : {false, true})
         EXPECT_EQ(pieces_of({sphere_at(0.5, 0.5, 100, radius, lamp)}, {}, camera, has_tree, capsule).size(), 1U);
     EXPECT_TRUE(pieces_of({sphere_at(0.5, 0.5, 100, radius, lamp), first}).empty());

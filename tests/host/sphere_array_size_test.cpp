@@ -41,7 +41,7 @@ TEST(SphereArrays, MayHaveTwoToTheTwentySixthSpheres) {
 TEST(SphereArrays, OfNoneNeedNoColumns) {
     Particles particles;
     particles.spoil = [](pt_sphere_array &array) {
-        array = {sizeof array, 0, {nullptr, 12, PT_TYPE_FLOAT32}, {nullptr, 1, 77}, {}, {}, {}, {}};
+        array = {sizeof array, 0, {nullptr, 12, PT_TYPE_FLOAT32}, {nullptr, 1, 77}, {}, {}, {}, {}, {}};
     };
     EXPECT_EQ(particles.outcome(), "accepted");
     EXPECT_TRUE(particles.validated().spheres.empty());
@@ -88,13 +88,13 @@ TEST(SphereArrays, OfOtherSizesAreRefused) {
     longer.back() = 1;
     const pt::Error unknown = error_of([&] { validated_bytes(longer, 2); });
     EXPECT_EQ(unknown.code(), PT_ERROR_UNSUPPORTED);
-    EXPECT_STREQ(unknown.what(), "sphere_arrays[1].struct_size = 112: byte 111 is set, but this library knows only the "
-                                 "first 104 bytes of the struct");
+    EXPECT_STREQ(unknown.what(), "sphere_arrays[1].struct_size = 128: byte 127 is set, but this library knows only the "
+                                 "first 120 bytes of the struct");
     std::array<pt_sphere_array, 2> unlike = arrays;
     unlike[1].struct_size = 40;
     const pt::Error error = error_of([&] { particles.validated(unlike); });
     EXPECT_EQ(error.code(), PT_ERROR_INVALID_ARGUMENT);
-    EXPECT_STREQ(error.what(), "sphere_arrays[1].struct_size = 40: must be that of sphere_arrays[0] (104)");
+    EXPECT_STREQ(error.what(), "sphere_arrays[1].struct_size = 40: must be that of sphere_arrays[0] (120)");
 }
 
 } // namespace

@@ -139,14 +139,14 @@ TEST(SphereTree, KnowsLampsInCapsules) {
     const double last[] = {90, 0, 0};
     for (const double radius : {0.7, 1.0}) {
         const pt_sphere_array capsule{
-            sizeof(pt_sphere_array),   1, {first, 0, PT_TYPE_FLOAT64}, {&radius, 0, PT_TYPE_FLOAT64}, {}, {}, {},
-            {last, 0, PT_TYPE_FLOAT64}};
+            sizeof(pt_sphere_array),    1, {first, 0, PT_TYPE_FLOAT64}, {&radius, 0, PT_TYPE_FLOAT64}, {}, {}, {},
+            {last, 0, PT_TYPE_FLOAT64}, {}};
         EXPECT_EQ(tree_with(capsule, spheres).has_close_lamps(), radius > 0.9);
     }
 }
 
-// A kernel that reads the ways of spheres in the list reads those of the tree.
-TEST(SphereTree, HasWaysIfWhatIsLeftOutHasThem) {
+// A kernel that reads the motion of spheres in the list reads that of the tree; of capsules it does not.
+TEST(SphereTree, HasWaysIfWhatIsLeftOutMoves) {
     const auto has_ways = [](const pt::SphereTree &tree) {
         const pt::gpu::TreeFrame frame = tree.frame(camera_at(glm::dvec3(0.0)));
         return frame.first_surface == frame.first_motion + tree.sphere_count();
@@ -161,10 +161,12 @@ TEST(SphereTree, HasWaysIfWhatIsLeftOutHasThem) {
                         {},
                         {},
                         {},
+                        {},
                         {}};
     EXPECT_FALSE(has_ways(tree_with(one, spheres, {0, 100})));
     one.end = {last, 0, PT_TYPE_FLOAT64};
-    EXPECT_TRUE(has_ways(tree_with(one, spheres, {0, 100})));
+    EXPECT_FALSE(has_ways(tree_with(one, spheres, {0, 100})));
+    EXPECT_TRUE(has_ways(tree_with(one, spheres, {0})));
     one.end = {};
     spheres[0].motion[0] = 1.0;
     EXPECT_TRUE(has_ways(tree_with(one, spheres, {0, 100})));

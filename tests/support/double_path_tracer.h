@@ -184,7 +184,7 @@ private:
         return scene_.materials[material].flags == PT_MATERIAL_HIDDEN_FROM_CAMERA;
     }
 
-    Hit first_hit(const glm::dvec3 &origin, const glm::dvec3 &direction, double time, bool is_of_camera) const {
+    Hit first_hit(const glm::dvec3 &origin, const glm::dvec3 &direction, double time, bool is_of_camera) {
         Hit nearest;
         for (std::uint32_t i = 0; i < scene_.sphere_count; ++i) {
             const pt_sphere &sphere = scene_.spheres[i];
@@ -206,7 +206,8 @@ private:
         }
         for (std::uint32_t i = 0; i < scene_.sphere_array_count; ++i)
             for (std::uint32_t row = 0; row < scene_.sphere_arrays[i].count; ++row)
-                meet_capsule(nearest, origin, direction, scene_.sphere_arrays[i], row);
+                if (meets(scene_.sphere_arrays[i].opacity, row))
+                    meet_capsule(nearest, origin, direction, scene_.sphere_arrays[i], row);
         for (std::uint32_t i = 0; i < scene_.plane_count; ++i) {
             const pt_plane &plane = scene_.planes[i];
             if (is_of_camera && is_hidden(plane.material))
@@ -225,6 +226,11 @@ private:
     static const Element *at(const pt_column &column, std::uint32_t row) {
         return reinterpret_cast<const Element *>(static_cast<const unsigned char *>(column.data) +
                                                  std::size_t{row} * column.stride_bytes);
+    }
+
+    // Whether a ray does, at random.
+    bool meets(const pt_column &opacity, std::uint32_t row) {
+        return opacity.data == nullptr || share() < *at<float>(opacity, row);
     }
 
     // The side, between the planes through both ends, and the balls there: a ray enters the union of the three at the

@@ -30,6 +30,7 @@ struct Given {
         double end[3];
         double radius;
         std::uint32_t material;
+        float opacity = 1.0F;
     };
 
     std::vector<pt_material> materials{{{0.8F, 0.6F, 0.4F}, {0, 0, 0}, {0, 0, 0}, 0, 0},
@@ -59,6 +60,8 @@ struct Given {
         array.end = {capsules[0].end, stride, PT_TYPE_FLOAT64};
         array.radius = {&capsules[0].radius, stride, PT_TYPE_FLOAT64};
         array.material = {&capsules[0].material, stride, PT_TYPE_UINT32};
+        if (std::ranges::any_of(capsules, [](const Capsule &capsule) { return capsule.opacity < 1.0F; }))
+            array.opacity = {&capsules[0].opacity, stride, PT_TYPE_FLOAT32};
         return array;
     }
 

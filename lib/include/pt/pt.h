@@ -168,6 +168,11 @@ typedef struct pt_sphere_array {
      * (PT_ERROR_INVALID_SCENE); their surface is off by 2^-21 of their length and radius where these are larger than
      * the distance. They are spheres otherwise, in counts, trees and numbers of objects. */
     pt_column end;
+    /** Share of rays in [0, 1] that meet the sphere; the others pass it as though it were not there, each decided at
+     * random for camera, path and shadow rays alike. FLOAT32 or FLOAT64, held to a 255th; default 1. For materials that
+     * neither emit nor are hidden (PT_ERROR_INVALID_SCENE). With such a column all spheres but distant ones are in a
+     * tree (PT_FEATURE_TREE), and radii there are held to 2^-16. */
+    pt_column opacity;
 } pt_sphere_array;
 
 /** The points x with dot(normal, x) + offset = 0. Visible, lit and emitting on both sides. */

@@ -22,7 +22,8 @@ enum {
     PT_FEATURE_ORTHOGRAPHIC = 32, /**< parallel camera rays */
     PT_FEATURE_HIDDEN = 64,       /**< surfaces that the camera does not see */
     PT_FEATURE_LENS = 128,        /**< camera rays start on a lens */
-    PT_FEATURE_CAPSULES = 256     /**< some spheres are swept along a segment */
+    PT_FEATURE_CAPSULES = 256,    /**< some spheres are swept along a segment */
+    PT_FEATURE_OPACITY = 512      /**< rays pass some spheres at random */
 };
 
 /** What has been done, and what it took. */

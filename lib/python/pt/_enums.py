@@ -117,6 +117,7 @@ class Feature(enum.IntFlag):
     HIDDEN = 64  # surfaces that the camera does not see
     LENS = 128  # camera rays start on a lens
     CAPSULES = 256  # some spheres are swept along a segment
+    OPACITY = 512  # rays pass some spheres at random
 
 
 class Uncertain(enum.IntFlag):

@@ -100,6 +100,7 @@ class SphereArray:
                pictures and color maps; 1 by default
     end        shape (n, 3) or (3,): a second center; then each is a capsule, swept from one to the other. These
                neither emit nor move
+    opacity    shape (n,), or one number for all, in [0, 1]: the share of rays that meet it, each at random; 1 by default
 
     Arrays of float32, float64, uint32 (indices) and uint8 (colors) in the machine's byte order are read in place if
     their rows are contiguous and ascend, at any distance: slices a[::2], the first columns a[:, :3] of a table, fields
@@ -112,7 +113,7 @@ class SphereArray:
 
     def __init__(self, center: npt.ArrayLike, radius: npt.ArrayLike, material: MaterialOrIndex | npt.ArrayLike, *,
                  motion: npt.ArrayLike | None = None, color: npt.ArrayLike | None = None,
-                 end: npt.ArrayLike | None = None) -> None:
+                 end: npt.ArrayLike | None = None, opacity: npt.ArrayLike | None = None) -> None:
         self.center: Array = real_column("center", center, 3, None)
         count = len(self.center)
         self.radius: Array = real_column("radius", radius, 1, count)
@@ -121,8 +122,9 @@ class SphereArray:
         self.motion: Array | None = None if motion is None else real_column("motion", motion, 3, count)
         self.color: Array | None = None if color is None else color_column("color", color, count)
         self.end: Array | None = None if end is None else real_column("end", end, 3, count)
+        self.opacity: Array | None = None if opacity is None else real_column("opacity", opacity, 1, count)
         given = {"center": center, "radius": radius, "material": material, "motion": motion, "color": color,
-                 "end": end}
+                 "end": end, "opacity": opacity}
         self.copied: tuple[str, ...] = tuple(name for name, value in given.items() if self._is_copy(name, value))
 
     def _is_copy(self, name: str, value: object) -> bool:
@@ -194,11 +196,11 @@ class SceneStruct:
         indices = array.material
         if isinstance(indices, Material):
             indices = np.broadcast_to(np.uint32(materials.index(indices)), len(array))
-        columns = [array.center, array.radius, array.motion, indices, array.color, array.end]
+        columns = [array.center, array.radius, array.motion, indices, array.color, array.end, array.opacity]
         self._columns += [column for column in columns if column is not None]
-        center, radius, motion, material, color, end = map(column_of, columns)
+        center, radius, motion, material, color, end, opacity = map(column_of, columns)
         return structs.pt_sphere_array(count=len(array), center=center, radius=radius, motion=motion,
-                                       material=material, color=color, end=end)
+                                       material=material, color=color, end=end, opacity=opacity)
 
 
 def _pointer(struct: Any, elements: list[Any]) -> Any:

@@ -35,7 +35,8 @@ class pt_column(ctypes.Structure):
 
 class pt_sphere_array(Sized):
     _fields_ = [("struct_size", c_uint32), ("count", c_uint32), ("center", pt_column), ("radius", pt_column),
-                ("motion", pt_column), ("material", pt_column), ("color", pt_column), ("end", pt_column)]
+                ("motion", pt_column), ("material", pt_column), ("color", pt_column), ("end", pt_column),
+                ("opacity", pt_column)]
 
 
 class pt_plane(ctypes.Structure):

@@ -30,7 +30,7 @@ from pt.figures._legend import raster, save
 from pt.figures._options import Options, described
 from pt.figures._overlay import Overlaid, Shares, line_width, pixels_per_length, read_shares
 from pt.figures._particles import Cell, Particles
-from pt.figures._radii import radii_of
+from pt.figures._radii import opacities_of, radii_of
 from pt.figures._rods import Rods, cell_corners, cell_edges, vectors_of
 from pt.figures._stage import EDGES, SURROUND_BRIGHTNESS
 from pt.figures._trails import trails_of
@@ -47,9 +47,10 @@ LEGENDS: Final = ("svg", "pdf", "png")
 class Drawn:
     """Particles as balls, in scene units: those of the data, times a power of two if they are far from 1.
 
-    colors   shape (n, 3), or (3,) if all have the same
-    scale    scene units per unit of the data
-    settled  options that followed from the data, in the units of the data
+    colors     shape (n, 3), or (3,) if all have the same
+    scale      scene units per unit of the data
+    settled    options that followed from the data, in the units of the data
+    opacities  shape (n,); None: all are opaque
     """
 
     centers: Array
@@ -61,6 +62,7 @@ class Drawn:
     notes: list[str] = field(default_factory=list)
     rods: Sequence[Rods] = ()
     settled: dict[str, float] = field(default_factory=dict)
+    opacities: Array | None = None
 
     @property
     def balls(self) -> Balls:
@@ -96,6 +98,7 @@ def prepare(particles: Particles, options: Options, scale: float | None = None, 
         particles = particles.wrapped()
     radii = radii_of(particles, options.radius, notes)
     colors, legend = colors_of(particles, options, notes)
+    opacities = opacities_of(particles, options.opacity)
     rods: list[Rods] = []
     settled: dict[str, float] = {}
     if options.vectors is not None:
@@ -118,12 +121,14 @@ def prepare(particles: Particles, options: Options, scale: float | None = None, 
         positions = positions[shown]
         radii = radii[shown] if len(radii) > 1 else radii
         colors = colors[shown] if colors.ndim == 2 else colors
+        opacities = opacities[shown] if opacities is not None and len(opacities) > 1 else opacities
         rods = [each.among(shown) for each in rods]
     _check(particles.name, radii, shown)
     cell = particles.cell if options.box == "lines" else None
     centers, radii, cell, scale = _in_range(positions, radii, cell, scale)
     return Drawn(centers, np.broadcast_to(radii, len(centers)) if len(radii) == 1 else radii, colors, legend, cell,
-                 scale, notes, [each.times(scale, LEAST_LENGTH) for each in rods], settled)
+                 scale, notes, [each.times(scale, LEAST_LENGTH) for each in rods], settled,
+                 None if opacities is None else np.broadcast_to(opacities, len(centers)))
 
 
 def _check(name: str, radii: Array, shown: Array | None) -> None:
@@ -188,10 +193,11 @@ class Staged:
         if drawn.colors.ndim == 1:  # one for all: a part of the material
             material = replace(material, diffuse=linear(drawn.colors / 255.0) * np.array(material.diffuse))
             colors = None
-        arrays = [SphereArray(drawn.centers, drawn.radii, material, color=colors)]
+        arrays = [SphereArray(drawn.centers, drawn.radii, material, color=colors, opacity=drawn.opacities)]
         for each in (rods for rods in drawn.rods if len(rods.atoms)):
             arrays.append(SphereArray(drawn.begins(each), each.radius, material, end=drawn.ends(each),
-                                      color=None if colors is None else colors[each.atoms]))
+                                      color=None if colors is None else colors[each.atoms],
+                                      opacity=None if drawn.opacities is None else drawn.opacities[each.atoms]))
         if drawn.cell is not None:
             begins, ends = cell_edges(drawn.cell)
             pixels = pixels_per_length(self.layout.camera, self.layout.size[1], self.layout.distance)

@@ -34,9 +34,9 @@ def write_scene(path: Path, scene: Scene, camera: Camera, size: tuple[int, int],
     for number, array in enumerate(scene.sphere_arrays):
         kind = f"capsules-{number}-" if number else ""
         item: dict[str, Any] = {}
-        for name in ("center", "end", "radius", "color"):
+        for name in ("center", "end", "radius", "color", "opacity"):
             column = getattr(array, name)
-            if column is not None and name == "radius" and not column.strides[0]:
+            if column is not None and name in ("radius", "opacity") and not column.strides[0]:
                 item[name] = float(column[0])  # the same for all
             elif column is not None:
                 file = place.with_name(f"{place.stem}-{kind}{name}.npy")

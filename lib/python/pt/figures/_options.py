@@ -19,6 +19,7 @@ from pt._scene import Material
 
 Color: TypeAlias = "str | Mapping[str, str] | Sequence[float] | npt.ArrayLike | None"
 Radius: TypeAlias = "float | str | Mapping[str, float] | npt.ArrayLike | None"
+Opacity: TypeAlias = "float | str | npt.ArrayLike | None"
 Bonds: TypeAlias = "bool | str | float | npt.ArrayLike | None"
 Vectors: TypeAlias = "str | npt.ArrayLike | None"
 Direction: TypeAlias = "str | Sequence[float] | npt.NDArray[Any]"
@@ -88,6 +89,9 @@ class Options:
         "angstroms); of all types, \"O=0.7,H=0.3\", in Python {\"O\": 0.7} and arrays too; with a factor, \"0.5*diameter\". By "
         "default the data's, else covalent where distances are of angstroms, else half of what most neighbours are apart")
 
+    opacity: Opacity = _particles(
+        None, "A|COLUMN", "share of rays from 0 to 1 that meet the particles, and their bonds and vectors: a number or a column, "
+        "in Python an array too. By default 1")
     bonds: Bonds = _particles(
         None, "auto|CUTOFF", "auto, in Python True too: atoms no farther apart than their covalent radii (Cordero 2008) and 0.45 "
         "angstroms, as in Open Babel; all within a cutoff; in Python pairs of indices, shape (k, 2), too. By default none")

@@ -1,4 +1,4 @@
-"""Radii of particles: given, from their elements or types, or from how far apart they are."""
+"""Radii of particles: given, from their elements or types, or from how far apart they are; and opacities."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from pt._fit import Array, Doubles, chunks, coordinates
 from pt.figures import _elements as elements
-from pt.figures._options import Radius
+from pt.figures._options import Opacity, Radius
 from pt.figures._particles import Particles
 
 PROBES: Final = 1000
@@ -60,7 +60,6 @@ def _from_text(text: str) -> Radius:
 
 
 def _unscaled(particles: Particles, radius: Radius, notes: list[str]) -> Array:
-    count = len(particles.positions)
     if radius is None:
         return _automatic(particles, notes)
     if isinstance(radius, str):
@@ -71,10 +70,33 @@ def _unscaled(particles: Particles, radius: Radius, notes: list[str]) -> Array:
         radius = column(particles, radius)
     if isinstance(radius, Mapping):
         return _of_types(particles, radius)
-    radii = np.asarray(radius)
-    if radii.dtype.kind not in "fiu" or radii.shape not in ((), (1,), (count,)):
-        raise ValueError(f"radius has shape {radii.shape} of {radii.dtype}: must be one number or {count}")
-    each: Array = np.atleast_1d(radii if radii.dtype in (np.float32, np.float64) else radii.astype(np.float64))
+    return _numbers("radius", radius, len(particles.positions))
+
+
+def opacities_of(particles: Particles, opacity: Opacity) -> Array | None:
+    """Opacities in shape (n,), or (1,) for all; None if nothing is said."""
+    if opacity is None:
+        return None
+    shares = _numbers("opacity", _number_or_column(particles, opacity) if isinstance(opacity, str) else opacity,
+                      len(particles.positions))
+    good = (shares >= 0.0) & (shares <= 1.0)
+    if not good.all():
+        raise ValueError(f"opacity of particle {int(good.argmin()) + 1:,} = {shares[good.argmin()]}: must lie in [0, 1]")
+    return shares
+
+
+def _number_or_column(particles: Particles, text: str) -> npt.ArrayLike:
+    try:
+        return float(text)
+    except ValueError:
+        return column(particles, text)
+
+
+def _numbers(name: str, values: npt.ArrayLike, count: int) -> Array:
+    numbers = np.asarray(values)
+    if numbers.dtype.kind not in "fiu" or numbers.shape not in ((), (1,), (count,)):
+        raise ValueError(f"{name} has shape {numbers.shape} of {numbers.dtype}: must be one number or {count}")
+    each: Array = np.atleast_1d(numbers if numbers.dtype in (np.float32, np.float64) else numbers.astype(np.float64))
     return each
 
 
