@@ -1,5 +1,7 @@
 #include "cli/scene/scene_writer.h"
 
+#include <cstddef>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <span>
@@ -53,7 +55,9 @@ struct NamedColumn {
 
 constexpr NamedColumn columns[] = {{"center", &pt_sphere_array::center, 3},     {"radius", &pt_sphere_array::radius, 1},
                                    {"motion", &pt_sphere_array::motion, 3},     {"color", &pt_sphere_array::color, 3},
-                                   {"material", &pt_sphere_array::material, 1}, {"end", &pt_sphere_array::end, 3}};
+                                   {"material", &pt_sphere_array::material, 1}, {"end", &pt_sphere_array::end, 3},
+                                   {"opacity", &pt_sphere_array::opacity, 1}};
+static_assert(offsetof(pt_sphere_array, center) + sizeof(pt_column) * std::size(columns) == sizeof(pt_sphere_array));
 
 std::size_t row_count(const pt_sphere_array &array, const pt_column &column) {
     return column.stride_bytes == 0 ? 1 : array.count;

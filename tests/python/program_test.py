@@ -30,9 +30,9 @@ PARALLEL = {**ALL_KINDS, "camera": {"position": [0.1, 1, 6], "look_at": [0, 1, 0
 SPHERES = [{"center": [2, 4, 2], "radius": 1, "material": "lamp"},
            {"center": [0, 1, 0], "radius": 1, "material": "red", "motion": [0.1, 0, 0]}]
 COLORED = [*SPHERES, {"center": [-1, 1, 1], "radius": 0.3, "material": "red", "color": [0.1, 0.9, 0.3]}]
-CAPSULES = [{"center": [1, 0, 1], "end": [1, 1, 1], "radius": 0.2, "material": "red", "color": 0.5},
+CAPSULES = [{"center": [1, 0, 1], "end": [1, 1, 1], "radius": 0.2, "material": "red", "color": 0.5, "opacity": 0.7},
             {"center": [-1, 0, 1], "end": [-1, 2, 1], "radius": 0.1, "material": "grey"}]
-COLUMNS = [{"center": "c.npy", "radius": "r.npy", "color": "k.npy", "material": "red"},
+COLUMNS = [{"center": "c.npy", "radius": "r.npy", "color": "k.npy", "material": "red", "opacity": "r.npy"},
            {"center": "c.npy", "radius": 0.05, "motion": [0, 0.2, 0], "material": "grey"}]
 
 
@@ -69,7 +69,7 @@ class Reading(unittest.TestCase):
         for path in (SCENES / "first.json", *map(self.written, scenes)):
             read, mine, its = self.films(path)
             self.assertEqual(mine, its)
-        self.assertEqual([pathlib.Path(file).name for file in read.files], ["c.npy", "r.npy", "k.npy", "c.npy"])
+        self.assertEqual([pathlib.Path(file).name for file in read.files], ["c.npy", "r.npy", "k.npy", "r.npy", "c.npy"])
         other = {**scenes[-1], "planes": []}
         self.assertNotEqual(self.films(self.written(other))[1], its)
 

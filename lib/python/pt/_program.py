@@ -95,7 +95,7 @@ class Program:
         return ReadScene(scene, Camera(**camera), RenderSettings(**render), read["files"])
 
     def _column(self, name: str, kind: int, rows: int, count: int) -> Array:
-        length = 1 if name in ("radius", "material") else 3
+        length = 1 if name in ("radius", "material", "opacity") else 3
         dtype = np.dtype(TYPES[ColumnType(kind)])
         column = np.frombuffer(self._bytes(rows * length * dtype.itemsize), dtype)
         shaped = column if length == 1 else column.reshape(rows, length)
