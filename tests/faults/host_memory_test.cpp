@@ -53,7 +53,7 @@ void fail_every_allocation(const Setting &setting, bool goes_on) {
 }
 
 TEST(HostMemoryTest, EveryAllocationMayFail) {
-    fail_every_allocation({.gpu = false, .device_count = 1, .submit_milliseconds = 1}, false);
+    fail_every_allocation({.gpu = false, .device_count = 1, .submit_milliseconds = 2}, false);
 }
 
 TEST(HostMemoryTest, EveryAllocationMayBeTheLast) {

@@ -137,7 +137,7 @@ TEST(VulkanCallTest, EveryCallMayFailOnAGpu) {
 }
 
 TEST(VulkanCallTest, EveryCallMayFailOnTwoDevices) {
-    fail_every_call({.gpu = true, .device_count = 2, .submit_milliseconds = 1}, "two GPUs");
+    fail_every_call({.gpu = true, .device_count = 2, .submit_milliseconds = 8}, "two GPUs");
 }
 
 } // namespace
