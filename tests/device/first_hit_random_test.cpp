@@ -172,7 +172,7 @@ private:
 };
 
 TEST_F(RandomFirstHit, IsThatOfLongDouble) {
-    const int scene_count = std::getenv("PT_TEST_MANY") ? 600 : 24;
+    const int scene_count = std::getenv("PT_TEST_MANY") ? 600 : 16;
     const char *const first = std::getenv("PT_TEST_FIRST_SCENE");
     RandomScenes scenes;
     std::array<Counts, 2> counts{};
