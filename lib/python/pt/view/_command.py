@@ -127,11 +127,11 @@ def main() -> None:
         refuse(str(error), FILES)
     except (ValueError, TypeError) as error:
         refuse(str(error), SCENE)
-    print(view.address, flush=True)
-    way = None if given.no_browser else open_browser(view.address)
     ended = threading.Event()
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: ended.set())
+    print(view.address, flush=True)
+    way = None if given.no_browser else open_browser(view.address)
     ended.wait()
     view.close()
     if way:

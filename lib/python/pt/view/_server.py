@@ -63,11 +63,13 @@ class Server:
         self.address = f"http://127.0.0.1:{self._socket.getsockname()[1]}/{self._token}/"
         self._loop = asyncio.new_event_loop()
         self._news = asyncio.Event()
+        self._is_ready = threading.Event()
         self._thread = threading.Thread(target=self._run, name="pt-view-server", daemon=True)
 
     def start(self, show: Show) -> None:
         self.show = show
         self._thread.start()
+        self._is_ready.wait()
 
     def published(self, _: Frame) -> None:
         """Tells of a new frame; any thread."""
@@ -89,6 +91,7 @@ class Server:
         runner = web.AppRunner(application, access_log=None)
         self._loop.run_until_complete(runner.setup())
         self._loop.run_until_complete(web.SockSite(runner, self._socket).start())
+        self._loop.call_soon(self._is_ready.set)
         self._loop.run_forever()
         for each in tuple(self._sockets):
             self._loop.run_until_complete(each.close(code=1001))

@@ -60,8 +60,8 @@ class View:
 
     def close(self) -> None:
         """Ends it; the page says so. A second call does nothing."""
-        self._server.close()
         self._show.close()
+        self._server.close()
 
     def _repr_html_(self) -> str:
         return f'<iframe src="{self.address}" style="width: 100%; height: 640px; border: 0"></iframe>'
