@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace pt {
 
 namespace {
 
 constexpr std::size_t channel_count = 3;
-constexpr std::size_t tile_width = 16; // pixels: hundreds of values, so that a tile's own choice adds little
+constexpr std::size_t tile_width = 8; // pixels: with those about it, hundreds of values
 constexpr double few_tiles =
     8.0; // an estimate from fewer is uncertain, as one from as few pixels is (error_estimate.cpp)
 constexpr double normal_90 = 1.28; // for the normal distribution, 90% lie below so many standard deviations
@@ -31,13 +32,13 @@ double median_about(const FilteredHalves &halves, std::size_t x, std::size_t y, 
 
 // The terms of (1) in one value.
 struct Terms {
-    double mean;       // M
-    double difference; // d
-    double variance;   // s^2
-    double shared;     // s (s - f): the noise of a half that its filtered half lacks
-    double weight;     // of relative squares
-
-    double square(double share) const { return variance - 2.0 * share * shared + share * share * squared(difference); }
+    double mean;           // M
+    double difference;     // d
+    double noise;          // s
+    double filtered_noise; // f
+    double first_fault;    // A - D(A)
+    double second_fault;   // B - D(B)
+    double weight;         // of relative squares
 };
 
 // D(A) D(B), whose factors are independent, stands for the square of the limit: the square of F would have the filter's
@@ -51,13 +52,14 @@ Terms terms_at(const FilteredHalves &halves, std::size_t x, std::size_t y, std::
     const double first_filtered = halves.first_filtered[index];
     const double second_filtered = halves.second_filtered[index];
     const double mean = 0.5 * (first + second);
-    const double noise = 0.5 * (first - second);
     const double most = std::max(mean, most_above_median * median_about(halves, x, y, channel));
     const double limit_square = std::clamp(first_filtered * second_filtered, 0.0, squared(most));
     return {.mean = mean,
             .difference = 0.5 * (first_filtered + second_filtered) - mean,
-            .variance = squared(noise),
-            .shared = noise * (noise - 0.5 * (first_filtered - second_filtered)),
+            .noise = 0.5 * (first - second),
+            .filtered_noise = 0.5 * (first_filtered - second_filtered),
+            .first_fault = first - first_filtered,
+            .second_fault = second - second_filtered,
             .weight = 1.0 / (limit_square + relative_offset)};
 }
 
@@ -68,23 +70,21 @@ struct Tiles {
         rows((halves.height + tile_width - 1) / tile_width),
         numbers(columns * rows) {}
 
-    double &of_pixel(std::size_t x, std::size_t y) { return numbers[y / tile_width * columns + x / tile_width]; }
-
     std::size_t columns;
     std::size_t rows;
     std::vector<double> numbers;
 };
 
-// Sums over tiles and those about them, with half of the weight for each step away: along one axis, of `count` tiles
-// that are `step` apart.
+// Means over tiles and those about them, with half of the weight for each step away; an outermost tile stands for those
+// beyond the edge as well, so that the sum of all stays. Along one axis, of `count` tiles that are `step` apart.
 void spread(std::vector<double> &numbers, std::size_t first, std::size_t count, std::size_t step) {
-    double before = 0.0;
+    double before = numbers[first];
     for (std::size_t i = 0; i < count; ++i) {
         double &here = numbers[first + i * step];
-        const double after = i + 1 < count ? numbers[first + (i + 1) * step] : 0.0;
-        const double sum = before + 2.0 * here + after;
+        const double after = i + 1 < count ? numbers[first + (i + 1) * step] : here;
+        const double mean = 0.25 * (before + after) + 0.5 * here;
         before = here;
-        here = sum;
+        here = mean;
     }
 }
 
@@ -119,23 +119,27 @@ double at(const Tiles &tiles, const Place &x, const Place &y) {
     return std::lerp(in_row(y.first), in_row(y.second), y.share);
 }
 
+// Calls visit(tile, channel, x, y) for all values, tile by tile.
 template <typename Visit>
-void for_each_pixel(const FilteredHalves &halves, Visit &&visit) {
-    for (std::size_t y = 0; y < halves.height; ++y)
-        for (std::size_t x = 0; x < halves.width; ++x)
-            visit(x, y);
+void for_each_value(const FilteredHalves &halves, const Tiles &tiles, Visit &&visit) {
+    for (std::size_t tile = 0; tile < tiles.numbers.size(); ++tile) {
+        const std::size_t left = tile % tiles.columns * tile_width;
+        const std::size_t top = tile / tiles.columns * tile_width;
+        for (std::size_t y = top; y < std::min(top + tile_width, halves.height); ++y)
+            for (std::size_t x = left; x < std::min(left + tile_width, halves.width); ++x)
+                for (std::size_t channel = 0; channel < channel_count; ++channel)
+                    visit(tile, channel, x, y);
+    }
 }
 
 // The t of each tile.
 Tiles best_shares(const FilteredHalves &halves) {
     Tiles shares(halves);
     Tiles differences(halves);
-    for_each_pixel(halves, [&](std::size_t x, std::size_t y) {
-        for (std::size_t channel = 0; channel < channel_count; ++channel) {
-            const Terms terms = terms_at(halves, x, y, channel);
-            shares.of_pixel(x, y) += terms.weight * terms.shared;
-            differences.of_pixel(x, y) += terms.weight * squared(terms.difference);
-        }
+    for_each_value(halves, shares, [&](std::size_t tile, std::size_t channel, std::size_t x, std::size_t y) {
+        const Terms terms = terms_at(halves, x, y, channel);
+        shares.numbers[tile] += terms.weight * terms.noise * (terms.noise - terms.filtered_noise);
+        differences.numbers[tile] += terms.weight * squared(terms.difference);
     });
     spread(shares);
     spread(differences);
@@ -144,6 +148,41 @@ Tiles best_shares(const FilteredHalves &halves) {
         shares.numbers[tile] = whole > 0.0 ? std::clamp(shares.numbers[tile] / whole, 0.0, 1.0) : 0.0;
     }
     return shares;
+}
+
+// Squares of errors, each times a weight, summed by tile.
+struct Squares {
+    explicit Squares(const FilteredHalves &halves) :
+        noise(halves),
+        faults(halves),
+        first_faults(halves),
+        second_faults(halves) {}
+
+    void add(std::size_t tile, const Terms &terms, double share, double weight) {
+        const double first = std::sqrt(weight) * share * terms.first_fault;
+        const double second = std::sqrt(weight) * share * terms.second_fault;
+        noise.numbers[tile] += weight * squared(std::lerp(terms.noise, terms.filtered_noise, share));
+        faults.numbers[tile] += first * second;
+        first_faults.numbers[tile] += first;
+        second_faults.numbers[tile] += second;
+    }
+
+    Tiles noise;
+    Tiles faults; // products of those of the halves
+    Tiles first_faults;
+    Tiles second_faults;
+};
+
+// The expected squares of the errors of each tile.
+Tiles by_tile(Squares squares, const Tiles &value_counts) {
+    Tiles products = squares.first_faults; // of sums
+    for (std::size_t tile = 0; tile < products.numbers.size(); ++tile)
+        products.numbers[tile] *= squares.second_faults.numbers[tile] / value_counts.numbers[tile];
+    spread(squares.faults);
+    spread(products);
+    for (std::size_t tile = 0; tile < products.numbers.size(); ++tile)
+        squares.noise.numbers[tile] += std::max({squares.faults.numbers[tile], products.numbers[tile], 0.0});
+    return std::move(squares.noise);
 }
 
 // How many equal tiles would have the same ratio of their squares to their sum.
@@ -180,24 +219,26 @@ Interval root_mean(const Tiles &sums, const Tiles &value_counts, bool uncertain)
 
 ErrorEstimate combine(const FilteredHalves &halves, float *to) {
     const Tiles shares = best_shares(halves);
-    Tiles squares(halves);
-    Tiles relative_squares(halves);
+    Squares squares(halves);
+    Squares relative_squares(halves);
     Tiles value_counts(halves);
-    for_each_pixel(halves, [&](std::size_t x, std::size_t y) {
+    for_each_value(halves, shares, [&](std::size_t tile, std::size_t channel, std::size_t x, std::size_t y) {
         const double share = at(shares, Place(x, shares.columns), Place(y, shares.rows));
-        for (std::size_t channel = 0; channel < channel_count; ++channel) {
-            const Terms terms = terms_at(halves, x, y, channel);
-            *to++ = static_cast<float>(terms.mean + share * terms.difference);
-            squares.of_pixel(x, y) += terms.square(share);
-            relative_squares.of_pixel(x, y) += terms.weight * terms.square(share);
-        }
-        value_counts.of_pixel(x, y) += channel_count;
+        const Terms terms = terms_at(halves, x, y, channel);
+        to[(y * halves.width + x) * channel_count + channel] =
+            static_cast<float>(terms.mean + share * terms.difference);
+        squares.add(tile, terms, share, 1.0);
+        relative_squares.add(tile, terms, share, terms.weight);
+        value_counts.numbers[tile] += 1.0;
     });
-    const bool uncertain = effective_count(squares) < few_tiles;
-    const bool relative_uncertain = effective_count(relative_squares) < few_tiles;
-    return {root_mean(squares, value_counts, uncertain), root_mean(relative_squares, value_counts, relative_uncertain),
-            (uncertain ? std::uint32_t{PT_UNCERTAIN_RMSE} : 0U) |
-                (relative_uncertain ? std::uint32_t{PT_UNCERTAIN_RELATIVE_RMSE} : 0U)};
+    const auto error = [&](Squares &of, std::uint32_t bit) {
+        const Tiles sums = by_tile(std::move(of), value_counts);
+        const bool uncertain = effective_count(sums) < few_tiles;
+        return std::pair(root_mean(sums, value_counts, uncertain), uncertain ? bit : 0);
+    };
+    const auto [rmse, rmse_bit] = error(squares, PT_UNCERTAIN_RMSE);
+    const auto [relative_rmse, relative_bit] = error(relative_squares, PT_UNCERTAIN_RELATIVE_RMSE);
+    return {rmse, relative_rmse, rmse_bit | relative_bit};
 }
 
 } // namespace pt

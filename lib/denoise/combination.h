@@ -7,15 +7,20 @@
 //
 // the square of the error of the image M + t d, which is M for t = 0 and F for t = 1, is expected to be that of
 //
-//     s^2 - 2 t s (s - f) + t^2 d^2.                                                                             (1)
+//     ((1 - t) s + t f)^2 + t^2 (A - D(A)) (B - D(B)),                                                           (1)
 //
-// For any a and b of A and B alone, and S = (a + b) / 2: E[(S - r)^2] = E[S^2 - 2 S r + r^2] = E[S^2 - a B - b A + A
-// B], as a does not depend on B, nor b on A, nor A on B. With a = A + t (D(A) - A) and b likewise that is (1), after
-// some algebra. (The mean of (D(A) - B)^2 less that of (A - B)^2 / 2 is the square of the error of D(A) alone; F has
-// less.)
+// of noise and of what the filter makes wrong. For let a be made of A alone and b likewise of B, and S = (a + b) / 2:
+// (S - r)^2 = ((a - b) / 2)^2 + (a - r) (b - r), and the last product's mean is that of (A - a) (B - b), since A and B,
+// which are independent, have the mean r. With a = A + t (D(A) - A) and b likewise that is (1).
 //
 // Summed over a place, (1) is least for t = sum s (s - f) / sum d^2, as estimators that shrink have it (James and
 // Stein, "Estimation with quadratic loss", 1961). Sums over hundreds of values make (1) at this t too small by little.
+//
+// Faults of the filter may be light that few samples meet, which it takes for noise. Both factors of a product are
+// large then where both halves met it in one pixel, hardly ever; most pictures have products below 0 alone. But their
+// mean is that of a square. So their sum over a place counts for 0 at least, and for no less than the product of the
+// sums of the factors over the values of a tile, over their number: many more samples make that, and the square of a
+// sum is at most the sum of squares times their number (Cauchy's inequality).
 #pragma once
 
 #include "lib/denoise/open_image_denoise.h"

@@ -123,16 +123,17 @@ Stated over_seeds(const char *wish, double deviation, int seed_count = 6) {
 }
 
 // Where nothing is chosen, as with a filter that does nothing, there is no bias at all. Else the choice makes the
-// square too small by less than a twentieth.
+// square too small by less than a twentieth, and places whose faults count for 0 at least make it too large by less
+// than a third.
 TEST(Denoise, StatesTheSquareOfItsErrorWithoutBias) {
     for (const char *wish : {"identity", "", "shift", "darken"}) {
         const Stated stated = over_seeds(wish, much_noise, 24);
         const statistics::Moments moments = statistics::moments(stated.differences);
         const double bound = statistics::normal_quantile(1e-6) *
                              std::sqrt(moments.variance / static_cast<double>(stated.differences.size()));
-        const double of_choice = std::string(wish) == "identity" ? 0.0 : 0.05 * stated.mean_true;
-        EXPECT_LT(moments.mean, bound) << wish;
-        EXPECT_GT(moments.mean, -bound - of_choice) << wish;
+        const double chosen = std::string(wish) == "identity" ? 0.0 : stated.mean_true;
+        EXPECT_LT(moments.mean, bound + chosen / 3) << wish;
+        EXPECT_GT(moments.mean, -bound - 0.05 * chosen) << wish;
         EXPECT_LT(bound, 0.15 * stated.mean_true) << wish; // or it would say nothing
     }
 }
@@ -153,6 +154,27 @@ TEST(Denoise, StatesWhatItsFilterDoesWrong) {
     }
 }
 
+// One value in 300 of a half is brighter by 60, which the filter cuts to 4: it loses 0.2 everywhere. Both halves meet
+// such light in one value of a picture in 92,160 / 300^2, so products of single values show the loss in every second
+// picture, as far too much. Each picture has to state it.
+TEST(Denoise, StatesRareLightThatItsFilterTakesAway) {
+    constexpr double probability = 1.0 / 300;
+    constexpr double light = 60.0;
+    for (std::uint64_t seed = 0; seed < 8; ++seed) {
+        Denoising denoising(seed, 0.2);
+        std::mt19937_64 random(seed);
+        for (Pixels *const half : {&denoising.first, &denoising.second})
+            for (float &value : *half)
+                if (static_cast<double>(random() >> 11) * 0x1p-53 < probability)
+                    value += static_cast<float>(light);
+        ASSERT_EQ(denoising.run("cut"), PT_OK);
+        const double true_square = denoising.mean(
+            [&](std::size_t i) { return std::pow(denoising.denoised[i] - limit_at(i) - probability * light, 2); });
+        EXPECT_GT(denoising.error.rmse / std::sqrt(true_square), 0.9) << seed;
+        EXPECT_LT(denoising.error.rmse / std::sqrt(true_square), 2.0) << seed;
+    }
+}
+
 // Neither with much noise nor with little, when a filter that shifts or darkens does more harm than good.
 TEST(Denoise, IsNoWorseThanTheRawImage) {
     for (const char *wish : {"identity", "", "shift", "darken"})
@@ -165,7 +187,7 @@ TEST(Denoise, IsNoWorseThanTheRawImage) {
 
 // Noise in the left half alone, of opposite signs in the two images, so that their mean is 1 and what is left of the
 // darkening shows the choice: most of it at the left, none at the right, and between them no step. A linear ramp over a
-// tile of 16 pixels that goes all the way has steps of a 16th.
+// tile of 8 pixels that goes all the way has steps of an 8th.
 TEST(Denoise, HasNoSeams) {
     Pixels halves[2] = {Pixels(value_count, 1.0F), Pixels(value_count, 1.0F)};
     for (std::size_t i = 0; i < value_count; ++i)
@@ -179,7 +201,7 @@ TEST(Denoise, HasNoSeams) {
     EXPECT_LT(denoising.denoised[row], 0.951F);
     EXPECT_EQ(denoising.denoised[row + 3 * (width - 1)], 1.0F);
     for (std::size_t x = 1; x < width; ++x)
-        EXPECT_LT(std::abs(denoising.denoised[row + 3 * x] - denoising.denoised[row + 3 * (x - 1)]), 0.05 / 16 + 1e-6)
+        EXPECT_LT(std::abs(denoising.denoised[row + 3 * x] - denoising.denoised[row + 3 * (x - 1)]), 0.05 / 8 + 1e-6)
             << x;
 }
 

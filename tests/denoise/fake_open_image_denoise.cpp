@@ -1,9 +1,10 @@
 // A stand-in for Open Image Denoise, with the functions that libpt takes from it: a mean over 5 x 5 pixels, and planted
-// faults. FAKE_OIDN=identity filters nothing, shift moves the mean by a pixel, darken takes a twentieth of it away; an
-// error's number makes the filter fail with it.
+// faults. FAKE_OIDN=identity filters nothing, shift moves the mean by a pixel, darken takes a twentieth of it away, cut
+// all light above 4; an error's number makes the filter fail with it.
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
+#include <limits>
 #include <map>
 #include <string>
 #include <utility>
@@ -32,7 +33,7 @@ std::string wish() {
 
 // Over the pixels that are there.
 float mean_about(const Filter &filter, const float *color, std::ptrdiff_t x, std::ptrdiff_t y, std::size_t channel,
-                 std::ptrdiff_t radius) {
+                 std::ptrdiff_t radius, float most) {
     const auto width = static_cast<std::ptrdiff_t>(filter.width);
     const auto height = static_cast<std::ptrdiff_t>(filter.height);
     double sum = 0.0;
@@ -40,7 +41,7 @@ float mean_about(const Filter &filter, const float *color, std::ptrdiff_t x, std
     for (std::ptrdiff_t row = std::max<std::ptrdiff_t>(y - radius, 0); row <= std::min(y + radius, height - 1); ++row)
         for (std::ptrdiff_t column = std::max<std::ptrdiff_t>(x - radius, 0); column <= std::min(x + radius, width - 1);
              ++column, ++count)
-            sum += color[static_cast<std::size_t>(row * width + column) * 3 + channel];
+            sum += std::min(color[static_cast<std::size_t>(row * width + column) * 3 + channel], most);
     return static_cast<float>(sum / count);
 }
 
@@ -48,6 +49,7 @@ void run(const Filter &filter) {
     const std::ptrdiff_t radius = wish() == "identity" ? 0 : 2;
     const std::ptrdiff_t shift = wish() == "shift" ? 1 : 0;
     const float factor = wish() == "darken" ? 0.95F : 1.0F;
+    const float most = wish() == "cut" ? 4.0F : std::numeric_limits<float>::infinity();
     const float *const color = filter.images.at("color");
     float *const output = filter.images.at("output");
     for (std::size_t pixel = 0; pixel < filter.width * filter.height; ++pixel)
@@ -55,7 +57,7 @@ void run(const Filter &filter) {
             const auto x = static_cast<std::ptrdiff_t>(pixel % filter.width) + shift;
             output[3 * pixel + channel] =
                 factor * mean_about(filter, color, std::min(x, static_cast<std::ptrdiff_t>(filter.width) - 1),
-                                    static_cast<std::ptrdiff_t>(pixel / filter.width), channel, radius);
+                                    static_cast<std::ptrdiff_t>(pixel / filter.width), channel, radius, most);
         }
 }
 

@@ -40,8 +40,9 @@ typedef struct pt_denoise_info {
  * taken from, or changed in, any context.
  *
  * error receives the error of the denoised picture, and error->struct_size must be set. Its squares are estimated
- * without bias, but for the choice by places, and with a standard error, as tiles of 16 x 16 pixels differ: rmse and
- * relative_rmse are 1.28 of these above the estimate, bounds 1.96 to both sides. PT_UNCERTAIN_RMSE and
+ * without bias, but for the choice by places and for what the filter makes wrong, which counts nowhere less than 0, and
+ * with a standard error, as tiles of 8 x 8 pixels differ: rmse and relative_rmse are 1.28 of these above the estimate,
+ * bounds 1.96 to both sides. PT_UNCERTAIN_RMSE and
  * PT_UNCERTAIN_RELATIVE_RMSE: what is known comes from fewer than 8 such tiles, and the upper bound is doubled. Light
  * that no sample has met is not in it.
  *
