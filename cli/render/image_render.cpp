@@ -118,7 +118,7 @@ ImageRender::Result ImageRender::run(const Round &round) {
         progress_.expect(std::uint64_t{round.expected} * task_.half_count());
     image_ = {.part = task_.window.part};
     image_.radiance.resize(3 * image_.part.pixel_count());
-    if (round.half + 1 == task_.half_count())
+    if (round.half + 1 == task_.half_count() && (!round.film || round.film->empty()))
         for (const std::uint32_t layer : task_.options.wanted_layers())
             image_.layers.emplace_back(layer, image_.part.pixel_count());
     while (image_.rows_done < image_.part.height && !stop_()) {

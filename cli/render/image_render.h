@@ -74,7 +74,7 @@ public:
 
     // The samples that a run takes: of a picture that is denoised, those of a half, in one or several rounds.
     struct Round {
-        std::uint32_t half;                    // only the last one has layers
+        std::uint32_t half;                    // only the last one has layers, in its first round
         std::uint32_t end;                     // samples of the half at the end
         std::uint32_t other;                   // samples that the other half has
         std::uint32_t expected;                // of a half, after all rounds

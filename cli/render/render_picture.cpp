@@ -135,6 +135,7 @@ ImageRender::Result render_halves(const RenderTask &task, ImageRender &render, c
     const Clock::time_point start = Clock::now();
     const double target = task.options.target_error;
     std::array<std::vector<std::byte>, 2> films;
+    std::vector<PictureLayer> layers; // which samples do not change
     ImageRender::Result result{};
     std::uint32_t done = 0;
     std::uint32_t expected = task.sample_count;
@@ -147,6 +148,9 @@ ImageRender::Result render_halves(const RenderTask &task, ImageRender &render, c
         RenderedImage second = run(1, end);
         if (stop())
             break;
+        if (done == 0)
+            layers = second.layers;
+        second.layers = layers;
         result.image = denoised_halves(task.options, first, std::move(second));
         done = end;
         const double error = result.image.error.relative_rmse_high;

@@ -75,6 +75,7 @@ def render_denoised(context: Context, settings: RenderSettings, samples: int, ta
     most = max(samples // 2, 1)
     halves = [settings, replace(settings, seed=settings.seed ^ OTHER_SEED)]
     films: list[Film | None] = [None, None]
+    guides: tuple[Pixels, ...] = ()
     done, image, taken, is_stopped = 0, None, 0, False
 
     def share_of_all(fraction: float) -> bool:
@@ -98,15 +99,16 @@ def render_denoised(context: Context, settings: RenderSettings, samples: int, ta
             parts.append((context.readback(), context.stats()))
         if len(parts) < len(halves):
             break
-        image, done = _joined(context, parts), count
+        guides = guides or (context.readback(Quantity.ALBEDO), context.readback(Quantity.NORMAL))
+        image, done = _joined(parts, guides), count
     if image is None:
         raise InvalidStateError("the samples ended before there were two images to denoise")
     return image
 
 
-def _joined(context: Context, parts: list[tuple[Pixels, Stats]]) -> Image:
+def _joined(parts: list[tuple[Pixels, Stats]], guides: tuple[Pixels, ...]) -> Image:
     (first, of_first), (second, of_second) = parts
-    radiance, error = denoise(first, second, context.readback(Quantity.ALBEDO), context.readback(Quantity.NORMAL))
+    radiance, error = denoise(first, second, *guides)
     summed = ("sample_count", "max_sample_count", "mean_sample_count", "rejected_samples")
     stats = replace(of_second, **{name: getattr(of_first, name) + getattr(of_second, name) for name in summed})
     counts = np.full((*first.shape[:2], 1), stats.sample_count)
