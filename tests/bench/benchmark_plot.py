@@ -20,9 +20,12 @@ STYLES = {
     "bsdf": ("#CC79A7", "--"),
     "light": ("#E69F00", "--"),
     "Mitsuba": ("#D55E00", "-."),
+    "Mitsuba, filtered": ("#D55E00", "--"),
+    "filtered": ("#0072B2", "--"),
+    "combined": ("#009E73", "-"),
     "default": ("#000000", "-"),  # last: on top
 }
-LABELS = {"default": "default: sobol, mis", "Mitsuba": "Mitsuba, multijitter"}
+LABELS = {"default": "default: sobol, mis", "combined": "combined: what is shown", "Mitsuba": "Mitsuba, multijitter"}
 
 
 def draw_scene(axes, name, scene):

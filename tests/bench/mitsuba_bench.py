@@ -17,6 +17,7 @@ def parse_arguments():
     parser.add_argument("--sampler", choices=SAMPLERS, default="multijitter")
     parser.add_argument("--variant", default="llvm_ad_rgb")
     parser.add_argument("--json", required=True, metavar="FILE")
+    parser.add_argument("--images", metavar="FOLDER", help="for the images, as SPP.npy")
     return parser.parse_args()
 
 
@@ -34,6 +35,8 @@ def main():
     for spp in map(int, options.spp.split(",")):
         mitsuba.render(length, options.sampler, spp, options.seed)  # compiles
         seconds, processor_seconds, image = mitsuba.render(length, options.sampler, spp, options.seed)
+        if options.images:
+            mitsuba.np.save(f"{options.images}/{spp}.npy", image)
         error = float(((image - reference) ** 2 / (reference ** 2 + 0.01)).mean())
         cells.append({"sampler": options.sampler, "spp": spp, "seconds": seconds,
                       "processor_seconds": processor_seconds, "rel_mse": error})
