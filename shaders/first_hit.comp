@@ -78,8 +78,8 @@ void write_pixel(uint index, uvec3 value)
 
 void main()
 {
-    const bool takes_mean = view.quantity == QUANTITY_NORMAL || view.quantity == QUANTITY_ALBEDO;
-    const uint ray_count = takes_mean ? FILTER_RAYS : 1u;
+    const uint ray_count = rays_of_pixel(view.quantity);
+    const bool takes_mean = ray_count > 1u;
     const uint index = gl_GlobalInvocationID.x / ray_count;
     const uint ray_index = gl_GlobalInvocationID.x % ray_count;
     const bool is_there = index < view.pixel_count;

@@ -386,8 +386,12 @@ struct FirstHitConstants {
     uint first_of_rectangle; // of the pixels that are looked at, counted row by row over the rectangle
     uint pixel_count;
 };
-// How many rays of a pixel are averaged. Divides a workgroup.
+// How many rays of a pixel are averaged, if any are. Divides a workgroup.
 PT_CONSTANT FILTER_RAYS = 16;
+PT_FUNCTION uint rays_of_pixel(uint quantity)
+{
+    return quantity == QUANTITY_NORMAL || quantity == QUANTITY_ALBEDO ? FILTER_RAYS : 1;
+}
 
 // coverage.comp. Pixels as above. The samples form a range, of which each tile may have a part.
 struct CoverageConstants {

@@ -28,10 +28,6 @@ static_assert(gpu::BINDING_SCENE_UNIFORM == 0 && gpu::BINDING_SCENE_STORAGE == 1
 // Little compared with the image in the caller's memory, and enough for one submission.
 constexpr std::uint64_t most_first_hit_pixels = 1U << 18;
 
-std::uint32_t rays_of_pixel(std::uint32_t quantity) {
-    return quantity == PT_QUANTITY_NORMAL || quantity == PT_QUANTITY_ALBEDO ? gpu::FILTER_RAYS : 1;
-}
-
 gpu::FirstHitConstants first_hit_constants(const GpuScene &scene) {
     gpu::FirstHitConstants constants{};
     constants.camera = scene.frame.camera;
@@ -57,7 +53,7 @@ void FirstHits::show(const std::shared_ptr<const GpuScene> &scene, const vulkan:
 
 // As many as one submission should take and the buffers can hold.
 std::uint64_t FirstHits::pixels_in_piece(const FirstHitQuery &query, double tests_per_submission) const {
-    const std::uint32_t rays = rays_of_pixel(query.quantity);
+    const std::uint32_t rays = gpu::rays_of_pixel(query.quantity);
     const std::uint64_t dispatched = std::uint64_t{device_.limits().max_workgroup_count} * gpu::WORKGROUP_SIZE / rays;
     const auto worth = static_cast<std::uint64_t>(kernel_.rays_for(tests_per_submission)) / rays;
     const std::uint64_t affordable = std::max<std::uint64_t>(worth, gpu::WORKGROUP_SIZE);
@@ -107,7 +103,7 @@ void FirstHits::read(const FirstHitQuery &query, double tests_per_submission, co
 
 void FirstHits::record(const vk::raii::CommandBuffer &commands, const Slot &slot,
                        const gpu::FirstHitConstants &constants, std::uint64_t bytes) const {
-    const std::uint32_t rays = constants.pixel_count * rays_of_pixel(constants.quantity);
+    const std::uint32_t rays = constants.pixel_count * gpu::rays_of_pixel(constants.quantity);
     slot.findings.clear(commands, 0, findings_bytes);
     vulkan::barrier_between_commands(commands);
     kernel_.pipeline().dispatch(commands, slot.set, std::as_bytes(std::span(&constants, 1)),

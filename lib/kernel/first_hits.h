@@ -18,8 +18,9 @@
 
 namespace pt {
 
+// Whether one of PT_QUANTITY_* is told by first hits: all but those that need samples.
 constexpr bool is_of_first_hits(std::uint32_t quantity) {
-    return quantity >= PT_QUANTITY_DEPTH && quantity <= PT_QUANTITY_OBJECT;
+    return quantity > PT_QUANTITY_SAMPLE_COUNT && quantity != PT_QUANTITY_COVERAGE;
 }
 
 struct FirstHitQuery {
