@@ -2,6 +2,7 @@
 #pragma once
 
 #include "lib/base/work_progress.h"
+#include "shaders/gpu_layout.h"
 
 #include <array>
 #include <bit>
@@ -20,7 +21,7 @@ struct TreeItem {
     std::uint32_t sphere;
 };
 
-inline constexpr std::uint32_t tree_width = 4; // children of a node, at most
+inline constexpr std::uint32_t tree_width = gpu::TREE_WIDTH; // children of a node, at most
 
 // Inner children come first. Children that are nodes are consecutive nodes, and children that are spheres have
 // consecutive places.

@@ -5,8 +5,6 @@
 
 namespace pt {
 
-static_assert(tree_width == gpu::TREE_WIDTH);
-
 namespace {
 
 constexpr std::uint32_t most_steps = 255; // that a byte counts

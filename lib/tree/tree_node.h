@@ -3,7 +3,6 @@
 
 #include "lib/tree/grid.h"
 #include "lib/tree/sphere_order.h"
-#include "shaders/gpu_layout.h"
 
 #include <array>
 #include <cstdint>
