@@ -30,6 +30,7 @@ public:
     }
 
     constexpr std::span<const std::string_view> names() const { return names_; }
+    constexpr std::span<const Value> values() const { return values_; }
 
     constexpr std::optional<Value> find(std::string_view name) const {
         const auto found = std::ranges::find(names_, name);

@@ -199,7 +199,7 @@ void add_merge_command(CLI::App &program, Run &chosen) {
         ->required()
         ->type_name("PART");
     constexpr std::size_t film_layers = 3; // the first ones; a film does not know what camera rays meet first
-    add_output_options(command, options.output, layer_names.names().first(film_layers));
+    add_output_options(command, options.output, file_layers.names().first(film_layers));
     command.option_defaults()->group("Samples");
     add_number<std::uint32_t>(command, "--first-sample", natural_number, options.first_sample,
                               "First of the samples that there should be (default: the first there is)");

@@ -1,34 +1,16 @@
 #include "cli/render/picture_layer.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 
 namespace cli {
 namespace {
 
-struct FileLayer {
-    std::uint32_t quantity;
-    const char *name;
-    std::size_t channel_count;
-    LayerKind kind;
-};
-
-// Z, N.X, N.Y, N.Z and id are the names that programs look for. Each of the others is a layer with its own name
-// ("OpenEXR: Technical Introduction", channel names). Layers whose channels are all equal have one.
-constexpr std::array<FileLayer, 7> file_layers{{
-    {PT_QUANTITY_STANDARD_ERROR, "standard_error", 3, LayerKind::color},
-    {PT_QUANTITY_SAMPLE_COUNT, "sample_count", 1, LayerKind::color},
-    {PT_QUANTITY_DEPTH, "Z", 1, LayerKind::color},
-    {PT_QUANTITY_NORMAL, "N", 3, LayerKind::vector},
-    {PT_QUANTITY_ALBEDO, "albedo", 3, LayerKind::color},
-    {PT_QUANTITY_OBJECT, "id", 1, LayerKind::numbers},
-    {PT_QUANTITY_COVERAGE, "A", 1, LayerKind::color},
-}};
+constexpr FileLayer alpha_layer{PT_QUANTITY_COVERAGE, "A", 1, LayerKind::color};
 
 const FileLayer &file_layer(std::uint32_t quantity) {
-    return *std::find_if(file_layers.begin(), file_layers.end(),
-                         [&](const FileLayer &layer) { return layer.quantity == quantity; });
+    const auto found = std::ranges::find(file_layers.values(), quantity, &FileLayer::quantity);
+    return found == file_layers.values().end() ? alpha_layer : *found;
 }
 
 } // namespace

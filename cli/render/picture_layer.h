@@ -13,15 +13,24 @@
 
 namespace cli {
 
-// By PT_QUANTITY_*. The radiance, which is the mean of the samples, is always there.
-inline constexpr ValueNames layer_names({
-    {"mean", PT_QUANTITY_RADIANCE},
-    {"standard-error", PT_QUANTITY_STANDARD_ERROR}, // of each number, from the means of two parts of the samples
-    {"sample-count", PT_QUANTITY_SAMPLE_COUNT},
-    {"depth", PT_QUANTITY_DEPTH},
-    {"normal", PT_QUANTITY_NORMAL},
-    {"albedo", PT_QUANTITY_ALBEDO},
-    {"object-id", PT_QUANTITY_OBJECT},
+struct FileLayer {
+    std::uint32_t quantity; // PT_QUANTITY_*
+    const char *name;
+    std::size_t channel_count; // one if all are equal
+    LayerKind kind;
+};
+
+// By the names of the option. Z, N.X, N.Y, N.Z and id are the names that programs look for in a file. Each of the
+// others is a layer with its own name ("OpenEXR: Technical Introduction", channel names).
+inline constexpr ValueNames<7, FileLayer> file_layers({
+    {"mean", {PT_QUANTITY_RADIANCE, "", 3, LayerKind::color}}, // which is always there
+    // From the difference between the means of two parts of the samples.
+    {"standard-error", {PT_QUANTITY_STANDARD_ERROR, "standard_error", 3, LayerKind::color}},
+    {"sample-count", {PT_QUANTITY_SAMPLE_COUNT, "sample_count", 1, LayerKind::color}},
+    {"depth", {PT_QUANTITY_DEPTH, "Z", 1, LayerKind::color}},
+    {"normal", {PT_QUANTITY_NORMAL, "N", 3, LayerKind::vector}},
+    {"albedo", {PT_QUANTITY_ALBEDO, "albedo", 3, LayerKind::color}},
+    {"object-id", {PT_QUANTITY_OBJECT, "id", 1, LayerKind::numbers}},
 });
 
 // A layer of the part of a picture that is rendered.

@@ -24,7 +24,7 @@ std::vector<std::uint32_t> parse_layers(const std::string &text, std::span<const
     std::istringstream names(text + ",");
     for (std::string name; std::getline(names, name, ',');) {
         read_value("--layers", name, rule);
-        const std::uint32_t quantity = layer_names.find(name).value();
+        const std::uint32_t quantity = file_layers.find(name).value().quantity;
         if (std::find(quantities.begin(), quantities.end(), quantity) != quantities.end())
             refuse_option("--layers", "must name a layer once", text);
         quantities.push_back(quantity);
@@ -229,7 +229,7 @@ void add_render_command(CLI::App &program, Run &chosen) {
     const auto [command, options] =
         add_command(program, chosen, "render", "Render a scene file to images", render_help, &run_render);
     add_text(command, "SCENE", options.scene, "SCENE", "Scene file (JSON); - is standard input")->required();
-    add_output_options(command, options.output, layer_names.names());
+    add_output_options(command, options.output, file_layers.names());
     add_scene_options(command, options.overrides, true);
     add_picture_options(command, options);
     add_sampling_options(command, options);
