@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -83,6 +84,35 @@ class Camera:
     @property
     def projection(self) -> Projection:
         return Projection.PERSPECTIVE if self.vertical_extent is None else Projection.ORTHOGRAPHIC
+
+    def _scaled(self, scale: float) -> Camera:
+        """With all lengths multiplied by a number."""
+        extent = self.vertical_extent
+        return replace(self, position=np.multiply(self.position, scale), target=np.multiply(self.target, scale),
+                       vertical_extent=None if extent is None else extent * scale,
+                       aperture=self.aperture * scale, focus=self.focus * scale)
+
+    def _section(self) -> dict[str, Any]:
+        """The section of a scene file."""
+        section: dict[str, Any] = {"position": list(self.position), "look_at": list(self.target), "up": list(self.up)}
+        shutter = {} if tuple(self.shutter) == (0.0, 1.0) else {"shutter": list(self.shutter)}
+        if self.vertical_fov is None:
+            return {**section, "projection": "orthographic", "vertical_extent": self.vertical_extent, **shutter}
+        lens = {"aperture": self.aperture, "focus": self.focus} if self.aperture else {}
+        return {**section, "vertical_fov": math.degrees(self.vertical_fov), **lens, **shutter}
+
+    @staticmethod
+    def _of_section(section: dict[str, Any]) -> Camera:
+        """The camera of a section. ValueError, TypeError, KeyError: it is none."""
+        others = {name: float(section[name]) for name in ("vertical_extent", "aperture", "focus") if name in section}
+        angle = section.get("vertical_fov")
+        first, last = map(float, section.get("shutter", (0.0, 1.0)))
+        camera = Camera(section["position"], section["look_at"], section.get("up", (0.0, 1.0, 0.0)),
+                        vertical_fov=None if angle is None else math.radians(angle), shutter=(first, last), **others)
+        if not all(map(math.isfinite, (*camera.position, *camera.target, *camera.up, angle or 0.0, *others.values(), first,
+                                       last))):
+            raise ValueError("camera: must be finite")
+        return camera
 
     def _struct(self) -> structs.pt_camera:
         shutter_open, shutter_close = self.shutter

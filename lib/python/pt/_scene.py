@@ -41,6 +41,15 @@ class Material:
             object.__setattr__(self, name, color(name, getattr(self, name)))
         object.__setattr__(self, "glossiness", float(self.glossiness))
 
+    def _section(self) -> dict[str, Any]:
+        """The section of a scene file, without default values; a grey is one number."""
+        section: dict[str, Any] = {}
+        for name in ("diffuse", "specular", "emission", "glossiness", "hidden_from_camera"):
+            value = getattr(self, name)
+            if value not in (0.0, False, (0.0, 0.0, 0.0)):
+                section[name] = value[0] if isinstance(value, tuple) and len(set(value)) == 1 else value
+        return section
+
     def _struct(self) -> structs.pt_material:
         return structs.pt_material(self.diffuse, self.specular, self.emission, self.glossiness,
                                    MaterialFlag.HIDDEN_FROM_CAMERA if self.hidden_from_camera else 0)

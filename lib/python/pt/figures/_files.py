@@ -14,7 +14,6 @@ import numpy.typing as npt
 from pt._camera import Camera
 from pt._files import Path, format_of, write_atomically
 from pt._scene import Material, Scene
-from pt._scene_file import camera_section, material_section
 from pt.figures._errors import module
 from pt.figures._options import Options
 
@@ -45,17 +44,19 @@ def write_scene(path: Path, scene: Scene, camera: Camera, size: tuple[int, int],
         assert isinstance(array.material, Material)
         items.append({**item, "material": names.setdefault(array.material, "edges" if names else "particles")})
     document: dict[str, Any] = {
-        "camera": camera_section(camera),
+        "camera": camera._section(),
         "film": {"width": size[0], "height": size[1], "exposure": 0, "tonemap": "none"},
         "render": {"max_path_length": options.max_path_length, "spp": options.most_samples},
         "materials": {}, "spheres": [], "planes": []}
     for name, lamp in zip(("surround", "key"), scene.spheres):
-        document["materials"][name] = material_section(lamp.material)
+        assert isinstance(lamp.material, Material)
+        document["materials"][name] = lamp.material._section()
         document["spheres"].append({"center": list(lamp.center), "radius": lamp.radius, "material": name})
     for plane in scene.planes:
-        document["materials"]["floor"] = material_section(plane.material)
+        assert isinstance(plane.material, Material)
+        document["materials"]["floor"] = plane.material._section()
         document["planes"].append({"normal": list(plane.normal), "offset": plane.offset, "material": "floor"})
-    document["materials"].update((name, material_section(material)) for material, name in names.items())
+    document["materials"].update((name, material._section()) for material, name in names.items())
     document["spheres"].append(items[0])
     if items[1:]:
         document["capsules"] = items[1:]

@@ -52,12 +52,9 @@ class View:
     @staticmethod
     def through(camera: Camera, up: Direction, size: tuple[int, int], scale: float) -> View:
         """The view through a given camera, which is in the units of the data."""
-        extent = camera.vertical_extent
-        scaled = replace(camera, position=np.multiply(camera.position, scale), target=np.multiply(camera.target, scale),
-                         vertical_extent=None if extent is None else extent * scale,
-                         aperture=camera.aperture * scale, focus=camera.focus * scale)
         right, above, back = camera.axes()
-        return View(Compass.of(up_vector(up)), np.array([right, above, -back]), size, "", camera=scaled)
+        return View(Compass.of(up_vector(up)), np.array([right, above, -back]), size, "",
+                    camera=camera._scaled(scale))
 
     @staticmethod
     def of(balls: Balls, view: Direction, up: Direction, projection: str, size: tuple[int, int] | None,

@@ -12,7 +12,6 @@ import numpy as np
 
 from pt._command_line import FILES, SCENE
 from pt._scene import Material, SphereArray
-from pt._scene_file import camera_section, material_section
 from pt.tachyon._reader import TachyonScene, read
 
 
@@ -53,9 +52,9 @@ def scene_file(found: TachyonScene) -> dict[str, Any]:
         name = names.setdefault(sphere.material, f"light {len(names) + 1 - len(found.scene.materials)}")
         materials[name] = sphere.material
         spheres.append({"center": sphere.center, "radius": sphere.radius, "material": name})
-    return {"camera": camera_section(found.camera),
+    return {"camera": found.camera._section(),
             "film": {"width": found.settings.width, "height": found.settings.height},
-            "materials": {name: material_section(each) for name, each in materials.items()},
+            "materials": {name: each._section() for name, each in materials.items()},
             "spheres": spheres, "capsules": capsules,
             "planes": [{"normal": plane.normal, "offset": plane.offset, "material": f"texture {plane.material}"}
                        for plane in found.scene.planes]}

@@ -17,7 +17,7 @@ from pt._errors import DeviceLostError, Error, InvalidSceneError
 from pt._pixels import Rectangle
 from pt._stats import ErrorEstimate
 from pt.view._frame import LAYERS, OF_SAMPLES, Frame, facts_of, faults_of, name_of
-from pt.view._source import Shown, Source, section_of
+from pt.view._source import Shown, Source
 
 MOVING_SECONDS: Final = 0.03  # for a sample of each pixel, while the camera moves
 STILL_SECONDS: Final = 0.25  # after which the camera no longer does
@@ -253,8 +253,8 @@ class Renderer:
         camera = self._camera
         self._emit({**kept, **facts, "name": self._source.path.name, "samples": self._count, "seconds": self._seconds, "playing": self._playing,
                     "moving": self._moving, "layer": self._layer, "history": list(self._history),
-                    "size": [self._settings.width, self._settings.height], "camera": section_of(camera),
-                    "first_camera": section_of(self._shown.camera), "display": self._shown.display,
+                    "size": [self._settings.width, self._settings.height], "camera": camera._section(),
+                    "first_camera": self._shown.camera._section(), "display": self._shown.display,
                     "max_path_length": self._settings.max_path_length, "sampler": name_of(self._settings.sampler),
                     "estimator": name_of(self._settings.estimator), "most": self._most,
                     "faults": [fault for text in self._faults.values() for fault in faults_of(text)]}, pixels, values)

@@ -16,11 +16,11 @@ from typing import Any, Final, Protocol
 
 from aiohttp import WSMsgType, web
 
+from pt._camera import Camera
 from pt._enums import Estimator, Sampler
 from pt._exr import encode_exr
 from pt._files import write_atomically
 from pt.view._frame import LAYERS, Frame, name_of
-from pt.view._source import camera_of
 
 PAGE: Final = {path.name: path.read_bytes() for path in pathlib.Path(__file__).with_name("page").iterdir()
                if path.suffix in (".html", ".css", ".js")}
@@ -220,7 +220,7 @@ def changes_of(message: dict[str, Any]) -> dict[str, Any]:
     changes: dict[str, Any] = {}
     for name, value in message.items():
         if name == "camera":
-            changes[name] = camera_of(value)
+            changes[name] = Camera._of_section(value)
         elif name == "size":
             width, height = (_whole(each, 1, MOST_PIXELS) for each in value)
             changes[name] = width, _whole(height, 1, MOST_PIXELS // width)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import json
-import math
 import pathlib
 import re
 import tempfile
@@ -17,7 +16,6 @@ from pt._errors import Error
 from pt._film import Film
 from pt._program import Program
 from pt._scene import Scene
-from pt._scene_file import camera_section
 from pt.figures._accept import load
 from pt.figures._figure import Staged
 from pt.figures._files import write_scene
@@ -81,7 +79,7 @@ class SceneSource:
         comments = r"//[^\n]*|/\*.*?\*/"
         blank = re.sub(rf'"(?:[^"\\\n]|\\.)*"|{comments}',
                        lambda found: found[0] if found[0][0] == '"' else " " * len(found[0]), text, flags=re.DOTALL)
-        section = f'"camera": {json.dumps(section_of(camera))}'
+        section = f'"camera": {json.dumps(camera._section())}'
         if found := re.search(r'"camera"\s*:\s*\{[^{}]*\}', blank):
             return self.path.name, (text[:found.start()] + section + text[found.end():]).encode()
         begin = blank.index("{") + 1
@@ -117,24 +115,6 @@ class FigureSource:
             for file in sorted(pathlib.Path(folder).iterdir()):
                 archive.write(file, file.name)
         return f"{self.path.stem}.zip", packed.getvalue()
-
-
-def section_of(camera: Camera) -> dict[str, Any]:
-    """The section of a scene file, which the page shows as a line."""
-    shutter = {} if tuple(camera.shutter) == (0.0, 1.0) else {"shutter": list(camera.shutter)}
-    return {**camera_section(camera), **shutter}
-
-
-def camera_of(section: dict[str, Any]) -> Camera:
-    """The camera of a section. ValueError, TypeError, KeyError: it is none."""
-    others = {name: float(section[name]) for name in ("vertical_extent", "aperture", "focus") if name in section}
-    angle = section.get("vertical_fov")
-    first, last = map(float, section.get("shutter", (0.0, 1.0)))
-    camera = Camera(section["position"], section["look_at"], section.get("up", (0.0, 1.0, 0.0)),
-                    vertical_fov=None if angle is None else math.radians(angle), shutter=(first, last), **others)
-    if not all(map(math.isfinite, (*camera.position, *camera.target, *camera.up, angle or 0.0, *others.values(), first, last))):
-        raise ValueError("camera: must be finite")
-    return camera
 
 
 def source_of(path: pathlib.Path, options: Options) -> Source | Film:
