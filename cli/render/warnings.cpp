@@ -15,26 +15,8 @@ bool emits(const pt_material &material) {
     return std::any_of(std::begin(material.emission), std::end(material.emission), [](float x) { return x > 0.0F; });
 }
 
-// For each material, whether a surface is made of it.
-std::vector<bool> used_materials(const SceneFile &scene) {
-    std::vector<bool> used(scene.materials.size());
-    for (const pt_sphere &sphere : scene.spheres)
-        used[sphere.material] = true;
-    for (const Capsule &capsule : scene.capsules)
-        used[capsule.ball.material] = true;
-    for (const SphereColumns &each : scene.sphere_columns)
-        used[each.material] = true;
-    for (const pt_plane &plane : scene.planes)
-        used[plane.material] = true;
-    return used;
-}
-
 bool is_lit(const SceneFile &scene) {
-    const std::vector<bool> used = used_materials(scene);
-    for (std::size_t i = 0; i < used.size(); ++i)
-        if (used[i] && emits(scene.materials[i]))
-            return true;
-    return false;
+    return std::ranges::any_of(scene.used_materials, [&](std::uint32_t i) { return emits(scene.materials[i]); });
 }
 
 // The largest of the channels' sums. Specular lobes reflect all of their weight if light arrives along the normal.
@@ -48,13 +30,12 @@ float reflected_share(const pt_material &material) {
 std::optional<std::string> brightening_materials(const SceneFile &scene) {
     constexpr float tolerance = 1e-6F; // 0.1 + 0.9 in float32 may pass 1
     constexpr std::size_t most_names = 3;
-    const std::vector<bool> used = used_materials(scene);
     std::vector<std::string> names;
     std::size_t count = 0;
     float largest = 0.0F;
-    for (std::size_t i = 0; i < used.size(); ++i) {
+    for (const std::uint32_t i : scene.used_materials) {
         const float share = reflected_share(scene.materials[i]);
-        if (!used[i] || !(share > 1.0F + tolerance))
+        if (!(share > 1.0F + tolerance))
             continue;
         if (++count <= most_names)
             names.push_back(path_text({{"materials"}, {scene.material_names[i]}}));

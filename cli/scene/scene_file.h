@@ -56,6 +56,7 @@ struct SceneFile {
     std::vector<JsonPath> given;             // keys of `camera`, `film` and `render`, of the file or of overrides
     std::vector<std::string> material_names; // like all arrays from here on in the order of the file
     std::vector<pt_material> materials;
+    std::vector<std::uint32_t> used_materials; // in ascending order: those of surfaces
     std::vector<pt_sphere> spheres;
     std::vector<Look> looks; // of each sphere where any has one, else empty
     std::vector<Capsule> capsules;

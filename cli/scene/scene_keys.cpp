@@ -247,6 +247,10 @@ const Named *find_named(std::span<const Named> all, std::string_view name) {
 
 } // namespace
 
+bool SceneSection::may_be_many() const {
+    return std::ranges::any_of(keys, [](const SceneKey &key) { return key.column != nullptr; });
+}
+
 std::span<const SceneSection> scene_sections() {
     return sections;
 }

@@ -49,8 +49,10 @@ struct SceneSection {
     std::string_view words;
     std::span<const SceneKey> keys;
 
-    // Whether an item may be many, by columns.
-    bool may_be_many() const { return name == "spheres" || name == "capsules"; }
+    bool may_be_many() const; // whether an item may be, by columns
+
+    // Whether values may change from frame to frame: those of the camera, of materials and of surfaces.
+    bool may_move() const { return form != SectionForm::members || name == "camera"; }
 };
 
 // All but `animation`, whose keys are paths.

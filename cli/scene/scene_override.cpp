@@ -59,12 +59,12 @@ void add_set(CLI::App &command, std::vector<SceneOverride> &overrides) {
 
 // A key of the camera, of a material or of a surface.
 bool can_move(const JsonPath &path) {
-    const auto is_key_in = [&](const char *section, std::size_t length) {
-        return path.size() == length && path[0].key == section && !path.back().in_array;
-    };
-    const bool is_of_camera = is_key_in("camera", 2) && path[1].key != "shutter";
-    const bool is_of_element = is_key_in("spheres", 3) || is_key_in("capsules", 3) || is_key_in("planes", 3);
-    return is_of_camera || (is_of_element && path[1].in_array) || (is_key_in("materials", 3) && !path[1].in_array);
+    const SceneSection *section = find_section(path[0].key);
+    if (section == nullptr || !section->may_move() || path.back().in_array)
+        return false;
+    if (section->form == SectionForm::members)
+        return path.size() == 2 && path[1].key != "shutter";
+    return path.size() == 3 && path[1].in_array == (section->form == SectionForm::array);
 }
 
 KeyFrame read_key_frame(const json &value, const JsonPlace &place, AnimatedValue &animated) {

@@ -2,6 +2,7 @@
 #include "cli/base/names.h"
 #include "cli/scene/scene_keys.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <set>
 #include <string>
@@ -189,6 +190,8 @@ private:
             }
             indices.push_back(found->second);
         }
+        scene_.used_materials = indices;
+        std::ranges::sort(scene_.used_materials);
         for (pt_sphere &sphere : scene_.spheres)
             sphere.material = indices[sphere.material];
         for (Capsule &capsule : scene_.capsules)

@@ -1,5 +1,6 @@
 // The command `pt schema`: the JSON Schema of scene files, from the table of keys.
 #include "cli/base/json.h"
+#include "cli/base/text.h"
 #include "cli/commands.h"
 #include "cli/scene/scene_keys.h"
 
@@ -9,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace cli {
 namespace {
@@ -107,9 +109,13 @@ Schema animation() {
     const Schema value = any_of({any_number, {{"type", "array"}, {"items", any_number}}});
     const Schema frame = value_of(natural_number);
     const Schema key{{"type", "array"}, {"items", {frame, value}}, {"minItems", 2}, {"maxItems", 2}};
+    std::vector<std::string> names;
+    for (const SceneSection &section : scene_sections())
+        if (section.may_move())
+            names.emplace_back(section.name);
     return {{"description", "Key frames, [frame, value] each, of values by their paths like camera.position"},
             {"type", "object"},
-            {"propertyNames", {{"pattern", "^(camera|materials|spheres|capsules|planes)[.[]"}}},
+            {"propertyNames", {{"pattern", "^(" + listed(names, "|") + ")[.[]"}}},
             {"additionalProperties", {{"type", "array"}, {"items", key}, {"minItems", 1}}}};
 }
 
