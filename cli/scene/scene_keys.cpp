@@ -63,8 +63,8 @@ constexpr std::array camera_keys{
              [](Item item, Value value) { put(value, item.scene.camera.position); }},
     SceneKey{"look_at", lengths, "The point in the middle of the picture", "", required,
              [](Item item, Value value) { put(value, item.scene.camera.target); }},
-    SceneKey{"up", direction, "What is up in the picture, as far as it is perpendicular to the view", "[0, 1, 0]",
-             optional, [](Item item, Value value) { put(value, item.scene.camera.up); }},
+    SceneKey{"up", direction, "What is up in the picture; need not be perpendicular to the view", "[0, 1, 0]", optional,
+             [](Item item, Value value) { put(value, item.scene.camera.up); }},
     SceneKey{"projection", one_of("projection", projection_names),
              "Rays share the point position, or the direction to look_at", "perspective", optional,
              [](Item item, Value value) {
@@ -81,9 +81,8 @@ constexpr std::array camera_keys{
                  item.scene.camera.vertical_fov = value.get<double>() * (std::numbers::pi / 180.0);
              }},
     SceneKey{"vertical_extent", number(least_length, largest_length),
-             "Of an orthographic projection: the height of what is seen. Nothing behind the plane through position "
-             "across the view is seen",
-             "", optional, [](Item item, Value value) { item.scene.camera.vertical_extent = value.get<double>(); }},
+             "Of an orthographic projection: the height of what is seen; what lies behind position is not", "",
+             optional, [](Item item, Value value) { item.scene.camera.vertical_extent = value.get<double>(); }},
     SceneKey{"aperture", distance, "Of a perspective: its lens's diameter", "0", optional,
              [](Item item, Value value) { item.scene.camera.aperture = value.get<double>(); }},
     SceneKey{"focus", distance, "Depth that a lens shows sharp, 0 for that of look_at", "0", optional,
@@ -156,8 +155,8 @@ constexpr std::array material_keys{
              [](Item item, Value value) { put(value, item.material.emission); }},
     SceneKey{
         "hidden_from_camera", boolean,
-        "The camera looks through the surface, all other rays meet it: for a lamp that is not in the picture, or "
-        "a wall, to look into a room",
+        "The camera looks through the surface, all other rays meet it: for a lamp outside the picture, or a "
+        "wall, to look into a room",
         "false", optional,
         [](Item item, Value value) { item.material.flags = value.get<bool>() ? PT_MATERIAL_HIDDEN_FROM_CAMERA : 0; }},
 };
