@@ -16,8 +16,8 @@ layout(push_constant) uniform Push { EstimateConstants estimate; };
 
 layout(set = 0, binding = BINDING_RESOLVED) writeonly buffer Groups { TileErrors groups[]; } estimated;
 
-// For each tile of the film: its samples in the older and the newer part, where tiles differ; and, on request, what its own
-// samples say about the sum of the squares of its relative errors, and about that of light that no sample has met.
+// For each tile of the film: its samples in the older and the newer part, where tiles differ; and, on request, the sums of
+// squared relative errors that its own samples show, and of those expected from light that no sample has met.
 layout(set = 0, binding = BINDING_TILE_COUNTS) readonly buffer TileCounts { uvec2 counts[]; } tile_samples;
 layout(set = 0, binding = BINDING_TILE_SQUARES) writeonly buffer TileSquares { vec2 squares[]; } tile_squares;
 

@@ -88,9 +88,9 @@ uvec4 fixed_point(uvec4 windows)
     return add_with_carry(add_with_carry(a, b), add_with_carry(c, d));
 }
 
-// Adds to the three least significant words of a sum, the first of which is words[first]; they lie stride apart.
-// Returns what the most significant one is to take. is_first: nothing has been added to the sum, whatever the words
-// hold. The end of an invocation spends its time on memory, so what is known is not read.
+// Adds to the three least significant words of a sum, which begin at words[first] and lie stride apart. Returns what is to
+// be added to the most significant one. is_first: the sum is 0, whatever the words hold. They are not read then, as the end
+// of an invocation spends its time on memory.
 uint film_store_sum(uint first, uint stride, uvec4 sum, bool is_first)
 {
     uvec4 old = uvec4(0u);

@@ -48,11 +48,11 @@ PT_CONSTANT ID_TREE_LAMPS = 23;      // lamps among them, the last ones of ID_LA
 PT_CONSTANT ID_TREE_COLORS = 24;     // 1: spheres of the tree have colors of their own
 PT_CONSTANT ID_LAMP_TREE_LEVELS = 25; // of the tree of lamps, below its top; 0: there is none
 PT_CONSTANT ID_LAMP_TREE_WORDS = 26;  // of the scene buffer that are the tree's
-PT_CONSTANT ID_WALK_TRIPS = 27;      // 0: an invocation ends each walk; otherwise trips until walks that have ended are left
+PT_CONSTANT ID_WALK_TRIPS = 27;      // trips after which walks that have ended are left; 0: an invocation ends each walk
 PT_CONSTANT ID_SPOT_COUNT = 28;      // spots to which the first vertex sends a ray of its own (shaders/spots.glsl)
 PT_CONSTANT ID_ORTHOGRAPHIC = 29;     // 1: camera rays are parallel; then STARTS_AHEAD is 1
-// Surfaces that camera rays pass through: the last lamps but for the tree's, the first skies, the last of the spheres that do
-// not emit, and the first planes.
+// How many surfaces camera rays pass through: the last of the lamps that are not in the tree, the first skies, the last of the
+// spheres that do not emit, and the first planes.
 PT_CONSTANT ID_HIDDEN_LAMPS = 30;
 PT_CONSTANT ID_HIDDEN_SKIES = 31;
 PT_CONSTANT ID_HIDDEN_OTHERS = 32;
@@ -319,9 +319,9 @@ struct ErrorSquares {
 // What the tiles of a workgroup say about the error of the image.
 struct TileErrors {
     ErrorSquares square;          // of (x - r)^2, in film units
-    ErrorSquares relative_square; // of (x - r)^2 / (r^2 + offset^2), times relative_scale^2, but for values met once
-    ErrorSquares met_once;        // the same of these
-    ErrorSquares as_lamps;        // likewise, by their own means
+    ErrorSquares relative_square; // of (x - r)^2 / (r^2 + offset^2), times relative_scale^2, without values met once
+    ErrorSquares met_once;        // the same for values met once, with limits r that are known without them
+    ErrorSquares as_lamps;        // the same for values met once, with their own means as r
     float unseen;                 // the same of light that no sample met, not scaled
     uint met_again;               // values
     uint unknown_pixels;          // without a sample in either part
@@ -412,8 +412,8 @@ struct EstimateConstants {
     uint strip_pixel_count;
     uint row_count;
     uint first_tile;       // of the strip, in the film
-    uvec2 sample_counts;   // of each pixel in the older and in the newer part; ANY_COUNT: those that its tile has
-    uint by_tile;          // 1: what each tile says of itself is asked for too
+    uvec2 sample_counts;   // of each pixel in the older and in the newer part; ANY_COUNT: tiles differ
+    uint by_tile;          // 1: also writes what each tile says of itself
     float relative_offset; // in film units
     float relative_scale;
 };

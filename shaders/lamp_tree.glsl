@@ -117,10 +117,10 @@ LampWalk walk_to(uint lamp)
 
 LampWalk walk_by(uint number) { return LampWalk(true, 0u, float(number >> 8u) * NUMBER_STEP, number, 1.0); }
 
-// Goes on to one of four children in proportion to their importance; if none has any, to that of the others. The last
-// one of those with some stands whose predecessors do not exceed the number: none without is ever chosen, whatever
-// rounding does. A choice of probability p leaves the number 1 / p times as coarse. The bits of a hash fill it up, so
-// that lamps which are chosen rarely are so as often as they should be.
+// Goes on to one of four children, in proportion to `importance` or, if that is 0 for all of them, to `others`. It is the
+// last child of positive importance for which the sum of those before does not exceed the number, so whatever rounding
+// does, no child of importance 0 is ever chosen. A choice of probability p leaves the number 1 / p times as coarse. The
+// bits of a hash fill it up, so that lamps of small probability are chosen as often as they should be.
 uint take_child(inout LampWalk walk, vec4 importance, vec4 others, uint given)
 {
     vec4 part = sum_of(importance) > 0.0 ? importance : others;

@@ -49,15 +49,15 @@ PT_FUNCTION Sorted with_missing_above(Sorted row)
 }
 
 struct Neighbourhood {
-    float median; // of an even number the lower of the two in the middle, so that of two pixels the brighter does not
-                  // stand for itself; 0 of a pixel alone
+    float median; // of an even number of values the lower of the two in the middle, so that the brighter of two pixels
+                  // does not stand for itself; 0 if there is one pixel alone
     float largest;
 };
 
-// Of rows of three values, among which those missing come first: k of nine, where the tile ends beside the pixel. The
-// lower of two in the middle is wanted, that is the value with (k - 1) / 2 values below it, which is the fifth of nine
-// if 4 - (k - 1) / 2 of those that are missing lie below all, and the others above: of the three missing beside an edge
-// two lie below, and of the five about a corner three.
+// From rows of three values. Where the tile ends beside the pixel, only k of nine values are there, and missing ones come
+// first in their row. The median wanted has (k - 1) / 2 values below it. It is the fifth of nine if 4 - (k - 1) / 2 of the
+// missing values are taken to lie below all others, and the rest above: two of the three missing beside an edge, three of
+// the five missing about a corner.
 PT_FUNCTION Neighbourhood neighbourhood(Sorted above, Sorted row, Sorted below, bool is_first_row, bool is_last_row,
                                         bool is_beside_edge)
 {

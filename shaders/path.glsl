@@ -35,8 +35,8 @@ vec3 light_by_way_of_spot(Vertex vertex, Material material, Spots spots, SampleK
     return path.radiance;
 }
 
-// For light that reaches the first vertex from the vertex where the branch has arrived: the share that the branch
-// counts.
+// The weight of light that reaches the first vertex over the one where the branch has arrived: a ray to a spot may find it
+// too.
 float share_beside_spots(Spots spots, Path path, Vertex first, float time)
 {
     float distance = dot(path.arrival.point - first.position, path.arrival.direction);

@@ -78,7 +78,7 @@ PT_FUNCTION uint rounded(uint quotient, int exponent, bool inexact)
 }
 
 // dividend * 2^exponent / divisor, rounded once; divisor >= 1. By long division: the quotient of two numbers with their
-// top bits set lies between 1/2 and 2, and of its bits 26 are found, of which the first may be 0.
+// top bits set lies between 1/2 and 2. 26 of its bits are found; the first may be 0.
 PT_FUNCTION uint quotient_bits(LeadingBits dividend, uint divisor, int exponent)
 {
     if (dividend.high == 0u)

@@ -66,9 +66,9 @@ bool sphere_blocks(vec3 to_centre, float radius, vec3 direction, bool at_end, fl
     return !at_end && b > 0.0 && met_before;
 }
 
-// A capsule is a ball swept from one end of a segment to the other, so a ray meets it where it meets the first of the
-// swept balls, and leaves it where it leaves the last. Which these are, is found here; distances are then those to a
-// ball, with all that is said of these above.
+// A capsule is a ball swept from one end of a segment to the other. A ray meets it where it meets the first of the swept
+// balls, and leaves it where it leaves the last. This function finds these balls; then all that is said above of distances
+// to a ball holds.
 //
 // With the unit vector u of the axis, its length L, c = u . direction, the part p of u across the ray and the part l of
 // the way to the first end, the ball at s on the axis is met at b + s c - sqrt(r^2 - |l + s p|^2). This is least where
@@ -101,8 +101,8 @@ vec3 swept_to(vec3 to_first, vec4 axis, float radius, vec3 direction, bool to_la
     return (share >= sine ? 1.0 : share > 0.0 ? share / sine : 0.0) * axis.xyz;
 }
 
-// The tests of spheres for spheres that may be swept. Where no ray gets inside one, the first ball tells all. From inside
-// the last one does; a ray that starts on the far wall starts on another ball.
+// sphere_distance() for spheres that may be swept. From outside, the first ball of the capsule is met; from inside, the last
+// one. A ray that leaves the capsule's surface towards its inside usually starts on another ball than it meets.
 float swept_distance(vec3 to_first, vec4 axis, float radius, vec3 direction, bool leaving, bool inside, bool outside)
 {
     if (CAPSULES == 0)

@@ -121,21 +121,22 @@ const uint MOTIONS = HAS_TABLE ? EMISSION + EMITTING_SPHERES + PLANES_EMIT * PLA
 const uint HAS_WAYS = MOTION + CAPSULES > 0u ? 1u : 0u;
 const uint CURVATURES = MOTIONS + HAS_WAYS * SPHERE_COUNT;
 const uint LAMP_TREE = CURVATURES + CURVATURE * PLANE_COUNT;
-// ... one that only the uniform buffer has, and those that only the storage buffer has.
+// ... SPOTS only in the uniform buffer, the others only in the storage buffer.
 const uint SPOTS = LAMP_TREE + LAMP_TREE_WORDS;
 const uint INDICES = LAMP_TREE + LAMP_TREE_WORDS;
 const uint TREE_FRAME = INDICES + (SURFACE_COUNT + 3u) / 4u;
 const uint TABLE = TREE_FRAME + 5u * TREE;
 
-// A sphere that does not move may be swept from one end of a segment to the other: a capsule. Its axis is the way
-// between the ends; 1 / the length.
+// A capsule is a sphere that does not move, but is swept along a segment. Its axis: the way from one end to the other, and
+// 1 / its length.
 const vec4 NO_AXIS = vec4(0.0);
 
 vec4 axis_of(vec4 way) { return way.w > 0.0 ? way : NO_AXIS; }
 
 vec3 moved(vec4 way, float time) { return CAPSULES == 1 && way.w > 0.0 ? vec3(0.0) : time * way.xyz; }
 
-// The way from the first end of an axis to its point that is nearest to where the first end is seen from.
+// to_first: the way from some place to the first end of an axis. Returns the way from that end to the point of the axis
+// that is nearest to the place.
 vec3 to_nearest(vec3 to_first, vec4 axis)
 {
     return clamp(-dot(to_first, axis.xyz * axis.w) * axis.w, 0.0, 1.0) * axis.xyz;
@@ -156,7 +157,7 @@ uint material_words(uint surface)
     return TABLE + (1u + GLOSS) * (in_tree ? tree_material(surface - SURFACE_COUNT) : stored_index(INDICES, surface));
 }
 
-// Lamps are numbered on their own: first those that are not in the tree, whose number is also that of the surface.
+// Lamps have numbers of their own. Those that are not in the tree come first, with the same number as their surface.
 const uint WALKED_LAMPS = LAMP_COUNT - TREE_LAMPS;
 
 // The lamp that a surface is; at least LAMP_COUNT if it is none.

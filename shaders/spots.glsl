@@ -79,9 +79,9 @@ MirrorPoint mirror_point_of_plane(Vertex vertex, vec4 lamp, uint surface)
 }
 
 // Alhazen's problem: the normal halves the angle between the ways to the vertex, a, and to the lamp, b. It is found by
-// iteration, begun by what holds for far points, the half of the angle, and for near ones, the ratio of the heights.
-// What error is left costs variance, as the lobe is then about another direction; the density is that of the lobe as it
-// is.
+// iteration, from a start that is right for far points, where it halves the angle, and for near ones, where the ratio of
+// heights decides. An error that is left costs variance but no bias: the lobe is then about a slightly wrong direction,
+// and its density is computed about the same one.
 MirrorPoint mirror_point_of_sphere(Vertex vertex, vec4 lamp, uint surface, float time)
 {
     vec4 sphere = sphere_of(surface, time);

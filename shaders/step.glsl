@@ -23,15 +23,15 @@ struct Path {
 };
 
 // For kernels with spots: state of the path that an invocation is on. Kernels without spots do not have it.
-float arrival_density; // of the direction that led to the last vertex, times the directions that the vertex before took
-float departure_share; // of the light that the next departure finds; the rest is found by way of a spot
+float arrival_density; // of the direction to the last vertex, times the number of directions that left the one before
+float departure_share; // weight of light that the next departure finds; the rest is found by way of a spot
 
 // A path at its first vertex.
 Path path_from(Arrival first) { return Path(first, vec3(1.0), vec3(0.0), 1u, true); }
 
-// Weight of light that lamp sampling found, over its density, and of light that a direction found, where both could
-// have: by multiple importance sampling, or all to the lamps. A density here is that of one sample times the number of
-// such samples that the vertex takes (Veach 1997, section 9.2.2).
+// Weights of light that both lamp sampling and a direction could have found, by multiple importance sampling or all to the
+// lamps: for lamp sampling the weight over its density, for a direction the weight. Densities here are those of a single
+// sample, times the number of such samples that the vertex takes (Veach 1997, section 9.2.2).
 float lamp_weight_over_density(float lamp_density, float direction_density)
 {
     return ESTIMATOR == ESTIMATOR_LIGHT ? 1.0 / lamp_density
@@ -161,9 +161,8 @@ void arrive(inout Path path, Departure departure, Lamps lamps, Hit hit, bool blo
     }
 }
 
-// Whether a direction may lead to a surface that emits, given what it meets first of those that are not in the tree.
-// The last direction of a path finds nothing but emission, and where a walk takes long, a few tests that spare it are
-// worth it.
+// Whether a direction may lead to a surface that emits. hit: what it meets first outside the tree. The last direction of a
+// path finds nothing but emission, so a few tests that may spare a long walk are worth it.
 bool may_meet_light(Start start, vec3 direction, Hit hit, float time)
 {
     const uint few_lamps = 16u;

@@ -20,8 +20,8 @@ struct Arrival {
     uint surface;
 };
 
-// The vertex where a ray has arrived. The point is moved onto the surface: along the ray it is off by the rounding of
-// the distance, up to thousands of times more than by that of the point itself.
+// The vertex where a ray has arrived. The point is moved onto the surface: the rounding of the distance puts it off along
+// the ray, up to thousands of times farther than rounding of the point itself would.
 Vertex vertex_at(Arrival arrival, float time)
 {
     uint surface = arrival.surface;

@@ -30,9 +30,9 @@ std::filesystem::path user_cache() {
     return home.empty() ? home : home / ".cache" / "pt";
 }
 
-// A folder of compiled shaders for this width alone: Mesa's key of a shader does not tell its width (seen with 22.3.6
-// and 25.0.7), so that machine code for 256 bits, left by any program, would be taken for that of 512. The width itself
-// does not depend on that folder: it is part of the device's name, by which films know each other.
+// Gives vectors of 512 bits a folder of compiled shaders of their own. Mesa's key of a shader does not tell the width
+// (seen with 22.3.6 and 25.0.7), so code for 256 bits that some program has left would be used for 512. Films tell the
+// widths apart, because the device's name has it.
 void widen_vectors() {
     constexpr const char *width_name = "LP_NATIVE_VECTOR_WIDTH"; // in bits
     constexpr const char *cache_name = "MESA_SHADER_CACHE_DIR";

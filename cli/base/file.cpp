@@ -159,7 +159,7 @@ void AtomicFile::refuse_unsuitable_target() const {
 }
 
 FileDescriptor AtomicFile::create_temporary() {
-    constexpr mode_t permissions = 0666; // less those that the user's umask takes away
+    constexpr mode_t permissions = 0666; // of which the system takes away what the umask says
     refuse_unsuitable_target();
     for (int attempt = 0;; ++attempt) {
         temporary_ = target_.parent_path() / temporary_name(attempt);

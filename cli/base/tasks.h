@@ -39,8 +39,8 @@ private:
 };
 
 // Calls work(first, end) for consecutive parts of [0, count): the last in this thread, the others in threads of their
-// own where there are any to be had. grain: parts are no smaller, but for the last; as much as makes a thread worth its
-// start. What work throws is thrown when all that were begun have ended.
+// own if the system has any left. grain: the least size of a part except the last, for which starting a thread pays. An
+// exception of work is thrown on when all parts that were begun have ended.
 template <typename Work>
 void in_parallel(std::size_t count, std::size_t grain, const Work &work) {
     const std::size_t processors = std::max(std::thread::hardware_concurrency(), 1U);

@@ -53,12 +53,12 @@ inline constexpr double largest_exposure = 64.0; // the least is its negative
 
 // The stops that bring the average of an image to middle grey, 0.18: Reinhard, Stark, Shirley, Ferwerda 2002,
 // "Photographic Tone Reproduction for Digital Images", eqs. 1 and 2, whose average is the exponential of the mean of
-// the logarithms. It hardly depends on how bright the lamps in view are. Unlike there, a pixel counts by the mean of
-// its channels and not by luminance, of which blue light has so little that it would be burnt out; and the darker it is
-// than 1/128 of the picture's level, the less it counts, since logarithms of what looks black, such as the tails of
-// lobes, would decide all. The level is a mean with the values above the mean cut down to it, three times, so that a
-// lamp in a hundredth of the pixels does not set it. Rounded to hundredths, so that the number that is shown gives the
-// same picture. 0 if all is black.
+// the logarithms. It hardly depends on how bright the lamps in view are. Two things differ from that paper. A pixel
+// counts by the mean of its channels instead of its luminance: blue light has so little luminance that it would be
+// burnt out. And pixels below 1/128 of the picture's level count the less the darker they are; otherwise the logarithms
+// of what looks black, such as the tails of lobes, would decide everything. The level is the mean after cutting values
+// above the mean down to it, three times, so that a lamp in a hundredth of the pixels does not set it. Rounded to
+// hundredths, so that the number that is shown gives the same picture. 0 if all is black.
 double automatic_exposure(std::span<const float> radiance);
 
 struct Display {

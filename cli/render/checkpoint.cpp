@@ -10,7 +10,7 @@
 namespace cli {
 namespace {
 
-// Runs take their samples in order, so those that one has left must be the first ones of the next.
+// A run takes its samples in order, so a checkpoint must hold the first ones of those that are wanted.
 void require_first_samples(const std::string &path, const std::vector<pt_sample_range> &ranges,
                            const RenderTask &task) {
     const std::uint64_t first = task.render.first_sample;

@@ -110,7 +110,7 @@ bool SourceWatch::changed(std::chrono::milliseconds timeout) {
 }
 
 std::vector<std::string> SourceWatch::changed_names() const {
-    std::vector<std::pair<const fs::path, std::optional<std::string>>> differing; // those that both have come twice
+    std::vector<std::pair<const fs::path, std::optional<std::string>>> differing; // a changed file is in it twice
     std::ranges::set_symmetric_difference(begun_, seen_, std::back_inserter(differing));
     std::set<std::string> names;
     for (const auto &[path, contents] : differing)

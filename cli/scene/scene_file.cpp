@@ -56,7 +56,8 @@ constexpr std::array<std::array<std::string_view, 2>, 6> renamed{{{"camera.targe
                                                                   {"render.height", "film.height"},
                                                                   {"accumulate.sample_count", "render.spp"}}};
 
-// Of an element of a column, whose components are spheres. The file's single ones may be arrays before others.
+// The path of a field of pt_scene.sphere_arrays, whose component is a sphere's index. The file's single spheres and
+// capsules, if they are arrays, come before the items that are many.
 JsonPath path_in_arrays(const SceneFile &scene, const BrokenRule &rule) {
     const std::size_t of_spheres = scene.looks.empty() ? 0 : 1;
     const std::size_t of_single = of_spheres + (scene.capsules.empty() ? 0 : 1);
@@ -70,7 +71,7 @@ JsonPath path_in_arrays(const SceneFile &scene, const BrokenRule &rule) {
     return path;
 }
 
-// A material by its name, as the file has it, where a sphere may not be of it.
+// The rule with the name of a material in place of its index.
 BrokenRule with_names(const SceneFile &scene, const BrokenRule &rule) {
     BrokenRule named = rule;
     if (rule.subject == "sphere_arrays" && rule.member == "material")
@@ -78,7 +79,7 @@ BrokenRule with_names(const SceneFile &scene, const BrokenRule &rule) {
     return named;
 }
 
-// Of the field that breaks a rule; empty if it is none of the file's. Materials have names there.
+// The path in the file of the field that breaks a rule; empty if the file has no such field.
 JsonPath path_of(const SceneFile &scene, const BrokenRule &rule) {
     if (rule.subject == "sphere_arrays" && rule.index)
         return path_in_arrays(scene, rule);

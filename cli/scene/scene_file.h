@@ -51,7 +51,7 @@ struct Capsule {
 
 struct SceneFile {
     std::string path;
-    std::string text;                        // of which refusals tell the lines
+    std::string text;                        // for the line numbers in refusals
     std::vector<SceneOverride> overrides;    // that have taken the place of its values
     std::vector<JsonPath> given;             // keys of `camera`, `film` and `render`, of the file or of overrides
     std::vector<std::string> material_names; // like all arrays from here on in the order of the file

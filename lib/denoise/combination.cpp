@@ -196,8 +196,8 @@ double effective_count(const Tiles &sums) {
     return sum > 0.0 ? squared(sum) / squares : 0.0;
 }
 
-// The root of the mean of squares, of which there are sums by tile. Tiles differ by noise, which makes the standard
-// error of the sum, and by what they show, which makes it larger.
+// The root of the mean of squares, from their sums by tile. Its bounds come from how tiles differ: by noise, and also
+// by what they show, which makes the bounds too wide rather than too narrow.
 Interval root_mean(const Tiles &sums, const Tiles &value_counts, bool uncertain) {
     double sum = 0.0;
     double count = 0.0;

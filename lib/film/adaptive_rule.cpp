@@ -110,9 +110,9 @@ double error_of(const TileSamples &samples, std::span<const double> squares) {
     return std::sqrt(sum / (3.0 * samples.grid().width * samples.grid().height));
 }
 
-// With the variances v of tiles, samples in proportion to the root of v take mean(root v)^2 / mean(v) of those of an
-// even film. Counts that are powers of two, tiles whose v is off by a fifth, and the time that looks take cost up to an
-// eighth.
+// If tiles have the variances v, samples in proportion to root(v) reach the same error with mean(root v)^2 / mean(v)
+// times the samples of an even film. Up to an eighth of that is lost again: counts are powers of two, v is off by a
+// fifth, and looks take time.
 bool are_worth_telling_apart(std::span<const double> gains) {
     constexpr double least_ratio = 1.2;
     double sum = 0.0;

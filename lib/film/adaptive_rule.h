@@ -24,8 +24,8 @@ bool is_level(std::uint64_t sample_count);
 // Tiles that were interrupted on their way to a level, or have not begun.
 std::vector<std::uint32_t> unfinished_tiles(const TileSamples &samples);
 
-// By tile, what as many samples again are expected to lessen its square by, for each sample of a pixel that they cost;
-// 0 if that is unknown. squares: what is expected of the sum of the squares of its values' relative errors.
+// For each tile, by how much doubling its samples is expected to lessen its square error, divided by the number of
+// samples that this costs; 0 if that is unknown. squares: for each tile the expected sum of squared relative errors.
 std::vector<double> tile_gains(const TileSamples &samples, std::span<const double> squares);
 
 // The error of the image as far as each tile knows its own part; tiles that know nothing do not count.
@@ -38,10 +38,10 @@ bool are_worth_telling_apart(std::span<const double> gains);
 std::vector<std::uint32_t> wanting_tiles(const TileSamples &samples, std::span<const double> gains,
                                          const AdaptiveRound &round);
 
-// The round that follows one in which no tile wants more. excess: the square of the image's error over that of its
-// target; infinite if the error is unknown. sees_too_little: much of the error is light that no sample has met
-// (PT_UNCERTAIN_UNSEEN), perhaps that of a tile beside: those with the fewest samples take more, and excess is that of
-// what tiles show alone, which may be 1 or less; otherwise it is greater than 1. Some tile wants more in it.
+// The next round, once no tile wants more samples in this one; in the next some tile does. excess: the square of (error
+// of the image / target), > 1; infinite if the error is unknown. sees_too_little: much of the error is light that no
+// sample has met (PT_UNCERTAIN_UNSEEN), perhaps of a neighbouring tile. Then the tiles with the fewest samples take
+// more, and excess counts only what tiles themselves show, so it may be 1 or less.
 AdaptiveRound round_after(const AdaptiveRound &round, const TileSamples &samples, std::span<const double> squares,
                           std::span<const double> gains, double excess, bool sees_too_little);
 

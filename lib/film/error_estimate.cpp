@@ -54,12 +54,12 @@ void add_squares(ErrorSquares &to, const ErrorSquares &other, double factor = 1.
     to.times_tile_sizes += factor * other.times_tile_sizes;
 }
 
-// Light of one kind that the samples of a pixel are expected to meet w times is met by neither half of them in a share
-// q^2 of the pixels, with q = e^(-w / 2), by one half in 2 q (1 - q), and by both in (1 - q)^2: so w is 2 ln(1 + 2 b)
-// with b the ratio of pixels that both have met to those that one has. Half a pixel more of either keeps a few from
-// saying much. A pixel of the mean T that was met once is then expected to have the limit w T, by which its error is
-// 1 / w times what it is by T. So lamps smaller than a pixel, of which as many were met again as once, are told from
-// rare bright samples, of which hardly any is met twice.
+// Suppose that the samples of a pixel are expected to meet some kind of light w times. With q = e^(-w / 2), neither
+// half of the samples meets it in a share q^2 of the pixels, one half in 2 q (1 - q), and both in (1 - q)^2. So w is 2
+// ln(1 + 2 b), with b the number of pixels where both have met it over that where one has. Half a pixel more of either
+// keeps a few pixels from saying much. A pixel of the mean T that was met once is then expected to have the limit w T,
+// by which its error is 1 / w times what it is by T. So lamps smaller than a pixel, which are met again as often as
+// once, are told from rare bright samples, which are hardly ever met twice.
 double square_by_meetings(double met_once, double met_again) {
     const double meetings = 2.0 * std::log1p(2.0 * (met_again + 0.5) / (met_once + 1.0));
     return std::max(1.0, 1.0 / squared(meetings));

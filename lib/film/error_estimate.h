@@ -38,9 +38,9 @@ ErrorEstimate unknown_error();
 // As pt.h gives it.
 pt_error_estimate stated(const ErrorEstimate &error);
 
-// Whether so many of an image's samples were left out that its error is unknown. Of those that were too bright each may
-// have carried more than 2^20 times the brightest emission (gpu_layout.h, FILM_MAX_EXPONENT): from one in 2^20 on, they
-// may outweigh all light in the picture.
+// Whether so many of an image's samples were left out that its error is unknown. A sample that was too bright may have
+// carried more than 2^20 times the brightest emission (gpu_layout.h, FILM_MAX_EXPONENT), so one such sample in 2^20 may
+// outweigh all light in the picture.
 bool hides_error(std::uint64_t rejected_samples, std::uint64_t samples);
 
 // The sample count, greater than the given one, at which the error is looked at next: 16, then quarters of powers of

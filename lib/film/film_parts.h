@@ -16,15 +16,16 @@ static_assert(gpu::FILM_PARTS == 2);
 // How many samples each part holds.
 using PartCounts = std::array<std::uint64_t, gpu::FILM_PARTS>;
 
-// The index with the most zeros at its end that has samples on both sides, if it is a multiple of 8; else the next
-// multiple of 8 from the last sample on, and all samples are older: fewer than 8 in a part would say next to nothing.
+// Of the indices that have samples on both sides, the one with the most zeros at its end in binary, if that is a
+// multiple of 8. Otherwise the next multiple of 8 from the last sample on, and then all samples are in the older part:
+// fewer than 8 in a part would say next to nothing.
 //
-// Of the samples [0, N) it is the largest power of two below N. At N = 2^k both parts are runs of 2^(k - 1) points that
-// begin at a multiple of 2^(k - 1): the best sets that a sequence has.
+// For the samples [0, N) that is the largest power of two below N. At N = 2^k both parts are runs of 2^(k - 1) points
+// that begin at a multiple of 2^(k - 1): the best sets that a sequence has.
 //
-// Among the indices within a range just one has the most zeros, since between two with equally many lies one with more.
-// So when films are added, the split of the sum is a film's own split, or that film lies on one side of it as a whole.
-// Hence two parts are enough to add films in any order with the same result.
+// Just one index of a range has the most zeros, since between two with equally many lies one with more. So when films
+// are added, each film has the split of the sum or lies wholly on one side of it. Hence two parts are enough to add
+// films in any order with the same result.
 std::uint64_t split_of(const SampleRange &hull);
 
 PartCounts part_counts(const SampleSet &samples);

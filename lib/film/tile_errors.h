@@ -35,11 +35,11 @@ struct PixelErrors {
     using Numbers = std::array<double, tile_size * tile_size>;
 
     Numbers square{};          // of (x - r)^2
-    Numbers relative_square{}; // of (x - r)^2 / (r^2 + 0.01), as far as the samples tell, but for values met once
-    Numbers met_once{};  // the same of values met once, with what is known without the part that met them as limits
-    Numbers as_lamps{};  // likewise, with their own means as limits
+    Numbers relative_square{}; // of (x - r)^2 / (r^2 + 0.01), as far as the samples tell, without values met once
+    Numbers met_once{};  // the same for values met once, with limits r that are known without the part that met them
+    Numbers as_lamps{};  // the same for values met once, with their own means as r
     Numbers met_again{}; // how many values stand out from what is about them in both parts of the film
-    Numbers unseen{};    // the same of light beside the pixel that may be in it too, but that none of its samples met
+    Numbers unseen{};    // the same for a neighbour's light that may reach into the pixel, but that no sample has met
 };
 
 PixelErrors pixel_errors(const TileValues &tile);
@@ -57,9 +57,9 @@ struct TileErrors {
     double value_count = 0.0;           // pixels times channels
     double squares_of_tile_sizes = 0.0; // sum over tiles of the squares of the numbers of their values
     ErrorSquares square;                // of (x - r)^2
-    ErrorSquares relative_square;       // of (x - r)^2 / (r^2 + 0.01), but for values met once
-    ErrorSquares met_once;              // the same of these, by what is known without them
-    ErrorSquares as_lamps;              // likewise, by their own means: about 1 of each
+    ErrorSquares relative_square;       // of (x - r)^2 / (r^2 + 0.01), without values met once
+    ErrorSquares met_once;              // the same for values met once, with limits r that are known without them
+    ErrorSquares as_lamps;              // the same for values met once, with their own means as r: about 1 each
     double met_again = 0.0;             // values
     double unseen = 0.0;                // the same of light that no sample met
     std::uint64_t rejected = 0;         // samples left out

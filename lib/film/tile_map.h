@@ -53,9 +53,9 @@ private:
 // The smallest rectangle with all tiles; there is at least one.
 Rectangle bounds_of(const std::vector<FilmTile> &tiles);
 
-// The one list of tiles with these samples of these pixels, however they were listed: neighbours in a row with equal
-// samples are together, and so are equal such runs in rows one below the other. From the top down, and from left to
-// right among those that begin in one row.
+// The same pixels and samples as a list that does not depend on how they were listed. Neighbours in a row with equal
+// samples are together, and so are equal runs of them in rows one below the other. Tiles come from the top down, and
+// from left to right among those that begin in one row.
 std::vector<FilmTile> canonical_tiles(const std::vector<FilmTile> &tiles);
 
 } // namespace pt

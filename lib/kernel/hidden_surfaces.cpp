@@ -26,7 +26,7 @@ bool lies_apart(const MovingBall &ball, const MovingBall &surface) {
 
 namespace {
 
-// A capsule is swept at once, so that no end of it belongs to a time. What is apart from the ball about it is from it.
+// A capsule does not move: all of its balls are there at once, and a ball about all of them stands for it.
 MovingBall ball_about(const SeenSphere &sphere) {
     if (!sphere.swept)
         return static_cast<const MovingBall &>(sphere);

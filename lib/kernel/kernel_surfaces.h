@@ -24,11 +24,11 @@ struct HiddenCounts {
     bool any() const { return lamps + skies + others + planes > 0; }
 };
 
-// A scene without twins as the kernel has it: lamps, skies, other spheres, planes with curvature, planes; otherwise in
-// the scene's order. Hidden ones are the last lamps, the first skies, the last other spheres and the first planes, so
-// that those that the camera sees are two ranges. Paths cannot leave a sphere that holds the camera: one that emits
-// surrounds them all like a sky, which cannot be sampled from within. A hidden one that lies apart from all that is
-// seen is a lamp.
+// A scene without twins as the kernel has it: lamps, skies, other spheres, planes with curvature, planes; within each
+// kind in the scene's order, except that hidden ones are the last lamps, the first skies, the last other spheres and
+// the first planes. So what the camera sees is two ranges. A sky is an emitting sphere that holds the camera: paths
+// cannot leave it, and from within it cannot be sampled. But a hidden one that lies apart from all that is seen is a
+// lamp.
 struct KernelSurfaces {
     std::vector<SeenSphere> spheres; // held by centre and radius
     std::vector<CurvedPlane> planes;

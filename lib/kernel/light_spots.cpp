@@ -17,8 +17,8 @@ namespace {
 constexpr double largest_glow_height = 0.2; // over the lamp's height above the farthest plane
 constexpr double least_glow_height = 1.5;   // over the lamp's radius
 constexpr double least_glow_diffuse = 0.35; // mean of R, G and B
-// A mirror image is worth one where it is bright, and small: 1 / n of a lobe of glossiness n, and what the lamp's width
-// adds.
+// A mirror image is worth a spot if it is bright and small. Its size is 1 / n for a lobe of glossiness n, plus what the
+// lamp's width adds.
 constexpr double least_image_specular = 0.45; // mean of R, G and B
 constexpr double widest_image = 0.02;
 

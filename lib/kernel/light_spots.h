@@ -1,5 +1,5 @@
-// Which surfaces are spots: far brighter than others as seen from where they are small, so that rays by chance find
-// their light rarely, and much of it at a time (shaders/spots.glsl).
+// Which surfaces have spots: small places that are far brighter than all others, so that random rays seldom find their
+// light, and then much of it at once (shaders/spots.glsl).
 #pragma once
 
 #include "lib/kernel/kernel_surfaces.h"

@@ -31,7 +31,7 @@ struct View {
     std::array<glm::dvec3, 4> corners; // at depth 1
     glm::dvec3 forward;
     double half_angle;
-    double aside; // a lens's rays are no farther from these, up to the plane in focus and as far again behind it
+    double aside; // how far a lens's rays are from these at most, up to twice the depth of the plane in focus
 
     View(const Camera &camera, const RenderSettings &settings) : forward(camera.forward), aside(camera.lens_radius) {
         const double up = camera.tan_half_fov;
@@ -42,8 +42,8 @@ struct View {
     }
 };
 
-// A plane's depth along a direction of depth 1 is -offset / (normal . direction), least at a corner. Of a lens, all
-// that lies aside of the plane counts as the plane.
+// A plane's depth along a direction of depth 1 is -offset / (normal . direction), least at a corner. With a
+// lens, the plane is taken to be nearer by `aside`.
 double nearest_depth(const CurvedPlane &plane, const View &view) {
     const double offset = std::max(plane.offset - view.aside, 0.0);
     double nearest = offset == 0.0 ? 0.0 : out_of_view;
@@ -196,7 +196,7 @@ double first_depth(const Scene &scene, const SphereTree *tree, const Camera &cam
     return depth;
 }
 
-// Of what is wider the squares of distances would not be numbers of float32.
+// In a wider view the squares of distances would overflow float32.
 void require_held_view(const Camera &camera, const RenderSettings &settings) {
     const double width = camera.vertical_extent * settings.width / settings.height;
     if (width > max_length)
@@ -238,8 +238,9 @@ Camera starting_ahead(const Scene &scene, const SphereTree *tree, const Camera &
     const double depth = first_depth(scene, tree, camera, view);
     if (depth > farthest_start)
         return ahead;
-    // Keeps a distance from the first surface as large as the view is wide there, so that rounding puts no start behind
-    // the surface; and as the lens is wide, of which the part that is left where rays start narrows towards the focus.
+    // Stays before the first surface by as much as the view is wide there, so that rounding puts no start behind the
+    // surface, and by the radius of the lens. Towards the plane in focus the lens's rays come together, so they start
+    // on a smaller disc.
     const double tangent = std::tan(view.half_angle);
     ahead.start_distance = std::max((1.0 - tangent) * depth - camera.lens_radius, 0.0);
     if (camera.has_lens()) {

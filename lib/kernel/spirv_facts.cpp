@@ -136,8 +136,8 @@ std::uint32_t Facts::folded(Words instruction) const {
     return result_of(instruction[3], operand);
 }
 
-// Goes from a function to its first block, or from a block to what it calls and where it branches. A branch on a
-// condition that is a constant goes one way, if it is that of an `if`: one that ends a loop stays as it is.
+// Goes from a function to its first block, or from a block to what it calls and where it branches. If the condition of
+// an `if` is a constant, only the branch that is taken is followed. Branches that end a loop stay as they are.
 void Facts::follow(std::uint32_t id) {
     const std::size_t place = fact(id).place;
     if (place == 0)
@@ -175,8 +175,8 @@ void Facts::follow(std::uint32_t id) {
     });
 }
 
-// By the second word after the first, where most instructions have their results; those without have an id there that
-// is the result of another that is kept.
+// Most instructions have their result in the second word after the first. Those without a result have an id there that
+// is the result of another instruction that is kept, so noting it does no harm.
 void Facts::note_results() {
     for_each_kept([&](Words instruction, std::uint32_t block) {
         const Opcode opcode = opcode_of(instruction);

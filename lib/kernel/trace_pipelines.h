@@ -1,4 +1,4 @@
-// The specialised pipelines of pathtrace.comp, and that of fold.comp, kept from scene to scene.
+// The specialised pipelines of pathtrace.comp, and the one of fold.comp, kept from scene to scene.
 // Owned by RenderDevice, used by Kernel.
 #pragma once
 
@@ -33,11 +33,11 @@ public:
     // fails.
     std::string take_kernel_key() noexcept { return std::move(kernel_key_); }
 
-    // The kernel for scenes with these features, or where that is faster for this scene alone. Both give the same bits.
-    // The first scene gets one of its own at once, as it has to wait for some kernel anyway; others do once they have
-    // been rendered for a while (own_kernel_clock.h), since building takes as long as many small images do. words: the
-    // scene buffer; seconds: for which this scene has been rendered so far with nothing about it changed, the camera
-    // neither. The reference holds until the next call.
+    // The kernel for scenes with these features or, where that is faster, one for this scene alone. Both give the same
+    // bits. The first scene gets one of its own at once, as it has to wait for some kernel anyway; others get one once
+    // they have been rendered for a while (own_kernel_clock.h), since building takes as long as many small images do.
+    // words: the scene buffer; seconds: how long this scene has been rendered so far without a change of it or of the
+    // camera. The reference holds until the next call.
     const vulkan::ComputePipeline &trace(const Features &features, std::span<const glm::vec4> words, double seconds);
 
     // While one of these exists, every scene gets a kernel of its own at once: whoever prepares kernels ahead has the

@@ -17,8 +17,8 @@ namespace pt {
 // which samples a target error takes.
 inline constexpr std::uint32_t estimator_version = 6;
 
-// Where and how fast samples are taken is not part of it: rows, ranges, submissions, the number of equal devices, and
-// whether kernels have the numbers of the scene as constants (trace_pipelines.h) do not change a bit.
+// What changes no bit is not part of a film's identity: rows, ranges, submissions, the number of equal devices, and
+// whether kernels have the numbers of the scene as constants (trace_pipelines.h).
 FilmIdentity identity_of(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings,
                          const KernelCode &code, const std::vector<pt_device_info> &devices);
 

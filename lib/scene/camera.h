@@ -18,15 +18,16 @@ struct Camera {
     double shutter_open; // 0 <= open <= close <= 1
     double shutter_close;
     double vertical_extent = 0.0; // of the view of parallel rays; 0: they start at the pinhole
-    double start_distance = 0.0;  // of position from that of pt.h, along forward (ray_start.h)
-    double start_radius = 0.0;    // of the disc about position on which rays start, but for a pinhole's (ray_start.h)
+    double start_distance = 0.0;  // from pt_camera.position to this position, along forward (ray_start.h)
+    double start_radius = 0.0;    // rays start on a disc of this radius about position; 0: a pinhole (ray_start.h)
     double lens_radius = 0.0;     // 0: a pinhole, or parallel rays
     double focus = 0.0;           // distance of the plane in focus from the lens, along forward; 0 without a lens
 
     bool is_orthographic() const { return vertical_extent > 0.0; }
     bool has_lens() const { return lens_radius > 0.0; }
 
-    // Of the rays of a place in the image, which meet on the plane in focus. start_distance <= focus.
+    // All rays of a place in the image meet on the plane in focus, so ahead of the lens they start on a smaller disc.
+    // start_distance <= focus.
     double lens_radius_at_start() const { return lens_radius * (1.0 - start_distance / focus); }
 };
 

@@ -43,7 +43,7 @@ inline bool nearly_coincide(const MovingBall &a, const MovingBall &b) {
     return apart + std::abs(a.radius - b.radius) < two_spheres * std::min(a.radius, b.radius);
 }
 
-// Whether a ball, at some time, may nearly coincide with one of those that are swept to a capsule.
+// Whether a ball, at some time, may nearly coincide with one of the balls that make up a capsule.
 inline bool nearly_coincides_within(const MovingBall &ball, const MovingBall &capsule) {
     const double apart = std::max(least_distance(capsule.open - ball.open, capsule.way) - glm::length(ball.way), 0.0);
     return apart + std::abs(ball.radius - capsule.radius) < two_spheres * std::min(ball.radius, capsule.radius);

@@ -11,10 +11,10 @@ namespace {
 // radius cost at most 5 of the 24 bits that a hit near the camera has.
 constexpr double nearly_flat = 32.0;
 
-// A lamp that is held by its centre is sampled by the cone that it subtends; one held as a plane is found by directions
-// alone. That is as good where the lamp fills half of the view, but direction sampling rarely hits the rim, so that
-// noise rises there. It therefore begins where the centre's precision ends: here the surface is off by 2^-24 R, 1/256
-// of the distance.
+// A lamp held by its centre is sampled by the cone that it subtends; one held as a plane is found by directions alone.
+// That is as good where the lamp fills half of the view, but directions rarely hit its rim, so noise rises there.
+// Therefore lamps are held by their centres as long as these are precise enough: up to this ratio, where the surface is
+// off by 2^-24 R, 1/256 of the distance.
 constexpr double nearly_flat_lamp = 65536.0;
 
 bool is_large(const SeenSphere &sphere, double ratio) {
@@ -38,9 +38,8 @@ SeenSphere::SeenSphere(const Sphere &sphere, const Material &of_sphere, const Ca
     swept(sphere.swept),
     is_flat(!swept && is_large(*this, emits ? nearly_flat_lamp : nearly_flat) && moves_little(*this)) {}
 
-// Held by its centre, its surface is off by 2^-24 of the radius. Where that is more than 1/256 of its distance, as for
-// lamps, the picture would be wrong while it is so near. Parallel rays start on a disc and not in a point: to be so
-// near to that is no harm to a view that is wider.
+// Held by its centre, a sphere's surface is off by 2^-24 of the radius. Where that is more than 1/256 of its distance,
+// the picture would be wrong. Where rays start on a disc, an error that is small beside the disc does no harm.
 bool moves_too_far(const SeenSphere &sphere, const Camera &camera) {
     return !sphere.swept && is_large(sphere, nearly_flat_lamp) &&
            sphere.radius > nearly_flat_lamp * camera.start_radius && !moves_little(sphere);

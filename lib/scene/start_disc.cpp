@@ -6,9 +6,9 @@
 namespace pt {
 
 // Let the centre of a ball lie at a distance a before the plane of the disc and c from its axis. The points of the disc
-// have distances between the roots of a^2 + max(c - radius, 0)^2 and a^2 + (c + radius)^2 from it. One with a way,
-// which moves or is a capsule, counts as everything within half its way, unless all of the way is too far from the
-// disc. Float32 can tell the sides apart up to a share of the size of the ball or, for a huge ball, of its distance.
+// have distances between the roots of a^2 + max(c - radius, 0)^2 and a^2 + (c + radius)^2 from it. A ball that moves,
+// and a capsule, is taken to be larger by half its way, unless all of the way is too far from the disc. Float32 can
+// tell the sides apart up to a share of the size of the ball or, for a huge ball, of its distance.
 bool divides_start(const MovingBall &ball, const Camera &camera, double slack) {
     if (camera.start_radius == 0.0 || !may_hold_origin(ball, camera.start_radius + slack))
         return false;

@@ -7,8 +7,8 @@
 
 namespace pt {
 
-// The way, and of a capsule 1 / its length. Where that overflows, the length is nothing beside any radius, which is at
-// least 1e-18: the capsule is held as a ball.
+// The way; for a capsule also 1 / its length. Where that overflows, the way is far shorter than any radius (at least
+// 1e-18), and the capsule is held as a ball.
 inline glm::vec4 way_word(const glm::dvec3 &way, bool swept) {
     const glm::vec3 rounded = glm::vec3(way) + 0.0F; // -0 is made +0, for twins
     if (!swept)

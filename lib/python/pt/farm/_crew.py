@@ -74,7 +74,7 @@ class Crew:
         return next((member for member in self if future.key in member.tries), None)
 
     def meet(self, member: Member, outcome: Outcome | None, identity: Identity | None) -> None:
-        """Takes in a worker after its introduction. identity: that of the film that it sent."""
+        """Takes in a worker after its introduction. identity: of the film that it sent."""
         member.introduction = None
         if outcome is None:
             member.is_banned = True  # it has died, and will be gone at the next look

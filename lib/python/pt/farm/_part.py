@@ -24,7 +24,7 @@ class Part:
 
     @property
     def work(self) -> int:
-        """The number of samples times that of tiles."""
+        """The number of samples times the number of tiles."""
         return (self.end - self.first) * len(self.tiles)
 
     def split(self, work: int, least_tiles: int) -> tuple[Part, list[Part]]:

@@ -172,7 +172,7 @@ def stick_radius(ways: Doubles, model: str, radii: Array) -> float:
 
 
 def ball_radii(radii: Array, model: str, stick: float, is_given: bool) -> Array:
-    """Radii of the balls of a model, of which sticks has no larger ones."""
+    """Radii of the balls of a model: sticks end in balls of their own radius."""
     if model == "sticks":
         return np.array([stick])
     result: Array = radii * radii.dtype.type(BALL_SHARE) if model == "ball-and-stick" and not is_given else radii

@@ -193,6 +193,6 @@ def _after_lines(data: bytes, start: int, end: int, most: int) -> tuple[int, int
 
 
 def ending(path: str) -> str:
-    """The ending of a file's name in lower case, ignoring that of a packer."""
+    """The ending of a file's name in lower case, without a packer's, such as .gz."""
     name = Path(path.lower())
     return Path(name.stem).suffix if name.suffix in PACKED_ENDINGS else name.suffix
