@@ -15,24 +15,6 @@
 
 namespace cli {
 
-// How a rendering ended, if no signal has stopped it.
-struct Ending {
-    bool has_target;
-    bool target_reached;
-    bool timed_out; // the time limit ended it; it may have reached the target all the same
-    bool has_checkpoint;
-    bool all_written;
-};
-
-// A missing file matters more than missing samples, which a checkpoint can still supply.
-constexpr ExitCode outcome_of(const Ending &ending) {
-    if (!ending.all_written)
-        return ExitCode::file;
-    if (ending.timed_out && ending.has_checkpoint)
-        return ExitCode::resumable;
-    return ending.has_target && !ending.target_reached ? ExitCode::target_missed : ExitCode::done;
-}
-
 // outcome: ExitCode::signal for a stopped rendering. signal: the one that stopped it or came later; 0: none.
 constexpr int exit_code_of(ExitCode outcome, int signal) {
     if (outcome != ExitCode::done && outcome != ExitCode::signal)
@@ -47,7 +29,7 @@ struct RenderTimes {
 };
 
 // Sets scene, camera and settings, takes samples and writes the files. A signal stops it with the samples so far; so
-// does superseded(), but then nothing is written. Returns outcome_of() the ending, or ExitCode::signal. Throws Failure.
+// does superseded(), but then nothing is written. Returns how it ended. Throws Failure.
 ExitCode render_picture(const Context &context, const RenderTask &task, const RenderTimes &times,
                         const Stop &superseded);
 

@@ -74,6 +74,16 @@ const char *ending_of(const RenderReport &report, bool interrupted, bool timed_o
     return report.target_reached() ? "error" : "samples";
 }
 
+// Unless a signal has stopped it. A missing file matters more than missing samples, which a checkpoint can still
+// supply.
+ExitCode outcome_of(const RenderReport &report, const ImageRender::Result &rendered, bool all_written) {
+    if (!all_written)
+        return ExitCode::file;
+    if (rendered.timed_out && rendered.has_checkpoint)
+        return ExitCode::resumable;
+    return report.target_error > 0.0 && !report.target_reached() ? ExitCode::target_missed : ExitCode::done;
+}
+
 // Prints, before an image is rendered in pieces, how much memory it takes.
 void print_pieces(const Context &context, const RenderTask &task, std::uint32_t rows) {
     print_message(concat((task.window.part.height + rows - 1) / rows, " pieces of up to ", rows,
@@ -250,8 +260,7 @@ ExitCode render_picture(const Context &context, const RenderTask &task, const Re
     const bool all_written = write_outputs(writer, context, task, report, image, times.start);
     if (interrupted && all_written)
         return ExitCode::signal;
-    return outcome_of(
-        {task.has_target(), report.target_reached(), rendered.timed_out, rendered.has_checkpoint, all_written});
+    return outcome_of(report, rendered, all_written);
 }
 
 } // namespace cli
