@@ -117,7 +117,7 @@ class Renderer:
         now = time.monotonic()
         restarts = self._take(changes)
         if self._moving and now > self._still:
-            self._moving, restarts = False, self._scale > 1
+            self._moving, restarts = False, restarts or self._scale > 1
         if "files" in changes or now > self._next_look:
             self._next_look = now + LOOK_SECONDS
             restarts = self._read_again() or restarts
