@@ -15,7 +15,7 @@ CODE = re.compile(r"\.(h|c|cpp|glsl|comp|py|json|csv|cmake|sh)$|^CMakeLists\.txt
 
 # Words that a page may have, and all of them together but for the changes.
 MOST_WORDS = {"README.md": 1200, "CONTRIBUTING.md": 1500, "shaders/README.md": 9000, "tests/bench/README.md": 2500}
-MOST_WORDS_IN_ALL = 26_600
+MOST_WORDS_IN_ALL = 27_600
 
 # What pages say, and what the code has instead of the numbers: a file and its text, with groups in the same order.
 NUMBERS = (

@@ -1,0 +1,80 @@
+"""The steps of shaders/COURSEWORK.md: each difference applies to the kernel of the step before, and its picture is that of other
+renderers, within the noise. Arguments: see command_line.py."""
+
+import os
+import shutil
+import subprocess
+
+import numpy
+
+from command_line import PT, SCENES, CommandLineTest, main, read_exr_channels
+
+ROOT = os.path.join(SCENES, "..", "..")
+REFERENCES = os.path.join(ROOT, "tests", "reference")
+# Of each step: its name, scene and path length, and the converged image.
+STEPS = (("1-light", "coursework", 1, "coursework_L1"), ("2-directions", "coursework-diffuse", 2, "coursework-diffuse_L2"),
+         ("3-paths", "coursework-diffuse", 6, "coursework-diffuse_L6"), ("4-gloss", "coursework", 6, "coursework_L6"),
+         ("5-points", "coursework", 6, "coursework_L6"), ("6-lamps", "coursework", 6, "coursework_L6"),
+         ("7-motion", "coursework-motion", 2, None))
+MOST_DEVIATION = 4.5  # standard deviations of a mean; of the 21 here one is beyond it once in 7,000 times
+MOST_OF_BLOCKS = 1.6  # the root mean square of 96 deviations, which is 1 with a standard deviation of 0.07 if they are normal
+SIDE = 16  # of a block, pixels
+
+
+def pixels_of(path):
+    """Of 128 x 64 pixels; larger ones are averaged, which a box filter does too."""
+    channels = read_exr_channels(path)
+    image = numpy.stack([numpy.array(channels[name]) for name in "RGB"], axis=2)
+    side = len(image) // 64
+    return image.reshape(64, side, 128, side, 3).mean(axis=(1, 3))
+
+
+def deviations(image, reference):
+    """How far the means of the channels are apart, in standard deviations, as the differences of pixels show them: the most, and
+    the root mean square over blocks of pixels."""
+    def of_pixels(difference):
+        deviation = difference.std(axis=-2) / numpy.sqrt(difference.shape[-2])
+        return difference.mean(axis=-2) / numpy.maximum(deviation, 1e-9)
+
+    difference = image - reference
+    blocks = difference.reshape(64 // SIDE, SIDE, 128 // SIDE, SIDE, 3).swapaxes(1, 2).reshape(-1, SIDE * SIDE, 3)
+    return numpy.abs(of_pixels(difference.reshape(-1, 3))).max(), numpy.sqrt((of_pixels(blocks)**2).mean())
+
+
+class Coursework(CommandLineTest):
+    program = PT
+
+    def render(self, scene, length, *more):
+        self.expect(0, "render", os.path.join(SCENES, f"{scene}.json"), "--size", "128x64", "--max-path-length", str(length), "-q", "-o",
+                    "a.exr", *more)
+        return pixels_of(self.path("a.exr"))
+
+    def test_steps(self):
+        shutil.copytree(os.path.join(ROOT, "shaders"), self.path("kernels"))
+        course = os.path.join(ROOT, "shaders", "coursework")
+        shutil.copy(os.path.join(course, "start.comp"), self.path("kernels/pathtrace.comp"))
+        images = {}
+        for step, scene, length, reference in STEPS:
+            subprocess.run(["patch", "-s", "--fuzz=0", "-p1", "-d", self.path("kernels"), "-i", os.path.join(course, f"{step}.diff")],
+                           check=True)
+            images[step] = self.render(scene, length, "--spp", "64", "--shader-dir", "kernels")
+            converged = (pixels_of(os.path.join(REFERENCES, f"{reference}.exr")) if reference
+                         else self.render(scene, length, "--spp", "256"))
+            with self.subTest(step=step):
+                all_of_it, blocks = deviations(images[step], converged)
+                self.assertLess(all_of_it, MOST_DEVIATION)
+                self.assertLess(blocks, MOST_OF_BLOCKS)
+            if step == "4-gloss":
+                done = subprocess.run([PT, "selftest", "--directions", "--shader-dir", self.path("kernels")], capture_output=True,
+                                      text=True)
+                verdicts = [line.split()[0] for line in done.stdout.splitlines()
+                            if "hemisphere, uniform" in line or "by cosine: cosine" in line]
+                self.assertEqual(verdicts, ["pass"] * 7)
+        shorter = pixels_of(os.path.join(REFERENCES, "coursework-diffuse_L2.exr"))  # the check can fail
+        all_of_it, blocks = deviations(images["3-paths"], shorter)
+        self.assertGreater(all_of_it, MOST_DEVIATION)
+        self.assertGreater(blocks, MOST_OF_BLOCKS)
+
+
+if __name__ == "__main__":
+    main()
