@@ -180,6 +180,8 @@ class Browser(unittest.TestCase):
         self.browser.until("!document.querySelector('#faults li') && !document.querySelector('.cm-lint-marker-error')")
         self.assertEqual((self.kernels / "phong.glsl").read_text(), (ROOT / "shaders/phong.glsl").read_text())
         self.shot("mended")
+        (self.kernels / "phong.glsl").write_text("// another editor\n" + (ROOT / "shaders/phong.glsl").read_text())
+        self.browser.until("document.querySelector('#text .cm-content').textContent.startsWith('// another editor')")
 
 
 def parse_png_rgba(path):

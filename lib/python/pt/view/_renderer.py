@@ -43,6 +43,7 @@ class Renderer:
         self._playing, self._moving, self._layer = True, False, "mean"
         self._seconds = self._rate = self._next_publish = self._next_look = self._still = 0.0
         self._scale, self._count, self._shape, self._cost = 1, 0, (0, 0), math.inf
+        self._revision = 0  # counts changes of files
         self._condition = threading.Condition()
         self._changes: dict[str, Any] = {}
         self._is_watched = self._is_closed = False
@@ -202,6 +203,7 @@ class Renderer:
         signatures = self._look()
         changed = {path for path, facts in signatures.items() if self._signatures.get(path) != facts}
         self._signatures = signatures
+        self._revision += bool(changed)
         restarts = False
         if changed.intersection(self._shown.files):
             try:
@@ -256,7 +258,7 @@ class Renderer:
                     "size": [self._settings.width, self._settings.height], "camera": camera._section(),
                     "first_camera": self._shown.camera._section(), "display": self._shown.display,
                     "max_path_length": self._settings.max_path_length, "sampler": name_of(self._settings.sampler),
-                    "estimator": name_of(self._settings.estimator), "most": self._most,
+                    "estimator": name_of(self._settings.estimator), "revision": self._revision,
                     "faults": [fault for text in self._faults.values() for fault in faults_of(text)]}, pixels, values)
 
     def _emit(self, state: dict[str, Any], pixels: Array | None, values: tuple[Array, ...]) -> None:

@@ -107,7 +107,16 @@ export class Editor {
     this.send({open: name});
   }
 
+  // Another program may have saved the file.
+  look(revision) {
+    if (this.revision !== undefined && this.revision !== revision && !this.isEdited())
+      this.send({open: this.name});
+    this.revision = revision;
+  }
+
   open(name, text) {
+    if (name === this.name && text === this.text)
+      return;
     this.name = name;
     history.replaceState(null, "", `#${encodeURIComponent(name)}`);
     this.saved = text;

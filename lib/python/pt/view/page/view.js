@@ -92,6 +92,7 @@ function tell() {
   $("note").textContent = [...loose.map(fault => (fault.file ? `${fault.file}:${fault.line}: ` : "") + fault.text), rejected]
     .filter(Boolean).join("\n");
   editor?.tell(state.faults);
+  editor?.look(state.revision);
   chart();
 }
 
