@@ -5,6 +5,7 @@
 #include "shaders/gpu_layout.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace pt {
 
@@ -60,7 +61,7 @@ void read_columns(const pt_sphere_array &columns, At at, std::span<Sphere> spher
     if (is_there(columns.opacity))
         with_numbers(columns.opacity, [&](auto opacity) {
             for (std::size_t i = 0; i < spheres.size(); ++i)
-                spheres[i].opacity = static_cast<std::int16_t>(opacity(at(i)) * gpu::TREE_OPACITY_STEPS + 0.5);
+                spheres[i].opacity = static_cast<std::int16_t>(std::lround(opacity(at(i)) * gpu::TREE_OPACITY_STEPS));
         });
     if (is_there(columns.material))
         for (std::size_t i = 0; i < spheres.size(); ++i)
