@@ -11,6 +11,7 @@ from pt.figures import _bonds
 from pt.figures._bonds import bonds_of
 from pt.figures._figure import prepare
 from pt.figures._options import Options
+from pt.figures._overlay import rays_per_side
 from pt.figures._particles import Cell, Particles
 from pt.figures._series import frames
 
@@ -204,12 +205,23 @@ class Looks(unittest.TestCase):
         self.assertEqual([array.opacity.tolist() for array in image.scene.sphere_arrays], [[0.25, 0.75]] * 2)
         self.assertEqual(prepare(named, Options(opacity="0.5", where="share > 0.5")).opacities.tolist(), [0.5])
 
+    def test_shares_of_random_hits(self):
+        """They are as exact as the samples: of 400 rays the variance is p (1 - p) / 400, which 256 pixels show to five
+        standard errors of sqrt(2 / 255)."""
+        image = pt.figure(np.zeros((1, 3)), radius=1.0, opacity=0.75, samples=400, size=(32, 32), view="front")
+        share = image._shares.shapes[8:24, 8:24]
+        self.assertAlmostEqual(share.mean(), 0.75, delta=5 * np.sqrt(0.25 * 0.75 / (400 * 256)))
+        self.assertAlmostEqual(share.var() * 400 / (0.25 * 0.75), 1.0, delta=5 * np.sqrt(2 / 255))
+        self.assertEqual([rays_per_side(*each) for each in ((1, 1), (128, 640 * 480), (1e5, 9), (1e5, 3840 * 2160))],
+                         [4, 12, 32, 22])
+
     def test_what_is_refused(self):
         for words, options in (
                 ("bonds = 'auto': array has no elements: must be a cutoff or pairs", {"bonds": True}),
                 ("bonds = 'x': must be auto, a cutoff > 0, or pairs", {"bonds": "x"}), ("bonds = 0: must be", {"bonds": 0}),
                 ("bonds = nan: must be", {"bonds": float("nan")}), ("bonds = '-1': must be", {"bonds": "-1"}),
                 (r"bonds = of shape \(1, 3\)", {"bonds": [[0, 1, 2]]}), (r"and float64: must be", {"bonds": [[0.0, 1]]}),
+                ("outlines = True: must be False with opacity", {"outlines": True, "opacity": 0.5}),
                 (r"bonds\[1\] = \[1, 7\]: must be two different particles, from 0 to 2", {"bonds": [[0, 1], [1, 7]]}),
                 (r"bonds\[0\] = \[1, 1\]", {"bonds": [[1, 1]]}), ("model = 'cartoon': must be auto", {"model": "cartoon"}),
                 ("bond_radius = 0: must be > 0", {"bonds": 1, "bond_radius": 0}),

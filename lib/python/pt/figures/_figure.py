@@ -28,7 +28,7 @@ from pt.figures._files import encode_jpeg, write_scene
 from pt.figures._layout import Balls, Layout, View
 from pt.figures._legend import raster, save
 from pt.figures._options import Options, described
-from pt.figures._overlay import Overlaid, Shares, line_width, pixels_per_length, read_shares
+from pt.figures._overlay import PER_SIDE, Overlaid, Shares, line_width, pixels_per_length, rays_per_side, read_shares
 from pt.figures._particles import Cell, Particles
 from pt.figures._radii import opacities_of, radii_of
 from pt.figures._rods import Rods, cell_corners, cell_edges, vectors_of
@@ -218,7 +218,11 @@ class Staged:
         image = context.render(scene, camera, settings, options.most_samples, target_error=options.error or 0.0,
                                progress=options.progress, denoise=options.denoise)
         count = sum(map(len, scene.sphere_arrays))
-        shares = read_shares(context, camera, settings, Overlaid(len(lamps), count, self.drawn.all_radii, options.outlines))
+        overlaid = Overlaid(len(lamps), count, self.drawn.all_radii, options.outlines)
+        per_side = PER_SIDE
+        if self.drawn.opacities is not None:
+            per_side = rays_per_side(image.stats.mean_sample_count, settings.width * settings.height)
+        shares = read_shares(context, camera, settings, overlaid, per_side)
         stage: Any = SURROUND_BRIGHTNESS if len(lamps) > 1 else 1.0
         if scene.planes:
             bare = Scene(lamps, scene.planes)

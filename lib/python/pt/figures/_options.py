@@ -118,7 +118,7 @@ class Options:
     style: str = _look("matte", "", "the last one: light from all sides alone",
                        choices=("matte", "glossy", "ambient-occlusion"))
     material: Material | None = _python(None, "", "of the particles, in place of the style's; colors multiply its diffuse")
-    outlines: bool = _look(False, "", "dark lines round the balls")
+    outlines: bool = _look(False, "", "dark lines round the balls; not with opacity")
     floor: bool = _look(False, "", "a floor that shows the shadows alone")
     background: Any = _look("white", "COLOR", "a color, or transparent")
     box: str = _look("lines", "", "what is shown of the cell, where the data have one", choices=("lines", "none"))
@@ -147,6 +147,8 @@ class Options:
             holds, words = known.get("rule", (None, ""))
             if holds and value is not None and not holds(value):
                 raise ValueError(f"{each.name} = {value}: must be {words}")
+        if self.outlines and self.opacity is not None:
+            raise ValueError("outlines = True: must be False with opacity, which leaves no edges in front")
 
     @property
     def reading(self) -> dict[str, Any]:

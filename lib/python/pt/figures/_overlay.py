@@ -1,5 +1,5 @@
 """What is laid over a rendered figure, outlines, and the share of each pixel that is not background. Both follow from
-what camera rays meet first, 16 rays a pixel."""
+what camera rays meet first, 16 rays a pixel, or more where rays pass balls at random."""
 
 from __future__ import annotations
 
@@ -16,6 +16,8 @@ from pt._enums import Format, Quantity
 from pt._fit import Array, Doubles
 
 PER_SIDE: Final = 4  # rays along each side of a pixel
+MOST_PER_SIDE: Final = 32  # then random shares are within 0.016, a standard deviation
+MOST_RAYS: Final = 2**32 - 1  # pixels that an image of the library has at most
 BAND_ROWS: Final = 32  # few enough that their hits take less memory on the device than the picture does
 LEAST_STEP: Final = 0.1  # depth behind an outline, as a share of the radius: less has no outline
 LEAST_RADIUS: Final = 2.5  # of a ball with an outline, in line widths: smaller ones would be all outline
@@ -47,36 +49,46 @@ def line_width(size: tuple[int, int]) -> float:
     return max(1.0, 0.0016 * max(size))
 
 
-def read_shares(context: Context, camera: Camera, settings: RenderSettings, overlaid: Overlaid) -> Shares:
-    """Shares of the pixels. The context must have the scene and the camera; its render settings are replaced."""
+def rays_per_side(samples: float, pixels: int) -> int:
+    """Where opacity makes shares random, which then are as exact as the radiance of so many samples."""
+    most = min(MOST_PER_SIDE, math.isqrt(MOST_RAYS // pixels))
+    return max(min(math.ceil(math.sqrt(samples)), most), PER_SIDE)
+
+
+def read_shares(context: Context, camera: Camera, settings: RenderSettings, overlaid: Overlaid, per_side: int = PER_SIDE
+                ) -> Shares:
+    """Shares of the pixels. The context must have the scene and the camera; its render settings are replaced. Outlines
+    take PER_SIDE."""
     width, height = settings.width, settings.height
     shares = Shares(np.zeros((height, width)), np.zeros((height, width)))
     margin = math.ceil(0.5 * line_width((width, height))) + 1 if overlaid.outlines else 0
-    for first in range(0, height, BAND_ROWS):
-        end = min(first + BAND_ROWS, height)
+    band = max(BAND_ROWS * PER_SIDE**2 // per_side**2, 1)
+    for first in range(0, height, band):
+        end = min(first + band, height)
         top, bottom = max(first - margin, 0), min(end + margin, height)
-        objects, depths = _first_hits(context, settings, top, bottom, overlaid.outlines)
+        objects, depths = _first_hits(context, settings, top, bottom, per_side, overlaid.outlines)
         index = objects - np.uint32(overlaid.first)
-        wanted = slice((first - top) * PER_SIDE, (end - top) * PER_SIDE)
-        shares.shapes[first:end] = _share(index[wanted] < overlaid.count)
+        wanted = slice((first - top) * per_side, (end - top) * per_side)
+        shares.shapes[first:end] = _share(index[wanted] < overlaid.count, per_side)
         if overlaid.outlines:
             pixels = pixels_per_length(camera, height, depths)
             covered = _outlines(index, depths, overlaid, pixels, line_width((width, height)))
-            shares.outlines[first:end] = _share(covered[wanted])
+            shares.outlines[first:end] = _share(covered[wanted], per_side)
     return shares
 
 
-def _share(hits: Array) -> Doubles:
+def _share(hits: Array, per_side: int) -> Doubles:
     counts: Any = hits.view(np.uint8)
-    rows: Any = sum(counts[i::PER_SIDE] for i in range(PER_SIDE))  # NumPy takes twenty times as long along short axes
-    cells: Doubles = sum(rows[:, i::PER_SIDE] for i in range(PER_SIDE)) / PER_SIDE**2
+    rows: Any = sum(counts[i::per_side] for i in range(per_side))  # NumPy takes twenty times as long along short axes
+    rows = rows.astype(np.uint16)
+    cells: Doubles = sum(rows[:, i::per_side] for i in range(per_side)) / per_side**2
     return cells
 
 
-def _first_hits(context: Context, settings: RenderSettings, top: int, bottom: int, with_depths: bool
+def _first_hits(context: Context, settings: RenderSettings, top: int, bottom: int, per_side: int, with_depths: bool
                 ) -> tuple[Array, Array]:
-    context.set_render(replace(settings, width=settings.width * PER_SIDE, height=settings.height * PER_SIDE,
-                               first_row=top * PER_SIDE, row_count=(bottom - top) * PER_SIDE))
+    context.set_render(replace(settings, width=settings.width * per_side, height=settings.height * per_side,
+                               first_row=top * per_side, row_count=(bottom - top) * per_side))
     objects = context.readback(Quantity.OBJECT, format=Format.R32UI)[:, :, 0]
     depths = context.readback(Quantity.DEPTH)[:, :, 0] if with_depths else objects
     return objects, depths
