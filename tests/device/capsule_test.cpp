@@ -1,6 +1,7 @@
 // Capsules: beside exact intersections in double, in light beside a path tracer of its own in double, and where they
 // are spheres or tell nothing of how the scene is held. PT_TEST_MANY asks for 100 random scenes. Run alone with
 // --gtest_filter=Capsule*.
+#include "lib/kernel/prepared_scene.h"
 #include "tests/support/light_in_double.h"
 #include "tests/support/scene_of.h"
 #include "tests/support/shared_context.h"
@@ -187,11 +188,11 @@ TEST_F(Capsules, HaveTheLightOfAPathTracerInDouble) {
     for (std::uint32_t seed = 100; std::getenv("PT_TEST_MANY") && seed < 200; ++seed)
         cases.push_back({std::to_string(seed), random_scene(seed, 1 + seed % 9 * 10, seed % 4 * 10, 4.0 + seed % 5)});
     for (const auto &[name, given] : cases) {
-        const bool has_tree = given.capsules.size() + given.spheres.size() > 112;
-        const Blocks exact = exact_blocks(given, has_tree ? 100 : 600);
+        const std::size_t count = given.capsules.size() + given.spheres.size();
+        const Blocks exact = exact_blocks(given, count > 100 ? 100 : 600);
         EXPECT_LT(largest_error(given, exact, PT_SAMPLER_SOBOL), most_errors) << name;
         EXPECT_TRUE(stats().features & PT_FEATURE_CAPSULES) << name;
-        EXPECT_EQ((stats().features & PT_FEATURE_TREE) != 0, has_tree) << name;
+        EXPECT_EQ((stats().features & PT_FEATURE_TREE) != 0, count >= pt::tree_of_capsules_from) << name;
         if (name != "few")
             continue;
         Given shorter = given;
