@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Callable
 from typing import Any, Final
 
@@ -12,14 +13,31 @@ from pt.figures._particles import Table
 from pt.figures.readers._frames import Frames, Listed, one_frame
 from pt.figures.readers._objects import of_ase, of_mdanalysis
 
+_PDB: Final = (".pdb", ".ent")
 _LAMMPS_DATA: Final = (".data", ".lmp")
 
 
 def read_ase(path: str) -> Frames:
     read = module("ase.io", f"{path}: this format").read
-    kind = "lammps-data" if path.lower().endswith(_LAMMPS_DATA) else None  # ASE does not recognise it
-    images = _tried(path, "ASE", lambda: read(path, index=":", format=kind))
+    lower = path.lower()
+    if lower.endswith(_PDB):
+        with open(path, encoding="utf-8", errors="replace") as file:
+            lines = io.StringIO("".join(map(_with_element, file)))
+        images = _tried(path, "ASE", lambda: read(lines, index=":", format="proteindatabank"))
+    else:
+        kind = "lammps-data" if lower.endswith(_LAMMPS_DATA) else None  # ASE does not recognise it
+        images = _tried(path, "ASE", lambda: read(path, index=":", format=kind))
     return Listed(path, len(images), lambda index: of_ase(images[index]))
+
+
+def _with_element(line: str) -> str:
+    """A line of a PDB file. In proteins and nucleic acids of simulations the element's columns, 77 and 78, are often empty; then
+    the first letter of the name is the element, where ASE takes CA for calcium and HG1 for mercury. Ions have the name
+    of their residue."""
+    name = line[12:16].strip().lstrip("0123456789")
+    if not line.startswith("ATOM") or line[76:78].strip() or name == line[17:21].strip() or name[:1] not in tuple("HCNOPS"):
+        return line
+    return f"{line.rstrip()[:76]:<76} {name[0]}\n"
 
 
 def read_mdanalysis(path: str) -> Frames:
