@@ -218,17 +218,21 @@ void enter_next(inout Walk walk, GridRay ray, bool in_shadow)
 bool is_in_tree(uint surface) { return surface >= SURFACE_COUNT && surface != NO_SURFACE; }
 
 // Whether a ray passes a sphere as though it were not there. A hash of the ray and the sphere decides (Enderton et al.
-// 2010, "Stochastic transparency"; the hash as in Wyman and McGuire 2017), so it depends neither on the order in which
-// spheres are tested nor on how samples are split. Each ray decides anew: light that passes n of them is the product of
-// n shares.
+// 2010, "Stochastic transparency"; Wyman and McGuire 2017, "Hashed alpha testing"), so it depends neither on the order in
+// which spheres are tested nor on how samples are split. Each ray decides anew: light that passes n of them is the
+// product of n shares. Places on the grid often differ in few bits, so the hash ends with the finalizer of two rounds
+// that Wellons found by search ("Prospecting for hash functions", 2018; lowbias32), where each bit changes half of all.
 bool passes(uvec4 word, GridRay ray, vec3 direction)
 {
     if (TREE_OPACITY == 0)
         return false;
-    uvec3 bits = word.xyz + (floatBitsToUint(direction) ^ uvec3(ray.base));
-    uint hash = bits.x * 0x9e3779b1u;
+    uvec3 bits = word.xyz + (floatBitsToUint(direction) ^ uvec3(ray.base) ^ floatBitsToUint(ray.rest));
+    uint radius = word.w - floatBitsToUint(tree_step()); // in steps, as bits: the same at any scale
+    uint hash = (bits.x ^ radius) * 0x9e3779b1u;
     hash = (hash ^ (hash >> 15u) ^ bits.y) * 0x85ebca77u;
     hash = (hash ^ (hash >> 13u) ^ bits.z) * 0xc2b2ae3du;
+    hash = (hash ^ (hash >> 16u)) * 0x7feb352du;
+    hash = (hash ^ (hash >> 15u)) * 0x846ca68bu;
     hash ^= hash >> 16u;
     const float steps = float(TREE_OPACITY_STEPS) / 16777216.0; // of 24 bits, which a float holds
     return float(hash >> 8u) * steps >= float(word.w & TREE_OPACITY_STEPS);

@@ -122,7 +122,8 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
     features.hidden = surfaces.hidden;
     features.curvature = surfaces.planes.size() > distinct.seen.planes.size();
     features.tree_levels = tree ? rounded_up(tree->depth()) : 0;
-    features.tree_inside = tree && (tree->may_hold(camera) || tree->divides_start(camera));
+    features.tree_opacity = tree && tree->has_opacities();
+    features.tree_inside = features.tree_opacity || (tree && (tree->may_hold(camera) || tree->divides_start(camera)));
     features.inside = features.tree_inside || std::ranges::any_of(surfaces.spheres, may_hold_paths);
     features.planes_emit = std::ranges::any_of(surfaces.planes, glows);
     features.planes_move = std::ranges::any_of(surfaces.planes, moves);
@@ -131,10 +132,11 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
                             std::ranges::any_of(lamps, is_behind_a_plane) ||
                             (tree_lamps > 0 && !is_in_region(distinct.seen.planes, tree->bounds(), camera));
     // Of flat planes vertices tell the side as well, and a little faster, where no two all but coincide.
-    // Where rays start on both sides of a surface, or pass it, the camera does not tell them.
+    // Where rays start on both sides of a surface, or pass it at random or as it is hidden, the camera does not tell
+    // them.
     const bool starts_divided = distinct.seen.any_surface(divides) || (tree && tree->divides_start(camera));
     const bool some_are_passed = planes_are_passed || std::ranges::any_of(distinct.seen.spheres, is_passed);
-    features.known_sides = !starts_divided && !some_are_passed &&
+    features.known_sides = !starts_divided && !some_are_passed && !features.tree_opacity &&
                            (features.inside || features.curvature || distinct.close_planes) &&
                            std::ranges::all_of(surfaces.planes, has_known_side);
     features.close_lamps = features.lamp_count > 0 && (distinct.close_lamps || (tree && tree->has_close_lamps()));
@@ -148,7 +150,6 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
     // Of those in the tree the places are kept as they are at time 0.
     const bool tree_is_late = tree && tree->moves() && camera.shutter_open > 0.0;
     features.motion = scene.moves && (camera.shutter_close > camera.shutter_open || tree_is_late);
-    features.tree_opacity = tree && tree->has_opacities();
     features.tree_capsules = tree && tree->has_capsules();
     features.capsules = features.tree_capsules || std::ranges::any_of(surfaces.spheres, &SeenSphere::swept);
     features.scene_in_uniform = !features.tree;

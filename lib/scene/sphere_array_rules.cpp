@@ -3,6 +3,7 @@
 
 #include "lib/base/struct_size.h"
 #include "lib/scene/column.h"
+#include "shaders/gpu_layout.h"
 
 #include <algorithm>
 #include <cmath>
@@ -67,7 +68,7 @@ bool is_dark(const pt_material &material) {
 }
 
 // Shadow rays never ask whether their lamp is there, nor camera rays of the tree whether a sphere is hidden.
-const char *const plain_rule = "must be of a material that neither emits nor is hidden, as there are opacities";
+const char *const plain_rule = "must be of a material that neither emits nor is hidden, as its opacity is below 1";
 
 bool is_plain(const pt_material &material) {
     return is_dark(material) && (material.flags & PT_MATERIAL_HIDDEN_FROM_CAMERA) == 0;
@@ -174,18 +175,30 @@ public:
             [&](std::size_t i, std::uint32_t value) { subject_.refuse_element("material", i, value, rule); });
     }
 
-    // The material of each is the first where there is no column.
-    void check_materials_are(bool (*holds)(const pt_material &), const char *rule, const pt_column &column,
-                             std::span<const pt_material> materials) const {
-        if (!is_there(column)) {
-            if (!materials.empty())
-                subject_.require(holds(materials.front()), "material", 0U, rule);
-            return;
-        }
+    void check_dark(const pt_column &column, std::span<const pt_material> materials) const {
         check_elements(
             elements(column), progress_, [&column](std::size_t i) { return element<std::uint32_t>(column, i); },
-            [&](std::uint32_t material) { return material >= materials.size() || holds(materials[material]); },
-            [&](std::size_t i, std::uint32_t value) { subject_.refuse_element("material", i, value, rule); });
+            [materials](std::uint32_t material) {
+                return material >= materials.size() || is_dark(materials[material]);
+            },
+            [&](std::size_t i, std::uint32_t value) { subject_.refuse_element("material", i, value, dark_rule); });
+    }
+
+    // Of spheres that a tree would hold with an opacity below 1.
+    void check_translucent(const pt_sphere_array &array, std::span<const pt_material> materials) const {
+        constexpr double opaque = 1.0 - 0.5 / gpu::TREE_OPACITY_STEPS; // from here on
+        constexpr std::uint32_t none = UINT32_MAX;
+        with_numbers(array.opacity, [&](auto opacity) {
+            check_elements(
+                count_, progress_,
+                [&](std::size_t i) {
+                    return opacity(i) >= opaque       ? none
+                           : is_there(array.material) ? element<std::uint32_t>(array.material, i)
+                                                      : 0;
+                },
+                [&](std::uint32_t material) { return material >= materials.size() || is_plain(materials[material]); },
+                [&](std::size_t i, std::uint32_t value) { subject_.refuse_element("material", i, value, plain_rule); });
+        });
     }
 
 private:
@@ -213,11 +226,14 @@ void check_values(const Subject &subject, const pt_sphere_array &array, std::spa
         checker.check_vectors<is_share>("color", array.color, share_rule);
     if (is_there(array.end)) {
         checker.check_vectors<is_coordinate>("end", array.end, length_rule);
-        checker.check_materials_are(is_dark, dark_rule, array.material, materials);
+        if (is_there(array.material))
+            checker.check_dark(array.material, materials);
+        else if (!materials.empty())
+            subject.require(is_dark(materials.front()), "material", 0U, dark_rule);
     }
     if (is_there(array.opacity)) {
         checker.check_numbers<is_share>("opacity", array.opacity, share_rule);
-        checker.check_materials_are(is_plain, plain_rule, array.material, materials);
+        checker.check_translucent(array, materials);
     }
 }
 

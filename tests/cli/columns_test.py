@@ -138,6 +138,24 @@ class RealDevice(ColumnsTest):
         self.scene(capsules=singles)
         self.expect(3, "render", "s.json", "-o", "a.png", error='capsules[1]: "end" is missing')
 
+    def test_columns_are_the_opacities_that_they_list(self):
+        """Beside lamps, which are opaque."""
+        opacities = [0.5, 1, 0.25]
+        self.scene(*[{"center": CENTERS[3 * i:3 * i + 3], "radius": RADII[i], "material": "a", "opacity": opacities[i]}
+                     for i in range(3)])
+        expected = self.radiance()
+        self.files_of()
+        self.write("o.npy", npy("<f8", (3,), opacities))
+        columns = {"center": "c.npy", "radius": "r.npy", "material": "a"}
+        self.scene({**columns, "opacity": "o.npy"})
+        self.assertEqual(self.radiance(), expected)
+        self.scene(columns)
+        self.assertNotEqual(self.radiance(), expected)
+        self.scene({**columns, "opacity": 0.5, "material": "sky"})
+        self.expect(3, "render", "s.json", "-o", "a.png", error='spheres[1].material = "sky": must be of a material that neither')
+        self.scene({**columns, "opacity": 1.5})
+        self.expect(3, "render", "s.json", "-o", "a.png", error="spheres[1].opacity[0] = 1.5: must lie in [0, 1]")
+
     def test_rules_of_the_library_lead_back_to_the_file(self):
         self.files_of()
         self.write("r.npy", npy("<f4", (3,), [1, -1, 1]))

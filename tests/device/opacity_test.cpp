@@ -92,10 +92,54 @@ TEST_F(Opacity, IsTheShareOfRaysThatMeet) {
     EXPECT_NEAR(share_passed(0.0F, 0.0F), 1.0, 1e-6);
 }
 
+// Spheres about one centre, or apart along an axis by whole steps of a coarse or a fine grid, are met independently:
+// two of opacity .5 let a fourth pass, to the same error.
+TEST_F(Opacity, OfTwoSpheresIsIndependent) {
+    const auto share_passed = [&](const glm::dvec3 &second, double radius, double extent) {
+        Given given;
+        given.materials[1].diffuse[0] = given.materials[1].diffuse[1] = given.materials[1].diffuse[2] = 0.0F;
+        given.materials[2].diffuse[0] = 0.0F;
+        given.planes.clear();
+        given.camera = camera_from(8.0, 0.05);
+        given.spheres = {{{0, 0, 0}, 100.0, {0, 0, 0}, 2, 0}};
+        given.capsules = {{{0, 0, 1}, {0, 0, 1}, 1.0, 1, 0.5F},
+                          {{second.x, second.y, second.z}, {second.x, second.y, second.z}, radius, 1, 0.5F},
+                          {{extent, 0, 0}, {extent, 0, 0}, 1.0, 1, 0.0F}};
+        double passed = 0.0;
+        const std::vector<float> radiance = image(given, 256);
+        for (std::size_t i = 0; i < radiance.size(); i += 3)
+            passed += radiance[i] / (3.0 * picture.x * picture.y);
+        return passed;
+    };
+    EXPECT_NEAR(share_passed({0, 0, 1}, 1.5, 4.0), 0.25, 0.008);
+    for (double extent = 4.0; extent < 100.0; extent *= 2.0) {
+        EXPECT_NEAR(share_passed({0, 0, -1}, 1.0, extent), 0.25, 0.008) << extent;
+        EXPECT_NEAR(share_passed({0, 0.5, 1}, 1.0, extent), 0.25, 0.008) << extent;
+        EXPECT_NEAR(share_passed({0.5, 0, 1}, 1.0, extent), 0.25, 0.008) << extent;
+    }
+}
+
+// Shells in one another, one through the floor and one about the camera: paths are on both sides of each.
+Given shells() {
+    Given given = cloud(20);
+    for (const auto &[height, radius] : {std::pair(0.0, 2.0), {0.0, 1.2}, {-1.5, 1.8}, {-0.5, 3.0}})
+        given.capsules.push_back({{0.2, height, 0.1}, {0.2, height, 0.1}, radius, 1, 0.5F});
+    given.capsules.push_back({{0, 0, 8}, {0, 0, 8}, 2.0, 0, 0.5F});
+    return given;
+}
+
+// What is beyond an opaque plane stays there, though a sphere reaches through it.
+TEST_F(Opacity, LeavesPlanesOpaque) {
+    Given given = shells();
+    given.spheres[0].center[1] = -4.0;
+    const std::vector<float> radiance = image(given, 64);
+    EXPECT_EQ(std::ranges::count(radiance, 0.0F), static_cast<std::ptrdiff_t>(radiance.size()));
+}
+
 // Negative control: opacities that are larger by a sixth are told from them.
 TEST_F(Opacity, HasTheLightOfAPathTracerInDouble) {
-    const Given given = cloud(60);
-    const Blocks exact = exact_blocks(given, 600);
+    const Given given = shells();
+    const Blocks exact = exact_blocks(given, 1200);
     EXPECT_LT(largest_error(given, exact, PT_SAMPLER_SOBOL), most_errors);
     Given denser = given;
     for (Given::Capsule &each : denser.capsules)
@@ -145,6 +189,7 @@ TEST_F(Opacity, IsRefusedWithTheReason) {
     given.capsules[4].opacity = 1.5F;
     EXPECT_NE(refusal().find("sphere_arrays[0].opacity[4] = 1.5: must lie in [0, 1]"), std::string::npos);
     given.capsules[4].opacity = 0.5F;
+    given.capsules[1].opacity = 0.9F;
     given.materials[1].flags = PT_MATERIAL_HIDDEN_FROM_CAMERA;
     EXPECT_NE(
         refusal().find("sphere_arrays[0].material[1] = 1: must be of a material that neither emits nor is hidden"),

@@ -169,9 +169,9 @@ typedef struct pt_sphere_array {
      * the distance. They are spheres otherwise, in counts, trees and numbers of objects. */
     pt_column end;
     /** Share of rays in [0, 1] that meet the sphere; the others pass it as though it were not there, each decided at
-     * random for camera, path and shadow rays alike. FLOAT32 or FLOAT64, held to a 255th; default 1. For materials that
-     * neither emit nor are hidden (PT_ERROR_INVALID_SCENE). With such a column all spheres but distant ones are in a
-     * tree (PT_FEATURE_TREE), and radii there are held to 2^-16. */
+     * random for camera, path and shadow rays alike. FLOAT32 or FLOAT64, held to a 255th; default 1. Below 1 the
+     * material neither emits nor is hidden (PT_ERROR_INVALID_SCENE), and the sphere is in a tree, however few or far it
+     * is: centers are held to 2^-30 of the extent of all that are in it, radii to 2^-16 of themselves. */
     pt_column opacity;
 } pt_sphere_array;
 
