@@ -135,6 +135,15 @@ class Looks(unittest.TestCase):
         np.testing.assert_allclose(far.ends(far.rods[0]), np.zeros((2, 3)), atol=1e-9)
         np.testing.assert_allclose(far.rods[0].radius / far.scale, 0.07 * 1.4e-12)
 
+    def test_halves_meet_in_the_middle_of_what_is_seen(self):
+        radii = np.array([0.5, 0.1])
+        drawn = prepare(PAIR, Options(bonds=2.5, radius=radii))
+        np.testing.assert_allclose(drawn.ends(drawn.rods[0])[:, 0], (0.2, 0.2))  # of -0.5 to 0.9
+        walled = Particles(np.array([[0.5, 0, 0], [9.5, 0, 0]]), cell=Cell.of([10, 10, 10]))
+        np.testing.assert_allclose(prepare(walled, Options(bonds=2.5, radius=0.5 * radii)).rods[0].ways[:, 0], (-0.6, 0.4))
+        within = prepare(PAIR, Options(bonds=2.5, radius=np.array([4.0, 0.1])))
+        np.testing.assert_allclose(within.ends(within.rods[0])[:, 0], (1, 1))
+
     def test_bonds_are_between_shown_particles(self):
         drawn = prepare(BENZENE, Options(bonds=True, where="element == C"))
         self.assertEqual((len(drawn.rods[0].atoms), drawn.rods[0].atoms.max()), (12, 5))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any, Final
 
 import numpy as np
@@ -169,6 +170,18 @@ def stick_radius(ways: Doubles, model: str, radii: Array) -> float:
     """The radius of sticks that options do not give; without bonds, as if balls touched."""
     lengths = 2.0 * np.linalg.norm(ways, axis=1)
     return STICK_SHARES[model] * float(np.median(lengths if len(lengths) else 2.0 * radii))
+
+
+def meeting_in_sight(halves: Rods, balls: Array) -> Rods:
+    """Halves of bonds that meet in the middle of what is seen of a bond between its balls, where these differ.
+
+    balls   radii, in shape (n,) or (1,)
+    """
+    if len(balls) == 1:
+        return halves
+    lengths = 2.0 * np.linalg.norm(halves.ways, axis=1)
+    shares = np.clip(1.0 + (balls[halves.atoms] - balls[halves.others]) / lengths, 0.0, 2.0)
+    return replace(halves, ways=halves.ways * shares[:, None])
 
 
 def ball_radii(radii: Array, model: str, stick: float, is_given: bool) -> Array:

@@ -21,7 +21,7 @@ from pt._fit import Array, Doubles, chunks
 from pt._image import Image
 from pt._scene import Scene, SphereArray
 from pt.figures._accept import load
-from pt.figures._bonds import ball_radii, bonds_of
+from pt.figures._bonds import ball_radii, bonds_of, meeting_in_sight
 from pt.figures._colors import Legend, colors_of, srgb
 from pt.figures._compose import compose, lay_over
 from pt.figures._files import encode_jpeg, write_scene
@@ -112,6 +112,7 @@ def prepare(particles: Particles, options: Options, scale: float | None = None, 
         rods.append(bonds)
         settled.update({"bond_radius": bonds.radius} if len(bonds.atoms) else {})
         radii = ball_radii(radii, options.drawn_model, bonds.radius, options.radius is not None)
+        rods[-1] = meeting_in_sight(bonds, radii)
     conditions = [options.where] if isinstance(options.where, str) else options.where
     shown = np.logical_and.reduce([holds(particles, each) for each in conditions]) if conditions else None
     positions = particles.positions
