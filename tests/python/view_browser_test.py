@@ -150,6 +150,35 @@ class Browser(unittest.TestCase):
         facts = subprocess.run([PROGRAM, "render", scene, "--parts"], input=b"", capture_output=True, check=True).stdout
         self.assertEqual(json.loads(facts)["width"], 256)
 
+    def test_fingers_orbit_and_zoom(self):
+        """One turns about what is in the middle, two that part go nearer."""
+        self.open()
+        line = "document.getElementById('camera').value"
+        self.browser.until(f"{SAMPLES} > 8")
+        before = self.browser.value(line)
+
+        def distance():
+            camera = json.loads("{" + self.browser.value(line) + "}")["camera"]
+            return np.linalg.norm(np.subtract(camera["position"], camera["look_at"])), camera["position"][0]
+
+        def touch(kind, *points):
+            self.browser.call("Input.dispatchTouchEvent", type=kind,
+                              touchPoints=[{"x": x, "y": 400, "id": i} for i, x in enumerate(points)])
+
+        touch("touchStart", 500)
+        for step in range(8):
+            touch("touchMove", 500 + 10 * step)
+        touch("touchEnd")
+        self.browser.until(f"{line} !== {json.dumps(before)}")
+        turned, side = distance()
+        self.assertLess(side, -0.5)
+        touch("touchStart", 450, 550)
+        for step in range(8):
+            touch("touchMove", 450 - 10 * step, 550 + 10 * step)
+        touch("touchEnd")
+        self.browser.until(f"{SAMPLES} > 8")
+        self.assertAlmostEqual(distance()[0] / turned, 100 / 240, 1)
+
     def test_tiny_pixels_and_layers(self):
         self.open()
         self.browser.value("[...document.querySelectorAll('#sizes button')].at(-1).click()")
