@@ -84,8 +84,6 @@ std::vector<std::uint32_t> hidden_spheres(const CheckedScene &checked, WorkProgr
     return hidden;
 }
 
-constexpr auto opaque = static_cast<std::int16_t>(gpu::TREE_OPACITY_STEPS);
-
 // So many capsules at the most are left out of the tree, such as the twelve edges of a cell. Every ray tests them, but
 // a walk then takes all spheres of the tree for balls: 300 or 3,000 in a cell took .81 and .77 of the CPU seconds.
 constexpr std::size_t few_capsules = 16;
@@ -97,11 +95,11 @@ std::vector<std::uint32_t> left_out_of(const CheckedScene &checked, const std::v
     progress.enter(share_of_outlying, static_cast<double>(checked.spheres.size()));
     const std::vector<std::uint32_t> outlying = outlying_spheres(checked.spheres, progress);
     std::vector<std::uint32_t> unwanted;
-    std::ranges::set_union(hidden, outlying, std::back_inserter(unwanted));
+    std::ranges::set_union(outlying, checked.spheres.capsules(few_capsules), std::back_inserter(unwanted));
+    if (checked.spheres.has_opacities()) // of which hidden ones have none below 1
+        std::erase_if(unwanted, [&](std::uint32_t i) { return checked.spheres[i].opacity < opaque; });
     std::vector<std::uint32_t> left_out;
-    std::ranges::set_union(unwanted, checked.spheres.capsules(few_capsules), std::back_inserter(left_out));
-    if (checked.spheres.has_opacities())
-        std::erase_if(left_out, [&](std::uint32_t i) { return checked.spheres[i].opacity < opaque; });
+    std::ranges::set_union(hidden, unwanted, std::back_inserter(left_out));
     return left_out;
 }
 

@@ -1,6 +1,8 @@
 // A scene that obeys the rules of pt.h, owned.
 #pragma once
 
+#include "shaders/gpu_layout.h"
+
 #include <pt/pt.h>
 
 #include <glm/glm.hpp>
@@ -28,8 +30,10 @@ inline bool is_glossy(const Material &material) {
     return material.specular != glm::vec3(0.0F);
 }
 
-// Of spheres in scenes where all are opaque.
+// Opacities are held in steps of 1 / TREE_OPACITY_STEPS. no_opacity: of spheres in scenes where all are opaque.
 inline constexpr std::int16_t no_opacity = -1;
+inline constexpr auto opaque = static_cast<std::int16_t>(gpu::TREE_OPACITY_STEPS);
+inline constexpr double least_opaque = 1.0 - 0.5 / gpu::TREE_OPACITY_STEPS; // is rounded to opaque
 
 struct Sphere {
     glm::dvec3 center;
@@ -37,7 +41,7 @@ struct Sphere {
     glm::dvec3 motion;                 // or, of a capsule, the way from one end to the other
     std::uint32_t material;            // index into Scene::materials
     bool swept = false;                // is a capsule
-    std::int16_t opacity = no_opacity; // in steps of 1 / TREE_OPACITY_STEPS (gpu_layout.h)
+    std::int16_t opacity = no_opacity; // in steps, as above
 
     bool moves() const { return !swept && motion != glm::dvec3(0.0); }
 };

@@ -3,7 +3,6 @@
 
 #include "lib/base/struct_size.h"
 #include "lib/scene/column.h"
-#include "shaders/gpu_layout.h"
 
 #include <algorithm>
 #include <cmath>
@@ -186,13 +185,12 @@ public:
 
     // Of spheres that a tree would hold with an opacity below 1.
     void check_translucent(const pt_sphere_array &array, std::span<const pt_material> materials) const {
-        constexpr double opaque = 1.0 - 0.5 / gpu::TREE_OPACITY_STEPS; // from here on
         constexpr std::uint32_t none = UINT32_MAX;
         with_numbers(array.opacity, [&](auto opacity) {
             check_elements(
                 count_, progress_,
                 [&](std::size_t i) {
-                    return opacity(i) >= opaque       ? none
+                    return opacity(i) >= least_opaque ? none
                            : is_there(array.material) ? element<std::uint32_t>(array.material, i)
                                                       : 0;
                 },

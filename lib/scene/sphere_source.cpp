@@ -2,7 +2,6 @@
 #include "lib/scene/sphere_source.h"
 
 #include "lib/scene/column.h"
-#include "shaders/gpu_layout.h"
 
 #include <algorithm>
 #include <cmath>
@@ -56,13 +55,14 @@ void read_columns(const pt_sphere_array &columns, At at, std::span<Sphere> spher
             for (std::size_t i = 0; i < spheres.size(); ++i)
                 spheres[i].motion = glm::dvec3(end(at(i))) - spheres[i].center;
         });
-    for (Sphere &sphere : spheres)
-        sphere.opacity = no_opacity;
     if (is_there(columns.opacity))
         with_numbers(columns.opacity, [&](auto opacity) {
             for (std::size_t i = 0; i < spheres.size(); ++i)
-                spheres[i].opacity = static_cast<std::int16_t>(std::lround(opacity(at(i)) * gpu::TREE_OPACITY_STEPS));
+                spheres[i].opacity = static_cast<std::int16_t>(std::lround(opacity(at(i)) * opaque));
         });
+    else
+        for (Sphere &sphere : spheres)
+            sphere.opacity = no_opacity;
     if (is_there(columns.material))
         for (std::size_t i = 0; i < spheres.size(); ++i)
             spheres[i].material = element<std::uint32_t>(columns.material, at(i));
@@ -106,10 +106,10 @@ SphereSource::SphereSource(std::span<const pt_sphere> spheres, std::span<const p
     };
     has_colors_ = any_has(&pt_sphere_array::color);
     has_opacities_ = any_has(&pt_sphere_array::opacity);
-    static constexpr float opaque = 1.0F;
+    static constexpr float whole = 1.0F;
     for (pt_sphere_array &part : parts_)
         if (has_opacities_ && !is_there(part.opacity))
-            part.opacity = {&opaque, 0, PT_TYPE_FLOAT32};
+            part.opacity = {&whole, 0, PT_TYPE_FLOAT32};
     for (const pt_sphere_array &array : arrays)
         capsule_count_ += is_there(array.end) ? array.count : 0;
 }

@@ -4,7 +4,6 @@
 #include "lib/kernel/prepared_scene.h"
 #include "tests/support/light_in_double.h"
 #include "tests/support/scene_of.h"
-#include "tests/support/shared_context.h"
 
 #include <pt/film.h>
 #include <pt/stats.h>
@@ -55,18 +54,6 @@ Nearest nearest_of(const std::vector<Given::Capsule> &capsules, const glm::dvec3
             nearest = {distance, i};
     }
     return nearest;
-}
-
-pt_camera camera_at(const glm::dvec3 &position, const glm::dvec3 &target, double vertical_fov) {
-    pt_camera camera{};
-    camera.struct_size = sizeof camera;
-    for (int axis = 0; axis < 3; ++axis) {
-        camera.position[axis] = position[axis];
-        camera.target[axis] = target[axis];
-    }
-    camera.up[1] = 1;
-    camera.vertical_fov = vertical_fov;
-    return camera;
 }
 
 // Through the centre of a pixel, as long as its depth is 1.
@@ -123,10 +110,6 @@ Given inside() {
 
 class Capsules : public LightInDouble {
 protected:
-    std::vector<float> image(const Given &given, std::uint32_t samples = 4) {
-        return render_image(context(), given.scene(), given.camera, picture_of(PT_SAMPLER_SOBOL), samples);
-    }
-
     std::vector<float> read(std::uint32_t quantity) {
         std::vector<float> values(std::size_t{3} * picture.x * picture.y);
         const pt_image target = image_target(values, quantity);
@@ -248,25 +231,7 @@ TEST_F(Capsules, AreSpheresWhereTheirEndsCoincide) {
 
 TEST_F(Capsules, HaveTheSameBitsOfAScaledScene) {
     for (const Given &given : {inside(), random_scene(4, 200, 100, 8.0)}) {
-        Given large = given;
-        const auto scale = [](double(&vector)[3]) {
-            for (double &component : vector)
-                component *= 0x1p20;
-        };
-        for (pt_sphere &sphere : large.spheres) {
-            scale(sphere.center);
-            scale(sphere.motion);
-            sphere.radius *= 0x1p20;
-        }
-        for (Given::Capsule &capsule : large.capsules) {
-            scale(capsule.center);
-            scale(capsule.end);
-            capsule.radius *= 0x1p20;
-        }
-        for (pt_plane &plane : large.planes)
-            plane.offset *= 0x1p20;
-        scale(large.camera.position);
-        scale(large.camera.target);
+        const Given large = scaled(given, 0x1p20);
         EXPECT_EQ(image(large), image(given));
         Given longer = large;
         longer.capsules[0].end[0] *= 1.25;
@@ -274,17 +239,8 @@ TEST_F(Capsules, HaveTheSameBitsOfAScaledScene) {
     }
 }
 
-// Short submissions, and two devices, which cut the samples otherwise.
 TEST_F(Capsules, PartsHaveTheBitsOfTheWhole) {
-    const Context hurried = create_context([](pt_create_info &info) { info.submit_milliseconds = 1; });
-    const Context shared = create_context(
-        [](pt_create_info &) {}, [](const auto *info, auto **made) { return create_shared(2, *info, made, true); });
-    ASSERT_TRUE(hurried && shared);
-    const Given given = random_scene(4, 200, 100, 8.0);
-    const pt_render render = picture_of(PT_SAMPLER_SOBOL);
-    const std::vector<float> whole = render_image(context(), given.scene(), given.camera, render, 16);
-    for (pt_context *const other : {hurried.get(), shared.get()})
-        EXPECT_EQ(render_image(other, given.scene(), given.camera, render, 16), whole);
+    expect_the_same_bits_of_splits(random_scene(4, 200, 100, 8.0));
 }
 
 // Grazing, tiny, huge, touching and nested ones, along the view; in a tree with others. Negative control: radii that

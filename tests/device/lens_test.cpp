@@ -199,23 +199,6 @@ TEST_F(Lens, PartsHaveTheBitsOfTheWhole) {
     }
 }
 
-Given scaled(Given given, double by) {
-    for (pt_sphere &sphere : given.spheres) {
-        for (double *const vector : {sphere.center, sphere.motion})
-            for (int i = 0; i < 3; ++i)
-                vector[i] *= by;
-        sphere.radius *= by;
-    }
-    for (pt_plane &plane : given.planes)
-        plane.offset *= by;
-    for (double *const vector : {given.camera.position, given.camera.target})
-        for (int i = 0; i < 3; ++i)
-            vector[i] *= by;
-    given.camera.aperture *= by;
-    given.camera.focus *= by;
-    return given;
-}
-
 TEST_F(Lens, HasTheSameBitsOfAScaledScene) {
     for (const auto &[name, given, samples] : cases()) {
         const pt_render render = picture_of(PT_SAMPLER_SOBOL);

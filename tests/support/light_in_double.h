@@ -6,6 +6,7 @@
 #include "tests/support/double_path_tracer.h"
 #include "tests/support/render_image.h"
 #include "tests/support/scene_of.h"
+#include "tests/support/shared_context.h"
 #include "tests/support/statistics.h"
 
 #include <algorithm>
@@ -67,6 +68,43 @@ struct Given {
 
     mutable pt_sphere_array array_{}; // what scene() points to
 };
+
+// The same in units of length that are smaller by this factor.
+inline Given scaled(Given given, double by) {
+    const auto scale = [by](double(&vector)[3]) {
+        for (double &component : vector)
+            component *= by;
+    };
+    for (pt_sphere &sphere : given.spheres) {
+        scale(sphere.center);
+        scale(sphere.motion);
+        sphere.radius *= by;
+    }
+    for (Given::Capsule &capsule : given.capsules) {
+        scale(capsule.center);
+        scale(capsule.end);
+        capsule.radius *= by;
+    }
+    for (pt_plane &plane : given.planes)
+        plane.offset *= by;
+    scale(given.camera.position);
+    scale(given.camera.target);
+    given.camera.aperture *= by;
+    given.camera.focus *= by;
+    return given;
+}
+
+inline pt_camera camera_at(const glm::dvec3 &position, const glm::dvec3 &target, double vertical_fov) {
+    pt_camera camera{};
+    camera.struct_size = sizeof camera;
+    for (int axis = 0; axis < 3; ++axis) {
+        camera.position[axis] = position[axis];
+        camera.target[axis] = target[axis];
+    }
+    camera.up[1] = 1;
+    camera.vertical_fov = vertical_fov;
+    return camera;
+}
 
 using Blocks = std::vector<DoublePathTracer::Estimate>;
 
@@ -134,6 +172,22 @@ protected:
 
     double largest_error(const Given &given, const Blocks &exact, std::uint32_t sampler) {
         return deviation(context(), given, exact, picture_of(sampler)).largest;
+    }
+
+    std::vector<float> image(const Given &given, std::uint32_t samples = 4) {
+        return render_image(context(), given.scene(), given.camera, picture_of(PT_SAMPLER_SOBOL), samples);
+    }
+
+    // Short submissions, and two devices, cut the samples otherwise.
+    void expect_the_same_bits_of_splits(const Given &given) {
+        const Context hurried = create_context([](pt_create_info &info) { info.submit_milliseconds = 1; });
+        const Context shared = create_context(
+            [](pt_create_info &) {}, [](const auto *info, auto **made) { return create_shared(2, *info, made, true); });
+        ASSERT_TRUE(hurried && shared);
+        const std::vector<float> whole = image(given, 16);
+        const pt_render render = picture_of(PT_SAMPLER_SOBOL);
+        for (pt_context *const other : {hurried.get(), shared.get()})
+            EXPECT_EQ(render_image(other, given.scene(), given.camera, render, 16), whole);
     }
 
 private:
