@@ -8,8 +8,8 @@ channels, which is the relMSE against a perfect reference if the pictures are ri
 the process's CPU seconds for a picture.
 
 time, error     of a library over those of the first, at 32 samples
-gain            CPU seconds of the first library at 32 samples, over those that a library takes for the same error: read off
-                its three numbers of samples, straight between them in logarithms. Above 1 a library is ahead
+gain            CPU seconds of the first library at 32 samples, over those that a library takes for the same error, found
+                from its three numbers of samples. Above 1 a library is ahead
 z               difference of the means of all pictures of 128 samples, in standard errors
 """
 
@@ -21,6 +21,9 @@ import resource
 import statistics
 import subprocess
 import sys
+
+from cost_of_error import cost_of_error
+from table import print_table
 
 FOLDER = os.path.dirname(os.path.abspath(__file__))
 COUNTS, AT, FEW_SURFACES = (8, 32, 128), 32, 12
@@ -91,21 +94,11 @@ def measure(name, length, options):
     return result
 
 
-def cost_of_error(figures, error):
-    """Beyond what was measured the last two go on."""
-    points = [(math.log(one), math.log(cost)) for cost, one in figures]
-    for (left, left_cost), (right, right_cost) in zip(points, points[1:]):
-        if math.log(error) >= right:
-            break
-    share = (math.log(error) - left) / (right - left)
-    return math.exp(left_cost + share * (right_cost - left_cost))
-
-
 def row_of(name, length, label, of_first, of_label):
     at = COUNTS.index(AT)
     first_cost, first_error = of_first["figures"][at]
     cost, error = of_label["figures"][at]
-    gain = first_cost / cost_of_error(of_label["figures"], first_error)
+    gain = first_cost / cost_of_error(dict(zip(COUNTS, of_label["figures"])), first_error)[0]
     spread = math.hypot(of_first["error_of_mean"], of_label["error_of_mean"])
     deviation = (of_label["mean"] - of_first["mean"]) / spread if spread else 0.0
     return [name, str(length), label, f"{cost / first_cost:.2f}", f"{error / first_error:.2f}", f"{gain:.2f}",
@@ -118,8 +111,6 @@ def main():
         name, length = options.one.split(",")
         print(json.dumps(measure(name, int(length), options)))
         return
-    from table import print_table
-
     rows = [["scene", "L", "", "time", "error", "gain", "z"]]
     for name in options.scenes.split(","):
         for length in options.path_lengths.split(","):

@@ -2,7 +2,6 @@
 
     PT_LIBRARY=build/lib/libpt.so python3 tests/bench/error_and_time.py cli/scenes/coursework.json --size 64x32 \\
         --samplers random,sobol --spp 4,16 --rounds 1 --json bench.json
-    python3 tests/bench/plot_error.py bench.json bench
 
 Every sampler, estimator and number of samples or target error is rendered in every round, in turn, so that a disturbed
 machine is so for all alike. Round k has the seed + k.

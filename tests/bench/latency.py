@@ -8,14 +8,11 @@ medians over the rounds, of the coursework scene; a camera is moved before every
 
 64 samples      pt_accumulate, on a film that has samples
 readback        pt_readback of the radiance into memory that has been written before
-map             pt_map_image of the same, and a look at the last pixel; of libraries that have it
-one sample      pt_accumulate of one more
+map             pt_map_image of the same, and a look at the last pixel
 camera + 1      pt_set_camera and pt_accumulate of one
 picture of N    pt_set_camera, pt_accumulate of N samples, and pt_readback
-mapped N        the same with pt_map_image
 to ERROR        pt_set_camera and pt_accumulate with a target error; the samples that it took; and N samples without a
                 target, which is what it would take to know that number beforehand
-first           pt_create to the first picture of one sample, in a process whose driver has its kernels in a cache or not
 """
 
 import argparse
@@ -51,18 +48,9 @@ class Measured:
         os.environ["PT_LIBRARY"] = path
         self.name = name
         self.times = {}
-        begin = time.perf_counter()
         self.renderer = SceneRenderer(scene)
-        self.renderer.set_render(64, 32, max_path_length=2)
-        self.accumulate(1)
-        self.image = (ctypes.c_float * (64 * 32 * 3))()
-        self.readback()
-        self.note("first", begin)
         self.moves = 0
         self.camera = scene["camera"]
-
-    def note(self, case, begin):
-        self.times.setdefault(case, []).append(1e3 * (time.perf_counter() - begin))
 
     def set_render(self, width, height, path_length):
         self.renderer.set_render(width, height, max_path_length=path_length)
@@ -83,23 +71,16 @@ class Measured:
     def readback(self):
         self.renderer.readback(self.image)
 
-    def has_map(self):
-        return hasattr(self.renderer.library, "pt_map_image")
-
     def map(self):
         pixels, size = ctypes.c_void_p(), ctypes.c_uint64()
         self.renderer.call("pt_map_image", ctypes.byref(structs.pt_image()), ctypes.byref(pixels), ctypes.byref(size))
         return ctypes.c_float.from_address(pixels.value + size.value - 4).value
 
-    def sample_count(self):
-        stats = self.renderer.stats()
-        return stats.sample_count
-
     def measure(self, case, *calls):
         begin = time.perf_counter()
         for call in calls:
             call()
-        self.note(case, begin)
+        self.times.setdefault(case, []).append(1e3 * (time.perf_counter() - begin))
 
 
 def measure_size(contexts, arguments, path_length):
@@ -107,16 +88,11 @@ def measure_size(contexts, arguments, path_length):
         for context in contexts:
             context.measure("64 samples", lambda: context.accumulate(64))
             context.measure("readback", context.readback)
-            if context.has_map():
-                context.measure("map", context.map)
-            context.measure("one sample", lambda: context.accumulate(1))
+            context.measure("map", context.map)
             context.measure("camera + 1", context.move_camera, lambda: context.accumulate(1))
             for count in arguments.samples.split(","):
                 context.measure(f"picture of {count}", context.move_camera, lambda: context.accumulate(int(count)),
                                 context.readback)
-                if context.has_map():
-                    context.measure(f"mapped {count}", context.move_camera, lambda: context.accumulate(int(count)),
-                                    context.map)
 
 
 def measure_errors(contexts, arguments):
@@ -126,7 +102,7 @@ def measure_errors(contexts, arguments):
             for context in contexts:
                 context.accumulate(256)  # a GPU that had nothing to do runs slowly at first
                 context.measure(f"to {error}", context.move_camera, lambda: context.accumulate(1 << 16, float(error)))
-                samples = context.sample_count()
+                samples = context.renderer.stats().sample_count
                 context.times[f"to {error}, samples"] = [samples]
                 context.accumulate(256)
                 context.measure(f"to {error}, known", context.move_camera, lambda: context.accumulate(samples))
@@ -136,7 +112,6 @@ def main():
     arguments = parse_arguments()
     scene = read_scene(FOLDER / "coursework.json")
     contexts = [Measured(*library.split("=", 1), scene) for library in arguments.library]
-    print(f"first: " + ", ".join(f"{context.name} {context.times['first'][0]:.0f} ms" for context in contexts))
     for path_length in map(int, arguments.path_lengths.split(",")):
         for size in arguments.sizes.split(","):
             width, height = map(int, size.split("x"))
@@ -149,11 +124,9 @@ def main():
             measure_size(contexts, arguments, path_length)
             measure_errors(contexts, arguments)
             print(f"\n{size}, path length {path_length}\n")
-            cases = list(max((context.times for context in contexts), key=len))
             print_table([["ms"] + [context.name for context in contexts]] +
-                        [[case] + [f"{statistics.median(context.times[case]):.3f}" if case in context.times else "-"
-                                   for context in contexts]
-                         for case in cases])
+                        [[case] + [f"{statistics.median(context.times[case]):.3f}" for context in contexts]
+                         for case in contexts[0].times])
             sys.stdout.flush()
 
 

@@ -1,8 +1,13 @@
-"""Measures what scenes of many spheres cost: clouds of 10 to a million of them over a floor with one lamp.
+"""Measures what scenes of many spheres cost: clouds of 10 to a million of them over a floor with one lamp, or of lamps.
 
     python3 tests/bench/scale.py --library pt=build/lib/libpt.so
     DRJIT_LIBLLVM_PATH=libLLVM.so.19.1 python3 tests/bench/scale.py --library old=OLD/libpt.so \\
         --library pt=build/lib/libpt.so --mitsuba mitsuba/bin/python --counts 10,1e3,1e5
+
+    python3 tests/bench/scale.py --library pt=build/lib/libpt.so --cloud lamps --counts 1,10,100,1e3,1e4
+
+Lamps are over a floor with eight balls, and their brightness spans four powers of ten. "dark-lamps" are balls of the same
+places and sizes, but for one: what the rays cost. The difference is what the choice among lamps costs.
 
 Libraries take the spheres by columns (pt_scene.sphere_arrays); Mitsuba is any Python that can import it
 (benchmark.py says how to install it). All are measured in turn in every round, so that a disturbed machine is so for
@@ -37,6 +42,7 @@ import time
 
 os.environ.update(MESA_SHADER_CACHE_DISABLE="true", __GL_SHADER_DISK_CACHE="0")  # before a driver is loaded
 
+from lamp_cloud import LampCloud  # noqa: E402
 from sphere_cloud import SphereCloud  # noqa: E402
 from table import print_table  # noqa: E402
 
@@ -45,6 +51,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(FOLDER), "support"))
 from scene_renderer import SceneRenderer, color, structs, vector  # noqa: E402 (which finds pt)
 from pt import DeviceKind  # noqa: E402
 
+CLOUDS = {"spheres": SphereCloud, "lamps": LampCloud, "dark-lamps": lambda count: LampCloud(count, shining=False)}
 FLOAT32, UINT32 = 1, 3  # PT_TYPE_*
 MOST_SAMPLES = 1 << 14
 MITSUBA_FACTOR = 4  # its numbers of samples for errors go so much further
@@ -58,6 +65,7 @@ def parse_arguments():
     parser.add_argument("--mitsuba", metavar="PYTHON", help="interpreter that can import Mitsuba (default: without it)")
     parser.add_argument("--mitsuba-counts", type=float, default=1e5, metavar="N", help="up to N spheres (default: 1e5)")
     parser.add_argument("--variant", default="llvm_ad_rgb", help="of Mitsuba (default: llvm_ad_rgb)")
+    parser.add_argument("--cloud", choices=CLOUDS, default="spheres")
     parser.add_argument("--counts", default="10,30,100,1e3,1e4,1e5,1e6", metavar="N,...", help="of spheres")
     parser.add_argument("--path-lengths", default="3,6", metavar="L,...")
     parser.add_argument("--size", default="256x128", metavar="WxH", help="default: 256x128")
@@ -67,6 +75,8 @@ def parse_arguments():
     parser.add_argument("--error-counts", type=float, default=1e5, metavar="N", help="up to N spheres (default: 1e5)")
     parser.add_argument("--json", metavar="FILE", help="write all figures")
     options = parser.parse_args()
+    if options.mitsuba and options.cloud != "spheres":
+        parser.error("--mitsuba: takes clouds of spheres alone")
     options.counts = [int(float(count)) for count in options.counts.split(",")]
     options.lengths = [int(length) for length in options.path_lengths.split(",")]
     options.width, options.height = map(int, options.size.split("x"))
@@ -222,7 +232,7 @@ def measure_errors(programs, options):
 
 
 def measure_count(count, options, report):
-    cloud = SphereCloud(count)
+    cloud = CLOUDS[options.cloud](count)
     programs = [Library(*library.split("=", 1), cloud, options) for library in options.library]
     report["devices"] = list(dict.fromkeys(program.device for program in programs))
     try:
@@ -271,7 +281,7 @@ def main():
     options = parse_arguments()
     report = {"size": options.size, "rounds": options.rounds, "costs": [], "errors": []}
     for count in options.counts:
-        print(f"{count:,} spheres", file=sys.stderr, flush=True)
+        print(f"{count:,} {options.cloud}", file=sys.stderr, flush=True)
         measure_count(count, options, report)
     print(f"{', '.join(report['devices'])}, {options.size}, medians of {options.rounds} rounds\n")
     print_costs(report["costs"], options)
