@@ -75,12 +75,6 @@ class KilledRender(KeptRender):
         self.assertEqual([self.contents(file) for file in ("a.png", "a.ptfilm")], expected)
         self.assertEqual(self.files(), ["a.png", "a.ptfilm", name])
 
-    def test_a_temporary_file_of_a_killed_program_goes(self):
-        self.write(".pt-4194305-0.tmp", "half of a checkpoint")  # beyond the largest process id of Linux
-        options = self.options(4)
-        self.expect(0, *options, "--checkpoint", "c.ptfilm")
-        self.assertEqual(self.files(), ["a.png", "a.ptfilm", "c.ptfilm"])
-
     def test_signals_leave_what_another_run_goes_on_from(self):
         options = self.options(5000)
         expected = self.whole(*options)
@@ -106,12 +100,6 @@ class KilledRender(KeptRender):
             runs += 1
         self.assertEqual(code, 0, self.errors)
         self.assertGreater(runs, 1)
-
-    def test_a_time_limit_leaves_it_too(self):
-        options = self.options(300)
-        expected = self.whole(*options)
-        self.run_until_done(*options)
-        self.assertEqual([self.contents(file) for file in ("a.png", "a.ptfilm")], expected)
 
     def test_a_target_error_is_reached_at_the_same_sample(self):
         options = [*self.options(100000), "--error", "3%", "--sampling", "uniform"]
@@ -175,9 +163,6 @@ class Surroundings(KeptRender):
         self.assertEqual((done.returncode, done.stderr), (6, "pt: cannot write to standard output\n"))
         self.assertEqual([self.contents(name) for name in ("a.png", "a.ptfilm")], self.expected)
         self.assertGreater(self.samples_kept("c.ptfilm"), 0)
-
-    def test_no_terminal_at_all(self):
-        self.expect_picture("--checkpoint", "c.ptfilm", told=None, stdin=subprocess.DEVNULL, start_new_session=True)
 
     def test_a_decimal_comma(self):
         if not shutil.which("localedef") or subprocess.run(

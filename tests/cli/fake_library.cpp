@@ -4,8 +4,7 @@
 // FAKE_PT_SIGNAL=number:submission sends the program a signal in that submission, counted from 1 over all calls, four
 // to a sample; FAKE_PT_FAIL=name:1 gives the device a name that is not UTF-8; FAKE_PT_SCENE_SIGNAL=number sends it one
 // during pt_set_scene; FAKE_PT_LOG=function makes a function send a line to the log. FAKE_PT_MESSAGE is the message of
-// failures, and FAKE_PT_RULE=subject,index,member,component,with,value,rule the broken rule that they are about.
-// FAKE_PT_ALLOCATION=number makes the program's allocation of that number fail, counted from the start of main.
+// failures. FAKE_PT_ALLOCATION=number makes the program's allocation of that number fail, counted from main's start.
 #include <pt/accuracy.h>
 #include <pt/devices.h>
 #include <pt/errors.h>
@@ -23,28 +22,21 @@
 #include <exception>
 #include <limits>
 #include <new>
-#include <sstream>
 #include <string>
 #include <thread>
-#include <vector>
-
-// Its bytes are "fake film FIRST END".
-struct pt_film {
-    pt_sample_range samples{};
-};
 
 struct pt_context {
     pt_create_info info{};
     pt_render render{};
     std::uint32_t sample_count = 0;
     std::uint32_t call_count = 0; // of pt_accumulate since pt_set_render
+    bool has_too_many_rows = false;
     std::string error;
 };
 
 namespace {
 
 thread_local std::string creation_error;
-std::string broken_rule; // of the last failure, in the form of FAKE_PT_RULE
 
 std::string setting(const char *name) {
     const char *value = std::getenv(name);
@@ -64,19 +56,8 @@ pt_result call(pt_context *context, const std::string &function) {
     const pt_result result = failure(function);
     if (result < 0) {
         context->error = setting("FAKE_PT_MESSAGE");
-        broken_rule = setting("FAKE_PT_RULE");
     }
     return result;
-}
-
-// The parts between commas.
-std::vector<std::string> split(const std::string &text) {
-    std::vector<std::string> parts;
-    std::istringstream stream(text);
-    for (std::string part; std::getline(stream, part, ',');) {
-        parts.push_back(part);
-    }
-    return parts;
 }
 
 pt_device_info fake_device() {
@@ -136,14 +117,6 @@ void operator delete(void *memory, std::size_t /*size*/) noexcept {
     std::free(memory);
 }
 
-std::uint32_t pt_version() {
-    return PT_VERSION;
-}
-
-const char *pt_result_name(pt_result) {
-    return "unknown result";
-}
-
 pt_result pt_get_devices(pt_device_info *devices, std::uint32_t *count) {
     const pt_result result = failure("devices");
     if (result < 0) {
@@ -161,7 +134,6 @@ pt_result pt_create(const pt_create_info *info, pt_context **context) {
     const pt_result result = failure("create");
     if (result < 0) {
         creation_error = setting("FAKE_PT_MESSAGE");
-        broken_rule = setting("FAKE_PT_RULE");
         *context = nullptr;
         return result;
     }
@@ -174,22 +146,11 @@ const char *pt_last_error(const pt_context *context) {
     return context == nullptr ? creation_error.c_str() : context->error.c_str();
 }
 
-uint64_t pt_get_broken_rule(const pt_context *, std::uint32_t index, pt_broken_rule *rule) {
-    static std::vector<std::string> parts;
-    parts = split(broken_rule);
-    if (parts.size() != 7) {
+uint64_t pt_get_broken_rule(const pt_context *context, std::uint32_t index, pt_broken_rule *rule) {
+    if (context == nullptr || !context->has_too_many_rows)
         return 0;
-    }
-    if (index == 0 && rule != nullptr) {
-        *rule = {sizeof(pt_broken_rule),
-                 std::atoi(parts[3].c_str()),
-                 std::atoi(parts[1].c_str()),
-                 parts[0].c_str(),
-                 parts[2].c_str(),
-                 parts[4].c_str(),
-                 parts[5].c_str(),
-                 parts[6].c_str()};
-    }
+    if (index == 0 && rule != nullptr)
+        *rule = {sizeof(pt_broken_rule), -1, -1, "render", "width", "* rows", "40 * 33", "more than the device has"};
     return 1;
 }
 
@@ -223,9 +184,10 @@ pt_result pt_set_render(pt_context *context, const pt_render *render) {
     context->render = *render;
     context->sample_count = 0;
     context->call_count = 0;
+    context->has_too_many_rows = false;
     const std::string max_rows = setting("FAKE_PT_MAX_ROWS"); // more do not fit into the device
     if (!max_rows.empty() && rows_of(*render) > std::stoul(max_rows)) {
-        broken_rule = "render,-1,width,-1,* rows,40 * 33,more than the device has";
+        context->has_too_many_rows = true;
         return PT_ERROR_UNSUPPORTED;
     }
     return call(context, "set_render");
@@ -304,51 +266,22 @@ pt_result pt_get_stats(pt_context *context, pt_stats *stats) {
 pt_result pt_get_error_estimate(pt_context *context, pt_error_estimate *error) {
     const double high = fake_error(context->sample_count);
     const double low = std::isinf(high) ? 0.0 : 0.25 * high;
-    *error = {sizeof *error, 0, 0.5 * high, low, high, 0.5 * high, low, high};
+    *error = {sizeof *error, 0, high, 2.0 * low, 2.0 * high, 0.5 * high, low, high}; // half as much is relative
     return call(context, "error");
 }
 
+// A film is its number of samples.
 pt_result pt_save_film(pt_context *context, void *data, std::uint64_t *size_bytes) {
-    const std::uint64_t first = context->render.first_sample;
-    const std::string film = "fake film " + std::to_string(first) + " " + std::to_string(first + context->sample_count);
-    if (data != nullptr) {
-        std::memcpy(data, film.data(), film.size());
-    }
-    *size_bytes = film.size();
+    *size_bytes = sizeof context->sample_count;
+    if (data != nullptr)
+        std::memcpy(data, &context->sample_count, *size_bytes);
     return call(context, "save_film");
 }
 
-pt_result pt_open_film(const void *data, std::uint64_t size_bytes, pt_film **film) {
-    std::istringstream text(std::string(static_cast<const char *>(data), size_bytes));
-    std::string fake;
-    std::string name;
-    pt_film read;
-    *film = nullptr;
-    if (!(text >> fake >> name >> read.samples.first >> read.samples.end) || fake != "fake") {
-        creation_error = "film: these bytes are no film";
-        return PT_ERROR_INCOMPATIBLE;
-    }
-    *film = new pt_film(read);
-    return PT_OK;
-}
-
-void pt_close_film(pt_film *film) {
-    delete film;
-}
-
-pt_result pt_get_film_ranges(const pt_film *film, std::uint32_t, pt_sample_range *ranges, std::uint32_t *count) {
-    if (ranges != nullptr) {
-        *ranges = film->samples;
-    }
-    *count = 1;
-    return PT_OK;
-}
-
 pt_result pt_add_film(pt_context *context, const void *data, std::uint64_t size_bytes) {
-    pt_film *film = nullptr;
-    pt_open_film(data, size_bytes, &film);
-    context->sample_count += static_cast<std::uint32_t>(film->samples.end - film->samples.first);
-    pt_close_film(film);
+    std::uint32_t more = 0;
+    std::memcpy(&more, data, size_bytes);
+    context->sample_count += more;
     return call(context, "add_film");
 }
 

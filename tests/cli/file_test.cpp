@@ -107,12 +107,6 @@ TEST(AtomicFile, FollowsNoOneElsesLinksWhereEverybodyMayWrite) {
     }
 }
 
-TEST(AtomicFile, CheckLeavesNothing) {
-    const TemporaryFolder folder;
-    EXPECT_EQ(refusal_of(folder.file("a")), "");
-    EXPECT_EQ(folder.count(), 0);
-}
-
 TEST(AtomicFile, RefusesWhatCannotBeReplaced) {
     const TemporaryFolder folder;
     std::filesystem::create_directory(folder.file("folder"));
@@ -126,31 +120,6 @@ TEST(AtomicFile, RefusesWhatCannotBeReplaced) {
     EXPECT_NE(refusal_of("/proc/a"), "");
     EXPECT_NE(refusal_of("/dev/null"), "");
     EXPECT_EQ(refusal_of(folder.file("plain")), "");
-}
-
-// A full disk, as far as a test without a disk of its own can have one.
-TEST(AtomicFile, SurvivesAFailedWrite) {
-    const TemporaryFolder folder;
-    folder.write("a", "old");
-    std::signal(SIGXFSZ, SIG_IGN);
-    rlimit old{};
-    getrlimit(RLIMIT_FSIZE, &old);
-    const rlimit small{1000, old.rlim_max};
-    std::string message;
-    {
-        AtomicFile file(folder.file("a"));
-        setrlimit(RLIMIT_FSIZE, &small);
-        try {
-            file.write(bytes(std::string(4096, 'x')));
-        } catch (const cli::Failure &failure) {
-            message = failure.what();
-        }
-        setrlimit(RLIMIT_FSIZE, &old);
-    }
-    std::signal(SIGXFSZ, SIG_DFL);
-    EXPECT_EQ(message, "cannot write " + folder.file("a") + ": File too large");
-    EXPECT_EQ(folder.read("a"), "old");
-    EXPECT_EQ(folder.count(), 1);
 }
 
 TEST(AbandonedFiles, GoWhereNobodyWritesThem) {
@@ -180,12 +149,6 @@ TEST(AbandonedFiles, AFileThatWasTakenForAbandonedIsNotUsed) {
     unlink(folder.file("a").c_str());
     EXPECT_FALSE(cli::lock_temporary(descriptor));
     close(descriptor);
-}
-
-TEST(AbandonedFiles, AFolderThatIsNotThereIsNoMatter) {
-    const TemporaryFolder folder;
-    cli::remove_abandoned(folder.file("none"));
-    EXPECT_EQ(folder.count(), 0);
 }
 
 } // namespace

@@ -51,24 +51,13 @@ class StandardStreams(CommandLineTest):
         self.assertEqual(self.files(), ["a.png"])
 
     def test_a_full_standard_output_is_told(self):
-        with open("/dev/full", "w", encoding="utf-8") as full:
-            done = subprocess.run([self.program, "render", COURSEWORK, "-o", "a.png", "--spp", "1", "--stats", "-"],
-                                  cwd=self.folder, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
-        self.assertEqual(done.returncode, 6, done.stderr)
-        self.assertIn("pt: cannot write to standard output\n", done.stderr)
-
-    def test_what_does_not_go_through_a_stream(self):
-        self.expect(2, "render", COURSEWORK, "-o", "-", error="-o -: standard output needs --format")
-        self.expect(2, "render", COURSEWORK, "--film", "-", error="--film -: goes to a file")
-        self.expect(2, "render", "-", "--watch", "-o", "a.png", error="--watch needs a file")
-        self.assertEqual(self.files(), [])
-
-    def test_a_file_may_have_that_name(self):
-        self.write("-", SCENE)
-        self.expect(0, "render", "./-", "-o", "a.png")
-        self.assertIn("4x3, 2 spp", self.output)
-        self.expect(0, "render", COURSEWORK, "-o", "a.png", "--stats", "./-", "--spp", "1")
-        self.assertEqual(json.loads(self.read("-"))["spp"], 1)
+        render = ("render", COURSEWORK, "--spp", "1", "-o")
+        for arguments in ("devices",), (*render, "a.png", "--stats", "-"), (*render, "-", "--format", "png"):
+            with open("/dev/full", "w", encoding="utf-8") as full:
+                done = subprocess.run([self.program, *arguments], cwd=self.folder, stdout=full, stderr=subprocess.PIPE,
+                                      text=True, check=False)
+            self.assertEqual(done.returncode, 6, done.stderr)
+            self.assertIn("pt: cannot write to standard output\n", done.stderr)
 
 
 class SameFiles(CommandLineTest):

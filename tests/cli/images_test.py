@@ -119,13 +119,6 @@ class StandardOutput(ImagesTest):
         self.render("-o", "-", "--format", "png", "--stats", "-", code=2, error="--stats -: is the same file as -o -")
         self.render("-o", "-", "--format", "png", "--watch", code=2, error="-o -: --watch needs a file")
 
-    def test_a_full_one_is_told(self):
-        with open("/dev/full", "w", encoding="utf-8") as full:
-            done = subprocess.run([self.program, "render", COURSEWORK, *SIZE, "-o", "-", "--format", "png"],
-                                  stdout=full, cwd=self.folder, stderr=subprocess.PIPE, text=True, check=False)
-        self.assertEqual(done.returncode, 6, done.stderr)
-        self.assertEqual(done.stderr, "pt: cannot write to standard output\n")
-
     def test_a_terminal_is_spared(self):
         ours, theirs = pty.openpty()
         done = subprocess.run([self.program, "render", COURSEWORK, *SIZE, "-o", "-", "--format", "png"],
@@ -146,14 +139,8 @@ class Exr(ImagesTest):
 
 
 class Tonemap(ImagesTest):
-    DISPLAYS = [[*exposure, *curve, *gamma]
-                for exposure in ([], ["--exposure", "-2.25"], ["--exposure", "auto"])
-                for curve in ([], ["--tonemap", "reinhard"], ["--tonemap", "aces"], ["--tonemap", "agx"],
-                              ["--tonemap", "neutral"])
-                for gamma in ([], ["--gamma", "2.2"])]
-
-    def check(self, displays, *options):
-        for display in displays:
+    def check(self, *options):
+        for display in ([], ["--tonemap", "reinhard", "--gamma", "2.2"], ["--exposure", "-2.25", "--tonemap", "agx"]):
             with self.subTest(display=display, options=options):
                 self.render("-o", "a.exr", "-o", "a.png", "-o", "a.jpg", *options, *display)
                 rendered = self.contents("a.png")
@@ -170,16 +157,8 @@ class Tonemap(ImagesTest):
         return data[data.index(b"\xff\xdb"):]
 
     def test_the_picture_has_the_bits_of_the_rendered_one(self):
-        self.check(self.DISPLAYS[:1] + self.DISPLAYS[3::8])
-        self.check(self.DISPLAYS[:1], "--crop", CROP_TEXT)
-
-    def test_the_options_count(self):
-        self.render("-o", "a.exr")
-        pictures = set()
-        for options in (), ("--exposure", "1"), ("--tonemap", "agx"), ("--gamma", "3"):
-            self.expect(0, "tonemap", "a.exr", "a.png", *options)
-            pictures.add(str(read_png(self.path("a.png"))))
-        self.assertEqual(len(pictures), 4)
+        self.check()
+        self.check("--crop", CROP_TEXT)
 
     def test_what_is_told(self):
         self.render("-o", "a.exr", "-o", "r.png", "--crop", CROP_TEXT)
@@ -223,12 +202,6 @@ class RealDevice(ImagesTest):
         whole, crop = (read_png(self.path(name))[2] for name in ("whole.png", "crop.png"))
         self.assertEqual(crop, cut(whole, CROP))
         self.assertNotEqual(crop, cut(whole, (1, 3, 5, 4)))  # they differ from place to place
-
-    def test_a_picture_is_mapped_again_to_the_same_bits(self):
-        display = ("--tonemap", "agx")
-        self.render("-o", "a.exr", "-o", "a.png", *display)
-        self.expect(0, "tonemap", "a.exr", "b.png", *display)
-        self.assertEqual(read_png(self.path("b.png")), read_png(self.path("a.png")))
 
 
 if __name__ == "__main__":

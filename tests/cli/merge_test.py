@@ -50,13 +50,6 @@ class Merge(CommandLineTest):
         self.assertEqual(found["uncertain"], rendered["uncertain"])
         self.assertEqual((found["sampler"], found["estimator"]), ("sobol", "mis"))  # what "best" stands for
 
-    def test_sums_of_sums(self):
-        for i in 0, 1:
-            self.merge(0, *self.parts[i::2], "--film", f"sum {i}.ptfilm")
-        self.merge(0, "sum 1.ptfilm", "sum 0.ptfilm", "--film", "all.ptfilm")
-        self.merge(0, *self.parts, "--film", "direct.ptfilm")
-        self.assertEqual(self.contents("all.ptfilm"), self.contents("direct.ptfilm"))
-
     def test_what_is_wrong_is_told_of_all_parts_and_nothing_is_written(self):
         with open(self.path("cut.ptfilm"), "wb") as file:
             file.write(self.contents(self.parts[3])[:-20])

@@ -71,11 +71,6 @@ class Resume(CommandLineTest):
                     error="--checkpoint c.ptfilm: is there already; go on from it by --resume, or remove it")
         self.assertEqual(self.contents("c.ptfilm"), self.checkpoint)
 
-    def test_without_one_it_begins(self):
-        os.remove(self.path("c.ptfilm"))
-        self.resume(0)
-        self.assertEqual(self.contents("a.png"), self.contents("whole.png"))
-
     def check(self, damaged, is_cut):
         """By pt merge, which needs no device; what passes has to be the same film."""
         self.write("d.ptfilm", damaged)
@@ -110,11 +105,6 @@ class Resume(CommandLineTest):
         damaged[len(damaged) // 2] ^= 4
         self.write("c.ptfilm", damaged)
         self.refuse("c.ptfilm: ")
-
-    def test_it_is_a_film(self):
-        self.expect(0, "merge", "c.ptfilm", "--stats", "-", "-q")
-        stats = json.loads(self.output)
-        self.assertEqual((stats["spp"], stats["samples"], stats["missing"]), (12, [[0, 12]], []))
 
 
 if __name__ == "__main__":

@@ -50,16 +50,12 @@ class ExitCodes(CommandLineTest):
                     os.remove(self.path(name))
 
     def test_signals(self):
-        for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 129)):
-            for options in (), ("--checkpoint", "c.ptfilm"), ("--error", "1e-9"), ("--time", "1e6"):
-                with self.subTest(signal=number, options=options):
-                    found = self.run_pt("render", COURSEWORK, "-o", "a.png", "--spp", "200", "--size", "2x2", *options,
-                                        FAKE_PT_SIGNAL=f"{int(number)}:9")
-                    self.assertEqual(found, code, self.errors)
-                    self.assertEqual("; --resume goes on from c.ptfilm" in self.errors, bool(options[1:]) and
-                                     options[0] == "--checkpoint")
-                    for name in self.files():
-                        os.remove(self.path(name))
+        for options in ("--checkpoint", "c.ptfilm"), ("--time", "1e6"):
+            with self.subTest(options=options):
+                found = self.run_pt("render", COURSEWORK, "-o", "a.png", "--spp", "200", "--size", "2x2", *options,
+                                    FAKE_PT_SIGNAL=f"{int(signal.SIGINT)}:9")
+                self.assertEqual(found, 130, self.errors)
+                self.assertEqual("; --resume goes on from c.ptfilm" in self.errors, options[0] == "--checkpoint")
 
     def test_a_signal_that_comes_twice_at_once_is_one(self):
         """timeout(1) sends it to the process and to its group."""

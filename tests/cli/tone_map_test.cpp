@@ -118,13 +118,6 @@ TEST(ToneMap, NeutralAnchors) {
                  rounding);
 }
 
-TEST(ToneMap, NamesMatchCurves) {
-    for (const ToneCurve curve : all_curves) {
-        EXPECT_EQ(cli::tone_curves.find(cli::tone_curves.name(curve)), curve);
-    }
-    EXPECT_EQ(cli::tone_curves.find("filmic"), std::nullopt);
-}
-
 TEST(ToneMap, EightBits) {
     ToneMap map;
     const float color[] = {0.0F, 0.5F, 2.0F};

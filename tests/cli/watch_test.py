@@ -3,9 +3,8 @@
 import json
 import os
 import signal
-import time
 
-from command_line import PATIENCE, PT, main, npy, read_png
+from command_line import main, npy, read_png
 from watching import WatchTest, scene_text
 
 
@@ -58,21 +57,20 @@ class Scenes(WatchTest):
         self.assertEqual(pt.end(), 0)
 
     def test_a_wrong_scene_is_told_once_and_waited_out(self):
-        pt = self.watch()
+        pt = self.watch("--piece-rows", "1", "--stats", "stats.json")
         pt.line_with("watching")
-        with open(self.path("a.png"), "rb") as file:
-            picture = file.read()
+        picture = self.contents("a.png")
         self.save("s.json", "{")
         pt.line_with("pt: s.json:1:2: syntax error")
         self.save("s.json", scene_text(-1))
         pt.line_with("width")
         os.remove(self.path("s.json"))
         pt.line_with("pt: cannot read s.json: No such file or directory")
-        with open(self.path("a.png"), "rb") as file:
-            self.assertEqual(file.read(), picture)
+        self.assertEqual(self.contents("a.png"), picture)
         self.save("s.json", scene_text(4))
         pt.line_with("wrote a.png: 4x2")
         self.assertEqual(pt.end(signal.SIGTERM), 0)
+        self.assertEqual(json.loads(self.read("stats.json"))["width"], 4)
         self.assertEqual(pt.count("syntax error"), 1)
         self.assertEqual(pt.count("cannot read"), 1)
 
@@ -112,6 +110,7 @@ class Scenes(WatchTest):
         self.expect(6, "render", "s.json", "--watch", "-o", "a.png", error="cannot read s.json")
         os.mkfifo(self.path("s.json"))
         self.expect(2, "render", "s.json", "--watch", "-o", "a.png", error="not a regular file")
+        self.expect(2, "render", "-", "--watch", "-o", "a.png", error="--watch needs a file")
 
     def test_a_device_that_edited_shaders_lose_is_made_anew(self):
         os.mkdir(self.path("shaders"))
@@ -135,42 +134,6 @@ class Scenes(WatchTest):
         self.assertEqual(pt.end(), 130)  # with what there is
         self.assertEqual(pt.count("pt: stopped by SIGINT"), 1)
         self.assertEqual(pt.count("wrote"), int("a.png" in self.files()))
-
-    def test_other_options_go_with_it(self):
-        pt = self.watch("--piece-rows", "1", "--spp", "100", "--error", "5%", "--stats", "stats.json", "-q")
-        # Without a line to wait for, the file is looked at: it appears whole.
-        self.await_stats(pt, 3)
-        self.save("s.json", scene_text(5))
-        self.await_stats(pt, 5)
-        self.assertEqual(self.files(), ["a.png", "s.json", "stats.json"])
-        self.assertEqual(pt.end(), 0)
-        self.assertEqual(pt.seen, [])
-
-    def await_stats(self, pt, width):
-        end = time.monotonic() + PATIENCE
-        while pt.process.poll() is None and time.monotonic() < end:
-            if os.path.exists(self.path("stats.json")):
-                stats = json.loads(self.read("stats.json"))
-                if stats["width"] == width:
-                    self.assertTrue(stats["target_reached"])
-                    return
-            time.sleep(0.01)
-        self.fail("".join(pt.seen))
-
-
-class RealDevice(WatchTest):
-    program = PT
-
-    def test_a_scene(self):
-        self.write("s.json", scene_text(3, 0.25))
-        pt = self.watch()
-        pt.line_with("wrote a.png: 3x2")
-        self.save("s.json", scene_text(4, 0.5))
-        pt.line_with("wrote a.png: 4x2")
-        self.assertEqual(read_png(self.path("a.png")), (4, 2, [[188] * 12] * 2))  # sRGB of 0.5
-        self.save("s.json", scene_text(4, -1))
-        pt.line_with("emission")
-        self.assertEqual(pt.end(), 0)
 
 
 if __name__ == "__main__":
