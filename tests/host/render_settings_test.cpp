@@ -1,6 +1,7 @@
 // The rules of render settings and their defaults.
-#include "lib/base/error.h"
 #include "lib/scene/render_settings.h"
+
+#include "tests/host/refusals.h"
 
 #include <gtest/gtest.h>
 
@@ -16,58 +17,33 @@ pt_render valid_render() {
     return render;
 }
 
-// The message of the error, or "accepted".
-std::string message(const pt_render &render) {
-    try {
-        pt::validated_render(render);
-    } catch (const pt::Error &error) {
-        EXPECT_EQ(error.code(), PT_ERROR_INVALID_ARGUMENT);
-        return error.what();
-    }
-    return "accepted";
+std::string render_outcome(const pt_render &render) {
+    return outcome_of(PT_ERROR_INVALID_ARGUMENT, [&] { pt::validated_render(render); });
 }
 
-struct RenderCase {
-    const char *name;
-    void (*spoil)(pt_render &render);
-    const char *message;
-};
-
-void PrintTo(const RenderCase &test_case, std::ostream *out) {
-    *out << test_case.name;
+TEST(RenderSettings, BrokenRulesAreNamed) {
+    expect_refusals<pt_render>(valid_render(), render_outcome,
+                               {{[](pt_render &r) {
+                                     r.width = r.height = 0;
+                                     r.max_path_length = 1025;
+                                     r.estimator = 6;
+                                     r.sampler = 5;
+                                     r.reserved = 1;
+                                 },
+                                 "render.width = 0: must be >= 1\n"
+                                 "render.height = 0: must be >= 1\n"
+                                 "render.max_path_length = 1025: must be <= 1024\n"
+                                 "render.estimator = 6: must be a PT_ESTIMATOR_* of pt.h\n"
+                                 "render.sampler = 5: must be a PT_SAMPLER_* of pt.h\n"
+                                 "render.reserved = 1: must be 0"},
+                                {[](pt_render &r) { r.width = r.height = 65536; },
+                                 "render.width * height = 4294967296: must be <= 4294967295"},
+                                {[](pt_render &r) { r.width = r.height = 4294967295U; },
+                                 "render.width * height = 18446744065119617025: must be <= 4294967295"},
+                                {[](pt_render &r) { r.first_row = 480; }, "render.first_row = 480: must be < height"},
+                                {[](pt_render &r) { r.first_row = 479, r.row_count = 2; },
+                                 "render.first_row + row_count = 481: must be <= height"}});
 }
-
-class BrokenRender : public testing::TestWithParam<RenderCase> {};
-
-TEST_P(BrokenRender, IsRefusedWithMessage) {
-    pt_render render = valid_render();
-    ASSERT_EQ(message(render), "accepted");
-    GetParam().spoil(render);
-    EXPECT_EQ(message(render), GetParam().message);
-}
-
-INSTANTIATE_TEST_SUITE_P(
-    Rules, BrokenRender,
-    testing::Values(RenderCase{"NoWidth", [](pt_render &r) { r.width = 0; }, "render.width = 0: must be >= 1"},
-                    RenderCase{"NoHeight", [](pt_render &r) { r.height = 0; }, "render.height = 0: must be >= 1"},
-                    RenderCase{"NoPixels", [](pt_render &r) { r.width = r.height = 0; },
-                               "render.width = 0: must be >= 1\nrender.height = 0: must be >= 1"},
-                    RenderCase{"TooManyPixels", [](pt_render &r) { r.width = r.height = 65536; },
-                               "render.width * height = 4294967296: must be <= 4294967295"},
-                    RenderCase{"PixelsThatWrapAround", [](pt_render &r) { r.width = r.height = 4294967295U; },
-                               "render.width * height = 18446744065119617025: must be <= 4294967295"},
-                    RenderCase{"PathsTooLong", [](pt_render &r) { r.max_path_length = 1025; },
-                               "render.max_path_length = 1025: must be <= 1024"},
-                    RenderCase{"EstimatorUnknown", [](pt_render &r) { r.estimator = 6; },
-                               "render.estimator = 6: must be a PT_ESTIMATOR_* of pt.h"},
-                    RenderCase{"SamplerUnknown", [](pt_render &r) { r.sampler = 5; },
-                               "render.sampler = 5: must be a PT_SAMPLER_* of pt.h"},
-                    RenderCase{"FirstRowBelowTheImage", [](pt_render &r) { r.first_row = 480; },
-                               "render.first_row = 480: must be < height"},
-                    RenderCase{"RowsBelowTheImage", [](pt_render &r) { r.first_row = 479, r.row_count = 2; },
-                               "render.first_row + row_count = 481: must be <= height"},
-                    RenderCase{"ReservedUsed", [](pt_render &r) { r.reserved = 1; }, "render.reserved = 1: must be 0"}),
-    [](const auto &instance) { return std::string(instance.param.name); });
 
 TEST(RenderSettings, HaveTheDefaultsOfTheHeader) {
     const pt::RenderSettings settings = pt::validated_render(valid_render());
@@ -102,13 +78,13 @@ TEST(RenderSettings, AcceptExtremes) {
     render.width = render.height = 1;
     render.max_path_length = 1024;
     render.estimator = PT_ESTIMATOR_MIS;
-    EXPECT_EQ(message(render), "accepted");
+    EXPECT_EQ(render_outcome(render), "accepted");
     render.width = 65535;
     render.height = 65537;
-    EXPECT_EQ(message(render), "accepted");
+    EXPECT_EQ(render_outcome(render), "accepted");
     render.width = 4294967295U;
     render.height = 1;
-    EXPECT_EQ(message(render), "accepted");
+    EXPECT_EQ(render_outcome(render), "accepted");
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 // The rules of spheres that are given by columns: one broken array each, and the whole message about it.
-#include "lib/base/error.h"
 #include "tests/host/particles.h"
+#include "tests/host/refusals.h"
 #include "tests/support/expected_error.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <ostream>
 #include <string>
 
 namespace sphere_arrays {
@@ -19,187 +18,125 @@ namespace {
 
 constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 
-struct ArrayCase {
-    const char *name;
-    void (*spoil)(Particles &particles);
-    const char *message;
-};
-
-void PrintTo(const ArrayCase &test_case, std::ostream *out) {
-    *out << test_case.name;
-}
-
-class BrokenArray : public testing::TestWithParam<ArrayCase> {};
-
-TEST_P(BrokenArray, IsRefusedWithMessage) {
-    Particles particles;
-    ASSERT_EQ(particles.outcome(), "accepted");
-    GetParam().spoil(particles);
-    EXPECT_EQ(particles.outcome(), GetParam().message);
-}
-
-std::string name_of(const testing::TestParamInfo<ArrayCase> &instance) {
-    return instance.param.name;
-}
+const auto outcome = [](const Particles &particles) { return particles.outcome(); };
 
 // Spoils the array's struct.
 #define SPOILT(change) [](Particles &p) { p.spoil = [](pt_sphere_array &a) { change; }; }
 
-INSTANTIATE_TEST_SUITE_P(
-    Columns, BrokenArray,
-    testing::Values(
-        ArrayCase{"CenterMissing", SPOILT(a.center = {}),
-                  "sphere_arrays[0].center.data = NULL: must not be NULL, as count is 4"},
-        ArrayCase{"RadiusMissing", SPOILT(a.radius.data = nullptr),
-                  "sphere_arrays[0].radius.data = NULL: must not be NULL, as count is 4"},
-        ArrayCase{"MotionLost", SPOILT(a.motion.data = nullptr),
-                  "sphere_arrays[0].motion.data = NULL: must not be NULL where type or stride_bytes is set"},
-        ArrayCase{"MaterialLost", SPOILT(a.material = (pt_column{nullptr, 0, PT_TYPE_UINT32})),
-                  "sphere_arrays[0].material.data = NULL: must not be NULL where type or stride_bytes is set"},
-        ArrayCase{"ColorLost", SPOILT(a.color = (pt_column{nullptr, 12, 0})),
-                  "sphere_arrays[0].color.data = NULL: must not be NULL where type or stride_bytes is set"},
-        ArrayCase{"CenterWithoutType", SPOILT(a.center.type = 0),
-                  "sphere_arrays[0].center.type = 0: must be PT_TYPE_FLOAT32 (1) or PT_TYPE_FLOAT64 (2)"},
-        ArrayCase{"CenterOfIndices", SPOILT(a.center.type = PT_TYPE_UINT32),
-                  "sphere_arrays[0].center.type = 3: must be PT_TYPE_FLOAT32 (1) or PT_TYPE_FLOAT64 (2)"},
-        ArrayCase{"RadiusOfColors", SPOILT(a.radius.type = PT_TYPE_SRGB8),
-                  "sphere_arrays[0].radius.type = 4: must be PT_TYPE_FLOAT32 (1) or PT_TYPE_FLOAT64 (2)"},
-        ArrayCase{"MotionOfUnknown", SPOILT(a.motion.type = 5),
-                  "sphere_arrays[0].motion.type = 5: must be PT_TYPE_FLOAT32 (1) or PT_TYPE_FLOAT64 (2)"},
-        ArrayCase{"MaterialOfFloats", SPOILT(a.material.type = PT_TYPE_FLOAT32),
-                  "sphere_arrays[0].material.type = 1: must be PT_TYPE_UINT32 (3)"},
-        ArrayCase{"ColorOfUnknown", SPOILT(a.color.type = 4294967295U),
-                  "sphere_arrays[0].color.type = 4294967295: must be PT_TYPE_FLOAT32 (1), PT_TYPE_FLOAT64 (2) or "
-                  "PT_TYPE_SRGB8 (4)"},
-        ArrayCase{"CenterStrideOfANumber", SPOILT(a.center.stride_bytes = 4),
-                  "sphere_arrays[0].center.stride_bytes = 4: must be 0 or at least the 12 bytes of one element"},
-        ArrayCase{"MotionStrideOfFloats", SPOILT(a.motion.stride_bytes = 23),
-                  "sphere_arrays[0].motion.stride_bytes = 23: must be 0 or at least the 24 bytes of one element"},
-        ArrayCase{"RadiusStrideCut", SPOILT(a.radius.stride_bytes = 3),
-                  "sphere_arrays[0].radius.stride_bytes = 3: must be 0 or at least the 4 bytes of one element"},
-        ArrayCase{"MaterialStrideOfBytes", SPOILT(a.material.stride_bytes = 1),
-                  "sphere_arrays[0].material.stride_bytes = 1: must be 0 or at least the 4 bytes of one element"},
-        ArrayCase{"ColorStrideOfBytes", SPOILT(a.color = (pt_column{a.color.data, 2, PT_TYPE_SRGB8})),
-                  "sphere_arrays[0].color.stride_bytes = 2: must be 0 or at least the 3 bytes of one element"},
-        ArrayCase{"NegativeStride", SPOILT(a.center.stride_bytes = static_cast<std::uint32_t>(-12)),
-                  "sphere_arrays[0].center.stride_bytes = 4294967284: must be < 2^31"},
-        ArrayCase{"LargeStride", SPOILT(a.color.stride_bytes = 1U << 31),
-                  "sphere_arrays[0].color.stride_bytes = 2147483648: must be < 2^31"},
-        ArrayCase {
-            "SeveralColumns", SPOILT(a.center = {}; a.material.type = 0; a.color.stride_bytes = 1),
-                "sphere_arrays[0].center.data = NULL: must not be NULL, as count is 4\n"
-                "sphere_arrays[0].material.type = 0: must be PT_TYPE_UINT32 (3)\n"
-                "sphere_arrays[0].color.stride_bytes = 1: must be 0 or at least the 12 bytes of one element"
-        },
-        ArrayCase{"Size", SPOILT(a.struct_size = 3),
-                  "PT_ERROR_INVALID_ARGUMENT: sphere_arrays[0].struct_size = 3: must be the size of the struct, which "
-                  "holds this field"},
-        ArrayCase{"AbsurdSize", SPOILT(a.struct_size = 65537),
-                  "PT_ERROR_INVALID_ARGUMENT: sphere_arrays[0].struct_size = 65537: must be the size of the struct (<= "
-                  "65536)"},
-        ArrayCase{"OnlyCenters", SPOILT(a.struct_size = offsetof(pt_sphere_array, radius)),
-                  "sphere_arrays[0].radius.data = NULL: must not be NULL, as count is 4"}),
-    name_of);
+TEST(SphereArrays, BrokenRulesOfColumnsAreNamed) {
+    const std::string missing = ".data = NULL: must not be NULL, as count is 4";
+    const std::string lost = ".data = NULL: must not be NULL where type or stride_bytes is set";
+    const std::string real = "must be PT_TYPE_FLOAT32 (1) or PT_TYPE_FLOAT64 (2)";
+    expect_refusals<Particles>(
+        {}, outcome,
+        {{SPOILT(a.center = {}; a.radius.data = nullptr; a.motion.data = nullptr;
+                 a.material = (pt_column{nullptr, 0, PT_TYPE_UINT32}); a.color = (pt_column{nullptr, 12, 0})),
+          "sphere_arrays[0].center" + missing + "\nsphere_arrays[0].radius" + missing + "\nsphere_arrays[0].motion" +
+              lost + "\nsphere_arrays[0].material" + lost + "\nsphere_arrays[0].color" + lost},
+         {SPOILT(a.center.type = PT_TYPE_UINT32; a.radius.type = PT_TYPE_SRGB8; a.motion.type = 0;
+                 a.material.type = PT_TYPE_FLOAT32; a.color.type = 4294967295U),
+          "sphere_arrays[0].center.type = 3: " + real + "\nsphere_arrays[0].radius.type = 4: " + real +
+              "\nsphere_arrays[0].motion.type = 0: " + real +
+              "\nsphere_arrays[0].material.type = 1: must be PT_TYPE_UINT32 (3)\n"
+              "sphere_arrays[0].color.type = 4294967295: must be PT_TYPE_FLOAT32 (1), PT_TYPE_FLOAT64 (2) or "
+              "PT_TYPE_SRGB8 (4)"},
+         {SPOILT(a.center.stride_bytes = 4; a.radius.stride_bytes = 3; a.motion.stride_bytes = 23;
+                 a.material.stride_bytes = 1; a.color = (pt_column{a.color.data, 2, PT_TYPE_SRGB8})),
+          "sphere_arrays[0].center.stride_bytes = 4: must be 0 or at least the 12 bytes of one element\n"
+          "sphere_arrays[0].radius.stride_bytes = 3: must be 0 or at least the 4 bytes of one element\n"
+          "sphere_arrays[0].motion.stride_bytes = 23: must be 0 or at least the 24 bytes of one element\n"
+          "sphere_arrays[0].material.stride_bytes = 1: must be 0 or at least the 4 bytes of one element\n"
+          "sphere_arrays[0].color.stride_bytes = 2: must be 0 or at least the 3 bytes of one element"},
+         {SPOILT(a.center.stride_bytes = static_cast<std::uint32_t>(-12)),
+          "sphere_arrays[0].center.stride_bytes = 4294967284: must be < 2^31"},
+         {SPOILT(a.color.stride_bytes = 1U << 31), "sphere_arrays[0].color.stride_bytes = 2147483648: must be < 2^31"},
+         {SPOILT(a.struct_size = 3), "PT_ERROR_INVALID_ARGUMENT: sphere_arrays[0].struct_size = 3: must be the size of "
+                                     "the struct, which holds this field"},
+         {SPOILT(a.struct_size = 65537), "PT_ERROR_INVALID_ARGUMENT: sphere_arrays[0].struct_size = 65537: must be the "
+                                         "size of the struct (<= 65536)"},
+         {SPOILT(a.struct_size = offsetof(pt_sphere_array, radius)), "sphere_arrays[0].radius" + missing}});
+}
 
-#undef SPOILT
-
-INSTANTIATE_TEST_SUITE_P(
-    Values, BrokenArray,
-    testing::Values(
-        ArrayCase{"CenterNan", [](Particles &p) { p.center[7] = not_a_number; },
-                  "sphere_arrays[0].center[2] = (-7, nan, 9): must be finite"},
-        ArrayCase{"CenterSmall", [](Particles &p) { p.center[3] = -1e-19F; },
-                  "sphere_arrays[0].center[1] = (-1e-19, 5, 6): must be 0 or of a magnitude in [1e-18, 1e18]"},
-        ArrayCase{"CenterLarge", [](Particles &p) { p.center[11] = 2e18F; },
-                  "sphere_arrays[0].center[3] = (10, 11, 2e+18): must be 0 or of a magnitude in [1e-18, 1e18]"},
-        ArrayCase{"RadiusZero", [](Particles &p) { p.radius[0] = 0; }, "sphere_arrays[0].radius[0] = 0: must be > 0"},
-        ArrayCase{"RadiusNegative", [](Particles &p) { p.radius[3] = -0.1F; },
-                  "sphere_arrays[0].radius[3] = -0.1: must be > 0"},
-        ArrayCase{"RadiusSmall", [](Particles &p) { p.radius[3] = 1e-20F; },
-                  "sphere_arrays[0].radius[3] = 1e-20: must lie in [1e-18, 1e18]"},
-        ArrayCase{"RadiusNan", [](Particles &p) { p.radius[1] = not_a_number; },
-                  "sphere_arrays[0].radius[1] = nan: must be finite"},
-        ArrayCase{"MotionInfinite", [](Particles &p) { p.motion[6] = -std::numeric_limits<double>::infinity(); },
-                  "sphere_arrays[0].motion[2] = (-inf, 0, 0): must be finite"},
-        ArrayCase{"MotionSmall", [](Particles &p) { p.motion[2] = 1e-300; },
-                  "sphere_arrays[0].motion[0] = (0, 0, 1e-300): must be 0 or of a magnitude in [1e-18, 1e18]"},
-        ArrayCase{"MaterialOneTooFar", [](Particles &p) { p.material[2] = 3; },
-                  "sphere_arrays[0].material[2] = 3: must be < material_count (3)"},
-        ArrayCase{"MaterialFar", [](Particles &p) { p.material[0] = 4294967295U; },
-                  "sphere_arrays[0].material[0] = 4294967295: must be < material_count (3)"},
-        ArrayCase{"ColorAboveOne", [](Particles &p) { p.color[4] = std::nextafter(1.0F, 2.0F); },
-                  "sphere_arrays[0].color[1] = (0.5, 1.0000001, 0.5): must lie in [0, 1]"},
-        ArrayCase{"ColorNegative", [](Particles &p) { p.color[9] = -0.01F; },
-                  "sphere_arrays[0].color[3] = (-0.01, 1, 0.5): must lie in [0, 1]"},
-        ArrayCase{"ColorNan", [](Particles &p) { p.color[2] = not_a_number; },
-                  "sphere_arrays[0].color[0] = (1, 1, nan): must be finite"},
-        ArrayCase{"NoMaterials",
-                  [](Particles &p) {
-                      p.materials.clear();
-                      p.spoil = [](pt_sphere_array &a) { a.material = {}; };
-                  },
-                  "sphere_arrays[0].material = 0: must be < material_count (0)"},
-        ArrayCase{"OneForAllIsToldOnce",
-                  [](Particles &p) {
-                      p.radius = {-1};
-                      p.spoil = [](pt_sphere_array &a) { a.radius.stride_bytes = 0; };
-                  },
-                  "sphere_arrays[0].radius[0] = -1: must be > 0"},
-        ArrayCase{"InOrder",
-                  [](Particles &p) {
-                      p.radius[3] = p.radius[1] = -1;
-                      p.color[0] = 2;
-                      p.center[0] = not_a_number;
-                      p.material[3] = 7;
-                  },
-                  "sphere_arrays[0].center[0] = (nan, 2, 3): must be finite\n"
-                  "sphere_arrays[0].radius[1] = -1: must be > 0\n"
-                  "sphere_arrays[0].radius[3] = -1: must be > 0\n"
-                  "sphere_arrays[0].material[3] = 7: must be < material_count (3)\n"
-                  "sphere_arrays[0].color[0] = (2, 1, 1): must lie in [0, 1]"}),
-    name_of);
+TEST(SphereArrays, BrokenRulesOfValuesAreNamed) {
+    expect_refusals<Particles>(
+        {}, outcome,
+        {{[](Particles &p) {
+              p.radius[3] = p.radius[1] = -1;
+              p.color[4] = std::nextafter(1.0F, 2.0F);
+              p.center[7] = not_a_number;
+              p.material[2] = 3;
+              p.motion[6] = -std::numeric_limits<double>::infinity();
+          },
+          "sphere_arrays[0].center[2] = (-7, nan, 9): must be finite\n"
+          "sphere_arrays[0].radius[1] = -1: must be > 0\n"
+          "sphere_arrays[0].radius[3] = -1: must be > 0\n"
+          "sphere_arrays[0].motion[2] = (-inf, 0, 0): must be finite\n"
+          "sphere_arrays[0].material[2] = 3: must be < material_count (3)\n"
+          "sphere_arrays[0].color[1] = (0.5, 1.0000001, 0.5): must lie in [0, 1]"},
+         {[](Particles &p) {
+              p.center[3] = -1e-19F;
+              p.center[11] = 2e18F;
+              p.radius[0] = 0;
+              p.radius[1] = not_a_number;
+              p.radius[3] = 1e-20F;
+              p.motion[2] = 1e-300;
+              p.color[2] = not_a_number;
+              p.color[9] = -0.01F;
+          },
+          "sphere_arrays[0].center[1] = (-1e-19, 5, 6): must be 0 or of a magnitude in [1e-18, 1e18]\n"
+          "sphere_arrays[0].center[3] = (10, 11, 2e+18): must be 0 or of a magnitude in [1e-18, 1e18]\n"
+          "sphere_arrays[0].radius[0] = 0: must be > 0\n"
+          "sphere_arrays[0].radius[1] = nan: must be finite\n"
+          "sphere_arrays[0].radius[3] = 1e-20: must lie in [1e-18, 1e18]\n"
+          "sphere_arrays[0].motion[0] = (0, 0, 1e-300): must be 0 or of a magnitude in [1e-18, 1e18]\n"
+          "sphere_arrays[0].color[0] = (1, 1, nan): must be finite\n"
+          "sphere_arrays[0].color[3] = (-0.01, 1, 0.5): must lie in [0, 1]"},
+         {[](Particles &p) {
+              p.materials.clear();
+              p.spoil = [](pt_sphere_array &a) { a.material = {}; };
+          },
+          "sphere_arrays[0].material = 0: must be < material_count (0)"},
+         {[](Particles &p) { // one for all is told once
+              p.radius = {-1};
+              p.spoil = [](pt_sphere_array &a) { a.radius.stride_bytes = 0; };
+          },
+          "sphere_arrays[0].radius[0] = -1: must be > 0"}});
+}
 
 const void *const not_there = reinterpret_cast<const void *>(std::uintptr_t{64}); // reading it ends the process
 
-INSTANTIATE_TEST_SUITE_P(
-    Counts, BrokenArray,
-    testing::Values(ArrayCase{"NoArrays",
-                              [](Particles &p) { p.spoil_scene = [](pt_scene &s) { s.sphere_arrays = nullptr; }; },
-                              "scene.sphere_arrays = NULL: must not be NULL, as sphere_array_count is 1"},
-                    ArrayCase{"TooManyArrays",
-                              [](Particles &p) {
-                                  p.spoil_scene = [](pt_scene &s) {
-                                      s.sphere_arrays = static_cast<const pt_sphere_array *>(not_there);
-                                      s.sphere_array_count = 65537;
-                                  };
-                              },
-                              "scene.sphere_array_count = 65537: must be <= 65536"},
-                    ArrayCase{"Reserved", [](Particles &p) { p.spoil_scene = [](pt_scene &s) { s.reserved = 1; }; },
-                              "scene.reserved = 1: must be 0"},
-                    ArrayCase{"TooManySpheres", // which are not there, and so must not be read
-                              [](Particles &p) {
-                                  p.spoil = [](pt_sphere_array &a) {
-                                      a.count = (1U << 26) + 1;
-                                      a.center.data = a.radius.data = not_there;
-                                  };
-                              },
-                              "scene.sphere_count + the counts of sphere_arrays = 67108865: must be <= 2^26"},
-                    ArrayCase{"TooManyWithStructs",
-                              [](Particles &p) {
-                                  p.spoil_scene = [](pt_scene &s) {
-                                      s.spheres = static_cast<const pt_sphere *>(not_there);
-                                      s.sphere_count = (1U << 26) - 3;
-                                  };
-                              },
-                              "scene.sphere_count + the counts of sphere_arrays = 67108865: must be <= 2^26"},
-                    ArrayCase{"CountsThatWrapAround",
-                              [](Particles &p) {
-                                  p.spoil = [](pt_sphere_array &a) { a.count = 4294967295U; };
-                                  p.spoil_scene = [](pt_scene &s) { s.sphere_count = 5; };
-                              },
-                              "scene.sphere_count + the counts of sphere_arrays = 4294967300: must be <= 2^26\n"
-                              "scene.plane_count + all spheres = 4294967300: must be < 2^30"}),
-    name_of);
+// Of spheres that are too many none is read.
+TEST(SphereArrays, BrokenRulesOfCountsAreNamed) {
+    expect_refusals<Particles>(
+        {}, outcome,
+        {{[](Particles &p) { p.spoil_scene = [](pt_scene &s) { s.sphere_arrays = nullptr; }; },
+          "scene.sphere_arrays = NULL: must not be NULL, as sphere_array_count is 1"},
+         {[](Particles &p) {
+              p.spoil_scene = [](pt_scene &s) {
+                  s.sphere_arrays = static_cast<const pt_sphere_array *>(not_there);
+                  s.sphere_array_count = 65537;
+              };
+          },
+          "scene.sphere_array_count = 65537: must be <= 65536"},
+         {[](Particles &p) { p.spoil_scene = [](pt_scene &s) { s.reserved = 1; }; }, "scene.reserved = 1: must be 0"},
+         {SPOILT(a.count = (1U << 26) + 1; a.center.data = a.radius.data = not_there),
+          "scene.sphere_count + the counts of sphere_arrays = 67108865: must be <= 2^26"},
+         {[](Particles &p) {
+              p.spoil_scene = [](pt_scene &s) {
+                  s.spheres = static_cast<const pt_sphere *>(not_there);
+                  s.sphere_count = (1U << 26) - 3;
+              };
+          },
+          "scene.sphere_count + the counts of sphere_arrays = 67108865: must be <= 2^26"},
+         {[](Particles &p) {
+              p.spoil = [](pt_sphere_array &a) { a.count = 4294967295U; };
+              p.spoil_scene = [](pt_scene &s) { s.sphere_count = 5; };
+          },
+          "scene.sphere_count + the counts of sphere_arrays = 4294967300: must be <= 2^26\n"
+          "scene.plane_count + all spheres = 4294967300: must be < 2^30"}});
+}
+
+#undef SPOILT
 
 TEST(SphereArrays, AreNamedByTheirIndex) {
     Particles particles;
