@@ -50,13 +50,11 @@ pt_result failure(const std::string &function) {
 }
 
 pt_result call(pt_context *context, const std::string &function) {
-    if (context->info.log != nullptr && setting("FAKE_PT_LOG") == function) {
+    if (context->info.log != nullptr && setting("FAKE_PT_LOG") == function)
         context->info.log(context->info.log_user, PT_LOG_ERROR, "a message of the layer");
-    }
     const pt_result result = failure(function);
-    if (result < 0) {
+    if (result < 0)
         context->error = setting("FAKE_PT_MESSAGE");
-    }
     return result;
 }
 
@@ -65,9 +63,8 @@ pt_device_info fake_device() {
     device.kind = PT_DEVICE_CPU;
     device.suitable = failure("suitable") == PT_OK ? 1 : 0;
     device.memory_bytes = std::uint64_t{1} << 30;
-    for (int i = 0; i < 16; ++i) {
+    for (int i = 0; i < 16; ++i)
         device.uuid[i] = static_cast<std::uint8_t>(i * 17);
-    }
     std::strcpy(device.name, failure("name") == PT_OK ? "fake device" : "d\xe9vice"); // Latin-1
     std::strcpy(device.driver, "fake driver 1.0");
     std::strcpy(device.reason, device.suitable != 0 ? "" : "it is not real");
@@ -79,9 +76,8 @@ void raise_wanted_signal() {
     static std::uint64_t submission_count = 0;
     const std::string wanted = setting("FAKE_PT_SIGNAL");
     const std::size_t colon = wanted.find(':');
-    if (colon != std::string::npos && std::stoull(wanted.substr(colon + 1)) == ++submission_count) {
+    if (colon != std::string::npos && std::stoull(wanted.substr(colon + 1)) == ++submission_count)
         std::raise(std::stoi(wanted));
-    }
 }
 
 // Upper bound of both errors, unknown at first.
@@ -105,9 +101,8 @@ std::uint32_t rows_of(const pt_render &render) {
 
 void *operator new(std::size_t size) {
     void *const memory = is_failing_allocation() ? nullptr : std::malloc(size);
-    if (memory == nullptr) {
+    if (memory == nullptr)
         throw std::bad_alloc();
-    }
     return memory;
 }
 void operator delete(void *memory) noexcept {
@@ -124,9 +119,8 @@ pt_result pt_get_devices(pt_device_info *devices, std::uint32_t *count) {
         return result;
     }
     *count = 1;
-    if (devices != nullptr) {
+    if (devices != nullptr)
         *devices = fake_device();
-    }
     return PT_OK;
 }
 
@@ -155,9 +149,8 @@ uint64_t pt_get_broken_rule(const pt_context *context, std::uint32_t index, pt_b
 }
 
 void pt_destroy(pt_context *context) {
-    if (context != nullptr) {
+    if (context != nullptr)
         call(context, "destroy");
-    }
     delete context;
 }
 
@@ -167,12 +160,10 @@ pt_result pt_get_context_device(pt_context *context, pt_device_info *device) {
 }
 
 pt_result pt_set_scene(pt_context *context, const pt_scene *scene) {
-    if (const std::string signal = setting("FAKE_PT_SCENE_SIGNAL"); !signal.empty()) {
+    if (const std::string signal = setting("FAKE_PT_SCENE_SIGNAL"); !signal.empty())
         std::raise(std::stoi(signal));
-    }
-    if (scene->progress != nullptr && scene->progress(scene->progress_user, 0.5) != 0) {
+    if (scene->progress != nullptr && scene->progress(scene->progress_user, 0.5) != 0)
         return PT_CANCELLED;
-    }
     return call(context, "set_scene");
 }
 
@@ -204,25 +195,22 @@ pt_result pt_prepare(pt_context *context) {
 pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *info) {
     const std::string milliseconds = setting("FAKE_PT_SAMPLE_MS");
     const pt_result result = call(context, "accumulate");
-    if (result < 0) {
+    if (result < 0)
         return result;
-    }
     constexpr std::uint32_t submissions_per_sample = 4;
     const auto pause = std::chrono::milliseconds(std::atoi(milliseconds.c_str())) / submissions_per_sample;
     const std::uint64_t submissions = std::uint64_t{info->sample_count} * submissions_per_sample;
     const std::uint32_t before = context->sample_count;
     ++context->call_count;
     for (std::uint64_t done = 1; done <= submissions; ++done) {
-        if (fake_error(context->sample_count) <= info->target_error) {
+        if (fake_error(context->sample_count) <= info->target_error)
             return PT_TARGET_REACHED;
-        }
         std::this_thread::sleep_for(pause);
         raise_wanted_signal();
         context->sample_count = before + static_cast<std::uint32_t>(done / submissions_per_sample);
         if (info->progress != nullptr &&
-            info->progress(info->progress_user, static_cast<double>(done) / static_cast<double>(submissions)) != 0) {
+            info->progress(info->progress_user, static_cast<double>(done) / static_cast<double>(submissions)) != 0)
             return PT_CANCELLED;
-        }
     }
     return PT_OK;
 }

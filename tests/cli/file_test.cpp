@@ -71,9 +71,8 @@ TEST(AtomicFile, KeepsPermissionsAndLinks) {
 
 // The table of proc_sys_fs(5), protected_symlinks. Root's links are made over to another user.
 TEST(AtomicFile, FollowsNoOneElsesLinksWhereEverybodyMayWrite) {
-    if (geteuid() != 0) {
+    if (geteuid() != 0)
         GTEST_SKIP() << "only root can make links that belong to others";
-    }
     constexpr uid_t another = 65534;
     constexpr uid_t third = 65533;
     struct Case {
@@ -128,15 +127,13 @@ TEST(AbandonedFiles, GoWhereNobodyWritesThem) {
     std::ofstream(of_folder / ".pt-123-0.tmp") << "half a picture";
     const char *const others[] = {".pt-123-0.tmp2", ".pt-123.tmp", ".pt-1a-0.tmp",
                                   ".pt-.tmp",       "pt-1-1.tmp",  ".pt--.tmp"};
-    for (const char *name : others) {
+    for (const char *name : others)
         std::ofstream(of_folder / name) << "not ours";
-    }
     cli::AtomicFile in_use(folder.file("a"));
     cli::AtomicFile::check_writable(folder.file("b"));
     EXPECT_FALSE(std::filesystem::exists(of_folder / ".pt-123-0.tmp"));
-    for (const char *name : others) {
+    for (const char *name : others)
         EXPECT_TRUE(std::filesystem::exists(of_folder / name)) << name;
-    }
     in_use.commit();
     EXPECT_TRUE(std::filesystem::exists(of_folder / "a"));
     EXPECT_EQ(folder.count(), 1 + static_cast<std::ptrdiff_t>(std::size(others)));

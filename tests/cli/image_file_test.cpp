@@ -56,9 +56,8 @@ TEST(ImageFile, FormatFollowsTheExtension) {
     EXPECT_EQ(cli::image_format("a.b.PNG"), ImageFormat::png);
     EXPECT_EQ(cli::image_format("x.jpg"), ImageFormat::jpeg);
     EXPECT_EQ(cli::image_format("x.JPEG"), ImageFormat::jpeg);
-    for (const char *path : {"", "exr", ".exr", "a.tiff", "a.exr/", "a.exr.bak", "dir.png/a"}) {
+    for (const char *path : {"", "exr", ".exr", "a.tiff", "a.exr/", "a.exr.bak", "dir.png/a"})
         EXPECT_EQ(cli::image_format(path), std::nullopt) << path;
-    }
 }
 
 TEST(ImageFile, ExrKeepsEveryBit) {
@@ -163,9 +162,8 @@ TEST(ImageFile, JpegIsClose) {
     write_bytes(folder.file("a.jpeg"), 16, 16, bytes);
     const auto read = read_pixels<std::uint8_t>(folder.file("a.jpeg"), OIIO::TypeDesc::UINT8);
     ASSERT_EQ(read.size(), bytes.size());
-    for (const std::uint8_t value : read) {
+    for (const std::uint8_t value : read)
         EXPECT_NEAR(value, 100, 1); // one color: only the rounding of its coefficient is lost
-    }
 }
 
 TEST(ImageFile, JpegHasMetadataInItsDescription) {

@@ -11,9 +11,8 @@ namespace {
 template <std::size_t Count>
 void expect_round_trip(const cli::ValueNames<Count> &methods, std::uint32_t last) {
     EXPECT_EQ(methods.names().size(), last + 1U); // pt.h counts from 0
-    for (std::uint32_t value = 0; value <= last; ++value) {
+    for (std::uint32_t value = 0; value <= last; ++value)
         EXPECT_EQ(methods.find(methods.name(value)), value);
-    }
     EXPECT_EQ(methods.find("bset"), std::nullopt);
     EXPECT_THROW(methods.name(last + 1), std::out_of_range);
 }

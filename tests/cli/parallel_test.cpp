@@ -16,9 +16,8 @@ TEST(Parallel, EveryThingIsWorkedOnOnce) {
             std::atomic<std::size_t> small_parts = 0;
             cli::in_parallel(count, grain, [&](std::size_t first, std::size_t end) {
                 small_parts += end - first < grain;
-                for (std::size_t i = first; i < end; ++i) {
+                for (std::size_t i = first; i < end; ++i)
                     ++turns[i];
-                }
             });
             EXPECT_EQ(turns, std::vector<int>(count, 1)) << count << " in parts of " << grain;
             EXPECT_LE(small_parts, 1U) << count << " in parts of " << grain;
@@ -31,9 +30,8 @@ TEST(Parallel, WhatIsThrownIsThrownWhenAllHaveEnded) {
     std::atomic<int> begun = 0;
     const auto work = [&](std::size_t first, std::size_t) {
         ++begun;
-        if (first == 0) {
+        if (first == 0)
             throw std::runtime_error("no");
-        }
         ++ended;
     };
     EXPECT_THROW(cli::in_parallel(100, 1, work), std::runtime_error);

@@ -24,9 +24,8 @@ std::string output_of(ProgressStyle style, std::size_t columns = 80) {
     std::ostringstream output;
     {
         Progress progress(output, style, 1'000'000, 100, start, [columns] { return columns; });
-        for (int i = 1; i <= 200; ++i) {
+        for (int i = 1; i <= 200; ++i)
             progress.update_samples(i / 2.0, start + milliseconds(10 * i));
-        }
     }
     return output.str();
 }
@@ -35,9 +34,8 @@ TEST(Progress, JsonLines) {
     std::istringstream lines(output_of(ProgressStyle::json));
     int count = 0;
     nlohmann::json last;
-    for (std::string line; std::getline(lines, line); ++count) {
+    for (std::string line; std::getline(lines, line); ++count)
         last = nlohmann::json::parse(line);
-    }
     EXPECT_GE(count, 19);
     EXPECT_LE(count, 21); // ten a second
     EXPECT_EQ(last.at("fraction"), 1.0);
@@ -118,9 +116,8 @@ TEST(Progress, OfTheSceneIsALineThatGoesAway) {
         std::ostringstream output;
         {
             Progress progress(output, style, 0, 0, start);
-            for (int i = 0; i <= milliseconds_in_all; ++i) {
+            for (int i = 0; i <= milliseconds_in_all; ++i)
                 progress.update_scene(i / 1000.0, start + milliseconds(i));
-            }
         }
         return output.str();
     };

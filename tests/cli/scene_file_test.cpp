@@ -339,9 +339,8 @@ TEST(SceneFile, AByteOrderMarkOfUtf8DoesNoHarm) {
 TEST(SceneFile, ManyItemsAreReadInLinearTime) {
     std::string text = "{\"materials\":{";
     constexpr int count = 30'000;
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; i < count; ++i)
         text += (i == 0 ? "\"m" : ",\"m") + std::to_string(i) + "\":{}";
-    }
     text += "},\"spheres\":[";
     for (int i = 0; i < count; ++i) {
         text += (i == 0 ? "" : ",");

@@ -164,12 +164,10 @@ TEST(Animation, ValuesAreOnStraightLinesBetweenKeyFrames) {
     const cli::AnimatedValue &camera = scene.animation[0];
     EXPECT_EQ(camera.at(12.0), (Numbers{2.0, 4.0, 0.0}));
     EXPECT_EQ(camera.at(12.5), (Numbers{2.5, 5.0, 0.0}));
-    for (const double time : {0.0, 9.9, 10.0}) {
+    for (const double time : {0.0, 9.9, 10.0})
         EXPECT_EQ(camera.at(time), (Numbers{0.0, 0.0, 0.0})) << time;
-    }
-    for (const double time : {14.0, 14.1, 1e9}) {
+    for (const double time : {14.0, 14.1, 1e9})
         EXPECT_EQ(camera.at(time), (Numbers{4.0, 8.0, 0.0})) << time;
-    }
     EXPECT_EQ(scene.animation[2].at(5.0), Numbers{3.5});
 }
 
@@ -243,9 +241,8 @@ TEST(FrameRange, IsReadFromText) {
     EXPECT_EQ(cli::parse_frames("3-17").value().last, 17U);
     EXPECT_EQ(cli::parse_frames("5").value().last, 5U);
     EXPECT_EQ(cli::parse_frames("5-5").value().first, 5U);
-    for (const char *text : {"", "-", "-3", "3-", "4-3", "a", "1-2-3", "1.5", "4294967296", " 1"}) {
+    for (const char *text : {"", "-", "-3", "3-", "4-3", "a", "1-2-3", "1.5", "4294967296", " 1"})
         EXPECT_FALSE(cli::parse_frames(text)) << text;
-    }
 }
 
 TEST(FrameRange, NumbersNames) {

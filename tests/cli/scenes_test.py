@@ -5,12 +5,9 @@ Arguments: see command_line.py."""
 import json
 import os
 import pathlib
-import sys
 
 from command_line import PT, SCENES, CommandLineTest, main
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from scene_file import read_scene  # noqa: E402
+from scene_file import read_scene
 
 # Their balls reflect more than they receive, as those of the coursework did.
 WARNED_OF = ["coursework-motion.json", "coursework.json"]

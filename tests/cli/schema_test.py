@@ -8,15 +8,11 @@ import copy
 import json
 import math
 import os
-import pathlib
-import sys
 
 import jsonschema
 from command_line import PT, SCENES, CommandLineTest, main, npy
 from manual_test import SECTIONS, section_rows
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from scene_file import read_scene  # noqa: E402
+from scene_file import read_scene
 
 SCENE = {
     "camera": {"position": [0, 1, 6], "look_at": [0, 1, 0], "up": [0, 1, 0], "vertical_fov": 35, "shutter": [0, 0.5]},

@@ -20,9 +20,8 @@ std::vector<float> image_of(const SelftestScene &scene, double radiance) {
 TEST(SelftestScene, WrongImagesFail) {
     for (const SelftestScene &scene : cli::selftest_scenes()) {
         for (const double factor :
-             {1.0 + 1.2 * scene.bound() + 0x1p-22, 1.0 - 1.2 * scene.bound() - 0x1p-22, 0.0, -1.0}) {
+             {1.0 + 1.2 * scene.bound() + 0x1p-22, 1.0 - 1.2 * scene.bound() - 0x1p-22, 0.0, -1.0})
             EXPECT_FALSE(scene.judge(image_of(scene, scene.expected * factor)).passed()) << scene.name << factor;
-        }
         EXPECT_LT(scene.bound(), 0.02) << scene.name << " judges too mildly";
     }
 }
@@ -45,9 +44,8 @@ TEST(SelftestScene, EveryChannelCounts) {
     for (const SelftestScene &scene : cli::selftest_scenes()) {
         for (std::size_t channel = 0; channel < 3; ++channel) {
             std::vector<float> radiance = image_of(scene, scene.expected);
-            for (std::size_t i = channel; i < radiance.size(); i += 3) {
+            for (std::size_t i = channel; i < radiance.size(); i += 3)
                 radiance[i] *= 1.03F;
-            }
             EXPECT_FALSE(scene.judge(radiance).passed()) << scene.name;
         }
     }

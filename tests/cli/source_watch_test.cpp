@@ -45,9 +45,8 @@ protected:
     // Waits for a change, which takes several calls.
     static void expect_change(SourceWatch &watch, const std::vector<std::string> &names) {
         const auto end = std::chrono::steady_clock::now() + long_enough;
-        while (!watch.changed(long_enough)) {
+        while (!watch.changed(long_enough))
             ASSERT_LT(std::chrono::steady_clock::now(), end);
-        }
         EXPECT_EQ(watch.changed_names(), names);
         watch.begin();
         EXPECT_FALSE(watch.changed(milliseconds{0}));
@@ -56,9 +55,8 @@ protected:
     // Each call takes a tenth of a second or a look at the files: a look comes with the third one at the latest, and
     // what it finds has settled with the next.
     static void expect_nothing(SourceWatch &watch) {
-        for (int call = 0; call < 6; ++call) {
+        for (int call = 0; call < 6; ++call)
             EXPECT_FALSE(watch.changed(milliseconds{100}));
-        }
     }
 
     TemporaryFolder folder;

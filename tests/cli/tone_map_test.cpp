@@ -23,9 +23,8 @@ constexpr ToneCurve all_curves[] = {ToneCurve::none, ToneCurve::reinhard, ToneCu
 constexpr double rounding = 1e-12;
 
 void expect_color(const Color &color, const Color &expected, double tolerance) {
-    for (std::size_t channel = 0; channel < 3; ++channel) {
+    for (std::size_t channel = 0; channel < 3; ++channel)
         EXPECT_NEAR(color[channel], expected[channel], tolerance) << "channel " << channel;
-    }
 }
 
 // Over 20 stops around middle grey, and 0.
@@ -33,9 +32,8 @@ bool is_nondecreasing(const std::function<double(double)> &curve) {
     double last = curve(0.0);
     for (int i = 0; i <= 20'000; ++i) {
         const double value = curve(std::exp2(-14.0 + i / 1000.0));
-        if (!(value >= last)) {
+        if (!(value >= last))
             return false;
-        }
         last = value;
     }
     return true;
@@ -75,11 +73,9 @@ TEST(ToneMap, CurvesStayInTheDisplayAndKeepBlack) {
     constexpr double brightest = std::numeric_limits<float>::max();
     for (const ToneCurve curve : all_curves) {
         expect_color(apply_curve(curve, {0.0, 0.0, 0.0}), {0.0, 0.0, 0.0}, 0.0);
-        for (const Color &color : {Color{brightest, 0.0, 0.0}, Color{brightest, brightest, brightest}}) {
-            for (const double component : apply_curve(curve, color)) {
+        for (const Color &color : {Color{brightest, 0.0, 0.0}, Color{brightest, brightest, brightest}})
+            for (const double component : apply_curve(curve, color))
                 EXPECT_TRUE(component >= 0.0 && component <= 1.0) << component;
-            }
-        }
     }
 }
 
@@ -143,9 +139,8 @@ using cli::automatic_exposure;
 
 std::vector<float> grey(std::initializer_list<float> pixels) {
     std::vector<float> radiance;
-    for (const float pixel : pixels) {
+    for (const float pixel : pixels)
         radiance.insert(radiance.end(), 3, pixel);
-    }
     return radiance;
 }
 

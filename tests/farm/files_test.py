@@ -28,9 +28,7 @@ def command(start):
 
 class Files(unittest.TestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
+        self.folder = self.enterContext(tempfile.TemporaryDirectory())
 
     def run_line(self, words, **more):
         path = os.path.dirname(PT) + os.pathsep + os.environ["PATH"]

@@ -28,12 +28,8 @@ from pt.farm import _coordinator, _task
 from pt.farm._crew import LOOK_SECONDS, MOST_FAILURES
 from pt.farm._part import Part
 from pt.farm._sum import Sum, write_film
+from pictures import CAMERA, GLOSSY, SCENE
 
-LAMP = pt.Material(emission=(4, 3, 2))
-BALL = pt.Material(diffuse=(0.4, 0.1, 0.1), specular=0.4, glossiness=100)
-SCENE = pt.Scene([pt.Sphere((0, 1, 0), 1, BALL), pt.Sphere((2, 4, 2), 1, LAMP)],
-                 [pt.Plane((0, 1, 0), 0, pt.Material(diffuse=0.8))])
-CAMERA = pt.Camera(position=(0, 1.5, 5), target=(0, 1, 0))
 SETTINGS = pt.RenderSettings(136, 100)  # tiles that are cut at both edges
 JOB = farm.Job(SCENE, CAMERA, SETTINGS)
 SAMPLES, ERROR = 256, 0.006
@@ -339,7 +335,7 @@ class Farm(unittest.TestCase):
         self.assertEqual(found.film, self.whole)
 
     def test_broken_scenes_are_told_once(self):
-        broken = farm.Job(pt.Scene([pt.Sphere((0, 1, 0), -1, BALL)]), CAMERA, SETTINGS)
+        broken = farm.Job(pt.Scene([pt.Sphere((0, 1, 0), -1, GLOSSY)]), CAMERA, SETTINGS)
         with self.assertRaisesRegex(farm.FarmError, r"spheres\[0\].radius = -1: must be > 0"):
             self.farm(1, job=broken)
 

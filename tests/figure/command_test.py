@@ -4,7 +4,6 @@ import contextlib
 import importlib.util
 import io
 import json
-import os
 import pathlib
 import subprocess
 import sys
@@ -33,11 +32,8 @@ H 0.24 1.59 1.00 1.8
 
 class Command(unittest.TestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-        self.addCleanup(os.chdir, os.getcwd())
-        os.chdir(self.folder)
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+        self.enterContext(contextlib.chdir(self.folder))
         (self.folder / "water.xyz").write_text(2 * WATER)
         np.save(self.folder / "points.npy", np.random.default_rng(2).normal(size=(4, 30, 3)).astype(np.float32))
 

@@ -20,9 +20,7 @@ FILES = {  # and whether a row says where it ends
 
 class Damaged(unittest.TestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
 
     def read(self, name, data):
         """Particles, or None where they are refused as they should be."""

@@ -49,11 +49,7 @@ class Files(unittest.TestCase):
 class InThePicture(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.context = pt.Context()
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.context.close()
+        cls.context = cls.enterClassContext(pt.Context())
 
     def figure(self, **options):
         values = np.linspace(0, 1, 30)

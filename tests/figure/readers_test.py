@@ -30,9 +30,7 @@ ATOMS = "ITEM: ATOMS id xs ys zs\n1 0.5 0.25 0.125\n"
 
 class InAFolder(unittest.TestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
 
     def read(self, name, content, **options):
         path = self.folder / name

@@ -77,11 +77,7 @@ def share(hits, size=SIZE):
 class Lines(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.context = pt.Context()
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.context.close()
+        cls.context = cls.enterClassContext(pt.Context())
 
     def test_coverage_and_what_is_in_front(self):
         """One or two hits of 16 at a border may round otherwise."""

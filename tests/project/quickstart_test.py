@@ -24,9 +24,7 @@ done
 
 class Quickstart(unittest.TestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.root = pathlib.Path(folder.name)
+        self.root = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
         (self.root / "cmake").mkdir()
         shutil.copy(SCRIPT, self.root / "cmake" / "quickstart.sh")
         for name in "cmake", "ctest", "apt-get", "build/bin/pt":

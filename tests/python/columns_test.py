@@ -25,13 +25,9 @@ def swapped(array):
 class Columns(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.context = pt.Context()
+        cls.context = cls.enterClassContext(pt.Context())
         cls.plain = radiance(cls.context, scene_of(
             pt.SphereArray(POSITIONS.copy(), RADII.copy(), INDICES.copy(), color=COLORS.copy())))
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.context.close()
 
     def check(self, copied, positions=POSITIONS, radii=RADII, indices=INDICES, colors=COLORS, **columns):
         array = pt.SphereArray(positions, radii, indices, color=colors, **columns)
@@ -65,37 +61,23 @@ class Columns(unittest.TestCase):
             with self.assertRaisesRegex(pt.Error, message):
                 radiance(self.context, scene_of(array))
 
-    def test_double_precision(self):
-        self.check((), POSITIONS.astype(float), RADII.astype(float), colors=COLORS.astype(float))
-
-    def test_members_of_a_structured_array(self):
+    def test_layouts_that_are_read_in_place(self):
         particles = np.zeros(COUNT, [("charge", "i1"), ("position", "f4", 3), ("radius", "f8"), ("kind", "u4")])
         particles["position"], particles["radius"], particles["kind"] = POSITIONS, RADII, INDICES
         self.assertFalse(particles["position"].flags.aligned)
         self.check((), particles["position"], particles["radius"], particles["kind"])
-
-    def test_slices(self):
         table = np.full((2 * COUNT, 7), np.nan)
         table[::2, 1:4], table[::2, 5] = POSITIONS, RADII
+        table.flags.writeable = False
         self.check((), table[::2, 1:4], table[::2, 5])
+        self.check((), POSITIONS.astype(float), RADII.astype(float), colors=COLORS.astype(float))
 
-    def test_read_only(self):
-        positions = POSITIONS.copy()
-        positions.flags.writeable = False
-        self.check((), positions)
-
-    def test_fortran_order_is_copied(self):
+    def test_layouts_that_are_copied(self):
         self.check(("center", "color"), np.asfortranarray(POSITIONS), colors=np.asfortranarray(COLORS))
-
-    def test_components_apart_are_copied(self):
         table = np.full((COUNT, 6), np.nan)
         table[:, ::2] = POSITIONS
         self.check(("center",), table[:, ::2])
-
-    def test_descending_rows_are_copied(self):
         self.check(("center", "radius"), POSITIONS[::-1].copy()[::-1], RADII[::-1].copy()[::-1])
-
-    def test_the_other_byte_order_is_copied(self):
         self.check(("center", "radius", "material", "color"), swapped(POSITIONS), swapped(RADII), swapped(INDICES),
                    swapped(COLORS))
 

@@ -18,15 +18,13 @@ POSITIONS, COLORS = cloud(80)
 class Denoise(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        module = pathlib.Path(folder.name, "pyoidn")
+        folder = cls.enterClassContext(tempfile.TemporaryDirectory())
+        module = pathlib.Path(folder, "pyoidn")
         (module / "oidn" / "lib").mkdir(parents=True)
         (module / "__init__.py").write_text("raise ImportError('nothing of it is to be run')")
         (module / "oidn" / "lib" / "libOpenImageDenoise.so.2").symlink_to(FAKE)
-        sys.path.insert(0, folder.name)
-        cls.context = pt.Context()
-        cls.addClassCleanup(cls.context.close)
+        sys.path.insert(0, folder)
+        cls.context = cls.enterClassContext(pt.Context())
 
     def rendered(self, samples, **more):
         return self.context.render(SCENE, CAMERA, settings(), samples, denoise=True, **more)

@@ -12,11 +12,9 @@ from unittest import mock
 
 import numpy as np
 import pt
+from exr import read_exr_channels
 from pictures import CAMERA, SCENE, SCENE_FILE, cloud, settings
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from exr import read_exr_channels  # noqa: E402
-from png import parse_png  # noqa: E402
+from png import parse_png
 
 PROGRAM = sys.argv.pop(1)
 FAKE_DENOISER = sys.argv.pop(1)
@@ -37,9 +35,7 @@ class Pictures(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.image = rendered()
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        cls.folder = pathlib.Path(folder.name)
+        cls.folder = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
 
     def picture_of_the_program(self, *options):
         (self.folder / "scene.json").write_text(json.dumps(SCENE_FILE))

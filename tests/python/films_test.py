@@ -18,13 +18,9 @@ SAMPLES = 24  # of which the error can be told
 class Films(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.context = pt.Context()
+        cls.context = cls.enterClassContext(pt.Context())
         cls.whole, cls.image = cls.film(0, SAMPLES), cls.context.image()
         cls.parts = [cls.film(first, 8) for first in range(0, SAMPLES, 8)]
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.context.close()
 
     @classmethod
     def film(cls, first, count, **fields):
@@ -148,8 +144,7 @@ class Plans(unittest.TestCase):
     ERROR, MOST, SHAPE = 0.006, 4096, {"width": 136, "height": 100}
 
     def setUp(self):
-        self.context = pt.Context()
-        self.addCleanup(self.context.close)
+        self.context = self.enterContext(pt.Context())
 
     def tiles(self, first, counts):
         ready(self.context, first_sample=first, **self.SHAPE).accumulate_tiles(counts)

@@ -38,9 +38,7 @@ COLUMNS = [{"center": "c.npy", "radius": "r.npy", "color": "k.npy", "material": 
 
 class Reading(unittest.TestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
         random = np.random.default_rng(1)
         np.save(self.folder / "c.npy", random.uniform(-1, 1, (7, 3)) + (0, 1, 0))
         np.save(self.folder / "r.npy", random.uniform(0.05, 0.3, 7).astype(np.float32))

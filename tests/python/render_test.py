@@ -14,12 +14,8 @@ SMALL = {"size": (WIDTH, HEIGHT), "samples": 16}
 class Render(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.context = pt.Context()
+        cls.context = cls.enterClassContext(pt.Context())
         cls.image = pt.render(POSITIONS, 0.1, COLORS, context=cls.context, **SMALL)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.context.close()
 
     def test_it_is_what_the_calls_of_the_library_give(self):
         with pt.Context() as context:
@@ -104,13 +100,9 @@ class Render(unittest.TestCase):
 class Readback(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.context = ready(pt.Context())
+        cls.context = ready(cls.enterClassContext(pt.Context()))
         cls.context.accumulate(4)
         cls.image = cls.context.readback()
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.context.close()
 
     def test_a_new_array(self):
         self.assertEqual((self.image.shape, self.image.dtype), ((HEIGHT, WIDTH, 3), np.float32))

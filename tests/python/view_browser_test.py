@@ -44,9 +44,7 @@ def click(name):
 class Browser(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        cls.folder = pathlib.Path(folder.name)
+        cls.folder = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
         cls.scene = cls.folder / "coursework.json"
         shutil.copy(ROOT / "cli/scenes/coursework.json", cls.scene)
         cls.downloads = cls.folder / "downloads"

@@ -17,10 +17,8 @@ from unittest import mock
 
 import numpy as np
 import pt
+from exr import read_exr_channels
 from pictures import CAMERA, SCENE, SCENE_FILE, settings
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from exr import read_exr_channels  # noqa: E402
 
 PROGRAM, HAS_COMPILER = sys.argv.pop(1), sys.argv.pop(1) == "1"
 SHADERS = pathlib.Path(__file__).resolve().parents[2] / "shaders"
@@ -93,9 +91,7 @@ class Page:
 class Views(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        cls.folder = pathlib.Path(folder.name)
+        cls.folder = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
         cls.scene = cls.folder / "a scene.json"
         cls.scene.write_text(text_of(SCENE_FILE))
         cls.view = View(cls.scene, samples=64)
