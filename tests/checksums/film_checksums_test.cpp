@@ -39,21 +39,13 @@ std::string checksum_of(const std::vector<Number> &numbers) {
 }
 
 // Of what follows the identity, which names the kernels: tiles, samples and sums, without the checksum behind them.
-std::string checksum_of_sums(const std::string &film) {
-    const std::size_t first = film.find("\ntile ");
+std::string checksum_of_sums(const std::vector<char> &film) {
+    const std::size_t first = std::string_view(film.data(), film.size()).find("\ntile ");
     return hexadecimal(pt::checksum(std::as_bytes(std::span(film).first(film.size() - 8).subspan(first))));
 }
 
 class FilmChecksums : public ContextFixture {
 protected:
-    static std::string film_of(pt_context *on) {
-        std::uint64_t size = 0;
-        EXPECT_EQ(pt_save_film(on, nullptr, &size), PT_OK) << pt_last_error(on);
-        std::string film(size, '\0');
-        EXPECT_EQ(pt_save_film(on, film.data(), &size), PT_OK) << pt_last_error(on);
-        return film;
-    }
-
     static std::vector<float> image_of(pt_context *on, std::uint32_t quantity, std::uint32_t rows = height) {
         return values_of(on, std::size_t{width} * rows, quantity);
     }
@@ -71,18 +63,14 @@ protected:
     // the same bits of rows that are rendered alone, and of a film that is saved and goes on.
     static std::string checksums(pt_context *on, const cli::SceneFile &file, std::uint32_t sampler) {
         const pt_scene scene = file.scene();
-        pt_render render{};
-        render.struct_size = sizeof render;
-        render.width = width;
-        render.height = height;
-        render.max_path_length = std::min(file.render.max_path_length, 4U);
+        pt_render render = render_of(width, height, std::min(file.render.max_path_length, 4U));
         render.sampler = sampler;
         set_picture(on, scene, file.camera, render);
         take(on, 5); // before, over and behind moves of the parts' split
         take(on, 20);
-        const std::string begun = film_of(on);
+        const std::vector<char> begun = film_of(on);
         take(on, 15);
-        const std::string whole = film_of(on);
+        const std::vector<char> whole = film_of(on);
         const std::vector<float> image = image_of(on, PT_QUANTITY_RADIANCE);
         std::string found = checksum_of_sums(whole) + ' ' + checksum_of(image) + ' ' +
                             checksum_of(image_of(on, PT_QUANTITY_STANDARD_ERROR));

@@ -1,5 +1,5 @@
 // On a device: what the library accepts renders to finite images of which no sample is left out, the same however the
-// samples are split over calls. See examine.h; the environment is that of tests/support/context_fixture.h.
+// samples are split over calls. See examine.h.
 #include "tests/fuzz/examine.h"
 
 #include "lib/base/error.h"
@@ -7,18 +7,11 @@
 #include "lib/scene/camera.h"
 #include "lib/scene/render_settings.h"
 #include "lib/scene/scene.h"
-#include "tests/support/image_target.h"
-
-#include <pt/pt.h>
-#include <pt/stats.h>
+#include "tests/fuzz/on_device.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <cstring>
-#include <memory>
 #include <optional>
 #include <string>
 
@@ -26,32 +19,8 @@ namespace fuzz {
 
 namespace {
 
-void complain(void *, std::int32_t level, const char *line) {
-    require(level == PT_LOG_INFO, line);
-}
-
-struct DestroyContext {
-    void operator()(pt_context *context) const { pt_destroy(context); }
-};
-
-// One for all inputs, so that kernels are built only where the scene needs another one.
-pt_context *context() {
-    static const std::unique_ptr<pt_context, DestroyContext> created = [] {
-        pt_create_info info{};
-        info.struct_size = sizeof info;
-        info.flags = std::getenv("PT_TEST_NO_VALIDATION") ? 0 : PT_CREATE_VALIDATION;
-        info.device = std::getenv("PT_TEST_DEVICE");
-        info.log = complain;
-        pt_context *context = nullptr;
-        require(pt_create(&info, &context) == PT_OK, pt_last_error(nullptr));
-        return std::unique_ptr<pt_context, DestroyContext>(context);
-    }();
-    return created.get();
-}
-
 // Whether the samples exist, and the image needs no seconds, by its ray-surface tests to within a small factor.
 bool can_be_rendered(const Input &input) {
-    constexpr double most_pixels = 64;
     constexpr double most_tests = 4e6;
     const pt_render &render = input.render;
     const double pixels = static_cast<double>(render.width) * render.height;
@@ -96,41 +65,17 @@ bool set_all(const Input &input) {
            accepted(pt_set_render(context(), render.as<pt_render>()));
 }
 
-// A result of a call that has no reason to fail.
-void require_done(pt_result result) {
-    require(result == PT_OK, std::string(pt_result_name(result)) + ": " + pt_last_error(context()));
-}
-
-void take_samples(std::uint32_t count) {
-    const pt_accumulate_info info{sizeof info, count, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
-    require_done(pt_accumulate(context(), &info));
-}
-
-using Pixels = std::array<float, 3 * 64>;
-
-Pixels read_pixels(std::uint32_t quantity) {
-    Pixels pixels{};
-    const pt_image image = image_target(pixels, quantity);
-    require_done(pt_readback(context(), &image));
-    return pixels;
-}
-
 void require_stats(const Input &input) {
-    pt_stats stats{};
-    stats.struct_size = sizeof stats;
-    require_done(pt_get_stats(context(), &stats));
-    require(stats.sample_count == input.sample_count, "all samples were taken");
-    require(stats.rejected_samples == 0 || may_lose_samples(input),
-            "samples were left out: " + std::to_string(stats.rejected_samples));
+    require(stats().sample_count == input.sample_count, "all samples were taken");
+    require(stats().rejected_samples == 0 || may_lose_samples(input),
+            "samples were left out: " + std::to_string(stats().rejected_samples));
 }
 
 void examine_one(const Input &input) {
     if (!set_all(input))
         return;
     take_samples(input.sample_count);
-    const Pixels radiance = read_pixels(PT_QUANTITY_RADIANCE);
-    require(std::ranges::all_of(radiance, [](float x) { return x >= 0.0F && std::isfinite(x); }),
-            "radiance is finite and not negative");
+    const Pixels radiance = read_radiance();
     require(std::ranges::none_of(read_pixels(PT_QUANTITY_STANDARD_ERROR), [](float x) { return std::isnan(x); }),
             "standard errors are numbers");
     require_stats(input);

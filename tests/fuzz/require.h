@@ -1,11 +1,17 @@
 // Ends the process if a condition does not hold. Used by all targets.
 #pragma once
 
+#include <cstdio>
+#include <cstdlib>
 #include <string_view>
 
 namespace fuzz {
 
-// Prints what and aborts, unless it holds.
-void require(bool holds, std::string_view what);
+inline void require(bool holds, std::string_view what) {
+    if (holds)
+        return;
+    std::fprintf(stderr, "does not hold: %.*s\n", static_cast<int>(what.size()), what.data());
+    std::abort();
+}
 
 } // namespace fuzz

@@ -4,6 +4,9 @@
 // found by tests/faults/. This must detect a growth of malloc's smallest piece, 32 bytes with its header, in each
 // round: the heap may grow by less than that a round, plus four pages in all for what the driver's threads keep by
 // chance. Growth counts from the end of the first quarter, when caches are filled. Exit code 1: memory grew more.
+#include "tests/support/image_target.h"
+#include "tests/support/scene_of.h"
+
 #include <pt/pt.h>
 #include <pt/stats.h>
 
@@ -39,12 +42,7 @@ const pt_material materials[] = {{{0, 0, 0}, {0, 0, 0}, {8, 4, 2}, 0, 0},
 void set_scene(pt_context *context, int round) {
     const pt_sphere spheres[] = {{{3, 2, -8}, 1, {0, 0, 0}, 0, 0},
                                  {{-1, 1e-3 * (round % 100), -6}, 1, {0, 0, 0}, 1, 0}};
-    pt_scene scene{};
-    scene.struct_size = sizeof scene;
-    scene.material_count = 2;
-    scene.sphere_count = 2;
-    scene.materials = materials;
-    scene.spheres = spheres;
+    const pt_scene scene = scene_of(materials, spheres, {});
     require_ok(pt_set_scene(context, &scene), context);
 }
 
@@ -57,11 +55,7 @@ pt_context *create() {
     camera.shutter_close = 1;
     camera.target[2] = -1;
     require_ok(pt_set_camera(context, &camera), context);
-    pt_render render{};
-    render.struct_size = sizeof render;
-    render.width = 16;
-    render.height = 8;
-    render.max_path_length = 2;
+    const pt_render render = render_of(16, 8, 2);
     require_ok(pt_set_render(context, &render), context);
     return context;
 }
@@ -72,10 +66,7 @@ Memory memory_after_rendering(pt_context *context) {
     accumulate.sample_count = 1;
     require_ok(pt_accumulate(context, &accumulate), context);
     std::vector<float> pixels(std::size_t{16} * 8 * 3);
-    pt_image image{};
-    image.struct_size = sizeof image;
-    image.data = pixels.data();
-    image.size_bytes = pixels.size() * sizeof(float);
+    const pt_image image = image_target(pixels);
     require_ok(pt_readback(context, &image), context);
     pt_stats stats{};
     stats.struct_size = sizeof stats;

@@ -1,0 +1,77 @@
+// What targets do on a device, with one context for all inputs. A call that has no reason to fail must not. The
+// environment is that of tests/support/context_fixture.h.
+#pragma once
+
+#include "tests/fuzz/require.h"
+#include "tests/support/image_target.h"
+
+#include <pt/pt.h>
+#include <pt/stats.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <memory>
+#include <string>
+
+namespace fuzz {
+
+struct DestroyContext {
+    void operator()(pt_context *context) const { pt_destroy(context); }
+};
+
+inline void complain(void *, std::int32_t level, const char *line) {
+    require(level == PT_LOG_INFO, line);
+}
+
+// Kernels are built only where the scene needs another one.
+inline pt_context *context() {
+    static const std::unique_ptr<pt_context, DestroyContext> created = [] {
+        pt_create_info info{};
+        info.struct_size = sizeof info;
+        info.flags = std::getenv("PT_TEST_NO_VALIDATION") ? 0 : PT_CREATE_VALIDATION;
+        info.device = std::getenv("PT_TEST_DEVICE");
+        info.log = complain;
+        pt_context *context = nullptr;
+        require(pt_create(&info, &context) == PT_OK, pt_last_error(nullptr));
+        return std::unique_ptr<pt_context, DestroyContext>(context);
+    }();
+    return created.get();
+}
+
+inline void require_done(pt_result result) {
+    require(result == PT_OK, std::string(pt_result_name(result)) + ": " + pt_last_error(context()));
+}
+
+inline void take_samples(std::uint32_t count) {
+    const pt_accumulate_info info{sizeof info, count, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
+    require_done(pt_accumulate(context(), &info));
+}
+
+constexpr std::uint32_t most_pixels = 64;
+using Pixels = std::array<float, 3 * most_pixels>;
+
+inline Pixels read_pixels(std::uint32_t quantity) {
+    Pixels pixels{};
+    const pt_image image = image_target(pixels, quantity);
+    require_done(pt_readback(context(), &image));
+    return pixels;
+}
+
+inline Pixels read_radiance() {
+    const Pixels radiance = read_pixels(PT_QUANTITY_RADIANCE);
+    require(std::ranges::all_of(radiance, [](float x) { return x >= 0.0F && std::isfinite(x); }),
+            "radiance is finite and not negative");
+    return radiance;
+}
+
+inline pt_stats stats() {
+    pt_stats stats{};
+    stats.struct_size = sizeof stats;
+    require_done(pt_get_stats(context(), &stats));
+    return stats;
+}
+
+} // namespace fuzz
