@@ -2,7 +2,6 @@
 // and leaks nothing.
 #include "tests/faults/allocations.h"
 #include "tests/faults/sweep.h"
-#include "tests/faults/table.h"
 
 #include <gtest/gtest.h>
 
@@ -16,10 +15,10 @@ using namespace faults;
 class FailingAllocation : public Injection {
 public:
     // goes_on: those after it fail too.
-    FailingAllocation(std::size_t number, bool goes_on, Table &table) :
+    FailingAllocation(std::size_t number, bool goes_on, std::size_t &failures) :
         number_(number),
         goes_on_(goes_on),
-        table_(table) {}
+        failures_(failures) {}
 
     void arm() override { fail_allocation(number_, goes_on_); }
 
@@ -29,7 +28,7 @@ public:
         fail_allocation(0, false);
         if (!failed)
             return false;
-        table_.add(step, pt_result_name(result));
+        ++failures_;
         // Where none throws, those who asked can do without; and pt_destroy returns nothing.
         if (threw && step != "pt_destroy") {
             EXPECT_EQ(pt_result_name(result), std::string("PT_ERROR_OUT_OF_HOST_MEMORY"))
@@ -42,14 +41,14 @@ public:
 private:
     std::size_t number_;
     bool goes_on_;
-    Table &table_;
+    std::size_t &failures_; // that were met
 };
 
 void fail_every_allocation(const Setting &setting, bool goes_on) {
-    Table table(goes_on ? "allocations, with all that follow" : "allocations");
+    std::size_t failures = 0;
     sweep(setting, undisturbed_images(), Life::all_steps(),
-          [&](std::size_t number) { return std::make_unique<FailingAllocation>(number, goes_on, table); });
-    table.print();
+          [&](std::size_t number) { return std::make_unique<FailingAllocation>(number, goes_on, failures); });
+    EXPECT_GT(failures, 1000U);
 }
 
 TEST(HostMemoryTest, EveryAllocationMayFail) {
