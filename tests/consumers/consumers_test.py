@@ -152,10 +152,11 @@ class Steps:
             cache = (build / "CMakeCache.txt").read_text()
             require(f"pt_DIR:PATH={self.library}/cmake/pt\n" in cache, "another pt was found than the one installed")
             run(self.options.cmake, "--build", build)
-        check_linkage(folder / "package/enclosure_shared", shared=True)
-        check_linkage(folder / "package/enclosure_static", shared=False)
-        for program in "package/enclosure_shared", "package/enclosure_static", "package_c/enclosure_static":
-            check_enclosure(folder / program)
+        check_linkage(folder / "package/own_names_shared", shared=True)
+        check_linkage(folder / "package/own_names_static", shared=False)
+        run(folder / "package/own_names_shared")
+        run(folder / "package/own_names_static")
+        check_enclosure(folder / "package_c/enclosure_static")
 
     def configure_subproject(self, build, *settings):
         """Folders of the sources with files that are compiled with optimisation, and without: two sets."""
@@ -192,8 +193,9 @@ class Steps:
         reuse = ";".join(map(str, (sys.executable, "-B", HERE / "reuse.py", commands, self.options.build, build / "pt")))
         self.configure_subproject(build, f"-DCMAKE_CXX_COMPILER_LAUNCHER={reuse}", *(f"-D{each}" for each in settings))
         run(self.options.cmake, "--build", build, "-j1")  # another test has the second core
-        for program in "enclosure_shared", "enclosure_static", "enclosure_cpp":
-            check_enclosure(build / program)
+        check_enclosure(build / "enclosure_shared")
+        check_enclosure(build / "enclosure_static")
+        run(build / "own_names")
         run(self.options.cmake, "--install", build, "--prefix", folder / "installed")
         installed = [path.name for path in (folder / "installed").rglob("*") if path.is_file()]
         require(installed == ["enclosure_static"], f"the project's installation has {installed}")
@@ -202,9 +204,6 @@ class Steps:
         """The package with the library, and the example in Python, whose image has the bits of the example in C."""
         folder = self.folder("python")
         library = {"PT_LIBRARY": str(self.library / "libpt.so.0.3"), "PYTHONPATH": str(SOURCE / "lib" / "python")}
-        enclosure = [sys.executable, "-B", HERE / "python" / "enclosure.py"]
-        run(*enclosure, "2", **library)
-        run(*enclosure, "2.5", expect=1, **library)
         run(sys.executable, "-B", EXAMPLES / "smallest.py", cwd=folder, **library)
         image = (folder / "smallest.pfm").read_bytes()
         require(len(image) == len(b"PF\n128 96\n-1.0\n") + 128 * 96 * 12, "smallest.pfm has another size")
