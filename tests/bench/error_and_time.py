@@ -3,12 +3,11 @@
     PT_LIBRARY=build/lib/libpt.so python3 tests/bench/error_and_time.py cli/scenes/coursework.json --size 64x32 \\
         --samplers random,sobol --spp 4,16 --rounds 1 --json bench.json
 
-Every sampler, estimator and number of samples or target error is rendered in every round, in turn, so that a disturbed
+Every sampler, estimator and number of samples is rendered in every round, in turn, so that a disturbed
 machine is so for all alike. Round k has the seed + k.
 
 seconds, cpu s  of the sampling alone, the clock's and those of all threads, medians of the rounds; kernels are built before
 mse, rel_mse    mean of (x - r)^2 and of (x - r)^2 / (r^2 + 0.01) against the reference r, means of the rounds
-efficiency      1 / (rel_mse seconds)
 slope           of log MSE against log N since the count above; -1 for independent samples. halton has the same points in
                 every pixel, whatever the seed: its rounds differ little
 """
@@ -31,7 +30,6 @@ from scene_file import read_scene  # noqa: E402
 from scene_renderer import ESTIMATORS, SAMPLERS, SceneRenderer  # noqa: E402 (which finds pt)
 from pt import DeviceKind  # noqa: E402
 
-MOST_SAMPLES = 65536  # with a target error, as in pt render
 REFERENCE_FACTOR = 64  # the reference's error is then an eighth of the smallest measured, if its square falls as 1 / N
 NOISE_MARGIN = 3
 
@@ -54,13 +52,6 @@ def counts(text):
     return chosen
 
 
-def shares(text):
-    chosen = sorted({float(each.removesuffix("%")) / (100 if each.endswith("%") else 1) for each in text.split(",")})
-    if not chosen[0] > 0:
-        raise argparse.ArgumentTypeError(f"{chosen[0]}: must be above 0")
-    return chosen[::-1]
-
-
 def size(text):
     width, height = map(int, text.split("x"))
     return width, height
@@ -73,10 +64,7 @@ def parse_arguments(arguments=None):
     parser.add_argument("--max-path-length", type=int, metavar="L", help="default: the scene's, else 6")
     parser.add_argument("--samplers", type=names(SAMPLERS), default=list(SAMPLERS), metavar="NAME,...")
     parser.add_argument("--estimators", type=names(ESTIMATORS), default=["best"], metavar="NAME,...")
-    aims = parser.add_mutually_exclusive_group()
-    aims.add_argument("--spp", type=counts, default=[16, 64, 256, 1024], metavar="N,...")
-    aims.add_argument("--errors", type=shares, metavar="E,...",
-                      help="until the stated error is at or below these, like 4%%,1%%; with a reference")
+    parser.add_argument("--spp", type=counts, default=[16, 64, 256, 1024], metavar="N,...")
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--device", help="on which to render (default: the best)")
@@ -85,10 +73,7 @@ def parse_arguments(arguments=None):
     references.add_argument("--reference-spp", type=int, metavar="N", help="of one that is rendered (default: 64 times --spp)")
     parser.add_argument("--json", metavar="FILE", help="write the table and all conditions")
     parser.add_argument("--quiet", action="store_true", help="print no table")
-    options = parser.parse_args(arguments)
-    if options.errors and not (options.reference or options.reference_spp):
-        parser.error("--errors: needs --reference or --reference-spp, as it is not known how many samples they take")
-    return options
+    return parser.parse_args(arguments)
 
 
 def read_exr(path):
@@ -143,33 +128,30 @@ class Bench:
         mse, rel_mse = (error * half / (samples - half) for error in image_error(first, whole))
         return whole, {"spp": samples, "seed": self.options.seed, "mse": mse, "rel_mse": rel_mse}
 
-    def measure(self, sampler, estimator, aim, seed, reference):
-        """One run: samples of a pixel, seconds of the clock and of all threads, MSE and relMSE."""
-        samples, target = (MOST_SAMPLES, aim) if self.options.errors else (aim, 0.0)
+    def measure(self, sampler, estimator, samples, seed, reference):
+        """One run: seconds of the clock and of all threads, MSE and relMSE."""
         for warm_up in True, False:  # the second set_render discards the samples of the first run
             self.set_render(SAMPLERS[sampler], ESTIMATORS[estimator], seed)
             if warm_up:
                 self.renderer.call("pt_prepare")
-                self.renderer.accumulate(16 if target else 1, target)
+                self.renderer.accumulate(1)
         start, cpu_start = time.perf_counter(), time.process_time()
-        self.renderer.accumulate(samples, target)
+        self.renderer.accumulate(samples)
         seconds, cpu_seconds = time.perf_counter() - start, time.process_time() - cpu_start
-        taken = self.renderer.stats().mean_sample_count if target else samples
-        return taken, seconds, cpu_seconds, *image_error(self.image(), reference)
+        return seconds, cpu_seconds, *image_error(self.image(), reference)
 
 
-def cells_of(runs, by_target, near):
-    """Rows of the table, from the runs of each sampler, estimator, and number of samples or target error."""
+def cells_of(runs, near):
+    """Rows of the table, from the runs of each sampler, estimator, and number of samples."""
     cells, before = [], None
-    for (sampler, estimator, aim), of_rounds in runs.items():
+    for (sampler, estimator, samples), of_rounds in runs.items():
         columns = list(zip(*of_rounds))
-        samples, seconds, cpu_seconds = map(statistics.median, columns[:3])
-        mse, rel_mse = map(statistics.fmean, columns[3:])
+        seconds, cpu_seconds = map(statistics.median, columns[:2])
+        mse, rel_mse = map(statistics.fmean, columns[2:])
         follows = before and before[:2] == (sampler, estimator) and mse > 0 and before[3] > 0 and samples > before[2]
         cells.append({
-            "sampler": sampler, "estimator": estimator, "target_error": aim if by_target else None, "spp": samples, "rounds": len(of_rounds),
+            "sampler": sampler, "estimator": estimator, "spp": samples, "rounds": len(of_rounds),
             "seconds": seconds, "processor_seconds": cpu_seconds, "mse": mse, "rel_mse": rel_mse,
-            "efficiency": 1 / (rel_mse * seconds) if rel_mse * seconds > 0 else None,
             "slope": math.log(mse / before[3]) / math.log(samples / before[2]) if follows else None,
             "near_reference_noise": mse < NOISE_MARGIN * near[0] or rel_mse < NOISE_MARGIN * near[1]})
         before = sampler, estimator, samples, mse
@@ -177,14 +159,11 @@ def cells_of(runs, by_target, near):
 
 
 def print_cells(cells):
-    def text(value, form):
-        return "" if value is None else format(value, form)
-
-    print_table([["sampler", "estimator", "spp", "seconds", "cpu s", "MSE", "relMSE", "efficiency", "slope"]] + [
-        [cell["sampler"], cell["estimator"], f"{cell['spp']:.6g}", f"{cell['seconds']:.4f}",
+    print_table([["sampler", "estimator", "spp", "seconds", "cpu s", "MSE", "relMSE", "slope"]] + [
+        [cell["sampler"], cell["estimator"], str(cell["spp"]), f"{cell['seconds']:.4f}",
          f"{cell['processor_seconds']:.4f}", f"{cell['mse']:.4g}",
-         f"{cell['rel_mse']:.4g}" + ("*" if cell["near_reference_noise"] else ""), text(cell["efficiency"], ".4g"),
-         text(cell["slope"], ".2f")] for cell in cells])
+         f"{cell['rel_mse']:.4g}" + ("*" if cell["near_reference_noise"] else ""),
+         "" if cell["slope"] is None else f"{cell['slope']:.2f}"] for cell in cells])
     if any(cell["near_reference_noise"] for cell in cells):
         print(f"* within {NOISE_MARGIN} times the reference's own error")
 
@@ -194,11 +173,10 @@ def main():
     bench = Bench(options)
     reference, told = bench.reference()
     runs = {}
-    for number, *cell in itertools.product(range(options.rounds), options.samplers, options.estimators,
-                                           options.errors or options.spp):
+    for number, *cell in itertools.product(range(options.rounds), options.samplers, options.estimators, options.spp):
         run = bench.measure(*cell, options.seed + 1 + number, reference)
         runs.setdefault(tuple(cell), []).append(run)
-    cells = cells_of(runs, bool(options.errors), (told.get("mse", 0.0), told.get("rel_mse", 0.0)))
+    cells = cells_of(runs, (told.get("mse", 0.0), told.get("rel_mse", 0.0)))
     device = bench.renderer.device()
     if not options.quiet:
         print_cells(cells)
