@@ -128,9 +128,6 @@ class Command(unittest.TestCase):
                 (2, "invalid choice: 'flat'", ("water.xyz", "-o", "a.png", "--style", "flat")),
                 (2, "spp.: must be N|samples = 0: must be at least 1", ("water.xyz", "-o", "a.png", "--spp", "0")),
                 (3, "view = '-0,0'", ("water.xyz", "-o", "a.png", "--view", "-0,0")),
-                (3, "view = 'side'", ("water.xyz", "-o", "a.png", "--view", "side")),
-                (3, "no column 'q'", ("water.xyz", "-o", "a.png", "--radius", "2*q")),
-                (3, "frame 2", ("water.xyz", "-o", "a.png", "--frame", "2")),
                 (3, "bad.xyz", ("bad.xyz", "-o", "a.png")),
                 (4, "no device|'nothing'", ("water.xyz", "-o", "a.png", "--device", "nothing")),
                 (6, "none.xyz: is not there", ("none.xyz", "-o", "a.png"))):

@@ -27,6 +27,12 @@ PLY = "ply\nformat {}\nelement vertex 2\nproperty float x\nproperty float y\npro
 HEAD = "ITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS "
 ATOMS = "ITEM: ATOMS id xs ys zs\n1 0.5 0.25 0.125\n"
 
+DAMAGES = 200  # of each kind and file
+DAMAGED = {  # and whether a row says where it ends
+    "cloud.csv": False, "cloud.csv.gz": True, "cloud.tsv": False, "cloud.xyz": True, "cloud.extxyz": True, "rows.npy": True,
+    "records.npy": True, "stored.npz": True, "deflated.npz": True, "little.ply": True, "lists.ply": True,
+    "text.ply": True, "text_lists.ply": True, "melt_plain.dump": True, "tilted.dump": True}
+
 
 class InAFolder(unittest.TestCase):
     def setUp(self):
@@ -285,6 +291,62 @@ class Messages(InAFolder):
                 ("a.csv.gz", gzip.compress(b"x,y,z\n" * 99)[:-9], "a.csv.gz: after 0 unpacked bytes: Compressed file ended")):
             with self.subTest(message):
                 self.assertEqual(self.refusal(name, text)[:len(message)], message)
+
+
+class Damaged(InAFolder):
+    """Files that are cut short or have a wrong byte: refused with a message that names the file, or read as they are."""
+
+    def particles(self, name, data):
+        """None where they are refused as they should be."""
+        try:
+            return self.read(name, data)
+        except DataError as error:
+            self.assertRegex(str(error), f"(?s)^{self.folder}/{name}.{{11,}}")
+            self.assertLess(len(str(error)), 600)
+            return None
+
+    def test_files_that_end_too_early(self):
+        refused = 0
+        for name, is_counted in DAMAGED.items():
+            data = (DATA / name).read_bytes()
+            whole = load(DATA / name)
+            for size in np.random.default_rng(1).integers(0, len(data), DAMAGES).tolist():
+                with self.subTest(name, size=size):
+                    found = self.particles(name, data[:size])
+                    if found is None:
+                        refused += 1
+                        continue
+                    # What is read is there: all of it, or the rows before; a number that may be cut is told.
+                    is_first = name == "cloud.extxyz" and size < 3 * len(data) // 4  # of two frames
+                    whole_frame = load(DATA / name, frame=0) if is_first else whole
+                    kept = len(found) if found.positions[-1:].tolist() == whole_frame.positions[len(found) - 1:].tolist() \
+                        or not any("may be cut" in note for note in found.notes) else len(found) - 1
+                    self.assertEqual(len(found) == len(whole), is_counted or len(found) == len(whole))
+                    np.testing.assert_array_equal(found.positions[:kept], whole_frame.positions[:kept])
+        self.assertGreater(refused, DAMAGES * len(DAMAGED) * 3 // 4)
+
+    def test_bytes_that_are_wrong(self):
+        generator = np.random.default_rng(2)
+        refused = changed = 0
+        for name in DAMAGED:
+            data = (DATA / name).read_bytes()
+            whole = load(DATA / name)
+            for place, byte in generator.integers(0, (len(data), 256), (DAMAGES, 2)).tolist():
+                with self.subTest(name, place=place, byte=byte):
+                    found = self.particles(name, data[:place] + bytes([byte]) + data[place + 1:])
+                    if found is None:
+                        refused += 1
+                        continue
+                    self.assertTrue(np.isfinite(found.positions).all())
+                    if found.positions.shape == whole.positions.shape:
+                        rows = (found.positions != whole.positions).any(1).sum()
+                        changed += rows > 0
+                        # Behind all heads one row differs, unless its number has become so large that others are
+                        # negligible, or a row that is packed is not what it was.
+                        if place > 2 * len(data) // 3 and np.abs(found.positions).max() < 1e10:
+                            self.assertLess(rows, 2)
+        self.assertGreater(refused, DAMAGES * len(DAMAGED) // 4)
+        self.assertGreater(changed, DAMAGES)  # as a digit for another is
 
 
 if __name__ == "__main__":

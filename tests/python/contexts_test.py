@@ -39,15 +39,6 @@ class Lives(unittest.TestCase):
             with self.assertRaisesRegex(pt.InvalidStateError, "the context is closed"):
                 call()
 
-    def test_forgotten(self):
-        context = ready(pt.Context())
-        context.accumulate(1)
-        gone = weakref.ref(context)
-        del context
-        gc.collect()
-        self.assertIsNone(gone())
-        self.assertEqual(len(self.destroyed), 1)
-
     def test_forgotten_with_a_log_that_refers_to_it(self):
         class Owner:
             def __init__(self):
