@@ -47,11 +47,6 @@ class Usage(CommandLineTest):
                 self.expect(2, *arguments, error=error)
         self.assertEqual(self.files(), [])
 
-    def test_the_last_sample_has_an_index(self):
-        arguments = ["render", COURSEWORK, "-o", "a.png", "--size", "2x2", "--first-sample", "4294967290", "--spp"]
-        self.expect(0, *arguments, "6")
-        self.expect(2, *arguments, "7", error="pt: --first-sample 4294967290: 7 samples from there on would pass")
-
     def test_samples_by_the_error_need_one(self):
         arguments = ["render", COURSEWORK, "-o", "a.png", "--size", "2x2", "--spp", "20", "--sampling"]
         self.expect(2, *arguments, "adaptive", error="pt: --sampling adaptive: needs --error")
@@ -276,6 +271,32 @@ class RealDevice(CommandLineTest):
         self.write("s.json", "{}")
         self.expect(0, "render", "s.json", "-o", "a.png", "--size", "3x2", "--spp", "1")
         self.assertEqual(read_png(self.path("a.png"))[2], [[0] * 9] * 2)
+
+
+class Warnings(CommandLineTest):
+    def warnings(self, *options, scene="s.json", **environment):
+        """What --stats says, with -q and without; and that stderr says it once, or not with -q."""
+        arguments = ["render", scene, "-o", "a.png", "--size", "8x4", "--stats", "stats.json", *options]
+        self.expect(0, *arguments, **environment)
+        told = json.loads(self.read("stats.json"))["warnings"]
+        self.assertEqual(self.errors, "".join(f"pt: warning: {warning}\n" for warning in told))
+        self.expect(0, *arguments, "-q", **environment)
+        self.assertEqual((self.errors, self.output), ("", ""))
+        self.assertEqual(json.loads(self.read("stats.json"))["warnings"], told)
+        return told
+
+    def test_each(self):
+        self.write("s.json", "{}")
+        self.assertEqual(self.warnings(), ["s.json: no surface emits light: the picture is black"])
+        self.assertEqual(self.warnings(scene=COURSEWORK), [])
+        self.assertEqual(self.warnings("--error", "2", "--spp", "16", scene=COURSEWORK, FAKE_PT_FAIL="rejected:-1"),
+                         ["--error: the target is 200%; two percent are written 2% or 0.02",
+                          "3 samples (0.586%) were left out: not finite, negative or too bright"])
+
+    def test_an_error_comes_without(self):
+        self.write("s.json", "{}")
+        self.expect(3, "render", "s.json", "-o", "a.png", FAKE_PT_FAIL="set_scene:-2", FAKE_PT_MESSAGE="a rule")
+        self.assertNotIn("warning", self.errors)
 
 
 if __name__ == "__main__":

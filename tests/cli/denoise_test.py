@@ -35,6 +35,8 @@ class Denoise(DenoiseTest):
                         ("--layers", "sample-count")):
             self.render("-o", "a.exr", DENOISE, *options, code=2, error=options[0])
             self.assertIn("--denoise", self.errors)
+        self.render("-o", "a.png", DENOISE, "--error", "1%", "--piece-rows", "7", code=2,
+                    error="--denoise with --error or --time: needs the whole image on the device, which --piece-rows 7")
         self.expect(2, "render", COURSEWORK, DENOISE, "--parts", error="--denoise excludes --parts")
         self.assertEqual(self.files(), [])
 
@@ -56,10 +58,6 @@ class Denoise(DenoiseTest):
         self.assertTrue(32 <= stats["spp"] < 4096)
         fractions = [json.loads(line)["fraction"] for line in self.errors.splitlines() if line.startswith("{")]
         self.assertTrue(all(0.0 < fraction <= 1.0 for fraction in fractions), fractions)
-
-    def test_rounds_need_the_whole_image(self):
-        self.render("-o", "a.png", DENOISE, "--error", "1%", "--piece-rows", "7", code=2,
-                    error="--denoise with --error or --time: needs the whole image on the device, which --piece-rows 7")
 
     def test_progress_is_of_both_halves(self):
         self.render("-o", "a.png", DENOISE, "--spp", "64", "--progress", "json", FAKE_PT_SAMPLE_MS=10)

@@ -173,11 +173,7 @@ class EqualRuns(CommandLineTest):
         paths = [f"{folder}/{name}" for name in self.OUTPUTS]
         self.expect(0, "render", COURSEWORK, "-o", paths[0], "-o", paths[1], "-o", paths[2], "--layers",
                     "standard-error", "--size", "8x4", "--spp", "16", **environment)
-        images = []
-        for path in paths:
-            with open(self.path(path), "rb") as file:
-                images.append(file.read())
-        return images
+        return [self.contents(path) for path in paths]
 
     def test_images_do_not_tell_when_they_were_rendered(self):
         # More than a second apart, the unit of dates; the stand-in takes a millisecond a sample, then two.

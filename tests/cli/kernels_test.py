@@ -16,8 +16,7 @@ class RealDeviceKernels(CommandLineTest):
     def render(self, name="a.png", **environment):
         self.expect(0, "render", COURSEWORK, "-o", name, "--size", "32x16", "--spp", "2", "-q",
                     MESA_SHADER_CACHE_DISABLE="true", **environment)
-        with open(self.path(name), "rb") as file:
-            return file.read()
+        return self.contents(name)
 
     def kept(self):
         folder = self.path("cache/pt/kernels")
@@ -35,15 +34,12 @@ class RealDeviceKernels(CommandLineTest):
     def test_damaged_ones_are_built_anew(self):
         picture = self.render(XDG_CACHE_HOME=self.path("cache"))
         for name in self.kept():
-            path = self.path("cache/pt/kernels/" + name)
-            with open(path, "rb") as file:
-                whole = file.read()
+            path = "cache/pt/kernels/" + name
+            whole = self.contents(path)
             for damaged in (whole[:-1] + bytes([whole[-1] ^ 1]), whole[:40], b"\0" * len(whole)):
-                with open(path, "wb") as file:
-                    file.write(damaged)
+                self.write(path, damaged)
                 self.assertEqual(self.render(XDG_CACHE_HOME=self.path("cache")), picture)
-                with open(path, "rb") as file:
-                    self.assertEqual(file.read(), whole)
+                self.assertEqual(self.contents(path), whole)
 
     def test_a_cache_that_cannot_be_does_no_harm(self):
         picture = self.render(XDG_CACHE_HOME=self.path("cache"))

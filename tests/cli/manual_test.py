@@ -65,19 +65,6 @@ def scene_with(section, values):
 
 
 class SceneFile(CommandLineTest):
-    def known_keys(self, text):
-        """What the program says of the key "zzzzzzzzz"."""
-        self.write("s.json", text)
-        self.expect(3, "render", "s.json", "-o", "a.png", error='unknown key "zzzzzzzzz", known: ')
-        return self.errors.strip().split("known: ")[1].split(", ")
-
-    def test_every_key_is_described(self):
-        unknown = '"zzzzzzzzz": 1'
-        self.assertEqual(sorted(self.known_keys("{%s}" % unknown)), sorted([*SECTIONS, "animation"]))
-        for section, value in SECTIONS.items():
-            known = self.known_keys('{"%s": %s}' % (section, value % unknown))
-            described = [name for row in section_rows(section) for name in names_in(row[0])]
-            self.assertEqual(sorted(known), sorted(described), section)
 
     def test_names_are_all_of_them(self):
         for section, key, kind in (("film", "tonemap", "tone map"), ("render", "sampler", "sampler"),

@@ -51,8 +51,7 @@ class Merge(CommandLineTest):
         self.assertEqual((found["sampler"], found["estimator"]), ("sobol", "mis"))  # what "best" stands for
 
     def test_what_is_wrong_is_told_of_all_parts_and_nothing_is_written(self):
-        with open(self.path("cut.ptfilm"), "wb") as file:
-            file.write(self.contents(self.parts[3])[:-20])
+        self.write("cut.ptfilm", self.contents(self.parts[3])[:-20])
         self.expect(0, *self.small, "--film", "stranger.ptfilm", "--first-sample", "900", "--spp", "9", "--seed", "5")
         self.write("picture.json", "{}")
         self.merge(2, *self.parts[:3], self.parts[1], "cut.ptfilm", "stranger.ptfilm", "picture.json", *self.parts[4:],

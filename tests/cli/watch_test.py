@@ -112,17 +112,6 @@ class Scenes(WatchTest):
         self.expect(2, "render", "s.json", "--watch", "-o", "a.png", error="not a regular file")
         self.expect(2, "render", "-", "--watch", "-o", "a.png", error="--watch needs a file")
 
-    def test_a_device_that_edited_shaders_lose_is_made_anew(self):
-        os.mkdir(self.path("shaders"))
-        self.write("shaders/resolve.comp", "")
-        pt = self.watch("--shader-dir", "shaders", FAKE_PT_FAIL="accumulate:-8", FAKE_PT_MESSAGE="lost")
-        for text in "a", "b":
-            pt.line_with("pt: lost; an endless loop or another local_size in the shaders in shaders does this")
-            self.write("shaders/resolve.comp", text)
-            pt.line_with("pt: changed: shaders/resolve.comp")
-        pt.line_with("pt: the likely cause: shaders/resolve.comp, edited since the last picture")
-        self.assertEqual(pt.end(), 0)
-
     def test_a_change_stops_the_rendering(self):
         pt = self.watch("--progress", "json", "--spp", "1000000", FAKE_PT_SAMPLE_MS=200)  # two days
         pt.line_with('"fraction"')

@@ -2,10 +2,8 @@
 
 import json
 import os
-import queue
 import signal
 import subprocess
-import threading
 
 from command_line import PATIENCE, CommandLineTest, default_signals
 
@@ -18,37 +16,25 @@ def scene_text(width, emission=1.0):
 
 
 class Watching:
-    """A running program, whose lines are read as they come; those of both streams from one pipe, in their order."""
+    """A running program, whose lines are read when they are waited for; those of both streams from one pipe, in their order."""
 
     def __init__(self, process):
         self.process = process
-        self.lines = queue.Queue()
         self.seen = []
-        self.reader = threading.Thread(target=self.read, daemon=True)
-        self.reader.start()
-
-    def read(self):
-        for line in self.process.stdout:
-            self.lines.put(line)
 
     def line_with(self, text):
         """The next line that contains it; those before it are passed over."""
-        while True:
-            try:
-                self.seen.append(self.lines.get(timeout=PATIENCE))
-            except queue.Empty:
-                raise AssertionError(f"{text} does not come after\n{''.join(self.seen)}") from None
-            if text in self.seen[-1]:
-                return self.seen[-1]
+        for line in self.process.stdout:
+            self.seen.append(line)
+            if text in line:
+                return line
+        raise AssertionError(f"{text} does not come after\n{''.join(self.seen)}")
 
     def end(self, number=signal.SIGINT):
         """Sends a signal, and returns the exit code."""
         self.process.send_signal(number)
-        code = self.process.wait(timeout=PATIENCE)
-        self.reader.join()
-        while not self.lines.empty():
-            self.seen.append(self.lines.get())
-        return code
+        self.seen += self.process.stdout
+        return self.process.wait(timeout=PATIENCE)
 
     def count(self, text):
         """Lines so far that contain it."""
@@ -61,10 +47,9 @@ class WatchTest(CommandLineTest):
         process = subprocess.Popen([self.program, "render", "s.json", "--watch", "-o", "a.png", *arguments],
                                    cwd=self.folder, env={**os.environ, **names}, text=True, preexec_fn=default_signals,
                                    stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-        watching = Watching(process)
-        for undo in (process.stdout.close, watching.reader.join, process.wait, process.kill):  # the last is called first
+        for undo in (process.stdout.close, process.wait, process.kill):  # the last is called first
             self.addCleanup(undo)
-        return watching
+        return Watching(process)
 
     def save(self, name, text):
         """As editors do: a new file takes the old one's name."""
