@@ -1,5 +1,5 @@
-// Tests of film files (cli/film/film.h), beside those of the program (resume_test.py): unpacked films, and an absurd
-// size.
+// Tests of film files (cli/film/film.h), beside those of the program (checkpoint_test.py): unpacked films, and an
+// absurd size.
 #include "cli/film/film.h"
 
 #include "cli/base/exit_code.h"
