@@ -1,5 +1,7 @@
-// The choice among invented devices.
+// The choice among invented devices, their queue families and types of memory.
+#include "lib/vulkan/caller_vulkan.h"
 #include "lib/vulkan/device_choice.h"
+#include "lib/vulkan/memory_type.h"
 
 #include "tests/support/expected_error.h"
 
@@ -7,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -125,6 +128,85 @@ TEST(DeviceChoiceTest, NoDeviceIsChosenTwice) {
     EXPECT_EQ(error_of([&] { pt::vulkan::choose_devices(nameless, "1,1"); }).code(), PT_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(pt::vulkan::choose_devices(nameless, "0,1"), (std::vector<std::size_t>{0, 1}));
     EXPECT_EQ(pt::vulkan::choose_devices(nameless, "all"), (std::vector<std::size_t>{0, 1}));
+}
+
+using Flag = vk::QueueFlagBits;
+
+const std::array families = {
+    vk::QueueFamilyProperties{.queueFlags = Flag::eGraphics | Flag::eCompute, .queueCount = 1},
+    vk::QueueFamilyProperties{.queueFlags = Flag::eTransfer, .queueCount = 2},
+    vk::QueueFamilyProperties{.queueFlags = Flag::eCompute, .queueCount = 8},
+};
+
+TEST(CallerVulkan, AQueueFamilyMustCompute) {
+    EXPECT_NO_THROW(pt::vulkan::require_compute(families, 0));
+    EXPECT_NO_THROW(pt::vulkan::require_compute(families, 2));
+    const pt::Error error = error_of([] { pt::vulkan::require_compute(families, 1); });
+    EXPECT_EQ(error.code(), PT_ERROR_INVALID_ARGUMENT);
+    EXPECT_STREQ(error.what(), "vulkan.queue_family = 1: must have VK_QUEUE_COMPUTE_BIT");
+}
+
+TEST(CallerVulkan, APhysicalDeviceMustBeSuitable) {
+    pt_device_info device{};
+    std::ranges::copy(std::string("Antique"), device.name);
+    std::ranges::copy(std::string("Vulkan 1.2 is needed, it has 1.1"), device.reason);
+    const pt::Error error = error_of([&] { pt::vulkan::require_suitable(device); });
+    EXPECT_EQ(error.code(), PT_ERROR_UNSUPPORTED);
+    EXPECT_STREQ(error.what(), "vulkan.physical_device = Antique: does not fit: Vulkan 1.2 is needed, it has 1.1");
+    device.suitable = 1;
+    EXPECT_NO_THROW(pt::vulkan::require_suitable(device));
+}
+
+using Property = vk::MemoryPropertyFlagBits;
+using Types = std::vector<std::uint32_t>;
+
+// A GPU's own memory, the host's, and a window onto the GPU's that the host sees.
+vk::PhysicalDeviceMemoryProperties gpu_memory() {
+    vk::PhysicalDeviceMemoryProperties memory;
+    memory.memoryTypeCount = 3;
+    memory.memoryTypes[0].propertyFlags = Property::eDeviceLocal;
+    memory.memoryTypes[1].propertyFlags = Property::eHostVisible | Property::eHostCoherent;
+    memory.memoryTypes[2].propertyFlags = Property::eDeviceLocal | Property::eHostVisible | Property::eHostCoherent;
+    return memory;
+}
+
+constexpr std::array<vk::MemoryPropertyFlags, 2> fast_then_any = {Property::eDeviceLocal, vk::MemoryPropertyFlags{}};
+constexpr std::array<vk::MemoryPropertyFlags, 2> seen_best_fast = {Property::eDeviceLocal | Property::eHostVisible,
+                                                                   Property::eHostVisible};
+constexpr std::uint32_t all = 7;
+
+TEST(MemoryType, ThoseWithTheFirstWantedPropertiesComeFirst) {
+    EXPECT_EQ(pt::vulkan::memory_types(gpu_memory(), all, fast_then_any), (Types{0, 2, 1}));
+    EXPECT_EQ(pt::vulkan::memory_types(gpu_memory(), all, seen_best_fast), (Types{2, 1}));
+}
+
+TEST(MemoryType, OnlyAllowedOnesAreTaken) {
+    EXPECT_EQ(pt::vulkan::memory_types(gpu_memory(), 3, seen_best_fast), Types{1});
+    EXPECT_EQ(error_of([] { pt::vulkan::memory_types(gpu_memory(), 1, seen_best_fast); }).code(), PT_ERROR_UNSUPPORTED);
+}
+
+TEST(MemoryType, AFullHeapLeavesTheNextType) {
+    const Types types = {0, 2, 1};
+    Types tried;
+    const auto only_the_hosts = [&](std::uint32_t type) {
+        tried.push_back(type);
+        if (type != 1)
+            throw vk::OutOfDeviceMemoryError("full");
+        return type;
+    };
+    EXPECT_EQ(pt::vulkan::allocate_where_there_is_room(types, only_the_hosts), 1U);
+    EXPECT_EQ(tried, types);
+    EXPECT_THROW(pt::vulkan::allocate_where_there_is_room(Types{0, 2}, only_the_hosts), vk::OutOfDeviceMemoryError);
+}
+
+TEST(MemoryType, OtherErrorsAreNotTriedAgain) {
+    int calls = 0;
+    const auto lost = [&](std::uint32_t) -> int {
+        ++calls;
+        throw vk::DeviceLostError("lost");
+    };
+    EXPECT_THROW(pt::vulkan::allocate_where_there_is_room(Types{0, 1}, lost), vk::DeviceLostError);
+    EXPECT_EQ(calls, 1);
 }
 
 } // namespace

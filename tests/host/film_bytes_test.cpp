@@ -118,17 +118,6 @@ TEST(FilmBytes, EveryBitCounts) {
     const pt::FilmReader unharmed(golden);
 }
 
-TEST(FilmBytes, OtherLengthsAreRefused) {
-    const Bytes golden = golden_film();
-    for (std::size_t size = 0; size < golden.size(); ++size)
-        ASSERT_EQ(error_of([&] { const pt::FilmReader film{std::span(golden).first(size)}; }).code(),
-                  PT_ERROR_INCOMPATIBLE)
-            << size << " bytes";
-    Bytes longer = golden;
-    longer.push_back({});
-    EXPECT_EQ(error_of([&] { const pt::FilmReader film(longer); }).code(), PT_ERROR_INCOMPATIBLE);
-}
-
 // Bytes with a checksum that fits.
 Bytes sealed(const std::string &header, std::size_t sum_bytes) {
     const auto text = std::as_bytes(std::span(header));

@@ -98,43 +98,6 @@ TEST(Film, SumsHaveTheBytesOfTheirSamplesInAnyOrder) {
     }
 }
 
-// Rows so long that a film keeps each by itself, and a part that cuts them.
-TEST(Film, LongRowsAddUp) {
-    const pt::Rectangle pixels{0, 0, 40'000, 3};
-    const pt::Rectangle part{37'000, 1, 3'000, 2};
-    Samples samples;
-    Samples added;
-    give(samples, pixels, {0, 1, 2});
-    give(added, part, {3});
-    const pt::FilmIdentity identity = film_maker::identity(40'000, 3);
-    pt::Film film(film_maker::film_of(identity, {pixels}, samples));
-    EXPECT_TRUE(bytes_of(film) == film_maker::film_of(identity, {pixels}, samples));
-    film.add(pt::Film(film_maker::film_of(identity, {part}, added)));
-    give(samples, part, {3});
-    EXPECT_TRUE(bytes_of(film) == film_maker::film_of(identity, {{0, 0, 40'000, 1}, {0, 1, 37'000, 2}, part}, samples));
-}
-
-// Halves of the samples that meet in every tile make one tile of all.
-TEST(Film, EqualSamplesOfAllPixelsAreOneTile) {
-    Samples even;
-    Samples odd;
-    Samples all;
-    bool turn = false;
-    for (const pt::Rectangle &tile : grid(8, 8)) {
-        turn = !turn;
-        give(even, tile, turn ? std::set<std::uint32_t>{0, 1, 2} : std::set<std::uint32_t>{3, 4});
-        give(odd, tile, turn ? std::set<std::uint32_t>{3, 4} : std::set<std::uint32_t>{0, 1, 2});
-        give(all, tile, {0, 1, 2, 3, 4});
-    }
-    const pt::FilmIdentity identity = film_maker::identity(image_width, image_height);
-    pt::Film sum(film_maker::film_of(identity, grid(8, 8), even));
-    EXPECT_EQ(sum.sample_count(), 2U);
-    sum.add(pt::Film(film_maker::film_of(identity, grid(8, 8), odd)));
-    EXPECT_EQ(sum.header().tiles.size(), 1U);
-    EXPECT_EQ(sum.sample_count(), 5U);
-    EXPECT_TRUE(bytes_of(sum) == film_maker::film_of(identity, grid(image_width, image_height), all));
-}
-
 TEST(Film, KnowsItsSamplesBySquaresThatNoTileCuts) {
     Samples samples;
     std::uint32_t count = 0;
@@ -156,29 +119,6 @@ TEST(Film, KnowsItsSamplesBySquaresThatNoTileCuts) {
         indices.erase(7);
     const pt::Film gap(film_by_sample(without));
     EXPECT_EQ(error_of([&] { (void)gap.samples_by_tile(); }).code(), PT_ERROR_INCOMPATIBLE);
-}
-
-// What pixels show does not depend on how tiles are cut, and they know it by themselves: of exact sums one float is
-// nearest.
-TEST(Film, ImagesAreThoseOfTheSums) {
-    std::mt19937 random(2);
-    pt::Film film(random_part(random, 0).bytes);
-    Samples samples = random_part(random, 10).samples;
-    film.add(pt::Film(film_by_sample(samples)));
-    std::size_t pixels = 0;
-    film.read({2, 1, 17, 11}, true, [&](const pt::Film::RowPart &row) {
-        for (std::size_t i = 0; i < row.estimates.radiance.size() / 3; ++i) {
-            const std::uint32_t x = row.x + static_cast<std::uint32_t>(i);
-            ASSERT_TRUE(x >= 2 && x < 19 && row.y >= 1 && row.y < 12);
-            ++pixels;
-        }
-    });
-    const pt::TileMap map(film.header().tiles);
-    std::size_t expected = 0;
-    for (std::uint32_t y = 1; y < 12; ++y)
-        for (std::uint32_t x = 2; x < 19; ++x)
-            expected += map.find(x, y) ? 1 : 0;
-    EXPECT_EQ(pixels, expected);
 }
 
 TEST(Film, MeansAndErrorsAreRoundedOnce) {

@@ -2,7 +2,6 @@
 #include "lib/kernel/gpu_scene.h"
 #include "lib/kernel/hidden_surfaces.h"
 #include "lib/kernel/scene_features.h"
-#include "lib/scene/scene_digest.h"
 
 #include <gtest/gtest.h>
 #include <pt/stats.h>
@@ -157,11 +156,6 @@ TEST(HiddenSurfaces, AreNotInTheTree) {
     for (std::uint32_t i = 0; i < 10; ++i)
         EXPECT_EQ(prepared.scene.indices[i], 10 * i + 3);
     EXPECT_FALSE(pt::PreparedScene(pt::checked_scene(scene), 91).tree); // seen ones are counted
-}
-
-TEST(HiddenSurfaces, MakeAnotherScene) {
-    EXPECT_NE(digest_of(scene_of({sphere(-5, 1, Dark)})), digest_of(scene_of({sphere(-5, 1, HiddenDark)})));
-    EXPECT_EQ(digest_of(scene_of({sphere(-5, 1, HiddenDark)})), digest_of(scene_of({sphere(-5, 1, HiddenDark)})));
 }
 
 } // namespace

@@ -5,13 +5,6 @@
 
 namespace {
 
-TEST(OwnKernelClockTest, WaitsUntilAKernelWouldHavePaid) {
-    const pt::OwnKernelClock clock;
-    EXPECT_FALSE(clock.is_time(0.0));
-    EXPECT_FALSE(clock.is_time(1.0));
-    EXPECT_TRUE(clock.is_time(1.01));
-}
-
 TEST(OwnKernelClockTest, WaitsTwiceAsLongAfterEachThatWasBuiltInVain) {
     pt::OwnKernelClock clock;
     for (double wait = 1.0; wait < 32.0; wait *= 2.0) {

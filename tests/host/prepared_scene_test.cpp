@@ -36,6 +36,7 @@ TEST(SceneDigest, DependsOnEveryNumber) {
         [](pt::Scene &scene) { scene.materials[0].specular.g = 0.75F; },
         [](pt::Scene &scene) { scene.materials[1].emission.b = 0.75F; },
         [](pt::Scene &scene) { scene.materials[1].glossiness = 1.0F; },
+        [](pt::Scene &scene) { scene.materials[1].hidden = true; },
         [](pt::Scene &scene) { scene.spheres[0].center.z = -6; },
         [](pt::Scene &scene) { scene.spheres[0].motion.x = 1; },
         [](pt::Scene &scene) { scene.spheres[1].radius = 3; },

@@ -35,10 +35,6 @@ TEST(SceneBlocks, ShareMaterialsInScenesTooLargeForTheUniformBuffer) {
     EXPECT_EQ(row_of_balls(342, 100).words.size(), 342U + 1 + 86 + 101);
 }
 
-TEST(SceneBlocks, OfOneMaterialTakeAWordAndAQuarterPerSphere) {
-    EXPECT_EQ(row_of_balls(100000, 1).words.size(), 100000U + 25000 + 1 + 2);
-}
-
 // The words of as many surfaces as a scene may have are more than a 32-bit number.
 TEST(SceneBlocks, HoldTheLargestScenes) {
     constexpr std::uint32_t most_surfaces = (1U << 30) - 1;

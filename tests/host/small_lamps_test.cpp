@@ -1,7 +1,9 @@
-// How small lamps are spread over pixels, and what they add to an error that no sample shows.
+// How small lamps are spread over pixels, what they add to an error that no sample shows, and how much of all
+// directions the smallest lamp covers.
 #include "lib/render/small_lamps.h"
+#include "lib/scene/camera.h"
 #include "lib/scene/checked_scene.h"
-#include "tests/support/right_angle_camera.h"
+#include "lib/scene/lamp_share.h"
 #include "tests/support/scene_of.h"
 
 #include <gtest/gtest.h>
@@ -10,6 +12,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <span>
 #include <vector>
@@ -22,8 +25,14 @@ constexpr std::uint32_t dark = 0;
 constexpr std::uint32_t lamp = 1;
 constexpr std::uint32_t hidden = 2;
 
-// With a view of 90 degrees and 200 rows a pixel at the depth 100 is as wide as 1.
-constexpr const pt::Camera &camera = right_angle_camera;
+// Level and at rest, with a view of 90 degrees: with 200 rows a pixel at the depth 100 is as wide as 1.
+constexpr pt::Camera camera{.position = {1.0, 2.0, 3.0},
+                            .right = {1, 0, 0},
+                            .up = {0, 1, 0},
+                            .forward = {0, 0, -1},
+                            .tan_half_fov = 1.0,
+                            .shutter_open = 0.0,
+                            .shutter_close = 0.0};
 
 pt::Camera parallel_camera() {
     pt::Camera parallel = camera;
@@ -197,6 +206,40 @@ TEST(SmallLamps, PointsOneToACellMeetADiscAsOftenAsStated) {
                     0.15 * sum / trials)
             << area;
     }
+}
+
+// How much of all directions the smallest lamp covers, against the area of a cap of the unit sphere.
+std::optional<double> smallest_share(const std::vector<pt::Sphere> &spheres) {
+    const pt::Material black{glm::vec3(0), glm::vec3(0), glm::vec3(0), 0.0F};
+    const pt::Material bright{glm::vec3(0), glm::vec3(0), glm::vec3(0, 0, 5), 0.0F};
+    return pt::smallest_lamp_share(spheres, std::vector{black, bright}, camera);
+}
+
+pt::Sphere ball_at(double distance, double radius, std::uint32_t material) {
+    return {camera.position + glm::dvec3(0, distance, 0), radius, glm::dvec3(0), material};
+}
+
+TEST(LampShare, IsThatOfTheCapWithinTheCone) {
+    const double near = smallest_share({ball_at(2, 1, lamp)}).value();
+    EXPECT_DOUBLE_EQ(near, 0.5 * (1.0 - std::sqrt(3.0) / 2.0));
+    const double far = smallest_share({ball_at(1e8, 1, lamp)}).value();
+    EXPECT_NEAR(far, 0.25e-16, 1e-30);
+}
+
+TEST(LampShare, IsThatOfTheSmallestLampThatMatters) {
+    const double smallest = smallest_share({ball_at(4, 1, lamp)}).value();
+    const std::vector<pt::Sphere> spheres{ball_at(2, 1, lamp), ball_at(9, 1, dark), ball_at(4, 1, lamp),
+                                          ball_at(1, 50, lamp)};
+    EXPECT_DOUBLE_EQ(smallest_share(spheres).value(), smallest);
+    // One that covers 1/400 as much gives less than a hundredth of the light.
+    std::vector<pt::Sphere> with_a_speck = spheres;
+    with_a_speck.push_back(ball_at(80, 1, lamp));
+    EXPECT_DOUBLE_EQ(smallest_share(with_a_speck).value(), smallest);
+}
+
+TEST(LampShare, IsNothingWithoutLampsToMiss) {
+    EXPECT_FALSE(smallest_share({}));
+    EXPECT_FALSE(smallest_share({ball_at(9, 1, dark), ball_at(1, 50, lamp)}));
 }
 
 } // namespace

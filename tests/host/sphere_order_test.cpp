@@ -81,57 +81,32 @@ struct Kind {
 
 constexpr std::uint32_t many = 100'000;
 
+Ball ball_at(float x, float y, float z, float radius) {
+    return {x, y, z, radius};
+}
+
 std::vector<Kind> kinds() {
     const auto share = [](std::uint32_t i) { return static_cast<float>(i) / static_cast<float>(many); };
-    return {{"one point",
-             [=](std::uint32_t i) {
-                 return Ball{1, 2, 3, 1 + share(i)};
-             }},
+    const auto spread = [=](std::uint32_t i) { return std::exp2(60 * share(i) - 30); };
+    const auto along = [=](std::uint32_t i, std::uint32_t axis) { return i % 3 == axis ? spread(i) : 0.0F; };
+    return {{"one point", [=](std::uint32_t i) { return ball_at(1, 2, 3, 1 + share(i)); }},
             {"one point, radii in progression",
-             [=](std::uint32_t i) {
-                 return Ball{0, 0, 0, std::exp2(20 * share(i))};
-             }},
-            {"equal",
-             [](std::uint32_t) {
-                 return Ball{1, 2, 3, 4};
-             }},
-            {"progression",
-             [=](std::uint32_t i) {
-                 return Ball{std::exp2(120 * share(i) - 90), 0, 0, 1e-30F};
-             }},
+             [=](std::uint32_t i) { return ball_at(0, 0, 0, std::exp2(20 * share(i))); }},
+            {"equal", [](std::uint32_t) { return ball_at(1, 2, 3, 4); }},
+            {"progression", [=](std::uint32_t i) { return ball_at(std::exp2(120 * share(i) - 90), 0, 0, 1e-30F); }},
             {"progression of balls that touch",
-             [=](std::uint32_t i) {
-                 const float x = std::exp2(60 * share(i) - 30);
-                 return Ball{x, 0, 0, x * 1e-4F};
-             }},
+             [=](std::uint32_t i) { return ball_at(spread(i), 0, 0, spread(i) * 1e-4F); }},
             {"progression in space",
-             [=](std::uint32_t i) {
-                 const float x = std::exp2(60 * share(i) - 30);
-                 return Ball{i % 3 == 0 ? x : 0, i % 3 == 1 ? x : 0, i % 3 == 2 ? x : 0, x * 0.1F};
-             }},
+             [=](std::uint32_t i) { return ball_at(along(i, 0), along(i, 1), along(i, 2), spread(i) * 0.1F); }},
             {"progression of points, each many times",
-             [](std::uint32_t i) {
-                 return Ball{std::exp2(static_cast<float>(i % 60)), 0, 0, 1.0F};
-             }},
-            {"line",
-             [=](std::uint32_t i) {
-                 return Ball{share(i), 0, 0, 1e-6F};
-             }},
-            {"line backwards",
-             [=](std::uint32_t i) {
-                 return Ball{0, -share(i), 0, 1e-6F};
-             }},
+             [](std::uint32_t i) { return ball_at(std::exp2(static_cast<float>(i % 60)), 0, 0, 1.0F); }},
+            {"line", [=](std::uint32_t i) { return ball_at(share(i), 0, 0, 1e-6F); }},
+            {"line backwards", [=](std::uint32_t i) { return ball_at(0, -share(i), 0, 1e-6F); }},
             {"one huge",
-             [=](std::uint32_t i) {
-                 return Ball{share(i * 7919 % many), share(i), 0, i == 5 ? 1e9F : 1e-3F};
-             }},
+             [=](std::uint32_t i) { return ball_at(share(i * 7919 % many), share(i), 0, i == 5 ? 1e9F : 1e-3F); }},
             {"all but one at one point",
-             [=](std::uint32_t i) {
-                 return Ball{i == many / 3 ? 5.0F : 1.0F, 2, 3, 1 + share(i)};
-             }},
-            {"two heaps", [=](std::uint32_t i) {
-                 return Ball{(i % 2 == 0 ? 1e9F : 0) + share(i), 0, 0, 1};
-             }}};
+             [=](std::uint32_t i) { return ball_at(i == many / 3 ? 5.0F : 1.0F, 2, 3, 1 + share(i)); }},
+            {"two heaps", [=](std::uint32_t i) { return ball_at((i % 2 == 0 ? 1e9F : 0) + share(i), 0, 0, 1); }}};
 }
 
 TEST(SphereOrder, GivesEachSphereOnePlaceInATreeThatTheStackHolds) {
@@ -197,15 +172,6 @@ TEST(SphereOrder, EndsWhereItIsAskedTo) {
         EXPECT_EQ(told.shares.size(), 1U);
         EXPECT_LT(told.shares.back(), 0.5);
     }
-}
-
-// Before anything is divided, where all are in one point and are sorted, to look for twins.
-TEST(SphereOrder, EndsAmongTwinsToo) {
-    Told told{.shares = {}, .stop_at = 0.0};
-    pt::WorkProgress progress(&Told::receive, &told);
-    progress.enter(1.0, pt::shape_work(many));
-    EXPECT_THROW(pt::tree_shape(items_of(many, kinds().front().ball), by_number, progress), pt::Cancelled);
-    EXPECT_EQ(told.shares, std::vector<double>{0.0});
 }
 
 } // namespace

@@ -113,14 +113,6 @@ TEST(SphereSource, KnowsWhichMaterialsAreUsed) {
     EXPECT_EQ(used_by({}, {&without, 1}), Marked{0});
 }
 
-TEST(SphereSource, MayBeEmpty) {
-    const pt::SphereSource source({}, {});
-    EXPECT_EQ(source.size(), 0U);
-    EXPECT_FALSE(source.has_colors());
-    EXPECT_TRUE(source.array_starts().empty());
-    source.for_each([](std::size_t, const pt::Sphere &, const glm::vec3 &) { FAIL(); });
-}
-
 TEST(Scene, KnowsWhereTheCallerHasASphere) {
     pt::Scene scene;
     scene.array_starts = {2, 2, 5};

@@ -1,156 +1,200 @@
-// What single pixels say about the error of an image, in tiles whose result is known.
+// The errors of tiles, which are found for many values at once, bit for bit: value by value, by the definitions in
+// shaders/pixel_error.h, with sums in the order of the values.
 #include "lib/film/tile_errors.h"
 #include "shaders/pixel_error.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <tuple>
+#include <iterator>
+#include <random>
+#include <vector>
+
+namespace tile_errors {
 
 namespace {
 
-constexpr double many_samples = 1e12;
+struct Size {
+    std::size_t width;
+    std::size_t height;
+};
 
-// All pixels have the same mean in one channel, which both parts of the film agree on; the others are black.
-pt::TileValues flat(float mean, std::size_t width = pt::tile_size, std::size_t height = pt::tile_size) {
-    pt::TileValues tile{.width = width, .height = height, .sample_count = many_samples};
-    for (std::size_t y = 0; y < height; ++y)
-        for (std::size_t x = 0; x < width; ++x)
-            tile.mean[0][y * pt::tile_size + x] = tile.lesser[0][y * pt::tile_size + x] = mean;
-    return tile;
+struct Value {
+    double mean;
+    double standard_error;
+    double lesser;
+};
+
+// A tile of random values, with fireflies, edges and black pixels.
+class Tile {
+public:
+    Tile(const Size &size, unsigned seed) : values_{.width = size.width, .height = size.height, .sample_count = 64.0} {
+        std::mt19937 random(seed);
+        const auto share = [&random] { return static_cast<float>(random() % 1024) / 1024.0F; };
+        for (std::size_t channel = 0; channel < 3; ++channel)
+            for (std::size_t y = 0; y < size.height; ++y)
+                for (std::size_t x = 0; x < size.width; ++x) {
+                    const unsigned kind = static_cast<unsigned>(random() % 8);
+                    const float mean = kind == 0 ? 0.0F : kind == 1 ? 1000.0F * share() : 1.0F + share();
+                    const float lesser = kind == 2 ? 0.0F : mean * share();
+                    values_.mean[channel][y * 8 + x] = mean;
+                    values_.lesser[channel][y * 8 + x] = lesser;
+                    values_.standard_error[channel][y * 8 + x] = (mean - lesser) * (kind == 3 ? 0.5F : 1.0F);
+                }
+    }
+
+    const pt::TileValues &values() const { return values_; }
+
+    Value value(std::size_t channel, std::size_t x, std::size_t y) const {
+        const std::size_t i = y * 8 + x;
+        return {static_cast<double>(values_.mean[channel][i]), static_cast<double>(values_.standard_error[channel][i]),
+                static_cast<double>(values_.lesser[channel][i])};
+    }
+
+    // Of a channel, from the first place to before the last.
+    std::vector<double> means(std::size_t channel, std::size_t left, std::size_t top, std::size_t right,
+                              std::size_t bottom) const {
+        std::vector<double> means;
+        for (std::size_t y = top; y < std::min(bottom, values_.height); ++y)
+            for (std::size_t x = left; x < std::min(right, values_.width); ++x)
+                means.push_back(value(channel, x, y).mean);
+        return means;
+    }
+
+    // Of the pixel and those that touch it, ascending.
+    std::vector<double> means_about(std::size_t channel, std::size_t x, std::size_t y) const {
+        std::vector<double> found =
+            means(channel, std::max<std::size_t>(x, 1) - 1, std::max<std::size_t>(y, 1) - 1, x + 2, y + 2);
+        std::ranges::sort(found);
+        return found;
+    }
+
+private:
+    pt::TileValues values_;
+};
+
+double mean_besides_and_without_largest(std::vector<double> values, double value) {
+    double sum = 0.0;
+    for (const double each : values)
+        sum += each;
+    sum -= value;
+    values.erase(std::ranges::find(values, value));
+    sum -= values.empty() ? 0.0 : *std::ranges::max_element(values);
+    return std::max(sum, 0.0) / std::max(static_cast<double>(values.size()) - 1.0, 1.0);
 }
 
-std::size_t index_of(std::size_t x, std::size_t y) {
-    return y * pt::tile_size + x;
+double relative_square(const Value &value, double around) {
+    const double mean_square = value.mean * value.mean;
+    const double dark = std::max(value.lesser, around);
+    const double limit = std::min(mean_square, dark * dark) + 0.01;
+    const double known = value.lesser * value.lesser + 0.01;
+    const double square = value.standard_error * value.standard_error / limit;
+    const bool at_edge = value.standard_error >= 0.99 * (value.mean - value.lesser) && around >= value.mean;
+    return at_edge && limit > 7.39 * known ? square * (0.5 * std::log(limit / known)) : square;
 }
 
-void set_pixel(pt::TileValues &tile, std::size_t pixel, float mean, float standard_error, float lesser) {
-    tile.mean[0][pixel] = mean;
-    tile.standard_error[0][pixel] = standard_error;
-    tile.lesser[0][pixel] = lesser;
+double unseen(double mean, double largest, double samples) {
+    const double brightest = largest / samples;
+    const double b = brightest / std::sqrt(mean * mean + 0.01);
+    const double of_corners = 0.055 * (b * b) / (std::sqrt(samples) * (3.0 + 0.81 * b + 0.9 * b * std::sqrt(b)));
+    return mean >= brightest ? 0.0 : of_corners;
 }
 
-// One of the two parts has all of the pixel's light.
-void light_in_one_part(pt::TileValues &tile, std::size_t pixel, float mean, float lesser) {
-    set_pixel(tile, pixel, mean, mean - lesser, lesser);
+bool stands_out(const Value &value, double around) {
+    return value.mean * value.mean + 0.01 - 7.39 * (around * around + 0.01) > 0.0;
 }
 
-double relative_square(const pt::TileValues &tile, std::size_t pixel) {
-    const pt::PixelErrors found = pt::pixel_errors(tile);
-    return found.relative_square[pixel] + found.met_once[pixel];
+bool is_met_once(const Value &value, double around) {
+    return stands_out(value, around) && value.lesser <= 0.02 * value.mean &&
+           value.standard_error >= 0.99 * (value.mean - value.lesser);
 }
 
-constexpr std::size_t middle = 4 * pt::tile_size + 3;
+double as_lamp(const Value &value) {
+    return value.standard_error * value.standard_error / (value.mean * value.mean + 0.01);
+}
 
-TEST(TileErrors, APixelWhosePartsAgreeIsItsOwnLimit) {
-    for (const float ground : {0.0F, 1.0F, 9.0F}) { // a bright or dark spot
-        pt::TileValues tile = flat(ground);
-        set_pixel(tile, middle, 3.0F, 0.125F, 2.875F);
-        const double limit = ground > 2.875F ? 9.0 : 2.875 * 2.875;
-        EXPECT_DOUBLE_EQ(relative_square(tile, middle), 0.015625 / (limit + 0.01)) << ground;
+// Summed over channels.
+struct Errors {
+    double square;
+    double relative_square;
+    double met_once;
+    double as_lamps;
+    double met_again;
+    double unseen;
+};
+
+double around(const Tile &tile, std::size_t channel, std::size_t x, std::size_t y) {
+    const double mean = tile.value(channel, x, y).mean;
+    const std::vector<double> near = tile.means_about(channel, x, y);
+    return std::max({near.size() == 1 ? 0.0 : near[(near.size() - 1) / 2], near.back() > mean ? near.back() / 8.0 : 0.0,
+                     mean_besides_and_without_largest(tile.means(channel, 0, 0, 8, 8), mean)});
+}
+
+Errors expected_errors(const Tile &tile, std::size_t x, std::size_t y) {
+    Errors expected{};
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        const Value value = tile.value(channel, x, y);
+        const double level = around(tile, channel, x, y);
+        const bool once = is_met_once(value, level);
+        expected.square += value.standard_error * value.standard_error;
+        (once ? expected.met_once : expected.relative_square) += relative_square(value, level);
+        expected.as_lamps += once ? as_lamp(value) : 0.0;
+        expected.met_again += !once && stands_out(value, level) && value.lesser >= 0.25 * value.mean ? 1.0 : 0.0;
+        expected.unseen += unseen(value.mean, tile.means_about(channel, x, y).back(), tile.values().sample_count);
+    }
+    return expected;
+}
+
+constexpr Size sizes[] = {{8, 8}, {7, 5}, {1, 1}, {8, 1}, {1, 6}, {2, 2}, {8, 3}};
+
+TEST(TileErrors, OfPixelsAreThoseOfEachValue) {
+    for (unsigned seed = 0; seed < 8 * std::size(sizes); ++seed) {
+        const Size &size = sizes[seed % std::size(sizes)];
+        const Tile tile(size, seed);
+        const pt::PixelErrors found = pt::pixel_errors(tile.values());
+        for (std::size_t y = 0; y < size.height; ++y)
+            for (std::size_t x = 0; x < size.width; ++x) {
+                const Errors expected = expected_errors(tile, x, y);
+                const std::size_t pixel = y * pt::tile_size + x;
+                EXPECT_EQ(found.square[pixel], expected.square) << x << " " << y;
+                EXPECT_EQ(found.relative_square[pixel], expected.relative_square) << x << " " << y;
+                EXPECT_EQ(found.met_once[pixel], expected.met_once) << x << " " << y;
+                EXPECT_EQ(found.as_lamps[pixel], expected.as_lamps) << x << " " << y;
+                EXPECT_EQ(found.met_again[pixel], expected.met_again) << x << " " << y;
+                EXPECT_EQ(found.unseen[pixel], expected.unseen) << x << " " << y;
+            }
     }
 }
 
-TEST(TileErrors, AFireflyIsMeasuredByWhatIsAboutIt) {
-    pt::TileValues tile = flat(0.5F);
-    light_in_one_part(tile, middle, 8.0F, 0.5F);
-    EXPECT_DOUBLE_EQ(relative_square(tile, middle), 7.5 * 7.5 / (0.25 + 0.01));
-    light_in_one_part(tile, middle, 8.0F, 0.0F); // the other part knows less than the pixels about
-    EXPECT_DOUBLE_EQ(relative_square(tile, middle), 64.0 / 0.26);
-}
-
-// All of the light in one part of the film, or at least a quarter of the mean in either; not where it is as bright
-// about.
-TEST(TileErrors, WhatStandsOutIsMetOnceOrAgain) {
-    for (const auto &[ground, lesser, once, again] : {std::tuple{0.5F, 0.0F, 1.0, 0.0},
-                                                      {0.5F, 0.0625F, 1.0, 0.0},
-                                                      {0.5F, 0.25F, 0.0, 0.0},
-                                                      {0.5F, 2.0F, 0.0, 1.0},
-                                                      {4.0F, 0.0F, 0.0, 0.0},
-                                                      {4.0F, 2.0F, 0.0, 0.0}}) {
-        pt::TileValues tile = flat(ground);
-        light_in_one_part(tile, middle, 8.0F, lesser);
-        const pt::PixelErrors found = pt::pixel_errors(tile);
-        const double error = 8.0 - static_cast<double>(lesser);
-        EXPECT_DOUBLE_EQ(found.as_lamps[middle], once * error * error / 64.01) << ground << " " << lesser;
-        EXPECT_EQ(found.met_once[middle] > 0.0, once > 0.0);
-        EXPECT_EQ(found.relative_square[middle] > 0.0, once == 0.0);
-        EXPECT_EQ(found.met_again[middle], again);
+TEST(TileErrors, AreSumsOverPixels) {
+    for (const Size &size : sizes) {
+        const Tile tile(size, 4);
+        Errors sums{};
+        double squares_of_relative = 0.0;
+        for (std::size_t y = 0; y < size.height; ++y)
+            for (std::size_t x = 0; x < size.width; ++x) {
+                const Errors pixel = expected_errors(tile, x, y);
+                sums.square += pixel.square;
+                sums.relative_square += pixel.relative_square;
+                sums.met_once += pixel.met_once;
+                sums.as_lamps += pixel.as_lamps;
+                sums.met_again += pixel.met_again;
+                sums.unseen += pixel.unseen;
+                squares_of_relative += pixel.relative_square * pixel.relative_square;
+            }
+        const pt::TileErrors found = pt::tile_errors(tile.values());
+        EXPECT_EQ(found.value_count, static_cast<double>(3 * size.width * size.height));
+        EXPECT_EQ(found.square.sum, sums.square);
+        EXPECT_EQ(found.relative_square.sum, sums.relative_square);
+        EXPECT_EQ(found.relative_square.of_pixels, squares_of_relative);
+        EXPECT_EQ(found.met_once.sum, sums.met_once);
+        EXPECT_EQ(found.as_lamps.sum, sums.as_lamps);
+        EXPECT_EQ(found.met_again, sums.met_again);
+        EXPECT_EQ(found.unseen, sums.unseen);
+        EXPECT_EQ(found.own_square(), sums.relative_square + sums.as_lamps + sums.unseen);
     }
-}
-
-// Where hits are rare and most pixels are black, the level is the mean of the others without the brightest of them.
-TEST(TileErrors, AmongRareHitsTheLevelIsThatOfTheTile) {
-    pt::TileValues tile = flat(0.0F);
-    for (const std::size_t x : {0, 3, 6})
-        light_in_one_part(tile, index_of(x, 1), 16.0F, 0.0F);
-    const double level = 16.0 / 62.0; // of two others, one is left out
-    EXPECT_DOUBLE_EQ(relative_square(tile, index_of(0, 1)), 256.0 / (level * level + 0.01));
-}
-
-// The mean of the pixels about it is at least an eighth of the brightest of them. A pixel that is darker than that
-// mean lies at an edge.
-TEST(TileErrors, BesideABrighterPixelTheLevelIsAnEighthOfThat) {
-    pt::TileValues tile = flat(0.0F);
-    set_pixel(tile, middle, 64.0F, 0.0F, 64.0F);
-    light_in_one_part(tile, middle + 1, 32.0F, 0.0F);
-    light_in_one_part(tile, middle + 3, 32.0F, 0.0F); // which the bright pixel does not touch
-    EXPECT_DOUBLE_EQ(relative_square(tile, middle + 1), 32.0 * 32.0 / (8.0 * 8.0 + 0.01));
-    EXPECT_GT(relative_square(tile, middle + 3), 32.0 * 32.0 / 1.0);
-    light_in_one_part(tile, middle + 1, 4.0F, 0.0F);
-    EXPECT_NEAR(relative_square(tile, middle + 1), 16.0 / 16.01 * 0.5 * std::log(16.01 / 0.01), 1e-12);
-}
-
-// At the edge of something bright, one sample of which hit the pixel: integrated over what share of it is bright.
-TEST(TileErrors, AnEdgePixelCountsMoreThanItsOwnMeanSays) {
-    pt::TileValues tile = flat(100.0F);
-    light_in_one_part(tile, middle, 5.0F, 0x1p-10F);
-    const double square = (5.0 - 0x1p-10) * (5.0 - 0x1p-10);
-    EXPECT_NEAR(relative_square(tile, middle), square / 25.01 * 0.5 * std::log(25.01 / (0.01 + 0x1p-20)), 1e-12);
-}
-
-// Nor does a part with less than half of the samples that saw nothing say that little was bright: of samples 0 to 35 it
-// has four.
-TEST(TileErrors, AFewDarkSamplesMakeNoEdge) {
-    pt::TileValues tile = flat(5.0F);
-    set_pixel(tile, middle, 4.0F, 4.0F * std::sqrt(4.0F / 32.0F), 0.0F);
-    EXPECT_FLOAT_EQ(static_cast<float>(relative_square(tile, middle)), 2.0F / 16.01F);
-    set_pixel(tile, middle, 4.0F, 4.0F * std::sqrt(32.0F / 4.0F), 0.0F); // the other part, with 32, saw nothing
-    EXPECT_FLOAT_EQ(static_cast<float>(relative_square(tile, middle)),
-                    128.0F / 16.01F * 0.5F * std::log(16.01F / 0.01F));
-}
-
-// The integral that shaders/pixel_error.h derives, taken numerically: the logarithm less about 0.6.
-TEST(TileErrors, TheFactorOfAnEdgeIsTheLogarithmOfAnIntegralButForAConstant) {
-    constexpr double euler = 0.5772;
-    for (const double ratio : {100.0, 1e4, 1e6}) { // T / k
-        double integral = 0.0;
-        constexpr double step = 1e-3;
-        for (double log_y = -30.0 + 0.5 * step; log_y < 5.0; log_y += step) {
-            const double y = std::exp(log_y);
-            integral += step * y * y * std::exp(-y) / (y * y + 1.0 / (ratio * ratio));
-        }
-        EXPECT_NEAR(integral, std::log(ratio) - euler, 3.0 / ratio + 1e-4) << ratio;
-    }
-}
-
-TEST(TileErrors, UnseenLightIsExpectedOnlyBesideBrighterPixels) {
-    pt::TileValues tile = flat(1.0F);
-    tile.mean[0][middle] = 1000.0F;
-    constexpr double samples = 64.0;
-    tile.sample_count = samples;
-    const pt::PixelErrors found = pt::pixel_errors(tile);
-    const double b = 1000.0 / samples / std::sqrt(1.01);
-    const double expected = 0.055 * b * b / (std::sqrt(samples) * (3.0 + 0.81 * b + 0.9 * std::pow(b, 1.5)));
-    for (std::size_t y = 0; y < pt::tile_size; ++y)
-        for (std::size_t x = 0; x < pt::tile_size; ++x) {
-            const bool beside = x >= 2 && x <= 4 && y >= 3 && y <= 5 && index_of(x, y) != middle;
-            EXPECT_NEAR(found.unseen[index_of(x, y)], beside ? expected : 0.0, 1e-12) << x << " " << y;
-        }
-    tile.sample_count = 1024.0; // a sample of 1000 would show
-    for (const double unseen : pt::pixel_errors(tile).unseen)
-        EXPECT_EQ(unseen, 0.0);
 }
 
 // The integral over p from 0 to 1 / N of 0.055 / (2 sqrt(p)) times p / N / (a^2 + p^2), in steps of s = sqrt(p).
@@ -171,25 +215,6 @@ TEST(TileErrors, UnseenLightIsTheExpectationOverCorners) {
     }
 }
 
-// Down to a pixel, of which the darker part alone tells the limit.
-TEST(TileErrors, OfTilesAsSmallAsAPixel) {
-    for (const std::size_t width : {1, 2, 7})
-        for (const std::size_t height : {1, 2, 7}) {
-            const bool is_pixel = width * height == 1;
-            pt::TileValues tile = flat(2.0F, width, height);
-            for (std::size_t i = 0; i < width * height; ++i)
-                set_pixel(tile, index_of(i % width, i / width), 2.0F, 0.5F, 1.5F);
-            const double limit = is_pixel ? 2.25 : 4.0;
-            const pt::PixelErrors found = pt::pixel_errors(tile);
-            for (std::size_t i = 0; i < width * height; ++i) {
-                const std::size_t pixel = index_of(i % width, i / width);
-                EXPECT_EQ(found.square[pixel], 0.25);
-                EXPECT_DOUBLE_EQ(found.relative_square[pixel], 0.25 / (limit + 0.01));
-            }
-            light_in_one_part(tile, 0, 8.0F, 1.0F);
-            const double dark = is_pixel ? 1.0 : 4.0; // the neighbours have 2
-            EXPECT_DOUBLE_EQ(relative_square(tile, 0), 49.0 / (dark + 0.01)) << width << " x " << height;
-        }
-}
-
 } // namespace
+
+} // namespace tile_errors

@@ -1,11 +1,16 @@
-// Which samples tiles hold, against a list of sets.
+// Which samples sets and tiles hold, against sets of single numbers, and which tiles take: in any order and cut in any
+// way, everything that they lack and nothing twice.
+#include "lib/film/sample_set.h"
 #include "lib/film/tile_samples.h"
+#include "lib/render/tile_tasks.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <random>
+#include <set>
 #include <vector>
 
 namespace {
@@ -14,6 +19,91 @@ using pt::SampleRange;
 using pt::SampleSet;
 using pt::TileGrid;
 using pt::TileSamples;
+
+constexpr std::uint64_t universe = 60;
+
+std::set<std::uint64_t> members(const SampleSet &set) {
+    std::set<std::uint64_t> all;
+    for (const SampleRange &range : set.ranges())
+        for (std::uint64_t i = range.first; i < range.end; ++i)
+            all.insert(i);
+    return all;
+}
+
+TEST(SampleSet, IsTheSetOfItsIndices) {
+    std::mt19937 random(1);
+    for (int round = 0; round < 2000; ++round) {
+        SampleSet set;
+        std::set<std::uint64_t> expected;
+        for (int i = 0; i < 12; ++i) {
+            const std::uint64_t first = random() % universe;
+            const SampleRange range{first, first + random() % 8};
+            std::uint64_t missing = 0;
+            for (std::uint64_t j = range.first; j < range.end; ++j)
+                missing += expected.contains(j) ? 0 : 1;
+            ASSERT_EQ(set.overlap(range).has_value(), missing < range.count());
+            if (missing == range.count()) {
+                set.add(range);
+                for (std::uint64_t j = range.first; j < range.end; ++j)
+                    expected.insert(j);
+            } else if (missing == 0) {
+                set.remove(range);
+                for (std::uint64_t j = range.first; j < range.end; ++j)
+                    expected.erase(j);
+            }
+            ASSERT_EQ(members(set), expected);
+            ASSERT_EQ(set.count(), expected.size());
+            for (std::size_t k = 1; k < set.ranges().size(); ++k)
+                ASSERT_LT(set.ranges()[k - 1].end, set.ranges()[k].first) << "adjacent ranges are one";
+            const std::uint64_t from = random() % universe;
+            std::uint64_t below = 0;
+            for (const std::uint64_t index : expected)
+                below += index < from ? 1 : 0;
+            ASSERT_EQ(set.count_below(from), below);
+            const SampleRange next = set.next_missing(from);
+            ASSERT_FALSE(expected.contains(next.first));
+            for (std::uint64_t j = from; j < next.first; ++j)
+                ASSERT_TRUE(expected.contains(j));
+            ASSERT_TRUE(next.end == pt::sample_index_end || expected.contains(next.end));
+        }
+    }
+}
+
+// As range by range.
+TEST(SampleSet, SetsAreAddedToSets) {
+    std::mt19937 random(2);
+    for (int round = 0; round < 1000; ++round) {
+        SampleSet a;
+        SampleSet b;
+        SampleSet expected;
+        for (std::uint64_t index = random() % 3; index < 40;) {
+            const SampleRange range{index, index + 1 + random() % 4};
+            if (const auto to = random() % 3; to > 0) {
+                (to == 1 ? a : b).add(range);
+                expected.add(range);
+            }
+            index = range.end + random() % 2;
+        }
+        ASSERT_FALSE(a.overlap(b)) << pt::text_of(a) << " and " << pt::text_of(b);
+        const SampleSet before = a;
+        a.add(b);
+        ASSERT_EQ(a, expected);
+        for (const SampleRange &range : b.ranges()) {
+            ASSERT_FALSE(before.overlap(range));
+            ASSERT_EQ(a.overlap(SampleSet({range.end - 1, range.end + 1}))->first, range.end - 1);
+        }
+        ASSERT_EQ(a.overlap(b).has_value(), !b.empty());
+    }
+}
+
+TEST(SampleSet, ReachesToTheLastIndex) {
+    SampleSet set({0, pt::sample_index_end});
+    EXPECT_EQ(set.count(), std::uint64_t{1} << 32);
+    EXPECT_TRUE(set.next_missing(5).empty());
+    set.remove({7, 8});
+    EXPECT_EQ(set.next_missing(0), (SampleRange{7, 8}));
+    EXPECT_EQ(pt::text_of(set), "[0, 7), [8, 4294967296)");
+}
 
 constexpr TileGrid small_grid{21, 10}; // three tiles beside each other, two one below the other
 
@@ -30,27 +120,6 @@ TEST(TileGrid, EdgesHaveSmallerTiles) {
         pixels += at.pixel_count();
     }
     EXPECT_EQ(pixels, 210U);
-}
-
-TEST(TileSamples, CountWhatTilesHold) {
-    TileSamples samples(small_grid);
-    EXPECT_TRUE(samples.even());
-    EXPECT_TRUE(samples.empty());
-    const std::vector<std::uint32_t> all{0, 1, 2, 3, 4, 5};
-    samples.add(all, {0, 16});
-    EXPECT_TRUE(samples.even());
-    EXPECT_EQ(samples.total(), 16U * 210U);
-    samples.add(std::vector<std::uint32_t>{5}, {16, 32});
-    EXPECT_FALSE(samples.even());
-    EXPECT_EQ(samples.least(), 16U);
-    EXPECT_EQ(samples.most(), 32U);
-    EXPECT_EQ(samples.total(), 16U * 210U + 16U * 10U);
-    EXPECT_EQ(samples.hull(), (SampleRange{0, 32}));
-    EXPECT_EQ(samples.of(4), SampleSet({0, 16}));
-    EXPECT_EQ(samples.of(5), SampleSet({0, 32}));
-    samples.clear();
-    EXPECT_TRUE(samples.even());
-    EXPECT_TRUE(samples.empty());
 }
 
 // Ranges are added to random tiles; at times all tiles come to hold the same.
@@ -70,15 +139,23 @@ TEST(TileSamples, AreThoseThatWereAddedToEach) {
         if (step % 5 == 0)
             samples.tidy();
         std::uint64_t total = 0;
+        SampleRange hull;
         for (std::size_t tile = 0; tile < small_grid.count(); ++tile) {
             ASSERT_EQ(samples.of(tile), expected[tile]) << step;
             total += expected[tile].count() * small_grid.pixels(tile).pixel_count();
+            hull = expected[tile].empty() ? hull : pt::hull_of(hull, expected[tile].hull());
         }
         ASSERT_EQ(samples.total(), total);
+        ASSERT_EQ(samples.hull(), hull);
+        const auto [least, most] = std::ranges::minmax(expected, {}, &SampleSet::count);
+        ASSERT_EQ(samples.least(), least.count());
+        ASSERT_EQ(samples.most(), most.count());
     }
     samples.tidy();
     EXPECT_TRUE(samples.even()) << "after 200 steps all ranges are everywhere";
     EXPECT_EQ(samples.sets().size(), 1U);
+    samples.clear();
+    EXPECT_TRUE(samples.even() && samples.empty());
 }
 
 TEST(TileSamples, RowsOfTilesAreAFilmOfTheirOwn) {
@@ -89,6 +166,70 @@ TEST(TileSamples, RowsOfTilesAreAFilmOfTheirOwn) {
     EXPECT_TRUE(lower.of(0).empty());
     EXPECT_EQ(lower.of(1), SampleSet({0, 16}));
     EXPECT_EQ(lower.total(), 16U * 16U);
+}
+
+// Tiles with samples of their own reach goals of their own, and others stay as they are. A task never leaves some of
+// its tiles behind the others for more than a sample.
+TEST(TileTasks, BringTilesToTheirGoals) {
+    std::mt19937 random(1);
+    for (int round = 0; round < 200; ++round) {
+        const pt::TileGrid grid{8 * (1 + static_cast<std::uint32_t>(random() % 9)), 40};
+        pt::TileSamples samples(grid);
+        for (std::uint32_t tile = 0; tile < grid.count(); ++tile)
+            if (random() % 3 > 0) {
+                const std::uint64_t first = 10 * (random() % 3);
+                samples.set(tile, pt::SampleSet({first, first + 1 + random() % 2 * 7}));
+            }
+        std::vector<std::uint32_t> tiles;
+        std::vector<std::uint64_t> goals;
+        for (std::uint32_t tile = 0; tile < grid.count(); ++tile) {
+            goals.push_back(samples.of(tile).count() + random() % 3 * 17);
+            if (random() % 4 > 0)
+                tiles.push_back(tile);
+        }
+        const pt::TileSamples before = samples;
+        pt::Schedule schedule({1.0, 64.0 * static_cast<double>(1 + random() % 100), 1000});
+        const auto goal = [&](std::uint32_t tile) { return goals[tile]; };
+        for (pt::TileTasks tasks(samples, 3, tiles, goal); !tasks.empty(); tasks = {samples, 3, tiles, goal})
+            while (!tasks.empty()) {
+                const pt::TileSlice slice = tasks.next(schedule);
+                const std::uint32_t first = slice.tiles.front();
+                for (const std::uint32_t tile : slice.tiles)
+                    ASSERT_TRUE(samples.of(tile) == samples.of(first) && !samples.of(tile).overlap(slice.samples));
+                EXPECT_EQ(slice.before, samples.of(first).empty() ? pt::SampleRange{} : samples.of(first).hull());
+                samples.add(slice.tiles, slice.samples);
+                const bool ends = tasks.ends_samples(slice.tiles.size());
+                const bool ends_all = tasks.ends_all(slice.tiles.size());
+                EXPECT_TRUE(ends || slice.samples.count() == 1);
+                tasks.leave_behind(slice.tiles.size());
+                EXPECT_EQ(tasks.is_within_samples(), !ends);
+                EXPECT_EQ(tasks.empty(), ends_all);
+            }
+        std::vector<bool> takes(grid.count());
+        for (const std::uint32_t tile : tiles)
+            takes[tile] = true;
+        for (std::uint32_t tile = 0; tile < grid.count(); ++tile) {
+            EXPECT_EQ(samples.of(tile).count(), takes[tile] ? goals[tile] : before.of(tile).count());
+            EXPECT_EQ(samples.of(tile).count_below(3), before.of(tile).count_below(3)) << "from sample 3 on";
+        }
+    }
+}
+
+TEST(TileTasks, OfAllTilesAreThoseOfEach) {
+    std::vector<std::uint32_t> all(7);
+    std::iota(all.begin(), all.end(), 0U);
+    const pt::TileSamples samples({56, 8}, pt::SampleSet({4, 9}));
+    const pt::Schedule schedule({1.0, 64.0 * 3, 1000});
+    pt::TileTasks together(samples.of(0), 0, all, 8);
+    pt::TileTasks each(samples, 0, all, [](std::uint32_t) { return 8; });
+    for (; !together.empty(); together.leave_behind(1), each.leave_behind(1)) {
+        const pt::TileSlice a = together.next(schedule);
+        const pt::TileSlice b = each.next(schedule);
+        EXPECT_EQ(a.tiles.front(), b.tiles.front());
+        EXPECT_TRUE(a.samples == b.samples && a.before == b.before && a.tiles.size() == b.tiles.size());
+    }
+    EXPECT_TRUE(each.empty());
+    EXPECT_TRUE(pt::TileTasks(samples.of(0), 0, all, 5).empty()) << "they have as many";
 }
 
 } // namespace

