@@ -1,21 +1,23 @@
 // See analytic_fixture.h.
 #include "tests/analytic/analytic_fixture.h"
 
-#include "tests/analytic/contexts.h"
+#include "tests/support/shared_context.h"
 
-#include <bit>
-#include <cstdio>
-#include <fstream>
+#include <cstdlib>
 
 namespace analytic {
 
+bool always_tree() {
+    return std::getenv("PT_TEST_TREE") != nullptr;
+}
+
 Context AnalyticFixture::create_fixtures_context() {
-    return create_context([](pt_create_info &) {}, &create);
+    return create_context([](pt_create_info &) {}, always_tree() ? &create_with_tree : &pt_create);
 }
 
 void AnalyticFixture::TearDown() {
     const bool has_tree = (stats().features & PT_FEATURE_TREE) != 0;
-    EXPECT_TRUE(has_tree || !always_tree);
+    EXPECT_TRUE(has_tree || !always_tree());
     BatchFixture::TearDown();
 }
 
@@ -28,20 +30,6 @@ Image AnalyticFixture::image_of(const pt_scene &scene, const pt_camera &camera, 
     readback(image.radiance);
     EXPECT_EQ(stats().rejected_samples, 0U);
     return image;
-}
-
-// As a portable float map: rows from the bottom, a negative scale for little endian.
-void AnalyticFixture::keep(const Image &image, const std::string &name) {
-    const std::string path = testing::TempDir() + name + ".pfm";
-    std::ofstream file(path, std::ios::binary);
-    file << "PF\n"
-         << image.width << ' ' << image.height << '\n'
-         << (std::endian::native == std::endian::little ? -1 : 1) << '\n';
-    const std::size_t row_floats = std::size_t{3} * image.width;
-    for (std::uint32_t y = image.height; y-- > 0;)
-        file.write(reinterpret_cast<const char *>(image.radiance.data() + y * row_floats),
-                   static_cast<std::streamsize>(row_floats * sizeof(float)));
-    std::printf("the image is in %s\n", path.c_str());
 }
 
 } // namespace analytic

@@ -1,4 +1,4 @@
-// Renders the scenes of the tests against exact values. An image that disagrees is kept as a file.
+// Renders the scenes of the tests against exact values.
 #pragma once
 
 #include "tests/support/batch_fixture.h"
@@ -6,7 +6,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <string>
 #include <vector>
 
 namespace analytic {
@@ -20,6 +19,13 @@ struct Image {
     double red(std::uint32_t x, std::uint32_t y) const { return radiance[3 * (std::size_t{y} * width + x)]; }
 };
 
+// With PT_TEST_TREE in the environment contexts put spheres into a tree however few there are. Walks through it take
+// longer, so fewer samples are taken: where they are without it so many, one. A power of two.
+bool always_tree();
+inline std::uint32_t samples_for_one() {
+    return always_tree() ? 8 : 1;
+}
+
 class AnalyticFixture : public BatchFixture {
 protected:
     Context create_fixtures_context() override;
@@ -28,9 +34,6 @@ protected:
     void TearDown() override;
 
     Image image_of(const pt_scene &scene, const pt_camera &camera, const pt_render &render, std::uint32_t sample_count);
-
-    // Prints where it is.
-    static void keep(const Image &image, const std::string &name);
 };
 
 } // namespace analytic

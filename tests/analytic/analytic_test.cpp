@@ -1,7 +1,6 @@
 // Pixels of scenes whose radiance is known exactly (tests/data/analytic/README.md), each judged by its known standard
 // deviation of a sample and by the noise of batches. Run one alone with --gtest_filter=*contact*.
 #include "tests/analytic/analytic_fixture.h"
-#include "tests/analytic/contexts.h"
 #include "tests/analytic/crop.h"
 #include "tests/analytic/scenes.h"
 
@@ -10,7 +9,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -23,7 +21,7 @@ constexpr std::uint32_t batch_count = 16;
 // Samples of a batch: as many as the time allows, a power of two, for which the Sobol points are best. Every surface
 // costs.
 std::uint32_t samples_for(const Crop &crop, const cli::SceneFile &scene) {
-    const double paths = (1U << 21) / samples_for_one;
+    const double paths = (1U << 21) / samples_for_one();
     const double surfaces = static_cast<double>(scene.spheres.size() + scene.planes.size());
     const double samples = paths / (batch_count * crop.width * crop.height * (1.0 + 0.05 * surfaces));
     return std::bit_floor(static_cast<std::uint32_t>(std::clamp(samples, surfaces > 100.0 ? 2.0 : 16.0, 4096.0)));
@@ -33,13 +31,6 @@ struct Measurement {
     std::uint32_t sample_count; // of all batches
     Estimate radiance;
 };
-
-Image mean_image(const Batches &batches, const Crop &crop) {
-    Image image{crop.width, crop.height, std::vector<float>(3 * batches[0].size())};
-    for (std::size_t i = 0; i < image.radiance.size(); ++i)
-        image.radiance[i] = static_cast<float>(estimate_of_pixel(batches, i / 3).mean);
-    return image;
-}
 
 // By both judges, as multiples of the exact value.
 struct Bounds {
@@ -63,22 +54,6 @@ bool resolves(const Measurement &measured, const Exact &exact) {
     return exact.radiance > 0.0 && 0.03 > 2.0 * std::min(bounds.tabulated, bounds.of_batches);
 }
 
-void print(const std::string &scene, const Pixel &pixel, const Measurement &measured) {
-    const auto [expected, relative_std] = pixel.exact;
-    const std::string place = std::to_string(pixel.x) + ", " + std::to_string(pixel.y);
-    std::printf("%-24s %-9s %6u %14.9g %14.9g", scene.c_str(), place.c_str(), measured.sample_count, expected,
-                measured.radiance.mean);
-    if (expected > 0.0) {
-        const Bounds bounds(measured, pixel.exact);
-        const double difference = measured.radiance.mean / expected - 1.0;
-        const double error = std::hypot(relative_std / std::sqrt(measured.sample_count), rounding);
-        const double batch_error = std::hypot(measured.radiance.standard_error / expected, rounding);
-        std::printf(" %8.3f %8.4f%% %8.3f %8.4f%% %s", difference / error, 100.0 * bounds.tabulated,
-                    difference / batch_error, 100.0 * bounds.of_batches, resolves(measured, pixel.exact) ? "*" : "");
-    }
-    std::printf("\n");
-}
-
 class PixelFixture : public AnalyticFixture {
 protected:
     // Of all rows, or of one piece of them, which has the same bits.
@@ -96,23 +71,10 @@ protected:
         const std::uint32_t samples = samples_for(crop, scene);
         return {batch_count * samples, estimate_of_pixel(render(scene, crop, samples, crop.y, 1), crop.x)};
     }
-
-    // The image around a pixel, as a file.
-    void keep_surroundings(const cli::SceneFile &scene, const Pixel &pixel, const std::string &name) {
-        const Crop crop = crop_around(scene.render.width, scene.render.height, pixel.x, pixel.y);
-        keep(mean_image(render(scene, crop, samples_for(crop, scene)), crop),
-             name + "-" + std::to_string(pixel.x) + "-" + std::to_string(pixel.y));
-    }
 };
 
 class Analytic : public PixelFixture, public testing::WithParamInterface<Expectation> {
 protected:
-    static void SetUpTestSuite() {
-        std::printf("Deviation in standard errors and its bound in %%, by tabulated and by measured noise;"
-                    " * sees an error of 3%%\n%-24s %-9s %6s %14s %14s %8s %9s %8s %9s\n",
-                    "scene", "pixel", "count", "expected", "measured", "tabul.", "bound", "batches", "bound");
-    }
-
     // That the judges reject values that are 3% off and, where lamps are 3% brighter, the pixel itself.
     void expect_to_see_errors(cli::SceneFile scene, const Pixel &pixel, const Measurement &measured) {
         for (const double factor : {0.97, 1.03}) {
@@ -130,13 +92,10 @@ TEST_P(Analytic, PixelsAreExact) {
     bool sees_errors = false;
     for (const Pixel &pixel : expectation.pixels) {
         const Measurement measured = measure(scene, pixel);
-        print(expectation.scene, pixel, measured);
         const bool exact = measurement_agrees(measured, pixel.exact);
         EXPECT_TRUE(exact) << pixel.x << ", " << pixel.y << ": " << measured.radiance.mean << " +- "
                            << measured.radiance.standard_error << ", expected " << pixel.exact.radiance;
-        if (!exact)
-            keep_surroundings(scene, pixel, expectation.scene);
-        else if (!sees_errors && resolves(measured, pixel.exact)) {
+        if (exact && !sees_errors && resolves(measured, pixel.exact)) {
             sees_errors = true; // once for a scene: it takes another render
             expect_to_see_errors(scene, pixel, measured);
         }
@@ -157,7 +116,7 @@ class WholeImage : public PixelFixture, public testing::WithParamInterface<std::
 TEST_P(WholeImage, PixelsAreInTheirPlaces) {
     const cli::SceneFile scene = read_scene(GetParam());
     const Crop whole{scene.render.width, scene.render.height, 0, 0};
-    const std::uint32_t paths = (1U << 22) / samples_for_one;
+    const std::uint32_t paths = (1U << 22) / samples_for_one();
     const std::uint32_t samples = paths / (whole.width * whole.height * batch_count) + 1;
     const Batches batches = render(scene, whole, samples);
     int misplaced = 0; // negative control: of each pixel, the ones on the other sides of both axes
@@ -174,9 +133,6 @@ TEST_P(WholeImage, PixelsAreInTheirPlaces) {
             misplaced += !agrees_at(pixel.x, whole.height - 1 - pixel.y);
         }
     EXPECT_GT(misplaced, 0);
-    std::printf("%s: sees %d misplaced pixels\n", GetParam().c_str(), misplaced);
-    if (HasFailure())
-        keep(mean_image(batches, whole), GetParam());
 }
 
 INSTANTIATE_TEST_SUITE_P(Tabulated, Analytic, testing::ValuesIn(read_expectations()),

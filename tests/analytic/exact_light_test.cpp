@@ -1,5 +1,4 @@
-// Scenes without noise: every sample of every pixel has the same value. And sample numbers at the end of their range.
-// Run alone with --gtest_filter=ExactLight*.
+// Scenes without noise: every sample of every pixel has the same value. Run alone with --gtest_filter=ExactLight*.
 #include "tests/analytic/analytic_fixture.h"
 #include "tests/analytic/scenes.h"
 #include "tests/support/scene_of.h"
@@ -9,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 
 namespace {
 
@@ -64,36 +62,11 @@ TEST_F(ExactLight, FurnaceIsWhite) {
     for (const std::uint32_t estimator : {PT_ESTIMATOR_COSINE, PT_ESTIMATOR_BSDF, PT_ESTIMATOR_MIS})
         for (const std::uint32_t length : {2U, 5U}) {
             const double error = largest_error(render(scene, length, estimator), 1.0);
-            std::printf("estimator %u, path length %u: %.1f units of 2^-24\n", estimator, length, error);
             EXPECT_LE(error, 5.0) << "estimator " << estimator << ", path length " << length;
         }
     cli::SceneFile brighter = scene;
     brighten(brighter, 1.000001F);
     EXPECT_GT(largest_error(render(brighter, 2, PT_ESTIMATOR_BSDF), 1.0), 5.0);
-}
-
-// The last samples that there are.
-TEST_F(ExactLight, LastSampleNumbers) {
-    constexpr std::uint32_t samples = 4096;
-    const cli::SceneFile scene = read_scene("10-enclosure-L2");
-    for (const std::uint32_t sampler : {PT_SAMPLER_RANDOM, PT_SAMPLER_HALTON, PT_SAMPLER_HALTON_CP, PT_SAMPLER_SOBOL}) {
-        pt_render settings = render_of(4, 2, 2);
-        settings.sampler = sampler;
-        settings.first_sample = 0U - samples;
-        const pt_camera camera = scene.camera;
-        const Image image = image_of(scene.scene(), camera, settings, samples);
-        // The middle two columns see the lamp, the outer ones the wall alone.
-        for (const std::uint32_t x : {0U, 3U})
-            for (const std::uint32_t y : {0U, 1U}) {
-                const Exact wall{0.5, 0.0983};
-                std::printf("sampler %u: %.3f standard errors\n", sampler,
-                            (image.red(x, y) / wall.radiance - 1.0) / wall.relative_std * std::sqrt(samples));
-                EXPECT_TRUE(agrees(image.red(x, y), wall, samples)) << image.red(x, y) << " sampler " << sampler;
-                EXPECT_FALSE(agrees(image.red(x, y), {0.515, wall.relative_std}, samples)) << "3% must show";
-            }
-        const pt_accumulate_info beyond{sizeof beyond, 1, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
-        EXPECT_EQ(pt_accumulate(context(), &beyond), PT_ERROR_INVALID_ARGUMENT);
-    }
 }
 
 } // namespace

@@ -1,7 +1,11 @@
-// Converged images of other renderers, and the judgement of a render against one. Used by render_test.cpp.
+// Converged images of other renderers.
 #pragma once
 
+#include <OpenImageIO/imageio.h>
+
+#include <cstddef>
 #include <cstdint>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -12,8 +16,15 @@ struct ReferenceImage {
 };
 
 // Reads tests/reference/<name>.exr.
-ReferenceImage read_reference(const std::string &name);
-
-// Writes an EXR of R, G, B per pixel.
-void write_image(const std::string &path, std::uint32_t width, std::uint32_t height,
-                 const std::vector<float> &radiance);
+inline ReferenceImage read_reference(const std::string &name) {
+    const std::string path = PT_TEST_REFERENCE_DIR "/" + name + ".exr";
+    const auto input = OIIO::ImageInput::open(path);
+    if (!input)
+        throw std::runtime_error("cannot open " + path);
+    const OIIO::ImageSpec &spec = input->spec();
+    ReferenceImage image{static_cast<std::uint32_t>(spec.width), static_cast<std::uint32_t>(spec.height), {}};
+    image.radiance.resize(std::size_t{image.width} * image.height * 3);
+    if (!input->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, image.radiance.data()))
+        throw std::runtime_error("cannot read " + path);
+    return image;
+}
