@@ -73,6 +73,11 @@ class CommandLineTest(unittest.TestCase):
             self.addCleanup(undo)
         return process
 
+    def piped(self, *arguments, **options):
+        """The finished process, with other streams than those of run_pt."""
+        return subprocess.run([self.program, *arguments], cwd=self.folder,
+                              **{"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **options})
+
     def run_pt(self, *arguments, **environment):
         process = self.start(*arguments, **environment)
         self.output, self.errors = process.communicate(timeout=PATIENCE)

@@ -9,7 +9,6 @@ import os
 import resource
 import signal
 import struct
-import subprocess
 
 from command_line import (COURSEWORK, PT, RESULT, CommandLineTest, default_signals, main, read_exr_attributes, read_png)
 
@@ -205,8 +204,7 @@ class Outputs(CommandLineTest):
             signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
             resource.setrlimit(resource.RLIMIT_FSIZE, (7500, 7500))
 
-        done = subprocess.run([self.program, "render", COURSEWORK, "-o", "big.exr", "-o", "small.png", "--spp", "1"],
-                              cwd=self.folder, preexec_fn=full_disk, capture_output=True, text=True, check=False)
+        done = self.piped("render", COURSEWORK, "-o", "big.exr", "-o", "small.png", "--spp", "1", preexec_fn=full_disk, text=True)
         self.assertEqual(done.returncode, 6, done.stderr)
         self.assertIn("pt: cannot write big.exr: File too large", done.stderr)
         self.assertEqual(self.read("big.exr"), "old")

@@ -72,8 +72,8 @@ class Denoise(DenoiseTest):
 class RealDeviceDenoise(DenoiseTest):
     program = PT
 
-    def stated(self, **environment):
-        self.render("-o", "a.exr", DENOISE, "--spp", "17", "--stats", "a.json", **environment)
+    def stated(self):
+        self.render("-o", "a.exr", DENOISE, "--spp", "17", "--stats", "a.json")
         return json.loads(self.read("a.json"))
 
     def test_the_raw_image_is_beside_it(self):
@@ -152,14 +152,6 @@ class RealDeviceDenoise(DenoiseTest):
                         error=f'--denoise = "{name}": Open Image Denoise 2 cannot be loaded')
             self.assertIn("; pip install pyoidn brings it", self.errors)
         self.assertEqual(self.files(), [])
-
-    def test_the_error_is_that_of_the_result(self):
-        # A filter that does nothing gives the mean of the samples. One that also shifts the picture is worse.
-        errors = {wish: self.stated(FAKE_OIDN=wish)["rmse"] for wish in ("shift", "", "identity")}
-        image = self.channels("a.exr")
-        self.assertEqual(image["R"], image["raw.R"])
-        self.assertLess(errors[""], errors["shift"])
-        self.assertLess(errors["shift"], errors["identity"])
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 // Tests of cli/base/file: files that are written whole or not at all, and what killed programs leave.
-#include "cli/base/exit_code.h"
 #include "cli/base/file.h"
+#include "tests/cli/refusal_of.h"
 #include "tests/cli/temporary_folder.h"
 
 #include <gtest/gtest.h>
@@ -21,14 +21,10 @@ std::span<const std::byte> bytes(std::string_view text) {
 }
 
 // The message, or nothing if the file can be written.
-std::string refusal_of(const std::string &path) {
-    try {
-        AtomicFile::check_writable(path);
-    } catch (const cli::Failure &failure) {
-        EXPECT_EQ(failure.code(), cli::ExitCode::file);
-        return failure.what();
-    }
-    return "";
+std::string write_refusal(const std::string &path) {
+    const Refusal refused = refusal_of([&] { AtomicFile::check_writable(path); });
+    EXPECT_TRUE(refused.message.empty() || refused.code == cli::ExitCode::file);
+    return refused.message;
 }
 
 TEST(AtomicFile, AppearsWhole) {
@@ -94,7 +90,7 @@ TEST(AtomicFile, FollowsNoOneElsesLinksWhereEverybodyMayWrite) {
         ASSERT_EQ(chown(folder.file("open").c_str(), c.folder_owner, c.folder_owner), 0);
         ASSERT_EQ(chmod(folder.file("open").c_str(), c.folder), 0);
         for (const char *path : {"open/link", "own link"}) {
-            const std::string refusal = refusal_of(folder.file(path));
+            const std::string refusal = write_refusal(folder.file(path));
             EXPECT_EQ(refusal, c.is_followed
                                    ? ""
                                    : "cannot write " + folder.file(path) + ": the link " + folder.file("open/link") +
@@ -111,14 +107,14 @@ TEST(AtomicFile, RefusesWhatCannotBeReplaced) {
     std::filesystem::create_directory(folder.file("folder"));
     ASSERT_EQ(mkfifo(folder.file("pipe").c_str(), 0600), 0);
     folder.write("plain", "");
-    EXPECT_EQ(refusal_of(folder.file("folder")), "cannot write " + folder.file("folder") + ": Is a directory");
-    EXPECT_EQ(refusal_of(folder.file("pipe")), "cannot write " + folder.file("pipe") + ": not a regular file");
-    EXPECT_EQ(refusal_of(folder.file("none/a")),
+    EXPECT_EQ(write_refusal(folder.file("folder")), "cannot write " + folder.file("folder") + ": Is a directory");
+    EXPECT_EQ(write_refusal(folder.file("pipe")), "cannot write " + folder.file("pipe") + ": not a regular file");
+    EXPECT_EQ(write_refusal(folder.file("none/a")),
               "cannot write " + folder.file("none/a") + ": No such file or directory");
-    EXPECT_EQ(refusal_of(folder.file("plain/a")), "cannot write " + folder.file("plain/a") + ": Not a directory");
-    EXPECT_NE(refusal_of("/proc/a"), "");
-    EXPECT_NE(refusal_of("/dev/null"), "");
-    EXPECT_EQ(refusal_of(folder.file("plain")), "");
+    EXPECT_EQ(write_refusal(folder.file("plain/a")), "cannot write " + folder.file("plain/a") + ": Not a directory");
+    EXPECT_NE(write_refusal("/proc/a"), "");
+    EXPECT_NE(write_refusal("/dev/null"), "");
+    EXPECT_EQ(write_refusal(folder.file("plain")), "");
 }
 
 TEST(AbandonedFiles, GoWhereNobodyWritesThem) {

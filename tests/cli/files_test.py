@@ -1,5 +1,5 @@
-"""Tests of the files that the program reads and writes: standard streams, outputs that would overwrite what is needed,
-and what the metadata of images say.
+"""Tests of the files that the program reads and writes: standard streams, and outputs that would overwrite what is
+needed.
 
 Arguments: see command_line.py.
 """
@@ -7,18 +7,16 @@ Arguments: see command_line.py.
 import json
 import os
 import subprocess
-import time
 import unittest
 
-from command_line import COURSEWORK, PATIENCE, RESULT, CommandLineTest, default_signals, main, png_chunks
+from command_line import COURSEWORK, PATIENCE, RESULT, CommandLineTest, default_signals, main
 
 SCENE = '{"film": {"width": 4, "height": 3}, "render": {"spp": 2}}'
 
 
 class StandardStreams(CommandLineTest):
     def pipe(self, code, text, *arguments):
-        done = subprocess.run([self.program, *arguments], cwd=self.folder, input=text, preexec_fn=default_signals,
-                              capture_output=True, text=True, timeout=PATIENCE, check=False)
+        done = self.piped(*arguments, input=text, preexec_fn=default_signals, text=True, timeout=PATIENCE)
         self.output, self.errors = done.stdout, done.stderr
         self.assertEqual(done.returncode, code, done.stderr)
 
@@ -54,8 +52,7 @@ class StandardStreams(CommandLineTest):
         render = ("render", COURSEWORK, "--spp", "1", "-o")
         for arguments in ("devices",), (*render, "a.png", "--stats", "-"), (*render, "-", "--format", "png"):
             with open("/dev/full", "w", encoding="utf-8") as full:
-                done = subprocess.run([self.program, *arguments], cwd=self.folder, stdout=full, stderr=subprocess.PIPE,
-                                      text=True, check=False)
+                done = self.piped(*arguments, stdout=full, text=True)
             self.assertEqual(done.returncode, 6, done.stderr)
             self.assertIn("pt: cannot write to standard output\n", done.stderr)
 
@@ -89,8 +86,7 @@ class SameFiles(CommandLineTest):
                             "--stats", name)
         self.refuse("-o s.png: is the same file as the scene s.png", "s.png", "--watch", "-o", "s.png")
         with open(self.path("s.png"), encoding="utf-8") as scene:
-            done = subprocess.run([self.program, "render", "-", "-o", "s.png", "--spp", "1"], cwd=self.folder,
-                                  stdin=scene, capture_output=True, text=True, check=False)
+            done = self.piped("render", "-", "-o", "s.png", "--spp", "1", stdin=scene, text=True)
         self.assertEqual((done.returncode, done.stderr), (2, "pt: -o s.png: is the same file as the scene -\n"))
         self.assertEqual(self.read("s.png"), SCENE)
 
@@ -126,8 +122,7 @@ class SameFiles(CommandLineTest):
         self.expect(0, "render", "s.png", "-o", "a.png", "-o", "a/a.png", "-o", "A.png", "-o", "a.exr", "--stats",
                     "a.json")
         with open("/dev/null", encoding="utf-8") as null:  # may be all three streams
-            done = subprocess.run([self.program, "render", "-", "-o", "-", "--format", "png"], stdin=null,
-                                  stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False)
+            done = self.piped("render", "-", "-o", "-", "--format", "png", stdin=null, text=True)
         self.assertEqual((done.returncode, done.stderr[:25]), (3, "pt: standard input:1:1: s"))
 
     def test_a_link_leads_to_the_file_that_it_makes(self):
@@ -162,50 +157,6 @@ class LinksOfOthers(CommandLineTest):
                 self.expect(6, *command, f"open/{name}", error=f"cannot write open/{name}: the link open/{name} {self.RULE}")
                 self.assertEqual((self.read("of root"), self.files()),
                                  ("kept", ["of root", "open", "r.exr", "s.json"]))
-
-
-class EqualRuns(CommandLineTest):
-    OUTPUTS = ("a.png", "a.jpg", "a.exr")
-
-    def images(self, folder, **environment):
-        """What they are with this environment, rendered in a folder of that name for once."""
-        os.mkdir(self.path(folder))
-        paths = [f"{folder}/{name}" for name in self.OUTPUTS]
-        self.expect(0, "render", COURSEWORK, "-o", paths[0], "-o", paths[1], "-o", paths[2], "--layers",
-                    "standard-error", "--size", "8x4", "--spp", "16", **environment)
-        return [self.contents(path) for path in paths]
-
-    def test_images_do_not_tell_when_they_were_rendered(self):
-        # More than a second apart, the unit of dates; the stand-in takes a millisecond a sample, then two.
-        first = self.images("first", FAKE_PT_SAMPLE_MS=1)
-        time.sleep(1.1)
-        self.assertEqual(self.images("second", FAKE_PT_SAMPLE_MS=2, TZ="Pacific/Auckland"), first)
-
-
-class Metadata(CommandLineTest):
-    def texts(self, *options):
-        """Keyword -> text of a PNG, and the names of its chunks."""
-        self.expect(0, "render", COURSEWORK, "-o", "a.png", "--spp", "16", "--size", "4x3", *options)
-        chunks = list(png_chunks(self.contents("a.png")))
-        texts = dict(body.decode("latin-1").split("\0") for kind, body in chunks if kind == "tEXt")
-        kinds = [kind for kind, _ in chunks]
-        return texts, kinds
-
-    def test_a_png_says_how_it_was_made(self):
-        texts, kinds = self.texts("--seed", "7", "--max-path-length", "3", "--first-sample", "9", "--sampler", "random",
-                                  "--estimator", "mis", "--exposure", "-2.5", "--tonemap", "agx")
-        software = texts.pop("software")
-        self.assertRegex(software, r"^pt \d+\.\d+\.\d+$")
-        self.assertEqual(texts, {
-            "samplesPerPixel": "16", "pt.quantity": "tone-mapped radiance", "pt.toneMap": "agx", "pt.exposure": "-2.5",
-            "pt.encoding": "sRGB", "pt.scene": os.path.basename(COURSEWORK), "pt.seed": "7", "pt.firstSample": "9",
-            "pt.maxPathLength": "3", "pt.sampler": "random", "pt.estimator": "mis", "pt.rejectedSamples": "0",
-            "pt.relativeError": "0.03125", "pt.device": "fake device", "pt.driver": "fake driver 1.0"})
-        self.assertIn("sRGB", kinds)
-        texts, kinds = self.texts("--exposure", "1.5", "--gamma", "2.2")
-        self.assertEqual((texts["pt.gamma"], texts["pt.toneMap"], texts["pt.exposure"]), ("2.2", "none", "1.5"))
-        self.assertIn("gAMA", kinds)
-        self.assertNotIn("sRGB", kinds)
 
 
 if __name__ == "__main__":

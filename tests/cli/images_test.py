@@ -7,7 +7,7 @@ import os
 import pty
 import signal
 import struct
-import subprocess
+import time
 
 from command_line import (COURSEWORK, PT, RESULT, CommandLineTest, main, parse_png, png_chunks,
                           read_exr_attributes, read_png)
@@ -85,9 +85,6 @@ class Crop(ImagesTest):
 
 
 class StandardOutput(ImagesTest):
-    def piped(self, *arguments, **options):
-        return subprocess.run([self.program, *arguments], cwd=self.folder, capture_output=True, check=False, **options)
-
     def test_it_gets_what_a_file_would(self):
         for name in "exr", "png", "jpg":
             with self.subTest(format=name):
@@ -121,8 +118,7 @@ class StandardOutput(ImagesTest):
 
     def test_a_terminal_is_spared(self):
         ours, theirs = pty.openpty()
-        done = subprocess.run([self.program, "render", COURSEWORK, *SIZE, "-o", "-", "--format", "png"],
-                              stdout=theirs, cwd=self.folder, stderr=subprocess.PIPE, text=True, check=False)
+        done = self.piped("render", COURSEWORK, *SIZE, "-o", "-", "--format", "png", stdout=theirs, text=True)
         os.close(theirs)
         os.close(ours)
         self.assertEqual((done.returncode, done.stderr),
@@ -136,6 +132,43 @@ class Exr(ImagesTest):
         self.assertEqual(kind, "chromaticities")
         rec709 = (0.64, 0.33, 0.30, 0.60, 0.15, 0.06, 0.3127, 0.3290)
         self.assertEqual(body, struct.pack("<8f", *rec709))
+
+
+class EqualRuns(CommandLineTest):
+    def images(self, folder, **environment):
+        """What they are with this environment, rendered in a folder of that name for once."""
+        os.mkdir(self.path(folder))
+        paths = [f"{folder}/a.{kind}" for kind in ("png", "jpg", "exr")]
+        outputs = [word for path in paths for word in ("-o", path)]
+        self.expect(0, "render", COURSEWORK, *outputs, "--layers", "standard-error", "--size", "8x4", "--spp", "16",
+                    **environment)
+        return [self.contents(path) for path in paths]
+
+    def test_images_do_not_tell_when_they_were_rendered(self):
+        # More than a second apart, the unit of dates; the stand-in takes a millisecond a sample, then two.
+        first = self.images("first", FAKE_PT_SAMPLE_MS=1)
+        time.sleep(1.1)
+        self.assertEqual(self.images("second", FAKE_PT_SAMPLE_MS=2, TZ="Pacific/Auckland"), first)
+
+
+class Metadata(CommandLineTest):
+    def texts(self, *options):
+        self.expect(0, "render", COURSEWORK, "-o", "a.png", "--spp", "16", "--size", "4x3", *options)
+        return texts_of(self.contents("a.png"))
+
+    def test_a_png_says_how_it_was_made(self):
+        texts = self.texts("--seed", "7", "--max-path-length", "3", "--first-sample", "9", "--sampler", "random",
+                           "--estimator", "mis", "--exposure", "-2.5", "--tonemap", "agx")
+        software = texts.pop("software")
+        self.assertRegex(software, r"^pt \d+\.\d+\.\d+$")
+        self.assertEqual(texts, {
+            "samplesPerPixel": "16", "pt.quantity": "tone-mapped radiance", "pt.toneMap": "agx", "pt.exposure": "-2.5",
+            "pt.encoding": "sRGB", "pt.scene": os.path.basename(COURSEWORK), "pt.seed": "7", "pt.firstSample": "9",
+            "pt.maxPathLength": "3", "pt.sampler": "random", "pt.estimator": "mis", "pt.rejectedSamples": "0",
+            "pt.relativeError": "0.03125", "pt.device": "fake device", "pt.driver": "fake driver 1.0"})
+        texts = self.texts("--exposure", "1.5", "--gamma", "2.2")
+        self.assertEqual((texts["pt.gamma"], texts["pt.toneMap"], texts["pt.exposure"]), ("2.2", "none", "1.5"))
+        self.assertIn(b"gAMA", self.contents("a.png"))
 
 
 class Tonemap(ImagesTest):
@@ -169,8 +202,7 @@ class Tonemap(ImagesTest):
         self.assertEqual(self.output, "wrote a.png: 5x4 at 2,3 of 9x7\n")
         self.expect(0, "tonemap", "a.exr", "a.png", "-q")
         self.assertEqual(self.output, "")
-        done = subprocess.run([self.program, "tonemap", "a.exr", "-", "--format", "png"], cwd=self.folder,
-                              capture_output=True, check=False)
+        done = self.piped("tonemap", "a.exr", "-", "--format", "png")
         self.assertEqual((done.returncode, done.stdout), (0, self.contents("a.png")), done.stderr)
         self.assertIn(b"pt: wrote standard output: 5x4", done.stderr)
 

@@ -4,7 +4,6 @@ refused with a reason. Arguments: see command_line.py."""
 import json
 import os
 import random
-import subprocess
 
 from command_line import COURSEWORK, PT, CommandLineTest, main, read_exr_attributes, read_exr_blocks, read_png
 
@@ -94,8 +93,7 @@ class Merge(CommandLineTest):
 
     def test_standard_output(self):
         self.merge(0, *self.parts, "-o", "a.png", "-q")
-        done = subprocess.run([self.program, "merge", *self.parts, "-o", "-", "--format", "png"], cwd=self.folder,
-                              capture_output=True, check=False)
+        done = self.piped("merge", *self.parts, "-o", "-", "--format", "png")
         self.assertEqual((done.returncode, done.stdout), (0, self.contents("a.png")))
         self.assertIn(b"8 films of 24x13 pixels", done.stderr)
         self.merge(2, *self.parts, "-o", "-", error="-o -: standard output needs --format")

@@ -6,7 +6,6 @@ Arguments: see command_line.py.
 import json
 import resource
 import signal
-import subprocess
 
 from command_line import COURSEWORK, PT, PATIENCE, CommandLineTest, default_signals, main, read_png
 
@@ -78,8 +77,7 @@ class HostMemory(CommandLineTest):
             default_signals()
             resource.setrlimit(resource.RLIMIT_AS, (2 << 30, 2 << 30))
 
-        return subprocess.run([self.program, *arguments], cwd=self.folder, preexec_fn=little_memory,
-                              capture_output=True, text=True, timeout=PATIENCE, check=False)
+        return self.piped(*arguments, preexec_fn=little_memory, text=True, timeout=PATIENCE)
 
     def refusal(self, code, *arguments):
         done = self.run_in_little_memory(*arguments)

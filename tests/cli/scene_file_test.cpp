@@ -1,8 +1,7 @@
 // Tests of cli/scene/scene_file, with json_items, scene_reader and the table of keys behind it.
 #include "cli/scene/scene_file.h"
 
-#include "cli/base/exit_code.h"
-#include "tests/cli/temporary_folder.h"
+#include "tests/cli/refusal_of.h"
 
 #include <gtest/gtest.h>
 
@@ -18,15 +17,12 @@ using cli::SceneFile;
 
 // The message without the file's name, or "" if the text is accepted.
 std::string refusal(const std::string &text) {
-    try {
-        parse_scene(text, "s.json");
-    } catch (const cli::Failure &failure) {
-        EXPECT_EQ(failure.code(), cli::ExitCode::scene);
-        const std::string message = failure.what();
-        EXPECT_TRUE(message.starts_with("s.json:")) << message;
-        return message.substr(7);
-    }
-    return "";
+    const Refusal refused = refusal_of([&] { parse_scene(text, "s.json"); });
+    if (refused.message.empty())
+        return "";
+    EXPECT_EQ(refused.code, cli::ExitCode::scene);
+    EXPECT_TRUE(refused.message.starts_with("s.json:")) << refused.message;
+    return refused.message.substr(7);
 }
 
 template <typename Number, std::size_t Count>
@@ -162,13 +158,9 @@ TEST(SceneFile, ExposuresAreNumbersOrAutomatic) {
 
 TEST(SceneFile, UnreadableFilesAreFileErrors) {
     for (const char *path : {"/nonexistent.json", "/"}) {
-        try {
-            cli::read_scene_file(path);
-            FAIL() << path;
-        } catch (const cli::Failure &failure) {
-            EXPECT_EQ(failure.code(), cli::ExitCode::file);
-            EXPECT_TRUE(std::string(failure.what()).starts_with(std::string("cannot read ") + path + ": "));
-        }
+        const Refusal refused = refusal_of([&] { cli::read_scene_file(path); });
+        EXPECT_EQ(refused.code, cli::ExitCode::file);
+        EXPECT_TRUE(refused.message.starts_with(std::string("cannot read ") + path + ": ")) << refused.message;
     }
 }
 

@@ -9,6 +9,7 @@ import sys
 import threading
 import unittest
 import weakref
+from concurrent.futures import ThreadPoolExecutor
 from unittest import mock
 
 import numpy as np
@@ -102,9 +103,9 @@ class Threads(unittest.TestCase):
     def test_contexts_are_independent(self):
         with pt.Context() as context:
             expected = ready(context).render(SCENE, CAMERA, settings(), 8).radiance
-        both_inside, images = threading.Barrier(2, timeout=60), []
+        both_inside = threading.Barrier(2, timeout=60)
 
-        def render():
+        def render(_):
             waited = []
 
             def meet(_):
@@ -112,16 +113,11 @@ class Threads(unittest.TestCase):
                     waited.append(both_inside.wait())
 
             with pt.Context() as context:
-                images.append(context.render(SCENE, CAMERA, settings(), 8, progress=meet).radiance)
+                return context.render(SCENE, CAMERA, settings(), 8, progress=meet).radiance
 
-        threads = [threading.Thread(target=render) for _ in range(2)]
-        for thread in threads:
-            thread.start()
-        for thread in threads:
-            thread.join()
-        self.assertEqual(len(images), 2)
-        for image in images:
-            np.testing.assert_array_equal(image, expected)
+        with ThreadPoolExecutor(2) as threads:
+            for image in threads.map(render, range(2)):
+                np.testing.assert_array_equal(image, expected)
 
     def test_others_run_during_calls(self):
         """As this thread gives nothing up by itself, another one runs only if the library is called without the
@@ -162,14 +158,9 @@ class Threads(unittest.TestCase):
         with ready(pt.Context()) as context:
             context.accumulate(8)
             film = context.film()
-        data, found = film.to_bytes(), []
-        threads = [threading.Thread(target=lambda: found.extend(film.to_bytes() == data for _ in range(50)))
-                   for _ in range(4)]
-        for thread in threads:
-            thread.start()
-        for thread in threads:
-            thread.join()
-        self.assertEqual(found, [True] * 200)
+        data = film.to_bytes()
+        with ThreadPoolExecutor(4) as threads:
+            self.assertTrue(all(threads.map(lambda _: film.to_bytes() == data, range(200))))
 
 
 class Libraries(unittest.TestCase):

@@ -1,0 +1,21 @@
+// The failure with which a call is refused. Used by the tests of what is read and written.
+#pragma once
+
+#include "cli/base/exit_code.h"
+
+#include <string>
+
+struct Refusal {
+    cli::ExitCode code = cli::ExitCode::done;
+    std::string message; // empty if the call returns
+};
+
+template <typename Call>
+Refusal refusal_of(const Call &call) {
+    try {
+        call();
+    } catch (const cli::Failure &failure) {
+        return {failure.code(), failure.what()};
+    }
+    return {};
+}
