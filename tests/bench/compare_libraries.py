@@ -22,14 +22,11 @@ import statistics
 import subprocess
 import sys
 
+from bench_scenes import load_scene
 from cost_of_error import cost_of_error
 from table import print_table
 
-FOLDER = os.path.dirname(os.path.abspath(__file__))
 COUNTS, AT, FEW_SURFACES = (8, 32, 128), 32, 12
-
-sys.path.insert(0, os.path.join(os.path.dirname(FOLDER), "support"))
-from scene_file import FOLDER as SCENES, read_scene  # noqa: E402
 
 
 def parse_arguments():
@@ -65,7 +62,7 @@ def figures_of(pictures, pooled):
 
 
 def measure(name, length, options):
-    scene = read_scene(SCENES / f"{name}.json")
+    scene = load_scene(name)
     if len(scene["spheres"]) + len(scene.get("planes", [])) <= FEW_SURFACES:
         os.environ.setdefault("LP_NATIVE_VECTOR_WIDTH", "512")  # as pt does where the CPU can
     os.environ["MESA_SHADER_CACHE_DISABLE"] = "true"

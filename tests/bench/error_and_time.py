@@ -19,16 +19,13 @@ import math
 import os
 import pathlib
 import statistics
-import sys
 import time
 
 import numpy as np
+from bench_scenes import read_scene
+from scene_renderer import ESTIMATORS, SAMPLERS, SceneRenderer  # which finds pt
 from table import print_table
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from scene_file import read_scene  # noqa: E402
-from scene_renderer import ESTIMATORS, SAMPLERS, SceneRenderer  # noqa: E402 (which finds pt)
-from pt import DeviceKind  # noqa: E402
+from pt import DeviceKind
 
 REFERENCE_FACTOR = 64  # the reference's error is then an eighth of the smallest measured, if its square falls as 1 / N
 NOISE_MARGIN = 3

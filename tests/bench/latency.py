@@ -23,11 +23,9 @@ import statistics
 import sys
 import time
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.path.insert(0, os.path.join(ROOT, "tests/support"))
-from scene_file import FOLDER, read_scene  # noqa: E402
-from scene_renderer import SceneRenderer, structs, vector  # noqa: E402
-from table import print_table  # noqa: E402
+from bench_scenes import load_scene
+from scene_renderer import SceneRenderer, structs, vector
+from table import print_table
 
 
 def parse_arguments():
@@ -110,7 +108,7 @@ def measure_errors(contexts, arguments):
 
 def main():
     arguments = parse_arguments()
-    scene = read_scene(FOLDER / "coursework.json")
+    scene = load_scene("coursework")
     contexts = [Measured(*library.split("=", 1), scene) for library in arguments.library]
     for path_length in map(int, arguments.path_lengths.split(",")):
         for size in arguments.sizes.split(","):

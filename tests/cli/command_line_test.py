@@ -94,23 +94,6 @@ class SceneErrors(CommandLineTest):
 
 
 class DeviceErrors(CommandLineTest):
-    def test_exit_codes_of_results(self):
-        """Of those that exit_codes_test has not."""
-        for function, result, code in (("create", "UNSUPPORTED", 4), ("create", "INVALID_ARGUMENT", 2),
-                                       ("create", "OUT_OF_HOST_MEMORY", 1),
-                                       ("set_scene", "UNSUPPORTED", 4), ("set_camera", "DEVICE_LOST", 5),
-                                       ("set_render", "OUT_OF_DEVICE_MEMORY", 4), ("set_render", "UNSUPPORTED", 4),
-                                       ("accumulate", "SHADER", 4), ("accumulate", "INVALID_ARGUMENT", 2),
-                                       ("accumulate", "INCOMPATIBLE", 2),
-                                       ("readback", "DEVICE_LOST", 5),
-                                       ("stats", "INVALID_STATE", 1)):
-            with self.subTest(function=function, result=result):
-                self.write("a.png", "old")
-                self.expect(code, "render", COURSEWORK, "-o", "a.png", "--spp", "1", error="the reason",
-                            FAKE_PT_FAIL=f"{function}:{RESULT[result]}", FAKE_PT_MESSAGE="the reason")
-                self.assertEqual(self.read("a.png"), "old")
-                self.assertEqual(self.files(), ["a.png"])
-
     def test_validation_messages_fail_the_run(self):
         for function in ("set_scene", "destroy"):
             self.expect(1, "render", COURSEWORK, "-o", "a.png", "--validation", "-q", FAKE_PT_LOG=function,

@@ -21,13 +21,18 @@ def fails(name, result):
 # Code, command line, environment of the stand-in for the library, the beginning of what is said, and files that are
 # left.
 CASES = [
+    *((code, RENDER, fails(function, result), "pt: the reason", []) for function, result, code in (
+        ("create", "UNSUPPORTED", 4), ("create", "INVALID_ARGUMENT", 2), ("create", "OUT_OF_HOST_MEMORY", 1),
+        ("create", "NO_DEVICE", 4), ("set_render", "OUT_OF_DEVICE_MEMORY", 4), ("set_render", "UNSUPPORTED", 4),
+        ("accumulate", "SHADER", 4),
+        ("accumulate", "INVALID_ARGUMENT", 2), ("accumulate", "INCOMPATIBLE", 2), ("accumulate", "INTERNAL", 1),
+        ("accumulate", "DEVICE_LOST", 5), ("readback", "DEVICE_LOST", 5), ("stats", "INVALID_STATE", 1))),
     (0, RENDER, {}, "", ["a.png"]),
     (0, ["--version"], {}, "", []),
     (0, ["devices"], {}, "", []),
     (0, ["merge", "first.ptfilm", "second.ptfilm", "--film", "sum.ptfilm"], {}, "", ["sum.ptfilm"]),
     (1, [*RENDER, "--validation"], {"FAKE_PT_LOG": "accumulate"}, "pt: validation: a message of the layer", ["a.png"]),
     (1, ["selftest"], {"FAKE_PT_FAIL": "accuracy_bound:1"}, "", []),
-    (1, RENDER, fails("accumulate", "INTERNAL"), "pt: the reason", []),
     (2, [], {}, "pt: a command is missing: render, tonemap, ", []),
     (2, ["rendr"], {}, 'pt: unknown command "rendr", did you mean "render"? (see pt --help)', []),
     (2, ["render"], {}, "pt: SCENE is required (see pt render --help)", []),
@@ -36,9 +41,9 @@ CASES = [
     (2, [*RENDER, "--skip-existing"], {}, "pt: --skip-existing requires --frames", []),
     (3, [*RENDER[:3], "a-#.png", "--frames", "1-2"], {}, f"pt: {COURSEWORK}: has no animation", []),
     (3, ["render", "broken.json", "-o", "a.png"], {}, "pt: broken.json:", []),
-    (4, RENDER, fails("create", "NO_DEVICE"), "pt: the reason", []),
+    (4, RENDER, fails("set_scene", "UNSUPPORTED"), f"pt: {COURSEWORK}: the reason", []),
     (4, ["devices"], {"FAKE_PT_FAIL": f"devices:{RESULT['NO_DEVICE']}"}, "pt: no Vulkan device", []),
-    (5, RENDER, fails("accumulate", "DEVICE_LOST"), "pt: the reason", []),
+    (5, RENDER, fails("set_camera", "DEVICE_LOST"), f"pt: {COURSEWORK}: the reason", []),
     (6, ["render", "none.json", "-o", "a.png"], {}, "pt: cannot read none.json: ", []),
     (6, ["render", COURSEWORK, "-o", "none/a.png"], {}, "pt: cannot write none/a.png: ", []),
     (6, ["tonemap", "none.exr", "a.png"], {}, "pt: cannot read none.exr: ", []),

@@ -1,7 +1,6 @@
 """Images as NumPy sees them, as pictures, and in files: with the bytes of the program. Arguments: the program pt, and a library
 that stands in for Open Image Denoise."""
 
-import io
 import json
 import pathlib
 import subprocess
@@ -95,12 +94,8 @@ class Pictures(unittest.TestCase):
         self.assertIs(np.asarray(self.image), radiance)
         self.assertIsNot(np.array(self.image), radiance)
         self.assertEqual(np.asarray(self.image, np.float64).dtype, np.float64)
-        self.assertEqual(np.mean(self.image), radiance.mean())
-        np.testing.assert_array_equal(np.subtract(self.image, self.image), np.zeros_like(radiance))
         np.testing.assert_array_equal(self.image[3, 4], radiance[3, 4])
         self.assertEqual((len(self.image), self.image.shape), (16, (16, 24, 3)))
-        buffer = io.BytesIO()
-        np.save(buffer, self.image)
 
     def test_how_good_it_is(self):
         low, high = self.image.error_bounds
