@@ -53,7 +53,8 @@ std::uint64_t most_bytes() {
 }
 
 std::uint32_t image_count(const RenderOptions &options) {
-    const std::uint32_t of_denoising = options.denoiser.empty() ? 0 : 4; // the other half, both filtered, the result
+    // The other half, both filtered, the result; and what the filter reads and writes.
+    const std::uint32_t of_denoising = options.denoiser.empty() ? 0 : 8;
     return 1 + static_cast<std::uint32_t>(options.wanted_layers().size()) + of_denoising;
 }
 

@@ -33,7 +33,6 @@ pt_denoise_info validated_denoise(const pt_denoise_info *user) {
     const std::uint64_t pixel_count = std::uint64_t{info.width} * info.height;
     subject.require(pixel_count >= 1 && pixel_count <= UINT32_MAX, {"width", "* height"}, pixel_count,
                     "must be in [1, 2^32 - 1]");
-    subject.require(info.reserved == 0, "reserved", info.reserved, "must be 0");
     violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
     check_pixels(subject, "first", info.first, 3 * pixel_count);
     check_pixels(subject, "second", info.second, 3 * pixel_count);
@@ -50,7 +49,8 @@ ErrorEstimate denoise(const pt_denoise_info &info) {
     std::vector<float> first(value_count);
     std::vector<float> second(value_count);
     const std::array<FilterTask, 2> tasks{{{info.first, first.data()}, {info.second, second.data()}}};
-    run_open_image_denoise(info.library, {info.width, info.height, info.albedo, info.normal}, tasks);
+    run_open_image_denoise({info.library, info.any_device != 0}, {info.width, info.height, info.albedo, info.normal},
+                           tasks);
     return combine({info.width, info.height, info.first, info.second, first.data(), second.data()}, info.denoised);
 }
 

@@ -14,6 +14,7 @@ constexpr const char *system_library = "libOpenImageDenoise.so.2";
 
 // Of the C interface of Open Image Denoise 2, as its documentation has it (openimagedenoise.org, "Open Image Denoise
 // API"). Handles are opaque pointers; enumerations are as large as int.
+constexpr int oidn_device_type_default = 0;
 constexpr int oidn_device_type_cpu = 1;
 constexpr int oidn_format_float3 = 3;
 constexpr int oidn_error_none = 0;
@@ -29,7 +30,11 @@ public:
         find("oidnReleaseDevice", release_device);
         find("oidnGetDeviceError", get_device_error);
         find("oidnNewFilter", new_filter);
-        find("oidnSetSharedFilterImage", set_image);
+        find("oidnNewBuffer", new_buffer);
+        find("oidnWriteBuffer", write_buffer);
+        find("oidnReadBuffer", read_buffer);
+        find("oidnReleaseBuffer", release_buffer);
+        find("oidnSetFilterImage", set_image);
         find("oidnSetFilterBool", set_bool);
         find("oidnCommitFilter", commit_filter);
         find("oidnExecuteFilter", execute_filter);
@@ -41,7 +46,11 @@ public:
     void (*release_device)(void *device);
     int (*get_device_error)(void *device, const char **message); // which is then forgotten
     void *(*new_filter)(void *device, const char *type);
-    void (*set_image)(void *filter, const char *name, void *data, int format, std::size_t width, std::size_t height,
+    void *(*new_buffer)(void *device, std::size_t size);
+    void (*write_buffer)(void *buffer, std::size_t offset, std::size_t size, const void *from);
+    void (*read_buffer)(void *buffer, std::size_t offset, std::size_t size, void *to);
+    void (*release_buffer)(void *buffer);
+    void (*set_image)(void *filter, const char *name, void *buffer, int format, std::size_t width, std::size_t height,
                       std::size_t byte_offset, std::size_t pixel_stride, std::size_t row_stride); // 0: no gaps
     void (*set_bool)(void *filter, const char *name, bool value);
     void (*commit_filter)(void *filter);
@@ -85,39 +94,45 @@ void require_success(const Library &library, void *device) {
 
 using Handle = std::unique_ptr<void, void (*)(void *)>;
 
-// The library reads what it is given as an input.
-void *input(const float *data) {
-    return const_cast<float *>(data);
-}
-
-void filter(const Library &library, void *device, const Guides &guides, const FilterTask &task) {
+// Images lie in the device's memory, since a GPU may not read the host's.
+void filter(const Library &library, void *device, const Guides &guides, std::span<const FilterTask> tasks) {
+    const std::size_t size = guides.width * guides.height * 3 * sizeof(float);
     const Handle filter(library.new_filter(device, "RT"), library.release_filter);
     require_success(library, device);
-    const auto set_image = [&](const char *name, void *data) {
-        library.set_image(filter.get(), name, data, oidn_format_float3, guides.width, guides.height, 0, 0, 0);
+    const auto new_image = [&](const char *name) {
+        Handle image(library.new_buffer(device, size), library.release_buffer);
+        require_success(library, device);
+        library.set_image(filter.get(), name, image.get(), oidn_format_float3, guides.width, guides.height, 0, 0, 0);
+        return image;
     };
-    set_image("color", input(task.radiance));
-    set_image("albedo", input(guides.albedo));
-    set_image("normal", input(guides.normal));
-    set_image("output", task.filtered);
+    const Handle radiance = new_image("color");
+    const Handle albedo = new_image("albedo");
+    const Handle normal = new_image("normal");
+    const Handle filtered = new_image("output");
+    library.write_buffer(albedo.get(), 0, size, guides.albedo);
+    library.write_buffer(normal.get(), 0, size, guides.normal);
     library.set_bool(filter.get(), "hdr", true);
     library.set_bool(filter.get(), "cleanAux", true);
     library.commit_filter(filter.get());
-    library.execute_filter(filter.get());
+    for (const FilterTask &task : tasks) {
+        library.write_buffer(radiance.get(), 0, size, task.radiance);
+        library.execute_filter(filter.get());
+        library.read_buffer(filtered.get(), 0, size, task.filtered);
+    }
     require_success(library, device);
 }
 
 } // namespace
 
-void run_open_image_denoise(const char *path, const Guides &guides, std::span<const FilterTask> tasks) {
-    const Library library(path ? path : system_library);
-    const Handle device(library.new_device(oidn_device_type_cpu), library.release_device);
+void run_open_image_denoise(const Denoiser &denoiser, const Guides &guides, std::span<const FilterTask> tasks) {
+    const Library library(denoiser.path ? denoiser.path : system_library);
+    const int device_type = denoiser.any_device ? oidn_device_type_default : oidn_device_type_cpu;
+    const Handle device(library.new_device(device_type), library.release_device);
     if (!device)
         require_success(library, nullptr);
     library.commit_device(device.get());
     require_success(library, device.get());
-    for (const FilterTask &task : tasks)
-        filter(library, device.get(), guides, task);
+    filter(library, device.get(), guides, tasks);
 }
 
 } // namespace pt

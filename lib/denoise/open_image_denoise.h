@@ -19,8 +19,12 @@ struct FilterTask {
     float *filtered;
 };
 
-// Filters images, each by itself, on the CPU. path: of the library; NULL: where the system finds it. Throws
-// PT_ERROR_UNSUPPORTED where it is not there.
-void run_open_image_denoise(const char *path, const Guides &guides, std::span<const FilterTask> tasks);
+struct Denoiser {
+    const char *path; // of the library; NULL: where the system finds it
+    bool any_device;  // the library's choice, instead of the CPU
+};
+
+// Filters images, each by itself. Throws PT_ERROR_UNSUPPORTED where the library is not there.
+void run_open_image_denoise(const Denoiser &denoiser, const Guides &guides, std::span<const FilterTask> tasks);
 
 } // namespace pt

@@ -238,7 +238,6 @@ TEST(Denoise, RefusesWhatBreaksARule) {
     refused([](Denoising &d) { d.info.width = 0; }, "denoise.width * height = 0: must be in [1, 2^32 - 1]");
     refused([](Denoising &d) { d.info.width = d.info.height = 65536; },
             "denoise.width * height = 4294967296: must be in [1, 2^32 - 1]");
-    refused([](Denoising &d) { d.info.reserved = 1; }, "denoise.reserved = 1: must be 0");
     refused([](Denoising &d) { d.info.normal = nullptr; }, "denoise.normal = NULL: must not be NULL");
     refused([](Denoising &d) { d.info.denoised = nullptr; }, "denoise.denoised = NULL: must not be NULL");
     refused([](Denoising &d) { d.second[7] = std::numeric_limits<float>::infinity(); },
@@ -267,6 +266,13 @@ TEST(Denoise, HandsErrorsOn) {
     EXPECT_EQ(denoising.run("4"), PT_ERROR_OUT_OF_HOST_MEMORY);
     EXPECT_EQ(denoising.run("5"), PT_ERROR_UNSUPPORTED);
     EXPECT_EQ(denoising.run(""), PT_OK);
+}
+
+TEST(Denoise, RunsOnTheCpuUnlessTold) {
+    Denoising denoising(0, much_noise);
+    EXPECT_EQ(denoising.run("gpu"), PT_ERROR_UNSUPPORTED);
+    denoising.info.any_device = 1;
+    EXPECT_EQ(denoising.run("gpu"), PT_OK);
 }
 
 // Where the system finds it, as LD_LIBRARY_PATH may say.

@@ -1,17 +1,22 @@
 // A stand-in for Open Image Denoise, with the functions that libpt takes from it: a mean over 5 x 5 pixels, and planted
 // faults. FAKE_OIDN=identity filters nothing, shift moves the mean by a pixel, darken takes a twentieth of it away, cut
-// all light above 4; an error's number makes the filter fail with it.
+// all light above 4; an error's number makes the filter fail with it; gpu lacks the CPU as a device.
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
+#include <cstring>
 #include <limits>
 #include <map>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace {
 
 constexpr int invalid_argument = 2;
+constexpr int unsupported_hardware = 5;
+
+using Buffer = std::vector<float>;
 
 struct Device {
     int error = 0;
@@ -20,7 +25,7 @@ struct Device {
 
 struct Filter {
     Device &device;
-    std::map<std::string, float *> images{};
+    std::map<std::string, Buffer *> images{};
     std::map<std::string, bool> flags{};
     std::size_t width = 0;
     std::size_t height = 0;
@@ -50,8 +55,8 @@ void run(const Filter &filter) {
     const std::ptrdiff_t shift = wish() == "shift" ? 1 : 0;
     const float factor = wish() == "darken" ? 0.95F : 1.0F;
     const float most = wish() == "cut" ? 4.0F : std::numeric_limits<float>::infinity();
-    const float *const color = filter.images.at("color");
-    float *const output = filter.images.at("output");
+    const float *const color = filter.images.at("color")->data();
+    Buffer &output = *filter.images.at("output");
     for (std::size_t pixel = 0; pixel < filter.width * filter.height; ++pixel)
         for (std::size_t channel = 0; channel < 3; ++channel) {
             const auto x = static_cast<std::ptrdiff_t>(pixel % filter.width) + shift;
@@ -67,7 +72,7 @@ extern "C" {
 
 void *oidnNewDevice(int type) {
     constexpr int cpu = 1;
-    return type == cpu ? new Device : nullptr;
+    return type == cpu && wish() == "gpu" ? nullptr : new Device;
 }
 
 void oidnCommitDevice(void *device) {
@@ -79,7 +84,7 @@ void oidnReleaseDevice(void *device) {
 }
 
 int oidnGetDeviceError(void *device, const char **message) {
-    const int error = std::exchange(static_cast<Device *>(device)->error, 0);
+    const int error = device ? std::exchange(static_cast<Device *>(device)->error, 0) : unsupported_hardware;
     *message = error != 0 ? "as planted" : nullptr;
     return error;
 }
@@ -91,14 +96,29 @@ void *oidnNewFilter(void *device, const char *type) {
     return new Filter{of};
 }
 
-void oidnSetSharedFilterImage(void *filter, const char *name, void *data, int format, std::size_t width,
-                              std::size_t height, std::size_t offset, std::size_t pixel_stride,
-                              std::size_t row_stride) {
+void *oidnNewBuffer(void *, std::size_t size) {
+    return new Buffer(size / sizeof(float));
+}
+
+void oidnWriteBuffer(void *buffer, std::size_t offset, std::size_t size, const void *from) {
+    std::memcpy(static_cast<Buffer *>(buffer)->data() + offset, from, size);
+}
+
+void oidnReadBuffer(void *buffer, std::size_t offset, std::size_t size, void *to) {
+    std::memcpy(to, static_cast<Buffer *>(buffer)->data() + offset, size);
+}
+
+void oidnReleaseBuffer(void *buffer) {
+    delete static_cast<Buffer *>(buffer);
+}
+
+void oidnSetFilterImage(void *filter, const char *name, void *buffer, int format, std::size_t width, std::size_t height,
+                        std::size_t offset, std::size_t pixel_stride, std::size_t row_stride) {
     constexpr int float3 = 3;
     auto &of = *static_cast<Filter *>(filter);
     if (format != float3 || offset != 0 || pixel_stride != 0 || row_stride != 0)
         of.device.error = invalid_argument;
-    of.images[name] = static_cast<float *>(data);
+    of.images[name] = static_cast<Buffer *>(buffer);
     of.width = width;
     of.height = height;
 }

@@ -6,6 +6,7 @@ import pathlib
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 import numpy as np
 import pt
@@ -77,6 +78,10 @@ class Denoise(unittest.TestCase):
             pt.denoise(grey, grey[:2], grey, grey)
         with self.assertRaisesRegex(pt.InvalidArgumentError, r"denoise.first\[0\] = nan"):
             pt.denoise(grey * np.nan, grey, grey, grey)
+        with unittest.mock.patch.dict(os.environ, FAKE_OIDN="gpu"):  # no CPU
+            with self.assertRaisesRegex(pt.UnsupportedError, "as planted"):
+                pt.denoise(grey, grey, grey, grey)
+            pt.denoise(grey, grey, grey, grey, any_device=True)
         with self.assertRaisesRegex(pt.UnsupportedError, "pip install pyoidn"):
             pt.denoise(grey, grey, grey, grey, library_path=os.devnull)
 

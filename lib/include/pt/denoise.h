@@ -21,8 +21,10 @@ typedef struct pt_denoise_info {
     uint32_t struct_size; /**< sizeof(pt_denoise_info) */
     uint32_t width;       /**< pixels, >= 1, as of all images here */
     uint32_t height;      /**< pixels, >= 1; width * height <= 2^32 - 1 */
-    uint32_t reserved;    /**< 0 */
-    const float *first;   /**< radiance: PT_QUANTITY_RADIANCE; finite */
+    /** 0: on the CPU; else where Open Image Denoise chooses, such as on a GPU, or where its environment variable
+     * OIDN_DEFAULT_DEVICE says ("cuda") */
+    uint32_t any_device;
+    const float *first; /**< radiance: PT_QUANTITY_RADIANCE; finite */
     /** the same with another pt_render.seed and all else equal, the number of samples in each pixel too: two parts of
      * one sequence depend on each other, so that errors would be stated too small */
     const float *second;
@@ -36,7 +38,7 @@ typedef struct pt_denoise_info {
 
 /** Denoises an image, and says how good the result is.
  *
- * The result is independent of the number of threads, which Open Image Denoise starts itself, on CPUs alone. Nothing is
+ * On the CPU the result is independent of the number of threads, which Open Image Denoise starts itself. Nothing is
  * taken from, or changed in, any context.
  *
  * error receives the error of the denoised picture, and error->struct_size must be set. Its squares are estimated

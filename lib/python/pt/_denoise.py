@@ -32,13 +32,15 @@ FIRST_SAMPLES: Final = 16  # of each of both, where a target error ends them
 
 
 def denoise(first: npt.ArrayLike, second: npt.ArrayLike, albedo: npt.ArrayLike, normal: npt.ArrayLike, *,
-            library_path: str | os.PathLike[str] | None = None) -> tuple[Pixels, ErrorEstimate]:
+            library_path: str | os.PathLike[str] | None = None, any_device: bool = False
+            ) -> tuple[Pixels, ErrorEstimate]:
     """A picture without noise, and its error.
 
     first, second   radiance, shape (height, width, 3): two images of one scene with other RenderSettings.seed and all else
                     equal. Two parts of one sequence depend on each other, and the error would be stated too small
     albedo, normal  Quantity.ALBEDO and NORMAL, of the same shape
     library_path    of Open Image Denoise 2; None: that of the module pyoidn, else the system's
+    any_device      on what it chooses, such as a GPU, or the environment's OIDN_DEFAULT_DEVICE says, instead of the CPU
 
     The result lies between the mean of both and what the filter makes of them, where its error is least. UnsupportedError:
     the library is not there; `pip install pyoidn`, or this package's extra denoise, brings it. ValueError: shapes differ.
@@ -51,7 +53,7 @@ def denoise(first: npt.ArrayLike, second: npt.ArrayLike, albedo: npt.ArrayLike, 
     path = find_library() if library_path is None else os.fspath(library_path)
     pointers = [image.ctypes.data_as(ctypes.POINTER(ctypes.c_float)) for image in (*images, result)]
     info = structs.pt_denoise_info(
-        width=shape[1], height=shape[0], library=None if path is None else os.fsencode(path),
+        width=shape[1], height=shape[0], any_device=any_device, library=None if path is None else os.fsencode(path),
         **dict(zip(("first", "second", "albedo", "normal", "denoised"), pointers)))
     error, loaded = structs.pt_error_estimate(), library()
     checked(loaded, loaded.pt_denoise(info, error))

@@ -87,7 +87,7 @@ class pt_function_accuracy(ctypes.Structure):
 
 
 class pt_denoise_info(Sized):
-    _fields_ = [("struct_size", c_uint32), ("width", c_uint32), ("height", c_uint32), ("reserved", c_uint32),
+    _fields_ = [("struct_size", c_uint32), ("width", c_uint32), ("height", c_uint32), ("any_device", c_uint32),
                 ("first", POINTER(c_float)), ("second", POINTER(c_float)), ("albedo", POINTER(c_float)),
                 ("normal", POINTER(c_float)), ("denoised", POINTER(c_float)), ("library", c_char_p)]
 
