@@ -43,7 +43,8 @@ struct Terms {
 
 // D(A) D(B), whose factors are independent, stands for the square of the limit: the square of F would have the filter's
 // noise in it, and weigh dark places too little. But a filter that spreads a lamp over dark pixels must not hide there,
-// so it counts no more than the raw pixel, or four times what is about it.
+// so it counts no more than the raw pixel, or four times what is about it. What one half did not meet at the edge of
+// something bright is weighed as a film's edges are (pixel_error.h): the less is known of its limit, the more.
 Terms terms_at(const FilteredHalves &halves, std::size_t x, std::size_t y, std::size_t channel) {
     constexpr double most_above_median = 4.0;
     const std::size_t index = (y * halves.width + x) * channel_count + channel;
@@ -53,14 +54,17 @@ Terms terms_at(const FilteredHalves &halves, std::size_t x, std::size_t y, std::
     const double second_filtered = halves.second_filtered[index];
     const double mean = 0.5 * (first + second);
     const double most = std::max(mean, most_above_median * median_about(halves, x, y, channel));
-    const double limit_square = std::clamp(first_filtered * second_filtered, 0.0, squared(most));
+    gpu::Limit limit{};
+    limit.square = std::clamp(first_filtered * second_filtered, 0.0, squared(most)) + relative_offset;
+    limit.known = squared(std::min(first, second)) + relative_offset;
+    limit.light_beyond = limit.square - gpu::E_SQUARED * limit.known;
     return {.mean = mean,
             .difference = 0.5 * (first_filtered + second_filtered) - mean,
             .noise = 0.5 * (first - second),
             .filtered_noise = 0.5 * (first_filtered - second_filtered),
             .first_fault = first - first_filtered,
             .second_fault = second - second_filtered,
-            .weight = 1.0 / (limit_square + relative_offset)};
+            .weight = gpu::relative_square(1.0, limit)};
 }
 
 // A number for each tile, row by row.

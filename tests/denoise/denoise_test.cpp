@@ -216,6 +216,28 @@ TEST(Denoise, DoesNotSpreadALamp) {
     EXPECT_LT(denoising.error.relative_rmse, 0.02);
 }
 
+// A pixel in each tile differs by as much in both halves, of a checkerboard of the mean 1 that the filter blurs, so
+// that little of it is used. Where one half is dark, what most samples met may reach into the pixel by any share, and
+// the square counts ln(1 / 0.1) times.
+TEST(Denoise, KnowsLittleOfEdgesThatOneHalfDidNotMeet) {
+    const auto relative_square = [](float lesser) {
+        Pixels halves[2] = {Pixels(value_count), Pixels(value_count)};
+        for (std::size_t i = 0; i < value_count; ++i) {
+            const std::size_t x = i / 3 % width;
+            const std::size_t y = i / 3 / width;
+            halves[0][i] = halves[1][i] = (x + y) % 2 == 0 ? 0.5F : 1.5F;
+            if (x % 8 == 4 && y % 8 == 4) {
+                halves[x / 8 % 2][i] = lesser;
+                halves[1 - x / 8 % 2][i] = lesser + 1.0F;
+            }
+        }
+        Denoising denoising(halves[0], halves[1]);
+        EXPECT_EQ(denoising.run(), PT_OK);
+        return std::pow(denoising.error.relative_rmse, 2);
+    };
+    EXPECT_NEAR(relative_square(0.0F) / relative_square(0.5F), std::log(1.0 / 0.1), 0.2);
+}
+
 TEST(Denoise, IsUncertainOfFewTiles) {
     Denoising even(0, much_noise);
     ASSERT_EQ(even.run(), PT_OK);

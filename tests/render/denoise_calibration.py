@@ -23,6 +23,7 @@ from pt import _structs as structs, denoise  # noqa: E402
 COUNTS = [4, 16, 64, 256]
 SEEDS = range(100, 108)
 TRUTH_SEEDS, TRUTH_SAMPLES = (9, 10), 1024
+MORE_TRUTH_SAMPLES = {"two-lamps": 32768}  # of which few meet the light that shadows end in
 ALBEDO, NORMAL = 5, 4  # PT_QUANTITY_*
 
 
@@ -42,7 +43,7 @@ def measure(name, scene, size):
                 renderer.accumulate(count - before)
                 yield pixels()
 
-        truths = [next(images(seed, [TRUTH_SAMPLES])).astype(float) for seed in TRUTH_SEEDS]
+        truths = [next(images(seed, [MORE_TRUTH_SAMPLES.get(name, TRUTH_SAMPLES)])).astype(float) for seed in TRUTH_SEEDS]
         weights = 1 / (np.maximum(truths[0] * truths[1], 0) + 0.01)
 
         def square(image):
