@@ -76,23 +76,18 @@ class KilledRender(KeptRender):
         self.assertEqual([self.contents(file) for file in ("a.png", "a.ptfilm")], expected)
         self.assertEqual(self.files(), ["a.png", "a.ptfilm", name])
 
-    def test_signals_leave_what_another_run_goes_on_from(self):
+    def test_a_signal_leaves_what_another_run_goes_on_from(self):
         options = self.options(5000)
         expected = self.whole(*options)
-        for number, code in (signal.SIGINT, 130), (signal.SIGTERM, 143):
-            process = self.start(*options[:-1], "--checkpoint", "c.ptfilm", "--progress", "json")
-            self.assertIn('"fraction"', process.stderr.readline())
-            process.send_signal(number)
-            errors = process.communicate(timeout=PATIENCE)[1]
-            if process.returncode == 0:  # it was ready before
-                os.remove(self.path("c.ptfilm"))
-                continue
-            self.assertEqual(process.returncode, code, errors)
-            self.assertIn("--resume goes on from c.ptfilm", errors)
-            self.assertGreater(self.samples_kept("c.ptfilm"), 0)
-            self.expect(0, *options, "--checkpoint", "c.ptfilm", "--resume")
-            self.assertEqual([self.contents(file) for file in ("a.png", "a.ptfilm")], expected)
-            os.remove(self.path("c.ptfilm"))
+        process = self.start(*options[:-1], "--checkpoint", "c.ptfilm", "--progress", "json")
+        self.assertIn('"fraction"', process.stderr.readline())
+        process.send_signal(signal.SIGTERM)
+        errors = process.communicate(timeout=PATIENCE)[1]
+        self.assertIn(process.returncode, (0, 143), errors)  # 0: it was ready before
+        self.assertEqual("--resume goes on from c.ptfilm" in errors, process.returncode == 143)
+        self.assertGreater(self.samples_kept("c.ptfilm"), 0)
+        self.expect(0, *options, "--checkpoint", "c.ptfilm", "--resume")
+        self.assertEqual([self.contents(file) for file in ("a.png", "a.ptfilm")], expected)
 
     def test_a_target_error_is_reached_at_the_same_sample(self):
         options = [*self.options(100000), "--error", "3%", "--sampling", "uniform"]
@@ -138,22 +133,6 @@ class Surroundings(KeptRender):
         self.expect_picture("--checkpoint", "/sys/c.ptfilm", told="cannot write /sys/c.ptfilm")
         self.expect_picture("--checkpoint", "none/c.ptfilm", told="No such file or directory")
 
-    def test_a_full_disk(self):
-        """A file system of 16 KiB, less than the checkpoint."""
-        os.mkdir(self.path("disk"))
-        script = 'mount -t tmpfs -o size=16k none disk && "$@"; code=$?; ls -A disk >&2; exit $code'
-        probe = subprocess.run(["unshare", "-m", "sh", "-c", script, "sh", "true"], cwd=self.folder,
-                               capture_output=True, check=False)
-        if probe.returncode != 0:
-            self.skipTest("no file system can be mounted here")
-        done = subprocess.run(["unshare", "-m", "sh", "-c", script, "sh", PT, *self.small, "--checkpoint",
-                               "disk/c.ptfilm", "--checkpoint-every", "0.01"], cwd=self.folder, capture_output=True,
-                              text=True, check=False)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(done.stderr, "pt: no checkpoint: cannot write disk/c.ptfilm: No space left on device; "
-                                      "the rendering goes on\n")
-        self.assertEqual([self.contents(name) for name in ("a.png", "a.ptfilm")], self.expected)
-
     def test_a_closed_standard_output(self):
         done = subprocess.run(["sh", "-c", '"$@" >&-', "sh", PT, *self.small[:-1], "--checkpoint", "c.ptfilm"],
                               cwd=self.folder, stderr=subprocess.PIPE, text=True, check=False)
@@ -171,9 +150,6 @@ class Surroundings(KeptRender):
         self.assertEqual(shown.stdout, b",\n")
         self.expect_picture("--checkpoint", "c.ptfilm", told=None, env=environment)
         self.expect_picture("--checkpoint", "c.ptfilm", "--resume", told=None, env=environment)
-
-
-DAMAGES = 25  # of the whole file, packed as it is; FilmBytes and the fuzzer damage its contents by thousands
 
 
 class Resume(CommandLineTest):
@@ -237,40 +213,13 @@ class Resume(CommandLineTest):
                     error="--checkpoint c.ptfilm: is there already; go on from it by --resume, or remove it")
         self.assertEqual(self.contents("c.ptfilm"), self.checkpoint)
 
-    def check(self, damaged, is_cut):
-        """By pt merge, which needs no device; what passes has to be the same film."""
-        self.write("d.ptfilm", damaged)
-        code = self.run_pt("merge", "d.ptfilm", "--film", "same.ptfilm", "-q")
-        self.assertIn(code, (2,) if is_cut else (0, 2), self.errors)
-        if code == 2:
-            self.assertRegex(self.errors, r"^pt: d.ptfilm: .*\npt: nothing was written\n$")
-            self.assertNotIn("same.ptfilm", self.files())
-            return True
-        self.assertEqual(self.contents("same.ptfilm"), self.checkpoint)
-        os.remove(self.path("same.ptfilm"))
-        return False
-
-    def test_cut_short_anywhere(self):
-        places = random.Random(1)
-        for _ in range(DAMAGES):
-            self.check(self.checkpoint[:places.randrange(len(self.checkpoint))], True)
-        self.write("c.ptfilm", self.checkpoint[:100])
-        self.refuse("c.ptfilm: ")
-
-    def test_flipped_bits(self):
-        """In all, a few bits of a zstd frame say nothing about what it holds."""
-        places = random.Random(2)
-        refused = 0
-        for _ in range(DAMAGES):
-            bit = places.randrange(8 * len(self.checkpoint))
-            damaged = bytearray(self.checkpoint)
-            damaged[bit // 8] ^= 1 << bit % 8
-            refused += self.check(bytes(damaged), False)
-        self.assertGreater(refused, DAMAGES * 0.8)
-        damaged = bytearray(self.checkpoint)
-        damaged[len(damaged) // 2] ^= 4
-        self.write("c.ptfilm", damaged)
-        self.refuse("c.ptfilm: ")
+    def test_damaged_ones_are_refused(self):
+        """FilmBytes and the fuzzer damage what is packed in them by thousands."""
+        flipped = bytearray(self.checkpoint)
+        flipped[len(flipped) // 2] ^= 4
+        for damaged in self.checkpoint[:100], self.checkpoint[:-1], flipped:
+            self.write("c.ptfilm", damaged)
+            self.refuse("c.ptfilm: ")
 
 
 if __name__ == "__main__":

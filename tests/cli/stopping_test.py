@@ -110,37 +110,24 @@ class ExitCodes(CommandLineTest):
 
 
 class Previews(CommandLineTest):
-    def render_until_there_is(self, name, *options):
-        process = self.start("render", COURSEWORK, "-o", name, "--spp", "1000000", "--size", "2x2", "--progress", "json",
-                             *options, FAKE_PT_SAMPLE_MS=20)
-        self.assertIn('"fraction"', process.stderr.readline())
-        return process
-
-    def wait_for(self, name, process):
-        while not os.path.exists(self.path(name)):
+    def test_pictures_so_far_are_written_and_it_goes_on(self):
+        """When SIGUSR1 asks for one, or by itself."""
+        for options in (), ("--preview-every", "0.05"):
+            process = self.start("render", COURSEWORK, "-o", "a.png", "--spp", "1000000", "--size", "2x2", "--progress",
+                                 "json", *options, FAKE_PT_SAMPLE_MS=20)
             self.assertIn('"fraction"', process.stderr.readline())
-        self.assertEqual(read_png(self.path(name))[:2], (2, 2))
-
-    def end(self, process):
-        process.send_signal(signal.SIGINT)
-        process.communicate(timeout=PATIENCE)
-        self.assertEqual(process.returncode, 130)
-
-    def test_sigusr1_writes_the_picture_so_far_and_goes_on(self):
-        process = self.render_until_there_is("a.png")
-        for _ in range(2):
-            self.assertEqual(self.files(), [])
-            process.send_signal(signal.SIGUSR1)
-            self.wait_for("a.png", process)
+            for _ in range(2):
+                if not options:
+                    self.assertEqual(self.files(), [])
+                    process.send_signal(signal.SIGUSR1)
+                while not os.path.exists(self.path("a.png")):
+                    self.assertIn('"fraction"', process.stderr.readline())
+                self.assertEqual(read_png(self.path("a.png"))[:2], (2, 2))
+                os.remove(self.path("a.png"))
+            process.send_signal(signal.SIGINT)
+            process.communicate(timeout=PATIENCE)
+            self.assertEqual(process.returncode, 130)
             os.remove(self.path("a.png"))
-        self.end(process)
-
-    def test_by_itself(self):
-        process = self.render_until_there_is("a.png", "--preview-every", "0.05")
-        for _ in range(2):
-            self.wait_for("a.png", process)
-            os.remove(self.path("a.png"))
-        self.end(process)
 
 
 class RealDevice(CommandLineTest):
