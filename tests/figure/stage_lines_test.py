@@ -1,4 +1,4 @@
-"""Coverage, the edges of cells, which balls hide, and outlines; against rays in double precision."""
+"""Coverage, the edges of cells and outlines; against rays in double precision."""
 
 import unittest
 import unittest.mock
@@ -79,7 +79,7 @@ class Lines(unittest.TestCase):
     def setUpClass(cls):
         cls.context = cls.enterClassContext(pt.Context())
 
-    def test_coverage_and_what_is_in_front(self):
+    def test_coverage(self):
         """One or two hits of 16 at a border may round otherwise."""
         for projection in ("perspective", "orthographic"):
             staged = staged_of(projection, SIZE)
@@ -88,14 +88,8 @@ class Lines(unittest.TestCase):
             shown = first_hits(*rays(staged.layout.camera, SIZE), (*cell_edges(CELL), edges.radius[0]))
             self.assertEqual(shapes.max(), 1.0)  # within balls
             self.assertLess(np.abs(shapes - share(shown >= 0)).max(), 2.5 / 16)
-            self.context.set_render(pt.RenderSettings(*(PER_SIDE * side for side in SIZE)))
-            objects = self.context.readback(pt.Quantity.OBJECT, format=pt.Format.R32UI)[:, :, 0].astype(int) - 2
-            objects[(objects < 0) | (objects >= len(CENTERS) + 12)] = -1
-            edge, ball = (share(each) for each in (shown >= len(CENTERS), (shown >= 0) & (shown < len(CENTERS))))
-            self.assertTrue((edge.max() > 0.9) and ((edge > 0) & (ball > 0)).any())  # before balls, and hidden by them
-            self.assertLess((objects != shown).mean(), 0.002)
             wider = first_hits(*rays(staged.layout.camera, SIZE), (*cell_edges(CELL), edges.radius[0] * 1.2))
-            self.assertGreater((objects != wider).mean(), 0.004)
+            self.assertGreater(np.abs(shapes - share(wider >= 0)).max(), 2.5 / 16)
 
     def test_edges_have_their_width_in_pixels(self):
         """Of two slanting edges in a plane across the view, along each row, within 5%, from samples a quarter of a pixel

@@ -13,6 +13,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from contextlib import closing
 from unittest import mock
 
 import numpy as np
@@ -94,8 +95,7 @@ class Views(unittest.TestCase):
         cls.folder = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
         cls.scene = cls.folder / "a scene.json"
         cls.scene.write_text(text_of(SCENE_FILE))
-        cls.view = View(cls.scene, samples=64)
-        cls.addClassCleanup(cls.view.close)
+        cls.view = cls.enterClassContext(closing(View(cls.scene, samples=64)))
         cls.host, cls.token = cls.view.address.split("/")[2:4]
 
     def request(self, path, method="GET", **headers):
@@ -241,45 +241,37 @@ class Views(unittest.TestCase):
             page.frame(lambda state: state["size"] == [24, 16])
 
     def test_stops_and_rests(self):
-        with mock.patch.object(_server, "IDLE_SECONDS", 0.0):
-            view = View(self.scene)
-            try:
-                with Page(view) as page:
-                    page.frame(lambda state: state["samples"] > 1)
-                    page.send({"playing": False})
-                    stopped = page.frame(lambda state: not state["playing"])
-                    view._show._thread.join(0.3)  # time enough for samples that must not be taken
-                    self.assertEqual(view._show._count, stopped["samples"])
-                    page.send({"playing": True})
-                    page.frame(lambda state: state["samples"] > stopped["samples"])
-                    with Page(view) as other:  # a second browser sees the same
-                        self.assertEqual(other.frame(lambda state: state["samples"])["size"], [24, 16])
-                renderer = view._show
-                while renderer._is_watched:  # until the server knows that all have gone
-                    pass
-                renderer._thread.join(0.3)  # what was under way
-                count = renderer._count
-                renderer._thread.join(0.3)
-                self.assertEqual(renderer._count, count)
-            finally:
-                view.close()
+        with mock.patch.object(_server, "IDLE_SECONDS", 0.0), closing(View(self.scene)) as view:
+            renderer = view._show
+            with Page(view) as page:
+                page.frame(lambda state: state["samples"] > 1)
+                page.send({"playing": False})
+                stopped = page.frame(lambda state: not state["playing"])
+                renderer._thread.join(0.3)  # time enough for samples that must not be taken
+                self.assertEqual(renderer._count, stopped["samples"])
+                page.send({"playing": True})
+                page.frame(lambda state: state["samples"] > stopped["samples"])
+                with Page(view) as other:  # a second browser sees the same
+                    self.assertEqual(other.frame(lambda state: state["samples"])["size"], [24, 16])
+            while renderer._is_watched:  # until the server knows that all have gone
+                pass
+            renderer._thread.join(0.3)  # what was under way
+            count = renderer._count
+            renderer._thread.join(0.3)
+            self.assertEqual(renderer._count, count)
 
     def test_a_film(self):
         with pt.Context() as context:
             context.render(SCENE, CAMERA, settings(), 16)
             film = context.film()
         film.save(self.folder / "x.ptfilm")
-        view = View(self.folder / "x.ptfilm")
-        try:
-            with Page(view) as page:
-                self.assertEqual((page.frame()["samples"], page.state.get("camera")), (16, None))
-                np.testing.assert_array_equal(page.pixels, film.readback())
-                page.send({"layer": "standard error"})
-                page.frame()
-                np.testing.assert_array_equal(page.pixels, film.readback(pt.Quantity.STANDARD_ERROR))
-                self.assertEqual(page.get("scene")[0], 404)
-        finally:
-            view.close()
+        with closing(View(self.folder / "x.ptfilm")) as view, Page(view) as page:
+            self.assertEqual((page.frame()["samples"], page.state.get("camera")), (16, None))
+            np.testing.assert_array_equal(page.pixels, film.readback())
+            page.send({"layer": "standard error"})
+            page.frame()
+            np.testing.assert_array_equal(page.pixels, film.readback(pt.Quantity.STANDARD_ERROR))
+            self.assertEqual(page.get("scene")[0], 404)
 
     def test_faults_have_lines(self):
         self.assertEqual(faults_of("pathtrace.comp does not compile:\nERROR: /a/b.glsl:7: 'x' : undeclared"),
@@ -296,13 +288,9 @@ class Edits(unittest.TestCase):
             (folder / "outside.glsl").symlink_to(SHADERS / "film.glsl")
             scene = pathlib.Path(name, "s.json")
             scene.write_text(text_of(SCENE_FILE))
-            view = View(scene, samples=16, shader_dir=folder)
-            try:
-                with Page(view) as page:
-                    self.edit_kernel(page, folder)
-                    self.edit_scene(page, scene)
-            finally:
-                view.close()
+            with closing(View(scene, samples=16, shader_dir=folder)) as view, Page(view) as page:
+                self.edit_kernel(page, folder)
+                self.edit_scene(page, scene)
 
     def edit_kernel(self, page, folder):
         files = page.ask({"list": True})["files"]
