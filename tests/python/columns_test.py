@@ -56,10 +56,6 @@ class Columns(unittest.TestCase):
         np.testing.assert_array_equal(radiance(self.context, scene_of(turned)), capsules)
         with self.assertRaisesRegex(ValueError, "end"):
             pt.SphereArray(POSITIONS, RADII, INDICES, end=ends[1:])
-        for spoilt, message in (({"motion": ends}, r"sphere_arrays\[0\].motion"), ({"material": LAMP}, "emission")):
-            array = pt.SphereArray(POSITIONS, RADII, **{"material": INDICES, **spoilt}, end=ends)
-            with self.assertRaisesRegex(pt.Error, message):
-                radiance(self.context, scene_of(array))
 
     def test_layouts_that_are_read_in_place(self):
         particles = np.zeros(COUNT, [("charge", "i1"), ("position", "f4", 3), ("radius", "f8"), ("kind", "u4")])
