@@ -180,7 +180,13 @@ TEST(FilmBytes, HeadersHaveOneForm) {
         EXPECT_EQ(error.code(), PT_ERROR_INCOMPATIBLE);
         EXPECT_EQ(error.what(), std::string(message)) << header;
     }
-    const Bytes good = sealed(with_planes("pt film 1\nseed 1\ntile 0 0 1 1\nsamples 0 1\n\n"), pixel_bytes);
+    const std::string header = with_planes("pt film 1\nseed 1\ntile 0 0 1 1\nsamples 0 1\n\n");
+    for (const std::size_t wrong : {pixel_bytes - 1, pixel_bytes + 1}) {
+        const Bytes bytes = sealed(header, wrong);
+        const pt::Error error = error_of([&] { const pt::FilmReader film(bytes); });
+        EXPECT_TRUE(names(error, ": truncated, or followed by more")) << error.what();
+    }
+    const Bytes good = sealed(header, pixel_bytes);
     const pt::FilmReader film(good);
     pt::PixelSums sums;
     sums.resize(1);
