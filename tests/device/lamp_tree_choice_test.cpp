@@ -16,23 +16,6 @@
 
 namespace {
 
-TEST(LampTreeChoice, ReportsTheProbabilityThatIsStatedForTheLampBitByBit) {
-    for (const auto &[name, scene] : lamp_scenes::all()) {
-        const pt::GpuScene gpu_scene = lamp_scenes::gpu_scene(scene);
-        TreeProbe probe(gpu_scene);
-        const std::uint32_t lamp_count = gpu_scene.features.lamp_count;
-        for (const TreeVertex &vertex : tree_vertices(gpu_scene)) {
-            const std::vector<TreeDrawn> drawn = probe.draw(vertex, 1U << 14);
-            for (std::size_t i = lamp_count; i < drawn.size(); ++i) {
-                ASSERT_LT(drawn[i].lamp, lamp_count) << name;
-                ASSERT_EQ(std::bit_cast<std::uint32_t>(drawn[i].probability),
-                          std::bit_cast<std::uint32_t>(drawn[drawn[i].lamp].probability))
-                    << name << ", lamp " << drawn[i].lamp;
-            }
-        }
-    }
-}
-
 // Lamps that are expected less than 20 times share a cell, which also tells whether rare ones are as rare as they say.
 struct Frequencies {
     std::vector<double> observed, expected, wrong;
@@ -67,6 +50,21 @@ Frequencies frequencies(const std::vector<TreeDrawn> &drawn, std::uint32_t lamp_
     return cells;
 }
 
+// That each sample has the probability that is stated for its lamp, to the bit, and that no light is said to come from
+// a lamp that cannot be sampled, also where that is so of all.
+void expect_what_is_stated(const std::vector<TreeDrawn> &drawn, const std::vector<double> &weights) {
+    for (std::size_t i = weights.size(); i < drawn.size(); ++i) {
+        const TreeDrawn &sample = drawn[i];
+        ASSERT_LT(sample.lamp, weights.size());
+        ASSERT_EQ(std::bit_cast<std::uint32_t>(sample.probability),
+                  std::bit_cast<std::uint32_t>(drawn[sample.lamp].probability))
+            << "lamp " << sample.lamp;
+        ASSERT_TRUE(std::isfinite(sample.density) && std::isfinite(sample.probability));
+        ASSERT_EQ(sample.density > 0.0F, weights[sample.lamp] > 0.0) << "lamp " << sample.lamp;
+        ASSERT_EQ(sample.distance > 0.0F, sample.density > 0.0F) << "lamp " << sample.lamp;
+    }
+}
+
 // One false alarm in a million, over the 72 chi-squares of this file together, which allows 5.6 deviations. Errors of
 // 10% add 2^16 * 0.1^2 = 655 to a chi-square, whose standard deviation is 45 for 1000 lamps: 15 deviations.
 TEST(LampTreeChoice, FollowsTheStatedProbability) {
@@ -77,26 +75,13 @@ TEST(LampTreeChoice, FollowsTheStatedProbability) {
         const std::uint32_t lamp_count = gpu_scene.features.lamp_count;
         std::uint32_t seed = 100;
         for (const TreeVertex &vertex : tree_vertices(gpu_scene)) {
-            const Frequencies cells = frequencies(probe.draw(vertex, 1U << 16, seed++), lamp_count);
-            EXPECT_LT(statistics::chi_square_deviate(cells.observed, cells.expected), bound) << name << ' ' << seed;
+            SCOPED_TRACE(name);
+            const std::vector<TreeDrawn> drawn = probe.draw(vertex, 1U << 16, seed++);
+            expect_what_is_stated(drawn, lamp_weights(gpu_scene, vertex));
+            const Frequencies cells = frequencies(drawn, lamp_count);
+            EXPECT_LT(statistics::chi_square_deviate(cells.observed, cells.expected), bound) << seed;
             EXPECT_GT(statistics::chi_square_deviate(cells.observed, cells.wrong), bound)
                 << "probabilities wrong by 10% must show";
-        }
-    }
-}
-
-// What it says of a lamp that cannot be sampled is no light, also where that is so of all.
-TEST(LampTreeChoice, TakesLampsThatCannotBeSampledForNone) {
-    for (const auto &[name, scene] : lamp_scenes::all()) {
-        const pt::GpuScene gpu_scene = lamp_scenes::gpu_scene(scene);
-        TreeProbe probe(gpu_scene);
-        for (const TreeVertex &vertex : tree_vertices(gpu_scene)) {
-            const std::vector<double> weights = lamp_weights(gpu_scene, vertex);
-            for (const TreeDrawn &sample : probe.draw(vertex, 256)) {
-                EXPECT_TRUE(std::isfinite(sample.density) && std::isfinite(sample.probability)) << name;
-                EXPECT_EQ(sample.density > 0.0F, weights.at(sample.lamp) > 0.0) << name << ", lamp " << sample.lamp;
-                EXPECT_EQ(sample.distance > 0.0F, sample.density > 0.0F) << name;
-            }
         }
     }
 }

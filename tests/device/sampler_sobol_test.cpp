@@ -1,4 +1,4 @@
-// Sobol points as the device makes them: nets in every pixel, each scrambled on its own. Run alone with
+// How Sobol points are scrambled on the device: another way in every pixel, dimension and seed. Run alone with
 // --gtest_filter=*Sobol*.
 #include "tests/device/sample_numbers.h"
 
@@ -11,76 +11,6 @@
 using namespace sample_numbers;
 
 namespace {
-
-// Whether 2^digits numbers fall one into each interval of that length.
-bool is_net(const std::vector<std::uint32_t> &numbers, std::uint32_t digits) {
-    std::set<std::uint32_t> intervals;
-    for (const std::uint32_t number : numbers)
-        intervals.insert(number >> (24 - digits));
-    return intervals.size() == std::size_t{1} << digits;
-}
-
-// Whether the digits in which a sample and the first one differ are the same in every pixel.
-bool shifts_are_constant(const Blocks &blocks, std::uint32_t pixels, std::uint32_t samples) {
-    for (std::uint32_t pixel = 0; pixel < pixels; ++pixel)
-        for (std::uint32_t sample = 0; sample < samples; ++sample)
-            if ((blocks[pixel * samples + sample] ^ blocks[pixel * samples]) != (blocks[sample] ^ blocks[0]))
-                return false;
-    return true;
-}
-
-TEST(SamplerSobol, ShiftsEachPixelAndDimensionByConstantDigits) {
-    Request request;
-    request.pixel_count = 256;
-    request.sample_count = 64;
-    request.first_sample = 1000;
-    request.block = 1;
-    Blocks blocks = take(PT_SAMPLER_SOBOL, request);
-    EXPECT_TRUE(shifts_are_constant(blocks, request.pixel_count, request.sample_count));
-    blocks[3 * request.sample_count + 7].y ^= 1;
-    EXPECT_FALSE(shifts_are_constant(blocks, request.pixel_count, request.sample_count));
-}
-
-// Scrambling and shift permute the intervals of each length among themselves: what was a net stays one.
-TEST(SamplerSobol, StaysANetInEveryPixelAndDimension) {
-    for (const std::uint32_t digits : {4U, 6U, 8U})
-        for (const std::uint32_t aligned_range : {0U, 5U})
-            for (std::uint32_t block = 0; block < table_blocks; ++block) {
-                Request request;
-                request.pixel_count = 64;
-                request.sample_count = 1U << digits;
-                request.first_sample = aligned_range << digits;
-                request.block = block;
-                const Blocks blocks = take(PT_SAMPLER_SOBOL, request);
-                for (std::uint32_t pixel = 0; pixel < request.pixel_count; ++pixel) {
-                    const auto first = blocks.begin() + (pixel << digits);
-                    const Blocks here(first, first + (1 << digits));
-                    for (int d = 0; d < 4; ++d) {
-                        std::vector<std::uint32_t> numbers = component(here, d);
-                        ASSERT_TRUE(is_net(numbers, digits)) << "pixel " << pixel << " dimension " << 4 * block + d;
-                        numbers[1] = numbers[0];
-                        ASSERT_FALSE(is_net(numbers, digits)) << "two in one interval";
-                    }
-                }
-            }
-}
-
-// In two dimensions too: the first two, scrambled independently, stay a (0,2)-net.
-TEST(SamplerSobol, FirstTwoDimensionsStayANet) {
-    Request request;
-    request.pixel_count = 64;
-    request.sample_count = 256;
-    const Blocks blocks = take(PT_SAMPLER_SOBOL, request);
-    for (std::uint32_t pixel = 0; pixel < request.pixel_count; ++pixel)
-        for (std::uint32_t digits = 0; digits <= 8; ++digits) {
-            std::set<std::uint32_t> boxes;
-            for (std::uint32_t i = 0; i < 256; ++i) {
-                const glm::uvec4 point = blocks[pixel * 256 + i];
-                boxes.insert((point.x >> (24 - digits) << 8) + (point.y >> (16 + digits)));
-            }
-            ASSERT_EQ(boxes.size(), 256U) << "pixel " << pixel << ", " << digits << " digits of x";
-        }
-}
 
 // 64 points of 24 bits: two equal sets by chance are out of the question.
 TEST(SamplerSobol, ScramblesDifferBetweenPixelsDimensionsAndSeeds) {
@@ -121,16 +51,6 @@ std::vector<std::vector<std::uint32_t>> scrambles_of_blocks(int component_index)
         blocks.push_back(std::move(numbers));
     }
     return blocks;
-}
-
-TEST(SobolScrambling, IsIndependentBetweenTheBlocksOfAPath) {
-    for (const int which : {0, 1, 2}) {
-        const auto blocks = scrambles_of_blocks(which);
-        for (std::size_t a = 0; a < blocks.size(); ++a)
-            for (std::size_t b = 0; b < a; ++b)
-                EXPECT_LT(pair_deviate(blocks[a], blocks[b]), bound)
-                    << "component " << which << ", blocks " << a << ", " << b;
-    }
 }
 
 // Chi-square deviate of three numbers of a pixel against uniform ones of the cube.

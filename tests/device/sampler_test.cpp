@@ -146,32 +146,39 @@ TEST(SamplerHalton, OfABranchIsTheRadicalInverseOfASampleOfItsOwn) {
         }
 }
 
-// Whether the difference modulo 1 between a sample and the first one is the same in every pixel: the sum of 32-bit
-// words is exact, but cutting each to 24 bits leaves a difference of 0 or 1 unit, and so 2 units between the
-// extremes.
-bool rotations_are_constant(const Blocks &blocks, std::uint32_t pixels, std::uint32_t samples) {
+// Whether in each pixel the points of the table are all shifted by one number in each dimension: digit by digit, or
+// modulo 1, where cutting the sum to 24 bits leaves a difference of a unit.
+bool is_shifted_in_pixels(const Table &table, const Blocks &blocks, std::uint32_t sampler, const Request &request) {
     constexpr std::uint32_t mask = (1U << 24) - 1;
-    for (std::uint32_t pixel = 0; pixel < pixels; ++pixel)
-        for (std::uint32_t sample = 0; sample < samples; ++sample)
-            for (int d = 0; d < 4; ++d) {
-                const std::uint32_t here = blocks[pixel * samples + sample][d] - blocks[pixel * samples][d];
-                const std::uint32_t there = blocks[sample][d] - blocks[0][d];
-                if (((here - there + 2) & mask) > 4)
-                    return false;
-            }
+    const auto shift_of = [&](std::uint32_t place, int d) {
+        const std::uint32_t row = place % request.sample_count;
+        const std::uint32_t point = table[row * table_blocks + request.block][static_cast<std::size_t>(d)] >> 8;
+        return sampler == PT_SAMPLER_SOBOL ? blocks[place][d] ^ point : (blocks[place][d] - point) & mask;
+    };
+    for (std::uint32_t place = 0; place < request.invocations(); ++place)
+        for (int d = 0; d < 4; ++d) {
+            const std::uint32_t here = shift_of(place, d);
+            const std::uint32_t first = shift_of(place - place % request.sample_count, d);
+            if (sampler == PT_SAMPLER_SOBOL ? here != first : ((here - first + 1) & mask) > 2)
+                return false;
+        }
     return true;
 }
 
-TEST(SamplerHaltonCp, RotatesEachPixelAndDimensionByAConstant) {
+// So what is a net, as Sobol's points are, stays one in every pixel.
+TEST(SamplerShifts, AreOneInEachPixelAndDimension) {
     Request request;
     request.pixel_count = 256;
     request.sample_count = 64;
     request.first_sample = 1000;
-    request.block = 1;
-    Blocks blocks = take(PT_SAMPLER_HALTON_CP, request);
-    EXPECT_TRUE(rotations_are_constant(blocks, request.pixel_count, request.sample_count));
-    blocks[3 * request.sample_count + 7].y ^= 4;
-    EXPECT_FALSE(rotations_are_constant(blocks, request.pixel_count, request.sample_count));
+    for (const std::uint32_t sampler : {PT_SAMPLER_HALTON_CP, PT_SAMPLER_SOBOL})
+        for (request.block = 0; request.block < table_blocks; ++request.block) {
+            const Table table = table_of(sampler, request);
+            Blocks blocks = take(sampler, request);
+            EXPECT_TRUE(is_shifted_in_pixels(table, blocks, sampler, request)) << sampler << ' ' << request.block;
+            blocks[3 * request.sample_count + 7].y ^= 4;
+            EXPECT_FALSE(is_shifted_in_pixels(table, blocks, sampler, request)) << sampler << ' ' << request.block;
+        }
 }
 
 // The chi-squares must be able to fail: Halton's points of one pixel are far more even than random ones are, but

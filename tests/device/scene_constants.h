@@ -8,7 +8,6 @@
 #include <bit>
 #include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
 // Takes over constants; the numbers of the words follow them if they are where the scene is.
@@ -30,9 +29,4 @@ inline void set_scene_for(Probe &probe, std::uint32_t source, std::span<const gl
         probe.set_scene(std::vector<glm::vec4>(words.size(), glm::vec4(-77.0F)));
     else
         probe.set_scene(words);
-}
-
-inline std::string name_of_source(std::uint32_t source) {
-    constexpr const char *names[] = {"Storage", "Uniform", "Constants"};
-    return names[source];
 }
