@@ -151,7 +151,7 @@ constexpr double floor_side = 0.1;
 constexpr double lamp_height = 3.1; // above the floor y = -1
 
 // The mean over a square of that side about (0, 0) on a floor of albedo 0.8 under a lamp of radius 1 and emission 10 at
-// (3, 2.1, 0), as in floor_radiance.h: by two Gauss nodes in each direction, which errs by less than 1e-7 of it.
+// (3, 2.1, 0): by two Gauss nodes in each direction, which errs by less than 1e-7 of it.
 double floor_under_lamp() {
     double sum = 0.0;
     const double node = 0.5 * floor_side / std::sqrt(3.0);

@@ -3,20 +3,17 @@
 // --gtest_filter=Capsule*.
 #include "lib/kernel/prepared_scene.h"
 #include "tests/support/light_in_double.h"
-#include "tests/support/scene_of.h"
 
 #include <pt/film.h>
 #include <pt/stats.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
 #include <numbers>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -64,39 +61,6 @@ glm::dvec3 ray_of(const pt_camera &camera, std::uint32_t pixel) {
     const double size = 2.0 * std::tan(0.5 * camera.vertical_fov) / picture.y;
     return forward + size * ((pixel % picture.x + 0.5 - 0.5 * picture.x) * right -
                              (pixel / picture.x + 0.5 - 0.5 * picture.y) * up);
-}
-
-// Rods and balls about the origin, a lamp above, a floor, from so far away. With many there is a tree.
-Given random_scene(std::uint32_t seed, std::uint32_t rods, std::uint32_t balls, double distance) {
-    std::mt19937 engine(seed);
-    const auto uniform = [&](double low, double high) {
-        return low + (high - low) * std::generate_canonical<double, 53>(engine);
-    };
-    Given given;
-    const double size = 2.0 / std::cbrt(static_cast<double>(rods + balls));
-    const auto place = [&](double(&point)[3]) {
-        const std::array at{uniform(-2, 2), uniform(-1.2, 1.5), uniform(-2, 2)};
-        std::ranges::copy(at, point);
-    };
-    for (std::uint32_t i = 0; i < balls; ++i) {
-        pt_sphere ball{{0, 0, 0}, size * uniform(0.2, 0.6), {0, 0, 0}, i % 2, 0};
-        place(ball.center);
-        if (i % 3 == 0)
-            ball.motion[i % 2] = uniform(-1, 1);
-        given.spheres.push_back(ball);
-    }
-    given.spheres.push_back({{3, 5, uniform(-3, 3)}, 1.5, {0, 0, 0.5}, 2, 0});
-    for (std::uint32_t i = 0; i < rods; ++i) {
-        Given::Capsule rod{{0, 0, 0}, {0, 0, 0}, size * uniform(0.05, 0.4), i % 2};
-        place(rod.center);
-        for (int axis = 0; axis < 3; ++axis)
-            rod.end[axis] = rod.center[axis] + size * uniform(-2, 2);
-        given.capsules.push_back(rod);
-    }
-    given.camera = camera_at({0.28 * distance, 0, 0.96 * distance}, {0, 0, 0}, 2.0 * std::atan(2.0 / distance));
-    given.camera.up[0] = 0.3;
-    given.camera.shutter_close = balls > 0 ? 0.75 : 0.0;
-    return given;
 }
 
 // The camera in a capsule, in which there are a ball and a lamp.
@@ -263,60 +227,6 @@ TEST_F(Capsules, AreMetWhereTheirDistanceIsZero) {
     given.capsules.insert(given.capsules.end(), others.begin(), others.end());
     EXPECT_EQ(wrong_pixels(given, given), 0U);
     EXPECT_TRUE(stats().features & PT_FEATURE_TREE);
-}
-
-// Along one that is 10,000 radii long, what is met is the side of an endless cylinder, to the rounding of the length.
-TEST_F(Capsules, AreCylindersWhereTheirEndsAreFar) {
-    constexpr double radius = 0.1;
-    constexpr double length = 1000.0;
-    for (const bool backwards : {false, true}) {
-        Given given;
-        given.planes.clear();
-        given.camera = camera_at({0, 0.05, 0.15}, {1, 0.05, 0.15}, 0.2);
-        given.capsules.push_back({{-20, 0, 0}, {length - 20, 0, 0}, radius, 0});
-        if (backwards)
-            std::ranges::swap(given.capsules[0].center, given.capsules[0].end);
-        const std::vector<float> depths = first_hits(given, PT_QUANTITY_DEPTH);
-        std::size_t met = 0;
-        for (std::uint32_t i = 0; i < picture.x * picture.y; ++i) {
-            const glm::dvec3 ray = ray_of(given.camera, i);
-            const glm::dvec2 from(0.05, 0.15);
-            const glm::dvec2 slope(ray.y, ray.z);
-            const double half_linear = glm::dot(from, slope);
-            const double square = glm::dot(slope, slope);
-            const double rest = glm::dot(from, from) - radius * radius;
-            const double discriminant = half_linear * half_linear - square * rest;
-            const bool meets = half_linear < 0.0 && discriminant > 0.0;
-            EXPECT_EQ(std::isfinite(depths[3 * i]), meets) << i;
-            if (!meets || !std::isfinite(depths[3 * i]))
-                continue;
-            ++met;
-            EXPECT_NEAR(glm::length(from + static_cast<double>(depths[3 * i]) * slope), radius, 0x1p-21 * length) << i;
-        }
-        EXPECT_GT(met, 50U);
-    }
-}
-
-// Where a lamp of radius R, whose centre is d from the surface of a long capsule, is all above the horizon, the nearest
-// point has the irradiance pi L (R / d)^2, the form factor of a sphere, whatever
-// the curvature is. Over the width of the picture that changes by 1e-5, and the noise of 400,000 samples is less than
-// 5e-4. Negative control: a radius that is larger by 3% brings the surface nearer by 1.5% of d.
-TEST_F(Capsules, AreLitAsTheFormFactorOfALampSays) {
-    const auto brightness = [&](double radius) {
-        Given given;
-        given.planes.clear();
-        given.spheres = {{{0, 0, 3}, 0.5, {0, 0, 0}, 2, 0}};
-        given.capsules = {{{0, -1000, 0}, {0, 1000, 0}, radius, 0}};
-        given.camera = camera_at({2, 1, 4}, {0, 0, radius}, 1e-3);
-        const std::vector<float> radiance = image(given, 1024);
-        double red = 0.0;
-        for (std::size_t i = 0; i < radiance.size(); i += 3)
-            red += radiance[i];
-        return red / (picture.x * picture.y);
-    };
-    const double exact = 0.8 * 3.0 * (0.5 / 2.0) * (0.5 / 2.0);
-    EXPECT_NEAR(brightness(1.0), exact, 1e-3 * exact);
-    EXPECT_GT(brightness(1.03), 1.02 * exact);
 }
 
 // Parallel rays along the axis meet the nearer end alone, and across it a rectangle and two half discs.

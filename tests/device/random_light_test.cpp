@@ -130,6 +130,10 @@ private:
             twin.material = whole(material_count);
             given.spheres.push_back(twin);
         }
+        for (pt_plane twin : std::vector(given.planes)) {
+            twin.material = whole(material_count);
+            given.planes.push_back(twin);
+        }
     }
 
     void set_camera(Given &given, Kind kind) {

@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <random>
 #include <vector>
 
 namespace light_in_double {
@@ -104,6 +105,40 @@ inline pt_camera camera_at(const glm::dvec3 &position, const glm::dvec3 &target,
     camera.up[1] = 1;
     camera.vertical_fov = vertical_fov;
     return camera;
+}
+
+// Rods and balls about the origin, every third ball moving, a lamp above, a floor, from so far away; the view is 4 high
+// at the origin. With many there is a tree.
+inline Given random_scene(std::uint32_t seed, std::uint32_t rods, std::uint32_t balls, double distance) {
+    std::mt19937 engine(seed);
+    const auto uniform = [&](double low, double high) {
+        return low + (high - low) * std::generate_canonical<double, 53>(engine);
+    };
+    Given given;
+    const double size = 2.0 / std::cbrt(static_cast<double>(rods + balls));
+    const auto place = [&](double(&point)[3]) {
+        const std::array at{uniform(-2, 2), uniform(-1.2, 1.5), uniform(-2, 2)};
+        std::ranges::copy(at, point);
+    };
+    for (std::uint32_t i = 0; i < balls; ++i) {
+        pt_sphere ball{{0, 0, 0}, size * uniform(0.2, 0.6), {0, 0, 0}, i % 2, 0};
+        place(ball.center);
+        if (i % 3 == 0)
+            ball.motion[i % 2] = uniform(-1, 1);
+        given.spheres.push_back(ball);
+    }
+    given.spheres.push_back({{3, 5, uniform(-3, 3)}, 1.5, {0, 0, 0.5}, 2, 0});
+    for (std::uint32_t i = 0; i < rods; ++i) {
+        Given::Capsule rod{{0, 0, 0}, {0, 0, 0}, size * uniform(0.05, 0.4), i % 2};
+        place(rod.center);
+        for (int axis = 0; axis < 3; ++axis)
+            rod.end[axis] = rod.center[axis] + size * uniform(-2, 2);
+        given.capsules.push_back(rod);
+    }
+    given.camera = camera_at({0.28 * distance, 0, 0.96 * distance}, {0, 0, 0}, 2.0 * std::atan(2.0 / distance));
+    given.camera.up[0] = 0.3;
+    given.camera.shutter_close = balls > 0 ? 0.75 : 0.0;
+    return given;
 }
 
 using Blocks = std::vector<DoublePathTracer::Estimate>;
