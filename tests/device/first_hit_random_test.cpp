@@ -1,6 +1,6 @@
 // What camera rays meet first in random scenes of 1 to 2,000 spheres, in a tree and in a list, from wherever a camera
-// may be, against long double. PT_TEST_MANY asks for 600 scenes, PT_TEST_FIRST_SCENE for those from one of them on. Run
-// alone with --gtest_filter=RandomFirstHit*.
+// may be, against long double: depth, normal, albedo and object. PT_TEST_MANY asks for 600 scenes,
+// PT_TEST_FIRST_SCENE for those from one of them on. Run alone with --gtest_filter=RandomFirstHit*.
 #include "lib/kernel/gpu_scene.h"
 #include "tests/device/first_hit_scenes.h"
 #include "tests/device/tree_fixture.h"
@@ -14,8 +14,9 @@
 #include <cstdlib>
 #include <limits>
 #include <numbers>
-#include <random>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace random_first_hits {
@@ -33,10 +34,11 @@ struct Shot : Given {
 
 constexpr std::uint32_t columns = 16; // of the crop
 constexpr std::uint32_t rows = 2;
+constexpr std::uint32_t lattice_size = 16; // of the rays of a pixel
 
 struct Pixels {
     std::vector<std::uint32_t> objects;
-    std::vector<float> depths; // three a pixel
+    std::vector<float> depths, normals, albedos; // three a pixel
 
     bool operator==(const Pixels &) const = default;
 };
@@ -46,7 +48,42 @@ struct Counts {
     std::uint32_t pixels = 0;
     std::uint32_t certain = 0;
     std::uint32_t spheres = 0;
+    std::uint32_t means = 0; // pixels whose means float32 can be sure of, of every eighth
 };
+
+glm::dvec3 albedo_of(const Given &given, std::uint32_t object) {
+    if (object == PT_NO_OBJECT)
+        return glm::dvec3(0.0);
+    const std::size_t plane = object - given.spheres.size();
+    const pt_material &material =
+        given.materials[object < given.spheres.size() ? given.spheres[object].material : given.planes[plane].material];
+    glm::dvec3 albedo;
+    for (int i = 0; i < 3; ++i)
+        albedo[i] = std::min(double{material.diffuse[i]} + double{material.specular[i]}, 1.0);
+    return albedo;
+}
+
+// The mean over the rays of a pixel; nothing if one of them is uncertain.
+struct Means {
+    Vector normal{0.0L};
+    Real normal_tolerance = 0.0L;
+    glm::dvec3 albedo{0.0};
+};
+
+std::optional<Means> means_of(const Given &given, const pt_scene &scene, const View &view, std::uint32_t column,
+                              std::uint32_t row) {
+    Means means;
+    for (std::uint32_t i = 0; i < lattice_size; ++i) {
+        const auto place = [&](std::uint32_t factor) { return (factor * i % lattice_size + 0.5L) / lattice_size; };
+        const std::optional<Meeting> met = first_met(scene, view, view.ray(column, row, place(1), place(3), place(5)));
+        if (!met)
+            return std::nullopt;
+        means.normal += met->normal / Real{lattice_size};
+        means.normal_tolerance += met->normal_tolerance / lattice_size;
+        means.albedo += albedo_of(given, met->object) / double{lattice_size};
+    }
+    return means;
+}
 
 class RandomFirstHit : public TreeFixture {
 protected:
@@ -66,11 +103,35 @@ protected:
 
     static Pixels seen_by(pt_context *context, const Shot &given) {
         const pt_scene scene = given.scene();
-        Pixels pixels{std::vector<std::uint32_t>(columns * rows), std::vector<float>(3 * columns * rows)};
+        Pixels pixels{std::vector<std::uint32_t>(columns * rows), {}, {}, {}};
         set_picture(context, scene, given.camera, given.render);
         read(context, given, PT_QUANTITY_OBJECT, PT_FORMAT_R32UI, pixels.objects.data(), 4 * pixels.objects.size());
-        read(context, given, PT_QUANTITY_DEPTH, PT_FORMAT_RGB32F, pixels.depths.data(), 4 * pixels.depths.size());
+        for (const auto &[quantity, values] : {std::pair{PT_QUANTITY_DEPTH, &pixels.depths},
+                                               {PT_QUANTITY_NORMAL, &pixels.normals},
+                                               {PT_QUANTITY_ALBEDO, &pixels.albedos}}) {
+            values->resize(3 * columns * rows);
+            read(context, given, quantity, PT_FORMAT_RGB32F, values->data(), 4 * values->size());
+        }
         return pixels;
+    }
+
+    // Normal and albedo; false if they are uncertain.
+    static bool judge_means(const Pixels &pixels, std::uint32_t pixel, const Shot &given, const pt_scene &scene,
+                            const View &view) {
+        const std::optional<Means> means = means_of(given, scene, view, given.first_column + pixel % columns,
+                                                    given.render.first_row + pixel / columns);
+        if (!means)
+            return false;
+        // Sums of 16 numbers of at most 1; albedos are products with pi and a share of it, and have been divided by
+        // those: a dozen roundings.
+        const double of_sum = 16.0 * static_cast<double>(rounding);
+        for (int i = 0; i < 3; ++i) {
+            const std::size_t place = 3 * pixel + static_cast<std::size_t>(i);
+            EXPECT_NEAR(pixels.normals[place], static_cast<double>(means->normal[i]),
+                        static_cast<double>(means->normal_tolerance) + of_sum);
+            EXPECT_NEAR(pixels.albedos[place], means->albedo[i], 2.0 * of_sum);
+        }
+        return true;
     }
 
     static Counts judge(pt_context *context, bool has_tree, const Shot &given) {
@@ -86,6 +147,8 @@ protected:
         for (std::uint32_t pixel = 0; pixel < columns * rows; ++pixel) {
             const std::uint32_t column = given.first_column + pixel % columns;
             const std::uint32_t row = given.render.first_row + pixel / columns;
+            SCOPED_TRACE(std::to_string(column) + ", " + std::to_string(row));
+            counts.means += pixel % 8 == 0 && judge_means(pixels, pixel, given, scene, view) ? 1 : 0;
             const Ray ray = view.ray(column, row, 0.5L, 0.5L, 0.5L);
             const std::optional<Meeting> met = first_met(scene, view, ray);
             ++counts.pixels;
@@ -93,13 +156,16 @@ protected:
                 continue;
             ++counts.certain;
             counts.spheres += met->object < given.spheres.size() ? 1 : 0;
-            EXPECT_EQ(pixels.objects[pixel], met->object) << column << ", " << row;
+            EXPECT_EQ(pixels.objects[pixel], met->object);
+            EXPECT_EQ(pixels.depths[3 * pixel + 1], pixels.depths[3 * pixel]);
+            EXPECT_EQ(pixels.depths[3 * pixel + 2], pixels.depths[3 * pixel]);
             const Real depth = met->distance * glm::dot(ray.direction, view.forward);
+            // The cosine to the axis, and the product, are off by 8 roundings.
             const Real tolerance = met->tolerance + 8.0L * rounding * met->distance;
-            if (met->object != PT_NO_OBJECT) {
-                EXPECT_NEAR(pixels.depths[3 * pixel], static_cast<double>(depth), static_cast<double>(tolerance))
-                    << column << ", " << row;
-            }
+            if (met->object == PT_NO_OBJECT)
+                EXPECT_EQ(pixels.depths[3 * pixel], std::numeric_limits<float>::infinity());
+            else
+                EXPECT_NEAR(pixels.depths[3 * pixel], static_cast<double>(depth), static_cast<double>(tolerance));
             if (testing::Test::HasFailure())
                 break;
         }
@@ -114,7 +180,12 @@ public:
         Shot given;
         given.name = scenes_.kind() + ", " + std::to_string(scene.spheres.size()) + " spheres";
         for (const pt::Material &material : scene.materials)
-            given.materials.push_back({{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {material.emission.r, 0, 0}, 0, 0});
+            given.materials.push_back({{material.diffuse.r, material.diffuse.g, material.diffuse.b},
+                                       {material.specular.r, material.specular.g, material.specular.b},
+                                       {material.emission.r, 0, 0},
+                                       0,
+                                       0});
+        given.materials[1].specular[0] = 0.5F; // in red more than 1 with the diffuse
         if (chance(0.3))
             given.materials[2].flags = PT_MATERIAL_HIDDEN_FROM_CAMERA;
         given.spheres = caller_spheres(scene.spheres);
@@ -186,11 +257,13 @@ TEST_F(RandomFirstHit, IsThatOfLongDouble) {
             counts[has_tree].pixels += found.pixels;
             counts[has_tree].certain += found.certain;
             counts[has_tree].spheres += found.spheres;
+            counts[has_tree].means += found.means;
         }
     }
     for (const Counts &of : counts) {
         EXPECT_GT(of.certain, of.pixels * 8 / 10);
         EXPECT_GT(of.spheres, of.pixels / 3);
+        EXPECT_GT(of.means, of.pixels / 16);
     }
 }
 

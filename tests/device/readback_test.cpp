@@ -56,7 +56,8 @@ protected:
 
 TEST_F(ReadbackTest, RectanglesAndFormatsArePartsOfTheImage) {
     on_each_path([](pt_context *context) {
-        for (const std::uint32_t quantity : {PT_QUANTITY_RADIANCE, PT_QUANTITY_STANDARD_ERROR}) {
+        for (const std::uint32_t quantity :
+             {PT_QUANTITY_RADIANCE, PT_QUANTITY_STANDARD_ERROR, PT_QUANTITY_DEPTH, PT_QUANTITY_ALBEDO}) {
             const std::vector<float> all = whole(context, quantity);
             ASSERT_GT(*std::ranges::max_element(all), 0.0F);
             for (const std::uint32_t format : {PT_FORMAT_RGB32F, PT_FORMAT_RGBA32F, PT_FORMAT_RGBA16F})
