@@ -3,7 +3,6 @@
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
-#include "tests/support/image_target.h"
 #include "tests/support/shared_context.h"
 
 #include <pt/async.h>
@@ -84,6 +83,9 @@ TEST_F(AdaptiveTest, EachTileHasTheBitsOfAnEvenFilm) {
         const Values counts = values(uneven.get(), PT_QUANTITY_SAMPLE_COUNT);
         const Values radiance = values(uneven.get());
         const Values error = values(uneven.get(), PT_QUANTITY_STANDARD_ERROR);
+        for (uint32_t y = 0; y < uneven_height; ++y) // in whole squares
+            for (uint32_t x = 0; x < uneven_width; ++x)
+                EXPECT_EQ(counts[3 * (y * uneven_width + x)], counts[3 * (y / 8 * 8 * uneven_width + x / 8 * 8)]);
         std::map<uint32_t, std::size_t> pixels; // by number of samples
         for (std::size_t i = 0; i < counts.size(); i += 3)
             ++pixels[static_cast<uint32_t>(counts[i])];
@@ -108,15 +110,6 @@ TEST_F(AdaptiveTest, EachTileHasTheBitsOfAnEvenFilm) {
         EXPECT_DOUBLE_EQ(stats.mean_sample_count, total / (uneven_width * uneven_height));
         EXPECT_LE(error_of(uneven.get()).relative_rmse_high, uneven_target);
     }
-}
-
-TEST_F(AdaptiveTest, TilesLieInWholeSquares) {
-    begin(context());
-    ASSERT_EQ(take(context(), no_limit, uneven_target), PT_TARGET_REACHED);
-    const Values counts = values(context(), PT_QUANTITY_SAMPLE_COUNT);
-    for (uint32_t y = 0; y < uneven_height; ++y)
-        for (uint32_t x = 0; x < uneven_width; ++x)
-            EXPECT_EQ(counts[3 * (y * uneven_width + x)], counts[3 * (y / 8 * 8 * uneven_width + x / 8 * 8)]);
 }
 
 // It takes fewer samples than an even film with the same target.
@@ -168,32 +161,6 @@ TEST_F(AdaptiveTest, SplitsAndResumesChangeNoBit) {
             }
             ASSERT_EQ(film_of(on), expected) << "split " << split;
         }
-    }
-}
-
-// Nor calls that may take no sample, at whatever number of samples: 16 and 32 are levels of the rule, at which tiles
-// could be told apart, but on GPUs are not yet.
-TEST_F(AdaptiveTest, CallsForNoSamplesChangeNoBit) {
-    for (const bool like_gpus : {false, true}) {
-        const Context context = context_on(1, 50, like_gpus);
-        const Bytes expected = film_on_target(context.get());
-        begin(context.get());
-        for (const uint32_t samples : {0U, 16U, 16U, 32U}) {
-            ASSERT_EQ(take(context.get(), samples, uneven_target), PT_OK);
-            ASSERT_EQ(take(context.get(), 0, uneven_target), PT_OK);
-        }
-        ASSERT_EQ(take(context.get(), no_limit, uneven_target), PT_TARGET_REACHED);
-        EXPECT_EQ(film_of(context.get()), expected) << like_gpus;
-    }
-}
-
-TEST_F(AdaptiveTest, SeveralDevicesGiveTheBytesOfOne) {
-    for (const bool like_gpus : {false, true}) {
-        const Context alone = context_on(1, 50, like_gpus);
-        const Bytes expected = film_on_target(alone.get());
-        const Context shared = context_on(3, 1, like_gpus);
-        EXPECT_EQ(film_on_target(shared.get()), expected);
-        EXPECT_EQ(error_of(shared.get()).relative_rmse_high, error_of(alone.get()).relative_rmse_high);
     }
 }
 

@@ -210,14 +210,6 @@ TEST_F(Coverage, OfPartsIsPartOfTheWhole) {
               std::vector<float>(std::size_t{3} * picture_width * picture_height));
 }
 
-TEST_F(Coverage, NeedsSamples) {
-    set(context(), some(5, 0.0), picture());
-    std::vector<float> values(std::size_t{3} * picture_width * picture_height);
-    const pt_image target = image_target(values, PT_QUANTITY_COVERAGE);
-    EXPECT_EQ(pt_readback(context(), &target), PT_ERROR_INVALID_STATE);
-    EXPECT_STREQ(pt_last_error(context()), "no samples yet: call pt_accumulate or pt_add_film first");
-}
-
 } // namespace
 
 } // namespace coverage

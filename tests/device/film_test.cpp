@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cfenv>
 #include <cmath>
 #include <limits>
@@ -198,33 +197,6 @@ pt::PixelSums one_pixel(const Part &older, const Part &newer) {
     set(older, pt::older_part);
     set(newer, pt::newer_part);
     return sums;
-}
-
-// With the unit 0.25.
-pt::PixelEstimates estimates(const Part &older, const Part &newer) {
-    return one_pixel(older, newer).estimates(0.25, true);
-}
-
-TEST(Film, MeanIsOverAcceptedSamplesInRadianceUnits) {
-    const std::vector<float> mean = estimates({5, 1, 1}, {4, 2, 0}).radiance;
-    EXPECT_EQ(mean, (std::vector<float>{0.75F, 0.0F, 0.0F}));
-    EXPECT_EQ(estimates({0, 0, 2}, {0, 0, 2}).radiance, std::vector<float>(3, 0.0F));
-}
-
-// Means of 8 and 4 units differ by one radiance unit, of which equal parts count a half.
-TEST(Film, StandardErrorIsFromTheDifferenceOfTheParts) {
-    EXPECT_EQ(estimates({80, 10, 0}, {40, 10, 0}).standard_error, (std::vector<float>{0.5F, 0.0F, 0.0F}));
-    // Of 2 and 8 samples: sqrt(2 * 8) / 10. Rejected samples do not count.
-    EXPECT_EQ(estimates({16, 2, 3}, {32, 8, 0}).standard_error[0], 0.4F);
-}
-
-TEST(Film, StandardErrorIsUnknownWithAnEmptyPartAndWithFewSamples) {
-    const std::vector<float> unknown(3, std::numeric_limits<float>::infinity());
-    EXPECT_EQ(estimates({8, 9, 0}, {0, 0, 0}).standard_error, unknown);
-    EXPECT_EQ(estimates({0, 0, 1}, {8, 8, 0}).standard_error, unknown);
-    EXPECT_EQ(estimates({0, 0, 9}, {0, 0, 1}).standard_error, unknown);
-    EXPECT_EQ(estimates({8, 7, 0}, {8, 1, 0}).standard_error, unknown);
-    EXPECT_NE(estimates({8, 7, 0}, {8, 2, 0}).standard_error, unknown);
 }
 
 TEST(Film, LostSamplesAreAnError) {

@@ -7,9 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include <bit>
-#include <cmath>
-#include <cstdint>
 #include <numbers>
 #include <vector>
 
@@ -61,19 +58,6 @@ TEST(GpuLayout, WhatTheSceneDoesNotUseIsNotInTheBuffer) {
     EXPECT_FALSE(gpu_scene.features.gloss);
     EXPECT_FALSE(gpu_scene.features.motion);
     EXPECT_EQ(gpu_scene.words.size(), 9U);
-}
-
-// Positions are exact multiples of 2^-20 here, so that moving scene and camera together by 2^30 is exact in double: the
-// kernel must get the same words. A float32 subtraction would be off by up to 64.
-TEST(GpuLayout, PositionsAreRelativeToTheCameraBeforeTheyAreRounded) {
-    const glm::dvec3 shift{0x1p30, -0x1p30, 0x1p29};
-    pt::Scene scene = small_scene();
-    const pt::Camera camera = camera_at({0, 0, 1});
-    const auto expected = gpu_scene_of(scene, camera).words;
-    for (pt::Sphere &sphere : scene.spheres)
-        sphere.center += shift;
-    scene.planes[0].offset -= glm::dot(scene.planes[0].normal, shift);
-    EXPECT_EQ(gpu_scene_of(scene, camera_at(camera.position + shift)).words, expected);
 }
 
 // A floor sphere, as seen from 2 above it, becomes a plane with a curvature, ahead of the flat ones; so does a lamp

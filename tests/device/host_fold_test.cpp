@@ -14,14 +14,14 @@
 
 namespace {
 
-constexpr std::uint32_t width = 16;
-constexpr std::uint32_t height = 12;
+constexpr std::uint32_t fold_width = 16;
+constexpr std::uint32_t fold_height = 12;
 
 // Film with random words, but for the rare ones, which are 0.
 pt::PixelSums random_sums() {
     std::mt19937 random(5);
     pt::PixelSums sums;
-    sums.resize(std::size_t{width} * height);
+    sums.resize(std::size_t{fold_width} * fold_height);
     for (std::uint32_t part = 0; part < pt::gpu::FILM_PARTS; ++part)
         for (std::size_t plane = 0; plane < pt::gpu::FILM_WORDS; ++plane) {
             const bool is_rare = plane == 3 || plane == 7 || plane == 11 || plane == pt::gpu::FILM_REJECTED;
@@ -36,7 +36,7 @@ class HostFold : public VulkanFixture {
 protected:
     void SetUp() override {
         VulkanFixture::SetUp();
-        film_.emplace(device(), width, height, 70U);
+        film_.emplace(device(), fold_width, fold_height, 70U);
         if (!film_->is_host_memory())
             GTEST_SKIP() << "the film is in the device's own memory";
         ASSERT_GT(film_->strips().size(), 1U);

@@ -5,16 +5,15 @@
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
-#include "tests/support/image_target.h"
 #include "tests/support/render_image.h"
 #include "tests/support/shared_context.h"
+
+#include <pt/async.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <cstring>
 
 namespace {
 

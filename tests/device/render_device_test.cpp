@@ -7,11 +7,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
-#include <vector>
 
 namespace {
 
@@ -52,26 +50,6 @@ protected:
 };
 
 constexpr std::array<std::uint32_t, 6> all_tiles = {0, 1, 2, 3, 4, 5}; // the last ones in part
-
-// Over samples that move the split of the film's parts, up or down, and samples that do not: at once, tile by tile, and
-// in a list of tiles that are not side by side.
-TEST_F(RenderDeviceTest, TilesTakeTheirSamplesInAnyOrder) {
-    pt::RenderDevice at_once = ready_device(60.0);
-    pt::RenderDevice by_tile = ready_device(60.0);
-    set_up(at_once);
-    set_up(by_tile);
-    pt::SampleRange before;
-    pt::PixelSums last = sums(at_once);
-    for (const pt::SampleRange samples : {pt::SampleRange{100, 116}, {116, 120}, {120, 128}, {40, 60}, {128, 140}}) {
-        take(at_once, all_tiles, before, samples);
-        for (const auto &tiles : {std::vector<std::uint32_t>{1, 4}, {0}, {2, 3, 5}})
-            take(by_tile, tiles, before, samples);
-        EXPECT_TRUE(sums(by_tile) == sums(at_once)) << pt::text_of(samples);
-        EXPECT_FALSE(sums(at_once) == last) << "they must show";
-        last = sums(at_once);
-        before = pt::hull_of(before, samples);
-    }
-}
 
 // The sums of what the film's tiles say, in their order: another film has others.
 std::array<double, 6> sums_of_tiles(const std::function<void(const pt::ErrorReader::Receive &)> &read) {

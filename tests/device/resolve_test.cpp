@@ -19,8 +19,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <limits>
-#include <random>
-#include <string>
 #include <tuple>
 #include <vector>
 
@@ -124,31 +122,6 @@ TEST_F(Resolve, BitsAreThoseOfTheExactQuotient) {
                 ASSERT_TRUE(is_close(errors.device[i], exact)) << errors.device[i] << ", not " << exact;
                 ASSERT_EQ(std::bit_cast<std::uint32_t>(errors.device[i]), std::bit_cast<std::uint32_t>(errors.host[i]));
             }
-        }
-    }
-}
-
-// A rectangle of the image, across strips and pieces, has the values that the whole image has there.
-TEST_F(Resolve, RectanglesArePartsOfTheImage) {
-    device_with(pt::vulkan::gpu_like_policy());
-    RandomSums random;
-    constexpr std::uint32_t wide = 1201;
-    constexpr std::uint32_t high = 700; // several pieces
-    pt::DeviceFilm film(device(), wide, high, 99'991);
-    const std::vector<ResolvedPixel> pixels = random_pixels(random, wide * high);
-    film.write(film_of(pixels));
-    const auto read_part = [&](const pt::Rectangle &rectangle) {
-        return floats(read(film, {rectangle, PT_QUANTITY_RADIANCE, 1.0, parts_of_100}));
-    };
-    const std::vector<float> all = read_part({0, 0, wide, high});
-    ASSERT_EQ(all.size(), 3 * pixels.size());
-    for (const pt::Rectangle &part : {pt::Rectangle{0, 0, 1, 1}, pt::Rectangle{1200, 699, 1, 1},
-                                      pt::Rectangle{100, 20, 1000, 600}, pt::Rectangle{7, 300, 3, 400}}) {
-        const std::vector<float> values = read_part(part);
-        ASSERT_EQ(values.size(), 3 * part.pixel_count());
-        for (std::size_t i = 0; i < values.size(); ++i) {
-            const std::size_t pixel = (part.y + i / 3 / part.width) * wide + part.x + i / 3 % part.width;
-            ASSERT_EQ(values[i], all[3 * pixel + i % 3]) << i;
         }
     }
 }

@@ -7,7 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <vector>
 
 namespace {
@@ -129,24 +128,6 @@ TEST_F(SharingTest, RowsAreThoseOfTheWholeImage) {
     EXPECT_NE(image_of(context(), 7), Image(whole.begin(), whole.begin() + std::ptrdiff_t{shared_width} * 7 * 3));
 }
 
-// On the host, and on a device with what several have taken.
-TEST_F(SharingTest, ATargetIsReachedAtTheSameCountByAnyNumberOfDevices) {
-    for (const bool like_gpus : {false, true}) {
-        std::uint32_t sample_counts[2];
-        pt_error_estimate errors[2];
-        for (const uint32_t devices : {1U, 2U}) {
-            const Context shared = context_on(devices, 5, like_gpus);
-            set_up(shared.get());
-            const pt_accumulate_info info{sizeof info, 4096, nullptr, nullptr, 0.2, 0, 0, nullptr, 0, 0};
-            ASSERT_EQ(pt_accumulate(shared.get(), &info), PT_TARGET_REACHED) << pt_last_error(shared.get());
-            sample_counts[devices - 1] = stats_of(shared.get()).sample_count;
-            errors[devices - 1] = error_of(shared.get());
-        }
-        EXPECT_EQ(sample_counts[0], sample_counts[1]);
-        EXPECT_EQ(errors[0].relative_rmse_high, errors[1].relative_rmse_high);
-    }
-}
-
 // So large that films meet in two bands of rows; and a rectangle in both.
 TEST_F(SharingTest, LargeFilmsMeetInBands) {
     constexpr uint32_t width = 1060;
@@ -179,27 +160,6 @@ TEST_F(SharingTest, LargeFilmsMeetInBands) {
     EXPECT_NE(parts[0], Image(parts[0].size()));
     EXPECT_EQ(errors[0].relative_rmse, errors[1].relative_rmse);
     EXPECT_EQ(errors[0].rmse_high, errors[1].rmse_high);
-}
-
-// Images and errors that kernels make of the film are those that the host makes.
-TEST_F(SharingTest, GpusReadTheImageOfTheHost) {
-    const Context by_host = context_on(1, 50);
-    const Context by_device = context_on(1, 50, true);
-    for (pt_context *const on : {by_host.get(), by_device.get()}) {
-        set_up(on);
-        ASSERT_EQ(accumulate_on(on, 3), PT_OK);
-        ASSERT_EQ(accumulate_on(on, 42), PT_OK);
-    }
-    EXPECT_EQ(image_of(by_device.get()), image_of(by_host.get()));
-    EXPECT_EQ(image_of(by_device.get(), shared_height, PT_QUANTITY_STANDARD_ERROR),
-              image_of(by_host.get(), shared_height, PT_QUANTITY_STANDARD_ERROR));
-    const pt_error_estimate found = error_of(by_device.get());
-    const pt_error_estimate expected = error_of(by_host.get());
-    EXPECT_NEAR(found.relative_rmse_high / expected.relative_rmse_high, 1.0, 1e-5);
-    EXPECT_EQ(found.uncertain, expected.uncertain);
-    set_up(by_device.get(), 5, 1);
-    ASSERT_EQ(accumulate_on(by_device.get(), 45), PT_OK);
-    EXPECT_NE(image_of(by_device.get(), 1), Image(std::size_t{shared_width} * 3)) << "cleared, then rendered";
 }
 
 } // namespace

@@ -121,33 +121,23 @@ Compared compare_with_capsules(const pt::Scene &scene, const pt::Camera &camera)
     return compare(pt::PreparedScene({scene.materials, {spheres, arrays}, scene.planes}, 1), camera);
 }
 
+// Of spheres, and of capsules.
 TEST(Tree, WalksFindWhatTestingEverySphereFinds) {
-    TreeScenes scenes(1);
-    std::size_t caught = 0;
-    for (std::size_t i = 0; i < scene_count(); ++i) {
-        const pt::Scene scene = scenes.next(most_spheres());
-        const pt::Camera camera = scenes.camera(scene);
-        SCOPED_TRACE("scene " + std::to_string(i) + ": " + scenes.kind() + ", " + std::to_string(scene.spheres.size()));
-        const Compared compared = compare(scene, camera);
-        EXPECT_TRUE(compared.same);
-        caught += compared.shrunk_same ? 0 : 1;
+    for (const bool with_capsules : {false, true}) {
+        TreeScenes scenes(with_capsules ? 2 : 1);
+        const std::size_t most = with_capsules && scene_count() <= 100 ? 100 : most_spheres();
+        std::size_t caught = 0;
+        for (std::size_t i = 0; i < scene_count(); ++i) {
+            const pt::Scene scene = scenes.next(most);
+            const pt::Camera camera = scenes.camera(scene);
+            SCOPED_TRACE("scene " + std::to_string(i) + ": " + scenes.kind() + ", " +
+                         std::to_string(scene.spheres.size()) + (with_capsules ? ", capsules" : ""));
+            const Compared compared = with_capsules ? compare_with_capsules(scene, camera) : compare(scene, camera);
+            EXPECT_TRUE(compared.same);
+            caught += compared.shrunk_same ? 0 : 1;
+        }
+        EXPECT_GT(caught, scene_count() / 4) << "boxes that are too small are not noticed";
     }
-    EXPECT_GT(caught, scene_count() / 4) << "boxes that are too small are not noticed";
-}
-
-TEST(Tree, WalksFindCapsulesThatTestingEveryOneFinds) {
-    TreeScenes scenes(2);
-    const std::size_t count = scene_count();
-    std::size_t caught = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        const pt::Scene scene = scenes.next(scene_count() > 100 ? 2000 : 100);
-        const pt::Camera camera = scenes.camera(scene);
-        SCOPED_TRACE("scene " + std::to_string(i) + ": " + scenes.kind() + ", " + std::to_string(scene.spheres.size()));
-        const Compared compared = compare_with_capsules(scene, camera);
-        EXPECT_TRUE(compared.same);
-        caught += compared.shrunk_same ? 0 : 1;
-    }
-    EXPECT_GT(caught, count / 4) << "boxes that are too small are not noticed";
 }
 
 // A heap of balls that overlap, with a lamp, at the end of a floor.

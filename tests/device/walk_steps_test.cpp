@@ -17,10 +17,7 @@ double mean_of(const std::vector<float> &values) {
 }
 
 pt::PreparedScene all_in_a_tree(const pt::Scene &scene) {
-    std::vector<pt_sphere> spheres;
-    for (const pt::Sphere &s : scene.spheres)
-        spheres.push_back(
-            {{s.center.x, s.center.y, s.center.z}, s.radius, {s.motion.x, s.motion.y, s.motion.z}, s.material, 0});
+    const std::vector<pt_sphere> spheres = caller_spheres(scene.spheres);
     return {{scene.materials, {spheres, {}}, scene.planes}, 1};
 }
 
