@@ -21,7 +21,7 @@ TEST_F(ApiTest, AccuracyNeedsNoScene) {
     uint32_t count = more_than_all;
     ASSERT_EQ(pt_get_accuracy(context(), rows.data(), &count), PT_OK) << message();
     ASSERT_EQ(count, function_count(context()));
-    ASSERT_GE(count, 8U);
+    ASSERT_EQ(count, pt::elementary_functions().size());
     for (uint32_t i = 0; i < count; ++i) {
         EXPECT_NE(rows[i].name[0], '\0');
         EXPECT_NE(std::memchr(rows[i].name, '\0', sizeof rows[i].name), nullptr);
@@ -29,13 +29,6 @@ TEST_F(ApiTest, AccuracyNeedsNoScene) {
         EXPECT_LE(rows[i].worst_error, rows[i].bound) << rows[i].name;
         EXPECT_STREQ(rows[i].name, pt::elementary_functions()[i].name) << "a name too long is cut";
     }
-}
-
-// Without the rows nothing is evaluated: nothing is submitted, and *count may be anything before.
-TEST_F(ApiTest, AccuracyCountsItsRows) {
-    uint32_t count = 0xffffffffU;
-    ASSERT_EQ(pt_get_accuracy(context(), nullptr, &count), PT_OK) << message();
-    EXPECT_EQ(count, pt::elementary_functions().size());
 }
 
 TEST_F(ApiTest, AccuracyWritesAtMostCountRows) {
@@ -53,14 +46,6 @@ TEST_F(ApiTest, AccuracyWritesAtMostCountRows) {
             EXPECT_STREQ(rows[count - 1].name, pt::elementary_functions()[count - 1].name);
         }
     }
-}
-
-TEST_F(ApiTest, AccuracyIsTheSameEachTime) {
-    std::vector<pt_function_accuracy> first(function_count(context())), second(first.size());
-    auto count = static_cast<uint32_t>(first.size());
-    ASSERT_EQ(pt_get_accuracy(context(), first.data(), &count), PT_OK) << message();
-    ASSERT_EQ(pt_get_accuracy(context(), second.data(), &count), PT_OK) << message();
-    EXPECT_EQ(std::memcmp(first.data(), second.data(), first.size() * sizeof(pt_function_accuracy)), 0);
 }
 
 // In the middle of a render: its image goes on as if nothing had been, and statistics and memory are as before.

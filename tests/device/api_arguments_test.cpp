@@ -8,26 +8,12 @@
 
 #include <cstdlib>
 #include <cstring>
-#include <thread>
 
 namespace api {
 
 namespace {
 
 // ---- No context -----------------------------------------------------------------------------------------------------
-
-TEST(Api, HasTheVersionOfTheHeader) {
-    EXPECT_EQ(pt_version(), PT_VERSION);
-}
-
-TEST(Api, NamesResults) {
-    EXPECT_STREQ(pt_result_name(PT_ERROR_NO_DEVICE), "PT_ERROR_NO_DEVICE");
-    EXPECT_STREQ(pt_result_name(1000), "unknown result");
-}
-
-TEST(Api, DestroyAllowsNull) {
-    pt_destroy(nullptr);
-}
 
 TEST(Api, GetDevicesNeedsCount) {
     EXPECT_EQ(pt_get_devices(nullptr, nullptr), PT_ERROR_INVALID_ARGUMENT);
@@ -105,16 +91,6 @@ TEST(Api, CreateTellsWhyNoDeviceFits) {
     const std::string outcome = create_outcome(&info);
     EXPECT_EQ(outcome.rfind("PT_ERROR_NO_DEVICE: ", 0), 0U) << outcome;
     EXPECT_NE(outcome.find(info.device), std::string::npos) << outcome;
-}
-
-TEST(Api, MessagesWithoutContextBelongToTheirThread) {
-    ASSERT_EQ(pt_create(nullptr, nullptr), PT_ERROR_INVALID_ARGUMENT);
-    std::thread([] {
-        EXPECT_STREQ(pt_last_error(nullptr), "");
-        EXPECT_EQ(pt_get_devices(nullptr, nullptr), PT_ERROR_INVALID_ARGUMENT);
-        EXPECT_STREQ(pt_last_error(nullptr), "count = NULL: must not be NULL");
-    }).join();
-    EXPECT_STREQ(pt_last_error(nullptr), "context = NULL: must not be NULL");
 }
 
 TEST(Api, EveryFunctionRefusesANullContext) {

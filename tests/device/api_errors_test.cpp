@@ -201,7 +201,10 @@ TEST_F(ErrorsTest, BelongToWhoMayLookAtThem) {
 TEST(Errors, WithoutAContextBelongToTheirThread) {
     EXPECT_EQ(pt_create(nullptr, nullptr), PT_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(all_text_of(nullptr), pt_last_error(nullptr));
-    std::thread([] { EXPECT_EQ(pt_get_broken_rule(nullptr, 0, nullptr), 0U); }).join();
+    std::thread([] {
+        EXPECT_EQ(pt_get_broken_rule(nullptr, 0, nullptr), 0U);
+        EXPECT_STREQ(pt_last_error(nullptr), "");
+    }).join();
     pt_create_info info{};
     info.struct_size = sizeof info;
     info.device = "999";

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstring>
 #include <map>
 #include <string>
 #include <vector>
@@ -85,21 +84,7 @@ protected:
 
 constexpr const char *built = "built a kernel for";
 
-TEST_F(KeptKernelsApiTest, PrepareNeedsAllSettings) {
-    expect_failure(pt_prepare(context()), PT_ERROR_INVALID_STATE, "no scene: call pt_set_scene first");
-    const pt_scene scene = valid_scene();
-    ASSERT_EQ(pt_set_scene(context(), &scene), PT_OK);
-    expect_failure(pt_prepare(context()), PT_ERROR_INVALID_STATE, "no camera: call pt_set_camera first");
-    const pt_camera camera = valid_camera();
-    ASSERT_EQ(pt_set_camera(context(), &camera), PT_OK);
-    expect_failure(pt_prepare(context()), PT_ERROR_INVALID_STATE, "no render settings: call pt_set_render first");
-    const pt_render render = valid_render();
-    ASSERT_EQ(pt_set_render(context(), &render), PT_OK);
-    EXPECT_EQ(pt_prepare(context()), PT_OK);
-    EXPECT_EQ(stats().sample_count, 0U);
-}
-
-TEST_F(KeptKernelsApiTest, AfterPrepareNothingIsBuilt) {
+TEST_F(KeptKernelsApiTest, AfterPrepareNothingIsBuiltAndSamplesStay) {
     Keeper keeper;
     const Context prepared = keeping(keeper);
     ASSERT_NO_FATAL_FAILURE(set_coursework(prepared.get()));
@@ -107,20 +92,13 @@ TEST_F(KeptKernelsApiTest, AfterPrepareNothingIsBuilt) {
     EXPECT_EQ(keeper.heard(built), 1U);
     const std::vector<float> image = rendered(prepared.get(), 5);
     EXPECT_EQ(keeper.heard(built), 1U);
+    ASSERT_EQ(pt_prepare(prepared.get()), PT_OK) << pt_last_error(prepared.get());
+    EXPECT_EQ(stats_of(prepared.get()).sample_count, 5U);
+    const std::vector<float> whole = rendered(prepared.get(), 4);
 
     ASSERT_NO_FATAL_FAILURE(set_coursework(context()));
     EXPECT_EQ(rendered(context(), 5), image);
-}
-
-TEST_F(KeptKernelsApiTest, PrepareLeavesTheSamplesAlone) {
-    ASSERT_NO_FATAL_FAILURE(set_coursework(context()));
-    const std::vector<float> image = rendered(context(), 5);
-    ASSERT_EQ(pt_prepare(context()), PT_OK) << message();
-    EXPECT_EQ(stats().sample_count, 5U);
-    EXPECT_EQ(this->image(), image);
-    const std::vector<float> whole = rendered(context(), 4);
-    ASSERT_NO_FATAL_FAILURE(set_coursework(context()));
-    EXPECT_EQ(rendered(context(), 9), whole);
+    EXPECT_EQ(rendered(context(), 4), whole);
 }
 
 TEST_F(KeptKernelsApiTest, KernelsOfScenesCanBeDeclined) {
@@ -137,31 +115,6 @@ TEST_F(KeptKernelsApiTest, KernelsOfScenesCanBeDeclined) {
     EXPECT_EQ(keeper.heard("built a kernel for all scenes of this kind"), 1U);
     ASSERT_NO_FATAL_FAILURE(set_coursework(context()));
     EXPECT_EQ(rendered(context(), 5), image) << "the same bits";
-}
-
-TEST_F(KeptKernelsApiTest, ThereAndBackBuildsEachKernelOnce) {
-    Keeper keeper;
-    const Context viewer = keeping(keeper);
-    ASSERT_NO_FATAL_FAILURE(set_coursework(viewer.get()));
-    rendered(viewer.get(), 1);
-    pt_camera moved = CourseworkScene::camera();
-    moved.position[0] += 0.01;
-    const pt_camera home = CourseworkScene::camera();
-    const CourseworkScene coursework;
-    std::vector<pt_sphere> fewer(coursework.scene().spheres, coursework.scene().spheres + 3);
-    const pt_scene all = coursework.scene();
-    pt_scene three = all;
-    three.sphere_count = 3;
-    three.spheres = fewer.data();
-    for (int i = 0; i < 3; ++i)
-        for (const pt_scene &scene : {three, all})
-            for (const pt_camera &camera : {moved, home}) {
-                ASSERT_EQ(pt_set_scene(viewer.get(), &scene), PT_OK);
-                ASSERT_EQ(pt_set_camera(viewer.get(), &camera), PT_OK);
-                rendered(viewer.get(), 1);
-            }
-    EXPECT_LE(keeper.heard(built), 3U) << "one for each number of spheres, and one for the first scene alone";
-    EXPECT_LE(keeper.heard("built a kernel for this scene alone"), 1U);
 }
 
 TEST_F(KeptKernelsApiTest, AreKeptUnderOneKeyAndGivenBack) {

@@ -12,7 +12,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstring>
 #include <functional>
 #include <mutex>
@@ -102,24 +101,6 @@ protected:
         EXPECT_EQ(event.getStatus(), vk::Result::eEventSet);
     }
 };
-
-// A submission that had ended long before somebody looked is taken to be as long as was expected, no longer than a
-// submission should be: else programs that poll now and then would get shorter and shorter ones.
-TEST_F(OwnVulkanTest, WhatEndsBetweenPollsIsNotTakenForSlow) {
-    const Context borrowing = context_on(caller().handles());
-    pt_context *const context = borrowing.get();
-    set_coursework(context, render_of(8, 8, 3));
-    const pt_accumulate_info one{sizeof one, 1, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
-    ASSERT_EQ(pt_start(context, &one), PT_PENDING) << "what is started is left to a poll";
-    caller().device().waitIdle();
-    std::this_thread::sleep_for(std::chrono::milliseconds{60});
-    double fraction = 0.0;
-    ASSERT_EQ(pt_poll(context, 0, &fraction), PT_OK) << pt_last_error(context);
-    EXPECT_EQ(fraction, 1.0);
-    const pt_stats stats = stats_of(context);
-    EXPECT_EQ(stats.submit_count, 1U);
-    EXPECT_LE(stats.device_seconds, 0.05);
-}
 
 TEST_F(OwnVulkanTest, GivesTheBitsOfADeviceOfItsOwn) {
     const Context borrowing = context_on(caller().handles());

@@ -76,21 +76,6 @@ TEST_F(TracePipelinesTest, TheFirstSceneGetsAKernelOfItsOwnAndOthersWhenItPays) 
         << "only the first scene of all does not wait";
 }
 
-// Each stop of half a second more than the last: none of them gets a kernel that the next movement would leave.
-TEST_F(TracePipelinesTest, ACameraThatMovesAndStopsBuildsTwoKernels) {
-    use(true);
-    const ComputePipeline *own = trace(ball, 0.0);
-    const ComputePipeline *any = trace(other_ball, 0.0);
-    EXPECT_NE(any, own);
-    for (int stop = 0; stop < 20; ++stop) {
-        const Words seen = {{0, 0, -10 - stop, 1}, {1, 1, 1, 1}, {0, 0, 0, 0}};
-        for (const double seconds : {0.0, 0.5, 1.0, 1.5, 1.9})
-            EXPECT_EQ(trace(seen, seconds), any) << "stop " << stop << ", " << seconds << " s";
-    }
-    EXPECT_NE(trace(ball, 2.1), any) << "its own is kept";
-    EXPECT_NE(trace(other_ball, 2.1), any) << "a long stop";
-}
-
 TEST_F(TracePipelinesTest, WhoPreparesKernelsGetsTheFastest) {
     use(true);
     const ComputePipeline *own = trace(ball, 0.0);

@@ -1,4 +1,5 @@
-// Work that is submitted to a device: waiting for it, and what is left if it fails.
+// Work that is submitted to a device: waiting for it, and what is left if it fails; and that the validation layer is
+// heard.
 #include "lib/vulkan/buffer.h"
 #include "lib/vulkan/device.h"
 #include "tests/device/vulkan_fixture.h"
@@ -12,11 +13,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <new>
+#include <string>
 
 namespace {
 
@@ -94,6 +97,33 @@ TEST_F(VulkanTest, ASubmissionMayEndUnseen) {
     EXPECT_LT(seconds_of(1e9, false), 1e6);
     EXPECT_GT(seconds_of(0.0, true), 0.0);
     EXPECT_GT(seconds_of(1e-12, true), 1e-12);
+}
+
+TEST_F(VulkanTest, GpusAreWaitedForInBoundedTime) {
+    pt_device_info info{};
+    for (const std::uint32_t gpu :
+         {PT_DEVICE_DISCRETE_GPU, PT_DEVICE_INTEGRATED_GPU, PT_DEVICE_VIRTUAL_GPU, PT_DEVICE_OTHER}) {
+        info.kind = gpu;
+        EXPECT_EQ(pt::vulkan::default_policy(info).patience, std::chrono::seconds{10});
+        EXPECT_FALSE(pt::vulkan::default_policy(info).scene_in_constants);
+    }
+    info.kind = PT_DEVICE_CPU;
+    EXPECT_EQ(pt::vulkan::default_policy(info).patience, std::chrono::nanoseconds::max());
+    EXPECT_TRUE(pt::vulkan::default_policy(info).scene_in_constants);
+}
+
+// The negative control of every test here.
+TEST_F(VulkanTest, TheLayersMessagesReachTheLog) {
+    if (!validation())
+        GTEST_SKIP() << "the layer is off";
+    EXPECT_TRUE(messages_.empty());
+    const vk::BufferCreateInfo empty{.size = 0, .usage = vk::BufferUsageFlagBits::eStorageBuffer};
+    { const vk::raii::Buffer mistake(device().handle(), empty); }
+    const auto reported = [](const std::string &line) {
+        return line.find("VUID-VkBufferCreateInfo-size-00912") != std::string::npos;
+    };
+    EXPECT_TRUE(std::ranges::any_of(messages_, reported));
+    messages_.clear();
 }
 
 } // namespace
