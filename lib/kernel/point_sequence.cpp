@@ -125,13 +125,34 @@ constexpr std::array<Matrix, sequence_dimensions> sobol_matrices = [] {
 // The direction numbers that a bit of the index adds in all dimensions: a point of the table is made of rows of this,
 // many dimensions at a time, which takes a tenth of the time of one coordinate after the other.
 using Row = std::array<std::uint32_t, sequence_dimensions>;
-constexpr std::array<Row, 32> sobol_rows = [] {
-    std::array<Row, 32> rows{};
+using Rows = std::array<Row, 32>;
+
+// order: which dimension of the sequence is dealt first, second and so on.
+constexpr Rows sobol_rows(const std::array<std::uint32_t, sequence_dimensions> &order) {
+    Rows rows{};
     for (std::uint32_t bit = 0; bit < 32; ++bit)
-        for (std::uint32_t dimension = 0; dimension < sequence_dimensions; ++dimension)
-            rows[bit][dimension] = sobol_matrices[dimension][bit];
+        for (std::uint32_t i = 0; i < sequence_dimensions; ++i)
+            rows[bit][i] = sobol_matrices[order[i]][bit];
     return rows;
+}
+
+constexpr std::array<std::uint32_t, sequence_dimensions> in_turn = [] {
+    std::array<std::uint32_t, sequence_dimensions> order{};
+    std::iota(order.begin(), order.end(), 0U);
+    return order;
 }();
+
+// The third number of a sample in motion is the time, with which the fifth dimension goes better than the third: over
+// twelve scenes and 16 to 256 samples the square of the error is 0.94 times as large, with direct light 0.8 to 1.0
+// times.
+constexpr std::array<std::uint32_t, sequence_dimensions> in_motion = [] {
+    std::array<std::uint32_t, sequence_dimensions> order = in_turn;
+    std::rotate(order.begin() + 2, order.begin() + 4, order.begin() + 5);
+    return order;
+}();
+
+constexpr Rows rows_in_turn = sobol_rows(in_turn);
+constexpr Rows rows_in_motion = sobol_rows(in_motion);
 
 constexpr std::uint32_t reversed_bits(std::uint32_t x) {
     x = (x >> 16) | (x << 16);
@@ -193,6 +214,10 @@ std::uint32_t owen_scrambled(std::uint32_t coordinate, std::uint32_t seed) {
     return reversed_bits(v);
 }
 
+bool PointLayout::has_time() const {
+    return block_dimensions.front() == gpu::camera_dimensions(1);
+}
+
 std::uint32_t PointLayout::shared_dimensions() const {
     return std::accumulate(block_dimensions.begin(), block_dimensions.begin() + shared_blocks, 0U);
 }
@@ -219,10 +244,11 @@ std::vector<std::uint32_t> scrambling_seeds(std::uint64_t seed, std::uint64_t re
 // Writes points of one sequence.
 class PointWriter {
 public:
-    PointWriter(std::uint32_t sampler, std::uint64_t seed, std::uint32_t dimensions) :
+    PointWriter(std::uint32_t sampler, std::uint64_t seed, const PointLayout &layout) :
         sobol_(sampler == PT_SAMPLER_SOBOL),
+        rows_(layout.has_time() ? rows_in_motion : rows_in_turn),
         seed_(seed),
-        point_(dimensions) {}
+        point_(layout.dimensions()) {}
 
     // The coordinates of the point with an index in the dimensions [first, end).
     std::span<const std::uint32_t> coordinates(std::uint64_t index, std::uint32_t first, std::uint32_t end) {
@@ -238,10 +264,10 @@ public:
     }
 
 private:
-    static void write_sobol(std::uint32_t index, std::uint32_t first, std::span<std::uint32_t> coordinates) {
+    void write_sobol(std::uint32_t index, std::uint32_t first, std::span<std::uint32_t> coordinates) const {
         std::ranges::fill(coordinates, 0U);
         for (std::uint32_t rest = index; rest != 0; rest &= rest - 1) { // the bits of the index that are set
-            const std::uint32_t *row = &sobol_rows[static_cast<std::uint32_t>(std::countr_zero(rest))][first];
+            const std::uint32_t *row = &rows_[static_cast<std::uint32_t>(std::countr_zero(rest))][first];
             for (std::size_t i = 0; i < coordinates.size(); ++i)
                 coordinates[i] ^= row[i];
         }
@@ -257,6 +283,7 @@ private:
     }
 
     bool sobol_;
+    const Rows &rows_;
     std::uint64_t seed_;
     std::uint64_t repetition_ = 0;
     std::vector<std::uint32_t> seeds_;
@@ -269,7 +296,7 @@ std::vector<PointBlock> point_table(std::uint32_t sampler, std::uint64_t seed, s
                                     const PointLayout &layout) {
     std::vector<PointBlock> table;
     table.reserve(indices.size() * layout.row_blocks());
-    PointWriter writer(sampler, seed, layout.dimensions());
+    PointWriter writer(sampler, seed, layout);
     const std::span<const std::uint32_t> block_dimensions = layout.block_dimensions;
     const auto add_blocks = [&](std::span<const std::uint32_t> coordinates, std::span<const std::uint32_t> blocks) {
         for (const std::uint32_t count : blocks) {

@@ -34,6 +34,9 @@ struct PointLayout {
     std::uint32_t block_count() const { return static_cast<std::uint32_t>(block_dimensions.size()); }
     std::uint32_t row_blocks() const { return gpu::row_blocks(block_count(), shared_blocks, branches); }
 
+    // Whether the first block has a time beside the place in the pixel.
+    bool has_time() const;
+
     // The dimensions of the shared blocks, and of all blocks.
     std::uint32_t shared_dimensions() const;
     std::uint32_t dimensions() const;

@@ -17,12 +17,12 @@
 namespace pt {
 
 struct Features {
-    std::uint32_t sphere_count; // spheres held by centre and radius
-    std::uint32_t plane_count;  // planes, and spheres held as planes with a curvature (curved_plane.h)
-    std::uint32_t lamp_count;   // emitting ones of sphere_count, and of the tree, that can be sampled
-    std::uint32_t sky_count;    // emitting ones of sphere_count that hold the camera, and so all paths
-    HiddenCounts hidden;        // surfaces that the camera does not see
-    bool many_spheres;          // so many that paths branch less
+    std::uint32_t sphere_count;  // spheres held by centre and radius
+    std::uint32_t plane_count;   // planes, and spheres held as planes with a curvature (curved_plane.h)
+    std::uint32_t lamp_count;    // emitting ones of sphere_count, and of the tree, that can be sampled
+    std::uint32_t sky_count;     // emitting ones of sphere_count that hold the camera, and so all paths
+    HiddenCounts hidden;         // surfaces that the camera does not see
+    std::uint32_t most_branches; // of a path at its first vertex, by the number of spheres
     std::uint32_t max_path_length;
     std::uint32_t estimator;
     std::uint32_t sampler;
@@ -70,11 +70,11 @@ std::vector<std::uint32_t> camera_blocks(const Features &features);
 
 // Branches in which a path leaves its first vertex. Where light comes over several vertices, so does most of the noise,
 // and the camera ray, its vertex and the lamps seen from it serve all branches. (Measured on the coursework scene with
-// six vertices, 4 branches against 1: a fourth to a fifth of the error in 2.9 times the time.) Where there are many
-// spheres, a pixel sees several of them, so that more of the noise comes from the camera ray, and rays that branches
-// share are less of the work: there are 2 branches; so there are where rays by way of spots find most of what comes
-// over three vertices, and paths have no more. Where scene and path are so long that a sample is a long job by itself,
-// they do not branch: some drivers stop a kernel after 65535 loop trips.
+// six vertices, 4 branches against 1: a fourth to a fifth of the error in 2.9 times the time.) The more spheres there
+// are, the more of them a pixel sees, so that more of the noise comes from the camera ray, and the less of the work is
+// rays that branches share: then there are 2 branches or 1. There are 2 where rays by way of spots find most of what
+// comes over three vertices, and paths have no more. Where scene and path are so long that a sample is a long job by
+// itself, they do not branch: some drivers stop a kernel after 65535 loop trips.
 std::uint32_t branch_count(const Features &features);
 
 // What the point table holds for each sample: the dimensions that its paths consume, as far as the sequences have them;

@@ -15,7 +15,7 @@ namespace pt {
 
 // To be raised whenever a change affects the bits of any sample, in the kernel or in what the host prepares for it, or
 // which samples a target error takes.
-inline constexpr std::uint32_t estimator_version = 6;
+inline constexpr std::uint32_t estimator_version = 7;
 
 // What changes no bit is not part of a film's identity: rows, ranges, submissions, the number of equal devices, and
 // whether kernels have the numbers of the scene as constants (trace_pipelines.h).

@@ -254,6 +254,17 @@ TEST(PointTable, RowsAreThePoints) {
     }
 }
 
+// A permutation, so that no two numbers of a sample share a dimension.
+TEST(PointTable, TimeIsTheFifthDimensionOfSobol) {
+    const pt::PointLayout layout{{3, 2, 2, 2}, 2, 1};
+    const std::vector<Coordinates> dimensions =
+        dimensions_of(pt::point_table(PT_SAMPLER_SOBOL, table_seed, some_indices, layout), layout);
+    const std::uint32_t order[] = {0, 1, 4, 2, 3, 5, 6, 7, 8};
+    for (std::size_t i = 0; i < std::size(order); ++i)
+        for (std::uint32_t d = 0; d < std::size(order); ++d)
+            EXPECT_EQ(is_scrambled_sobol(dimensions[i], some_indices, d), d == order[i]) << i << ", " << d;
+}
+
 TEST(PointTable, BlocksAreZeroBeyondTheirDimensions) {
     const pt::PointLayout layout = all_dimensions();
     const Table table = pt::point_table(PT_SAMPLER_SOBOL, table_seed, some_indices, layout);
