@@ -145,9 +145,7 @@ TEST_F(Opacity, LeavesNoBitToChance) {
     std::ranges::reverse(reversed.capsules);
     EXPECT_EQ(image(reversed, 16), whole);
 
-    expect_the_same_bits_of_splits(given);
-    const Given large = scaled(given, 0x1p20);
-    EXPECT_EQ(image(large, 16), whole);
+    expect_the_same_bits_of_splits_and_scale(given);
 }
 
 TEST_F(Opacity, IsRefusedWithTheReason) {

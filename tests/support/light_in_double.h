@@ -213,8 +213,9 @@ protected:
         return render_image(context(), given.scene(), given.camera, picture_of(PT_SAMPLER_SOBOL), samples);
     }
 
-    // Short submissions, and two devices, cut the samples otherwise.
-    void expect_the_same_bits_of_splits(const Given &given) {
+    // Short submissions, and two devices, cut the samples otherwise; and the unit of length does not matter. Negative
+    // control: a sample fewer.
+    void expect_the_same_bits_of_splits_and_scale(const Given &given) {
         const Context hurried = create_context([](pt_create_info &info) { info.submit_milliseconds = 1; });
         const Context shared = create_context(
             [](pt_create_info &) {}, [](const auto *info, auto **made) { return create_shared(2, *info, made, true); });
@@ -223,6 +224,8 @@ protected:
         const pt_render render = picture_of(PT_SAMPLER_SOBOL);
         for (pt_context *const other : {hurried.get(), shared.get()})
             EXPECT_EQ(render_image(other, given.scene(), given.camera, render, 16), whole);
+        EXPECT_EQ(image(scaled(given, 0x1p20), 16), whole);
+        EXPECT_NE(image(given, 15), whole);
     }
 
 private:
