@@ -2,29 +2,16 @@
 #include "cli/base/exit_code.h"
 #include "cli/base/text.h"
 #include "cli/program.h"
+#include "lib/platform/terminal.h"
 
-#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
-#include <fcntl.h>
 #include <iostream>
 #include <new>
 #include <string>
-#include <unistd.h>
 
 namespace {
-
-// Keeps the numbers of closed standard streams from being given to other files, into which output would then be
-// written. Call it before any file is opened. A closed stream still fails with EBADF afterwards.
-void occupy_closed_streams() {
-    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
-        if (fcntl(stream, F_GETFD) == -1 && errno == EBADF) {
-            // open() takes the lowest free number. That is this stream's, since those below it are in use.
-            static_cast<void>(open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY));
-        }
-    }
-}
 
 int fail(cli::ExitCode code, const std::string &message) {
     cli::print_message(message);
@@ -39,7 +26,7 @@ int main(int argument_count, char **arguments) {
         std::fputs("pt: out of memory, or an internal error\n", stderr);
         std::_Exit(static_cast<int>(cli::ExitCode::internal));
     });
-    occupy_closed_streams();
+    platform::prepare_streams();
     int code = 0;
     try {
         code = cli::run_program(argument_count, arguments);

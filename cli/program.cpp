@@ -5,48 +5,29 @@
 #include "cli/base/exit_code.h"
 #include "cli/base/text.h"
 #include "cli/commands.h"
+#include "lib/platform/process.h"
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <sstream>
+#include <optional>
 #include <string>
 #include <string_view>
-#include <unistd.h>
 #include <vector>
 
 namespace cli {
 
 namespace {
 
-// The path of a program in the first absolute folder of PATH that has it; empty if there is none. Empty and relative
-// entries are skipped, so that nothing in the current folder is run.
-std::string find_program(const std::string &file) {
-    const char *variable = std::getenv("PATH");
-    std::istringstream folders(variable == nullptr ? "" : variable);
-    for (std::string folder; std::getline(folders, folder, ':');) {
-        const std::filesystem::path path = std::filesystem::path(folder) / file;
-        std::error_code ignored;
-        if (path.is_absolute() && std::filesystem::is_regular_file(path, ignored) && access(path.c_str(), X_OK) == 0)
-            return path;
-    }
-    return {};
-}
-
-// Replaces this process by `pt-NAME`. arguments begins with NAME and ends with a null pointer. Returns only if there is
-// no such program.
-void run_other_program(std::string_view name, char *const *arguments) {
-    std::string program = find_program("pt-" + std::string(name));
+// Has `pt-NAME` take this program's place and returns its exit code. Returns nothing if there is no such program.
+std::optional<int> run_other_program(std::string_view name, char *const *arguments) {
+    const std::filesystem::path program = platform::find_program("pt-" + std::string(name));
     if (program.empty())
-        return;
-    std::vector<char *> passed{program.data()};
-    do
-        passed.push_back(*++arguments);
-    while (passed.back() != nullptr);
-    execv(program.c_str(), passed.data());
-    throw Failure(ExitCode::file, program + ": cannot be run: " + std::strerror(errno));
+        return std::nullopt;
+    const int code = platform::run_instead(program, arguments);
+    refuse_if(code < 0, program.string() + ": cannot be run: " + std::strerror(errno), ExitCode::file);
+    return code;
 }
 
 // Whether a word may follow `pt-` in the name of a program: files and paths may not.
@@ -84,7 +65,8 @@ int run_program(int argument_count, char **arguments) {
     const std::string name = argument_count > 1 ? arguments[1] : "";
     const std::vector<std::string> own = command_names(program);
     if (may_name_program(name) && std::ranges::find(own, name) == own.end()) {
-        run_other_program(name, arguments + 1);
+        if (const std::optional<int> code = run_other_program(name, arguments))
+            return *code;
         if (const std::string_view package = package_of(name); !package.empty())
             throw Failure(ExitCode::usage, concat("there is no pt-", name,
                                                   " in the PATH, which comes with the Python package: "

@@ -1,5 +1,7 @@
 #include "cli/base/environment.h"
 
+#include "lib/platform/process.h"
+
 #include <cstdlib>
 #include <system_error>
 
@@ -17,17 +19,9 @@ bool has_avx512() {
 
 } // namespace
 
-// As the XDG Base Directory Specification says, which ignores relative paths.
 std::filesystem::path user_cache() {
-    const auto folder = [](const char *name) {
-        const char *variable = std::getenv(name);
-        const std::filesystem::path path = variable == nullptr ? "" : variable;
-        return path.is_absolute() ? path : std::filesystem::path();
-    };
-    if (const std::filesystem::path path = folder("XDG_CACHE_HOME"); !path.empty())
-        return path / "pt";
-    const std::filesystem::path home = folder("HOME");
-    return home.empty() ? home : home / ".cache" / "pt";
+    const std::filesystem::path folder = platform::cache_folder();
+    return folder.empty() ? folder : folder / "pt";
 }
 
 // Gives vectors of 512 bits a folder of compiled shaders of their own. Mesa's key of a shader does not tell the width
@@ -38,16 +32,16 @@ void widen_vectors() {
     constexpr const char *cache_name = "MESA_SHADER_CACHE_DIR";
     if (std::getenv(width_name) != nullptr)
         return;
-    setenv(width_name, "512", 1);
+    platform::set_environment(width_name, "512");
     const char *chosen = std::getenv(cache_name);
     const std::filesystem::path cache = chosen == nullptr || *chosen == '\0' ? user_cache() : chosen;
     std::error_code error;
     if (!cache.empty())
         std::filesystem::create_directories(cache / "shaders-512", error); // Mesa makes the last folder of a path only
     if (cache.empty() || error)
-        setenv("MESA_SHADER_CACHE_DISABLE", "true", 1); // every start compiles anew
+        platform::set_environment("MESA_SHADER_CACHE_DISABLE", "true"); // every start compiles anew
     else
-        setenv(cache_name, (cache / "shaders-512").c_str(), 1);
+        platform::set_environment(cache_name, (cache / "shaders-512").string().c_str());
 }
 
 void choose_vector_width() {

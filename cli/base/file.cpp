@@ -2,14 +2,12 @@
 
 #include "cli/base/exit_code.h"
 #include "cli/base/text.h"
+#include "lib/platform/process.h"
 
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
-#include <fcntl.h>
 #include <iostream>
-#include <sys/file.h>
-#include <sys/stat.h>
 #include <system_error>
 
 namespace cli {
@@ -22,17 +20,6 @@ bool is_temporary_name(const std::string &name) {
     return end > 0 && static_cast<std::size_t>(end) == name.size();
 }
 
-// The kernel's rule for protected symbolic links (proc_sys_fs(5)), which it cannot apply here because it does not
-// follow them: where everybody may put links that nobody else can remove, only those of the user and of the folder's
-// owner count. Another user's cannot be put in their place between this and the reading of the link.
-bool may_follow(const std::filesystem::path &link, const struct stat &of_link) {
-    constexpr mode_t open_to_all = S_ISVTX | S_IWOTH;
-    struct stat folder {};
-    return stat(link.has_parent_path() ? link.parent_path().c_str() : ".", &folder) == 0 &&
-           ((folder.st_mode & open_to_all) != open_to_all || of_link.st_uid == geteuid() ||
-            of_link.st_uid == folder.st_uid);
-}
-
 namespace fs = std::filesystem;
 
 fs::path folder_of(const fs::path &path) {
@@ -41,11 +28,10 @@ fs::path folder_of(const fs::path &path) {
 
 // Where the path leads; empty if there is no such file. A terminal may be read and written at the same time.
 fs::path target_of(const NamedFile &file, bool is_input) {
-    struct stat status {};
     if (file.path != standard_stream)
         return file.path;
     if (is_input)
-        return fstat(STDIN_FILENO, &status) == 0 && S_ISREG(status.st_mode) ? "/dev/stdin" : "";
+        return platform::regular_size(platform::standard_input) ? "/dev/stdin" : "";
     return "/dev/stdout"; // whatever it leads to: two reports on one stream would be mixed up
 }
 
@@ -56,8 +42,8 @@ bool is_same(const fs::path &one, const fs::path &other) {
         return !one.empty() && one == other;
     if (fs::exists(one, error) || fs::exists(other, error))
         return fs::equivalent(one, other, error);
-    const fs::path first = AtomicFile::target_of(one);
-    const fs::path second = AtomicFile::target_of(other);
+    const fs::path first = AtomicFile::target_of(one.string());
+    const fs::path second = AtomicFile::target_of(other.string());
     return first.filename() == second.filename() && fs::equivalent(folder_of(first), folder_of(second), error);
 }
 
@@ -73,10 +59,10 @@ std::string read_all(int descriptor, const std::string &name, std::size_t size) 
     for (;;) {
         const std::size_t used = text.size();
         text.resize(used + block);
-        const ssize_t count = read(descriptor, text.data() + used, block);
-        if (count < 0 && errno != EINTR)
+        const std::ptrdiff_t count = platform::read_some(descriptor, std::span(text).subspan(used));
+        if (count < 0)
             fail(name);
-        text.resize(used + static_cast<std::size_t>(count < 0 ? 0 : count));
+        text.resize(used + static_cast<std::size_t>(count));
         if (count == 0)
             return text;
     }
@@ -86,14 +72,7 @@ std::string read_all(int descriptor, const std::string &name, std::size_t size) 
 
 // Short on purpose: a target's own name may already be as long as the file system allows.
 std::string temporary_name(int attempt) {
-    return ".pt-" + std::to_string(getpid()) + "-" + std::to_string(attempt) + ".tmp";
-}
-
-bool lock_temporary(int descriptor) {
-    while (flock(descriptor, LOCK_EX) != 0 && errno == EINTR) {
-    }
-    struct stat status {};
-    return fstat(descriptor, &status) != 0 || status.st_nlink > 0;
+    return ".pt-" + std::to_string(platform::process_number()) + "-" + std::to_string(attempt) + ".tmp";
 }
 
 void remove_abandoned(const std::filesystem::path &folder) {
@@ -102,32 +81,31 @@ void remove_abandoned(const std::filesystem::path &folder) {
     if (error)
         return;
     for (auto file = begin(files); file != end(files) && !error; file.increment(error)) {
-        if (!is_temporary_name(file->path().filename().native()))
-            continue;
-        const FileDescriptor descriptor(open(file->path().c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
-        if (descriptor.is_open() && flock(descriptor.get(), LOCK_EX | LOCK_NB) == 0)
-            unlink(file->path().c_str());
+        if (is_temporary_name(file->path().filename().string()))
+            platform::remove_abandoned(file->path());
     }
 }
 
 AtomicFile::AtomicFile(const std::string &path) : path_(path), target_(target_of(path)), file_(create_temporary()) {}
 
 AtomicFile::~AtomicFile() {
-    if (file_.is_open())
-        unlink(temporary_.c_str());
+    if (!file_.is_open())
+        return;
+    std::error_code ignored;
+    file_.close(); // before which not every system removes it
+    fs::remove(temporary_, ignored);
 }
 
 std::filesystem::path AtomicFile::target_of(const std::string &path) {
     constexpr int most_links = 40; // Linux follows no more (path_resolution(7))
     std::filesystem::path target = path;
-    struct stat status {};
-    for (int i = 0; i < most_links && lstat(target.c_str(), &status) == 0 && S_ISLNK(status.st_mode); ++i) {
-        refuse_if(!may_follow(target, status),
+    std::error_code error;
+    for (int i = 0; i < most_links && is_symlink(fs::symlink_status(target, error)); ++i) {
+        refuse_if(!platform::may_follow(target),
                   "cannot write " + path + ": the link " + target.string() +
                       " is another user's, in a folder where everybody may write; only your own links and those of "
                       "the folder's owner are followed there",
                   ExitCode::file);
-        std::error_code error;
         target = target.parent_path() / std::filesystem::read_symlink(target, error);
     }
     return target;
@@ -144,30 +122,29 @@ void AtomicFile::fail(int error) const {
 
 // A rename would replace a file that the user may not write, or a device by a regular file, without complaint.
 void AtomicFile::refuse_unsuitable_target() const {
-    struct stat status {};
-    if (stat(target_.c_str(), &status) != 0) {
-        if (errno == ENOENT)
-            return;
-        fail(errno);
-    }
-    if (S_ISDIR(status.st_mode))
+    std::error_code error;
+    const fs::file_status status = fs::status(target_, error);
+    if (status.type() == fs::file_type::not_found)
+        return;
+    if (status.type() == fs::file_type::none)
+        fail(error.default_error_condition().value());
+    if (is_directory(status))
         fail(EISDIR);
-    if (!S_ISREG(status.st_mode))
+    if (!is_regular_file(status))
         throw Failure(ExitCode::file, "cannot write " + path_ + ": not a regular file");
-    if (access(target_.c_str(), W_OK) != 0)
+    if (!platform::may_write(target_))
         fail(errno);
 }
 
-FileDescriptor AtomicFile::create_temporary() {
-    constexpr mode_t permissions = 0666; // of which the system takes away what the umask says
+platform::FileDescriptor AtomicFile::create_temporary() {
     refuse_unsuitable_target();
     for (int attempt = 0;; ++attempt) {
         temporary_ = target_.parent_path() / temporary_name(attempt);
-        const int descriptor = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, permissions);
-        if (descriptor >= 0 && lock_temporary(descriptor))
-            return FileDescriptor(descriptor);
+        const int descriptor = platform::create_file(temporary_);
+        if (descriptor >= 0 && platform::lock_created(descriptor))
+            return platform::FileDescriptor(descriptor);
         if (descriptor >= 0)
-            ::close(descriptor);
+            platform::close_file(descriptor);
         else if (errno != EEXIST)
             fail(errno);
     }
@@ -175,19 +152,15 @@ FileDescriptor AtomicFile::create_temporary() {
 
 void AtomicFile::write(std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
-        const ssize_t count = ::write(file_.get(), bytes.data(), bytes.size());
-        if (count < 0 && errno != EINTR)
+        const std::ptrdiff_t count = platform::write_some(file_.get(), bytes);
+        if (count < 0)
             fail(errno);
-        bytes = bytes.subspan(static_cast<std::size_t>(count < 0 ? 0 : count));
+        bytes = bytes.subspan(static_cast<std::size_t>(count));
     }
 }
 
 void AtomicFile::commit() {
-    struct stat status {};
-    if (lstat(target_.c_str(), &status) == 0 && S_ISREG(status.st_mode))
-        fchmod(file_.get(), status.st_mode & 0777); // a replaced file keeps its permissions where possible
-    // The data have to be on the disk before the name is: otherwise a crash could leave an empty file in its place.
-    if (fsync(file_.get()) != 0 || std::rename(temporary_.c_str(), target_.c_str()) != 0)
+    if (!platform::rename_written(file_.get(), temporary_, target_))
         fail(errno);
     file_.close();
 }
@@ -253,16 +226,14 @@ void print_for_people(const std::string &lines, bool standard_output_is_taken) {
 
 // System calls and not a stream: a stream opens a directory without complaint and keeps no reason for a failed read.
 std::string read_file(const std::string &path) {
-    const FileDescriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    const platform::FileDescriptor file(platform::open_to_read(path));
     if (!file.is_open())
         fail(path);
-    struct stat status;
-    const bool is_file = fstat(file.get(), &status) == 0 && S_ISREG(status.st_mode);
-    return read_all(file.get(), path, is_file ? static_cast<std::size_t>(status.st_size) : 0);
+    return read_all(file.get(), path, platform::regular_size(file.get()).value_or(0));
 }
 
 std::string read_standard_input() {
-    return read_all(STDIN_FILENO, "standard input", 0);
+    return read_all(platform::standard_input, "standard input", 0);
 }
 
 std::string_view require_text(std::string_view contents, const std::string &path) {

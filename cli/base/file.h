@@ -3,44 +3,20 @@
 // has left. And the rule that a command writes no file twice and none that it reads.
 #pragma once
 
+#include "lib/platform/file.h"
+
 #include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
-#include <unistd.h>
-#include <utility>
 #include <vector>
 
 namespace cli {
 
-class FileDescriptor {
-public:
-    explicit FileDescriptor(int descriptor) : descriptor_(descriptor) {}
-    FileDescriptor(const FileDescriptor &) = delete;
-    FileDescriptor &operator=(const FileDescriptor &) = delete;
-    ~FileDescriptor() { close(); }
-
-    bool is_open() const { return descriptor_ >= 0; }
-    int get() const { return descriptor_; }
-
-    void close() {
-        const int descriptor = std::exchange(descriptor_, -1);
-        if (descriptor >= 0)
-            ::close(descriptor);
-    }
-
-private:
-    int descriptor_;
-};
-
 // A name that keeps other programs' files from being mistaken for ours. attempt: counts the names that were taken.
 std::string temporary_name(int attempt);
-
-// Locks a temporary file that was just created. False if it was removed in between, as an abandoned one. On a file
-// system without locks it is true, and nothing is ever removed there.
-bool lock_temporary(int descriptor);
 
 // Removes temporary files in that folder that nobody has locked, because their programs were killed. Files that cannot
 // be removed stay.
@@ -69,12 +45,12 @@ public:
 private:
     [[noreturn]] void fail(int error) const;
     void refuse_unsuitable_target() const;
-    FileDescriptor create_temporary();
+    platform::FileDescriptor create_temporary();
 
     std::string path_; // as the user wrote it, for messages
     std::filesystem::path target_;
     std::filesystem::path temporary_;
-    FileDescriptor file_;
+    platform::FileDescriptor file_;
 };
 
 // A file as the user knows it: "--stats" and the path after it, or "the scene" and its path.

@@ -1,10 +1,10 @@
 #include "cli/base/interrupt.h"
 
+#include "lib/platform/terminal.h"
+
 #include <atomic>
-#include <csignal>
+#include <chrono>
 #include <cstdint>
-#include <cstring>
-#include <ctime>
 
 namespace cli {
 namespace {
@@ -16,49 +16,25 @@ static_assert(decltype(noted_signal)::is_always_lock_free && decltype(noted_at):
                   decltype(noted_picture_request)::is_always_lock_free,
               "only lock-free atomics are safe in a signal handler");
 
-std::int64_t nanoseconds_now() {
-    timespec now{};
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
-}
-
 // timeout(1) sends its signal to the program and to its process group, so that it comes twice at once.
-extern "C" void note_signal(int signal) {
+bool note_signal(int signal) {
     constexpr std::int64_t same_cause = 1'000'000'000;
-    const std::int64_t now = nanoseconds_now();
-    if (noted_signal != 0 && now - noted_at > same_cause) {
-        std::signal(signal, SIG_DFL);
-        raise(signal); // comes when this handler returns
-        return;
-    }
-    if (noted_signal == 0) {
-        noted_at = now;
-        noted_signal = signal;
-    }
+    const std::int64_t now = std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);
+    if (noted_signal != 0)
+        return now - noted_at > same_cause;
+    noted_at = now;
+    noted_signal = signal;
+    return false;
 }
 
-extern "C" void note_picture_request(int) {
+void note_picture_request() {
     noted_picture_request = true;
-}
-
-void handle(int signal, void (*handler)(int)) {
-    struct sigaction action {};
-    action.sa_handler = handler;
-    action.sa_flags = SA_RESTART;
-    sigemptyset(&action.sa_mask);
-    sigaction(signal, &action, nullptr);
 }
 
 } // namespace
 
 void catch_signals() {
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-        struct sigaction old {};
-        sigaction(signal, nullptr, &old);
-        if (old.sa_handler != SIG_IGN) // whoever started this program wants that: a background job, nohup
-            handle(signal, &note_signal);
-    }
-    handle(SIGUSR1, &note_picture_request);
+    platform::catch_signals(&note_signal, &note_picture_request);
 }
 
 bool has_picture_request() {
@@ -74,7 +50,8 @@ int interrupt_signal() {
 }
 
 std::string interrupt_name() {
-    return std::string("SIG") + sigabbrev_np(interrupt_signal());
+    const int signal = interrupt_signal();
+    return signal == platform::hangup ? "SIGHUP" : signal == platform::interruption ? "SIGINT" : "SIGTERM";
 }
 
 } // namespace cli

@@ -1,14 +1,13 @@
 #include "cli/base/progress.h"
 
 #include "cli/base/text.h"
+#include "lib/platform/terminal.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <sys/ioctl.h>
-#include <unistd.h>
 #include <utility>
 
 namespace cli {
@@ -34,8 +33,8 @@ ProgressStyle progress_style(const std::string &name, bool quiet, bool is_termin
 
 std::size_t terminal_columns() {
     constexpr std::size_t usual = 80;
-    winsize size{};
-    return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : usual;
+    const std::size_t columns = platform::terminal_columns();
+    return columns > 0 ? columns : usual;
 }
 
 Progress::Progress(std::ostream &output, ProgressStyle style, std::uint64_t pixel_count, std::uint64_t sample_count,

@@ -2,13 +2,15 @@
 
 #include "cli/base/exit_code.h"
 #include "cli/base/file.h"
+#include "lib/platform/module.h"
+#include "lib/platform/process.h"
+#include "lib/platform/terminal.h"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <dlfcn.h>
+#include <fstream>
 #include <stdexcept>
-#include <unistd.h>
 
 namespace cli {
 namespace {
@@ -34,7 +36,7 @@ std::array<std::size_t, 3> channels_of(const DecodedImage &image, const std::str
 } // namespace
 
 std::optional<ImageFormat> image_format(const std::string &path) {
-    std::string extension = std::filesystem::path(path).extension();
+    std::string extension = std::filesystem::path(path).extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
     return extension.empty() ? std::nullopt : image_formats.find(extension.substr(1));
@@ -49,7 +51,7 @@ std::uint32_t longest_side(ImageFormat format) {
 void check_image_names(std::span<const std::string> paths, std::optional<ImageFormat> format) {
     const bool to_standard_output = std::ranges::find(paths, standard_stream) != paths.end();
     refuse_if(to_standard_output && !format, "-o -: standard output needs --format exr, png or jpg");
-    refuse_if(to_standard_output && isatty(STDOUT_FILENO) == 1,
+    refuse_if(to_standard_output && platform::is_terminal(platform::standard_output),
               "-o -: standard output is a terminal; send it to a file or a program");
     refuse_if(format && !to_standard_output, "--format: is for -o - alone; the names of files tell their formats");
     for (const std::string &path : paths)
@@ -72,10 +74,9 @@ void check_image_target(const ImageTarget &target, const ImageWindow &window) {
 
 // PT_MODULE_DIRECTORY is relative to the program, so that an installed tree can be moved.
 std::filesystem::path module_path() {
-    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe");
-    std::filesystem::path path = program.parent_path() / PT_MODULE_DIRECTORY / "libpt-image-file.so";
-    path = path.lexically_normal();
-    refuse_if(access(path.c_str(), R_OK) != 0,
+    const std::filesystem::path folder = platform::program_file().parent_path() / PT_MODULE_DIRECTORY;
+    std::filesystem::path path = (folder / platform::module_file("pt-image-file")).lexically_normal();
+    refuse_if(!std::ifstream(path),
               "EXR and JPEG need the image module, and there is no " + path.string() +
                   ": install the package pt-image-formats, or libopenimageio-dev before building pt; PNG needs neither",
               ExitCode::file);
@@ -84,10 +85,10 @@ std::filesystem::path module_path() {
 
 // Never unloaded: OpenImageIO keeps threads and static objects.
 void *load_symbol(const std::filesystem::path &path, const char *name) {
-    void *module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-    void *symbol = module == nullptr ? nullptr : dlsym(module, name);
+    void *module = platform::load_module(path);
+    void *symbol = module == nullptr ? nullptr : platform::find_function(module, name);
     if (symbol == nullptr)
-        throw Failure(ExitCode::internal, std::string("cannot load the image module: ") + dlerror());
+        throw Failure(ExitCode::internal, "cannot load the image module: " + platform::module_error());
     return symbol;
 }
 

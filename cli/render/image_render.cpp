@@ -2,12 +2,13 @@
 
 #include "cli/base/interrupt.h"
 #include "cli/film/film.h"
+#include "lib/platform/file.h"
+#include "lib/platform/terminal.h"
 
 #include <bit>
 #include <chrono>
 #include <iostream>
 #include <limits>
-#include <unistd.h>
 
 namespace cli {
 namespace {
@@ -90,7 +91,7 @@ std::uint32_t fit_pieces(const Context &context, const RenderTask &task) {
 }
 
 ProgressStyle progress_style(const RenderOptions &options) {
-    return progress_style(options.progress, options.output.quiet, isatty(STDERR_FILENO) == 1);
+    return progress_style(options.progress, options.output.quiet, platform::is_terminal(platform::standard_error));
 }
 
 ImageRender::ImageRender(const Context &context, const RenderTask &task, std::uint32_t rows, Stop stop,

@@ -114,7 +114,7 @@ void check_names(const RenderOptions &options) {
     check_combinations(options);
     std::vector<NamedFile> sources{{"the scene", options.scene}};
     for (const std::filesystem::path &path : shader_files(options.shader_dir))
-        sources.push_back({"the shader", path});
+        sources.push_back({"the shader", path.string()});
     check_names(options.output, {});
     refuse_if(options.checkpoint == standard_stream,
               "--checkpoint -: goes to a file, not to standard output; give its name");

@@ -4,6 +4,7 @@
 #include "cli/base/json.h"
 #include "cli/base/names.h"
 #include "cli/base/text.h"
+#include "lib/platform/process.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +12,6 @@
 #include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <sys/resource.h>
 
 namespace cli {
 namespace {
@@ -39,12 +39,6 @@ std::vector<std::string_view> names_of(std::uint32_t bits, const ValueNames<Coun
         if ((bits & all.find(name).value()) != 0)
             names.push_back(name);
     return names;
-}
-
-std::uint64_t peak_host_bytes() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024; // Linux counts in KiB
 }
 
 nlohmann::ordered_json crop_json(const ImageWindow &window) {
@@ -152,7 +146,7 @@ nlohmann::ordered_json stats_json(const RenderReport &report) {
         {"submissions", report.stats.submit_count},
         {"rejected_samples", report.stats.rejected_samples},
         {"device_bytes", report.stats.device_bytes},
-        {"peak_host_bytes", peak_host_bytes()},
+        {"peak_host_bytes", platform::peak_bytes()},
         {"features", names_of(report.stats.features, feature_names)},
         {"samples_per_second", samples_per_second(report)},
         {"tone_map", tone_map_json(report)},

@@ -3,12 +3,10 @@
 #include "cli/base/devices.h"
 #include "cli/base/text.h"
 #include "cli/render/render_output.h"
+#include "lib/platform/process.h"
 
 #include <algorithm>
-#include <fstream>
 #include <limits>
-#include <sys/resource.h>
-#include <sys/sysinfo.h>
 #include <utility>
 
 namespace cli {
@@ -34,22 +32,6 @@ ImageWindow chosen_window(const std::optional<Rectangle> &crop, const pt_render 
                      ": must be a part of the picture, of ", window_text(window), " pixels, with at least one"));
     window.part = *crop;
     return window;
-}
-
-// The most memory that this process could ever have: RAM and swap space, within its limits, whatever others use.
-std::uint64_t most_bytes() {
-    // The limit of a container, as seen from inside (Linux, cgroup v2). The file says "max" if there is no limit, and
-    // does not exist outside containers.
-    std::uint64_t container = 0;
-    if (!(std::ifstream("/sys/fs/cgroup/memory.max") >> container))
-        container = std::numeric_limits<std::uint64_t>::max();
-    struct sysinfo system {};
-    rlimit address_space{}; // without a limit it is the largest number
-    sysinfo(&system);
-    getrlimit(RLIMIT_AS, &address_space);
-    const auto bytes = [&](std::uint64_t units) { return units * system.mem_unit; };
-    return std::min<std::uint64_t>(std::min(bytes(system.totalram), container) + bytes(system.totalswap),
-                                   address_space.rlim_cur);
 }
 
 std::uint32_t image_count(const RenderOptions &options) {
@@ -97,7 +79,7 @@ std::uint64_t image_bytes(const RenderTask &task) {
 
 void require_host_memory(const RenderTask &task) {
     const std::uint64_t needed = image_bytes(task);
-    const std::uint64_t most = most_bytes();
+    const std::uint64_t most = platform::most_bytes();
     if (needed <= most)
         return;
     const ExitCode blame = task.scene.blame(BrokenRule{.subject = "render", .member = "width"});

@@ -2,12 +2,11 @@
 
 #include "cli/base/exit_code.h"
 #include "cli/base/file.h"
-#include "cli/base/text.h"
+#include "lib/platform/file.h"
+#include "lib/platform/terminal.h"
 
 #include <algorithm>
 #include <iterator>
-#include <poll.h>
-#include <sys/stat.h>
 #include <system_error>
 #include <utility>
 
@@ -18,15 +17,6 @@ namespace fs = std::filesystem;
 
 constexpr std::chrono::milliseconds interval{100};
 constexpr std::chrono::milliseconds settling{50};
-
-// A text that changes whenever the file is written or replaced; nothing if there is no such file.
-std::optional<std::string> state_of(const fs::path &path) {
-    struct stat status {};
-    if (stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode))
-        return std::nullopt;
-    return concat(status.st_size, " bytes at ", status.st_mtim.tv_sec, ".", status.st_mtim.tv_nsec, " in ",
-                  status.st_dev, ":", status.st_ino);
-}
 
 // The clock that stamps files ticks every few milliseconds: a file just changed may change again within one tick.
 bool is_fresh(const fs::path &path) {
@@ -52,7 +42,7 @@ std::set<fs::path> shader_files(const fs::path &shader_dir) {
 }
 
 std::optional<std::string> SourceWatch::contents_of(const fs::path &path) {
-    const std::optional<std::string> state = state_of(path);
+    const std::optional<std::string> state = platform::file_state(path);
     Kept &kept = kept_[path];
     if (!state || is_fresh(path) || state != kept.state) {
         try {
@@ -75,7 +65,7 @@ void SourceWatch::look() {
     for (const fs::path &path : shader_files(shader_dir_))
         found.try_emplace(path, contents_of(path));
     for (const fs::path &path : data_)
-        found.try_emplace(path, state_of(path));
+        found.try_emplace(path, platform::file_state(path));
     last_look_ = Clock::now();
     if (found != seen_) {
         seen_ = std::move(found);
@@ -103,7 +93,7 @@ bool SourceWatch::changed(std::chrono::milliseconds timeout) {
     const auto next_look = last_look_ + (seen_ != begun_ ? settling : interval);
     const auto wait = std::chrono::ceil<std::chrono::milliseconds>(std::min(next_look, end) - Clock::now());
     if (wait.count() > 0)
-        poll(nullptr, 0, static_cast<int>(wait.count())); // a signal ends it
+        platform::sleep(wait);
     if (Clock::now() >= next_look)
         look();
     return seen_ != begun_ && Clock::now() - seen_since_ >= settling;

@@ -2,9 +2,10 @@
 // which process the context belongs to, since a forked child lacks the driver's threads.
 #pragma once
 
+#include "lib/platform/process.h"
+
 #include <atomic>
 #include <thread>
-#include <unistd.h>
 
 namespace pt {
 
@@ -31,11 +32,13 @@ public:
 
     // Why no call of this process may touch the context, or NULL. From any thread.
     const char *not_of_this_process() const noexcept {
-        return getpid() == process_ ? nullptr : "this context belongs to the process that this one was forked from";
+        return platform::process_number() == process_
+                   ? nullptr
+                   : "this context belongs to the process that this one was forked from";
     }
 
 private:
-    const pid_t process_ = getpid();
+    const std::int64_t process_ = platform::process_number();
     std::atomic<std::thread::id> user_{};
 };
 

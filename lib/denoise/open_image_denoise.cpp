@@ -1,16 +1,15 @@
 #include "lib/denoise/open_image_denoise.h"
 
 #include "lib/base/error.h"
+#include "lib/platform/file.h"
+#include "lib/platform/module.h"
 
-#include <dlfcn.h>
 #include <memory>
 #include <string>
 
 namespace pt {
 
 namespace {
-
-constexpr const char *system_library = "libOpenImageDenoise.so.2";
 
 // Of the C interface of Open Image Denoise 2, as its documentation has it (openimagedenoise.org, "Open Image Denoise
 // API"). Handles are opaque pointers; enumerations are as large as int.
@@ -24,7 +23,7 @@ constexpr int oidn_error_unsupported_hardware = 5;
 class Library {
 public:
     // It stays loaded: threads that it has started may still end.
-    explicit Library(const std::string &path) : path_(path), handle_(dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)) {
+    explicit Library(const std::string &path) : path_(path), handle_(platform::load_module(platform::path_of(path))) {
         find("oidnNewDevice", new_device);
         find("oidnCommitDevice", commit_device);
         find("oidnReleaseDevice", release_device);
@@ -60,11 +59,11 @@ public:
 private:
     template <typename Function>
     void find(const char *name, Function &function) {
-        function = handle_ ? reinterpret_cast<Function>(dlsym(handle_, name)) : nullptr;
+        function = handle_ ? reinterpret_cast<Function>(platform::find_function(handle_, name)) : nullptr;
         if (function)
             return;
-        const std::string rule = std::string("Open Image Denoise 2 cannot be loaded: ") + dlerror() +
-                                 "; pip install pyoidn brings it, as pyoidn/oidn/lib/" + system_library;
+        const std::string rule = std::string("Open Image Denoise 2 cannot be loaded: ") + platform::module_error() +
+                                 "; pip install pyoidn brings it, as pyoidn/oidn/lib/" + platform::denoiser_file;
         throw Error(PT_ERROR_UNSUPPORTED,
                     BrokenRule{.subject = "denoise", .member = "library", .value = '"' + path_ + '"', .rule = rule});
     }
@@ -125,7 +124,7 @@ void filter(const Library &library, void *device, const Guides &guides, std::spa
 } // namespace
 
 void run_open_image_denoise(const Denoiser &denoiser, const Guides &guides, std::span<const FilterTask> tasks) {
-    const Library library(denoiser.path ? denoiser.path : system_library);
+    const Library library(denoiser.path ? denoiser.path : platform::denoiser_file);
     const int device_type = denoiser.any_device ? oidn_device_type_default : oidn_device_type_cpu;
     const Handle device(library.new_device(device_type), library.release_device);
     if (!device)

@@ -2,6 +2,7 @@
 #include "lib/glsl_module/glsl_module.h"
 
 #include "lib/glsl_module/includer.h"
+#include "lib/platform/file.h"
 
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
@@ -97,10 +98,10 @@ Words compile(const std::filesystem::path &directory, const char *name) {
 
 } // namespace pt::glsl
 
-extern "C" __attribute__((visibility("default"))) int32_t
-pt_compile_glsl(const char *directory, const char *name, pt_glsl_words_fn words, pt_glsl_log_fn log, void *user) {
+extern "C" PT_API int32_t pt_compile_glsl(const char *directory, const char *name, pt_glsl_words_fn words,
+                                          pt_glsl_log_fn log, void *user) {
     try {
-        const pt::glsl::Words compiled = pt::glsl::compile(directory, name);
+        const pt::glsl::Words compiled = pt::glsl::compile(platform::path_of(directory), name);
         words(user, compiled.data(), compiled.size());
         return 0;
     } catch (const std::exception &error) {

@@ -1,8 +1,9 @@
 #include "lib/glsl_module/includer.h"
 
+#include "lib/platform/file.h"
+
 #include <algorithm>
 #include <cerrno>
-#include <cstdio>
 #include <memory>
 #include <stdexcept>
 #include <string_view>
@@ -27,17 +28,17 @@ glslang::TShader::Includer::IncludeResult *hand_over(const std::string &name, st
 
 std::string read_source(const std::filesystem::path &path) {
     const auto fail = [&] { throw std::runtime_error(path.string() + ": " + std::generic_category().message(errno)); };
-    const std::unique_ptr<std::FILE, int (*)(std::FILE *)> file(std::fopen(path.c_str(), "rbe"), &std::fclose);
-    if (!file)
+    const platform::FileDescriptor file(platform::open_to_read(path));
+    if (!file.is_open())
         fail();
     std::string text;
     char block[4096];
-    for (std::size_t count = 1; count > 0;) {
-        count = std::fread(block, 1, sizeof block, file.get());
-        text.append(block, count);
+    for (std::ptrdiff_t count = 1; count > 0;) {
+        count = platform::read_some(file.get(), block);
+        if (count < 0)
+            fail(); // for example because it is a directory
+        text.append(block, static_cast<std::size_t>(count));
     }
-    if (std::ferror(file.get()) != 0)
-        fail();                                                  // for example because it is a directory
     constexpr std::string_view byte_order_mark = "\xef\xbb\xbf"; // of UTF-8, which editors may add
     if (text.starts_with(byte_order_mark))
         text.erase(0, byte_order_mark.size());

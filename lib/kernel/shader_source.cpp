@@ -10,57 +10,33 @@
 #include "lib/base/digest.h"
 #include "lib/base/error.h"
 #include "lib/glsl_module/glsl_module.h"
+#include "lib/platform/module.h"
 #include "pathtrace.spv.h"
 #include "resolve.spv.h"
 
 #include <algorithm>
-#include <dlfcn.h>
 #include <exception>
 #include <filesystem>
-#include <system_error>
 #include <utility>
 
 namespace pt {
 
 namespace {
 
-constexpr const char *module_name = "libpt-glsl.so";
-
-// The folder, with a slash at its end, of the file that contains this function: the shared library, or the program
-// that it is linked into. A relative path, as of a relative LD_LIBRARY_PATH, may name another file by now, or none: it
-// counts if the file that it names is one that is loaded. Otherwise empty.
-std::string own_directory() {
-    Dl_info info{};
-    const bool found = dladdr(reinterpret_cast<const void *>(&own_directory), &info) != 0 && info.dli_fname;
-    if (!found)
-        return "";
-    std::error_code error;
-    const std::string path = std::filesystem::absolute(info.dli_fname, error).string();
-    if (error)
-        return "";
-    if (info.dli_fname[0] != '/') {
-        void *const loaded = dlopen(path.c_str(), RTLD_LAZY | RTLD_NOLOAD);
-        if (!loaded)
-            return "";
-        dlclose(loaded); // which only counts one user less
-    }
-    return path.substr(0, path.rfind('/') + 1);
-}
-
 // The module beside the library, so that an installed tree can be moved, else where the system looks for libraries,
 // but never in the working directory, where a relative path would lead. It stays loaded, because glslang keeps tables
 // for the next compilation.
 pt_compile_glsl_fn load_compiler(const std::string &shader_directory) {
-    const std::string directory = own_directory();
+    const std::filesystem::path folder = platform::folder_with(reinterpret_cast<const void *>(&load_compiler));
+    const std::filesystem::path name = platform::module_file("pt-glsl");
     std::string reasons;
-    for (const std::string &path :
-         {directory.empty() ? directory : directory + "pt/" + module_name, std::string(module_name)}) {
+    for (const std::filesystem::path &path : {folder.empty() ? folder : folder / "pt" / name, name}) {
         if (path.empty())
             continue;
-        if (void *const module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL))
-            if (void *const symbol = dlsym(module, PT_COMPILE_GLSL_SYMBOL))
+        if (void *const module = platform::load_module(path))
+            if (void *const symbol = platform::find_function(module, PT_COMPILE_GLSL_SYMBOL))
                 return reinterpret_cast<pt_compile_glsl_fn>(symbol);
-        reasons += std::string(reasons.empty() ? "" : "; ") + dlerror();
+        reasons += (reasons.empty() ? "" : "; ") + platform::module_error();
     }
     throw Error(PT_ERROR_UNSUPPORTED, BrokenRule{.subject = "create",
                                                  .member = "shader_dir",

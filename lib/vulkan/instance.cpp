@@ -2,12 +2,13 @@
 #include "lib/vulkan/instance.h"
 
 #include "lib/base/error.h"
+#include "lib/platform/module.h"
+#include "lib/platform/vulkan.h"
 #include "lib/vulkan/result.h"
 
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
-#include <dlfcn.h>
 #include <new>
 #include <string>
 
@@ -55,6 +56,13 @@ std::string driver_advice(const vk::raii::Context &context) {
     return advice + "): install the GPU's Vulkan driver, or mesa-vulkan-drivers to render on the CPU";
 }
 
+PFN_vkGetInstanceProcAddr loader() {
+    if (const PFN_vkGetInstanceProcAddr functions = platform::vulkan_functions())
+        return functions;
+    throw Error(PT_ERROR_NO_DEVICE,
+                "no Vulkan loader: " + platform::module_error() + ": install the GPU's Vulkan driver");
+}
+
 // Lack of memory says nothing about the drivers.
 void throw_if_out_of_memory(const vk::SystemError &error, const std::string &what_was_being_done) {
     const pt_result result = result_of(static_cast<vk::Result>(error.code().value()));
@@ -94,7 +102,8 @@ vk::raii::Instance create_instance(const vk::raii::Context &context,
     try {
         return {context, instance};
     } catch (const std::bad_alloc &) { // no memory for the table of its functions
-        const PFN_vkVoidFunction destroy = ::vkGetInstanceProcAddr(instance, "vkDestroyInstance");
+        const PFN_vkVoidFunction destroy =
+            context.getDispatcher()->vkGetInstanceProcAddr(instance, "vkDestroyInstance");
         reinterpret_cast<PFN_vkDestroyInstance>(destroy)(instance, nullptr);
         throw;
     }
@@ -106,8 +115,7 @@ vk::raii::Instance create_instance(const vk::raii::Context &context,
 // take.
 void keep_nvidia_driver_loaded() noexcept {
     for (const char *name : {"libGLX_nvidia.so.0", "libEGL_nvidia.so.0"}) // one of them is the driver
-        if (void *const driver = dlopen(name, RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE))
-            dlclose(driver);
+        platform::keep_loaded(name);
 }
 
 Borrowable<vk::raii::Instance> owned_instance(const vk::raii::Context &context, const Log &log, bool validation) {
@@ -129,7 +137,7 @@ Borrowable<vk::raii::Instance> owned_instance(const vk::raii::Context &context, 
 
 Instance::Instance(const Log &log, bool validation) :
     log_(std::make_unique<Log>(log)),
-    context_(&::vkGetInstanceProcAddr),
+    context_(loader()),
     instance_(owned_instance(context_, *log_, validation)) {
     if (validation)
         messenger_.emplace(translated("creating the validation messenger",
@@ -138,7 +146,7 @@ Instance::Instance(const Log &log, bool validation) :
 
 Instance::Instance(const Log &log, VkInstance instance) :
     log_(std::make_unique<Log>(log)),
-    context_(&::vkGetInstanceProcAddr),
+    context_(loader()),
     instance_(Borrowable<vk::raii::Instance>::borrowed({context_, instance})) {}
 
 std::vector<vk::raii::PhysicalDevice> Instance::physical_devices() const {

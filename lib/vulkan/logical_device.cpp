@@ -27,7 +27,8 @@ std::uint32_t compute_family(const vk::raii::PhysicalDevice &device) {
 }
 
 vk::raii::Device create_device(const vk::raii::PhysicalDevice &physical_device, std::uint32_t family) {
-    // The specification demands that this extension be enabled if it exists.
+    // The specification demands that this extension be enabled if it exists. What such devices may lack, of images,
+    // events and drawing, nothing here uses.
     constexpr const char *portability_subset = "VK_KHR_portability_subset";
     std::vector<const char *> extensions;
     for (const vk::ExtensionProperties &extension : physical_device.enumerateDeviceExtensionProperties())

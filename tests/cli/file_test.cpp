@@ -138,9 +138,9 @@ TEST(AbandonedFiles, GoWhereNobodyWritesThem) {
 TEST(AbandonedFiles, AFileThatWasTakenForAbandonedIsNotUsed) {
     const TemporaryFolder folder;
     const int descriptor = open(folder.file("a").c_str(), O_WRONLY | O_CREAT, 0666);
-    EXPECT_TRUE(cli::lock_temporary(descriptor));
+    EXPECT_TRUE(platform::lock_created(descriptor));
     unlink(folder.file("a").c_str());
-    EXPECT_FALSE(cli::lock_temporary(descriptor));
+    EXPECT_FALSE(platform::lock_created(descriptor));
     close(descriptor);
 }
 

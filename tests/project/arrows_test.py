@@ -7,7 +7,7 @@ import sys
 
 # Rooms in order: each may include itself and those before it.
 ORDERS = {"cli": ("base", "image", "film", "scene", "render", "merge", "denoise", "tonemap", "compare", "selftest"),
-          "lib": ("base", "scene", "tree", "film", "denoise", "vulkan", "glsl_module", "kernel", "render", "api")}
+          "lib": ("platform", "base", "scene", "tree", "film", "denoise", "vulkan", "glsl_module", "kernel", "render", "api")}
 
 
 def arrows(part, includes):

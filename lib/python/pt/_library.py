@@ -6,6 +6,7 @@ import ctypes
 import functools
 import os
 import pathlib
+import sys
 from ctypes import POINTER, c_char_p, c_double, c_int32, c_uint32, c_uint64, c_void_p
 from typing import Any, Final
 
@@ -13,7 +14,8 @@ from pt import _structs as structs
 from pt._enums import Result
 from pt._errors import ERROR_OF_RESULT, BrokenRule, Error
 
-SONAME: Final = "libpt.so.0.3"
+VERSION: Final = "0.3"
+SONAME: Final = {"win32": "pt.dll", "darwin": f"libpt.{VERSION}.dylib"}.get(sys.platform, f"libpt.so.{VERSION}")
 BROKEN_RULES_KEPT: Final = 8  # the most that the library keeps
 
 # Every function must be here: without types, ctypes would cut its pointers to 32 bits. All that are not in NOT_RESULTS
@@ -81,7 +83,7 @@ def load_library(path: str) -> ctypes.CDLL:
                 function.restype = NOT_RESULTS.get(name, c_int32)
     except (OSError, AttributeError) as error:
         raise ImportError(f"{path} is no libpt that can be loaded (PT_LIBRARY names another): {error}") from error
-    if f"libpt.so.{version_text(loaded).rpartition('.')[0]}" != SONAME:
+    if version_text(loaded).rpartition(".")[0] != VERSION:
         raise ImportError(f"{path} is libpt {version_text(loaded)}; this package is for {SONAME}")
     return loaded
 

@@ -1,0 +1,36 @@
+#include "lib/platform/process.h"
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <sys/resource.h>
+#include <sys/sysinfo.h>
+
+namespace platform {
+
+std::filesystem::path program_file() {
+    return std::filesystem::read_symlink("/proc/self/exe");
+}
+
+std::uint64_t peak_bytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024; // Linux counts in KiB
+}
+
+std::uint64_t most_bytes() {
+    // The limit of a container, as seen from inside (cgroup v2). The file says "max" if there is no limit, and does not
+    // exist outside containers.
+    std::uint64_t container = 0;
+    if (!(std::ifstream("/sys/fs/cgroup/memory.max") >> container))
+        container = std::numeric_limits<std::uint64_t>::max();
+    struct sysinfo system {};
+    rlimit address_space{}; // without a limit it is the largest number
+    sysinfo(&system);
+    getrlimit(RLIMIT_AS, &address_space);
+    const auto bytes = [&](std::uint64_t units) { return units * system.mem_unit; };
+    return std::min<std::uint64_t>(std::min(bytes(system.totalram), container) + bytes(system.totalswap),
+                                   address_space.rlim_cur);
+}
+
+} // namespace platform
