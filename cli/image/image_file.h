@@ -71,7 +71,7 @@ public:
     // Waits until load_module() is done, if it was called. Throws Failure(ExitCode::internal) if it failed.
     void wait() const {
         if (encode_.valid())
-            encode_.get();
+            static_cast<void>(encode_.get());
     }
 
     // Throws Failure(ExitCode::file), and leaves an existing file as it was.
