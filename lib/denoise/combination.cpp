@@ -53,9 +53,12 @@ Terms terms_at(const FilteredHalves &halves, std::size_t x, std::size_t y, std::
     const double first_filtered = halves.first_filtered[index];
     const double second_filtered = halves.second_filtered[index];
     const double mean = 0.5 * (first + second);
-    const double most = std::max(mean, most_above_median * median_about(halves, x, y, channel));
+    const double filtered_square = std::max(first_filtered * second_filtered, 0.0);
+    double most_square = squared(mean);
+    if (mean < 0.0 || filtered_square > most_square) // else the median, which takes most of the time, changes nothing
+        most_square = squared(std::max(mean, most_above_median * median_about(halves, x, y, channel)));
     gpu::Limit limit{};
-    limit.square = std::clamp(first_filtered * second_filtered, 0.0, squared(most)) + relative_offset;
+    limit.square = std::min(filtered_square, most_square) + relative_offset;
     limit.known = squared(std::min(first, second)) + relative_offset;
     limit.light_beyond = limit.square - gpu::E_SQUARED * limit.known;
     return {.mean = mean,

@@ -82,6 +82,14 @@ void check_fields(const pt_camera &camera) {
     violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
 }
 
+// The tangent's last bits depend on the system's library, and are part of no picture; 40 bits are the same everywhere,
+// so that films of different systems can be merged.
+double tangent(double angle) {
+    int exponent = 0;
+    const double mantissa = std::frexp(std::tan(angle), &exponent);
+    return std::ldexp(std::nearbyint(std::ldexp(mantissa, 40)), exponent - 40);
+}
+
 } // namespace
 
 Camera validated_camera(const pt_camera &source) {
@@ -113,7 +121,7 @@ Camera validated_camera(const pt_camera &source) {
             right,
             glm::cross(right, forward),
             forward,
-            std::tan(0.5 * camera.vertical_fov),
+            tangent(0.5 * camera.vertical_fov),
             camera.shutter_open,
             camera.shutter_close,
             camera.vertical_extent,

@@ -94,7 +94,7 @@ TEST(Camera, HasTheDefaultsOfTheHeader) {
     EXPECT_EQ(camera.forward, glm::dvec3(0, 0, -1));
     EXPECT_EQ(camera.right, glm::dvec3(1, 0, 0));
     EXPECT_EQ(camera.up, glm::dvec3(0, 1, 0));
-    EXPECT_EQ(camera.tan_half_fov, std::tan(std::numbers::pi / 8));
+    EXPECT_NEAR(camera.tan_half_fov, std::tan(std::numbers::pi / 8), 0x1p-41);
     EXPECT_EQ(camera.shutter_open, 0.0);
     EXPECT_EQ(camera.shutter_close, 0.0) << "the instant 0, in which nothing moves";
     EXPECT_FALSE(camera.has_lens());
@@ -113,9 +113,20 @@ TEST(Camera, TakesWhatIsSet) {
     EXPECT_EQ(camera.forward, glm::dvec3(0, 0, 1));
     EXPECT_EQ(camera.up, glm::dvec3(1, 0, 0));
     EXPECT_EQ(camera.right, glm::dvec3(0, 1, 0));
-    EXPECT_EQ(camera.tan_half_fov, std::tan(0.75));
+    EXPECT_NEAR(camera.tan_half_fov, std::tan(0.75), 0x1p-41);
     EXPECT_EQ(camera.shutter_open, 0.25);
     EXPECT_EQ(camera.shutter_close, 0.25);
+}
+
+// The last bits of the angle stand for those in which libraries of systems differ.
+TEST(Camera, IsTheSameWhereTangentsAreNearlySo) {
+    pt_camera source = valid_camera();
+    source.vertical_fov = 0.7;
+    const std::string digest = digest_of(pt::validated_camera(source));
+    source.vertical_fov = std::nextafter(0.7, 1.0);
+    EXPECT_EQ(digest_of(pt::validated_camera(source)), digest);
+    source.vertical_fov = 0.7 + 0x1p-36;
+    EXPECT_NE(digest_of(pt::validated_camera(source)), digest);
 }
 
 // Half the aperture is the radius; without a focus that of the target counts. Films do not tell pinholes by a focus.
