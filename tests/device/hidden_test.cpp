@@ -174,7 +174,7 @@ TEST_F(HiddenFromCamera, LampsInClosedScenesAreCountedOnce) {
                 whole.push_back(pixel);
         ASSERT_GE(whole.size(), 5U);
         const Estimate mean =
-            estimate_over(render_batches(render_of(picture_width, picture_height, 2), batch_count, 8), whole);
+            estimate_over(render_batches(render_of(picture_width, picture_height, 2), batch_count, 32), whole);
         const double bound = student_bound(1e-7, batch_count);
         EXPECT_LT(std::abs(deviation(mean, 1.5)), bound) << mean.mean << " +- " << mean.standard_error;
         EXPECT_GT(std::abs(deviation(mean, 1.545)), bound) << mean.mean << " +- " << mean.standard_error;
