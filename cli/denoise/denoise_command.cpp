@@ -34,7 +34,7 @@ void check(const DenoiseOptions &options) {
 
 // A film whose pixels all have equally many samples. Of others nothing says the error.
 RenderReport even_report(const std::string &path, const FilmHandle &film) {
-    const RenderReport report = film_report(film);
+    RenderReport report = film_report(film);
     const pt_stats &stats = report.stats;
     refuse_if(stats.sample_count != stats.max_sample_count || stats.sample_count == 0,
               concat(path, ": has ", stats.sample_count, " to ", stats.max_sample_count,

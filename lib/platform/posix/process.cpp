@@ -23,10 +23,10 @@ void set_environment(const char *name, const char *value) {
 fs::path cache_folder() {
     const auto folder = [](const char *name) {
         const char *variable = std::getenv(name);
-        const fs::path path = variable == nullptr ? "" : variable;
+        fs::path path = variable == nullptr ? "" : variable;
         return path.is_absolute() ? path : fs::path();
     };
-    if (const fs::path path = folder("XDG_CACHE_HOME"); !path.empty())
+    if (fs::path path = folder("XDG_CACHE_HOME"); !path.empty())
         return path;
     const fs::path home = folder("HOME");
     return home.empty() ? home : home / ".cache";
@@ -36,7 +36,7 @@ fs::path find_program(const std::string &name) {
     const char *variable = std::getenv("PATH");
     std::istringstream folders(variable == nullptr ? "" : variable);
     for (std::string folder; std::getline(folders, folder, ':');) {
-        const fs::path path = fs::path(folder) / name;
+        fs::path path = fs::path(folder) / name;
         std::error_code ignored;
         if (path.is_absolute() && fs::is_regular_file(path, ignored) && access(path.c_str(), X_OK) == 0)
             return path;
