@@ -3,6 +3,7 @@
 
 #include "lib/base/struct_size.h"
 #include "lib/scene/column.h"
+#include "lib/scene/scene.h"
 
 #include <algorithm>
 #include <cmath>
