@@ -127,32 +127,24 @@ constexpr std::array<Matrix, sequence_dimensions> sobol_matrices = [] {
 using Row = std::array<std::uint32_t, sequence_dimensions>;
 using Rows = std::array<Row, 32>;
 
-// order: which dimension of the sequence is dealt first, second and so on.
-constexpr Rows sobol_rows(const std::array<std::uint32_t, sequence_dimensions> &order) {
+// Which dimension of the sequence a sample's number takes. In motion the third one is the time, with which the fifth
+// dimension goes better than the third: over twelve scenes and 16 to 256 samples the square of the error is 0.94 times
+// as large, with direct light 0.8 to 1.0 times.
+constexpr std::uint32_t dimension_of(std::uint32_t number, bool motion) {
+    constexpr std::uint32_t order[] = {0, 1, 4, 2, 3};
+    return motion && number < std::size(order) ? order[number] : number;
+}
+
+constexpr Rows sobol_rows(bool motion) {
     Rows rows{};
     for (std::uint32_t bit = 0; bit < 32; ++bit)
-        for (std::uint32_t i = 0; i < sequence_dimensions; ++i)
-            rows[bit][i] = sobol_matrices[order[i]][bit];
+        for (std::uint32_t number = 0; number < sequence_dimensions; ++number)
+            rows[bit][number] = sobol_matrices[dimension_of(number, motion)][bit];
     return rows;
 }
 
-constexpr std::array<std::uint32_t, sequence_dimensions> in_turn = [] {
-    std::array<std::uint32_t, sequence_dimensions> order{};
-    std::iota(order.begin(), order.end(), 0U);
-    return order;
-}();
-
-// The third number of a sample in motion is the time, with which the fifth dimension goes better than the third: over
-// twelve scenes and 16 to 256 samples the square of the error is 0.94 times as large, with direct light 0.8 to 1.0
-// times.
-constexpr std::array<std::uint32_t, sequence_dimensions> in_motion = [] {
-    std::array<std::uint32_t, sequence_dimensions> order = in_turn;
-    std::rotate(order.begin() + 2, order.begin() + 4, order.begin() + 5);
-    return order;
-}();
-
-constexpr Rows rows_in_turn = sobol_rows(in_turn);
-constexpr Rows rows_in_motion = sobol_rows(in_motion);
+constexpr Rows rows_at_rest = sobol_rows(false);
+constexpr Rows rows_in_motion = sobol_rows(true);
 
 constexpr std::uint32_t reversed_bits(std::uint32_t x) {
     x = (x >> 16) | (x << 16);
@@ -246,7 +238,7 @@ class PointWriter {
 public:
     PointWriter(std::uint32_t sampler, std::uint64_t seed, const PointLayout &layout) :
         sobol_(sampler == PT_SAMPLER_SOBOL),
-        rows_(layout.has_time() ? rows_in_motion : rows_in_turn),
+        rows_(layout.has_time() ? rows_in_motion : rows_at_rest),
         seed_(seed),
         point_(layout.dimensions()) {}
 

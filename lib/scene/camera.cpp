@@ -82,8 +82,9 @@ void check_fields(const pt_camera &camera) {
     violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
 }
 
-// The tangent's last bits depend on the system's library, and are part of no picture; 40 bits are the same everywhere,
-// so that films of different systems can be merged.
+// Libraries of systems differ in the last bit or two of a tangent, of 53, and films of different systems are to be
+// merged. Rounded to 40 bits two of them are the same but once in 2^12 times or so; the kernel, which holds lengths in
+// 24 bits, loses nothing by it.
 double tangent(double angle) {
     int exponent = 0;
     const double mantissa = std::frexp(std::tan(angle), &exponent);

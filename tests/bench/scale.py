@@ -18,7 +18,7 @@ bytes           device memory a sphere: pt_stats.device_bytes, less those of the
 first           seconds from the scene to its first picture of one sample in memory, at the first path length; kernels
                 are compiled then, as the driver's cache on disk is off (Mitsuba has a cache of its own)
 M/s, M/CPU s    millions of samples a second, and a second of all threads' time, left out on a GPU; a sample is a camera
-                ray, and beyond path length 2 its first vertex is left by 4 paths in pt, by 1 in Mitsuba
+                ray, and beyond path length 2 its first vertex is left by 1 to 4 paths in pt, by 1 in Mitsuba
 
 With --error-samples a second table compares costs at equal error, at the first path length: relMSE, the mean of
 (x - r)^2 / (r^2 + 0.01) over pixels and channels, at so many samples, or 4 times as many in Mitsuba, against a

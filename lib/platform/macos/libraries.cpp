@@ -8,9 +8,10 @@ const char *const denoiser_file = "libOpenImageDenoise.2.dylib";
 // Loaded when it is needed, so that a machine without it is told what to install. MoltenVK is a driver and its own
 // loader.
 PFN_vkGetInstanceProcAddr vulkan_functions() {
-    static void *loader = nullptr;
-    for (const char *const name : {"libvulkan.1.dylib", "libMoltenVK.dylib"})
-        loader = loader ? loader : load_module(name);
+    static void *const loader = [] {
+        void *const vulkan = load_module("libvulkan.1.dylib");
+        return vulkan ? vulkan : load_module("libMoltenVK.dylib");
+    }();
     return loader ? reinterpret_cast<PFN_vkGetInstanceProcAddr>(find_function(loader, "vkGetInstanceProcAddr"))
                   : nullptr;
 }
