@@ -1,4 +1,4 @@
-// Everything that the host and the kernels must agree on: specialization constants, bindings, buffers, push constants.
+// What the host and the kernels must agree on: bindings, buffers, push constants.
 // Included by the GLSL sources and, for the host, by lib/.
 #ifndef PT_GPU_LAYOUT_H
 #define PT_GPU_LAYOUT_H
@@ -20,57 +20,7 @@ using vec4 = glm::vec4;
 #define PT_FUNCTION
 #endif
 
-// ---- Specialization constants of pathtrace.comp, by constant_id ----------------------------------------------------
-PT_CONSTANT ID_SPHERE_COUNT = 0;     // spheres held by centre and radius; the emitting ones come first
-PT_CONSTANT ID_PLANE_COUNT = 1;      // planes, and spheres held as planes with a curvature
-PT_CONSTANT ID_LAMP_COUNT = 2;       // emitting spheres among ID_SPHERE_COUNT that can be sampled
-PT_CONSTANT ID_MAX_PATH_LENGTH = 3;  // surface vertices after the camera
-PT_CONSTANT ID_ESTIMATOR = 4;        // ESTIMATOR_*
-PT_CONSTANT ID_GLOSS = 5;            // 1: some material has a specular lobe
-PT_CONSTANT ID_MOTION = 6;           // 1: some sphere moves while the shutter is open
-PT_CONSTANT ID_SCENE_SOURCE = 7;     // SCENE_IN_*: where the kernel finds the scene
-PT_CONSTANT ID_SAMPLER = 8;          // SAMPLER_*
-PT_CONSTANT ID_TABLE_BLOCKS = 9;     // blocks of a sample and one of its branches that are in the point table
-PT_CONSTANT ID_BRANCH_COUNT = 10;    // directions in which a path leaves its first vertex
-PT_CONSTANT ID_CURVATURE = 11;       // 1: some plane has a curvature
-PT_CONSTANT ID_POINT_BLOCKS = 12;    // blocks that the binding of the point table holds
-PT_CONSTANT ID_INSIDE = 13;          // 1: the camera is inside a sphere, so paths may be
-PT_CONSTANT ID_PLANES_BLOCK = 14;    // 1: a plane may stand between a surface that a path reaches and a lamp
-PT_CONSTANT ID_OVERLAP = 15;         // 1: dispatches, and invocations of one, may add to a pixel at the same time
-PT_CONSTANT ID_PLANES_EMIT = 16;     // 1: some plane, or sphere held as one, emits
-PT_CONSTANT ID_SKY_COUNT = 17;       // emitting spheres that hold the camera, next after the lamps
-PT_CONSTANT ID_KNOWN_SIDES = 18;     // 1: the camera, which is on no plane, tells the side of surfaces on which paths are
-PT_CONSTANT ID_PLANES_MOVE = 19;     // 1: some sphere held as a plane moves while the shutter is open
-PT_CONSTANT ID_CLOSE_LAMPS = 20;     // 1: some lamp nearly coincides with another sphere
-PT_CONSTANT ID_STARTS_AHEAD = 21;    // 1: camera rays start on a plane across the view, ahead of the pinhole
-PT_CONSTANT ID_TREE = 22;            // 1: most spheres are in a tree
-PT_CONSTANT ID_TREE_LAMPS = 23;      // lamps among them, the last ones of ID_LAMP_COUNT
-PT_CONSTANT ID_TREE_COLORS = 24;     // 1: spheres of the tree have colors of their own
-PT_CONSTANT ID_LAMP_TREE_LEVELS = 25; // of the tree of lamps, below its top; 0: there is none
-PT_CONSTANT ID_LAMP_TREE_WORDS = 26;  // of the scene buffer that are the tree's
-PT_CONSTANT ID_WALK_TRIPS = 27;      // trips after which walks that have ended are left; 0: an invocation ends each walk
-PT_CONSTANT ID_SPOT_COUNT = 28;      // spots to which the first vertex sends a ray of its own (shaders/spots.glsl)
-PT_CONSTANT ID_ORTHOGRAPHIC = 29;     // 1: camera rays are parallel; then STARTS_AHEAD is 1
-// How many surfaces camera rays pass through: the last of the lamps that are not in the tree, the first skies, the last of the
-// spheres that do not emit, and the first planes.
-PT_CONSTANT ID_HIDDEN_LAMPS = 30;
-PT_CONSTANT ID_HIDDEN_SKIES = 31;
-PT_CONSTANT ID_HIDDEN_OTHERS = 32;
-PT_CONSTANT ID_HIDDEN_PLANES = 33;
-PT_CONSTANT ID_TREE_INSIDE = 34;     // 1: the camera is inside a sphere of the tree, or too near to tell
-PT_CONSTANT ID_TREE_LEVELS = 35;     // nodes on the way to the deepest, or some more
-PT_CONSTANT ID_UNROLLED = 36;        // surfaces over which loops are unrolled, at the most
-PT_CONSTANT ID_INTEGER_ORDER = 37;   // 1: integers are compared faster than floats (shaders/maths.glsl)
-PT_CONSTANT ID_UNIFORM_READS = 38;   // 1: words of the scene buffer, which has few, are read by the uniform binding
-PT_CONSTANT ID_LENS = 39;           // 1: camera rays start on a lens; then STARTS_AHEAD is 1
-PT_CONSTANT ID_CAPSULES = 40;       // 1: some spheres are swept along a segment
-PT_CONSTANT ID_TREE_CAPSULES = 41;  // 1: some of those are in the tree
-PT_CONSTANT ID_TREE_OPACITY = 42;   // 1: rays pass spheres of the tree at random
-PT_CONSTANT CONSTANT_COUNT = 43;
-// With SCENE_IN_CONSTANTS the floats of the scene buffer follow, component i of word w as constant_id
-// CONSTANT_COUNT + 4 w + i.
-PT_CONSTANT CONSTANT_SCENE_WORDS = 64;
-
+// ---- Values of specialization constants (specialization.h) ----------------------------------------------------------
 PT_CONSTANT SCENE_IN_STORAGE = 0;
 PT_CONSTANT SCENE_IN_UNIFORM = 1;
 PT_CONSTANT SCENE_IN_CONSTANTS = 2;

@@ -4,9 +4,7 @@
 #ifndef MATHS_GLSL
 #define MATHS_GLSL
 
-#include "gpu_layout.h"
-
-layout(constant_id = ID_INTEGER_ORDER) const uint INTEGER_ORDER = 0;
+#include "specialization.h"
 
 const float PI = 3.14159265358979;
 

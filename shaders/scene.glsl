@@ -1,55 +1,13 @@
-// Access to the scene buffer as gpu_layout.h describes it, and the constants that fit the kernel to the scene.
+// Access to the scene buffer as gpu_layout.h describes it.
 // Used by intersect.glsl, phong.glsl, lights.glsl and path.glsl.
 #ifndef SCENE_GLSL
 #define SCENE_GLSL
 
 #include "gpu_layout.h"
 #include "scene_constants.glsl"
+#include "specialization.h"
 
 #extension GL_EXT_control_flow_attributes : require
-
-layout(constant_id = ID_SPHERE_COUNT) const uint SPHERE_COUNT = 1;
-layout(constant_id = ID_PLANE_COUNT) const uint PLANE_COUNT = 0;
-layout(constant_id = ID_LAMP_COUNT) const uint LAMP_COUNT = 0;
-layout(constant_id = ID_MAX_PATH_LENGTH) const uint MAX_PATH_LENGTH = 2;
-layout(constant_id = ID_ESTIMATOR) const uint ESTIMATOR = ESTIMATOR_MIS;
-layout(constant_id = ID_GLOSS) const uint GLOSS = 1;
-layout(constant_id = ID_MOTION) const uint MOTION = 1;
-layout(constant_id = ID_SCENE_SOURCE) const uint SCENE_SOURCE = SCENE_IN_UNIFORM;
-layout(constant_id = ID_SAMPLER) const uint SAMPLER = SAMPLER_RANDOM;
-layout(constant_id = ID_TABLE_BLOCKS) const uint TABLE_BLOCKS = 0;
-layout(constant_id = ID_BRANCH_COUNT) const uint BRANCH_COUNT = 1;
-layout(constant_id = ID_CURVATURE) const uint CURVATURE = 0;
-layout(constant_id = ID_INSIDE) const uint INSIDE = 1;
-layout(constant_id = ID_PLANES_BLOCK) const uint PLANES_BLOCK = 1;
-layout(constant_id = ID_PLANES_EMIT) const uint PLANES_EMIT = 1;
-layout(constant_id = ID_SKY_COUNT) const uint SKY_COUNT = 0;
-layout(constant_id = ID_KNOWN_SIDES) const uint KNOWN_SIDES = 0;
-layout(constant_id = ID_PLANES_MOVE) const uint PLANES_MOVE = 1;
-layout(constant_id = ID_CLOSE_LAMPS) const uint CLOSE_LAMPS = 1;
-layout(constant_id = ID_STARTS_AHEAD) const uint STARTS_AHEAD = 1;
-layout(constant_id = ID_ORTHOGRAPHIC) const uint ORTHOGRAPHIC = 0;
-layout(constant_id = ID_LENS) const uint LENS = 0;
-layout(constant_id = ID_LAMP_TREE_LEVELS) const uint LAMP_TREE_LEVELS = 0;
-layout(constant_id = ID_LAMP_TREE_WORDS) const uint LAMP_TREE_WORDS = 0;
-layout(constant_id = ID_OVERLAP) const uint OVERLAP = 0;
-layout(constant_id = ID_TREE) const uint TREE = 0;
-layout(constant_id = ID_TREE_LAMPS) const uint TREE_LAMPS = 0;
-layout(constant_id = ID_TREE_COLORS) const uint TREE_COLORS = 0;
-layout(constant_id = ID_TREE_LEVELS) const uint TREE_LEVELS = 0;
-layout(constant_id = ID_TREE_INSIDE) const uint TREE_INSIDE = 1;
-layout(constant_id = ID_POINT_BLOCKS) const uint POINT_BLOCKS = 1024;
-layout(constant_id = ID_WALK_TRIPS) const uint WALK_TRIPS = 0;
-layout(constant_id = ID_SPOT_COUNT) const uint SPOT_COUNT = 0;
-layout(constant_id = ID_HIDDEN_LAMPS) const uint HIDDEN_LAMPS = 0;
-layout(constant_id = ID_HIDDEN_SKIES) const uint HIDDEN_SKIES = 0;
-layout(constant_id = ID_HIDDEN_OTHERS) const uint HIDDEN_OTHERS = 0;
-layout(constant_id = ID_HIDDEN_PLANES) const uint HIDDEN_PLANES = 0;
-layout(constant_id = ID_UNIFORM_READS) const uint UNIFORM_READS = 0;
-layout(constant_id = ID_CAPSULES) const uint CAPSULES = 0;
-layout(constant_id = ID_TREE_CAPSULES) const uint TREE_CAPSULES = 0;
-layout(constant_id = ID_TREE_OPACITY) const uint TREE_OPACITY = 0;
-layout(constant_id = ID_UNROLLED) const uint UNROLLED = 112;
 
 layout(set = 0, binding = BINDING_SCENE_UNIFORM) uniform SceneUniform {
     vec4 words[UNIFORM_SCENE_WORDS];

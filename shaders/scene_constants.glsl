@@ -3,7 +3,7 @@
 #ifndef SCENE_CONSTANTS_GLSL
 #define SCENE_CONSTANTS_GLSL
 
-#include "gpu_layout.h"
+#include "specialization.h"
 
 // Specialization constants are scalars, each with its own name and number, so macros have to write out every one.
 #define SCENE_FLOAT(word, component, name)                                                                             \

@@ -5,7 +5,7 @@
 #include "lib/kernel/device_constants.h"
 #include "lib/vulkan/buffer.h"
 #include "lib/vulkan/compute_pipeline.h"
-#include "shaders/gpu_layout.h"
+#include "shaders/specialization.h"
 
 #include <algorithm>
 #include <array>

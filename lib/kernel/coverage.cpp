@@ -39,7 +39,8 @@ PointLayout camera_layout(const Features &features) {
 std::array<std::uint32_t, gpu::CONSTANT_COUNT> coverage_specialization(const vulkan::Device &device,
                                                                        const Features &features) {
     auto constants = specialization_constants(features);
-    constants[gpu::ID_TABLE_BLOCKS] = features.sampler == PT_SAMPLER_RANDOM ? 0 : camera_layout(features).block_count();
+    constants[gpu::ID_TABLE_BLOCKS] =
+        features[gpu::ID_SAMPLER] == PT_SAMPLER_RANDOM ? 0 : camera_layout(features).block_count();
     constants[gpu::ID_BRANCH_COUNT] = 1;
     set_device_constants(constants, device.policy());
     constants[gpu::ID_POINT_BLOCKS] = device.limits().max_uniform_range / std::uint32_t{sizeof(PointBlock)};
@@ -175,7 +176,7 @@ void Coverage::count(const CoverageQuery &query, gpu::CoverageConstants constant
 }
 
 void Coverage::take(const CoverageQuery &query, const gpu::CoverageConstants &constants, Buffers &buffers) {
-    if (features_.sampler != PT_SAMPLER_RANDOM) {
+    if (features_[gpu::ID_SAMPLER] != PT_SAMPLER_RANDOM) {
         std::vector<std::uint32_t> indices(constants.last_sample - constants.first_sample + 1);
         std::iota(indices.begin(), indices.end(), constants.first_sample);
         const std::vector<PointBlock> table =

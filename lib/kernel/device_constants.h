@@ -3,7 +3,7 @@
 #pragma once
 
 #include "lib/vulkan/device.h"
-#include "shaders/gpu_layout.h"
+#include "shaders/specialization.h"
 
 #include <cstdint>
 #include <span>

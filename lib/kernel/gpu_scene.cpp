@@ -45,7 +45,7 @@ public:
         blocks_(features) {}
 
     void emission(std::uint32_t surface, const Material &material) {
-        if (features_.scene_in_uniform || may_emit(surface))
+        if (features_.scene_in_uniform() || may_emit(surface))
             write_emission(emission_word(surface), material);
     }
 
@@ -56,7 +56,7 @@ public:
         const glm::dvec3 diffuse = glm::dvec3(material.diffuse) / std::numbers::pi;
         const std::uint64_t word = blocks_.reflection_step * index;
         words_[blocks_.diffuse + word] = glm::vec4(glm::vec3(diffuse), specular_probability(material));
-        if (features_.gloss)
+        if (features_[gpu::ID_GLOSS])
             words_[blocks_.specular + word] =
                 glm::vec4(glm::vec3(glm::dvec3(material.specular) * lobe), material.glossiness);
     }
@@ -68,14 +68,14 @@ public:
 
     void sphere(std::uint32_t surface, const SeenSphere &sphere) {
         words_[surface] = glm::vec4(glm::vec3(sphere.open), static_cast<float>(sphere.radius));
-        if (features_.motion || features_.capsules)
+        if (features_[gpu::ID_MOTION] || features_[gpu::ID_CAPSULES])
             words_[blocks_.motion + surface] = way_word(sphere.way, sphere.swept);
     }
 
     void plane(std::uint32_t surface, const CurvedPlane &plane) {
         words_[surface] = glm::vec4(glm::vec3(plane.normal), static_cast<float>(plane.offset));
-        if (features_.curvature)
-            words_[blocks_.curvature + surface - features_.sphere_count] =
+        if (features_[gpu::ID_CURVATURE])
+            words_[blocks_.curvature + surface - features_[gpu::ID_SPHERE_COUNT]] =
                 glm::vec4(static_cast<float>(plane.curvature), glm::vec3(plane.way));
     }
 
@@ -100,16 +100,16 @@ private:
     }
 
     bool may_emit(std::uint32_t surface) const {
-        return surface < features_.walked_lamps() + features_.sky_count ||
-               (features_.planes_emit && surface >= features_.sphere_count);
+        return surface < features_.walked_lamps() + features_[gpu::ID_SKY_COUNT] ||
+               (features_[gpu::ID_PLANES_EMIT] && surface >= features_[gpu::ID_SPHERE_COUNT]);
     }
 
     std::uint64_t emission_word(std::uint32_t surface) const {
-        if (features_.scene_in_uniform || surface < features_.walked_lamps())
+        if (features_.scene_in_uniform() || surface < features_.walked_lamps())
             return blocks_.emission + surface;
-        if (surface < features_.sphere_count)
-            return blocks_.emission + features_.tree_lamps + surface;
-        return blocks_.emission + features_.emitting_spheres() + surface - features_.sphere_count;
+        if (surface < features_[gpu::ID_SPHERE_COUNT])
+            return blocks_.emission + features_[gpu::ID_TREE_LAMPS] + surface;
+        return blocks_.emission + features_.emitting_spheres() + surface - features_[gpu::ID_SPHERE_COUNT];
     }
 
     std::vector<glm::vec4> &words_;
@@ -149,7 +149,7 @@ std::vector<glm::vec4> words_of(const KernelSurfaces &surfaces, const std::vecto
     std::uint32_t surface = 0;
     const auto write_material = [&](std::uint32_t material) {
         writer.emission(surface, scene.scene.materials[material]);
-        if (features.scene_in_uniform)
+        if (features.scene_in_uniform())
             writer.reflection(surface, scene.scene.materials[material]);
         else
             writer.material_index(surface, scene.used_indices[material]);
@@ -164,15 +164,14 @@ std::vector<glm::vec4> words_of(const KernelSurfaces &surfaces, const std::vecto
     }
     for (std::uint32_t i = 0; i < features.table_materials; ++i)
         writer.reflection(i, scene.used_materials[i]);
-    for (std::uint32_t i = 0; i < features.spot_count; ++i)
+    for (std::uint32_t i = 0; i < features[gpu::ID_SPOT_COUNT]; ++i)
         writer.spot(i, spots[i]);
     if (scene.tree)
         writer.tree(*scene.tree, camera, scene.scene.materials);
-    if (features.lamp_tree) {
+    if (features[gpu::ID_LAMP_TREE_WORDS] > 0) {
         const SceneBlocks blocks(features);
-        write_lamp_tree(
-            std::span(words).subspan(blocks.lamp_tree, lamp_tree_words(features.lamp_count, features.motion)),
-            tree_lamps(surfaces, scene, camera), features.motion);
+        write_lamp_tree(std::span(words).subspan(blocks.lamp_tree, features[gpu::ID_LAMP_TREE_WORDS]),
+                        tree_lamps(surfaces, scene, camera), features[gpu::ID_MOTION]);
     }
     return words;
 }
@@ -242,7 +241,7 @@ GpuScene gpu_scene(const DistinctScene &distinct, const PreparedScene &scene, co
     const KernelSurfaces surfaces = kernel_surfaces(distinct.seen, scene.tree.get(), start);
     Features features = features_of(distinct, surfaces, scene, start, settings);
     const std::vector<LightSpot> spots = light_spots(surfaces, scene.scene.materials, features);
-    features.spot_count = static_cast<std::uint32_t>(spots.size());
+    features[gpu::ID_SPOT_COUNT] = static_cast<std::uint32_t>(spots.size());
     return {features,
             words_of(surfaces, spots, scene, start, features),
             frame_constants(start, settings, scene.film_unit),

@@ -37,7 +37,7 @@ std::uint32_t samples_of_dispatch(const vulkan::Device &device, const Features &
         throw Error(PT_ERROR_UNSUPPORTED,
                     BrokenRule{.subject = "render",
                                .member = "max_path_length",
-                               .value = std::to_string(features.max_path_length),
+                               .value = std::to_string(features[gpu::ID_MAX_PATH_LENGTH]),
                                .rule = "a sample of this scene takes up to " + std::to_string(trips) +
                                        " loop trips, and this driver stops a kernel after " + std::to_string(budget) +
                                        ": shorter paths or fewer surfaces would do"});

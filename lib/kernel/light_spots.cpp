@@ -2,7 +2,7 @@
 #include "lib/kernel/light_spots.h"
 
 #include "lib/kernel/scene_blocks.h"
-#include "shaders/gpu_layout.h"
+#include "shaders/specialization.h"
 
 #include <algorithm>
 #include <cmath>
@@ -97,8 +97,8 @@ private:
 
 std::vector<LightSpot> light_spots(const KernelSurfaces &surfaces, const std::vector<Material> &materials,
                                    const Features &features) {
-    const bool are_of_use = samples_lamps(features) && features.max_path_length > 2;
-    if (!are_of_use || features.lamp_count > gpu::EVERY_LAMP_LIMIT || !features.scene_in_uniform ||
+    const bool are_of_use = samples_lamps(features) && features[gpu::ID_MAX_PATH_LENGTH] > 2;
+    if (!are_of_use || features[gpu::ID_LAMP_COUNT] > gpu::EVERY_LAMP_LIMIT || !features.scene_in_uniform() ||
         SceneBlocks(features).word_count + gpu::SPOT_LIMIT > gpu::UNIFORM_SCENE_WORDS)
         return {};
     std::vector<LightSpot> spots = SpotChoice(surfaces, materials).spots();

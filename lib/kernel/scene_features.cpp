@@ -23,17 +23,18 @@ namespace pt {
 // (tree_walk.glsl).
 std::uint64_t loop_trips_per_walk(const Features &features) {
     constexpr std::uint64_t tree_trips = 200;
-    return features.surface_count() + (features.tree ? tree_trips : 0);
+    return features.surface_count() + (features[gpu::ID_TREE] ? tree_trips : 0);
 }
 
 bool samples_lamps(const Features &features) {
-    const bool does = features.estimator == PT_ESTIMATOR_MIS || features.estimator == PT_ESTIMATOR_LIGHT;
-    return does && features.max_path_length > 1;
+    const bool does =
+        features[gpu::ID_ESTIMATOR] == PT_ESTIMATOR_MIS || features[gpu::ID_ESTIMATOR] == PT_ESTIMATOR_LIGHT;
+    return does && features[gpu::ID_MAX_PATH_LENGTH] > 1;
 }
 
 std::vector<std::uint32_t> camera_blocks(const Features &features) {
-    std::vector<std::uint32_t> blocks(gpu::camera_blocks(features.lens ? 1 : 0), 2); // the place on the lens
-    blocks.front() = gpu::camera_dimensions(features.motion ? 1 : 0);
+    std::vector<std::uint32_t> blocks(gpu::camera_blocks(features[gpu::ID_LENS]), 2); // the place on the lens
+    blocks.front() = gpu::camera_dimensions(features[gpu::ID_MOTION]);
     return blocks;
 }
 
@@ -82,14 +83,14 @@ std::uint32_t rounded_up(std::uint32_t levels) {
 // Loop trips for which a vertex looks at the lamps: over all of them once, and once more to choose; or over the top of
 // the tree, and then down it to the lamp that is chosen and to one that a direction meets.
 std::uint64_t lamp_trips(const Features &features) {
-    return features.lamp_tree ? gpu::LAMP_TREE_TOP_GROUPS + 2 * LampTreeShape(features.lamp_count).levels()
-                              : 2 * std::uint64_t{features.lamp_count};
+    return features[gpu::ID_LAMP_TREE_LEVELS] ? gpu::LAMP_TREE_TOP_GROUPS + 2 * features[gpu::ID_LAMP_TREE_LEVELS]
+                                              : 2 * std::uint64_t{features[gpu::ID_LAMP_COUNT]};
 }
 
 // Loop trips of one branch: at each vertex one of a loop, those for the lamps and a walk over the surfaces.
 std::uint64_t loop_trips_per_branch(const Features &features) {
     const std::uint64_t vertex = 1 + lamp_trips(features) + loop_trips_per_walk(features);
-    return (features.max_path_length - 1) * vertex;
+    return (features[gpu::ID_MAX_PATH_LENGTH] - 1) * vertex;
 }
 
 } // namespace
@@ -117,95 +118,108 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
     const bool planes_divide = std::ranges::any_of(distinct.seen.planes, divides);
     const SphereTree *const tree = scene.tree.get();
     const auto tree_lamps = tree ? static_cast<std::uint32_t>(tree->lamp_materials().size()) : 0;
+    const std::uint32_t lamp_count = surfaces.lamp_count + tree_lamps;
 
-    Features features{};
-    features.sphere_count = static_cast<std::uint32_t>(surfaces.spheres.size());
-    features.plane_count = static_cast<std::uint32_t>(surfaces.planes.size());
+    Features features;
+    features[gpu::ID_SPHERE_COUNT] = static_cast<std::uint32_t>(surfaces.spheres.size());
+    features[gpu::ID_PLANE_COUNT] = static_cast<std::uint32_t>(surfaces.planes.size());
     const std::size_t sphere_count = scene.scene.spheres.size() + (tree ? tree->sphere_count() : 0);
     features.most_branches = branches_among(sphere_count, render.max_path_length);
-    features.tree = tree != nullptr;
-    features.tree_colors = tree && tree->has_colors();
-    features.tree_lamps = tree_lamps;
-    features.lamp_count = surfaces.lamp_count + tree_lamps;
-    features.sky_count = surfaces.sky_count;
-    features.hidden = surfaces.hidden;
-    features.curvature = surfaces.planes.size() > distinct.seen.planes.size();
-    features.tree_levels = tree ? rounded_up(tree->depth()) : 0;
-    features.tree_opacity = tree && tree->has_opacities();
-    features.tree_inside = features.tree_opacity || (tree && (tree->may_hold(camera) || tree->divides_start(camera)));
-    features.inside = features.tree_inside || std::ranges::any_of(surfaces.spheres, may_hold_paths);
-    features.planes_emit = std::ranges::any_of(surfaces.planes, glows);
-    features.planes_move = std::ranges::any_of(surfaces.planes, moves);
+    features[gpu::ID_TREE] = tree != nullptr;
+    features[gpu::ID_TREE_COLORS] = tree && tree->has_colors();
+    features[gpu::ID_TREE_LAMPS] = tree_lamps;
+    features[gpu::ID_LAMP_COUNT] = lamp_count;
+    features[gpu::ID_SKY_COUNT] = surfaces.sky_count;
+    features[gpu::ID_HIDDEN_LAMPS] = surfaces.hidden.lamps;
+    features[gpu::ID_HIDDEN_SKIES] = surfaces.hidden.skies;
+    features[gpu::ID_HIDDEN_OTHERS] = surfaces.hidden.others;
+    features[gpu::ID_HIDDEN_PLANES] = surfaces.hidden.planes;
+    features[gpu::ID_CURVATURE] = surfaces.planes.size() > distinct.seen.planes.size();
+    features[gpu::ID_TREE_LEVELS] = tree ? rounded_up(tree->depth()) : 0;
+    features[gpu::ID_TREE_OPACITY] = tree && tree->has_opacities();
+    features[gpu::ID_TREE_INSIDE] =
+        features[gpu::ID_TREE_OPACITY] || (tree && (tree->may_hold(camera) || tree->divides_start(camera)));
+    features[gpu::ID_INSIDE] = features[gpu::ID_TREE_INSIDE] || std::ranges::any_of(surfaces.spheres, may_hold_paths);
+    features[gpu::ID_PLANES_EMIT] = std::ranges::any_of(surfaces.planes, glows);
+    features[gpu::ID_PLANES_MOVE] = std::ranges::any_of(surfaces.planes, moves);
     // Planes with curvature may bulge towards the camera.
-    features.planes_block = features.curvature || planes_divide || planes_are_passed ||
-                            std::ranges::any_of(lamps, is_behind_a_plane) ||
-                            (tree_lamps > 0 && !is_in_region(distinct.seen.planes, tree->bounds(), camera));
+    features[gpu::ID_PLANES_BLOCK] = features[gpu::ID_CURVATURE] || planes_divide || planes_are_passed ||
+                                     std::ranges::any_of(lamps, is_behind_a_plane) ||
+                                     (tree_lamps > 0 && !is_in_region(distinct.seen.planes, tree->bounds(), camera));
     // Of flat planes vertices tell the side as well, and a little faster, where no two all but coincide.
     // Where rays start on both sides of a surface, or pass it at random or as it is hidden, the camera does not tell
     // them.
     const bool starts_divided = distinct.seen.any_surface(divides) || (tree && tree->divides_start(camera));
     const bool some_are_passed = planes_are_passed || std::ranges::any_of(distinct.seen.spheres, is_passed);
-    features.known_sides = !starts_divided && !some_are_passed && !features.tree_opacity &&
-                           (features.inside || features.curvature || distinct.close_planes) &&
-                           std::ranges::all_of(surfaces.planes, has_known_side);
-    features.close_lamps = features.lamp_count > 0 && (distinct.close_lamps || (tree && tree->has_close_lamps()));
-    features.starts_ahead = camera.start_distance > 0.0 || camera.is_orthographic() || camera.has_lens();
-    features.orthographic = camera.is_orthographic();
-    features.lens = camera.has_lens();
-    features.max_path_length = render.max_path_length;
-    features.estimator = render.estimator;
-    features.sampler = render.sampler;
-    features.gloss = scene.gloss;
+    features[gpu::ID_KNOWN_SIDES] =
+        !starts_divided && !some_are_passed && !features[gpu::ID_TREE_OPACITY] &&
+        (features[gpu::ID_INSIDE] || features[gpu::ID_CURVATURE] || distinct.close_planes) &&
+        std::ranges::all_of(surfaces.planes, has_known_side);
+    features[gpu::ID_CLOSE_LAMPS] =
+        features[gpu::ID_LAMP_COUNT] > 0 && (distinct.close_lamps || (tree && tree->has_close_lamps()));
+    features[gpu::ID_STARTS_AHEAD] = camera.start_distance > 0.0 || camera.is_orthographic() || camera.has_lens();
+    features[gpu::ID_ORTHOGRAPHIC] = camera.is_orthographic();
+    features[gpu::ID_LENS] = camera.has_lens();
+    features[gpu::ID_MAX_PATH_LENGTH] = render.max_path_length;
+    features[gpu::ID_ESTIMATOR] = render.estimator;
+    features[gpu::ID_SAMPLER] = render.sampler;
+    features[gpu::ID_GLOSS] = scene.gloss;
     // Of those in the tree the places are kept as they are at time 0.
     const bool tree_is_late = tree && tree->moves() && camera.shutter_open > 0.0;
-    features.motion = scene.moves && (camera.shutter_close > camera.shutter_open || tree_is_late);
-    features.tree_capsules = tree && tree->has_capsules();
-    features.capsules = features.tree_capsules || std::ranges::any_of(surfaces.spheres, &SeenSphere::swept);
-    features.scene_in_uniform = !features.tree;
-    if (features.tree || SceneBlocks(features).word_count > gpu::UNIFORM_SCENE_WORDS) {
-        features.scene_in_uniform = false;
+    features[gpu::ID_MOTION] = scene.moves && (camera.shutter_close > camera.shutter_open || tree_is_late);
+    features[gpu::ID_TREE_CAPSULES] = tree && tree->has_capsules();
+    features[gpu::ID_CAPSULES] =
+        features[gpu::ID_TREE_CAPSULES] || std::ranges::any_of(surfaces.spheres, &SeenSphere::swept);
+    features[gpu::ID_SCENE_SOURCE] = gpu::SCENE_IN_UNIFORM;
+    if (tree || SceneBlocks(features).word_count > gpu::UNIFORM_SCENE_WORDS) {
+        features[gpu::ID_SCENE_SOURCE] = gpu::SCENE_IN_STORAGE;
         features.table_materials = static_cast<std::uint32_t>(scene.used_materials.size());
     }
-    features.lamp_tree = features.lamp_count >= least_tree_lamps && samples_lamps(features);
+    if (lamp_count >= least_tree_lamps && samples_lamps(features)) {
+        features[gpu::ID_LAMP_TREE_LEVELS] = LampTreeShape(lamp_count).levels();
+        features[gpu::ID_LAMP_TREE_WORDS] =
+            static_cast<std::uint32_t>(lamp_tree_words(lamp_count, features[gpu::ID_MOTION]));
+    }
     return features;
 }
 
 std::uint32_t branch_count(const Features &features) {
-    const bool spots_find_most = features.spot_count > 0 && features.max_path_length == 3;
+    const bool spots_find_most = features[gpu::ID_SPOT_COUNT] > 0 && features[gpu::ID_MAX_PATH_LENGTH] == 3;
     const std::uint32_t branches = std::min(features.most_branches, spots_find_most ? 2U : 4U);
     constexpr std::uint64_t max_trips = 1 << 14; // a quarter of what those drivers allow: some samples to a submission
     const bool affordable = branches * loop_trips_per_branch(features) <= max_trips;
-    return features.max_path_length > 2 && affordable ? branches : 1;
+    return features[gpu::ID_MAX_PATH_LENGTH] > 2 && affordable ? branches : 1;
 }
 
 namespace {
 
 // Lamps to which the first vertex sends a ray besides those of its branches, where it samples every lamp.
 std::uint32_t further_lamps(const Features &features, std::uint32_t branches) {
-    const std::uint32_t lamps = features.lamp_count > gpu::EVERY_LAMP_LIMIT ? 0 : features.lamp_count;
+    const std::uint32_t lamps = features[gpu::ID_LAMP_COUNT] > gpu::EVERY_LAMP_LIMIT ? 0 : features[gpu::ID_LAMP_COUNT];
     return lamps - std::min(lamps, branches);
 }
 
 } // namespace
 
 PointLayout point_layout(const Features &features) {
-    const std::uint32_t lens = features.lens ? 1 : 0;
-    const std::uint32_t shared = gpu::shared_blocks(lens, features.lamp_count, features.spot_count);
+    const std::uint32_t lens = features[gpu::ID_LENS];
+    const std::uint32_t shared = gpu::shared_blocks(lens, features[gpu::ID_LAMP_COUNT], features[gpu::ID_SPOT_COUNT]);
     const std::uint32_t branches = branch_count(features);
-    if (features.sampler == PT_SAMPLER_RANDOM)
+    if (features[gpu::ID_SAMPLER] == PT_SAMPLER_RANDOM)
         return {{}, 0, branches};
     std::vector<std::uint32_t> blocks = camera_blocks(features);
     blocks.resize(shared, 2); // the place on each lamp
-    const std::uint32_t direction = gpu::direction_dimensions(features.gloss ? 1 : 0, features.max_path_length);
-    if (features.spot_count > 0) {
-        const std::uint32_t spot = gpu::every_lamp_blocks(lens, features.lamp_count);
+    const std::uint32_t direction =
+        gpu::direction_dimensions(features[gpu::ID_GLOSS], features[gpu::ID_MAX_PATH_LENGTH]);
+    if (features[gpu::ID_SPOT_COUNT] > 0) {
+        const std::uint32_t spot = gpu::every_lamp_blocks(lens, features[gpu::ID_LAMP_COUNT]);
         blocks[spot] = 3;
-        blocks[spot + 1] = gpu::chosen_lamp_dimensions(2, features.lamp_count);
+        blocks[spot + 1] = gpu::chosen_lamp_dimensions(2, features[gpu::ID_LAMP_COUNT]);
         blocks[spot + 2] = direction;
     }
     std::uint32_t left = sequence_dimensions - std::accumulate(blocks.begin(), blocks.end(), 0U);
-    for (std::uint32_t vertex = 1; vertex < features.max_path_length; ++vertex) {
-        const std::uint32_t lamp = gpu::chosen_lamp_dimensions(vertex, features.lamp_count);
+    for (std::uint32_t vertex = 1; vertex < features[gpu::ID_MAX_PATH_LENGTH]; ++vertex) {
+        const std::uint32_t lamp = gpu::chosen_lamp_dimensions(vertex, features[gpu::ID_LAMP_COUNT]);
         if (lamp + direction > left)
             break;
         if (lamp > 0)
@@ -218,49 +232,10 @@ PointLayout point_layout(const Features &features) {
 
 std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Features &features) {
     const PointLayout layout = point_layout(features);
-    std::array<std::uint32_t, gpu::CONSTANT_COUNT> constants{};
-    constants[gpu::ID_SPHERE_COUNT] = features.sphere_count;
-    constants[gpu::ID_PLANE_COUNT] = features.plane_count;
-    constants[gpu::ID_LAMP_COUNT] = features.lamp_count;
-    constants[gpu::ID_MAX_PATH_LENGTH] = features.max_path_length;
-    constants[gpu::ID_ESTIMATOR] = features.estimator;
-    constants[gpu::ID_GLOSS] = features.gloss ? 1 : 0;
-    constants[gpu::ID_MOTION] = features.motion ? 1 : 0;
-    constants[gpu::ID_SAMPLER] = features.sampler;
+    auto constants = features.constants;
     constants[gpu::ID_TABLE_BLOCKS] = layout.block_count();
     constants[gpu::ID_BRANCH_COUNT] = layout.branches;
-    constants[gpu::ID_CURVATURE] = features.curvature ? 1 : 0;
-    constants[gpu::ID_OVERLAP] = 0;
     constants[gpu::ID_UNROLLED] = gpu::CONSTANT_SCENE_WORDS; // all for which words may be constants
-    constants[gpu::ID_INSIDE] = features.inside ? 1 : 0;
-    constants[gpu::ID_PLANES_BLOCK] = features.planes_block ? 1 : 0;
-    constants[gpu::ID_PLANES_EMIT] = features.planes_emit ? 1 : 0;
-    constants[gpu::ID_SKY_COUNT] = features.sky_count;
-    constants[gpu::ID_KNOWN_SIDES] = features.known_sides ? 1 : 0;
-    constants[gpu::ID_PLANES_MOVE] = features.planes_move ? 1 : 0;
-    constants[gpu::ID_CLOSE_LAMPS] = features.close_lamps ? 1 : 0;
-    constants[gpu::ID_STARTS_AHEAD] = features.starts_ahead ? 1 : 0;
-    constants[gpu::ID_ORTHOGRAPHIC] = features.orthographic ? 1 : 0;
-    constants[gpu::ID_CAPSULES] = features.capsules ? 1 : 0;
-    constants[gpu::ID_LENS] = features.lens ? 1 : 0;
-    constants[gpu::ID_HIDDEN_LAMPS] = features.hidden.lamps;
-    constants[gpu::ID_HIDDEN_SKIES] = features.hidden.skies;
-    constants[gpu::ID_HIDDEN_OTHERS] = features.hidden.others;
-    constants[gpu::ID_HIDDEN_PLANES] = features.hidden.planes;
-    constants[gpu::ID_TREE] = features.tree ? 1 : 0;
-    constants[gpu::ID_TREE_LEVELS] = features.tree_levels;
-    constants[gpu::ID_TREE_INSIDE] = features.tree_inside ? 1 : 0;
-    constants[gpu::ID_TREE_COLORS] = features.tree_colors ? 1 : 0;
-    constants[gpu::ID_TREE_CAPSULES] = features.tree_capsules ? 1 : 0;
-    constants[gpu::ID_TREE_OPACITY] = features.tree_opacity ? 1 : 0;
-    constants[gpu::ID_TREE_LAMPS] = features.tree_lamps;
-    if (features.lamp_tree) {
-        constants[gpu::ID_LAMP_TREE_LEVELS] = LampTreeShape(features.lamp_count).levels();
-        constants[gpu::ID_LAMP_TREE_WORDS] =
-            static_cast<std::uint32_t>(lamp_tree_words(features.lamp_count, features.motion));
-    }
-    constants[gpu::ID_SPOT_COUNT] = features.spot_count;
-    constants[gpu::ID_SCENE_SOURCE] = features.scene_in_uniform ? gpu::SCENE_IN_UNIFORM : gpu::SCENE_IN_STORAGE;
     return constants;
 }
 
@@ -272,9 +247,10 @@ std::uint64_t loop_trips_per_sample(const Features &features) {
     const std::uint64_t first_vertex = further_lamps(features, branches) * (1 + walk) + lamp_trips(features);
     // By way of a spot: to see and choose it and for its density, once more for each branch, the walk there and one
     // beyond.
-    const std::uint64_t way = features.spot_count > 0
-                                  ? std::uint64_t{4 + branches} * features.spot_count + 2 * walk + lamp_trips(features)
-                                  : 0;
+    const std::uint64_t way =
+        features[gpu::ID_SPOT_COUNT] > 0
+            ? std::uint64_t{4 + branches} * features[gpu::ID_SPOT_COUNT] + 2 * walk + lamp_trips(features)
+            : 0;
     return 1 + walk + way + first_vertex + branches * loop_trips_per_branch(features);
 }
 
@@ -289,24 +265,33 @@ double surface_tests_per_path(const Features &features, const SphereTree *tree) 
     // The camera ray, those to further lamps from the first vertex, then from each vertex of a branch the next ray
     // and one to a lamp.
     const std::uint32_t branches = branch_count(features);
-    const std::uint64_t vertices = std::uint64_t{branches} * (features.max_path_length - 1);
-    const std::uint32_t by_spot = features.spot_count > 0 ? 3 : 0; // the ray to it, and two from there
+    const std::uint64_t vertices = std::uint64_t{branches} * (features[gpu::ID_MAX_PATH_LENGTH] - 1);
+    const std::uint32_t by_spot = features[gpu::ID_SPOT_COUNT] > 0 ? 3 : 0; // the ray to it, and two from there
     return surface_tests_per_ray(features, tree) *
            static_cast<double>(1 + further_lamps(features, branches) + by_spot + 2 * vertices);
 }
 
 std::uint32_t feature_bits(const Features &features) {
-    std::uint32_t bits = 0;
-    bits |= features.lamp_count > 0 ? PT_FEATURE_LAMPS : 0;
-    bits |= features.gloss ? PT_FEATURE_GLOSS : 0;
-    bits |= features.motion ? PT_FEATURE_MOTION : 0;
-    bits |= features.scene_in_uniform ? 0 : PT_FEATURE_LARGE;
-    bits |= features.tree ? PT_FEATURE_TREE : 0;
-    bits |= features.orthographic ? PT_FEATURE_ORTHOGRAPHIC : 0;
-    bits |= features.hidden.any() ? PT_FEATURE_HIDDEN : 0;
-    bits |= features.lens ? PT_FEATURE_LENS : 0;
-    bits |= features.capsules ? PT_FEATURE_CAPSULES : 0;
-    bits |= features.tree_opacity ? PT_FEATURE_OPACITY : 0;
+    struct {
+        std::uint32_t id;
+        std::uint32_t bit;
+    } constexpr bits_of_constants[] = {
+        {gpu::ID_LAMP_COUNT, PT_FEATURE_LAMPS},
+        {gpu::ID_GLOSS, PT_FEATURE_GLOSS},
+        {gpu::ID_MOTION, PT_FEATURE_MOTION},
+        {gpu::ID_TREE, PT_FEATURE_TREE},
+        {gpu::ID_ORTHOGRAPHIC, PT_FEATURE_ORTHOGRAPHIC},
+        {gpu::ID_HIDDEN_LAMPS, PT_FEATURE_HIDDEN},
+        {gpu::ID_HIDDEN_SKIES, PT_FEATURE_HIDDEN},
+        {gpu::ID_HIDDEN_OTHERS, PT_FEATURE_HIDDEN},
+        {gpu::ID_HIDDEN_PLANES, PT_FEATURE_HIDDEN},
+        {gpu::ID_LENS, PT_FEATURE_LENS},
+        {gpu::ID_CAPSULES, PT_FEATURE_CAPSULES},
+        {gpu::ID_TREE_OPACITY, PT_FEATURE_OPACITY},
+    };
+    std::uint32_t bits = features.scene_in_uniform() ? 0 : PT_FEATURE_LARGE;
+    for (const auto &[id, bit] : bits_of_constants)
+        bits |= features[id] > 0 ? bit : 0;
     return bits;
 }
 

@@ -8,7 +8,7 @@
 #include "lib/scene/camera.h"
 #include "lib/scene/render_settings.h"
 #include "lib/scene/twins.h"
-#include "shaders/gpu_layout.h"
+#include "shaders/specialization.h"
 
 #include <array>
 #include <cstdint>
@@ -17,48 +17,24 @@
 namespace pt {
 
 struct Features {
-    std::uint32_t sphere_count;  // spheres held by centre and radius
-    std::uint32_t plane_count;   // planes, and spheres held as planes with a curvature (curved_plane.h)
-    std::uint32_t lamp_count;    // emitting ones of sphere_count, and of the tree, that can be sampled
-    std::uint32_t sky_count;     // emitting ones of sphere_count that hold the camera, and so all paths
-    HiddenCounts hidden;         // surfaces that the camera does not see
-    std::uint32_t most_branches; // of a path at its first vertex, by the number of spheres
-    std::uint32_t max_path_length;
-    std::uint32_t estimator;
-    std::uint32_t sampler;
-    bool gloss;        // some material in use has a specular lobe
-    bool motion;       // some sphere moves while the shutter is open
-    bool capsules;     // some sphere is swept along a segment, in the tree or not
-    bool curvature;    // some sphere is held as a plane with a curvature
-    bool inside;       // the camera is inside a sphere held by centre and radius, or too near to its surface to tell
-    bool planes_block; // some plane may stand between a surface that a path reaches and a lamp
-    bool planes_emit;  // some plane, or sphere held as one, emits
-    bool planes_move;  // some sphere held as a plane moves while the shutter is open
-    bool known_sides;  // the camera tells the sides of surfaces, which is of use and possible
-    bool close_lamps;  // some lamp nearly coincides with another sphere (twins.h)
-    bool lamp_tree;    // lamps are chosen by a tree (lib/scene/lamp_tree.h)
-    std::uint32_t spot_count; // of light_spots.h, to which the first vertex sends a ray of its own
-    bool starts_ahead;        // camera rays start on a plane across the view (ray_start.h)
-    bool orthographic;        // and are parallel
-    bool lens;                // or start on a lens, likewise across the view
-    bool scene_in_uniform;    // the scene, with the words of a material for each surface, fits into a uniform buffer
-    std::uint32_t table_materials; // if it does not: the materials that its surfaces share
-    bool tree;                     // most spheres are in a tree, and not among sphere_count
-    std::uint32_t tree_levels;     // of nodes, rounded up, so that few trees want a kernel of their own
-    bool tree_inside;              // the camera is inside one of them, or too near to its surface to tell
-    bool tree_colors;              // with colors of their own
-    bool tree_capsules;            // some of them are capsules
-    bool tree_opacity;             // rays pass some of them at random
-    std::uint32_t tree_lamps;      // of lamp_count, those in the tree, which come last
+    // Values of the specialization constants, by gpu::ID_*, as far as a scene, its camera and settings tell them.
+    std::array<std::uint32_t, gpu::CONSTANT_COUNT> constants{};
+    std::uint32_t most_branches = 0;   // of a path at its first vertex, by the number of spheres
+    std::uint32_t table_materials = 0; // that the surfaces share if the scene is not in the uniform buffer
 
     bool operator==(const Features &) const = default;
 
-    std::uint32_t surface_count() const { return sphere_count + plane_count; }
-    std::uint32_t emitting_spheres() const { return lamp_count + sky_count; }
-    std::uint32_t walked_lamps() const { return lamp_count - tree_lamps; }
+    std::uint32_t &operator[](std::uint32_t id) { return constants[id]; }
+    std::uint32_t operator[](std::uint32_t id) const { return constants[id]; }
+
+    // Whether the scene, with the words of a material for each surface, fits into a uniform buffer.
+    bool scene_in_uniform() const { return constants[gpu::ID_SCENE_SOURCE] == gpu::SCENE_IN_UNIFORM; }
+    std::uint32_t surface_count() const { return constants[gpu::ID_SPHERE_COUNT] + constants[gpu::ID_PLANE_COUNT]; }
+    std::uint32_t emitting_spheres() const { return constants[gpu::ID_LAMP_COUNT] + constants[gpu::ID_SKY_COUNT]; }
+    std::uint32_t walked_lamps() const { return constants[gpu::ID_LAMP_COUNT] - constants[gpu::ID_TREE_LAMPS]; }
 };
 
-// All features but spot_count (light_spots.h).
+// All features but gpu::ID_SPOT_COUNT (light_spots.h).
 Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfaces, const PreparedScene &scene,
                      const Camera &camera, const RenderSettings &render);
 
@@ -81,7 +57,7 @@ std::uint32_t branch_count(const Features &features);
 // nothing for samplers without a sequence.
 PointLayout point_layout(const Features &features);
 
-// Values of the specialization constants, by constant_id.
+// Values of all specialization constants, by constant_id.
 std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Features &features);
 
 // An upper bound of the loop trips that one sample takes, with no loop unrolled.

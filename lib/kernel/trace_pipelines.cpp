@@ -4,7 +4,7 @@
 #include "lib/kernel/device_constants.h"
 #include "lib/kernel/scene_blocks.h"
 #include "lib/kernel/specialised_code.h"
-#include "shaders/gpu_layout.h"
+#include "shaders/specialization.h"
 
 #include <algorithm>
 #include <array>
@@ -27,7 +27,7 @@ std::vector<std::uint32_t> constants_of_features(const vulkan::Device &device, c
     std::vector<std::uint32_t> result(constants.begin(), constants.end());
     result[gpu::ID_POINT_BLOCKS] = device.limits().max_uniform_range / std::uint32_t{sizeof(glm::uvec4)};
     set_device_constants(result, device.policy());
-    result[gpu::ID_WALK_TRIPS] = features.tree ? device.policy().walk_trips : 0;
+    result[gpu::ID_WALK_TRIPS] = features[gpu::ID_TREE] ? device.policy().walk_trips : 0;
     const bool fits = SceneBlocks(features).word_count <= gpu::UNIFORM_SCENE_WORDS;
     result[gpu::ID_UNIFORM_READS] = device.policy().compiles_for_cpu && fits ? 1 : 0;
     result[gpu::ID_OVERLAP] = device.policy().invocations > 0 ? 1 : 0;
@@ -94,7 +94,8 @@ void TracePipelines::note_own(const std::vector<std::uint32_t> &constants, doubl
 const vulkan::ComputePipeline &TracePipelines::trace(const Features &features, std::span<const glm::vec4> words,
                                                      double seconds) {
     std::vector<std::uint32_t> constants = constants_of_features(device_, features);
-    if (device_.policy().scene_in_constants && features.scene_in_uniform && words.size() <= gpu::CONSTANT_SCENE_WORDS) {
+    if (device_.policy().scene_in_constants && features.scene_in_uniform() &&
+        words.size() <= gpu::CONSTANT_SCENE_WORDS) {
         std::vector<std::uint32_t> own = with_scene(constants, words);
         note_own(own, seconds); // own_ is this scene's afterwards, or nobody's
         if (const vulkan::ComputePipeline *const kept = find(own))

@@ -55,8 +55,8 @@ TEST(GpuLayout, WhatTheSceneDoesNotUseIsNotInTheBuffer) {
     scene.materials[1].specular = {0, 0, 0};
     scene.spheres[0].motion = {0, 0, 0};
     const pt::GpuScene gpu_scene = gpu_scene_of(scene, camera_at({0, 0, 1}));
-    EXPECT_FALSE(gpu_scene.features.gloss);
-    EXPECT_FALSE(gpu_scene.features.motion);
+    EXPECT_FALSE(gpu_scene.features[pt::gpu::ID_GLOSS]);
+    EXPECT_FALSE(gpu_scene.features[pt::gpu::ID_MOTION]);
     EXPECT_EQ(gpu_scene.words.size(), 9U);
 }
 
@@ -69,11 +69,10 @@ TEST(GpuLayout, HugeSpheresArePlanesWithACurvature) {
     const pt::Camera camera = camera_at({0, 0, 1});
     const pt::GpuScene gpu_scene = gpu_scene_of(scene, camera);
     const pt::Features &features = gpu_scene.features;
-    EXPECT_EQ(features.sphere_count, 2U);
-    EXPECT_EQ(features.plane_count, 3U);
-    EXPECT_EQ(features.lamp_count, 1U);
-    EXPECT_TRUE(features.curvature);
-    EXPECT_EQ(pt::specialization_constants(features)[pt::gpu::ID_CURVATURE], 1U);
+    EXPECT_EQ(features[pt::gpu::ID_SPHERE_COUNT], 2U);
+    EXPECT_EQ(features[pt::gpu::ID_PLANE_COUNT], 3U);
+    EXPECT_EQ(features[pt::gpu::ID_LAMP_COUNT], 1U);
+    EXPECT_TRUE(features[pt::gpu::ID_CURVATURE]);
 
     const std::vector<glm::vec4> &words = gpu_scene.words;
     ASSERT_EQ(words.size(), 5U * 4 + 2 + 3);

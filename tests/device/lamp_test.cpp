@@ -1,7 +1,7 @@
 // Lamps as the device chooses and samples them from a vertex: directions and choices against what the shipped functions
 // state, and what they state against geometry in double. Run alone with --gtest_filter=Lamp*.
 #include "lamps.spv.h"
-#include "shaders/gpu_layout.h"
+#include "shaders/specialization.h"
 #include "tests/device/probe.h"
 #include "tests/support/statistics.h"
 

@@ -72,7 +72,7 @@ TEST(LampTreeChoice, FollowsTheStatedProbability) {
     for (const auto &[name, scene] : lamp_scenes::all()) {
         const pt::GpuScene gpu_scene = lamp_scenes::gpu_scene(scene);
         TreeProbe probe(gpu_scene);
-        const std::uint32_t lamp_count = gpu_scene.features.lamp_count;
+        const std::uint32_t lamp_count = gpu_scene.features[pt::gpu::ID_LAMP_COUNT];
         std::uint32_t seed = 100;
         for (const TreeVertex &vertex : tree_vertices(gpu_scene)) {
             SCOPED_TRACE(name);

@@ -3,7 +3,7 @@
 
 #include "lamps.spv.h"
 #include "lib/kernel/gpu_scene.h"
-#include "shaders/gpu_layout.h"
+#include "shaders/specialization.h"
 #include "tests/device/probe.h"
 
 #include <array>
@@ -30,7 +30,7 @@ struct TreeDrawn {
 class TreeProbe {
 public:
     explicit TreeProbe(const pt::GpuScene &scene) :
-        lamp_count_(scene.features.lamp_count),
+        lamp_count_(scene.features[pt::gpu::ID_LAMP_COUNT]),
         probe_(lamps_spirv(), sizeof(Push), constants(scene)) {
         probe_.set_scene(scene.words);
     }
@@ -67,8 +67,8 @@ private:
 
 // Vertices on the ground, in the air, with all lamps ahead and all behind, far away, and by a lamp.
 inline std::vector<TreeVertex> tree_vertices(const pt::GpuScene &scene) {
-    const glm::vec3 lamp(scene.words[scene.features.lamp_count / 2]);
-    const float radius = scene.words[scene.features.lamp_count / 2].w;
+    const glm::vec3 lamp(scene.words[scene.features[pt::gpu::ID_LAMP_COUNT] / 2]);
+    const float radius = scene.words[scene.features[pt::gpu::ID_LAMP_COUNT] / 2].w;
     const glm::vec3 oblique = glm::normalize(glm::vec3(2, -1, 0.5F));
     return {{{0, 0, 0}, {0, 1, 0}, 0.0F},
             {{7, 0, -3}, {0, 1, 0}, 0.375F},
@@ -78,5 +78,5 @@ inline std::vector<TreeVertex> tree_vertices(const pt::GpuScene &scene) {
             {{0, -50, 0}, {0, -1, 0}, 0.25F},
             {{400, 300, 5}, -glm::normalize(glm::vec3(4, 3, 0)), 0.75F},
             {lamp + 1.5F * radius * glm::vec3(0, 0, 1), {0, 0.6F, -0.8F}, 0.0F},
-            {lamp, {0, 0, 1}, 0.0F, scene.features.lamp_count / 2}};
+            {lamp, {0, 0, 1}, 0.0F, scene.features[pt::gpu::ID_LAMP_COUNT] / 2}};
 }

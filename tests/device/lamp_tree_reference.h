@@ -3,7 +3,7 @@
 
 #include "lib/kernel/gpu_scene.h"
 #include "lib/kernel/scene_blocks.h"
-#include "shaders/gpu_layout.h"
+#include "shaders/specialization.h"
 #include "tests/device/lamp_tree_probe.h"
 
 #include <algorithm>
@@ -22,13 +22,13 @@ public:
     explicit TreeReference(const pt::GpuScene &scene) : features_(scene.features), words_(scene.words) {
         words_.erase(words_.begin(),
                      words_.begin() + static_cast<std::ptrdiff_t>(pt::SceneBlocks(features_).lamp_tree));
-        while (features_.lamp_count > 16U << (2 * levels_))
+        while (features_[pt::gpu::ID_LAMP_COUNT] > 16U << (2 * levels_))
             ++levels_;
-        top_ = (features_.lamp_count + (4U << (2 * levels_)) - 1) / (4U << (2 * levels_));
+        top_ = (features_[pt::gpu::ID_LAMP_COUNT] + (4U << (2 * levels_)) - 1) / (4U << (2 * levels_));
     }
 
     std::vector<double> probabilities(const TreeVertex &vertex) const {
-        std::vector<double> shares(features_.lamp_count);
+        std::vector<double> shares(features_[pt::gpu::ID_LAMP_COUNT]);
         std::vector<std::array<double, 4>> groups;
         double total = 0.0;
         for (std::uint32_t group = 0; group < top_; ++group) {
@@ -40,7 +40,7 @@ public:
             descend(group, groups[group], part, 0, top_, vertex, shares);
         }
         for (double &share : shares)
-            share = (1.0 - uniform_share) * share + uniform_share / features_.lamp_count;
+            share = (1.0 - uniform_share) * share + uniform_share / features_[pt::gpu::ID_LAMP_COUNT];
         return shares;
     }
 
@@ -48,7 +48,7 @@ private:
     static double sum(const std::array<double, 4> &of) { return of[0] + of[1] + of[2] + of[3]; }
 
     double number(std::uint64_t group, std::size_t word, int node) const {
-        return words_[pt::gpu::lamp_tree_group_words(features_.motion ? 1 : 0) * group + word][node];
+        return words_[pt::gpu::lamp_tree_group_words(features_[pt::gpu::ID_MOTION]) * group + word][node];
     }
 
     bool is_leaf(std::uint64_t group) const { return group >= top_ * ((1U << (2 * levels_)) - 1) / 3; }
@@ -57,7 +57,8 @@ private:
         const std::uint32_t above = top_ * ((1U << (2 * levels_)) - 1) / 3;
         const std::uint32_t groups = top_ * ((4U << (2 * levels_)) - 1) / 3;
         return std::bit_cast<std::uint32_t>(
-                   words_[pt::gpu::lamp_tree_group_words(features_.motion ? 1 : 0) * groups + group - above][node]) -
+                   words_[pt::gpu::lamp_tree_group_words(features_[pt::gpu::ID_MOTION]) * groups + group - above]
+                         [node]) -
                pt::gpu::MATERIAL_INDEX_BITS;
     }
 
@@ -65,7 +66,7 @@ private:
         std::array<double, 4> result{};
         for (int node = 0; node < 4; ++node) {
             glm::dvec3 way(0.0);
-            if (features_.motion)
+            if (features_[pt::gpu::ID_MOTION])
                 way = {number(group, 5, node), number(group, 6, node), number(group, 7, node)};
             const glm::dvec3 place(number(group, 0, node), number(group, 1, node), number(group, 2, node));
             const glm::dvec3 to = place + double{vertex.time} * way - glm::dvec3(vertex.position);
@@ -117,9 +118,9 @@ private:
 inline std::vector<double> lamp_weights(const pt::GpuScene &scene, const TreeVertex &vertex) {
     std::vector<double> weights;
     const pt::SceneBlocks blocks(scene.features);
-    for (std::uint32_t lamp = 0; lamp < scene.features.lamp_count; ++lamp) {
+    for (std::uint32_t lamp = 0; lamp < scene.features[pt::gpu::ID_LAMP_COUNT]; ++lamp) {
         glm::dvec3 to = glm::dvec3(glm::vec3(scene.words[lamp])) - glm::dvec3(vertex.position);
-        if (scene.features.motion)
+        if (scene.features[pt::gpu::ID_MOTION])
             to += double{vertex.time} * glm::dvec3(glm::vec3(scene.words[blocks.motion + lamp]));
         const double radius = double{scene.words[lamp].w};
         const double distance = glm::length(to);

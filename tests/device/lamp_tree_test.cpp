@@ -20,7 +20,7 @@ namespace {
 TEST(LampTreeProbabilities, AreThoseOfAReferenceInDouble) {
     for (const auto &[name, scene] : lamp_scenes::all()) {
         const pt::GpuScene gpu_scene = lamp_scenes::gpu_scene(scene);
-        ASSERT_TRUE(gpu_scene.features.lamp_tree) << name;
+        ASSERT_TRUE(gpu_scene.features[pt::gpu::ID_LAMP_TREE_LEVELS]) << name;
         TreeProbe probe(gpu_scene);
         const TreeReference reference(gpu_scene);
         for (const TreeVertex &vertex : tree_vertices(gpu_scene)) {

@@ -104,7 +104,7 @@ TEST(LeftOut, EmissionOfPlanesWhereNoneEmits) {
     for (pt_material &material : scene.materials)
         std::fill_n(material.specular, 3, 0.0F);
     const KernelRender render = render_of_scene(scene, path_length);
-    ASSERT_FALSE(render.features().planes_emit);
+    ASSERT_FALSE(render.features()[gpu::ID_PLANES_EMIT]);
     const Image image = image_with(render, render.constants());
     EXPECT_EQ(image, image_with_other(render, gpu::ID_PLANES_EMIT));
 }

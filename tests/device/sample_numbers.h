@@ -4,7 +4,7 @@
 
 #include "lib/kernel/point_sequence.h"
 #include "sample_numbers.spv.h"
-#include "shaders/gpu_layout.h"
+#include "shaders/specialization.h"
 #include "tests/device/probe.h"
 #include "tests/support/statistics.h"
 

@@ -2,7 +2,7 @@
 // places.
 #pragma once
 
-#include "shaders/gpu_layout.h"
+#include "shaders/specialization.h"
 #include "tests/device/probe.h"
 
 #include <bit>

@@ -82,15 +82,16 @@ protected:
 
 TEST_F(SceneSource, KeepsTheBitsOfADiffuseSceneWithManyLamps) {
     const KernelRender render = render_of_scene(diffuse_scene());
-    EXPECT_FALSE(render.features().motion || render.features().gloss || render.features().curvature);
-    EXPECT_GT(render.features().lamp_count, gpu::EVERY_LAMP_LIMIT);
+    EXPECT_FALSE(render.features()[gpu::ID_MOTION] || render.features()[gpu::ID_GLOSS] ||
+                 render.features()[gpu::ID_CURVATURE]);
+    EXPECT_GT(render.features()[gpu::ID_LAMP_COUNT], gpu::EVERY_LAMP_LIMIT);
     const Comparison same(render);
     EXPECT_TRUE(same.holds(gpu::SCENE_IN_UNIFORM, render.words()));
     EXPECT_TRUE(same.holds_in_storage());
 
     // Negative control: one number is off by its last bit.
     std::vector<glm::vec4> words = render.words();
-    float &radius = words[render.features().lamp_count].w; // of the first ball
+    float &radius = words[render.features()[gpu::ID_LAMP_COUNT]].w; // of the first ball
     radius = std::nextafter(radius, std::numeric_limits<float>::infinity());
     EXPECT_FALSE(same.holds(gpu::SCENE_IN_UNIFORM, words));
     EXPECT_FALSE(same.holds(gpu::SCENE_IN_CONSTANTS, words));
@@ -98,7 +99,7 @@ TEST_F(SceneSource, KeepsTheBitsOfADiffuseSceneWithManyLamps) {
 
     // And the floor, the last surface, has the ball's material instead of its own: the index alone says so.
     std::vector<glm::vec4> table = table_words(render.features(), render.words());
-    const std::uint32_t ball = render.features().lamp_count;
+    const std::uint32_t ball = render.features()[gpu::ID_LAMP_COUNT];
     const std::uint32_t floor = render.features().surface_count() - 1;
     ASSERT_EQ(floor, ball + 1);
     glm::vec4 *const indices = &table[first_index_word(render.features())];
@@ -115,7 +116,8 @@ TEST_F(SceneSource, KeepsTheBitsWithOneLampMotionGlossAndAHugeSphere) {
     scene.spheres[1].motion[0] = 1.5;
     scene.spheres.push_back({{0, -1002.5, -8}, 1000, {0, 0, 0}, scene.planes[0].material, 0});
     const KernelRender render = render_of_scene(scene);
-    EXPECT_TRUE(render.features().motion && render.features().gloss && render.features().curvature);
+    EXPECT_TRUE(render.features()[gpu::ID_MOTION] && render.features()[gpu::ID_GLOSS] &&
+                render.features()[gpu::ID_CURVATURE]);
     const Comparison same(render);
     EXPECT_TRUE(same.holds(gpu::SCENE_IN_UNIFORM, render.words()));
     EXPECT_TRUE(same.holds_in_storage());
@@ -129,7 +131,7 @@ TEST_F(SceneSource, KeepsTheBitsOfTwoEqualLamps) {
     InvarianceScene scene = scene_with_lamps(2);
     scene.spheres[2].material = scene.spheres[1].material;
     const KernelRender render = render_of_scene(scene);
-    EXPECT_EQ(render.features().lamp_count, 2U);
+    EXPECT_EQ(render.features()[gpu::ID_LAMP_COUNT], 2U);
     EXPECT_EQ(render.words()[render.features().surface_count()], render.words()[render.features().surface_count() + 1]);
     const Comparison same(render);
     EXPECT_TRUE(same.holds(gpu::SCENE_IN_UNIFORM, render.words()));
@@ -152,9 +154,9 @@ TEST_F(SceneSource, KeepsTheBitsOfSurfacesOfOneMaterial) {
     for (pt_plane &plane : scene.planes)
         plane.material = 3;
     const KernelRender render = render_of_scene(scene);
-    EXPECT_TRUE(render.features().gloss);
+    EXPECT_TRUE(render.features()[gpu::ID_GLOSS]);
     EXPECT_EQ(render.features().surface_count(), 4U);
-    EXPECT_TRUE(render.features().planes_emit);
+    EXPECT_TRUE(render.features()[gpu::ID_PLANES_EMIT]);
     const Comparison same(render);
     EXPECT_TRUE(same.holds(gpu::SCENE_IN_UNIFORM, render.words()));
     EXPECT_TRUE(same.holds_in_storage());
@@ -169,7 +171,7 @@ TEST_F(SceneSource, KeepsTheBitsOfASingleSurface) {
     std::fill_n(scene.materials[3].specular, 3, 0.37F);
     std::fill_n(scene.materials[3].emission, 3, 0.7F);
     const KernelRender render = render_of_scene(scene);
-    EXPECT_TRUE(render.features().gloss);
+    EXPECT_TRUE(render.features()[gpu::ID_GLOSS]);
     EXPECT_EQ(render.features().surface_count(), 1U);
     EXPECT_TRUE(Comparison(render).holds(gpu::SCENE_IN_UNIFORM, render.words()));
 }

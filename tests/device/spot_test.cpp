@@ -1,6 +1,6 @@
 // Spots as the device chooses and samples them from a vertex: the mean of 1 / density over the directions that end in a
 // region is the region's solid angle. Run alone with --gtest_filter=Spot*.
-#include "shaders/gpu_layout.h"
+#include "shaders/specialization.h"
 #include "spots.spv.h"
 #include "tests/device/probe.h"
 #include "tests/support/statistics.h"

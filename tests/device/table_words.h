@@ -12,19 +12,22 @@
 
 // Where surface i has the index of its material: component i mod 4 of word first_index_word + i / 4.
 inline std::size_t first_index_word(const pt::Features &features) {
-    const std::size_t emitting = features.emitting_spheres() + (features.planes_emit ? features.plane_count : 0);
-    return features.surface_count() + emitting + (features.motion ? features.sphere_count : 0) +
-           (features.curvature ? features.plane_count : 0);
+    const std::size_t emitting =
+        features.emitting_spheres() + (features[pt::gpu::ID_PLANES_EMIT] ? features[pt::gpu::ID_PLANE_COUNT] : 0);
+    return features.surface_count() + emitting +
+           (features[pt::gpu::ID_MOTION] ? features[pt::gpu::ID_SPHERE_COUNT] : 0) +
+           (features[pt::gpu::ID_CURVATURE] ? features[pt::gpu::ID_PLANE_COUNT] : 0);
 }
 
 inline std::vector<glm::vec4> table_words(const pt::Features &features, const std::vector<glm::vec4> &words) {
     const std::size_t surfaces = features.surface_count();
-    const std::size_t reflection = features.gloss ? 2 : 1;
+    const std::size_t reflection = features[pt::gpu::ID_GLOSS] ? 2 : 1;
     const auto emission = words.begin() + static_cast<std::ptrdiff_t>(surfaces);
     std::vector<glm::vec4> result(words.begin(), emission);
     result.insert(result.end(), emission, emission + features.emitting_spheres());
-    if (features.planes_emit)
-        result.insert(result.end(), emission + features.sphere_count, emission + static_cast<std::ptrdiff_t>(surfaces));
+    if (features[pt::gpu::ID_PLANES_EMIT])
+        result.insert(result.end(), emission + features[pt::gpu::ID_SPHERE_COUNT],
+                      emission + static_cast<std::ptrdiff_t>(surfaces));
     result.insert(result.end(), emission + static_cast<std::ptrdiff_t>((1 + reflection) * surfaces), words.end());
     result.resize(first_index_word(features) + (surfaces + 3) / 4);
     for (std::uint32_t i = 0; i < surfaces; ++i)

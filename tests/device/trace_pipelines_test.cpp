@@ -19,11 +19,11 @@ using pt::vulkan::ComputePipeline;
 // One sphere, seen directly: the smallest kernel there is.
 pt::Features features_of_a_sphere(std::uint32_t sampler = PT_SAMPLER_RANDOM) {
     pt::Features features{};
-    features.sphere_count = 1;
-    features.max_path_length = 1;
-    features.estimator = PT_ESTIMATOR_MIS;
-    features.sampler = sampler;
-    features.scene_in_uniform = true;
+    features[pt::gpu::ID_SPHERE_COUNT] = 1;
+    features[pt::gpu::ID_MAX_PATH_LENGTH] = 1;
+    features[pt::gpu::ID_ESTIMATOR] = PT_ESTIMATOR_MIS;
+    features[pt::gpu::ID_SAMPLER] = sampler;
+    features[pt::gpu::ID_SCENE_SOURCE] = pt::gpu::SCENE_IN_UNIFORM;
     return features;
 }
 
@@ -104,7 +104,7 @@ TEST_F(TracePipelinesTest, AHandfulIsKept) {
     use(false);
     const auto of_lamps = [&](std::uint32_t lamp_count) {
         pt::Features features = features_of_a_sphere();
-        features.lamp_count = lamp_count;
+        features[pt::gpu::ID_LAMP_COUNT] = lamp_count;
         return &pipelines_->trace(features, ball, 0.0);
     };
     std::vector<const ComputePipeline *> kernels;
@@ -125,11 +125,11 @@ TEST_F(TracePipelinesTest, AHandfulIsKept) {
 TEST_F(TracePipelinesTest, ASceneOfManyWordsReadsABuffer) {
     use(true);
     pt::Features features = features_of_a_sphere();
-    features.sphere_count = 22; // 66 words
+    features[pt::gpu::ID_SPHERE_COUNT] = 22; // 66 words
     const ComputePipeline *any = &pipelines_->trace(features, Words(66), 0.0);
     EXPECT_EQ(&pipelines_->trace(features, Words(66, glm::vec4(1)), 0.0), any);
     EXPECT_EQ(&pipelines_->trace(features, Words(66), 100.0), any);
-    features.sphere_count = 21; // 63 words
+    features[pt::gpu::ID_SPHERE_COUNT] = 21; // 63 words
     const pt::TracePipelines::Ahead ahead(*pipelines_);
     const ComputePipeline *own = &pipelines_->trace(features, Words(pt::gpu::CONSTANT_SCENE_WORDS - 1), 0.0);
     EXPECT_NE(&pipelines_->trace(features, Words(pt::gpu::CONSTANT_SCENE_WORDS - 1, glm::vec4(1)), 0.0), own);

@@ -37,7 +37,7 @@ TEST(WalkSteps, TakeTheSamplesOfWholeWalks) {
         KernelRender render(pt::gpu_scene(all_in_a_tree(scene), camera, KernelRender::settings(length)));
         SCOPED_TRACE(std::to_string(scene.spheres.size()) + " spheres, " + scenes.kind() + ", length " +
                      std::to_string(length));
-        const std::uint32_t lamps = render.features().lamp_count;
+        const std::uint32_t lamps = render.features()[pt::gpu::ID_LAMP_COUNT];
         beyond_branches += lamps > pt::branch_count(render.features()) && lamps <= pt::gpu::EVERY_LAMP_LIMIT ? 1 : 0;
         render.take(length > 4 ? 4 : 8);
         Probe whole = render.probe_of_tree();

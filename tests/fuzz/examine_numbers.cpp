@@ -120,8 +120,9 @@ void require_settings(const pt::RenderSettings &settings) {
 
 void require_features(const pt::Features &features, const pt::Scene &scene) {
     require(features.surface_count() <= scene.spheres.size() + scene.planes.size(), "no surface is added");
-    require(features.lamp_count <= features.sphere_count, "lamps are spheres");
-    require(features.gloss || !(pt::feature_bits(features) & PT_FEATURE_GLOSS), "gloss is said where it is");
+    require(features[pt::gpu::ID_LAMP_COUNT] <= features[pt::gpu::ID_SPHERE_COUNT], "lamps are spheres");
+    require(features[pt::gpu::ID_GLOSS] || !(pt::feature_bits(features) & PT_FEATURE_GLOSS),
+            "gloss is said where it is");
     require(pt::branch_count(features) >= 1, "a path leaves its first vertex");
     // What the point table's size and the schedule are computed from.
     require(pt::point_layout(features).block_count() <= pt::sequence_dimensions, "a block has a dimension of its own");
@@ -142,11 +143,11 @@ bool is_within(const glm::vec4 &word, float largest) {
 // Of the tree of lamps: lengths, but for powers, of which a lamp has at most twice the size of the scene, and spreads,
 // which are squares of lengths (lamp_tree_words.cpp).
 float largest_in_lamp_tree(std::uint64_t word, const pt::Features &features) {
-    const std::uint64_t group_words = pt::gpu::lamp_tree_group_words(features.motion ? 1 : 0);
-    if (word >= group_words * pt::LampTreeShape(features.lamp_count).all_groups())
+    const std::uint64_t group_words = pt::gpu::lamp_tree_group_words(features[pt::gpu::ID_MOTION]);
+    if (word >= group_words * pt::LampTreeShape(features[pt::gpu::ID_LAMP_COUNT]).all_groups())
         return largest_length;
     if (word % group_words == 3)
-        return 2.0F * static_cast<float>(features.lamp_count) * largest_length;
+        return 2.0F * static_cast<float>(features[pt::gpu::ID_LAMP_COUNT]) * largest_length;
     return word % group_words == 4 ? largest_length * largest_length : largest_length;
 }
 
@@ -163,16 +164,16 @@ void require_indices(std::span<const glm::vec4> indices, const pt::Features &fea
 void require_words(const std::vector<glm::vec4> &words, const pt::Features &features) {
     const pt::SceneBlocks blocks(features);
     require(words.size() == blocks.word_count, "the scene has as many words as it is said to have");
-    require(words.size() <= pt::gpu::UNIFORM_SCENE_WORDS || !features.scene_in_uniform,
+    require(words.size() <= pt::gpu::UNIFORM_SCENE_WORDS || !features.scene_in_uniform(),
             "the scene fits into the buffer that it is in");
-    const std::uint64_t reflections = features.scene_in_uniform ? features.surface_count() : features.table_materials;
+    const std::uint64_t reflections = features.scene_in_uniform() ? features.surface_count() : features.table_materials;
     const auto is_specular = [&](std::uint64_t word) {
         const std::uint64_t from_first = word - blocks.specular; // wraps to a large number before it
-        return features.gloss && from_first % blocks.reflection_step == 0 &&
+        return features[pt::gpu::ID_GLOSS] && from_first % blocks.reflection_step == 0 &&
                from_first / blocks.reflection_step < reflections;
     };
     const auto largest = [&](std::uint64_t word) {
-        if (features.lamp_tree && word >= blocks.lamp_tree)
+        if (features[pt::gpu::ID_LAMP_TREE_LEVELS] && word >= blocks.lamp_tree)
             return largest_in_lamp_tree(word - blocks.lamp_tree, features);
         return is_specular(word) ? largest_peak : largest_length;
     };
@@ -182,12 +183,12 @@ void require_words(const std::vector<glm::vec4> &words, const pt::Features &feat
         const float probability = words[blocks.diffuse + i * blocks.reflection_step].w;
         require(probability >= 0.0F && probability <= 1.0F, "probabilities lie in [0, 1]");
     }
-    if (!features.scene_in_uniform)
+    if (!features.scene_in_uniform())
         require_indices(std::span(words).subspan(blocks.index), features);
-    const auto spheres = std::span(words).first(features.sphere_count);
+    const auto spheres = std::span(words).first(features[pt::gpu::ID_SPHERE_COUNT]);
     require(std::ranges::all_of(spheres, [](const glm::vec4 &sphere) { return sphere.w >= 1e-18F * (1 - 0x1p-24F); }),
             "the kernel's radii are at least 1e-18");
-    const auto planes = std::span(words).subspan(features.sphere_count, features.plane_count);
+    const auto planes = std::span(words).subspan(features[pt::gpu::ID_SPHERE_COUNT], features[pt::gpu::ID_PLANE_COUNT]);
     require(std::ranges::all_of(planes,
                                 [](const glm::vec4 &plane) {
                                     // A unit vector, each component rounded to float32.

@@ -75,12 +75,12 @@ TEST(HiddenSurfaces, AreCountedByKind) {
         features_of(scene_of({sphere(-5, 1, HiddenDark), sphere(-9, 1, HiddenLamp), sphere(-12, 1, Lamp),
                               sphere(-15, 1, Dark), sphere(0, 90, HiddenLamp), sphere(0, 80, Lamp)},
                              {{{0, 1, 0}, 3, Dark}, {{0, 1, 0}, 7, HiddenDark}}));
-    EXPECT_EQ(features.lamp_count, 2U);
-    EXPECT_EQ(features.sky_count, 2U);
-    EXPECT_EQ(features.hidden.lamps, 1U);
-    EXPECT_EQ(features.hidden.skies, 1U);
-    EXPECT_EQ(features.hidden.others, 1U);
-    EXPECT_EQ(features.hidden.planes, 1U);
+    EXPECT_EQ(features[pt::gpu::ID_LAMP_COUNT], 2U);
+    EXPECT_EQ(features[pt::gpu::ID_SKY_COUNT], 2U);
+    EXPECT_EQ(features[pt::gpu::ID_HIDDEN_LAMPS], 1U);
+    EXPECT_EQ(features[pt::gpu::ID_HIDDEN_SKIES], 1U);
+    EXPECT_EQ(features[pt::gpu::ID_HIDDEN_OTHERS], 1U);
+    EXPECT_EQ(features[pt::gpu::ID_HIDDEN_PLANES], 1U);
     EXPECT_TRUE(pt::feature_bits(features) & PT_FEATURE_HIDDEN);
     EXPECT_FALSE(pt::feature_bits(features_of(scene_of({sphere(-5, 1, Dark)}))) & PT_FEATURE_HIDDEN);
 }
@@ -90,30 +90,30 @@ TEST(HiddenSurfaces, LyingApartLeaveTheKernelAsItIs) {
         return features_of(scene_of({sphere(-5, 1, Dark), sphere(-9, 1, lamp)}, {{{0, 1, 0}, 3, Dark}}));
     };
     pt::Features hidden = with(HiddenLamp);
-    EXPECT_EQ(std::exchange(hidden.hidden, {}), (pt::HiddenCounts{1, 0, 0, 0}));
+    EXPECT_EQ(std::exchange(hidden[pt::gpu::ID_HIDDEN_LAMPS], 0), 1U);
     EXPECT_EQ(hidden, with(Lamp));
 }
 
 TEST(HiddenSurfaces, WithPathsOnBothSidesAreMetFromBoth) {
     // The camera looks into a shell, out of one, through a plane.
     const pt::Features into = features_of(scene_of({sphere(-5, 1, Dark), sphere(-5, 2, HiddenDark)}));
-    EXPECT_TRUE(into.inside);
-    EXPECT_FALSE(into.known_sides);
+    EXPECT_TRUE(into[pt::gpu::ID_INSIDE]);
+    EXPECT_FALSE(into[pt::gpu::ID_KNOWN_SIDES]);
     const pt::Features out_of = features_of(scene_of({sphere(-5, 1, Dark), sphere(0, 2, HiddenDark)}));
-    EXPECT_FALSE(out_of.inside); // of paths
-    EXPECT_FALSE(out_of.known_sides);
+    EXPECT_FALSE(out_of[pt::gpu::ID_INSIDE]); // of paths
+    EXPECT_FALSE(out_of[pt::gpu::ID_KNOWN_SIDES]);
     const pt::Features at_a_wall = features_of(scene_of({sphere(-5, 1, HiddenDark)}, {{{0, 0, 1}, 5.5, Dark}}));
-    EXPECT_TRUE(at_a_wall.inside);
-    EXPECT_FALSE(features_of(scene_of({sphere(-5, 1, HiddenDark)}, {{{0, 0, 1}, 6.5, Dark}})).inside);
+    EXPECT_TRUE(at_a_wall[pt::gpu::ID_INSIDE]);
+    EXPECT_FALSE(features_of(scene_of({sphere(-5, 1, HiddenDark)}, {{{0, 0, 1}, 6.5, Dark}}))[pt::gpu::ID_INSIDE]);
     const pt::Features through =
         features_of(scene_of({sphere(-5, 1, Dark), sphere(-5, 2, Dark)}, {{{0, 0, 1}, 2, HiddenDark}}));
-    EXPECT_TRUE(through.planes_block);
-    EXPECT_FALSE(through.known_sides);
+    EXPECT_TRUE(through[pt::gpu::ID_PLANES_BLOCK]);
+    EXPECT_FALSE(through[pt::gpu::ID_KNOWN_SIDES]);
     const auto in_a_room = [](Kind wall) {
         return features_of(scene_of({sphere(0, 50, Dark)}, {{{0, 0, 1}, 2, wall}}));
     };
-    EXPECT_TRUE(in_a_room(Dark).known_sides);
-    EXPECT_FALSE(in_a_room(HiddenDark).known_sides);
+    EXPECT_TRUE(in_a_room(Dark)[pt::gpu::ID_KNOWN_SIDES]);
+    EXPECT_FALSE(in_a_room(HiddenDark)[pt::gpu::ID_KNOWN_SIDES]);
 }
 
 // A capsule is all of its balls at once, while of balls that move each is at its time.
@@ -122,19 +122,19 @@ TEST(HiddenSurfaces, ThatAreCapsulesAreMetAllAlong) {
         const pt::Sphere hidden{{0, 0, z}, 1, {0, 0, 6}, HiddenDark, is_swept};
         return features_of(scene_of({{{0, 0, -20}, 1, {0, 0, 6}, Dark}, hidden}));
     };
-    EXPECT_FALSE(with(-23, false).inside);
-    EXPECT_TRUE(with(-23, true).inside);
-    EXPECT_FALSE(with(-40, true).inside);
+    EXPECT_FALSE(with(-23, false)[pt::gpu::ID_INSIDE]);
+    EXPECT_TRUE(with(-23, true)[pt::gpu::ID_INSIDE]);
+    EXPECT_FALSE(with(-40, true)[pt::gpu::ID_INSIDE]);
 }
 
 TEST(HiddenSurfaces, ALampAtTheCameraIsSampledUnlessPathsAreInIt) {
     const auto with = [](double radius) {
         return features_of(scene_of({sphere(-5, 1, Dark), sphere(0, radius, HiddenLamp)}));
     };
-    EXPECT_EQ(with(0.1).lamp_count, 1U);
-    EXPECT_EQ(with(0.1).hidden.lamps, 1U);
-    EXPECT_EQ(with(50).sky_count, 1U);
-    EXPECT_EQ(with(50).hidden.skies, 1U);
+    EXPECT_EQ(with(0.1)[pt::gpu::ID_LAMP_COUNT], 1U);
+    EXPECT_EQ(with(0.1)[pt::gpu::ID_HIDDEN_LAMPS], 1U);
+    EXPECT_EQ(with(50)[pt::gpu::ID_SKY_COUNT], 1U);
+    EXPECT_EQ(with(50)[pt::gpu::ID_HIDDEN_SKIES], 1U);
 }
 
 TEST(HiddenSurfaces, AreNotInTheTree) {

@@ -73,7 +73,7 @@ struct HeldNode {
 };
 
 HeldNode held_node(const pt::GpuScene &scene, std::uint64_t group, int place) {
-    const bool motion = scene.features.motion;
+    const bool motion = scene.features[gpu::ID_MOTION];
     const std::uint64_t first = pt::SceneBlocks(scene.features).lamp_tree;
     const auto number = [&](std::uint64_t word) {
         return scene.words[first + gpu::lamp_tree_group_words(motion ? 1 : 0) * group + word][place];
@@ -86,8 +86,9 @@ HeldNode held_node(const pt::GpuScene &scene, std::uint64_t group, int place) {
 
 // Of the words that say which lamp a slot has.
 std::uint64_t first_slot_word(const pt::GpuScene &scene) {
-    return pt::SceneBlocks(scene.features).lamp_tree + gpu::lamp_tree_group_words(scene.features.motion ? 1 : 0) *
-                                                           pt::LampTreeShape(scene.features.lamp_count).all_groups();
+    return pt::SceneBlocks(scene.features).lamp_tree +
+           gpu::lamp_tree_group_words(scene.features[gpu::ID_MOTION]) *
+               pt::LampTreeShape(scene.features[gpu::ID_LAMP_COUNT]).all_groups();
 }
 
 std::uint32_t lamp_of_slot(const pt::GpuScene &scene, std::uint64_t slot) {
@@ -103,10 +104,10 @@ TEST(LampTreeWords, NodesHoldTheirLamps) {
         for (const glm::dvec3 &from : {glm::dvec3(0, 0, 0), glm::dvec3(-3e4, 17, 5e3)}) {
             camera.position = from;
             const pt::GpuScene seen = lamp_scenes::gpu_scene(scene, camera);
-            ASSERT_TRUE(seen.features.lamp_tree) << name;
-            const pt::LampTreeShape shape(seen.features.lamp_count);
+            ASSERT_TRUE(seen.features[gpu::ID_LAMP_TREE_LEVELS]) << name;
+            const pt::LampTreeShape shape(seen.features[gpu::ID_LAMP_COUNT]);
             const std::uint64_t slots = first_slot_word(seen) + shape.slots() / 4;
-            for (std::uint32_t lamp = 0; lamp < seen.features.lamp_count; ++lamp) {
+            for (std::uint32_t lamp = 0; lamp < seen.features[gpu::ID_LAMP_COUNT]; ++lamp) {
                 const float bits = seen.words[slots + lamp / 4][static_cast<int>(lamp % 4)];
                 EXPECT_TRUE(std::isnormal(bits));
                 const std::uint64_t slot = std::bit_cast<std::uint32_t>(bits) - gpu::MATERIAL_INDEX_BITS;
@@ -157,18 +158,17 @@ TEST(LampTreeFeature, DependsOnTheNumberOfLampsAlone) {
     };
     constexpr std::uint32_t least = pt::least_tree_lamps;
     const pt::Features below = features(lamp_scenes::in_a_box(least - 1, 4));
-    EXPECT_FALSE(below.lamp_tree);
-    EXPECT_EQ(pt::specialization_constants(below)[gpu::ID_LAMP_TREE_WORDS], 0U);
+    EXPECT_EQ(below[gpu::ID_LAMP_TREE_LEVELS], 0U);
+    EXPECT_EQ(below[gpu::ID_LAMP_TREE_WORDS], 0U);
     EXPECT_EQ(pt::SceneBlocks(below).lamp_tree, pt::SceneBlocks(below).index);
     EXPECT_EQ(pt::loop_trips_per_sample(below), 1U + 31 + 62 + 4 * 2 * (1 + 62 + 31));
 
     const pt::Features from = features(lamp_scenes::in_a_box(least, 4));
-    EXPECT_TRUE(from.lamp_tree);
-    EXPECT_EQ(pt::specialization_constants(from)[gpu::ID_LAMP_TREE_LEVELS], 1U);
-    EXPECT_EQ(pt::specialization_constants(from)[gpu::ID_LAMP_TREE_WORDS], 5 * (2 + 8) + 8 + 8U);
+    EXPECT_EQ(from[gpu::ID_LAMP_TREE_LEVELS], 1U);
+    EXPECT_EQ(from[gpu::ID_LAMP_TREE_WORDS], 5 * (2 + 8) + 8 + 8U);
     EXPECT_EQ(pt::loop_trips_per_sample(from), 1U + 32 + 6 + 4 * 2 * (1 + 6 + 32));
-    EXPECT_FALSE(features(lamp_scenes::in_a_box(least, 4), PT_ESTIMATOR_BSDF).lamp_tree);
-    EXPECT_TRUE(features(lamp_scenes::in_a_box(least, 4), PT_ESTIMATOR_LIGHT).lamp_tree);
+    EXPECT_FALSE(features(lamp_scenes::in_a_box(least, 4), PT_ESTIMATOR_BSDF)[gpu::ID_LAMP_TREE_LEVELS]);
+    EXPECT_TRUE(features(lamp_scenes::in_a_box(least, 4), PT_ESTIMATOR_LIGHT)[gpu::ID_LAMP_TREE_LEVELS]);
     EXPECT_EQ(features(lamp_scenes::in_a_box(200, 1)), features(lamp_scenes::in_clusters(200)));
 }
 
@@ -177,7 +177,7 @@ TEST(LampTreeWords, LeaveOutTwins) {
     pt::Scene scene = lamp_scenes::in_a_box(40, 4);
     scene.spheres[7] = scene.spheres[31];
     const pt::GpuScene seen = lamp_scenes::gpu_scene(scene);
-    ASSERT_EQ(seen.features.lamp_count, 39U);
+    ASSERT_EQ(seen.features[gpu::ID_LAMP_COUNT], 39U);
     const pt::LampTreeShape shape(39);
     std::vector<std::uint32_t> lamps;
     for (std::uint64_t slot = 0; slot < shape.slots(); ++slot)

@@ -24,12 +24,12 @@ pt::GpuScene row_of_balls(std::uint32_t count, std::uint32_t materials) {
 // 341 surfaces of three words each fill the uniform buffer to the last word but one.
 TEST(SceneBlocks, ShareMaterialsInScenesTooLargeForTheUniformBuffer) {
     const pt::GpuScene small = row_of_balls(341, 1);
-    EXPECT_TRUE(small.features.scene_in_uniform);
+    EXPECT_TRUE(small.features.scene_in_uniform());
     EXPECT_EQ(small.features.table_materials, 0U);
     EXPECT_EQ(small.words.size(), 3U * 341);
 
     const pt::GpuScene large = row_of_balls(342, 1);
-    EXPECT_FALSE(large.features.scene_in_uniform);
+    EXPECT_FALSE(large.features.scene_in_uniform());
     EXPECT_EQ(large.features.table_materials, 2U);
     EXPECT_EQ(large.words.size(), 342U + 1 + 86 + 2) << "geometry, the lamp's emission, indices, table";
     EXPECT_EQ(row_of_balls(342, 100).words.size(), 342U + 1 + 86 + 101);
@@ -39,17 +39,17 @@ TEST(SceneBlocks, ShareMaterialsInScenesTooLargeForTheUniformBuffer) {
 TEST(SceneBlocks, HoldTheLargestScenes) {
     constexpr std::uint32_t most_surfaces = (1U << 30) - 1;
     pt::Features features{};
-    features.sphere_count = features.lamp_count = features.table_materials = most_surfaces;
-    features.gloss = true;
-    features.motion = true;
+    features[pt::gpu::ID_SPHERE_COUNT] = features[pt::gpu::ID_LAMP_COUNT] = features.table_materials = most_surfaces;
+    features[pt::gpu::ID_GLOSS] = true;
+    features[pt::gpu::ID_MOTION] = true;
     constexpr std::uint64_t indices = 1U << 28;
     EXPECT_EQ(pt::SceneBlocks(features).word_count, std::uint64_t{5} * most_surfaces + indices);
-    features.sphere_count = features.lamp_count = 1;
-    features.plane_count = most_surfaces - 1;
-    features.curvature = true;
-    features.planes_emit = true;
+    features[pt::gpu::ID_SPHERE_COUNT] = features[pt::gpu::ID_LAMP_COUNT] = 1;
+    features[pt::gpu::ID_PLANE_COUNT] = most_surfaces - 1;
+    features[pt::gpu::ID_CURVATURE] = true;
+    features[pt::gpu::ID_PLANES_EMIT] = true;
     EXPECT_EQ(pt::SceneBlocks(features).word_count, std::uint64_t{5} * most_surfaces + indices);
-    features.scene_in_uniform = true;
+    features[pt::gpu::ID_SCENE_SOURCE] = pt::gpu::SCENE_IN_UNIFORM;
     EXPECT_EQ(pt::SceneBlocks(features).word_count, std::uint64_t{5} * most_surfaces);
 }
 

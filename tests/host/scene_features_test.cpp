@@ -32,14 +32,8 @@ pt::Features features_of(const std::vector<pt::Sphere> &spheres, const std::vect
     scene.spheres = spheres;
     scene.planes = planes;
     const pt::Camera camera{eye, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, shutter.open, shutter.close};
-    const pt::Features features =
-        pt::gpu_scene(pt::PreparedScene(scene), camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4})
-            .features;
-    const auto constants = pt::specialization_constants(features);
-    EXPECT_EQ(constants[pt::gpu::ID_INSIDE], features.inside ? 1U : 0U);
-    EXPECT_EQ(constants[pt::gpu::ID_PLANES_BLOCK], features.planes_block ? 1U : 0U);
-    EXPECT_EQ(constants[pt::gpu::ID_PLANES_EMIT], features.planes_emit ? 1U : 0U);
-    return features;
+    return pt::gpu_scene(pt::PreparedScene(scene), camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4})
+        .features;
 }
 
 // Centres are as seen from the camera.
@@ -53,7 +47,7 @@ pt::Sphere lamp_at(const glm::dvec3 &centre, double radius, const glm::dvec3 &mo
 }
 
 bool inside(const std::vector<pt::Sphere> &spheres, const Shutter &shutter = {0, 1}) {
-    return features_of(spheres, {}, shutter).inside;
+    return features_of(spheres, {}, shutter)[pt::gpu::ID_INSIDE];
 }
 
 // A sky about a tree does not matter to the tree's spheres.
@@ -70,12 +64,10 @@ TEST(FeatureTreeInside, IsWhetherTheCameraIsInASphereOfTheTree) {
         const pt::Camera camera{{0, 0, z}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0, 1};
         const pt::Features features =
             pt::gpu_scene(prepared, camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4}).features;
-        EXPECT_TRUE(features.inside);
-        EXPECT_EQ(features.tree_inside, z == -9.0);
-        const auto constants = pt::specialization_constants(features);
-        EXPECT_EQ(constants[pt::gpu::ID_TREE_INSIDE], z == -9.0 ? 1U : 0U);
-        EXPECT_GE(constants[pt::gpu::ID_TREE_LEVELS], prepared.tree->depth());
-        EXPECT_LT(constants[pt::gpu::ID_TREE_LEVELS], prepared.tree->depth() + 4);
+        EXPECT_TRUE(features[pt::gpu::ID_INSIDE]);
+        EXPECT_EQ(features[pt::gpu::ID_TREE_INSIDE], z == -9.0 ? 1U : 0U);
+        EXPECT_GE(features[pt::gpu::ID_TREE_LEVELS], prepared.tree->depth());
+        EXPECT_LT(features[pt::gpu::ID_TREE_LEVELS], prepared.tree->depth() + 4);
     }
 }
 
@@ -105,9 +97,9 @@ TEST(FeatureInside, IsTrueWhereFloat32CannotTell) {
     for (const double distance : {1 - 0x1p-20, 1.0, 1 + 0x1p-20})
         for (const std::uint32_t material : {dark, shining}) {
             const pt::Features resting = features_of({ball_at({0, distance, 0}, 1, nowhere, material)});
-            EXPECT_TRUE(resting.curvature);
-            EXPECT_EQ(resting.sphere_count, 0U);
-            EXPECT_FALSE(resting.inside);
+            EXPECT_TRUE(resting[pt::gpu::ID_CURVATURE]);
+            EXPECT_EQ(resting[pt::gpu::ID_SPHERE_COUNT], 0U);
+            EXPECT_FALSE(resting[pt::gpu::ID_INSIDE]);
         }
 }
 
@@ -125,7 +117,7 @@ TEST(FeatureInside, IsAtAnyTimeOfTheShutter) {
     EXPECT_FALSE(passing(0, {0.625, 1})) << "no more";
     EXPECT_FALSE(passing(0, {0, 0}));
     EXPECT_TRUE(passing(0, {0.5, 0.5}));
-    EXPECT_FALSE(features_of({ball_at({-8, 0, 0}, 1, {16, 0, 0})}, {}, {0.5, 0.5}).motion);
+    EXPECT_FALSE(features_of({ball_at({-8, 0, 0}, 1, {16, 0, 0})}, {}, {0.5, 0.5})[pt::gpu::ID_MOTION]);
 }
 
 // A plane below the camera, given with its normal up or down: heights are as seen from the camera.
@@ -139,18 +131,19 @@ TEST(FeaturePlanesEmit, IsWhetherAnythingButALampEmits) {
     pt::Plane glowing = floor_at(-5);
     glowing.material = shining;
     const pt::Sphere huge_lamp = lamp_at({0, 0, -262145}, 262144);
-    EXPECT_FALSE(features_of({}).planes_emit);
-    EXPECT_FALSE(features_of({lamp_at({0, 3, -5}, 1)}, {floor_at(-4)}).planes_emit);
-    EXPECT_FALSE(features_of({ball_at({0, 0, -262145}, 262144)}, {floor_at(-4)}).planes_emit);
-    EXPECT_TRUE(features_of({}, {glowing}).planes_emit);
-    EXPECT_TRUE(features_of({lamp_at({0, 3, -5}, 1)}, {floor_at(-4), glowing}).planes_emit) << "the last plane";
-    EXPECT_TRUE(features_of({huge_lamp}).curvature);
-    EXPECT_TRUE(features_of({huge_lamp}).planes_emit);
+    EXPECT_FALSE(features_of({})[pt::gpu::ID_PLANES_EMIT]);
+    EXPECT_FALSE(features_of({lamp_at({0, 3, -5}, 1)}, {floor_at(-4)})[pt::gpu::ID_PLANES_EMIT]);
+    EXPECT_FALSE(features_of({ball_at({0, 0, -262145}, 262144)}, {floor_at(-4)})[pt::gpu::ID_PLANES_EMIT]);
+    EXPECT_TRUE(features_of({}, {glowing})[pt::gpu::ID_PLANES_EMIT]);
+    EXPECT_TRUE(features_of({lamp_at({0, 3, -5}, 1)}, {floor_at(-4), glowing})[pt::gpu::ID_PLANES_EMIT])
+        << "the last plane";
+    EXPECT_TRUE(features_of({huge_lamp})[pt::gpu::ID_CURVATURE]);
+    EXPECT_TRUE(features_of({huge_lamp})[pt::gpu::ID_PLANES_EMIT]);
 }
 
 bool planes_block(const std::vector<pt::Sphere> &spheres, const std::vector<pt::Plane> &planes,
                   const Shutter &shutter = {0, 1}) {
-    return features_of(spheres, planes, shutter).planes_block;
+    return features_of(spheres, planes, shutter)[pt::gpu::ID_PLANES_BLOCK];
 }
 
 TEST(FeaturePlanesBlock, IsWhetherALampIsNotAllOnTheSideOfTheCamera) {
@@ -211,18 +204,15 @@ TEST(FeaturePlanesBlock, NeedsPlanesAndLamps) {
 TEST(FeaturePlanesBlock, IsTrueWithACurvedPlane) {
     const pt::Sphere huge = ball_at({0, -1004, 0}, 1000);
     const pt::Features features = features_of({huge, lamp_at({0, 3, -5}, 1)}, {});
-    EXPECT_TRUE(features.curvature);
-    EXPECT_TRUE(features.planes_block);
+    EXPECT_TRUE(features[pt::gpu::ID_CURVATURE]);
+    EXPECT_TRUE(features[pt::gpu::ID_PLANES_BLOCK]);
     EXPECT_FALSE(planes_block({ball_at({0, -14, 0}, 10), lamp_at({0, 3, -5}, 1)}, {})) << "held by its centre";
 }
 
 TEST(FeatureSky, IsALampThatHoldsTheCamera) {
     const auto counts = [](const std::vector<pt::Sphere> &spheres, const Shutter &shutter = {0, 1}) {
         const pt::Features features = features_of(spheres, {}, shutter);
-        const auto constants = pt::specialization_constants(features);
-        EXPECT_EQ(constants[pt::gpu::ID_LAMP_COUNT], features.lamp_count);
-        EXPECT_EQ(constants[pt::gpu::ID_SKY_COUNT], features.sky_count);
-        return std::pair{features.lamp_count, features.sky_count};
+        return std::pair{features[pt::gpu::ID_LAMP_COUNT], features[pt::gpu::ID_SKY_COUNT]};
     };
     using Counts = std::pair<std::uint32_t, std::uint32_t>;
     EXPECT_EQ(counts({lamp_at({0, 3, 0}, 2)}), (Counts{1, 0}));
@@ -237,9 +227,7 @@ bool known_sides(const std::vector<pt::Sphere> &spheres, const std::vector<doubl
     std::vector<pt::Plane> planes;
     for (const double height : heights)
         planes.push_back({{0, 1, 0}, height - eye.y, dark});
-    const pt::Features features = features_of(spheres, planes);
-    EXPECT_EQ(pt::specialization_constants(features)[pt::gpu::ID_KNOWN_SIDES], features.known_sides ? 1U : 0U);
-    return features.known_sides;
+    return features_of(spheres, planes)[pt::gpu::ID_KNOWN_SIDES];
 }
 
 TEST(FeatureKnownSides, IsWhetherTheCameraTellsThemAndMust) {
@@ -256,9 +244,8 @@ TEST(FeatureKnownSides, IsWhetherTheCameraTellsThemAndMust) {
 TEST(FeaturePlanesMove, IsWhetherAHugeBallDoes) {
     const auto moves = [](const glm::dvec3 &motion) {
         const pt::Features features = features_of({ball_at({0, -1e6 - 1, 0}, 1e6, motion)});
-        EXPECT_TRUE(features.curvature);
-        EXPECT_EQ(pt::specialization_constants(features)[pt::gpu::ID_PLANES_MOVE], features.planes_move ? 1U : 0U);
-        return features.planes_move && features.motion;
+        EXPECT_TRUE(features[pt::gpu::ID_CURVATURE]);
+        return features[pt::gpu::ID_PLANES_MOVE] && features[pt::gpu::ID_MOTION];
     };
     EXPECT_FALSE(moves(nowhere));
     EXPECT_TRUE(moves({1e-9, 0, 0}));

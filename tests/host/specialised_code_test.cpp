@@ -122,13 +122,13 @@ TEST(SpecialisedCodeTest, TheKernelIsAboutHalfForAnyScene) {
         for (const std::uint32_t length : {1U, 2U, 6U, 9U})
             for (const bool large : {false, true}) {
                 pt::Features features{};
-                features.sphere_count = 6;
-                features.lamp_count = lamps;
-                features.max_path_length = length;
-                features.estimator = PT_ESTIMATOR_MIS;
-                features.sampler = PT_SAMPLER_SOBOL;
-                features.gloss = features.motion = features.inside = large;
-                features.scene_in_uniform = !large;
+                features[pt::gpu::ID_SPHERE_COUNT] = 6;
+                features[pt::gpu::ID_LAMP_COUNT] = lamps;
+                features[pt::gpu::ID_MAX_PATH_LENGTH] = length;
+                features[pt::gpu::ID_ESTIMATOR] = PT_ESTIMATOR_MIS;
+                features[pt::gpu::ID_SAMPLER] = PT_SAMPLER_SOBOL;
+                features[pt::gpu::ID_GLOSS] = features[pt::gpu::ID_MOTION] = features[pt::gpu::ID_INSIDE] = large;
+                features[pt::gpu::ID_SCENE_SOURCE] = large ? pt::gpu::SCENE_IN_STORAGE : pt::gpu::SCENE_IN_UNIFORM;
                 const auto constants = pt::specialization_constants(features);
                 const Code code = pt::specialised_code(kernel, constants);
                 ASSERT_FALSE(code.empty());

@@ -1,6 +1,6 @@
 // The functions on integers, which must be exact: hash, and floats as fixed point.
 #include "integer_items.spv.h"
-#include "shaders/gpu_layout.h"
+#include "shaders/specialization.h"
 #include "tests/device/accuracy/evaluation.h"
 #include "tests/device/accuracy/inputs.h"
 

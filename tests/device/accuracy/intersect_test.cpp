@@ -1,6 +1,6 @@
 // Distances to spheres and planes against long double: near, far and grazing, from inside and from the surface itself.
 #include "distance_items.spv.h"
-#include "shaders/gpu_layout.h"
+#include "shaders/specialization.h"
 #include "tests/device/accuracy/direction.h"
 #include "tests/device/accuracy/evaluation.h"
 

@@ -1,6 +1,6 @@
 // How lights.glsl sees and samples a lamp, against long double: from angles of 1e-7 to touching.
 #include "lamp_items.spv.h"
-#include "shaders/gpu_layout.h"
+#include "shaders/specialization.h"
 #include "tests/device/accuracy/direction.h"
 #include "tests/device/accuracy/evaluation.h"
 

@@ -1,6 +1,6 @@
 // The functions of phong.glsl against long double.
 #include "phong_items.spv.h"
-#include "shaders/gpu_layout.h"
+#include "shaders/specialization.h"
 #include "tests/device/accuracy/direction.h"
 #include "tests/device/accuracy/evaluation.h"
 

@@ -1,5 +1,5 @@
 // How far the points that vertex_at finds are from their surfaces, however wrong the distance along the ray.
-#include "shaders/gpu_layout.h"
+#include "shaders/specialization.h"
 #include "tests/device/accuracy/direction.h"
 #include "tests/device/accuracy/evaluation.h"
 #include "vertex_items.spv.h"
