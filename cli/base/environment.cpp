@@ -4,14 +4,22 @@
 
 #include <cstdlib>
 #include <system_error>
+#if defined(__x86_64__)
+#include <cpuid.h>
+#endif
 
 namespace cli {
 namespace {
 
+// Asked of the processor, for the compiler's question finds nothing in Zig's runtime.
 bool has_avx512() {
 #if defined(__x86_64__)
-    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-           __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+    constexpr unsigned int needed = bit_AVX512F | bit_AVX512BW | bit_AVX512DQ | bit_AVX512VL;
+    unsigned int a = 0;
+    unsigned int b = 0;
+    unsigned int c = 0;
+    unsigned int d = 0;
+    return __get_cpuid_count(7, 0, &a, &b, &c, &d) != 0 && (b & needed) == needed;
 #else
     return false;
 #endif

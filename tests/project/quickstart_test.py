@@ -112,6 +112,13 @@ class Quickstart(unittest.TestCase):
         self.assertEqual(self.run_script("rendr"), 2)
         self.assertEqual(self.lines, [])
 
+    def test_scripts_that_no_test_runs_can_be_read(self):
+        broken = self.root / "broken.sh"
+        broken.write_text("if true; then\n")
+        for script in *SCRIPT.parent.glob("*.sh"), broken:
+            read = subprocess.run(["sh", "-n", script], stderr=subprocess.DEVNULL)
+            self.assertEqual(read.returncode == 0, script != broken, script)
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])

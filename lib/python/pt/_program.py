@@ -149,6 +149,7 @@ def _sized(columns: dict[str, list[int]]) -> dict[str, tuple[int, int, int]]:
 
 
 def program() -> str:
-    """The path of this machine's program pt."""
-    named = os.environ.get("PT_PROGRAM") or "pt"
+    """The path of this machine's program pt. Some wheels have one."""
+    packaged = pathlib.Path(__file__).with_name("bin") / "pt"
+    named = os.environ.get("PT_PROGRAM") or (str(packaged) if packaged.exists() else "pt")
     return os.path.abspath(named) if os.sep in named else named

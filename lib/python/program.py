@@ -1,0 +1,10 @@
+#!python
+"""The command pt of a wheel: becomes the package's program, without importing the package, and NumPy with it. Finds pt-figure
+and others beside itself, also where they are not in the PATH."""
+import importlib.util
+import os
+import sys
+
+package = importlib.util.find_spec("pt").submodule_search_locations[0]
+os.environ["PATH"] = os.path.dirname(os.path.realpath(__file__)) + os.pathsep + os.environ.get("PATH", os.defpath)
+os.execv(os.path.join(package, "bin", "pt"), ["pt", *sys.argv[1:]])
