@@ -1,5 +1,4 @@
-// Camera that looks from the origin, or from behind it: a pinhole or a thin lens (LENS); or one of parallel rays
-// (ORTHOGRAPHIC).
+// Camera that looks from the origin, or from behind it: a pinhole, or one of parallel rays (ORTHOGRAPHIC).
 #ifndef CAMERA_GLSL
 #define CAMERA_GLSL
 
@@ -44,18 +43,6 @@ CameraRay ray_through(CameraView camera, uvec2 pixel, vec3 numbers)
 {
     vec2 from_middle = image_place(camera, pixel, numbers.xy);
     return CameraRay(camera_origin(camera, from_middle), camera_direction(camera, from_middle), numbers.z);
-}
-
-// The same ray, through a point of the unit disc that is the lens, right and downwards: all rays of a place in the image
-// meet on the plane in focus. With F the length of forward and f how far the plane is from the lens, the pinhole's ray
-// is there at f / F times its place in the image, and the ray that starts a beside it leads there if its place changes
-// by -a F / f. lens_blur is F / f times the lens's radius, lens_radius what is left of that ahead of the lens.
-CameraRay ray_through_lens(CameraView camera, uvec2 pixel, vec3 numbers, vec2 disc)
-{
-    vec2 from_middle = image_place(camera, pixel, numbers.xy);
-    vec2 start = camera.start_scale * from_middle + camera.lens_radius * disc;
-    vec3 origin = start.x * camera.right - start.y * camera.up;
-    return CameraRay(origin, camera_direction(camera, from_middle - camera.lens_blur * disc), numbers.z);
 }
 
 #endif

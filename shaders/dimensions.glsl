@@ -12,28 +12,22 @@ vec3 camera_numbers(SampleKey key)
     return sample_block(key, 0u).xyz;
 }
 
-// The place on the lens.
-vec2 lens_numbers(SampleKey key)
-{
-    return sample_block(key, 1u).xy;
-}
-
 // A place on a lamp, at the first vertex if that samples every lamp.
 vec2 every_lamp_numbers(SampleKey key, uint lamp)
 {
-    return sample_block(key, camera_blocks(LENS) + lamp).xy;
+    return sample_block(key, CAMERA_BLOCKS + lamp).xy;
 }
 
 // For the ray towards a spot: the direction around it (x, y), and which spot (z).
 vec3 spot_numbers(SampleKey key)
 {
-    return sample_block(key, every_lamp_blocks(LENS, LAMP_COUNT)).xyz;
+    return sample_block(key, every_lamp_blocks(CAMERA_BLOCKS, LAMP_COUNT)).xyz;
 }
 
 // The first block of the vertex at a spot, whose blocks are like those of a later vertex.
 uint blocks_at_spot()
 {
-    return every_lamp_blocks(LENS, LAMP_COUNT) + 1u;
+    return every_lamp_blocks(CAMERA_BLOCKS, LAMP_COUNT) + 1u;
 }
 
 // The first block of a branch at its first vertex, which is number 1, and at later ones.

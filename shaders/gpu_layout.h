@@ -49,17 +49,16 @@ PT_CONSTANT SPOT_LIMIT = 8;          // spots that a scene may have
 PT_CONSTANT ROULETTE_MIN_LENGTH = 8; // paths that may be this long play Russian roulette
 
 PT_FUNCTION uint camera_dimensions(uint motion) { return 2 + motion; }
-// How many blocks come before those of lamps and before those of the ray towards a spot, how many that ray has, and how
-// many all branches share.
-PT_FUNCTION uint camera_blocks(uint lens) { return 1 + lens; }
-PT_FUNCTION uint every_lamp_blocks(uint lens, uint lamp_count)
+// How many blocks come before those of the ray towards a spot, how many that ray has, and how many all branches share.
+// camera_blocks: those of the camera ray.
+PT_FUNCTION uint every_lamp_blocks(uint camera_blocks, uint lamp_count)
 {
-    return camera_blocks(lens) + (lamp_count <= EVERY_LAMP_LIMIT ? lamp_count : 0);
+    return camera_blocks + (lamp_count <= EVERY_LAMP_LIMIT ? lamp_count : 0);
 }
 PT_FUNCTION uint spot_blocks(uint spot_count) { return spot_count > 0 ? 3 : 0; }
-PT_FUNCTION uint shared_blocks(uint lens, uint lamp_count, uint spot_count)
+PT_FUNCTION uint shared_blocks(uint camera_blocks, uint lamp_count, uint spot_count)
 {
-    return every_lamp_blocks(lens, lamp_count) + spot_blocks(spot_count);
+    return every_lamp_blocks(camera_blocks, lamp_count) + spot_blocks(spot_count);
 }
 PT_FUNCTION uint chosen_lamp_dimensions(uint vertex, uint lamp_count)
 {
@@ -75,9 +74,9 @@ PT_FUNCTION uint vertex_blocks(uint vertex, uint lamp_count)
 }
 
 // The blocks of a sample and one of its branches.
-PT_FUNCTION uint path_blocks(uint max_path_length, uint lens, uint lamp_count, uint spot_count)
+PT_FUNCTION uint path_blocks(uint max_path_length, uint camera_blocks, uint lamp_count, uint spot_count)
 {
-    const uint of_sample = shared_blocks(lens, lamp_count, spot_count);
+    const uint of_sample = shared_blocks(camera_blocks, lamp_count, spot_count);
     const uint first = of_sample + vertex_blocks(1, lamp_count);
     return max_path_length < 2 ? of_sample : first + (max_path_length - 2) * vertex_blocks(2, lamp_count);
 }

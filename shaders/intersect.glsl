@@ -9,7 +9,7 @@ void see_sphere(inout Hit hit, vec3 origin, vec3 direction, uint sphere, float t
     vec4 centre_radius = sphere_at(sphere, time);
     vec3 to_centre = STARTS_AHEAD == 1 ? centre_radius.xyz - origin : centre_radius.xyz;
     vec3 from_side = centre_radius.xyz;
-    if (ORTHOGRAPHIC + LENS > 0 && KNOWN_SIDES == 0)
+    if (STARTS_ON_DISC && KNOWN_SIDES == 0)
         from_side = to_centre;
     vec4 axis = axis_at(sphere);
     bool outside = is_outside(from_side, axis, centre_radius.w);

@@ -19,7 +19,7 @@ struct SampleKey {
 };
 
 // The blocks that all branches of a sample share.
-uint blocks_of_sample() { return shared_blocks(LENS, LAMP_COUNT, SPOT_COUNT); }
+uint blocks_of_sample() { return shared_blocks(CAMERA_BLOCKS, LAMP_COUNT, SPOT_COUNT); }
 
 // The key of a branch of a sample: beyond the shared blocks it is a sample of its own, number B i + b. Where that
 // passes 2^32 the seed changes, and with it the table's points, so that no branch repeats another's numbers.
@@ -68,7 +68,7 @@ uvec4 shift_of(SampleKey key, uint block)
 
 bool all_in_table()
 {
-    return path_blocks(MAX_PATH_LENGTH, LENS, LAMP_COUNT, SPOT_COUNT) <= TABLE_BLOCKS;
+    return path_blocks(MAX_PATH_LENGTH, CAMERA_BLOCKS, LAMP_COUNT, SPOT_COUNT) <= TABLE_BLOCKS;
 }
 
 // The sample's numbers of a block, as multiples of 2^-32. Sobol points are shifted digit by digit in base 2, by

@@ -15,6 +15,8 @@ layout(set = 0, binding = BINDING_SCENE_UNIFORM) uniform SceneUniform {
 layout(set = 0, binding = BINDING_SCENE_STORAGE) readonly buffer SceneStorage { vec4 words[]; } scene_storage;
 
 const uint SURFACE_COUNT = SPHERE_COUNT + PLANE_COUNT;
+const bool STARTS_ON_DISC = ORTHOGRAPHIC + LENS > 0; // not all camera rays at one point, nor just ahead of one
+const uint CAMERA_BLOCKS = 1u + LENS;                // of numbers, which a camera ray takes
 
 // Runs a statement for each index from first to end - 1, both constants. Loops over few indices are unrolled
 // (DevicePolicy::unrolled).

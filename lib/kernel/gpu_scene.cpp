@@ -176,27 +176,6 @@ std::vector<glm::vec4> words_of(const KernelSurfaces &surfaces, const std::vecto
     return words;
 }
 
-gpu::CameraView camera_view(const Camera &camera, const RenderSettings &render) {
-    gpu::CameraView view{};
-    view.right = camera.right;
-    view.up = camera.up;
-    view.width = render.width;
-    view.height = render.height;
-    view.forward = camera.forward;
-    if (camera.is_orthographic()) {
-        view.start_scale = static_cast<float>(camera.vertical_extent / render.height);
-    } else {
-        const double image_distance = render.height / (2.0 * camera.tan_half_fov); // in pixels
-        view.forward = camera.forward * image_distance;
-        if (camera.has_lens()) {
-            view.lens_radius = static_cast<float>(camera.lens_radius_at_start());
-            view.lens_blur = static_cast<float>(camera.lens_radius / camera.focus * image_distance);
-        }
-        view.start_scale = static_cast<float>(camera.start_distance * (2.0 * camera.tan_half_fov / render.height));
-    }
-    return view;
-}
-
 gpu::FrameConstants frame_constants(const Camera &camera, const RenderSettings &render, double film_unit) {
     const std::uint64_t seed = mixed(render.seed);
     gpu::FrameConstants constants{};

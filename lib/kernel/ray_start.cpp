@@ -245,10 +245,31 @@ Camera starting_ahead(const Scene &scene, const SphereTree *tree, const Camera &
     ahead.start_distance = std::max((1.0 - tangent) * depth - camera.lens_radius, 0.0);
     if (camera.has_lens()) {
         ahead.start_distance = std::min(ahead.start_distance, camera.focus);
-        ahead.start_radius = tangent * ahead.start_distance + ahead.lens_radius_at_start();
+        ahead.start_radius = tangent * ahead.start_distance + ahead.spread(ahead.start_distance);
     }
     ahead.position += ahead.start_distance * camera.forward;
     return ahead;
+}
+
+gpu::CameraView camera_view(const Camera &camera, const RenderSettings &settings) {
+    gpu::CameraView view{};
+    view.right = camera.right;
+    view.up = camera.up;
+    view.width = settings.width;
+    view.height = settings.height;
+    view.forward = camera.forward;
+    if (camera.is_orthographic()) {
+        view.start_scale = static_cast<float>(camera.vertical_extent / settings.height);
+    } else {
+        const double image_distance = settings.height / (2.0 * camera.tan_half_fov); // in pixels
+        view.forward = camera.forward * image_distance;
+        if (camera.has_lens()) {
+            view.lens_radius = static_cast<float>(camera.spread(camera.start_distance));
+            view.lens_blur = static_cast<float>(camera.lens_radius / camera.focus * image_distance);
+        }
+        view.start_scale = static_cast<float>(camera.start_distance * (2.0 * camera.tan_half_fov / settings.height));
+    }
+    return view;
 }
 
 } // namespace pt

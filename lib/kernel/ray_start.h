@@ -5,6 +5,7 @@
 #include "lib/scene/render_settings.h"
 #include "lib/scene/scene.h"
 #include "lib/tree/sphere_tree.h"
+#include "shaders/gpu_layout.h"
 
 namespace pt {
 
@@ -14,5 +15,8 @@ namespace pt {
 // than of its distance. Parallel rays start on such a plane anyway, on the disc around the image (start_radius). tree:
 // holds further spheres, or NULL. Throws PT_ERROR_UNSUPPORTED if a view with parallel rays is too wide.
 Camera starting_ahead(const Scene &scene, const SphereTree *tree, const Camera &camera, const RenderSettings &settings);
+
+// Such a camera as kernels read it.
+gpu::CameraView camera_view(const Camera &start, const RenderSettings &settings);
 
 } // namespace pt

@@ -33,7 +33,7 @@ bool samples_lamps(const Features &features) {
 }
 
 std::vector<std::uint32_t> camera_blocks(const Features &features) {
-    std::vector<std::uint32_t> blocks(gpu::camera_blocks(features[gpu::ID_LENS]), 2); // the place on the lens
+    std::vector<std::uint32_t> blocks(1 + features[gpu::ID_LENS], 2); // the place on the lens
     blocks.front() = gpu::camera_dimensions(features[gpu::ID_MOTION]);
     return blocks;
 }
@@ -157,7 +157,7 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
         std::ranges::all_of(surfaces.planes, has_known_side);
     features[gpu::ID_CLOSE_LAMPS] =
         features[gpu::ID_LAMP_COUNT] > 0 && (distinct.close_lamps || (tree && tree->has_close_lamps()));
-    features[gpu::ID_STARTS_AHEAD] = camera.start_distance > 0.0 || camera.is_orthographic() || camera.has_lens();
+    features[gpu::ID_STARTS_AHEAD] = camera.start_distance > 0.0 || camera.start_radius > 0.0;
     features[gpu::ID_ORTHOGRAPHIC] = camera.is_orthographic();
     features[gpu::ID_LENS] = camera.has_lens();
     features[gpu::ID_MAX_PATH_LENGTH] = render.max_path_length;
@@ -202,17 +202,18 @@ std::uint32_t further_lamps(const Features &features, std::uint32_t branches) {
 } // namespace
 
 PointLayout point_layout(const Features &features) {
-    const std::uint32_t lens = features[gpu::ID_LENS];
-    const std::uint32_t shared = gpu::shared_blocks(lens, features[gpu::ID_LAMP_COUNT], features[gpu::ID_SPOT_COUNT]);
+    std::vector<std::uint32_t> blocks = camera_blocks(features);
+    const auto of_camera = static_cast<std::uint32_t>(blocks.size());
+    const std::uint32_t shared =
+        gpu::shared_blocks(of_camera, features[gpu::ID_LAMP_COUNT], features[gpu::ID_SPOT_COUNT]);
     const std::uint32_t branches = branch_count(features);
     if (features[gpu::ID_SAMPLER] == PT_SAMPLER_RANDOM)
         return {{}, 0, branches};
-    std::vector<std::uint32_t> blocks = camera_blocks(features);
     blocks.resize(shared, 2); // the place on each lamp
     const std::uint32_t direction =
         gpu::direction_dimensions(features[gpu::ID_GLOSS], features[gpu::ID_MAX_PATH_LENGTH]);
     if (features[gpu::ID_SPOT_COUNT] > 0) {
-        const std::uint32_t spot = gpu::every_lamp_blocks(lens, features[gpu::ID_LAMP_COUNT]);
+        const std::uint32_t spot = gpu::every_lamp_blocks(of_camera, features[gpu::ID_LAMP_COUNT]);
         blocks[spot] = 3;
         blocks[spot + 1] = gpu::chosen_lamp_dimensions(2, features[gpu::ID_LAMP_COUNT]);
         blocks[spot + 2] = direction;

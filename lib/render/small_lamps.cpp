@@ -22,7 +22,7 @@ struct Disc {
     double x;
     double y;
     double radius; // of where it is seen
-    double size;   // of the lamp: less than the disc if a lens spreads it
+    double size;   // of the lamp: less than the disc if the camera spreads it
     glm::dvec3 emission;
 
     bool meets(std::uint32_t width, std::uint32_t height) const {
@@ -134,11 +134,10 @@ std::vector<LampPiece> small_lamps_in_view(const PreparedScene &scene, const Cam
         const double half_height =
             camera.is_orthographic() ? 0.5 * camera.vertical_extent : depth * camera.tan_half_fov;
         const double scale = 0.5 * height / half_height;
-        // A lens spreads each point of the lamp over a disc; the variances of both add up to that of a disc with the
+        // Each point of the lamp may be spread over a disc; the variances of both add up to that of a disc with the
         // root of the sum of their squares as its radius.
         const double radius = scale * seen.radius;
-        const double spread =
-            camera.has_lens() ? scale * camera.lens_radius * std::abs(1.0 - depth / camera.focus) : 0.0;
+        const double spread = scale * camera.spread(depth);
         const Disc disc{0.5 * width + scale * glm::dot(seen.open, camera.right),
                         0.5 * height - scale * glm::dot(seen.open, camera.up) - first_row, std::hypot(radius, spread),
                         std::numbers::pi * radius * radius, material.emission};

@@ -13,7 +13,7 @@
 
 namespace pt {
 
-// The part of a lamp that lies in one pixel, or through a lens in each of some pixels.
+// The part of a lamp that lies in one pixel, or in each of some pixels if the camera spreads it.
 struct LampPiece {
     std::uint32_t x; // among the rows
     std::uint32_t y;

@@ -5,6 +5,7 @@
 
 #include <glm/glm.hpp>
 
+#include <cmath>
 #include <string>
 
 namespace pt {
@@ -26,9 +27,9 @@ struct Camera {
     bool is_orthographic() const { return vertical_extent > 0.0; }
     bool has_lens() const { return lens_radius > 0.0; }
 
-    // All rays of a place in the image meet on the plane in focus, so ahead of the lens they start on a smaller disc.
-    // start_distance <= focus.
-    double lens_radius_at_start() const { return lens_radius * (1.0 - start_distance / focus); }
+    // Radius of the disc that the rays of a place in the image fill at a depth from the lens: they meet on the plane in
+    // focus.
+    double spread(double depth) const { return has_lens() ? lens_radius * std::abs(1.0 - depth / focus) : 0.0; }
 };
 
 // Takes over a camera whose struct_size is settled. Throws PT_ERROR_INVALID_ARGUMENT with all broken rules.

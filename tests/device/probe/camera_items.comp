@@ -2,7 +2,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-#include "camera.glsl"
+#include "camera_ray.glsl"
 
 #include "items.glsl"
 
