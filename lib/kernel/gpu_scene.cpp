@@ -8,7 +8,6 @@
 #include "lib/kernel/scene_blocks.h"
 #include "lib/scene/seen_scene.h"
 #include "lib/scene/twins.h"
-#include "lib/scene/way_word.h"
 
 #include <algorithm>
 #include <bit>
@@ -68,8 +67,8 @@ public:
 
     void sphere(std::uint32_t surface, const SeenSphere &sphere) {
         words_[surface] = glm::vec4(glm::vec3(sphere.open), static_cast<float>(sphere.radius));
-        if (features_[gpu::ID_MOTION] || features_[gpu::ID_CAPSULES])
-            words_[blocks_.motion + surface] = way_word(sphere.way, sphere.swept);
+        if (features_.has_ways())
+            words_[blocks_.motion + surface] = way_word(sphere);
     }
 
     void plane(std::uint32_t surface, const CurvedPlane &plane) {

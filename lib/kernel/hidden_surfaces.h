@@ -8,9 +8,7 @@
 
 namespace pt {
 
-// Whether a ball and a surface have no point in common while the shutter is open, and no point of the surface is in the
-// ball: the surface is beside it, or a shell around it.
-bool lies_apart(const MovingBall &ball, const MovingBall &surface);
+// Whether a ball lies apart from these, as from a ball (moving_ball.h).
 bool lies_apart(const MovingBall &ball, const CurvedPlane &flat);
 bool lies_apart(const MovingBall &ball, const PointBox &box);
 

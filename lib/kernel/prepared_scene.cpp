@@ -4,7 +4,7 @@
 #include "lib/scene/lamp_tree.h"
 #include "lib/scene/scene_digest.h"
 #include "lib/scene/twins.h"
-#include "lib/tree/outlying.h"
+#include "lib/tree/tree_choice.h"
 #include "shaders/gpu_layout.h"
 
 #include <algorithm>
@@ -84,22 +84,12 @@ std::vector<std::uint32_t> hidden_spheres(const CheckedScene &checked, WorkProgr
     return hidden;
 }
 
-// So many capsules at the most are left out of the tree, such as the twelve edges of a cell. Every ray tests them, but
-// a walk then takes all spheres of the tree for balls: 300 or 3,000 in a cell took .81 and .77 of the CPU seconds.
-constexpr std::size_t few_capsules = 16;
-
-// With the hidden ones, so that no ray from the camera need ask what a sphere of the tree is made of. Only walks
-// through the tree know opacities.
+// With the hidden ones, so that no ray from the camera need ask what a sphere of the tree is made of.
 std::vector<std::uint32_t> left_out_of(const CheckedScene &checked, const std::vector<std::uint32_t> &hidden,
                                        WorkProgress &progress) {
     progress.enter(share_of_outlying, static_cast<double>(checked.spheres.size()));
-    const std::vector<std::uint32_t> outlying = outlying_spheres(checked.spheres, progress);
-    std::vector<std::uint32_t> unwanted;
-    std::ranges::set_union(outlying, checked.spheres.capsules(few_capsules), std::back_inserter(unwanted));
-    if (checked.spheres.has_opacities()) // of which hidden ones have none below 1
-        std::erase_if(unwanted, [&](std::uint32_t i) { return checked.spheres[i].opacity < opaque; });
     std::vector<std::uint32_t> left_out;
-    std::ranges::set_union(hidden, unwanted, std::back_inserter(left_out));
+    std::ranges::set_union(hidden, spheres_beside_tree(checked.spheres, progress), std::back_inserter(left_out));
     return left_out;
 }
 
@@ -137,8 +127,8 @@ PreparedScene::PreparedScene(CheckedScene checked, std::optional<std::uint32_t> 
 
 PreparedScene PreparedScene::prepared(CheckedScene checked, std::optional<std::uint32_t> tree_from,
                                       const SphereTree *before, WorkProgress &progress) {
-    const std::uint32_t by_default = checked.spheres.has_capsules() ? tree_of_capsules_from : default_tree_from;
-    const std::uint32_t from = checked.spheres.has_opacities() ? 1 : tree_from.value_or(by_default);
+    const std::uint32_t from =
+        checked.spheres.has_opacities() ? 1 : tree_from.value_or(tree_pays_from(checked.spheres));
     if (checked.spheres.size() >= from) {
         const std::vector<std::uint32_t> hidden = hidden_spheres(checked, progress);
         if (checked.spheres.size() - hidden.size() >= from) {

@@ -15,16 +15,6 @@
 
 namespace pt {
 
-// From this many spheres on, nearly all of them are in a tree. On lavapipe loops are no longer unrolled from there on
-// (DevicePolicy::unrolled). On an H200 a tree is as fast as testing each sphere from 160 on with three vertices, and
-// from 115 on with six.
-inline constexpr std::uint32_t default_tree_from = 113;
-
-// Where some spheres are capsules, testing each takes several times as long, and on lavapipe the kernel of a list is
-// compiled for seconds: 24 balls and capsules took as long either way, 84 in a list 2.8 times as long (a box of 12
-// edges).
-inline constexpr std::uint32_t tree_of_capsules_from = 24;
-
 struct PreparedScene {
     Scene scene; // without what is in the tree
     // Power of two that makes one film unit: radiance / unit is what the film sums. It puts the brightest emission into

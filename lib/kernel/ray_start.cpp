@@ -185,7 +185,7 @@ template <typename AnyView>
 double first_depth(const Scene &scene, const SphereTree *tree, const Camera &camera, const AnyView &view) {
     double depth = out_of_view;
     for (const Sphere &sphere : scene.spheres)
-        depth = std::min(depth, depth_of_sphere(seen_ball(sphere, camera), view));
+        depth = std::min(depth, depth_of_sphere(seen_ball(sphere.ball(), camera), view));
     for (const Plane &plane : scene.planes)
         depth = std::min(depth, nearest_depth(curved_plane(plane, scene.materials[plane.material], camera), view));
     if (tree)

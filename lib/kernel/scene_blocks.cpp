@@ -10,7 +10,7 @@ SceneBlocks::SceneBlocks(const Features &features) {
     emission = surfaces;
     motion =
         features.scene_in_uniform() ? (3 + gloss) * surfaces : emission + features.emitting_spheres() + emitting_planes;
-    curvature = motion + (features[gpu::ID_MOTION] || features[gpu::ID_CAPSULES] ? features[gpu::ID_SPHERE_COUNT] : 0);
+    curvature = motion + (features.has_ways() ? features[gpu::ID_SPHERE_COUNT] : 0);
     lamp_tree = curvature + (features[gpu::ID_CURVATURE] ? features[gpu::ID_PLANE_COUNT] : 0);
     index = lamp_tree + features[gpu::ID_LAMP_TREE_WORDS];
     if (features.scene_in_uniform()) {

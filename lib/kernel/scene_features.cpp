@@ -7,6 +7,7 @@
 #include "lib/kernel/scene_blocks.h"
 #include "lib/scene/lamp_tree.h"
 #include "lib/scene/start_disc.h"
+#include "lib/tree/tree_choice.h"
 
 #include <pt/stats.h>
 

@@ -1,4 +1,5 @@
-// A ball that moves along a straight line, and questions about it that do not depend on its material.
+// A ball that moves along a straight line, or a capsule, which is a ball swept along one; and questions about it that
+// do not depend on its material.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -12,6 +13,7 @@ struct MovingBall {
     glm::dvec3 open; // the centre at first
     glm::dvec3 way;  // of the centre from then to the end
     double radius;
+    bool swept = false; // a capsule, which is at all places of its way at once
 
     glm::dvec3 close() const { return open + way; }
 };
@@ -24,6 +26,11 @@ inline constexpr double side_margin = 0x1p-16;
 // centre, 2^-24 d, is a 16th of the radius and shows whatever is done about twins.
 inline constexpr double two_spheres = 0.25;
 
+// Adds a margin to a length, so that float32 cannot see it differently.
+inline double with_margin(double length) {
+    return length * (1.0 + side_margin);
+}
+
 // The least distance from the origin of a point that starts at open and moves along a straight line.
 inline double least_distance(const glm::dvec3 &open, const glm::dvec3 &way) {
     const double length = glm::dot(way, way);
@@ -34,19 +41,47 @@ inline double least_distance(const glm::dvec3 &open, const glm::dvec3 &way) {
 // Whether the origin is inside the ball at any time, or so close to it that float32 cannot tell. slack: how much
 // farther away still counts.
 inline bool may_hold_origin(const MovingBall &ball, double slack = 0.0) {
-    return !(least_distance(ball.open, ball.way) > ball.radius * (1.0 + side_margin) + slack);
+    return !(least_distance(ball.open, ball.way) > with_margin(ball.radius) + slack);
 }
 
-// Whether the two balls nearly coincide: no point of either is far from the other, compared with their size.
-inline bool nearly_coincide(const MovingBall &a, const MovingBall &b) {
-    const double apart = std::max(glm::length(a.open - b.open), glm::length(a.close() - b.close()));
-    return apart + std::abs(a.radius - b.radius) < two_spheres * std::min(a.radius, b.radius);
+// Whether a ball and another nearly coincide: no point of either is far from the other, compared with their size. If
+// the other is swept, whether the ball, at some time, may do so with one of those that make it up.
+inline bool nearly_coincide(const MovingBall &ball, const MovingBall &other) {
+    const double apart = other.swept
+                             ? std::max(least_distance(other.open - ball.open, other.way) - glm::length(ball.way), 0.0)
+                             : std::max(glm::length(ball.open - other.open), glm::length(ball.close() - other.close()));
+    return apart + std::abs(ball.radius - other.radius) < two_spheres * std::min(ball.radius, other.radius);
 }
 
-// Whether a ball, at some time, may nearly coincide with one of the balls that make up a capsule.
-inline bool nearly_coincides_within(const MovingBall &ball, const MovingBall &capsule) {
-    const double apart = std::max(least_distance(capsule.open - ball.open, capsule.way) - glm::length(ball.way), 0.0);
-    return apart + std::abs(ball.radius - capsule.radius) < two_spheres * std::min(ball.radius, capsule.radius);
+// Stands for a capsule, which does not move: a ball about all of it. Any other is itself.
+inline MovingBall ball_about(const MovingBall &ball) {
+    if (!ball.swept)
+        return ball;
+    const glm::dvec3 half = 0.5 * ball.way;
+    return {ball.open + half, glm::dvec3(0.0), ball.radius + glm::length(half)};
+}
+
+// Whether a ball and a surface have no point in common while the shutter is open, and no point of the surface is in the
+// ball: the surface is beside it, or a shell around it. Both move evenly, so one passes the other on a straight line,
+// and the greatest distance is at one of its ends.
+inline bool lies_apart(const MovingBall &ball, const MovingBall &surface) {
+    const MovingBall about = ball_about(surface);
+    const glm::dvec3 from = ball.open - about.open;
+    const glm::dvec3 way = ball.way - about.way;
+    const double farthest = std::max(glm::length(from), glm::length(from + way));
+    const bool is_beside = least_distance(from, way) > with_margin(ball.radius + about.radius);
+    const bool is_within = !surface.swept && with_margin(farthest + ball.radius) < surface.radius;
+    return is_beside || is_within;
+}
+
+// The way as kernels read it (shaders/gpu_layout.h); of a capsule also 1 / its length. Where that overflows, the way is
+// far shorter than any radius (at least 1e-18), and the capsule is held as a ball.
+inline glm::vec4 way_word(const MovingBall &ball) {
+    const glm::vec3 rounded = glm::vec3(ball.way) + 0.0F; // -0 is made +0, for twins
+    if (!ball.swept)
+        return {rounded, 0.0F};
+    const auto inverse = static_cast<float>(1.0 / glm::length(ball.way));
+    return std::isfinite(inverse) ? glm::vec4(rounded, inverse) : glm::vec4(0.0F);
 }
 
 } // namespace pt

@@ -1,6 +1,7 @@
 // A scene that obeys the rules of pt.h, owned.
 #pragma once
 
+#include "lib/scene/moving_ball.h"
 #include "shaders/gpu_layout.h"
 
 #include <pt/pt.h>
@@ -43,6 +44,7 @@ struct Sphere {
     bool swept = false;                // is a capsule
     std::int16_t opacity = no_opacity; // in steps, as above
 
+    MovingBall ball() const { return {center, motion, radius, swept}; } // in the time from 0 to 1
     bool moves() const { return !swept && motion != glm::dvec3(0.0); }
 };
 

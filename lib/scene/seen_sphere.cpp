@@ -29,13 +29,12 @@ bool moves_little(const SeenSphere &sphere) {
 } // namespace
 
 SeenSphere::SeenSphere(const Sphere &sphere, const Material &of_sphere, const Camera &camera, std::uint32_t of_index) :
-    MovingBall(seen_ball(sphere, camera)),
+    MovingBall(seen_ball(sphere.ball(), camera)),
     distance(glm::length(open)),
     material(sphere.material),
     index(of_index),
     emits(pt::emits(of_sphere)),
     hidden(of_sphere.hidden),
-    swept(sphere.swept),
     is_flat(!swept && is_large(*this, emits ? nearly_flat_lamp : nearly_flat) && moves_little(*this)) {}
 
 // Held by its centre, a sphere's surface is off by 2^-24 of the radius. Where that is more than 1/256 of its distance,

@@ -9,13 +9,12 @@
 
 namespace pt {
 
-// The ball from when the shutter opens until it closes, or of a capsule from one end to the other, relative to the
-// camera.
-inline MovingBall seen_ball(const Sphere &sphere, const Camera &camera) {
-    if (sphere.swept)
-        return {sphere.center - camera.position, sphere.motion, sphere.radius};
-    return {sphere.center + camera.shutter_open * sphere.motion - camera.position,
-            (camera.shutter_close - camera.shutter_open) * sphere.motion, sphere.radius};
+// A ball from when the shutter opens until it closes, or all of a capsule, relative to the camera.
+inline MovingBall seen_ball(const MovingBall &ball, const Camera &camera) {
+    if (ball.swept)
+        return {ball.open - camera.position, ball.way, ball.radius, true};
+    return {ball.open + camera.shutter_open * ball.way - camera.position,
+            (camera.shutter_close - camera.shutter_open) * ball.way, ball.radius};
 }
 
 struct SeenSphere : MovingBall {
@@ -24,7 +23,6 @@ struct SeenSphere : MovingBall {
     std::uint32_t index;    // into Scene::spheres
     bool emits;
     bool hidden;  // from the camera
-    bool swept;   // is a capsule
     bool is_flat; // so large that it is held better as a plane with a curvature (curved_plane.h)
 
     SeenSphere(const Sphere &sphere, const Material &of_sphere, const Camera &camera, std::uint32_t of_index = 0);

@@ -136,7 +136,7 @@ bool has_close_lamps(const std::vector<SeenSphere> &spheres, const Line &line, c
             return !is_twin[other] && nearly_coincide(lamp, spheres[other]);
         };
         // A capsule is on the line where it begins, however far from there it comes near the lamp.
-        const auto is_in = [&](const SeenSphere &other) { return other.swept && nearly_coincides_within(lamp, other); };
+        const auto is_in = [&](const SeenSphere &other) { return other.swept && nearly_coincide(lamp, other); };
         if (lamp.emits && !is_twin[line.index(i)] &&
             (line.any_near(i, two_spheres * lamp.radius, is_close) || std::ranges::any_of(spheres, is_in)))
             return true;

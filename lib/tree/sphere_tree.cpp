@@ -1,6 +1,7 @@
 // Builds and writes the tree; see sphere_tree.h.
 #include "lib/tree/sphere_tree.h"
 
+#include "lib/scene/seen_sphere.h"
 #include "lib/scene/start_disc.h"
 #include "lib/tree/equal_words.h"
 #include "lib/tree/scene_numbers.h"
@@ -229,8 +230,8 @@ SphereTree::HeldSphere SphereTree::held(std::uint32_t place) const {
 // A sphere as the kernel has it, from time 0 to 1 or from end to end.
 MovingBall SphereTree::ball_at(std::uint32_t place) const {
     const glm::uvec4 &word = words_[first_sphere_ + place];
-    return {grid_.point(centre_of(word)), has_ways() ? way_of(words_[first_motion_ + place]) : glm::dvec3(0.0),
-            radius_of(word)};
+    const glm::uvec4 way = has_ways() ? words_[first_motion_ + place] : glm::uvec4(0);
+    return {grid_.point(centre_of(word)), way_of(way), radius_of(word), is_swept(way)};
 }
 
 bool SphereTree::is_far(const Camera &camera) const {
@@ -277,14 +278,6 @@ Sphere SphereTree::lamp(std::uint32_t number) const {
     return {ball.open, ball.radius, ball.way, lamp_materials_[number]};
 }
 
-MovingBall SphereTree::seen_ball(std::uint32_t place, const Camera &camera) const {
-    const MovingBall ball = ball_at(place);
-    if (has_capsules_ && is_swept(words_[first_motion_ + place]))
-        return {ball.open - camera.position, ball.way, ball.radius};
-    return {ball.open + camera.shutter_open * ball.way - camera.position,
-            (camera.shutter_close - camera.shutter_open) * ball.way, ball.radius};
-}
-
 bool SphereTree::may_hold(const Camera &camera) const {
     const gpu::TreeFrame seen = frame(camera);
     const double nearly =
@@ -293,7 +286,7 @@ bool SphereTree::may_hold(const Camera &camera) const {
     if (!meet(box_, {seen.camera - around, seen.camera + around}) || is_far(camera))
         return false;
     return any_in({seen.camera - around, seen.camera + around},
-                  [&](std::uint32_t place) { return may_hold_origin(seen_ball(place, camera), grid_.step); });
+                  [&](std::uint32_t place) { return may_hold_origin(seen_ball(ball_at(place), camera), grid_.step); });
 }
 
 bool SphereTree::divides_start(const Camera &camera) const {
@@ -304,8 +297,9 @@ bool SphereTree::divides_start(const Camera &camera) const {
     const double beyond = 2.0 * Grid::reach; // where no box of the tree is
     const glm::ivec3 low(glm::floor(glm::clamp(middle - radius, -beyond, beyond)));
     const glm::ivec3 high(glm::ceil(glm::clamp(middle + radius, -beyond, beyond)));
-    return any_in({low, high},
-                  [&](std::uint32_t place) { return pt::divides_start(seen_ball(place, camera), camera, grid_.step); });
+    return any_in({low, high}, [&](std::uint32_t place) {
+        return pt::divides_start(seen_ball(ball_at(place), camera), camera, grid_.step);
+    });
 }
 
 // Enters the nearest node first, and no node beyond the nearest sphere so far.
@@ -328,7 +322,7 @@ double SphereTree::least_depth(const Camera &camera, const std::function<double(
                     entries.emplace(depth, node.first_child() + child);
             } else {
                 const std::uint32_t place = node.first_place() + child - node.inner_count();
-                least = std::min(least, of_sphere(seen_ball(place, camera)));
+                least = std::min(least, of_sphere(seen_ball(ball_at(place), camera)));
             }
         }
     }
@@ -343,9 +337,7 @@ bool SphereTree::finds_close_lamps(WorkProgress &progress) const {
         const std::uint32_t place = words_[first_lamp_ + lamp].x;
         const MovingBall ball = ball_at(place);
         const auto is_close = [&](std::uint32_t other) {
-            const bool is_capsule = has_capsules_ && is_swept(words_[first_motion_ + other]);
-            return other != place &&
-                   (is_capsule ? nearly_coincides_within(ball, ball_at(other)) : nearly_coincide(ball, ball_at(other)));
+            return other != place && nearly_coincide(ball, ball_at(other));
         };
         // A sphere that nearly coincides with the lamp holds its centre.
         const glm::ivec3 centre = centre_of(words_[first_sphere_ + place]);

@@ -130,7 +130,6 @@ private:
     HeldSphere held(std::uint32_t place) const;
     bool has_ways() const { return moves_ || has_capsules_; }
     MovingBall ball_at(std::uint32_t place) const;
-    MovingBall seen_ball(std::uint32_t place, const Camera &camera) const;
     GridBox box_of_place(std::uint32_t place) const;
     bool is_far(const Camera &camera) const;
     bool finds_close_lamps(WorkProgress &progress) const;

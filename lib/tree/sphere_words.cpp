@@ -1,8 +1,6 @@
 // Rounds spheres to words; see sphere_words.h.
 #include "lib/tree/sphere_words.h"
 
-#include "lib/scene/way_word.h"
-
 namespace pt {
 
 namespace {
@@ -25,7 +23,7 @@ glm::uvec4 sphere_word(const Sphere &sphere, const Grid &grid) {
 }
 
 glm::uvec4 motion_word(const Sphere &sphere) {
-    return std::bit_cast<glm::uvec4>(way_word(sphere.motion, sphere.swept));
+    return std::bit_cast<glm::uvec4>(way_word(sphere.ball()));
 }
 
 std::uint32_t color_word(const glm::vec3 &color) {

@@ -1,7 +1,7 @@
 // Capsules: beside exact intersections in double, in light beside a path tracer of its own in double, and where they
 // are spheres or tell nothing of how the scene is held. PT_TEST_MANY asks for 100 random scenes. Run alone with
 // --gtest_filter=Capsule*.
-#include "lib/kernel/prepared_scene.h"
+#include "lib/tree/tree_choice.h"
 #include "tests/support/light_in_double.h"
 
 #include <pt/film.h>

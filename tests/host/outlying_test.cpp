@@ -1,5 +1,5 @@
 // Which spheres are kept out of a tree.
-#include "lib/tree/outlying.h"
+#include "lib/tree/tree_choice.h"
 
 #include <gtest/gtest.h>
 

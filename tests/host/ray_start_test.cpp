@@ -127,7 +127,8 @@ TEST(RayStart, OfParallelRaysIsOnOneSideOfALongCapsuleAcrossTheView) {
     camera.start_radius = std::sqrt(2.0);
     for (const double before : {1.25 * camera.start_radius, 0.9 * camera.start_radius, 0.0}) {
         capsule.center = camera_position - 500.0 * camera.right + (0.25 + before) * camera.forward;
-        EXPECT_EQ(pt::divides_start(pt::seen_ball(capsule, camera), camera), before < camera.start_radius) << before;
+        EXPECT_EQ(pt::divides_start(pt::seen_ball(capsule.ball(), camera), camera), before < camera.start_radius)
+            << before;
     }
 }
 

@@ -19,8 +19,8 @@ MOST_WORDS_IN_ALL = 27_600
 
 # What pages say, and what the code has instead of the numbers: a file and its text, with groups in the same order.
 NUMBERS = (
-    (r"(?:[Ff]rom|scenes of) (\d+) spheres\s+o[nr]\b", "lib/kernel/prepared_scene.h", r"default_tree_from = (\d+);"),
-    (r"[Uu]p to (\d+) (?:spheres )?that reach\s+(\d+) times as far", "lib/tree/outlying.cpp",
+    (r"(?:[Ff]rom|scenes of) (\d+) spheres\s+o[nr]\b", "lib/tree/tree_choice.h", r"default_tree_from = (\d+);"),
+    (r"[Uu]p to (\d+) (?:spheres )?that reach\s+(\d+) times as far", "lib/tree/tree_choice.cpp",
      r"most_outlying = (\d+);[^@]*much_farther = (\d+)\.0;"),
     (r"[Ff]rom (\d+) lamps\s+on", "lib/kernel/lamp_tree_words.h", r"least_tree_lamps = (\d+);"),
     (r"at most (\d+), `EVERY_LAMP_LIMIT`", "shaders/gpu_layout.h", r"EVERY_LAMP_LIMIT = (\d+);"),
