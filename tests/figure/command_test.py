@@ -112,7 +112,7 @@ class Command(unittest.TestCase):
         (self.folder / "data.png").write_text(WATER)
         for code, words, arguments in (
                 (2, "there is nothing to write", ("water.xyz",)),
-                (2, "must end in .png, .jpg, .jpeg or .exr", ("water.xyz", "-o", "a.gif")),
+                (2, "must end in .exr, .png, .jpg or .jpeg", ("water.xyz", "-o", "a.gif")),
                 (6, "its folder nowhere is not there", ("water.xyz", "-o", "nowhere/a.png")),
                 (2, "named twice, or is water.xyz", ("water.xyz", "-o", "a.png", "-o", "./a.png")),
                 (2, "or is data.png", ("data.png", "-o", "./data.png")),

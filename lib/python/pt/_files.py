@@ -6,9 +6,11 @@ import os
 import pathlib
 import uuid
 from collections.abc import Callable, Sequence
-from typing import BinaryIO, TypeAlias
+from typing import BinaryIO, Final, TypeAlias
 
 Path: TypeAlias = "str | os.PathLike[str]"
+
+PICTURES: Final = ("exr", "png", "jpg", "jpeg")  # endings of the files that the commands write
 
 
 def format_of(path: Path, formats: Sequence[str]) -> str:

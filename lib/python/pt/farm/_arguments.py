@@ -9,8 +9,8 @@ import sys
 from typing import NoReturn
 
 from pt._command_line import USAGE, at_least, misnamed, numbered
+from pt._files import PICTURES
 
-PICTURES = ("exr", "png", "jpg", "jpeg")
 FILM_LAYERS = {"mean", "standard-error", "sample-count"}
 
 

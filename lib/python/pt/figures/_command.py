@@ -17,8 +17,9 @@ from pt._command_line import (CODE_OF_RESULT, FILES, INTERNAL, SCENE, SIGNAL, TA
                               misnamed, numbered)
 from pt._context import Context
 from pt._errors import Error
+from pt._files import PICTURES
 from pt.figures._accept import frames as read_frames, load
-from pt.figures._figure import LEGENDS, PICTURES, Figure, Staged
+from pt.figures._figure import LEGENDS, Figure, Staged
 from pt.figures._options import Options, two
 from pt.figures._series import frames, turntable
 

@@ -16,7 +16,7 @@ from pt._camera import RenderSettings
 from pt._context import Context
 from pt._display import automatic_exposure, encode_png, linear, quantised, signal
 from pt._exr import encode_exr
-from pt._files import Path, format_of, write_atomically
+from pt._files import PICTURES, Path, format_of, write_atomically
 from pt._fit import Array, Doubles, chunks
 from pt._image import Image
 from pt._scene import Scene, SphereArray
@@ -39,7 +39,6 @@ from pt.figures._where import holds
 LEAST_LENGTH: Final = 1e-18  # the least that the library accepts
 INK: Final = "#222222"  # of words on a bright background
 LEAST_WIDTH: Final = 16  # pixels beside a color bar
-PICTURES: Final = ("png", "jpg", "jpeg", "exr")
 LEGENDS: Final = ("svg", "pdf", "png")
 
 
