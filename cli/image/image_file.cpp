@@ -137,7 +137,9 @@ std::vector<float> DecodedImage::layer(const std::string &name) const {
 }
 
 DecodedImage read_image(const std::string &path) {
-    const auto decode = reinterpret_cast<DecodeImage *>(load_symbol(module_path(), decode_image_symbol));
+    const auto decode = image_format(path) == ImageFormat::png
+                            ? &decode_png
+                            : reinterpret_cast<DecodeImage *>(load_symbol(module_path(), decode_image_symbol));
     DecodedImage image{};
     try {
         decode(path, image);

@@ -59,6 +59,9 @@ void *load_symbol(const std::filesystem::path &path, const char *name);
 // Throws std::runtime_error.
 std::vector<unsigned char> encode_png(const ImageData &image);
 
+// Likewise, of a file. Alpha is a channel of its own; text chunks are left out.
+void decode_png(const std::string &path, DecodedImage &image);
+
 class ImageWriter {
 public:
     // In the background, so that it is there when the first image is to be written; otherwise it is loaded then. Throws

@@ -1,6 +1,7 @@
 // Tests of cli/image/image_file and the module behind it: OpenImageIO itself reads back what was written.
 
 #include "cli/image/image_file.h"
+#include "tests/cli/refusal_of.h"
 #include "tests/cli/temporary_folder.h"
 
 #include <OpenImageIO/imageio.h>
@@ -127,6 +128,29 @@ TEST(ImageFile, PngKeepsALargePicture) {
     std::generate(bytes.begin(), bytes.end(), [&] { return static_cast<std::uint8_t>(random() >> 16); });
     write_bytes(folder.file("a.png"), 1000, 700, bytes);
     EXPECT_EQ(read_pixels<std::uint8_t>(folder.file("a.png"), OIIO::TypeDesc::UINT8), bytes);
+}
+
+// OpenImageIO writes them, with 8 and 16 bits, and reads them to the same numbers.
+TEST(ImageFile, PngOfOtherProgramsIsRead) {
+    const TemporaryFolder folder;
+    const std::string path = folder.file("a.png");
+    const std::array<std::uint16_t, 8> words{0,   1,     300,   65535,
+                                             256, 40000, 65534, 65535}; // with alpha two opaque pixels
+    for (const auto type : {OIIO::TypeDesc::UINT8, OIIO::TypeDesc::UINT16}) {
+        for (const int channels : {1, 3, 4}) {
+            const auto output = OIIO::ImageOutput::create(path);
+            ASSERT_TRUE(output && output->open(path, OIIO::ImageSpec(2, 1, channels, type)) &&
+                        output->write_image(OIIO::TypeDesc::UINT16, words.data()) && output->close());
+            const cli::DecodedImage image = cli::read_image(path);
+            EXPECT_EQ(std::tuple(image.width, image.full_height, image.is_float), std::tuple(2U, 1U, false));
+            std::vector<float> expected = read_pixels<float>(path, OIIO::TypeDesc::FLOAT);
+            if (channels == 1)
+                expected = {expected[0], expected[0], expected[0], expected[1], expected[1], expected[1]};
+            EXPECT_EQ(image.values, expected);
+        }
+    }
+    std::filesystem::resize_file(path, 60);
+    EXPECT_EQ(refusal_of([&] { cli::read_image(path); }).message, "cannot read " + path + ": the file ends too early");
 }
 
 TEST(ImageFile, JpegIsClose) {
