@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <pt/pt.h>
 namespace pt::gpu {
 using uint = std::uint32_t;
 using uvec2 = glm::uvec2;
@@ -377,6 +378,10 @@ struct AddConstants {
 };
 
 #ifdef __cplusplus
+static_assert(FORMAT_RGB32F == PT_FORMAT_RGB32F && FORMAT_RGBA32F == PT_FORMAT_RGBA32F);
+static_assert(FORMAT_RGBA16F == PT_FORMAT_RGBA16F && FORMAT_R32UI == PT_FORMAT_R32UI);
+static_assert(QUANTITY_DEPTH == PT_QUANTITY_DEPTH && QUANTITY_NORMAL == PT_QUANTITY_NORMAL);
+static_assert(QUANTITY_ALBEDO == PT_QUANTITY_ALBEDO && QUANTITY_OBJECT == PT_QUANTITY_OBJECT);
 // Vulkan guarantees 128 bytes of push constants; the offsets are those of GLSL's std430.
 static_assert(sizeof(CameraView) == 64 && offsetof(CameraView, start_scale) == 12 && offsetof(CameraView, up) == 16);
 static_assert(offsetof(CameraView, forward) == 32 && offsetof(CameraView, height) == 44);

@@ -6,14 +6,12 @@
 
 void see_sphere(inout Hit hit, vec3 origin, vec3 direction, uint sphere, float time)
 {
-    vec4 centre_radius = sphere_at(sphere, time);
-    vec3 to_centre = STARTS_AHEAD == 1 ? centre_radius.xyz - origin : centre_radius.xyz;
-    vec3 from_side = centre_radius.xyz;
+    Ball ball = ball_at(sphere, time);
+    vec3 to_centre = STARTS_AHEAD == 1 ? ball.centre_radius.xyz - origin : ball.centre_radius.xyz;
+    vec3 from_side = ball.centre_radius.xyz;
     if (STARTS_ON_DISC && KNOWN_SIDES == 0)
         from_side = to_centre;
-    vec4 axis = axis_at(sphere);
-    bool outside = is_outside(from_side, axis, centre_radius.w);
-    keep_closer(hit, swept_distance(to_centre, axis, centre_radius.w, direction, false, false, outside), sphere);
+    keep_closer(hit, ball_distance(ball, to_centre, from_side, direction, false, false), sphere);
 }
 
 void see_plane(inout Hit hit, vec3 origin, vec3 direction, uint plane, float time)
@@ -41,7 +39,7 @@ Hit closest_hit(vec3 origin, vec3 direction, float time)
 bool is_blocked(Start start, float time, ShadowRay shadow)
 {
     bool blocked = false;
-    FOR_EACH(sphere, 0u, SPHERE_COUNT, shade_sphere(blocked, start, shadow, sphere, sphere_at(sphere, time), axis_at(sphere)));
+    FOR_EACH(sphere, 0u, SPHERE_COUNT, shade_sphere(blocked, start, shadow, sphere, ball_at(sphere, time)));
     if (PLANES_BLOCK == 1)
         FOR_EACH(plane, SPHERE_COUNT, SURFACE_COUNT,
                  shade_plane(blocked, start, shadow, plane, level_at(plane, start.origin, time), time));
@@ -51,10 +49,9 @@ bool is_blocked(Start start, float time, ShadowRay shadow)
 void meet_sphere(inout Hit hit, inout bool blocked, Start start, vec3 direction, ShadowRay shadow, uint sphere,
                  float time)
 {
-    vec4 centre_radius = sphere_at(sphere, time);
-    vec4 axis = axis_at(sphere);
-    keep_closer(hit, distance_to_sphere(start, direction, sphere, centre_radius, axis), sphere);
-    shade_sphere(blocked, start, shadow, sphere, centre_radius, axis);
+    Ball ball = ball_at(sphere, time);
+    keep_closer(hit, distance_to_sphere(start, direction, sphere, ball), sphere);
+    shade_sphere(blocked, start, shadow, sphere, ball);
 }
 
 void meet_plane(inout Hit hit, inout bool blocked, Start start, vec3 direction, ShadowRay shadow, uint plane,

@@ -113,10 +113,13 @@ float swept_distance(vec3 to_first, vec4 axis, float radius, vec3 direction, boo
     return sphere_distance(to_centre, radius, direction, leaving_ball, inside, !to_last);
 }
 
-bool is_outside(vec3 to_first, vec4 axis, float radius)
+// The same for a ball whose first end is to_first from the ray's origin, and from_side from where its side is told.
+float ball_distance(Ball ball, vec3 to_first, vec3 from_side, vec3 direction, bool leaving, bool inside)
 {
-    vec3 to_centre = CAPSULES == 1 ? to_first + to_nearest(to_first, axis) : to_first;
-    return dot(to_centre, to_centre) > radius * radius;
+    vec3 to_centre = CAPSULES == 1 ? from_side + to_nearest(from_side, ball.axis) : from_side;
+    float radius = ball.centre_radius.w;
+    bool outside = dot(to_centre, to_centre) > radius * radius;
+    return swept_distance(to_first, ball.axis, radius, direction, leaving, inside, outside);
 }
 
 // Distance along the unit vector direction to a plane, or NO_HIT. level: of the plane at the ray's origin; leaving: the
@@ -174,13 +177,17 @@ struct ShadowRay {
 const ShadowRay NO_SHADOW_RAY = ShadowRay(vec3(0.0), 0.0, NO_SURFACE);
 
 // The tests that all walks share. A walk fetches a surface once for all its rays, so these take what was fetched.
-float distance_to_sphere(Start start, vec3 direction, uint sphere, vec4 centre_radius, vec4 axis)
+float distance_to_sphere(Start start, vec3 direction, uint sphere, Ball ball)
 {
-    bool leaving = sphere == start.surface;
-    vec3 to_centre = centre_radius.xyz - start.origin;
-    vec3 from_side = KNOWN_SIDES == 1 ? centre_radius.xyz : to_centre;
-    bool outside = is_outside(from_side, axis, centre_radius.w);
-    return swept_distance(to_centre, axis, centre_radius.w, direction, leaving, start.inside, outside);
+    vec3 to_first = ball.centre_radius.xyz - start.origin;
+    vec3 from_side = KNOWN_SIDES == 1 ? ball.centre_radius.xyz : to_first;
+    return ball_distance(ball, to_first, from_side, direction, sphere == start.surface, start.inside);
+}
+
+// A lamp is no capsule.
+float distance_to_lamp(Start start, vec3 direction, uint surface, vec4 centre_radius)
+{
+    return distance_to_sphere(start, direction, surface, Ball(centre_radius, NO_AXIS));
 }
 
 float distance_to_plane(Start start, vec3 direction, uint plane, Level level, float time)
@@ -196,18 +203,18 @@ bool blocks(ShadowRay shadow, float distance, uint surface)
     return before && surface != shadow.lamp;
 }
 
-void shade_sphere(inout bool blocked, Start start, ShadowRay shadow, uint sphere, vec4 centre_radius, vec4 axis)
+void shade_sphere(inout bool blocked, Start start, ShadowRay shadow, uint sphere, Ball ball)
 {
     if (INSIDE == 1 || CLOSE_LAMPS == 1) {
-        float distance = distance_to_sphere(start, shadow.direction, sphere, centre_radius, axis);
+        float distance = distance_to_sphere(start, shadow.direction, sphere, ball);
         blocked = blocked || blocks(shadow, distance, sphere);
         return;
     }
     bool at_end = sphere == start.surface || (sphere < WALKED_LAMPS && sphere == shadow.lamp);
-    vec3 to_centre = centre_radius.xyz - start.origin;
+    vec3 to_centre = ball.centre_radius.xyz - start.origin;
     if (CAPSULES == 1)
-        to_centre += swept_to(to_centre, axis, centre_radius.w, shadow.direction, false);
-    bool between = sphere_blocks(to_centre, centre_radius.w, shadow.direction, at_end, shadow.distance);
+        to_centre += swept_to(to_centre, ball.axis, ball.centre_radius.w, shadow.direction, false);
+    bool between = sphere_blocks(to_centre, ball.centre_radius.w, shadow.direction, at_end, shadow.distance);
     blocked = blocked || between;
 }
 
@@ -223,7 +230,7 @@ ShadowRay ended_as_met(ShadowRay shadow, Start start, float time)
 {
     if (CLOSE_LAMPS == 1 && shadow.distance > 0.0 && is_walked_lamp(shadow.lamp)) {
         vec4 lamp = sphere_among(WALKED_LAMPS, shadow.lamp, time);
-        float distance = distance_to_sphere(start, shadow.direction, shadow.lamp, lamp, NO_AXIS);
+        float distance = distance_to_lamp(start, shadow.direction, shadow.lamp, lamp);
         shadow.distance = distance < NO_HIT ? distance : shadow.distance;
     }
     return shadow;

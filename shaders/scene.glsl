@@ -91,6 +91,12 @@ const uint TABLE = TREE_FRAME + 5u * TREE;
 // 1 / its length.
 const vec4 NO_AXIS = vec4(0.0);
 
+// A sphere at a time, or the first end of a capsule and its axis.
+struct Ball {
+    vec4 centre_radius;
+    vec4 axis;
+};
+
 vec4 axis_of(vec4 way) { return way.w > 0.0 ? way : NO_AXIS; }
 
 vec3 moved(vec4 way, float time) { return CAPSULES == 1 && way.w > 0.0 ? vec3(0.0) : time * way.xyz; }
@@ -185,7 +191,10 @@ vec4 sphere_at(uint sphere, float time)
     return centre_radius;
 }
 
-vec4 axis_at(uint sphere) { return CAPSULES == 1 ? axis_of(scene_word(MOTIONS + sphere)) : NO_AXIS; }
+Ball ball_at(uint sphere, float time)
+{
+    return Ball(sphere_at(sphere, time), CAPSULES == 1 ? axis_of(scene_word(MOTIONS + sphere)) : NO_AXIS);
+}
 
 // ... or any of the first count spheres, by an index that may differ between invocations.
 vec4 sphere_among(uint count, uint sphere, float time)
@@ -209,13 +218,16 @@ vec4 sphere_of(uint surface, float time)
     return sphere_among(SPHERE_COUNT, surface, time);
 }
 
-vec4 axis_of_surface(uint surface)
+// ... of a capsule, the one that is nearest to a point; ...
+vec4 sphere_near(uint surface, float time, vec3 point)
 {
-    if (CAPSULES == 0)
-        return NO_AXIS;
-    if (TREE == 1u && surface >= SURFACE_COUNT)
-        return tree_axis(surface - SURFACE_COUNT);
-    return axis_of(scene_word_among(MOTIONS, SPHERE_COUNT, surface));
+    vec4 sphere = sphere_of(surface, time);
+    if (CAPSULES == 1) {
+        vec4 axis = TREE == 1u && surface >= SURFACE_COUNT ? tree_axis(surface - SURFACE_COUNT)
+                                                           : axis_of(scene_word_among(MOTIONS, SPHERE_COUNT, surface));
+        sphere.xyz += to_nearest(sphere.xyz - point, axis);
+    }
+    return sphere;
 }
 
 // ... and of any lamp, by its number.

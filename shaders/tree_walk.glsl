@@ -49,8 +49,7 @@ float distance_in_tree(Start start, GridRay ray, vec3 direction, uint surface, v
         bool outside = dot(from_side, from_side) > ball.w * ball.w;
         return ray.advance + sphere_distance(ball.xyz, ball.w, direction, leaving, start.inside, outside);
     }
-    bool outside = is_outside(from_side, axis, ball.w);
-    return ray.advance + swept_distance(ball.xyz, axis, ball.w, direction, leaving, start.inside, outside);
+    return ray.advance + ball_distance(Ball(ball, axis), ball.xyz, from_side, direction, leaving, start.inside);
 }
 
 // As a ray of the same direction would meet it before the lamp. A lamp that is not in the tree goes before all that is.

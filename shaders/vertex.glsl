@@ -29,9 +29,7 @@ Vertex vertex_at(Arrival arrival, float time)
     vec3 position = arrival.point;
     vec3 normal;
     if (is_sphere(surface)) {
-        vec4 sphere = sphere_of(surface, time);
-        if (CAPSULES == 1)
-            sphere.xyz += to_nearest(sphere.xyz - position, axis_of_surface(surface));
+        vec4 sphere = sphere_near(surface, time, position);
         vec3 from_centre = position - sphere.xyz; // normalize() would be three divisions on lavapipe
         normal = from_centre * inversesqrt(dot(from_centre, from_centre));
         position = sphere.xyz + sphere.w * normal;

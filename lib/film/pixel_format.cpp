@@ -1,15 +1,10 @@
 #include "lib/film/pixel_format.h"
 
-#include "shaders/gpu_layout.h"
-
 #include <algorithm>
 #include <bit>
 #include <cstring>
 
 namespace pt {
-
-static_assert(PT_FORMAT_RGB32F == gpu::FORMAT_RGB32F && PT_FORMAT_RGBA32F == gpu::FORMAT_RGBA32F &&
-              PT_FORMAT_RGBA16F == gpu::FORMAT_RGBA16F && PT_FORMAT_R32UI == gpu::FORMAT_R32UI);
 
 namespace {
 

@@ -13,9 +13,6 @@
 
 namespace pt {
 
-static_assert(PT_QUANTITY_DEPTH == gpu::QUANTITY_DEPTH && PT_QUANTITY_NORMAL == gpu::QUANTITY_NORMAL &&
-              PT_QUANTITY_ALBEDO == gpu::QUANTITY_ALBEDO && PT_QUANTITY_OBJECT == gpu::QUANTITY_OBJECT);
-
 namespace {
 
 constexpr std::array first_hit_bindings = {
