@@ -52,6 +52,7 @@ int run_program(int argument_count, char **arguments) {
     CLI::App program("An offscreen path tracer for spheres and planes on any Vulkan device", "pt");
     Run chosen;
     program.require_subcommand(0, 1);
+    program.allow_windows_style_options(false); // what begins with / is a path
     program.formatter(help_formatter());
     program.footer("pt NAME runs the program pt-NAME, where NAME is none of these commands: figure, farm and tachyon\n"
                    "come with the Python package.\n\n" +

@@ -1,8 +1,8 @@
 #!/bin/sh
 # A wheel of library, program, compiler of kernels and Python package, for machines without a compiler:
 #   sh cmake/wheel.sh [TARGET] [FOLDER]
-# TARGET is Zig's name of a system: x86_64-linux-gnu.2.28 if not given, or aarch64-linux-gnu.2.28. FOLDER, build/wheel if
-# not given, gets the wheel, and keeps tools and dependencies. Needs Debian 12, the packages that `quickstart.sh build`
+# TARGET is Zig's name of a system: x86_64-linux-gnu.2.28 if not given, aarch64-linux-gnu.2.28 or x86_64-windows-gnu. FOLDER,
+# build/wheel if not given, gets the wheel, and keeps tools and dependencies. Needs Debian 12, the packages that `quickstart.sh build`
 # installs, and python3-venv. Images are PNG alone, as without OpenImageIO.
 set -eu
 cd "$(dirname "$0")/.."
@@ -35,8 +35,10 @@ archive() { # NAME FLAG source...
     name=$1 flag=$2
     shift 2
     mkdir -p "$prefix/objects/$name"
-    (cd "$prefix/objects/$name" && "$zig" cc --target="$target" -O2 -fPIC -w -I"$prefix/include" "$flag" -c "$@")
-    "$zig" ar qc "$prefix/lib/lib$name.a" "$prefix/objects/$name"/*.o
+    # One by one, as Zig compiles for Windows.
+    (cd "$prefix/objects/$name" &&
+        printf '%s\0' "$@" | xargs -0 -n 1 -P 2 "$zig" cc --target="$target" -O2 -fPIC -w -I"$prefix/include" "$flag" -c)
+    "$zig" ar qc "$prefix/lib/lib$name.a" "$prefix/objects/$name"/*
 }
 
 module() { # source OPTION...
@@ -61,6 +63,7 @@ build_dependencies() {
         -DENABLE_CTEST=OFF -DENABLE_PCH=OFF
     module "$sources"/spirv-tools-*/ -DSPIRV_SKIP_EXECUTABLES=ON -DSPIRV_WERROR=OFF \
         -DSPIRV-Headers_SOURCE_DIR="$sources/spirv-headers/usr"
+    [ -n "$wanted" ] || return 0
     # What the library is linked with in place of the system's Vulkan loader, which it finds by this name.
     echo 'void vkGetInstanceProcAddr(void) {}' > "$prefix/loader.c"
     "$zig" cc --target="$target" -shared -Wl,-soname,libvulkan.so.1 -o "$prefix/lib/libvulkan.so" "$prefix/loader.c"
@@ -78,6 +81,10 @@ make_wheel() {
     done
     rm -f "$prefix"/*.whl
     "$tools/pip" wheel -q --no-deps -w "$prefix" "$@" ./lib/python
+    if [ -z "$wanted" ]; then
+        mv "$prefix"/*.whl "$folder"
+        return
+    fi
     # Checks which symbols of the C library are used, and names the wheel after that.
     PATH=$tools:$PATH auditwheel repair --plat "$wanted" --only-plat --exclude libvulkan.so.1 -w "$folder" "$prefix"/*.whl
 }
@@ -89,8 +96,16 @@ once() { # STAMP COMMAND
     fi
 }
 
-built=linux_${target%%-*}
-wanted=manylinux_$(echo "${target##*gnu.}" | tr . _)_${target%%-*}
+case $target in
+*-linux-*)
+    built=linux_${target%%-*}
+    wanted=manylinux_$(echo "${target##*gnu.}" | tr . _)_${target%%-*}
+    ;;
+*-windows-*)
+    built=win_amd64
+    wanted= # nothing of a C library's versions
+    ;;
+esac
 once "$folder/tools/made" install_tools
 zig=$(echo "$folder"/tools/lib/python3*/site-packages/ziglang/zig)
 once "$sources/fetched" fetch_sources

@@ -3,11 +3,11 @@
 #include "cli/base/exit_code.h"
 #include "cli/base/file.h"
 #include "lib/platform/file.h"
-#include "lib/platform/terminal.h"
 
 #include <algorithm>
 #include <iterator>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 namespace cli {
@@ -93,7 +93,7 @@ bool SourceWatch::changed(std::chrono::milliseconds timeout) {
     const auto next_look = last_look_ + (seen_ != begun_ ? settling : interval);
     const auto wait = std::chrono::ceil<std::chrono::milliseconds>(std::min(next_look, end) - Clock::now());
     if (wait.count() > 0)
-        platform::sleep(wait);
+        std::this_thread::sleep_for(wait);
     if (Clock::now() >= next_look)
         look();
     return seen_ != begun_ && Clock::now() - seen_since_ >= settling;

@@ -1,7 +1,6 @@
 // The standard streams, and the signals that come from terminals.
 #pragma once
 
-#include <chrono>
 #include <cstddef>
 
 namespace platform {
@@ -22,8 +21,5 @@ enum Signal { hangup = 1, interruption = 2, termination = 15 };
 // picture is called for SIGUSR1, where there is one. Both are called while threads are stopped anywhere, or beside
 // them.
 void catch_signals(bool (*end)(int signal), void (*picture)());
-
-// Until a signal comes, if the system tells.
-void sleep(std::chrono::milliseconds time);
 
 } // namespace platform

@@ -1,5 +1,6 @@
 """Errors as exceptions: a class for each result, the library's message, and the broken rules."""
 
+import ctypes
 import pathlib
 import re
 import sys
@@ -65,8 +66,9 @@ class Results(unittest.TestCase):
 
 
 class Functions(unittest.TestCase):
-    KINDS = {"uint32_t": "c_uint", "uint64_t": "c_ulong", "double": "c_double", "pt_result": "c_int", "const char *": "c_char_p",
-             "void": "NoneType", "pt_take_bytes_fn": "CFunctionType"}
+    KINDS = {"uint32_t": ctypes.c_uint32.__name__, "uint64_t": ctypes.c_uint64.__name__, "double": "c_double",
+             "pt_result": ctypes.c_int32.__name__, "const char *": "c_char_p", "void": "NoneType",
+             "pt_take_bytes_fn": "CFunctionType"}
 
     def declared(self):
         """Results and parameters of the functions in the headers."""

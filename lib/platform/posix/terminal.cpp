@@ -5,7 +5,6 @@
 #include <cerrno>
 #include <csignal>
 #include <fcntl.h>
-#include <poll.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -67,10 +66,6 @@ void catch_signals(bool (*end)(int), void (*picture)()) {
             handle(signal, &note_end);
     }
     handle(SIGUSR1, &note_picture_request);
-}
-
-void sleep(std::chrono::milliseconds time) {
-    poll(nullptr, 0, static_cast<int>(time.count()));
 }
 
 } // namespace platform

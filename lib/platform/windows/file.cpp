@@ -7,7 +7,7 @@
 #include <chrono>
 #include <fcntl.h>
 #include <io.h>
-#include <sys/stat.h>
+#include <system_error>
 #include <vector>
 
 namespace platform {
@@ -22,30 +22,10 @@ unsigned size_of_part(std::span<Byte> bytes) {
     return static_cast<unsigned>(std::min(bytes.size(), most));
 }
 
-// Sets errno, of the errors that opening and renaming may have.
 int failed() {
-    switch (GetLastError()) {
-    case ERROR_FILE_NOT_FOUND:
-    case ERROR_PATH_NOT_FOUND:
-        errno = ENOENT;
-        break;
-    case ERROR_FILE_EXISTS:
-    case ERROR_ALREADY_EXISTS:
-        errno = EEXIST;
-        break;
-    case ERROR_DISK_FULL:
-        errno = ENOSPC;
-        break;
-    case ERROR_ACCESS_DENIED:
-    case ERROR_SHARING_VIOLATION:
-        errno = EACCES;
-        break;
-    case ERROR_INVALID_NAME:
-        errno = EINVAL;
-        break;
-    default:
-        errno = EIO;
-    }
+    const auto reason =
+        std::error_code(static_cast<int>(GetLastError()), std::system_category()).default_error_condition();
+    errno = reason.category() == std::generic_category() ? reason.value() : EIO;
     return -1;
 }
 

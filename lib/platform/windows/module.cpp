@@ -38,7 +38,7 @@ fs::path folder_with(const void *function) {
 }
 
 std::string module_file(const std::string &name) {
-    return name + ".dll";
+    return "lib" + name + ".dll";
 }
 
 } // namespace platform

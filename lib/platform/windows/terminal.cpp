@@ -51,8 +51,4 @@ void catch_signals(bool (*end)(int), void (*)()) {
     SetConsoleCtrlHandler(&note_end, TRUE);
 }
 
-void sleep(std::chrono::milliseconds time) {
-    Sleep(static_cast<DWORD>(time.count()));
-}
-
 } // namespace platform
