@@ -12,6 +12,7 @@ folder=$(cd "${2-build/wheel}" && pwd)
 tools=$folder/tools/bin
 sources=$folder/sources
 prefix=$folder/$target
+header_packages="libglm-dev libcli11-dev nlohmann-json3-dev libvulkan-dev libxxhash-dev"
 
 install_tools() {
     python3 -m venv "$folder/tools"
@@ -52,7 +53,8 @@ module() { # source OPTION...
 # All of C and C++ is compiled for the target; headers alone are those of this machine's packages.
 build_dependencies() {
     mkdir -p "$prefix/lib"
-    dpkg -L libglm-dev libcli11-dev nlohmann-json3-dev libvulkan-dev libxxhash-dev |
+    # shellcheck disable=SC2086 # one word a package
+    dpkg -L $header_packages |
         grep -E '^/usr/(include|share/cmake)/' | tar -c --no-recursion -P -T - | tar -x -C "$prefix" --strip-components=1
     cp "$sources"/zlib-*/z*.h "$sources"/libpng1.6-*/png*.h "$sources"/libzstd-*/lib/zstd*.h "$prefix/include"
     cp "$sources"/libpng1.6-*/scripts/pnglibconf.h.prebuilt "$prefix/include/pnglibconf.h"
@@ -63,10 +65,22 @@ build_dependencies() {
         -DENABLE_CTEST=OFF -DENABLE_PCH=OFF
     module "$sources"/spirv-tools-*/ -DSPIRV_SKIP_EXECUTABLES=ON -DSPIRV_WERROR=OFF \
         -DSPIRV-Headers_SOURCE_DIR="$sources/spirv-headers/usr"
-    [ -n "$wanted" ] || return 0
+    [ "$built" != win_amd64 ] || return 0
     # What the library is linked with in place of the system's Vulkan loader, which it finds by this name.
     echo 'void vkGetInstanceProcAddr(void) {}' > "$prefix/loader.c"
     "$zig" cc --target="$target" -shared -Wl,-soname,libvulkan.so.1 -o "$prefix/lib/libvulkan.so" "$prefix/loader.c"
+}
+
+# They go with every copy of what is linked.
+copy_licenses() {
+    mkdir -p "$prefix/licenses"
+    for package in $header_packages; do
+        cp "/usr/share/doc/$package/copyright" "$prefix/licenses/$package"
+    done
+    for package in zlib libpng1.6 libzstd glslang spirv-tools; do
+        cp "$sources/$package"-*/debian/copyright "$prefix/licenses/$package"
+    done
+    cp "$tools"/../lib/python3*/site-packages/ziglang-*/licenses/ziglang/lib/libcxx/LICENSE.TXT "$prefix/licenses/libcxx"
 }
 
 make_wheel() {
@@ -79,14 +93,14 @@ make_wheel() {
         set -- "$@" "--config-settings=$setting"
         shift
     done
-    rm -f "$prefix"/*.whl
+    rm -f "$prefix"/*.whl "$folder"/*"_${built#*_}.whl"
     "$tools/pip" wheel -q --no-deps -w "$prefix" "$@" ./lib/python
-    if [ -z "$wanted" ]; then
+    if [ "$built" = win_amd64 ]; then
         mv "$prefix"/*.whl "$folder"
         return
     fi
-    # Checks which symbols of the C library are used, and names the wheel after that.
-    PATH=$tools:$PATH auditwheel repair --plat "$wanted" --only-plat --exclude libvulkan.so.1 -w "$folder" "$prefix"/*.whl
+    # Names the wheel after the oldest C library that has all symbols that are used.
+    PATH=$tools:$PATH auditwheel repair --plat auto --only-plat --exclude libvulkan.so.1 -w "$folder" "$prefix"/*.whl
 }
 
 once() { # STAMP COMMAND
@@ -97,18 +111,13 @@ once() { # STAMP COMMAND
 }
 
 case $target in
-*-linux-*)
-    built=linux_${target%%-*}
-    wanted=manylinux_$(echo "${target##*gnu.}" | tr . _)_${target%%-*}
-    ;;
-*-windows-*)
-    built=win_amd64
-    wanted= # nothing of a C library's versions
-    ;;
+*-linux-*) built=linux_${target%%-*} ;;
+*-windows-*) built=win_amd64 ;;
 esac
 once "$folder/tools/made" install_tools
 zig=$(echo "$folder"/tools/lib/python3*/site-packages/ziglang/zig)
 once "$sources/fetched" fetch_sources
 once "$prefix/made" build_dependencies
+copy_licenses
 make_wheel
 ls -l "$folder"/*.whl
