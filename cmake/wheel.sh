@@ -1,9 +1,9 @@
 #!/bin/sh
 # A wheel of library, program, compiler of kernels and Python package, for machines without a compiler:
 #   sh cmake/wheel.sh [TARGET] [FOLDER]
-# TARGET is Zig's name of a system: x86_64-linux-gnu.2.28 if not given, aarch64-linux-gnu.2.28 or x86_64-windows-gnu. FOLDER,
-# build/wheel if not given, gets the wheel, and keeps tools and dependencies. Needs Debian 12, the packages that `quickstart.sh build`
-# installs, and python3-venv. Images are PNG alone, as without OpenImageIO.
+# TARGET is Zig's name of a system: x86_64-linux-gnu.2.28 if not given, aarch64-linux-gnu.2.28 or x86_64-windows-gnu.
+# FOLDER, build/wheel if not given, gets the wheel, and keeps tools and dependencies. Needs Debian 12, the packages that
+# `quickstart.sh build` installs, and python3-venv. Images are PNG alone, as without OpenImageIO.
 set -eu
 cd "$(dirname "$0")/.."
 target=${1-x86_64-linux-gnu.2.28}

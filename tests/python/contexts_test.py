@@ -169,8 +169,8 @@ class Libraries(unittest.TestCase):
             self.assertEqual(_library.library_path(), "/some/where")
         with mock.patch.dict(os.environ):
             os.environ.pop("PT_LIBRARY", None)
-            beside = pathlib.Path(pt.__file__).with_name("libpt.so.0.3")
-            for exists, found in (False, "libpt.so.0.3"), (True, str(beside)):
+            beside = pathlib.Path(pt.__file__).with_name(_library.SONAME)
+            for exists, found in (False, _library.SONAME), (True, str(beside)):
                 with mock.patch.object(pathlib.Path, "exists", return_value=exists):
                     self.assertEqual(_library.library_path(), found)
 
@@ -179,7 +179,7 @@ class Libraries(unittest.TestCase):
             with self.assertRaisesRegex(ImportError, f"{path} is no libpt"):
                 _library.load_library(path)
         with mock.patch.object(_library, "version_text", return_value="0.2.9"):
-            with self.assertRaisesRegex(ImportError, "is libpt 0.2.9; this package is for libpt.so.0.3"):
+            with self.assertRaisesRegex(ImportError, f"is libpt 0.2.9; this package is for {_library.SONAME}"):
                 _library.load_library(_library.library_path())
 
     def test_version_and_devices(self):

@@ -6,6 +6,7 @@ import contextlib
 import json
 import os
 import pathlib
+import shutil
 import struct
 import subprocess
 import tempfile
@@ -53,18 +54,21 @@ class Program:
         self.is_cpu = False
         command = [program(), "render", *arguments, *(("--device", device) if device else ()), "--parts", "-q"]
         self._errors = tempfile.TemporaryFile()
-        with tempfile.TemporaryDirectory(prefix="pt-") as folder:  # until pt has read what is in it
+        self._folder = tempfile.mkdtemp(prefix="pt-")
+        try:
             for name, data in (files or {}).items():
-                place = pathlib.Path(folder, name)
+                place = pathlib.Path(self._folder, name)
                 place.parent.mkdir(parents=True, exist_ok=True)
                 place.write_bytes(data)
             try:
-                self._process = subprocess.Popen(command, cwd=folder, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                self._process = subprocess.Popen(command, cwd=self._folder, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
                                                  stderr=self._errors)
             except OSError as error:
                 self._errors.close()
                 raise NoDeviceError(f"the program pt is not found (PT_PROGRAM names it): {error}") from error
             line = self._line()
+        finally:  # pt has read what is in it
+            shutil.rmtree(self._folder, ignore_errors=True)
         self.facts: dict[str, Any] = json.loads(line)
 
     def film(self, first: int, end: int, tiles: npt.ArrayLike) -> bytes:
@@ -104,6 +108,8 @@ class Program:
     def close(self) -> None:
         self._process.kill()
         self._process.wait()
+        with contextlib.suppress(OSError):  # unless Windows has kept it for the process that worked in it
+            os.rmdir(self._folder)
         for stream in (self._process.stdin, self._process.stdout, self._errors):
             with contextlib.suppress(OSError):  # of what was still to be written
                 if stream:
