@@ -116,11 +116,4 @@ void TileSamples::tidy() {
         set_of_.clear();
 }
 
-bool TileSamples::equals(const TileSamples &other) const {
-    for (std::size_t tile = 0; tile < grid_.count(); ++tile)
-        if (of(tile) != other.of(tile))
-            return false;
-    return grid_ == other.grid_;
-}
-
 } // namespace pt

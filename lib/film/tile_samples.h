@@ -48,9 +48,6 @@ public:
     // Forgets sets that no tile has and, if all tiles have the same set, the list of tiles.
     void tidy();
 
-    // Whether all tiles hold the same as in the other.
-    bool equals(const TileSamples &other) const;
-
 private:
     std::uint32_t index_of(SampleSet samples);
     void tell_apart();

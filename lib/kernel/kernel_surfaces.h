@@ -18,10 +18,6 @@ struct HiddenCounts {
     std::uint32_t skies;
     std::uint32_t others; // spheres that do not emit
     std::uint32_t planes;
-
-    bool operator==(const HiddenCounts &) const = default;
-
-    bool any() const { return lamps + skies + others + planes > 0; }
 };
 
 // A scene without twins as the kernel has it: lamps, skies, other spheres, planes with curvature, planes; within each

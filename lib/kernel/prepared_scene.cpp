@@ -5,7 +5,6 @@
 #include "lib/scene/scene_digest.h"
 #include "lib/scene/twins.h"
 #include "lib/tree/tree_choice.h"
-#include "shaders/gpu_layout.h"
 
 #include <algorithm>
 #include <cmath>
@@ -51,16 +50,7 @@ Scene with_lamps(Scene scene, const SphereTree &tree) {
 std::string digest_with_tree(const PreparedScene &prepared) {
     Digest digest;
     digest.add(digest_of(prepared.scene));
-    digest.add(prepared.tree->grid().middle);
-    digest.add(prepared.tree->grid().step);
-    if (prepared.tree->has_opacities()) // then the last bits of radii mean something else
-        digest.add(std::uint64_t{gpu::TREE_OPACITY_STEPS});
-    prepared.tree->for_each_in_scene_order([&](const SphereTree::HeldSphere &sphere) {
-        digest.add(sphere.place);
-        if (sphere.swept)
-            digest.add(std::uint64_t{sphere.swept});
-        digest.add((std::uint64_t{sphere.material} << 32) | sphere.color);
-    });
+    prepared.tree->add_to(digest);
     for (const Material &material : prepared.used_materials)
         add(digest, material);
     return digest.text();

@@ -52,10 +52,6 @@ void append_spheres(Scene &scene, const SphereSource &source) {
 
 } // namespace
 
-Scene validated_scene(const pt_scene &scene) {
-    return owned_scene(checked_scene(scene));
-}
-
 Scene owned_scene(CheckedScene checked) {
     const auto starts = checked.spheres.array_starts();
     Scene owned{std::move(checked.materials), {}, std::move(checked.planes), {starts.begin(), starts.end()}};

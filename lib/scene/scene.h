@@ -69,9 +69,6 @@ struct Scene {
     }
 };
 
-// Copies a scene whose struct_size is settled. Throws PT_ERROR_INVALID_SCENE with all broken rules.
-Scene validated_scene(const pt_scene &scene);
-
 struct CheckedScene;
 
 // Takes over all spheres, ...

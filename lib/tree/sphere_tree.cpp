@@ -207,24 +207,29 @@ bool SphereTree::has_alike(WorkProgress &progress) const {
     return has_equal_words(std::span(words_).subspan(first_sphere_, sphere_count_), progress);
 }
 
-std::vector<std::uint32_t> SphereTree::places_in_scene_order() const {
+void SphereTree::add_to(Digest &digest) const {
+    digest.add(grid_.middle);
+    digest.add(grid_.step);
+    if (has_opacities_) // then the last bits of radii mean something else
+        digest.add(std::uint64_t{gpu::TREE_OPACITY_STEPS});
     std::vector<std::uint32_t> places(scene_sphere_count_, nowhere); // where a sphere is left out, or a twin
     for (std::uint32_t place = 0; place < sphere_count_; ++place)
         places[(*spheres_)[place]] = place;
     std::erase(places, nowhere);
-    return places;
-}
-
-SphereTree::HeldSphere SphereTree::held(std::uint32_t place) const {
-    const auto component = static_cast<int>(place % 4);
-    const glm::uvec4 &word = words_[first_sphere_ + place];
-    const glm::uvec4 way = has_ways() ? words_[first_motion_ + place] : glm::uvec4(0);
-    const std::uint32_t surface = words_[first_surface_ + place / 4][component];
-    const bool is_lamp = (surface & gpu::TREE_LAMP_BIT) != 0;
-    return {{word.x, word.y, word.z, word.w, way.x, way.y, way.z},
-            is_lamp ? words_[first_lamp_ + (surface & ~gpu::TREE_LAMP_BIT)].y : surface,
-            has_colors_ ? words_[first_color_ + place / 4][component] : color_word(glm::vec3(1.0F)),
-            is_swept(way)};
+    for (const std::uint32_t place : places) {
+        const auto component = static_cast<int>(place % 4);
+        const glm::uvec4 &word = words_[first_sphere_ + place];
+        const glm::uvec4 way = has_ways() ? words_[first_motion_ + place] : glm::uvec4(0);
+        const std::uint32_t surface = words_[first_surface_ + place / 4][component];
+        const bool is_lamp = (surface & gpu::TREE_LAMP_BIT) != 0;
+        const std::uint32_t material = is_lamp ? words_[first_lamp_ + (surface & ~gpu::TREE_LAMP_BIT)].y : surface;
+        const std::uint32_t color =
+            has_colors_ ? words_[first_color_ + place / 4][component] : color_word(glm::vec3(1.0F));
+        digest.add(std::array{word.x, word.y, word.z, word.w, way.x, way.y, way.z});
+        if (is_swept(way)) // so that scenes without capsules keep the digest that their films have
+            digest.add(std::uint64_t{1});
+        digest.add((std::uint64_t{material} << 32) | color);
+    }
 }
 
 // A sphere as the kernel has it, from time 0 to 1 or from end to end.

@@ -5,6 +5,7 @@
 // which takes a fraction of the time.
 #pragma once
 
+#include "lib/base/digest.h"
 #include "lib/base/work_progress.h"
 #include "lib/scene/camera.h"
 #include "lib/scene/moving_ball.h"
@@ -15,7 +16,6 @@
 #include "lib/tree/sphere_order.h"
 #include "shaders/gpu_layout.h"
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -55,20 +55,8 @@ public:
     // The tree as a camera sees it.
     gpu::TreeFrame frame(const Camera &camera) const;
 
-    // What the tree holds of a sphere, wherever its place is.
-    struct HeldSphere {
-        std::array<std::uint32_t, 7> place; // on the grid, with radius and way
-        std::uint32_t material;             // of those in use
-        std::uint32_t color;
-        bool swept;
-    };
-
-    // Calls use(HeldSphere) for all spheres, in the order of the scene.
-    template <typename Use>
-    void for_each_in_scene_order(Use use) const {
-        for (const std::uint32_t place : places_in_scene_order())
-            use(held(place));
-    }
+    // Adds the grid and what is held of each sphere, in the order of the scene, wherever its place is.
+    void add_to(Digest &digest) const;
 
     // Roughly how many nodes a ray through the tree meets: the sum of their surface areas as shares of that of the
     // root.
@@ -126,8 +114,6 @@ private:
     void write_nodes(WorkProgress &progress);
     GridBox write_node(std::uint32_t node, WorkProgress &progress);
     bool has_alike(WorkProgress &progress) const;
-    std::vector<std::uint32_t> places_in_scene_order() const;
-    HeldSphere held(std::uint32_t place) const;
     bool has_ways() const { return moves_ || has_capsules_; }
     MovingBall ball_at(std::uint32_t place) const;
     GridBox box_of_place(std::uint32_t place) const;

@@ -6,6 +6,7 @@
 #include "lib/kernel/gpu_scene.h"
 #include "lib/kernel/shader_source.h"
 #include "lib/kernel/specialised_code.h"
+#include "lib/scene/checked_scene.h"
 #include "tests/device/film_words.h"
 #include "tests/device/probe.h"
 #include "tests/device/scene_constants.h"
@@ -121,5 +122,5 @@ private:
 };
 
 inline KernelRender render_of_scene(const InvarianceScene &scene, std::uint32_t max_path_length = 4) {
-    return {pt::validated_scene(scene.scene()), pt::validated_camera(scene.camera), max_path_length};
+    return {pt::owned_scene(pt::checked_scene(scene.scene())), pt::validated_camera(scene.camera), max_path_length};
 }

@@ -1,5 +1,6 @@
 // Scenes that contain surfaces twice, exactly or nearly, have the same light as scenes that contain each once. Run
 // alone with --gtest_filter=RenderedTwins*. Random ones are among the scenes of random_light_test.cpp.
+#include "lib/scene/checked_scene.h"
 #include "tests/device/kernel_render.h"
 #include "tests/invariance/invariance_scene.h"
 #include "tests/support/batch_fixture.h"
@@ -117,7 +118,7 @@ double mean_light(const KernelRender &render, const KernelRender::Constants &con
 }
 
 KernelRender render_with_twins(const InvarianceScene &named) {
-    const pt::PreparedScene scene(pt::validated_scene(named.scene()));
+    const pt::PreparedScene scene(pt::owned_scene(pt::checked_scene(named.scene())));
     const pt::Camera camera = pt::validated_camera(named.camera);
     return KernelRender(
         pt::gpu_scene({pt::seen_scene(scene.scene, camera), false, false}, scene, camera, KernelRender::settings(2)));

@@ -5,8 +5,8 @@
 #include "lib/base/error.h"
 #include "lib/kernel/gpu_scene.h"
 #include "lib/scene/camera.h"
+#include "lib/scene/checked_scene.h"
 #include "lib/scene/render_settings.h"
-#include "lib/scene/scene.h"
 #include "tests/fuzz/on_device.h"
 
 #include <algorithm>
@@ -93,8 +93,8 @@ void examine_one(const Input &input) {
 // surface many times over gets the kernel of one, and a neighbour in which one of them has moved the kernel of two.
 std::optional<pt::Features> features(const Input &input) {
     try {
-        return pt::gpu_scene(pt::PreparedScene(pt::validated_scene(input.scene())), pt::validated_camera(input.camera),
-                             pt::validated_render(input.render))
+        return pt::gpu_scene(pt::PreparedScene(pt::owned_scene(pt::checked_scene(input.scene()))),
+                             pt::validated_camera(input.camera), pt::validated_render(input.render))
             .features;
     } catch (const pt::Error &) {
         return std::nullopt;

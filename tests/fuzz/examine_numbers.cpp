@@ -8,9 +8,9 @@
 #include "lib/kernel/scene_blocks.h"
 #include "lib/kernel/scene_features.h"
 #include "lib/scene/camera.h"
+#include "lib/scene/checked_scene.h"
 #include "lib/scene/lamp_tree.h"
 #include "lib/scene/render_settings.h"
-#include "lib/scene/scene.h"
 
 #include <pt/stats.h>
 
@@ -212,7 +212,8 @@ void examine_one(const Input &input) {
     const SizedStruct scene_struct(input.scene(), input.struct_sizes[0], input.tail_byte);
     const SizedStruct camera_struct(input.camera, input.struct_sizes[1], input.tail_byte);
     const SizedStruct render_struct(input.render, input.struct_sizes[2], input.tail_byte);
-    const auto scene = accepted([&] { return pt::validated_scene(pt::copy_in(scene_struct.as<pt_scene>(), "scene")); });
+    const auto scene =
+        accepted([&] { return pt::owned_scene(pt::checked_scene(pt::copy_in(scene_struct.as<pt_scene>(), "scene"))); });
     const auto camera =
         accepted([&] { return pt::validated_camera(pt::copy_in(camera_struct.as<pt_camera>(), "camera")); });
     const auto settings =

@@ -210,6 +210,13 @@ TEST(AdaptiveRule, OfTwoFilmsTheLaterRoundGoesOn) {
 constexpr TileGrid plan_grid{64, 32}; // 32 whole tiles
 constexpr double goal_error = 0.02;
 
+bool hold_the_same(const pt::TileSamples &a, const pt::TileSamples &b) {
+    for (std::size_t tile = 0; tile < a.grid().count(); ++tile)
+        if (a.of(tile) != b.of(tile))
+            return false;
+    return a.grid() == b.grid();
+}
+
 struct ModelFilm {
     TileSamples samples{plan_grid};
     AdaptiveRound round;
@@ -313,7 +320,7 @@ TEST(AdaptivePlan, CallsThatEndAnywhereComeToTheSameSamples) {
                 apart += expected.samples.even() ? 0 : 1;
                 for (int i = 0; i < 4; ++i) {
                     const ModelFilm found = sampled_in_calls(errors, most, generator);
-                    ASSERT_TRUE(found.samples.equals(expected.samples)) << spread << ' ' << most << ' ' << seed;
+                    ASSERT_TRUE(hold_the_same(found.samples, expected.samples)) << spread << ' ' << most << ' ' << seed;
                     ASSERT_EQ(found.has_target_error, expected.has_target_error);
                     ASSERT_EQ(found.round, expected.round);
                 }

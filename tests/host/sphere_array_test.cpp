@@ -58,7 +58,7 @@ std::vector<To> converted(const std::vector<From> &from) {
 TEST(SphereArrays, AreTheSpheresOfStructs) {
     const Particles particles;
     const std::vector<pt_sphere> spheres = particles.spheres();
-    const pt::Scene expected = pt::validated_scene(scene_of(three_materials, spheres, {}));
+    const pt::Scene expected = pt::owned_scene(pt::checked_scene(scene_of(three_materials, spheres, {})));
     for (const std::uint32_t gap : {0U, 1U, 4U, 1000U})
         for (const std::size_t offset : {0U, 1U, 3U, 7U}) {
             SCOPED_TRACE(testing::Message() << "gap " << gap << ", offset " << offset);
@@ -151,7 +151,7 @@ pt::Scene validated_bytes(const std::vector<unsigned char> &bytes, std::uint32_t
     pt_scene scene = scene_of(three_materials, {}, {});
     scene.sphere_arrays = reinterpret_cast<const pt_sphere_array *>(bytes.data());
     scene.sphere_array_count = count;
-    return pt::validated_scene(scene);
+    return pt::owned_scene(pt::checked_scene(scene));
 }
 
 TEST(SphereArrays, MayBeShorterOrLonger) {
@@ -210,9 +210,9 @@ TEST(SphereArrays, ColorsMultiplyTheDiffuse) {
     spheres[1].material = 3;
     spheres[2].material = 4;
     spheres[3].material = 0;
-    EXPECT_EQ(pt::digest_of(scene), pt::digest_of(pt::validated_scene(scene_of(by_hand, spheres, {}))));
+    EXPECT_EQ(pt::digest_of(scene), pt::digest_of(pt::owned_scene(pt::checked_scene(scene_of(by_hand, spheres, {})))));
     spheres[2].material = 2;
-    EXPECT_NE(pt::digest_of(scene), pt::digest_of(pt::validated_scene(scene_of(by_hand, spheres, {}))));
+    EXPECT_NE(pt::digest_of(scene), pt::digest_of(pt::owned_scene(pt::checked_scene(scene_of(by_hand, spheres, {})))));
 }
 
 TEST(SphereArrays, EqualColorsShareAMaterial) {
