@@ -134,7 +134,7 @@ void add_compare_command(CLI::App &program, Run &chosen) {
     const auto [command, options] =
         add_command(program, chosen, "compare", "Compare an image with a reference", compare_help, &run_compare);
     constexpr ValueRule limit{.least = 0.0, .largest = 1e18};
-    add_text(command, "IMAGE", options.image, "IMAGE", "Image (.exr, .png, .jpg)")->required();
+    add_text(command, "IMAGE", options.image, "IMAGE", "Image (" + extensions(any_format) + ")")->required();
     add_text(command, "REFERENCE", options.reference, "REFERENCE",
              "What it is compared with, of the same size and kind")
         ->required();

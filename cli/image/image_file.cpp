@@ -35,28 +35,36 @@ std::array<std::size_t, 3> channels_of(const DecodedImage &image, const std::str
 
 } // namespace
 
+std::string extensions(const std::function<bool(const ImageFormat &)> &holds, const char *between) {
+    std::vector<std::string> extensions;
+    for (const ImageFormat &format : image_formats)
+        if (holds(format))
+            extensions.push_back(concat(".", format.name));
+    return listed(extensions, between);
+}
+
+std::optional<ImageFormat> format_of_name(std::string_view name) {
+    const auto *found = std::ranges::find(image_formats, name, &ImageFormat::name);
+    return found == image_formats.end() ? std::nullopt : std::optional(*found);
+}
+
 std::optional<ImageFormat> image_format(const std::string &path) {
     std::string extension = std::filesystem::path(path).extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-    return extension.empty() ? std::nullopt : image_formats.find(extension.substr(1));
-}
-
-std::uint32_t longest_side(ImageFormat format) {
-    return format == ImageFormat::png    ? 1'000'000      // libpng's default limit
-           : format == ImageFormat::jpeg ? 65'500         // JPEG_MAX_DIMENSION of libjpeg
-                                         : 2'147'483'647; // sizes are 32-bit signed numbers
+    return extension.empty() ? std::nullopt : format_of_name(extension.substr(1));
 }
 
 void check_image_names(std::span<const std::string> paths, std::optional<ImageFormat> format) {
     const bool to_standard_output = std::ranges::find(paths, standard_stream) != paths.end();
-    refuse_if(to_standard_output && !format, "-o -: standard output needs --format exr, png or jpg");
+    refuse_if(to_standard_output && !format,
+              "-o -: standard output needs --format, one of " + listed(image_format_names));
     refuse_if(to_standard_output && platform::is_terminal(platform::standard_output),
               "-o -: standard output is a terminal; send it to a file or a program");
     refuse_if(format && !to_standard_output, "--format: is for -o - alone; the names of files tell their formats");
     for (const std::string &path : paths)
         refuse_if(path != standard_stream && !image_format(path),
-                  "-o " + path + ": the name must end in .exr, .png, .jpg or .jpeg");
+                  "-o " + path + ": the name must end in one of " + extensions(any_format));
 }
 
 ImageTarget image_target(const std::string &path, std::optional<ImageFormat> format) {
@@ -65,7 +73,7 @@ ImageTarget image_target(const std::string &path, std::optional<ImageFormat> for
 
 void check_image_target(const ImageTarget &target, const ImageWindow &window) {
     const std::uint32_t side = std::max(window.part.width, window.part.height);
-    const std::uint32_t longest = longest_side(target.format);
+    const std::uint32_t longest = target.format.longest_side;
     refuse_if(side > longest,
               concat("-o ", target.path, ": this format holds at most ", longest, " pixels a side, not ", side));
     if (target.path != standard_stream)
@@ -77,8 +85,8 @@ std::filesystem::path module_path() {
     const std::filesystem::path folder = platform::program_file().parent_path() / PT_MODULE_DIRECTORY;
     std::filesystem::path path = (folder / platform::module_file("pt-image-file")).lexically_normal();
     refuse_if(!std::ifstream(path),
-              "EXR and JPEG need the image module, and there is no " + path.string() +
-                  ": install the package pt-image-formats, or libopenimageio-dev before building pt; PNG needs neither",
+              "other formats than PNG need the image module, and there is no " + path.string() +
+                  ": install the package pt-image-formats, or libopenimageio-dev before building pt",
               ExitCode::file);
     return path;
 }
@@ -104,12 +112,12 @@ void ImageWriter::load_module() {
 }
 
 std::vector<unsigned char> ImageWriter::encoded(const ImageTarget &target, const ImageData &image) {
-    if (target.format == ImageFormat::png)
+    if (!target.format.needs_module)
         return encode_png(image);
     if (!encode_.valid())
         load_module();
     std::vector<unsigned char> file;
-    encode_.get()(image, target.format == ImageFormat::exr ? "exr" : "jpg", file);
+    encode_.get()(image, std::string(target.format.name).c_str(), file);
     return file;
 }
 
@@ -137,12 +145,15 @@ std::vector<float> DecodedImage::layer(const std::string &name) const {
 }
 
 DecodedImage read_image(const std::string &path) {
-    const auto decode = image_format(path) == ImageFormat::png
+    const auto format = image_format(path);
+    const auto decode = format && !format->needs_module
                             ? &decode_png
                             : reinterpret_cast<DecodeImage *>(load_symbol(module_path(), decode_image_symbol));
     DecodedImage image{};
     try {
         decode(path, image);
+    } catch (const Failure &) {
+        throw;
     } catch (const std::runtime_error &error) {
         throw Failure(ExitCode::file, "cannot read " + path + ": " + error.what());
     }

@@ -1,36 +1,70 @@
-// Which images a command writes, from what its options -o and --format say, and the files of them: PNG itself, and all
-// other formats by the module of image_module.h.
+// The formats of images, which images a command writes, from what its options -o and --format say, and the files of
+// them: PNG itself, and all other formats by the module of image_module.h.
 #pragma once
 
-#include "cli/base/names.h"
 #include "cli/image/image_module.h"
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <future>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace cli {
 
-enum class ImageFormat {
-    exr, // linear radiance, 32-bit float
-    png, // tone-mapped, like jpeg
-    jpeg
+// What is particular to a format. Options, refusals and helps follow from the rows below; a format that needs the
+// module is one that OpenImageIO writes from layers of radiance, or from bytes.
+struct ImageFormat {
+    std::string_view name; // the extension
+    bool is_radiance;      // linear, 32-bit float, in layers; other formats are tone-mapped to bytes
+    bool has_alpha;
+    bool needs_module; // otherwise it is PNG
+
+    // That the format, or the library that encodes it, can hold. To be checked before writing: libjpeg ends the whole
+    // process if it is asked for more.
+    std::uint32_t longest_side;
 };
 
-// Names as in extensions. Formats that are tone-mapped come last.
-inline constexpr ValueNames<4, ImageFormat> image_formats(
-    {{"exr", ImageFormat::exr}, {"png", ImageFormat::png}, {"jpg", ImageFormat::jpeg}, {"jpeg", ImageFormat::jpeg}});
+inline constexpr std::uint32_t largest_signed = 2'147'483'647;
+inline constexpr std::uint32_t libpng_limit = 1'000'000; // its default
+inline constexpr std::uint32_t libjpeg_limit = 65'500;   // JPEG_MAX_DIMENSION
 
-// Found by the extension, in upper or lower case. Nothing if it is none of .exr, .png, .jpg and .jpeg.
+// Name, radiance, alpha, module, longest side. Those of radiance come first.
+inline constexpr std::array<ImageFormat, 4> image_formats{{
+    {"exr", true, true, true, largest_signed},
+    {"png", false, true, false, libpng_limit},
+    {"jpg", false, false, true, libjpeg_limit},
+    {"jpeg", false, false, true, libjpeg_limit},
+}};
+
+inline constexpr auto image_format_names = [] {
+    std::array<std::string_view, image_formats.size()> names{};
+    std::ranges::transform(image_formats, names.begin(), &ImageFormat::name);
+    return names;
+}();
+
+inline bool any_format(const ImageFormat & /*format*/) {
+    return true;
+}
+inline bool is_for_displays(const ImageFormat &format) {
+    return !format.is_radiance;
+}
+
+// ".exr, .png": the extensions of the formats for which that holds.
+std::string extensions(const std::function<bool(const ImageFormat &)> &holds, const char *between = ", ");
+
+// Nothing for an unknown name.
+std::optional<ImageFormat> format_of_name(std::string_view name);
+
+// Found by the extension, in upper or lower case.
 std::optional<ImageFormat> image_format(const std::string &path);
-
-// The longest side that the format, or the library that encodes it, can hold. To be checked before writing: libjpeg
-// ends the whole process if it is asked for more.
-std::uint32_t longest_side(ImageFormat format);
 
 struct ImageTarget {
     std::string path; // "-": standard output
@@ -87,7 +121,7 @@ private:
     std::shared_future<EncodeImage *> encode_; // destroyed first: the thread uses failed_
 };
 
-// Throws Failure: ExitCode::file if it cannot be read, or without the module.
+// Throws Failure: ExitCode::file if it cannot be read, or needs the module and that is not there.
 DecodedImage read_image(const std::string &path);
 
 } // namespace cli

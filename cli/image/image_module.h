@@ -1,6 +1,6 @@
 // The interface between the program and the module libpt-image-file.so, which alone links OpenImageIO: its 261 shared
-// objects and 0.2 s are paid only when an image is read, or written in another format than PNG. Both are built
-// together: the types are C++, and failures are std::runtime_error.
+// objects and 0.2 s are paid only for other formats than PNG. Both are built together: the types are C++, and failures
+// are std::runtime_error.
 #pragma once
 
 #include "cli/base/number.h"
@@ -93,7 +93,7 @@ struct ImageLayer {
     std::span<const std::uint32_t> numbers = {}; // in place of them, of LayerKind::numbers
 };
 
-// Layers for "exr", signals for the others.
+// Layers for formats of radiance, signals for the others.
 struct ImageData {
     ImageWindow window;
     std::span<const ImageLayer> layers = {};
@@ -104,7 +104,7 @@ struct ImageData {
     bool has_alpha() const { return signals.size() == 4 * window.part.pixel_count(); }
 };
 
-// Encodes an image in memory. extension: "exr" or "jpg".
+// Encodes an image in memory.
 using EncodeImage = void(const ImageData &image, const char *extension, std::vector<unsigned char> &file);
 
 // What a file holds.

@@ -78,7 +78,7 @@ void add_tone_map(std::vector<ImageAttribute> &attributes, const ToneMap &tone_m
 std::string automatic_exposure_line(const std::optional<ToneMap> &tone_map);
 
 // image: its window and attributes. radiance: R, G, B triples of the window's part, >= 0. alpha: of each pixel, by
-// which its radiance is multiplied already; empty for none, and for JPEG. Throws Failure(ExitCode::file), and leaves an
+// which its radiance is multiplied already; empty for none. Throws Failure(ExitCode::file), and leaves an
 // existing file as it was.
 void write_display_image(ImageWriter &writer, const ImageTarget &target, ImageData image,
                          std::span<const float> radiance, const ToneMap &tone_map, std::span<const float> alpha = {});

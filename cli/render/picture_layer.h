@@ -57,7 +57,7 @@ struct RenderedImage {
     Rectangle part;                     // of the picture
     std::vector<float> radiance{};      // of this part; black below rows_done
     std::vector<float> raw{};           // of a denoised picture, the mean of its samples; else empty
-    std::vector<PictureLayer> layers{}; // all go into .exr files of radiance; alpha also into .png
+    std::vector<PictureLayer> layers{}; // all go into files of radiance; alpha also into others
     std::uint32_t rows_done = 0;        // rows of the part that have samples
     pt_stats stats{};                   // of these rows; sample_count is the least of all pieces
     pt_error_estimate error{};          // likewise

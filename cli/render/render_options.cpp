@@ -54,7 +54,8 @@ CLI::Option *add_seconds(CLI::App &command, const std::string &name, std::option
 void add_picture_options(CLI::App &command, RenderOptions &options) {
     command.option_defaults()->group("Output");
     command.add_flag("--alpha", options.alpha,
-                     "Give .exr and .png an alpha channel: the share of a pixel's samples that see a surface");
+                     "Give " + extensions(&ImageFormat::has_alpha, " and ") +
+                         " an alpha channel: the share of a pixel's samples that see a surface");
     command.option_defaults()->group("Picture");
     command.add_flag(concat("--denoise{", usual_denoiser, "}"), options.denoiser,
                      "Take out noise, by the library Open Image Denoise 2, and state the error of the result");
@@ -182,9 +183,8 @@ bool OutputOptions::takes_standard_output() const {
 }
 
 void add_format(CLI::App &command, std::optional<ImageFormat> &format, std::span<const std::string_view> names) {
-    add_name(
-        command, "--format", format, [](std::string_view name) { return image_formats.find(name); }, "format", names,
-        "Format of the image that goes to standard output")
+    add_name(command, "--format", format, &format_of_name, "format", names,
+             "Format of the image that goes to standard output")
         ->group("Output");
 }
 
@@ -192,12 +192,13 @@ void add_image_outputs(CLI::App &command, OutputOptions &options) {
     command.option_defaults()->group("Output");
     command
         .add_option("-o,--output", options.images,
-                    "Image to write, may be given again: .exr is linear 32-bit radiance; .png, .jpg are tone-mapped; "
-                    "- is standard output")
+                    concat("Image to write, may be given again: ", extensions(&ImageFormat::is_radiance),
+                           " is linear 32-bit radiance; ", extensions(is_for_displays),
+                           " are tone-mapped; - is standard output"))
         ->expected(1)
         ->take_all()
         ->type_name("IMAGE");
-    add_format(command, options.format, image_formats.names());
+    add_format(command, options.format, image_format_names);
     add_text(command, "--stats", options.stats, "JSON",
              "Write what is known of the image as JSON; - is standard output, the summary then goes to stderr");
 }
@@ -209,7 +210,8 @@ void add_output_options(CLI::App &command, OutputOptions &options, std::span<con
     };
     command
         .add_option_function<std::string>("--layers", read_layers,
-                                          "Layers of .exr beside the mean, separated by commas")
+                                          "Layers of " + extensions(&ImageFormat::is_radiance) +
+                                              " beside the mean, separated by commas")
         ->type_name(listed(layers, "|") + ",...");
     add_text(command, "--film", options.film, "FILM",
              "Write the film (.ptfilm): the exact sums of the samples, for `pt merge`; -o may be left out then");

@@ -13,7 +13,7 @@ namespace {
 
 void write_image(ImageWriter &writer, const ImageTarget &target, const RenderReport &report,
                  const RenderedImage &rendered) {
-    const ToneMap *tone_map = target.format == ImageFormat::exr ? nullptr : &report.tone_map.value();
+    const ToneMap *tone_map = target.format.is_radiance ? nullptr : &report.tone_map.value();
     const std::vector<ImageAttribute> attributes = image_metadata(report, tone_map);
     ImageData image{.window = report.window, .attributes = attributes};
     if (tone_map == nullptr) {
@@ -43,9 +43,9 @@ bool succeeds(const std::function<void()> &write) {
     }
 }
 
-bool has_format(const OutputOptions &options, ImageFormat format) {
-    const std::vector<ImageTarget> targets = options.targets();
-    return std::ranges::any_of(targets, [&](const ImageTarget &target) { return target.format == format; });
+template <typename Predicate>
+bool has_format(const OutputOptions &options, Predicate holds) {
+    return std::ranges::any_of(options.targets(), holds, &ImageTarget::format);
 }
 
 // Refuses options that only make sense together with others, or without them.
@@ -70,10 +70,12 @@ void check_combinations(const RenderOptions &options) {
 
 void check_alpha(const RenderOptions &options) {
     for (const ImageTarget &target : options.output.targets())
-        refuse_if(options.alpha && target.format == ImageFormat::jpeg,
-                  "--alpha: -o " + target.path + ": JPEG has no alpha; .exr and .png have");
-    refuse_if(options.alpha && options.output.images.empty(),
-              "--alpha: needs -o FILE.exr or FILE.png, which have the channel");
+        refuse_if(options.alpha && !target.format.has_alpha,
+                  concat("--alpha: -o ", target.path, ": .", target.format.name, " has no alpha; ",
+                         extensions(&ImageFormat::has_alpha, " and "), " have"));
+    refuse_if(options.alpha && options.output.images.empty(), "--alpha: needs -o and a name in " +
+                                                                  extensions(&ImageFormat::has_alpha, " or ") +
+                                                                  ", which have the channel");
 }
 
 void check_denoise(const RenderOptions &options) {
@@ -129,8 +131,9 @@ void check_names(const RenderOptions &options) {
 void check_names(const OutputOptions &options, const std::vector<NamedFile> &sources) {
     check_image_names(options.images, options.format);
     refuse_if(options.film == standard_stream, "--film -: goes to a file, not to standard output; give its name");
-    refuse_if(!options.layers.empty() && !has_format(options, ImageFormat::exr),
-              "--layers: needs -o FILE.exr, as no other format has layers");
+    refuse_if(!options.layers.empty() && !has_format(options, &ImageFormat::is_radiance),
+              "--layers: needs -o and a name in " + extensions(&ImageFormat::is_radiance, " or ") +
+                  ", as no other format has layers");
     require_distinct_files(sources, outputs_of(options));
 }
 
@@ -167,11 +170,11 @@ std::vector<std::string> write_images(ImageWriter &writer, const OutputOptions &
 }
 
 bool needs_module(const OutputOptions &options) {
-    return has_format(options, ImageFormat::exr) || has_format(options, ImageFormat::jpeg);
+    return has_format(options, &ImageFormat::needs_module);
 }
 
 bool needs_tone_map(const OutputOptions &options) {
-    return has_format(options, ImageFormat::png) || has_format(options, ImageFormat::jpeg);
+    return has_format(options, is_for_displays);
 }
 
 } // namespace cli

@@ -30,7 +30,7 @@ struct RenderReport {
     double create_seconds;
     double accumulate_seconds;
     double total_seconds;
-    std::optional<ToneMap> tone_map; // of .png and .jpg files; nothing if none is written
+    std::optional<ToneMap> tone_map; // of files for displays; nothing if none is written
     std::string ended_by;            // "samples", "error", "time" or "signal"
     std::vector<std::string> warnings;
 

@@ -137,7 +137,7 @@ void add_scene_options(CLI::App &command, std::vector<SceneOverride> &overrides,
             const std::string help = std::string(key.words) + " (default: " + (has_scene ? "the scene's, else " : "") +
                                      std::string(key.initial) + ")";
             add_value(command, name, key.rule, store, help)
-                ->group(is_of_display ? "Display (.png and .jpg only)" : "Samples");
+                ->group(is_of_display ? "Display (tone-mapped files only)" : "Samples");
         }
     }
 }

@@ -25,8 +25,8 @@ struct TonemapOptions {
 
 void check(const TonemapOptions &options) {
     check_image_names({&options.output, 1}, options.format);
-    refuse_if(image_target(options.output, options.format).format == ImageFormat::exr,
-              options.output + ": a tone-mapped image is a .png or .jpg");
+    refuse_if(image_target(options.output, options.format).format.is_radiance,
+              options.output + ": a tone-mapped image is one of " + extensions(is_for_displays));
     require_distinct_files({{"the image", options.input}}, {{"the output", options.output}});
 }
 
@@ -62,9 +62,9 @@ std::vector<float> radiance_of(const DecodedImage &image) {
 }
 
 // Alpha of each pixel, if the file has the channel A and the format takes it; otherwise empty.
-std::vector<float> alpha_of(const DecodedImage &image, ImageFormat format) {
+std::vector<float> alpha_of(const DecodedImage &image, const ImageFormat &format) {
     const auto channel = std::find(image.channels.begin(), image.channels.end(), "A");
-    if (channel == image.channels.end() || format != ImageFormat::png)
+    if (channel == image.channels.end() || !format.has_alpha)
         return {};
     std::vector<float> alpha;
     alpha.reserve(std::size_t{image.width} * image.height);
@@ -125,8 +125,11 @@ void add_tonemap_command(CLI::App &program, Run &chosen) {
         add_command(program, chosen, "tonemap", "Make a picture of a file of radiance, without rendering", tonemap_help,
                     &run_tonemap);
     add_text(command, "IN", options.input, "IN", "Linear radiance (.exr)")->required();
-    add_text(command, "OUT", options.output, "OUT", "Image to write (.png, .jpg); - is standard output")->required();
-    add_format(command, options.format, image_formats.names().subspan(1));
+    add_text(command, "OUT", options.output, "OUT",
+             "Image to write (" + extensions(is_for_displays) + "); - is standard output")
+        ->required();
+    constexpr auto of_radiance = std::ranges::count(image_formats, true, &ImageFormat::is_radiance);
+    add_format(command, options.format, std::span(image_format_names).subspan(of_radiance));
     add_scene_options(command, options.display, false);
     add_quiet(command, options.quiet);
 }

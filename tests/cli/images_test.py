@@ -108,7 +108,7 @@ class StandardOutput(ImagesTest):
                     error="--preview-every: needs the name of a file")
 
     def test_its_format_has_to_be_given(self):
-        self.render("-o", "-", code=2, error="-o -: standard output needs --format exr, png or jpg")
+        self.render("-o", "-", code=2, error="-o -: standard output needs --format, one of exr, png, jpg, jpeg")
         self.render("-o", "a.png", "--format", "png", code=2, error="--format: is for -o - alone")
         self.render("-o", "-", "--format", "tiff", code=2, error='unknown format "tiff"')
 
@@ -211,7 +211,7 @@ class Tonemap(ImagesTest):
         self.render("-o", "a.exr", "-o", "a.png")
         self.write("text.exr", "no image")
         before = self.files()
-        for code, arguments, error in ((2, ("a.exr", "b.exr"), "b.exr: a tone-mapped image is a .png or .jpg"),
+        for code, arguments, error in ((2, ("a.exr", "b.exr"), "b.exr: a tone-mapped image is one of .png, .jpg, .jpeg"),
                                        (2, ("a.exr", "b.tiff"), "b.tiff: the name must end in"),
                                        (2, ("a.exr", "-"), "needs --format"),
                                        (2, ("a.exr", "-", "--format", "exr"), "known: png, jpg, jpeg"),

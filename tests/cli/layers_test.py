@@ -77,7 +77,7 @@ class Layers(LayersTest):
         for output in (("-o", "a.png"), ("-o", "a.jpg", "-o", "b.png"), ("-o", "-", "--format", "png"),
                        ("--film", "a.ptfilm")):
             self.render(*output, "--layers", "depth", code=2,
-                        error="--layers: needs -o FILE.exr, as no other format has layers")
+                        error="--layers: needs -o and a name in .exr, as no other format has layers")
         self.assertEqual(self.files(), [])
 
 
@@ -126,9 +126,9 @@ class Alpha(LayersTest):
         self.assertEqual(self.files(), ["other.exr"])
 
     def test_what_has_no_alpha_is_refused(self):
-        self.render("-o", "a.png", "-o", "b.jpg", "--alpha", code=2, error="--alpha: -o b.jpg: JPEG has no alpha")
-        self.render("-o", "-", "--format", "jpg", "--alpha", code=2, error="--alpha: -o -: JPEG has no alpha")
-        self.render("--film", "a.ptfilm", "--alpha", code=2, error="--alpha: needs -o FILE.exr or FILE.png")
+        self.render("-o", "a.png", "-o", "b.jpg", "--alpha", code=2, error="--alpha: -o b.jpg: .jpg has no alpha; .exr and .png have")
+        self.render("-o", "-", "--format", "jpg", "--alpha", code=2, error="--alpha: -o -: .jpg has no alpha")
+        self.render("--film", "a.ptfilm", "--alpha", code=2, error="--alpha: needs -o and a name in .exr or .png")
         self.assertEqual(self.files(), [])
 
 

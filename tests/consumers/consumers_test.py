@@ -222,11 +222,12 @@ class Steps:
             require(output.read_bytes().startswith(magic), f"{output} is of another format")
 
     def check_program_without_module(self, program, folder, **environment):
-        """It writes PNG; what needs the module is refused before the rendering, and says what to install."""
+        """It writes and reads PNG; what needs the module is refused before the rendering, and says what to install."""
         scene = SOURCE / "cli" / "scenes" / "coursework.json"
         small = [scene, "--size", "16x8", "--spp", "1"]
         run(program, "render", *small, "-o", folder / "only.png", **environment)
         require((folder / "only.png").read_bytes().startswith(b"\x89PNG"), "only.png is of another format")
+        run(program, "compare", folder / "only.png", folder / "only.png", "--max-difference", "0", **environment)
         for name in "only.exr", "only.jpg":
             said = run(program, "render", *small, "--progress", "json", "-o", folder / name, expect=6, **environment)
             require("pt-image-formats" in said and "libopenimageio-dev" in said, f"without the module: {said}")
