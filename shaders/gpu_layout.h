@@ -26,16 +26,7 @@ PT_CONSTANT SCENE_IN_STORAGE = 0;
 PT_CONSTANT SCENE_IN_UNIFORM = 1;
 PT_CONSTANT SCENE_IN_CONSTANTS = 2;
 
-// The numbers of pt.h's PT_ESTIMATOR_* and PT_SAMPLER_*.
-PT_CONSTANT ESTIMATOR_UNIFORM = 1;
-PT_CONSTANT ESTIMATOR_COSINE = 2;
-PT_CONSTANT ESTIMATOR_BSDF = 3;
-PT_CONSTANT ESTIMATOR_LIGHT = 4;
-PT_CONSTANT ESTIMATOR_MIS = 5;
-PT_CONSTANT SAMPLER_RANDOM = 1;
-PT_CONSTANT SAMPLER_HALTON = 2;
-PT_CONSTANT SAMPLER_HALTON_CP = 3;
-PT_CONSTANT SAMPLER_SOBOL = 4;
+#include "enumerations.h"
 
 // ---- Numbers of a sample: each that a path consumes is a dimension of its own ---------------------------------------
 // They come in blocks of up to four. First the blocks that all branches of a sample share: the place in the pixel (2)

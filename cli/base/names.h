@@ -1,8 +1,5 @@
-// Values by their names: the samplers, estimators and ways to spread samples of pt.h. A new one is one more line here;
-// options, scene files and reports follow. And the known name that a misspelt one was probably meant to be.
+// Values by their names, and the known name that a misspelt one was probably meant to be.
 #pragma once
-
-#include <pt/pt.h>
 
 #include <algorithm>
 #include <array>
@@ -49,29 +46,6 @@ private:
 
 template <std::size_t Count>
 ValueNames(const Named<std::uint32_t> (&)[Count]) -> ValueNames<Count>;
-
-inline constexpr ValueNames samplers({
-    {"best", PT_SAMPLER_BEST},
-    {"random", PT_SAMPLER_RANDOM},
-    {"halton", PT_SAMPLER_HALTON},
-    {"halton-cp", PT_SAMPLER_HALTON_CP},
-    {"sobol", PT_SAMPLER_SOBOL},
-});
-
-inline constexpr ValueNames samplings({
-    {"best", PT_SAMPLING_BEST},
-    {"uniform", PT_SAMPLING_UNIFORM},
-    {"adaptive", PT_SAMPLING_ADAPTIVE},
-});
-
-inline constexpr ValueNames estimators({
-    {"best", PT_ESTIMATOR_BEST},
-    {"uniform", PT_ESTIMATOR_UNIFORM},
-    {"cosine", PT_ESTIMATOR_COSINE},
-    {"bsdf", PT_ESTIMATOR_BSDF},
-    {"light", PT_ESTIMATOR_LIGHT},
-    {"mis", PT_ESTIMATOR_MIS},
-});
 
 // The known name that is fewest edits away; empty if none is close enough to be meant.
 std::string_view nearest_name(std::string_view name, std::span<const std::string_view> known);

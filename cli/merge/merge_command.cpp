@@ -1,8 +1,8 @@
 // The command `pt merge`: films of one picture in, images and their sum out.
 #include "cli/base/devices.h"
+#include "cli/base/enumerations.h"
 #include "cli/base/file.h"
 #include "cli/base/json.h"
-#include "cli/base/names.h"
 #include "cli/base/options.h"
 #include "cli/base/text.h"
 #include "cli/commands.h"

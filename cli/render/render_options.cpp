@@ -1,7 +1,7 @@
 #include "cli/render/render_options.h"
 
+#include "cli/base/enumerations.h"
 #include "cli/base/file.h"
-#include "cli/base/names.h"
 #include "cli/base/options.h"
 #include "cli/base/text.h"
 #include "cli/commands.h"

@@ -1,8 +1,8 @@
 #include "cli/render/render_report.h"
 
 #include "cli/base/devices.h"
+#include "cli/base/enumerations.h"
 #include "cli/base/json.h"
-#include "cli/base/names.h"
 #include "cli/base/text.h"
 #include "lib/platform/process.h"
 

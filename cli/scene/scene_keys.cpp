@@ -1,6 +1,6 @@
 #include "cli/scene/scene_keys.h"
 
-#include "cli/base/names.h"
+#include "cli/base/enumerations.h"
 
 #include <algorithm>
 #include <limits>

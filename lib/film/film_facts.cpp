@@ -2,7 +2,7 @@
 
 #include "lib/base/error.h"
 #include "lib/base/rules.h"
-#include "lib/scene/render_settings.h"
+#include "shaders/gpu_layout.h"
 
 #include <pt/pt.h>
 
@@ -65,8 +65,8 @@ FilmFacts facts_of(const FilmIdentity &identity) {
     facts.height = reader.read<std::uint32_t>("height", 1, UINT32_MAX / facts.width);
     facts.max_path_length = reader.read<std::uint32_t>("max_path_length", 1, 1024);
     facts.seed = reader.read<std::uint64_t>("seed", 0, UINT64_MAX);
-    facts.estimator = reader.read<std::uint32_t>("estimator", 1, last_estimator);
-    facts.sampler = reader.read<std::uint32_t>("sampler", 1, last_sampler);
+    facts.estimator = reader.read<std::uint32_t>("estimator", 1, gpu::LAST_ESTIMATOR);
+    facts.sampler = reader.read<std::uint32_t>("sampler", 1, gpu::LAST_SAMPLER);
     facts.unit_exponent =
         static_cast<int>(reader.read<std::int64_t>("unit_exponent", -most_unit_exponent, most_unit_exponent));
     reader.throw_if_any();

@@ -1,8 +1,8 @@
-"""Writes pt/_structs.py and pt/_enums.py: the structs and enumerations of the headers in Python.
+"""Writes what follows from the headers: their structs and enumerations in Python (pt/_structs.py, pt/_enums.py), the
+numbers that kernels know (shaders/enumerations.h), and the names of options' values (cli/base/enumerations.h).
 
-python3 lib/python/generate.py [HEADERS [PACKAGE]]; by default ../include/pt and pt beside this file. The files are
-committed, because the package is installed without the headers and without a build; a test asserts that they are what
-this script writes."""
+python3 lib/python/generate.py [HEADERS [ROOT]]; by default those of this tree. The files are committed, because the
+package is installed without the headers and without a build; a test asserts that they are what this script writes."""
 
 import pathlib
 import re
@@ -30,6 +30,10 @@ ENUMERATIONS = (
     ("PT_", "Result", "IntEnum", "What a call came to. Errors are raised (see Error), so that calls return one of the "
                                  "first four."),
 )
+
+# What the program calls the enumerations whose values are options, and which of them kernels know.
+OPTIONS = {"PT_SAMPLER_": "samplers", "PT_SAMPLING_": "samplings", "PT_ESTIMATOR_": "estimators"}
+OF_KERNELS = ("PT_ESTIMATOR_", "PT_SAMPLER_")
 
 NUMBERS = {"float": "c_float", "double": "c_double", "char": "c_char", "int32_t": "c_int32", "uint32_t": "c_uint32",
            "int64_t": "c_int64", "uint64_t": "c_uint64", "uint8_t": "c_uint8"}
@@ -112,18 +116,40 @@ def enums_text(headers):
     return "\n".join(lines) + "\n"
 
 
+def kernel_text(headers):
+    lines = ["// Numbers of the headers in lib/include/pt, as lib/python/generate.py writes them. Part of gpu_layout.h."]
+    for prefix in OF_KERNELS:
+        members = [(name, number) for name, number, _ in enumerators_of(headers) if name.startswith(prefix)]
+        lines += [f"PT_CONSTANT {name.removeprefix('PT_')} = {number};" for name, number in members]
+        lines.append(f"PT_CONSTANT LAST_{prefix[3:-1]} = {max(int(number) for _, number in members)};")
+    return "\n".join(lines) + "\n"
+
+
+def options_text(headers):
+    lines = ["// Numbers of the headers in lib/include/pt by the names that options and scene files have for them, as",
+             "// lib/python/generate.py writes them: PT_SAMPLER_HALTON_CP is halton-cp.", "#pragma once", "",
+             '#include "cli/base/names.h"', "", "#include <pt/pt.h>", "", "namespace cli {", ""]
+    for prefix, table in OPTIONS.items():
+        names = [name for name, _, _ in enumerators_of(headers) if name.startswith(prefix)]
+        words = {name: name.removeprefix(prefix).lower().replace("_", "-") for name in names}
+        rows = [f'    {{"{words[name]}", {name}}},' for name in names]
+        lines += [f"inline constexpr ValueNames {table}({{", *rows, "});", ""]
+    return "\n".join([*lines, "} // namespace cli"]) + "\n"
+
+
 def files_of(headers):
-    """The text of each file, by its name; headers: their texts by name."""
+    """The text of each file, by its path; headers: their texts by name."""
     ordered = [headers["pt.h"], *(text for name, text in sorted(headers.items()) if name not in ("pt.h", "vulkan.h"))]
-    return {"_structs.py": structs_text(ordered), "_enums.py": enums_text(ordered)}
+    return {"lib/python/pt/_structs.py": structs_text(ordered), "lib/python/pt/_enums.py": enums_text(ordered),
+            "shaders/enumerations.h": kernel_text(ordered), "cli/base/enumerations.h": options_text(ordered)}
 
 
 def main():
     here = pathlib.Path(__file__).resolve().parent
     folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else here.parent / "include" / "pt"
-    package = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else here / "pt"
+    root = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else here.parents[1]
     for name, text in files_of({path.name: path.read_text() for path in folder.glob("*.h")}).items():
-        (package / name).write_text(text)
+        (root / name).write_text(text)
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 #include "lib/scene/render_settings.h"
 
 #include "lib/base/rules.h"
+#include "shaders/gpu_layout.h"
 
 #include <algorithm>
 
@@ -22,9 +23,9 @@ RenderSettings validated_render(const pt_render &source) {
     render.require(source.height >= 1, "height", source.height, "must be >= 1");
     render.require(pixel_count <= max_pixel_count, {"width", "* height"}, pixel_count, "must be <= 4294967295");
     render.require(source.max_path_length <= 1024, "max_path_length", source.max_path_length, "must be <= 1024");
-    render.require(source.estimator <= last_estimator, "estimator", source.estimator,
+    render.require(source.estimator <= gpu::LAST_ESTIMATOR, "estimator", source.estimator,
                    "must be a PT_ESTIMATOR_* of pt.h");
-    render.require(source.sampler <= last_sampler, "sampler", source.sampler, "must be a PT_SAMPLER_* of pt.h");
+    render.require(source.sampler <= gpu::LAST_SAMPLER, "sampler", source.sampler, "must be a PT_SAMPLER_* of pt.h");
     render.require(source.reserved == 0, "reserved", source.reserved, "must be 0");
     render.require(source.first_row < std::max(source.height, 1U), "first_row", source.first_row, "must be < height");
     const std::uint64_t rows_end = std::uint64_t{source.first_row} + source.row_count;

@@ -7,10 +7,6 @@
 
 namespace pt {
 
-// The greatest of the numbers of pt.h. (Those for the best one, 0, stand for others.)
-inline constexpr std::uint32_t last_estimator = PT_ESTIMATOR_MIS;
-inline constexpr std::uint32_t last_sampler = PT_SAMPLER_SOBOL;
-
 struct RenderSettings {
     std::uint32_t width; // width * height < 2^32
     std::uint32_t height;

@@ -1,9 +1,9 @@
 """Sizes and offsets of the structs in the headers of a folder, against a table. Called by CTest as
-struct_layout_test.py HEADERS TABLE PACKAGE C_COMPILER; with only the first and the last argument it prints the table.
+struct_layout_test.py HEADERS TABLE ROOT C_COMPILER; with only the first and the last argument it prints the table.
 
 A struct may grow at its tail, which adds lines to the table and changes the struct's size; any other difference breaks
-programs that were compiled before. The structs and enumerations of the Python package in the folder PACKAGE must be
-what PACKAGE/../generate.py writes, and its structs have the layout of the table too."""
+programs that were compiled before. What ROOT/lib/python/generate.py writes must be there, and the structs of the Python
+package have the layout of the table too."""
 
 import ctypes
 import importlib.util
@@ -105,6 +105,8 @@ def check_the_package_check(headers):
         ("const uint32_t *tile_samples;", "const double *tile_samples;", '("tile_samples", POINTER(c_double))'),
         ("PT_PENDING = 3,", "PT_PENDING = 4,", "PENDING = 4  #"),
         ("PT_QUANTITY_RADIANCE = 0,", "PT_QUANTITY_RADIANCE = 0, PT_QUANTITY_MORE = 9,", "MORE = 9"),
+        ("PT_SAMPLER_RANDOM = 1,", "PT_SAMPLER_RANDOM = 1, PT_SAMPLER_ONE_MORE = 9,", "PT_CONSTANT LAST_SAMPLER = 9;"),
+        ("PT_SAMPLER_RANDOM = 1,", "PT_SAMPLER_RANDOM = 1, PT_SAMPLER_ONE_MORE = 9,", '{"one-more", PT_SAMPLER_ONE_MORE}'),
     ):
         changed = {name: text.replace(old, new) for name, text in headers.items()}
         assert changed != headers, old
@@ -118,18 +120,18 @@ def main():
         print("\n".join(layout_of(headers, sys.argv[2])))
         return
     table = pathlib.Path(sys.argv[2]).read_text().splitlines()
-    package, compiler = pathlib.Path(sys.argv[3]), sys.argv[4]
+    root, compiler = pathlib.Path(sys.argv[3]), sys.argv[4]
     check_the_check(headers, table, compiler)
     check_the_package_check(headers)
     if len(structs_of(headers)) != sum(
             len(re.findall(r"\bstruct\b.*\{$", text, re.MULTILINE)) for text in headers.values()):
         sys.exit("not all structs were found")
-    structs = ctypes_structs(loaded_file(package / "_structs.py"))
+    structs = ctypes_structs(loaded_file(root / "lib/python/pt/_structs.py"))
     listed = [line for line in table if re.match(r"\w+", line).group() in structs]
     found = differences(layout_of(headers, compiler), table)
     found += [f"_structs.py: {line}" for line in differences(python_layout(structs), listed)]
     found += [f"{name} is not what lib/python/generate.py writes: run it"
-              for name, text in generate.files_of(headers).items() if (package / name).read_text() != text]
+              for name, text in generate.files_of(headers).items() if (root / name).read_text() != text]
     if found or not structs:
         sys.exit("\n".join(found))
 

@@ -1,5 +1,5 @@
 // Tests of cli/base/names.
-#include "cli/base/names.h"
+#include "cli/base/enumerations.h"
 
 #include <gtest/gtest.h>
 
