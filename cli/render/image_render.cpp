@@ -102,12 +102,13 @@ ImageRender::ImageRender(const Context &context, const RenderTask &task, std::ui
     stop_(std::move(stop)),
     write_preview_(task.options.frames || is_half() ? nullptr : std::move(write_preview)),
     progress_(std::cerr, progress_style(task.options), std::uint64_t{task.render.width} * task.window.part.height,
-              std::uint64_t{task.sample_count} * task.half_count(), start_) {
+              std::uint64_t{task.sample_count} * task.half_count(), start_),
+    stopping_(is_half() ? StoppingRules{} : task.options.stopping, start_) {
     constexpr double usual_checkpoint_seconds = 30.0;
     const RenderOptions &options = task.options;
     progress_.begin_at(context.stats().sample_count);
-    if (options.time_limit)
-        progress_.limit_time(*options.time_limit);
+    if (options.stopping.time_limit)
+        progress_.limit_time(*options.stopping.time_limit);
     if (!options.checkpoint.empty())
         checkpoint_.emplace(context, options.checkpoint, options.checkpoint_seconds.value_or(usual_checkpoint_seconds),
                             [this](const std::string &message) { progress_.say(message); });
@@ -137,7 +138,7 @@ ImageRender::Result ImageRender::run(const Round &round) {
         save_film(context_, *round.film);
     const bool has_checkpoint =
         checkpoint_ && checkpoint_->finish(static_cast<std::uint32_t>(std::lround(image_.stats.mean_sample_count)));
-    return {std::move(image_), has_timed_out_, has_checkpoint};
+    return {std::move(image_), stopping_.ended_by(), has_checkpoint};
 }
 
 void ImageRender::enter_piece() {
@@ -154,10 +155,7 @@ void ImageRender::enter_piece() {
     progress_.enter_part((other + image_.rows_done / height) / halves, (other + end) / halves);
     if (has_target()) // the next check
         progress_.expect(forecast_sample_count(context_.stats().sample_count, 1.0, 1.0, task_.sample_count));
-    // Each piece gets its share of the time, plus what earlier pieces have not used.
-    if (task_.options.time_limit && !is_half())
-        time_end_ = start_ + clock_duration(*task_.options.time_limit * end);
-    is_time_over_ = false;
+    stopping_.enter_piece(end);
 }
 
 // Continues from the samples that the context has until there are enough, the target error is reached, or stop() says
@@ -192,7 +190,7 @@ pt_result ImageRender::take(std::uint32_t length, double done) {
     };
     auto info = sized<pt_accumulate_info>();
     info.sample_count = length;
-    info.target_error = has_target() ? task_.options.target_error : 0.0;
+    info.target_error = stopping_.rules().target_error;
     info.sampling = task_.options.sampling;
     info.progress = &call_listener;
     info.progress_user = &goes_on;
@@ -225,8 +223,8 @@ pt_stats ImageRender::look(pt_result result) {
         preview(now);
     if (checkpoint_)
         checkpoint_->step(sample_count);
-    is_time_over_ = !ended && sample_count > 0 && now >= time_end_;
-    has_timed_out_ = has_timed_out_ || is_time_over_;
+    if (!ended && sample_count > 0)
+        stopping_.look(now);
     return done;
 }
 
@@ -242,7 +240,7 @@ void ImageRender::show(const pt_stats &done, bool ended, const std::optional<pt_
         progress_.expect(sample_count);
         progress_.update_samples(sample_count, now);
     } else if (has_target()) {
-        progress_.expect(forecast_sample_count(sample_count, error->relative_rmse_high, task_.options.target_error,
+        progress_.expect(forecast_sample_count(sample_count, error->relative_rmse_high, stopping_.rules().target_error,
                                                task_.sample_count));
     }
 }
@@ -266,7 +264,7 @@ void ImageRender::preview(Clock::time_point now) {
 
 // Whether a step is to end as soon as it has a whole sample, so that look() sees it.
 bool ImageRender::pauses() const {
-    return wants_preview() || (checkpoint_ && checkpoint_->is_due()) || Clock::now() >= time_end_;
+    return wants_preview() || (checkpoint_ && checkpoint_->is_due()) || stopping_.is_due();
 }
 
 } // namespace cli

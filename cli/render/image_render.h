@@ -9,6 +9,7 @@
 #include "cli/render/checkpoint.h"
 #include "cli/render/picture_layer.h"
 #include "cli/render/render_task.h"
+#include "cli/render/stopping.h"
 
 #include <algorithm>
 #include <atomic>
@@ -31,18 +32,6 @@ inline std::uint32_t next_step_length(std::uint32_t length, double seconds) {
     constexpr double most = 1U << 30; // if the clock saw no time pass
     const double wanted = seconds > 0.0 ? std::floor(length * (step_seconds / seconds)) : most;
     return static_cast<std::uint32_t>(std::clamp(wanted, double{first_step_length}, most));
-}
-
-// A guess how many samples a target error takes in all, if `sample_count` samples have the error `error`, which may be
-// infinite. The error of independent samples falls with the root of their number; stratified samples need fewer, so the
-// guess falls as they come. It is more than the samples at the next look, so that progress does not show 100% before
-// the target is reached.
-inline std::uint32_t forecast_sample_count(std::uint32_t sample_count, double error, double target_error,
-                                           std::uint32_t most) {
-    const double ratio = error / target_error;
-    const double guess = sample_count * ratio * ratio;
-    const double least = pt_next_check(sample_count) + 1.0;
-    return static_cast<std::uint32_t>(std::min(std::max(std::ceil(guess), least), static_cast<double>(most)));
 }
 
 // Returns true if no more samples should be taken, because a signal has come or they would not be used. Once true, it
@@ -68,8 +57,8 @@ public:
 
     struct Result {
         RenderedImage image;
-        bool timed_out;      // whether some piece has fewer samples because of the time limit
-        bool has_checkpoint; // the checkpoint has all samples
+        std::optional<std::string> ended_by; // as of StoppingTest
+        bool has_checkpoint;                 // the checkpoint has all samples
     };
 
     // The samples that a run takes: of a picture that is denoised, those of a half, in one or several rounds.
@@ -90,7 +79,7 @@ private:
     using Clock = std::chrono::steady_clock;
 
     bool is_half() const { return task_.half_count() > 1; }
-    bool has_target() const { return task_.has_target() && !is_half(); }
+    bool has_target() const { return stopping_.rules().has_target(); }
     void enter_piece();
     void render_piece();
     pt_result take(std::uint32_t length, double done);
@@ -99,7 +88,7 @@ private:
     void show(const pt_stats &done, bool has_ended, const std::optional<pt_error_estimate> &error,
               Clock::time_point now);
     void preview(Clock::time_point now);
-    bool stops() const { return stop_() || is_time_over_; }
+    bool stops() const { return stop_() || stopping_.is_over(); }
     bool wants_preview() const;
     bool pauses() const;
 
@@ -115,9 +104,7 @@ private:
     std::uint32_t piece_rows_ = 0; // rows of the present piece
 
     Clock::time_point next_error_; // when the error is next computed for progress
-    Clock::time_point time_end_ = Clock::time_point::max();
-    bool is_time_over_ = false; // for this piece
-    bool has_timed_out_ = false;
+    StoppingTest stopping_;        // without rules for a half, whose rounds are tested when both are there
     Clock::time_point last_preview_ = start_;
     std::atomic<bool> has_preview_failed_ = false;
     RenderedImage preview_{}; // the preview that is being written

@@ -71,7 +71,8 @@ void add_sampling_options(CLI::App &command, RenderOptions &options) {
         const std::optional<double> share = parse_share(text);
         return share > 0.0 ? share : std::nullopt;
     };
-    add_parsed(command, "--error", options.target_error, parse_error, "must be a number above 0 like 0.005 or 0.5%",
+    add_parsed(command, "--error", options.stopping.target_error, parse_error,
+               "must be a number above 0 like 0.005 or 0.5%",
                "Stop at this relative error, like 0.5% or 0.005; 2 means 200% (default: take all samples)")
         ->type_name("E");
     add_name(
@@ -79,7 +80,7 @@ void add_sampling_options(CLI::App &command, RenderOptions &options) {
         "way to sample", samplings.names(),
         "Which pixels get more samples: adaptive, which is best with --error, those where they lessen the error "
         "most; uniform none (default: best)");
-    add_seconds(command, "--time", options.time_limit,
+    add_seconds(command, "--time", options.stopping.time_limit,
                 "Stop after S seconds of taking samples, one sample at the least (default: take all samples)");
 }
 

@@ -4,6 +4,7 @@
 #include "cli/base/number.h"
 #include "cli/image/image_file.h"
 #include "cli/image/image_module.h"
+#include "cli/render/stopping.h"
 #include "cli/scene/scene_override.h"
 
 #include <pt/pt.h>
@@ -87,9 +88,8 @@ struct RenderOptions {
     std::string denoiser; // file of Open Image Denoise; empty: the picture is as its samples make it
     std::optional<Rectangle> crop;
 
-    double target_error = 0.0; // relative; 0: take all samples
+    StoppingRules stopping;
     std::uint32_t sampling = PT_SAMPLING_BEST;
-    std::optional<double> time_limit; // seconds for each frame
     std::uint32_t first_sample = 0;
 
     bool parts = false;     // render parts on request, without other outputs

@@ -53,7 +53,7 @@ void check_combinations(const RenderOptions &options) {
     const OutputOptions &output = options.output;
     const bool has_checkpoint = !options.checkpoint.empty();
     refuse_if(output.images.empty() && output.film.empty(), "-o or --film is missing: there is nothing to write");
-    refuse_if(options.sampling == PT_SAMPLING_ADAPTIVE && options.target_error == 0.0,
+    refuse_if(options.sampling == PT_SAMPLING_ADAPTIVE && !options.stopping.has_target(),
               "--sampling adaptive: needs --error");
     refuse_if(options.resume && !has_checkpoint, "--resume: needs --checkpoint, the file to go on from");
     refuse_if(options.checkpoint_seconds && !has_checkpoint, "--checkpoint-every: needs --checkpoint");

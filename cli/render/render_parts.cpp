@@ -29,7 +29,7 @@ Json facts_of(const RenderTask &task) {
             {"height", task.render.height},
             {"first_sample", task.render.first_sample},
             {"samples", task.sample_count},
-            {"target_error", task.options.target_error},
+            {"target_error", task.options.stopping.target_error},
             {"sampling", task.options.sampling},
             {"exposure", display.exposure ? Json(*display.exposure) : Json("auto")},
             {"tonemap", tone_curves.name(display.curve)},

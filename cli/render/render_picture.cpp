@@ -44,7 +44,7 @@ void require_one_piece(const RenderTask &task, std::uint32_t rows) {
     const RenderOptions &options = task.options;
     const std::string option = !options.checkpoint.empty()    ? "--checkpoint"
                                : !options.output.film.empty() ? "--film"
-                               : task.has_rounds()            ? "--denoise with --error or --time"
+                               : task.has_rounds()            ? concat("--denoise with ", stopping_options)
                                                               : "";
     refuse_if(!option.empty() && rows < task.window.part.height,
               option + ": needs the whole image on the device, which " +
@@ -65,13 +65,9 @@ void resume_if_asked(const Context &context, const RenderTask &task) {
     }
 }
 
-// An image that the time limit has ended may happen to have the target error, although some pixels lack samples.
-const char *ending_of(const RenderReport &report, bool interrupted, bool timed_out) {
-    if (interrupted)
-        return "signal";
-    if (timed_out)
-        return "time";
-    return report.target_reached() ? "error" : "samples";
+// An image that another rule has ended may happen to have the target error, although some pixels lack samples.
+std::string ending_of(const RenderReport &report, const ImageRender::Result &rendered, bool interrupted) {
+    return interrupted ? "signal" : rendered.ended_by.value_or(report.target_reached() ? "error" : "samples");
 }
 
 // Unless a signal has stopped it. A missing file matters more than missing samples, which a checkpoint can still
@@ -79,7 +75,7 @@ const char *ending_of(const RenderReport &report, bool interrupted, bool timed_o
 ExitCode outcome_of(const RenderReport &report, const ImageRender::Result &rendered, bool all_written) {
     if (!all_written)
         return ExitCode::file;
-    if (rendered.timed_out && rendered.has_checkpoint)
+    if (rendered.ended_by && rendered.has_checkpoint)
         return ExitCode::resumable;
     return report.target_error > 0.0 && !report.target_reached() ? ExitCode::target_missed : ExitCode::done;
 }
@@ -143,7 +139,7 @@ RenderedImage denoised_halves(const RenderOptions &options, const RenderedImage 
 ImageRender::Result render_halves(const RenderTask &task, ImageRender &render, const Stop &stop) {
     constexpr double growth = 1.5;
     const Clock::time_point start = Clock::now();
-    const double target = task.options.target_error;
+    const StoppingRules &rules = task.options.stopping;
     std::array<std::vector<std::byte>, 2> films;
     std::vector<PictureLayer> layers; // which samples do not change
     ImageRender::Result result{};
@@ -164,13 +160,14 @@ ImageRender::Result render_halves(const RenderTask &task, ImageRender &render, c
         result.image = denoised_halves(task.options, first, std::move(second));
         done = end;
         const double error = result.image.error.relative_rmse_high;
-        if (task.has_target() && error <= target)
+        if (rules.has_target() && error <= rules.target_error)
             break;
-        const double in_time = task.options.time_limit ? *task.options.time_limit / seconds_since(start) : growth;
-        end = std::min(static_cast<std::uint32_t>(done * std::min(in_time, growth)), task.sample_count);
-        if (task.has_target())
-            expected = std::max(end, forecast_sample_count(done, error, target, task.sample_count));
-        result.timed_out = end <= done && done < task.sample_count;
+        const double factor = std::min(rules.growth_left(seconds_since(start)), growth);
+        end = std::min(static_cast<std::uint32_t>(done * factor), task.sample_count);
+        if (rules.has_target())
+            expected = std::max(end, forecast_sample_count(done, error, rules.target_error, task.sample_count));
+        if (end <= done && done < task.sample_count)
+            result.ended_by = ended_by_time;
     }
     return result;
 }
@@ -193,7 +190,7 @@ RenderReport report_of(const Context &context, const RenderTask &task) {
     report.render = task.render;
     report.window = task.window;
     report.requested_sample_count = task.sample_count * task.half_count();
-    report.target_error = task.options.target_error;
+    report.target_error = task.options.stopping.target_error;
     context.require(pt_get_context_device(context.get(), &report.device));
     return report;
 }
@@ -209,7 +206,7 @@ ExitCode render_picture(const Context &context, const RenderTask &task, const Re
             print_interruption(task, 0, 0, "");
         return ExitCode::signal;
     }
-    report.warnings = input_warnings(task.scene, options.target_error);
+    report.warnings = input_warnings(task.scene, options.stopping.target_error);
     if (!options.output.quiet)
         print_warnings(report.warnings);
     const std::uint32_t rows = fit_pieces(context, task);
@@ -246,7 +243,7 @@ ExitCode render_picture(const Context &context, const RenderTask &task, const Re
     report.stats = image.stats;
     report.error = image.error;
     const bool interrupted = interrupt_signal() != 0 && !superseded();
-    report.ended_by = ending_of(report, interrupted, rendered.timed_out);
+    report.ended_by = ending_of(report, rendered, interrupted);
     const std::string checkpoint = rendered.has_checkpoint ? options.checkpoint : "";
     if (interrupted) {
         print_interruption(task, report.stats.sample_count, image.rows_done, checkpoint);

@@ -31,7 +31,7 @@ struct RenderReport {
     double accumulate_seconds;
     double total_seconds;
     std::optional<ToneMap> tone_map; // of files for displays; nothing if none is written
-    std::string ended_by;            // "samples", "error", "time" or "signal"
+    std::string ended_by;            // "samples", "error", "signal", or another rule, as of StoppingTest
     std::vector<std::string> warnings;
 
     bool target_reached() const { return target_error > 0.0 && error.relative_rmse_high <= target_error; }

@@ -54,12 +54,9 @@ RenderTask::RenderTask(RenderOptions chosen, SceneFile file) :
     options(std::move(chosen)),
     scene(std::move(file)),
     render(scene.render) {
-    constexpr std::uint32_t usual_samples = 64;
-    constexpr std::uint32_t most_samples = 65536; // if a target error or a time limit decides when to stop
     render.first_sample = options.first_sample;
-    const bool stops_otherwise = has_target() || options.time_limit;
-    sample_count = limited_samples(scene.sample_count.value_or(stops_otherwise ? most_samples : usual_samples),
-                                   render.first_sample, stops_otherwise);
+    sample_count = limited_samples(scene.sample_count.value_or(options.stopping.usual_samples()), render.first_sample,
+                                   options.stopping.has_any());
     sample_count = std::max(sample_count / half_count(), 1U);
     window = chosen_window(options.crop, render);
 }

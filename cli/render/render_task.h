@@ -22,10 +22,8 @@ struct RenderTask {
     // Reads the files with columns. Throws Failure, also if one of them is an output.
     void load();
 
-    bool has_target() const { return options.target_error > 0.0; }
-
-    // Whether the halves grow until the denoised picture is good enough, or time is over.
-    bool has_rounds() const { return half_count() > 1 && (has_target() || options.time_limit); }
+    // Whether the halves grow until a rule ends it.
+    bool has_rounds() const { return half_count() > 1 && options.stopping.has_any(); }
 
     // A picture is denoised from two halves of its samples, which other seeds make independent.
     std::uint32_t half_count() const { return options.denoiser.empty() ? 1 : 2; }

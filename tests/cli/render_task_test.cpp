@@ -72,7 +72,7 @@ TEST(RenderTask, ToneMapping) {
 
 TEST(RenderTask, ATargetErrorRaisesTheDefaultNumberOfSamplesAlone) {
     RenderOptions options;
-    options.target_error = 0.005;
+    options.stopping.target_error = 0.005;
     EXPECT_EQ(task_of(options, "{}").sample_count, 65536U);
     EXPECT_EQ(task_of(options, full_scene).sample_count, 5U);
 }
@@ -82,7 +82,7 @@ TEST(RenderTask, SamplesEndWithTheLastIndex) {
     options.first_sample = 4294967286U; // ten are left
     EXPECT_EQ(task_of(options, R"({"render": {"spp": 10}})").sample_count, 10U);
     EXPECT_THROW(task_of(options, R"({"render": {"spp": 11}})"), cli::Failure);
-    options.target_error = 0.01;
+    options.stopping.target_error = 0.01;
     EXPECT_EQ(task_of(options, "{}").sample_count, 10U);
 }
 
