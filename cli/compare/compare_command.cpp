@@ -5,15 +5,66 @@
 #include "cli/base/options.h"
 #include "cli/base/text.h"
 #include "cli/commands.h"
-#include "cli/compare/image_difference.h"
 #include "cli/image/image_file.h"
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace cli {
 namespace {
+
+struct ImageDifference {
+    // Means over the channels of those pixels that are finite in both images; 0 if there are none.
+    double mse;          // of (x - r)^2 for a value x and the reference's r
+    double relative_mse; // of (x - r)^2 / (r^2 + 0.01): a dark pixel's error counts as much as a bright one's
+
+    // The largest |x - r| among them.
+    double maximum;
+    std::size_t maximum_value; // where it is: an index into the values
+
+    std::size_t not_finite; // pixels with a channel that is not finite in either image
+};
+
+using Values = std::span<const float>;
+
+// Keeps black pixels from counting without bound.
+constexpr double relative_offset = 0.01;
+
+bool is_finite(Values pixel) {
+    return std::all_of(pixel.begin(), pixel.end(), [](float value) { return std::isfinite(value); });
+}
+
+// Both have the same number of values, three for each pixel.
+ImageDifference compare_images(Values image, Values reference) {
+    ImageDifference total{};
+    for (std::size_t i = 0; i < image.size(); i += 3) {
+        if (!is_finite(image.subspan(i, 3)) || !is_finite(reference.subspan(i, 3))) {
+            ++total.not_finite;
+            continue;
+        }
+        for (std::size_t value = i; value < i + 3; ++value) {
+            const double expected = reference[value];
+            const double difference = std::abs(image[value] - expected);
+            total.mse += difference * difference;
+            total.relative_mse += difference * difference / (expected * expected + relative_offset);
+            if (difference > total.maximum) {
+                total.maximum = difference;
+                total.maximum_value = value;
+            }
+        }
+    }
+    const std::size_t value_count = image.size() - 3 * total.not_finite;
+    if (value_count > 0) {
+        total.mse /= static_cast<double>(value_count);
+        total.relative_mse /= static_cast<double>(value_count);
+    }
+    return total;
+}
 
 struct CompareOptions {
     std::string image;

@@ -8,7 +8,6 @@
 #include "cli/film/film.h"
 #include "cli/image/image_file.h"
 #include "cli/render/denoise.h"
-#include "cli/render/film_report.h"
 #include "cli/render/render_output.h"
 
 #include <nlohmann/json.hpp>

@@ -9,27 +9,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 namespace cli {
 namespace {
-
-constexpr ValueNames feature_names({{"lamps", PT_FEATURE_LAMPS},
-                                    {"gloss", PT_FEATURE_GLOSS},
-                                    {"motion", PT_FEATURE_MOTION},
-                                    {"large", PT_FEATURE_LARGE},
-                                    {"tree", PT_FEATURE_TREE},
-                                    {"orthographic", PT_FEATURE_ORTHOGRAPHIC},
-                                    {"hidden", PT_FEATURE_HIDDEN},
-                                    {"lens", PT_FEATURE_LENS},
-                                    {"capsules", PT_FEATURE_CAPSULES},
-                                    {"opacity", PT_FEATURE_OPACITY}});
-constexpr ValueNames uncertainty_names({{"rmse", PT_UNCERTAIN_RMSE},
-                                        {"relative_rmse", PT_UNCERTAIN_RELATIVE_RMSE},
-                                        {"unseen", PT_UNCERTAIN_UNSEEN},
-                                        {"unmet", PT_UNCERTAIN_UNMET}});
 
 // The names of the bits that are set.
 template <std::size_t Count>
@@ -95,6 +81,24 @@ std::string target_text(const RenderReport &report) {
 
 } // namespace
 
+RenderReport film_report(const FilmHandle &film) {
+    const pt_film_info info = film.info();
+    RenderReport report{};
+    report.render.width = info.width;
+    report.render.height = info.height;
+    report.window = {{info.x, info.y, info.columns, info.rows}, info.width, info.height};
+    report.render.max_path_length = info.max_path_length;
+    report.render.seed = info.seed;
+    report.render.first_sample = static_cast<std::uint32_t>(film.hull().first);
+    report.render.estimator = info.estimator;
+    report.render.sampler = info.sampler;
+    report.stats = film.stats();
+    report.error = film.error_estimate();
+    report.requested_sample_count = report.stats.sample_count;
+    std::snprintf(report.device.name, sizeof report.device.name, "%s", info.device);
+    return report;
+}
+
 nlohmann::ordered_json tone_map_json(const RenderReport &report) {
     if (!report.tone_map)
         return nullptr;
@@ -112,7 +116,7 @@ nlohmann::ordered_json error_json(const pt_error_estimate &error) {
             {"relative_rmse", number_or_null(error.relative_rmse)},
             {"relative_rmse_low", number_or_null(error.relative_rmse_low)},
             {"relative_rmse_high", number_or_null(error.relative_rmse_high)},
-            {"uncertain", names_of(error.uncertain, uncertainty_names)}};
+            {"uncertain", names_of(error.uncertain, uncertainties)}};
 }
 
 nlohmann::ordered_json stats_json(const RenderReport &report) {
@@ -147,7 +151,7 @@ nlohmann::ordered_json stats_json(const RenderReport &report) {
         {"rejected_samples", report.stats.rejected_samples},
         {"device_bytes", report.stats.device_bytes},
         {"peak_host_bytes", platform::peak_bytes()},
-        {"features", names_of(report.stats.features, feature_names)},
+        {"features", names_of(report.stats.features, features)},
         {"samples_per_second", samples_per_second(report)},
         {"tone_map", tone_map_json(report)},
         {"warnings", report.warnings}});

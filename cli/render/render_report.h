@@ -1,6 +1,7 @@
 // The facts of a finished rendering, as image metadata, as the --stats file and as a line for people.
 #pragma once
 
+#include "cli/film/film.h"
 #include "cli/image/image_module.h"
 #include "cli/image/tone_map.h"
 
@@ -36,6 +37,9 @@ struct RenderReport {
 
     bool target_reached() const { return target_error > 0.0 && error.relative_rmse_high <= target_error; }
 };
+
+// What a film knows of the rendering that made it: neither times nor the scene's name.
+RenderReport film_report(const FilmHandle &film);
 
 nlohmann::ordered_json stats_json(const RenderReport &report);
 

@@ -16,7 +16,6 @@ using Form = ValueRule::Form;
 
 constexpr double least_length = 1e-18; // its square is a float32 number
 constexpr double largest_length = 1e18;
-constexpr std::array<std::string_view, 2> projection_names{"perspective", "orthographic"};
 
 constexpr ValueRule lengths{.form = Form::numbers,
                             .least = least_length,
@@ -65,11 +64,10 @@ constexpr std::array camera_keys{
              [](Item item, Value value) { put(value, item.scene.camera.target); }},
     SceneKey{"up", direction, "What is up in the picture; need not be perpendicular to the view", "[0, 1, 0]", optional,
              [](Item item, Value value) { put(value, item.scene.camera.up); }},
-    SceneKey{"projection", one_of("projection", projection_names),
+    SceneKey{"projection", one_of("projection", projections.names()),
              "Rays share the point position, or the direction to look_at", "perspective", optional,
              [](Item item, Value value) {
-                 item.scene.camera.projection =
-                     value == "orthographic" ? PT_PROJECTION_ORTHOGRAPHIC : PT_PROJECTION_PERSPECTIVE;
+                 item.scene.camera.projection = projections.find(value.get_ref<const std::string &>()).value();
              }},
     // The library's rule, [1e-8, pi), in the file's unit; 0 would be pt.h's default, here and for the extent.
     SceneKey{"vertical_fov",

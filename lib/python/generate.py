@@ -1,5 +1,5 @@
 """Writes what follows from the headers: their structs and enumerations in Python (pt/_structs.py, pt/_enums.py), the
-numbers that kernels know (shaders/enumerations.h), and the names of options' values (cli/base/enumerations.h).
+numbers that kernels know (shaders/enumerations.h), and the program's names of values (cli/base/enumerations.h).
 
 python3 lib/python/generate.py [HEADERS [ROOT]]; by default those of this tree. The files are committed, because the
 package is installed without the headers and without a build; a test asserts that they are what this script writes."""
@@ -31,8 +31,11 @@ ENUMERATIONS = (
                                  "first four."),
 )
 
-# What the program calls the enumerations whose values are options, and which of them kernels know.
-OPTIONS = {"PT_SAMPLER_": "samplers", "PT_SAMPLING_": "samplings", "PT_ESTIMATOR_": "estimators"}
+# Of enumerations that the program names: its table of them, and what stands between the words of a name. And those that
+# kernels know.
+OF_PROGRAM = {"PT_SAMPLER_": ("samplers", "-"), "PT_SAMPLING_": ("samplings", "-"), "PT_ESTIMATOR_": ("estimators", "-"),
+              "PT_PROJECTION_": ("projections", "-"), "PT_FEATURE_": ("features", "_"),
+              "PT_UNCERTAIN_": ("uncertainties", "_")}
 OF_KERNELS = ("PT_ESTIMATOR_", "PT_SAMPLER_")
 
 NUMBERS = {"float": "c_float", "double": "c_double", "char": "c_char", "int32_t": "c_int32", "uint32_t": "c_uint32",
@@ -125,13 +128,13 @@ def kernel_text(headers):
     return "\n".join(lines) + "\n"
 
 
-def options_text(headers):
-    lines = ["// Numbers of the headers in lib/include/pt by the names that options and scene files have for them, as",
+def program_text(headers):
+    lines = ["// Numbers of the headers in lib/include/pt by the names that options, scene files and reports have for them, as",
              "// lib/python/generate.py writes them: PT_SAMPLER_HALTON_CP is halton-cp.", "#pragma once", "",
-             '#include "cli/base/names.h"', "", "#include <pt/pt.h>", "", "namespace cli {", ""]
-    for prefix, table in OPTIONS.items():
+             '#include "cli/base/names.h"', "", "#include <pt/pt.h>", "#include <pt/stats.h>", "", "namespace cli {", ""]
+    for prefix, (table, mark) in OF_PROGRAM.items():
         names = [name for name, _, _ in enumerators_of(headers) if name.startswith(prefix)]
-        words = {name: name.removeprefix(prefix).lower().replace("_", "-") for name in names}
+        words = {name: name.removeprefix(prefix).lower().replace("_", mark) for name in names}
         rows = [f'    {{"{words[name]}", {name}}},' for name in names]
         lines += [f"inline constexpr ValueNames {table}({{", *rows, "});", ""]
     return "\n".join([*lines, "} // namespace cli"]) + "\n"
@@ -141,7 +144,7 @@ def files_of(headers):
     """The text of each file, by its path; headers: their texts by name."""
     ordered = [headers["pt.h"], *(text for name, text in sorted(headers.items()) if name not in ("pt.h", "vulkan.h"))]
     return {"lib/python/pt/_structs.py": structs_text(ordered), "lib/python/pt/_enums.py": enums_text(ordered),
-            "shaders/enumerations.h": kernel_text(ordered), "cli/base/enumerations.h": options_text(ordered)}
+            "shaders/enumerations.h": kernel_text(ordered), "cli/base/enumerations.h": program_text(ordered)}
 
 
 def main():
