@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
-#include <pt/pt.h>
 namespace pt::gpu {
 using uint = std::uint32_t;
 using uvec2 = glm::uvec2;
@@ -26,6 +25,7 @@ PT_CONSTANT SCENE_IN_STORAGE = 0;
 PT_CONSTANT SCENE_IN_UNIFORM = 1;
 PT_CONSTANT SCENE_IN_CONSTANTS = 2;
 
+// The numbers of pt.h.
 #include "enumerations.h"
 
 // ---- Numbers of a sample: each that a path consumes is a dimension of its own ---------------------------------------
@@ -98,22 +98,6 @@ PT_CONSTANT BINDING_TILE_COUNTS = 4;
 PT_CONSTANT BINDING_TILE_SQUARES = 5;
 // add.comp, likewise.
 PT_CONSTANT BINDING_ADDED = 3;
-
-// What resolve.comp can be asked for: PT_QUANTITY_* of pt.h.
-PT_CONSTANT QUANTITY_RADIANCE = 0;
-PT_CONSTANT QUANTITY_STANDARD_ERROR = 1;
-PT_CONSTANT QUANTITY_SAMPLE_COUNT = 2;
-// What first_hit.comp can be asked for, likewise.
-PT_CONSTANT QUANTITY_DEPTH = 3;
-PT_CONSTANT QUANTITY_NORMAL = 4;
-PT_CONSTANT QUANTITY_ALBEDO = 5;
-PT_CONSTANT QUANTITY_OBJECT = 6;
-
-// How resolve.comp writes a pixel: specialization constant 0, one of PT_FORMAT_* of pt.h. And how first_hit.comp does.
-PT_CONSTANT FORMAT_RGB32F = 0;
-PT_CONSTANT FORMAT_RGBA32F = 1;
-PT_CONSTANT FORMAT_RGBA16F = 2;
-PT_CONSTANT FORMAT_R32UI = 3; // of first_hit.comp alone
 
 // Invocations of a workgroup, one pixel each: a multiple of every vector width of software Vulkan and of GPU subgroups.
 PT_CONSTANT WORKGROUP_SIZE = 64;
@@ -369,10 +353,6 @@ struct AddConstants {
 };
 
 #ifdef __cplusplus
-static_assert(FORMAT_RGB32F == PT_FORMAT_RGB32F && FORMAT_RGBA32F == PT_FORMAT_RGBA32F);
-static_assert(FORMAT_RGBA16F == PT_FORMAT_RGBA16F && FORMAT_R32UI == PT_FORMAT_R32UI);
-static_assert(QUANTITY_DEPTH == PT_QUANTITY_DEPTH && QUANTITY_NORMAL == PT_QUANTITY_NORMAL);
-static_assert(QUANTITY_ALBEDO == PT_QUANTITY_ALBEDO && QUANTITY_OBJECT == PT_QUANTITY_OBJECT);
 // Vulkan guarantees 128 bytes of push constants; the offsets are those of GLSL's std430.
 static_assert(sizeof(CameraView) == 64 && offsetof(CameraView, start_scale) == 12 && offsetof(CameraView, up) == 16);
 static_assert(offsetof(CameraView, forward) == 32 && offsetof(CameraView, height) == 44);

@@ -2,6 +2,8 @@
 // (shaders/resolve.comp).
 #pragma once
 
+#include "shaders/gpu_layout.h"
+
 #include <pt/pt.h>
 
 #include <cstddef>
@@ -10,7 +12,7 @@
 
 namespace pt {
 
-constexpr std::uint32_t format_count = PT_FORMAT_R32UI + 1;
+constexpr std::uint32_t format_count = gpu::LAST_FORMAT + 1;
 
 constexpr std::uint32_t component_bytes(std::uint32_t format) {
     return format == PT_FORMAT_RGBA16F ? 2 : 4;

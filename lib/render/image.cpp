@@ -3,6 +3,7 @@
 
 #include "lib/base/rules.h"
 #include "lib/film/pixel_format.h"
+#include "shaders/gpu_layout.h"
 
 #include <algorithm>
 #include <string>
@@ -33,7 +34,7 @@ bool check_extent(const Subject &image, const char *name, std::uint32_t extent, 
 
 // Only object numbers are whole numbers, so they have a format of their own.
 void check_quantity(const Subject &image, std::uint32_t quantity, std::uint32_t format, ImageSource of) {
-    const bool is_known = quantity <= PT_QUANTITY_COVERAGE;
+    const bool is_known = quantity <= gpu::LAST_QUANTITY;
     image.require(is_known, "quantity", quantity, "must be a PT_QUANTITY_* of pt.h");
     image.require(!is_known || of == ImageSource::Context || quantity <= PT_QUANTITY_SAMPLE_COUNT, "quantity", quantity,
                   "must be PT_QUANTITY_RADIANCE, PT_QUANTITY_STANDARD_ERROR or PT_QUANTITY_SAMPLE_COUNT here: what "
