@@ -11,12 +11,16 @@ struct TilePixel {
     bool exists; // tiles at the image's edges, and where a strip ends within them, have fewer pixels than invocations
 };
 
-// What would come before the strip wraps around, and lies far behind it.
+// What would come before the strip wraps around, and lies far behind it. Within a tile, invocations are along Morton's
+// curve (1966): those that run in step have neighbouring pixels, in rows and in columns, and so their walks over a tree are
+// more alike.
 TilePixel tile_pixel()
 {
     uint corner = tiles.first_pixels[frame.first_entry + gl_WorkGroupID.x];
-    uint column = gl_LocalInvocationID.x % TILE_SIZE;
-    uint in_film = corner + gl_LocalInvocationID.x / TILE_SIZE * frame.camera.width + column;
+    uint i = gl_LocalInvocationID.x;
+    uint column = (i & 1u) | ((i >> 1) & 2u) | ((i >> 2) & 4u);
+    uint row = ((i >> 1) & 1u) | ((i >> 2) & 2u) | ((i >> 3) & 4u);
+    uint in_film = corner + row * frame.camera.width + column;
     uint in_strip = in_film - frame.strip_first_pixel;
     bool exists = corner % frame.camera.width + column < frame.camera.width && in_strip < frame.strip_pixel_count;
     return TilePixel(frame.film_first_pixel + in_film, in_strip, exists);

@@ -54,29 +54,14 @@ vec3 inverse_of(vec3 direction)
     return tree_step() / mix(direction, sides, lessThan(abs(direction), vec3(least)));
 }
 
-// Children of a node that a ray has yet to enter, nearest first: places in the node of two bits each.
-struct Group {
-    uint first_child;
-    uint places;
-    uint count;
-};
+const uint NO_NODE = ~0u;
 
-// In a word, for the stack: up to three places, the last of which is repeated where there are fewer.
-uint packed_group(Group group)
-{
-    uint a = group.places & 3u;
-    uint b = group.count > 1u ? (group.places >> 2) & 3u : a;
-    uint c = group.count > 2u ? (group.places >> 4) & 3u : b;
-    return (group.first_child << 6) | (c << 4) | (b << 2) | a;
-}
-
-Group unpacked_group(uint word)
-{
-    uint a = word & 3u;
-    uint b = (word >> 2) & 3u;
-    uint c = (word >> 4) & 3u;
-    return Group(word >> 6, word & 63u, a == b ? 1u : b == c ? 2u : 3u);
-}
+// A group is up to three children of a node that a ray has yet to enter, nearest first: in a word the number of the
+// first child, which is never 0, and below it their places of two bits each, of which the last is repeated where there
+// are fewer.
+uint next_of(uint group) { return (group >> 6) + (group & 3u); }
+bool has_one(uint group) { return ((group ^ (group >> 2)) & 3u) == 0u; }
+uint without_next(uint group) { return (group & ~15u) | ((group >> 2) & 15u); }
 
 // Byte i of a word as 1 + byte / 256, made of bits.
 float byte_as_float(uint word, uint i)
@@ -89,16 +74,29 @@ float byte_as_float(uint word, uint i)
 // boxes. Distances are compared as the integers that their bits are: of those that are not negative that is the order,
 // and those that are negative lose against 0, as they should.
 struct Entered {
-    Group inner;
+    uint node;   // the nearest child, or NO_NODE
+    uint others; // a group, if has_others
+    bool has_others;
     uint first_place; // of the node's spheres
     uint spheres;     // bit i: of the sphere at first_place + i
 };
 
-Entered enter_node(uint node, GridRay ray, vec3 inverse, float before)
+struct NodeWords {
+    uvec4 head;
+    uvec4 links;
+    uvec4 sides;
+};
+
+NodeWords node_words(uint node)
 {
-    uvec4 head = tree_node_word(3u * node);
-    uvec4 links = tree_node_word(3u * node + 1u);
-    uvec4 sides = tree_node_word(3u * node + 2u);
+    return NodeWords(tree_node_word(3u * node), tree_node_word(3u * node + 1u), tree_node_word(3u * node + 2u));
+}
+
+Entered enter_node(NodeWords words, GridRay ray, vec3 inverse, float before)
+{
+    uvec4 head = words.head;
+    uvec4 links = words.links;
+    uvec4 sides = words.sides;
     uvec3 low = uvec3(links.z, links.w, sides.x);
     uvec3 high = sides.yzw;
     bvec3 backwards = lessThan(inverse, vec3(0.0));
@@ -139,10 +137,16 @@ Entered enter_node(uint node, GridRay ray, vec3 inverse, float before)
     uint d = max(keys[2], keys[3]);
     uint lower = max(a, c);
     uint upper = min(b, d);
-    uint places = (min(a, c) & 3u) | ((min(lower, upper) & 3u) << 2) | ((max(lower, upper) & 3u) << 4) |
-                  ((max(b, d) & 3u) << 6);
-    uint inner = uint(bitCount(entered & ((1u << inner_count) - 1u)));
-    return Entered(Group(links.x, places, inner), links.y, entered >> inner_count);
+    const uint none = ~0u;
+    uint first = min(a, c);
+    uint second = min(lower, upper);
+    uint third = max(lower, upper);
+    uint fourth = max(b, d);
+    third = third == none ? second : third;
+    fourth = fourth == none ? third : fourth;
+    uint others = (links.x << 6) | ((fourth & 3u) << 4) | ((third & 3u) << 2) | (second & 3u);
+    uint nearest = first == none ? NO_NODE : links.x + (first & 3u);
+    return Entered(nearest, others, second != none, links.y, entered >> inner_count);
 }
 
 #endif
