@@ -17,6 +17,6 @@ namespace pt {
 Camera starting_ahead(const Scene &scene, const SphereTree *tree, const Camera &camera, const RenderSettings &settings);
 
 // Such a camera as kernels read it.
-gpu::CameraView camera_view(const Camera &start, const RenderSettings &settings);
+gpu::CameraView camera_view(const Camera &camera, const RenderSettings &settings);
 
 } // namespace pt
