@@ -202,7 +202,7 @@ Entered enter(Walk walk, NodeWords words, GridRay ray, bool in_shadow)
     return enter_node(words, ray, inverse, before - ray.advance * ADVANCE_ROUNDED);
 }
 
-// The place of the sphere that waits to be tested, or any place; it waits no longer.
+// The place of a sphere that waits to be tested; it waits no longer.
 uint next_place(inout Walk walk)
 {
     uint place = walk.first_place + uint(findLSB(walk.spheres));
@@ -255,7 +255,7 @@ void test_sphere(inout Walk walk, bool exists, uint place, uvec4 word, GridRay r
 void trip_in_step(inout Walk walk, bool in_shadow)
 {
     bool tests = walk.spheres != 0u;
-    uint place = next_place(walk);
+    uint place = tests ? next_place(walk) : 0u;
     bool enters = walk.spheres == 0u && walk.node != NO_NODE;
     uvec4 word = tree_sphere_word(place);
     NodeWords words = node_words(enters ? walk.node : ROOT);
