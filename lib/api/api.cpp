@@ -189,7 +189,7 @@ const char *pt_last_error(const pt_context *context) {
 
 uint64_t pt_get_broken_rule(const pt_context *context, uint32_t index, pt_broken_rule *rule) {
     return pt::read_last_error(context, [&](const pt::LastError *error, const char *) -> std::uint64_t {
-        const pt::BrokenRules *rules = error ? error->broken_rules() : nullptr;
+        const pt::Violations *rules = error ? error->broken_rules() : nullptr;
         const bool known = rules && index < rules->first().size();
         if (rule && pt::is_struct_size(rule->struct_size))
             pt::copy_known(known ? pt::shown(rules->first()[index]) : pt_broken_rule{}, rule, rule->struct_size);

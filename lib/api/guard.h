@@ -19,7 +19,7 @@ namespace pt {
 class LastError {
 public:
     // Never throws: if there is no memory for the message, a fixed one replaces it, without rules.
-    void store(std::string_view message, std::shared_ptr<const BrokenRules> broken_rules = nullptr) noexcept {
+    void store(std::string_view message, std::shared_ptr<const Violations> broken_rules = nullptr) noexcept {
         try {
             text_.assign(message);
             shown_ = nullptr;
@@ -33,12 +33,12 @@ public:
     const char *c_str() const noexcept { return shown_ ? shown_ : text_.c_str(); }
 
     // NULL if the message is about no rule.
-    const BrokenRules *broken_rules() const noexcept { return broken_rules_.get(); }
+    const Violations *broken_rules() const noexcept { return broken_rules_.get(); }
 
 private:
     std::string text_;
     const char *shown_ = nullptr; // replaces text_ unless NULL
-    std::shared_ptr<const BrokenRules> broken_rules_;
+    std::shared_ptr<const Violations> broken_rules_;
 };
 
 // The pt_result of the exception that is being handled. Not inline: every call of the C interface ends in it.

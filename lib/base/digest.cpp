@@ -9,23 +9,24 @@
 
 namespace pt {
 
+// One state serves for digests of 128 bits and of 64.
 struct Digest::State {
     XXH3_state_t hash;
 };
 
 Digest::Digest() : state_(std::make_unique<State>()) {
-    XXH3_128bits_reset(&state_->hash);
+    XXH3_64bits_reset(&state_->hash);
 }
 
 Digest::~Digest() = default;
 
 void Digest::add(double value) {
     const double canonical = value + 0.0; // -0 + 0 = +0
-    XXH3_128bits_update(&state_->hash, &canonical, sizeof canonical);
+    add_bytes(std::as_bytes(std::span(&canonical, 1)));
 }
 
 void Digest::add(std::uint64_t value) {
-    XXH3_128bits_update(&state_->hash, &value, sizeof value);
+    add_bytes(std::as_bytes(std::span(&value, 1)));
 }
 
 void Digest::add(const glm::dvec3 &vector) {
@@ -35,12 +36,20 @@ void Digest::add(const glm::dvec3 &vector) {
 
 void Digest::add(std::span<const std::uint32_t> words) {
     add(std::uint64_t{words.size()});
-    XXH3_128bits_update(&state_->hash, words.data(), words.size_bytes());
+    add_bytes(std::as_bytes(words));
 }
 
 void Digest::add(std::string_view text) {
     add(std::uint64_t{text.size()});
-    XXH3_128bits_update(&state_->hash, text.data(), text.size());
+    add_bytes(std::as_bytes(std::span(text)));
+}
+
+void Digest::add_bytes(std::span<const std::byte> bytes) {
+    XXH3_64bits_update(&state_->hash, bytes.data(), bytes.size());
+}
+
+std::uint64_t Digest::checksum() const {
+    return XXH3_64bits_digest(&state_->hash);
 }
 
 std::string Digest::text() const {
@@ -52,24 +61,6 @@ std::string Digest::text() const {
 
 std::uint64_t checksum(std::span<const std::byte> bytes) {
     return XXH3_64bits(bytes.data(), bytes.size());
-}
-
-struct RunningChecksum::State {
-    XXH3_state_t hash;
-};
-
-RunningChecksum::RunningChecksum() : state_(std::make_unique<State>()) {
-    XXH3_64bits_reset(&state_->hash);
-}
-
-RunningChecksum::~RunningChecksum() = default;
-
-void RunningChecksum::add(std::span<const std::byte> bytes) {
-    XXH3_64bits_update(&state_->hash, bytes.data(), bytes.size());
-}
-
-std::uint64_t RunningChecksum::value() const {
-    return XXH3_64bits_digest(&state_->hash);
 }
 
 } // namespace pt

@@ -26,6 +26,10 @@ public:
     void add(std::span<const std::uint32_t> words);
     void add(std::string_view text);
 
+    // Of such bytes alone, checksum() is that of all of them together.
+    void add_bytes(std::span<const std::byte> bytes);
+    std::uint64_t checksum() const;
+
     // 128 bits as 32 hexadecimal digits.
     std::string text() const;
 
@@ -35,21 +39,5 @@ private:
 };
 
 std::uint64_t checksum(std::span<const std::byte> bytes);
-
-// The checksum of bytes that are given piece by piece.
-class RunningChecksum {
-public:
-    RunningChecksum();
-    ~RunningChecksum();
-    RunningChecksum(const RunningChecksum &) = delete;
-    RunningChecksum &operator=(const RunningChecksum &) = delete;
-
-    void add(std::span<const std::byte> bytes);
-    std::uint64_t value() const;
-
-private:
-    struct State;
-    std::unique_ptr<State> state_;
-};
 
 } // namespace pt

@@ -1,4 +1,4 @@
-// The library's exception and the names of results; see error.h.
+// How broken rules are put into words, for all messages; see error.h.
 #include "lib/base/error.h"
 
 #include <utility>
@@ -7,58 +7,79 @@ namespace pt {
 
 namespace {
 
-BrokenRules only(BrokenRule rule) {
-    BrokenRules rules;
+std::string brackets(std::int64_t index) {
+    return index < 0 ? std::string() : '[' + std::to_string(index) + ']';
+}
+
+Violations only(BrokenRule rule) {
+    Violations rules;
     rules.add(std::move(rule));
     return rules;
 }
 
+constexpr std::pair<pt_result, const char *> names[] = {
+    {PT_OK, "PT_OK"},
+    {PT_CANCELLED, "PT_CANCELLED"},
+    {PT_TARGET_REACHED, "PT_TARGET_REACHED"},
+    {PT_PENDING, "PT_PENDING"},
+    {PT_ERROR_INVALID_ARGUMENT, "PT_ERROR_INVALID_ARGUMENT"},
+    {PT_ERROR_INVALID_SCENE, "PT_ERROR_INVALID_SCENE"},
+    {PT_ERROR_INVALID_STATE, "PT_ERROR_INVALID_STATE"},
+    {PT_ERROR_UNSUPPORTED, "PT_ERROR_UNSUPPORTED"},
+    {PT_ERROR_NO_DEVICE, "PT_ERROR_NO_DEVICE"},
+    {PT_ERROR_OUT_OF_HOST_MEMORY, "PT_ERROR_OUT_OF_HOST_MEMORY"},
+    {PT_ERROR_OUT_OF_DEVICE_MEMORY, "PT_ERROR_OUT_OF_DEVICE_MEMORY"},
+    {PT_ERROR_DEVICE_LOST, "PT_ERROR_DEVICE_LOST"},
+    {PT_ERROR_SHADER, "PT_ERROR_SHADER"},
+    {PT_ERROR_INTERNAL, "PT_ERROR_INTERNAL"},
+    {PT_ERROR_INCOMPATIBLE, "PT_ERROR_INCOMPATIBLE"},
+};
+
 } // namespace
+
+std::string BrokenRule::text() const {
+    std::string field = subject + brackets(index);
+    if (!member.empty())
+        field += '.' + member + brackets(component);
+    if (!with.empty())
+        field += ' ' + with;
+    return field + " = " + value + ": " + rule;
+}
+
+void Violations::add(BrokenRule rule) {
+    if (!only_count())
+        first_.push_back(std::move(rule));
+    count_one();
+}
+
+std::string Violations::text() const {
+    std::string lines;
+    for (const BrokenRule &rule : first_)
+        lines.append(lines.empty() ? "" : "\n").append(rule.text());
+    if (count_ > first_.size())
+        lines.append("\n... and ").append(std::to_string(count_ - first_.size())).append(" more");
+    return lines;
+}
+
+void Violations::throw_if_any(pt_result code) const {
+    if (count_ > 0)
+        throw Error(code, *this);
+}
 
 Error::Error(pt_result code, const std::string &message) : std::runtime_error(message), code_(code) {}
 
-Error::Error(pt_result code, BrokenRules rules) :
+Error::Error(pt_result code, Violations rules) :
     std::runtime_error(rules.text()),
     code_(code),
-    broken_rules_(std::make_shared<const BrokenRules>(std::move(rules))) {}
+    broken_rules_(std::make_shared<const Violations>(std::move(rules))) {}
 
 Error::Error(pt_result code, BrokenRule rule) : Error(code, only(std::move(rule))) {}
 
 const char *result_name(pt_result result) noexcept {
-    switch (result) {
-    case PT_OK:
-        return "PT_OK";
-    case PT_CANCELLED:
-        return "PT_CANCELLED";
-    case PT_TARGET_REACHED:
-        return "PT_TARGET_REACHED";
-    case PT_PENDING:
-        return "PT_PENDING";
-    case PT_ERROR_INVALID_ARGUMENT:
-        return "PT_ERROR_INVALID_ARGUMENT";
-    case PT_ERROR_INVALID_SCENE:
-        return "PT_ERROR_INVALID_SCENE";
-    case PT_ERROR_INVALID_STATE:
-        return "PT_ERROR_INVALID_STATE";
-    case PT_ERROR_UNSUPPORTED:
-        return "PT_ERROR_UNSUPPORTED";
-    case PT_ERROR_NO_DEVICE:
-        return "PT_ERROR_NO_DEVICE";
-    case PT_ERROR_OUT_OF_HOST_MEMORY:
-        return "PT_ERROR_OUT_OF_HOST_MEMORY";
-    case PT_ERROR_OUT_OF_DEVICE_MEMORY:
-        return "PT_ERROR_OUT_OF_DEVICE_MEMORY";
-    case PT_ERROR_DEVICE_LOST:
-        return "PT_ERROR_DEVICE_LOST";
-    case PT_ERROR_SHADER:
-        return "PT_ERROR_SHADER";
-    case PT_ERROR_INTERNAL:
-        return "PT_ERROR_INTERNAL";
-    case PT_ERROR_INCOMPATIBLE:
-        return "PT_ERROR_INCOMPATIBLE";
-    default:
-        return "unknown result";
-    }
+    for (const auto &[known, name] : names)
+        if (known == result)
+            return name;
+    return "unknown result";
 }
 
 } // namespace pt

@@ -2,32 +2,73 @@
 // everywhere inside, caught by guard.h alone.
 #pragma once
 
-#include "lib/base/broken_rule.h"
-
 #include <pt/pt.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace pt {
+
+// The field that breaks a rule, what it holds and what it must be: the same members as in pt_broken_rule.
+struct BrokenRule {
+    std::string subject;
+    std::int64_t index = -1;
+    std::string member = {};
+    std::int32_t component = -1;
+    std::string with = {};
+    std::string value;
+    std::string rule;
+
+    // "spheres[3].center[0] = nan: must be finite", "render.width * height = 0: ..."
+    std::string text() const;
+};
+
+// The rules that the arguments of one call break: the first in full, and the number of all of them, since a scene of a
+// million spheres may break millions.
+class Violations {
+public:
+    static constexpr std::size_t most_kept = 8;
+
+    void add(BrokenRule rule);
+
+    // Whether further rules are only counted: they need not be put into words.
+    bool only_count() const { return first_.size() == most_kept; }
+    void count_one() { ++count_; }
+
+    const std::vector<BrokenRule> &first() const { return first_; }
+    std::size_t count() const { return count_; }
+
+    // A line for each rule that is kept, and the number of the others.
+    std::string text() const;
+
+    // Throws Error, about these rules, if there are any.
+    void throw_if_any(pt_result code) const;
+
+private:
+    std::vector<BrokenRule> first_;
+    std::size_t count_ = 0;
+};
 
 class Error : public std::runtime_error {
 public:
     Error(pt_result code, const std::string &message);
 
     // The message is made of the rules.
-    Error(pt_result code, BrokenRules rules);
+    Error(pt_result code, Violations rules);
     Error(pt_result code, BrokenRule rule);
 
     pt_result code() const { return code_; }
 
     // NULL if the error is about no rule. Shared, so that keeping them allocates nothing.
-    const std::shared_ptr<const BrokenRules> &broken_rules() const { return broken_rules_; }
+    const std::shared_ptr<const Violations> &broken_rules() const { return broken_rules_; }
 
 private:
     pt_result code_;
-    std::shared_ptr<const BrokenRules> broken_rules_;
+    std::shared_ptr<const Violations> broken_rules_;
 };
 
 // What pt_result_name returns.

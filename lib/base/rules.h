@@ -1,12 +1,14 @@
-// Rules for the caller's numbers, and the list of those that were broken.
+// Rules for the caller's numbers.
 #pragma once
 
-#include "lib/base/broken_rule.h"
-
-#include <pt/pt.h>
+#include "lib/base/error.h"
 
 #include <glm/glm.hpp>
 
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -15,18 +17,30 @@
 namespace pt {
 
 // The shortest decimal that reads back as the same number; "nan" without a sign.
-std::string number_text(double value);
-std::string number_text(float value);
-std::string number_text(std::uint64_t value);
-std::string number_text(std::uint32_t value);
+std::string number_text(std::integral auto value) {
+    return std::to_string(value);
+}
+
+std::string number_text(std::floating_point auto value) {
+    if (std::isnan(value))
+        return "nan";
+    std::array<char, 64> text{};
+    const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general);
+    return std::string(text.data(), end);
+}
+
 // "(x, y, z)"
-std::string number_text(const glm::dvec3 &value);
-std::string number_text(const glm::vec3 &value);
+template <typename Number>
+std::string number_text(const glm::vec<3, Number> &value) {
+    return '(' + number_text(value.x) + ", " + number_text(value.y) + ", " + number_text(value.z) + ')';
+}
 
 // A rule says what a value must be, or nullptr if it is.
 using Rule = const char *(*)(double value);
 
-const char *finite_rule(double value);
+inline const char *finite_rule(double value) {
+    return std::isfinite(value) ? nullptr : "must be finite";
+}
 
 constexpr double min_length = 1e-18;
 constexpr double max_length = 1e18;
@@ -42,31 +56,30 @@ constexpr bool is_length(double value) {
     return value == 0.0 || is_positive_length(value < 0.0 ? -value : value);
 }
 
-const char *length_rule(double value);
-const char *positive_length_rule(double value);
+inline const char *length_rule(double value) {
+    if (!std::isfinite(value))
+        return "must be finite";
+    return is_length(value) ? nullptr : "must be 0 or of a magnitude in [1e-18, 1e18]";
+}
+
+inline const char *positive_length_rule(double value) {
+    if (!std::isfinite(value))
+        return "must be finite";
+    if (value <= 0.0)
+        return "must be > 0";
+    return is_positive_length(value) ? nullptr : "must lie in [1e-18, 1e18]";
+}
 
 // Shares of a whole lie in [0, 1].
 constexpr bool is_share(double value) {
     return value >= 0.0 && value <= 1.0;
 }
 
-const char *share_rule(double value);
-
-// The rules that the arguments of one call break.
-class Violations {
-public:
-    void add(BrokenRule rule);
-
-    // Whether further rules are only counted, by count_one(), and need not be put into words.
-    bool only_count() const { return broken_.is_full(); }
-    void count_one() { broken_.count_one(); }
-
-    // Throws Error if a rule was broken.
-    void throw_if_any(pt_result code) const;
-
-private:
-    BrokenRules broken_;
-};
+inline const char *share_rule(double value) {
+    if (!std::isfinite(value))
+        return "must be finite";
+    return is_share(value) ? nullptr : "must lie in [0, 1]";
+}
 
 // A field of a struct; if several fields enter the value, the first one and what the message adds about the others:
 // {"width", "* height"}.
@@ -123,7 +136,15 @@ private:
     static constexpr std::int32_t no_component = -1;
 
     void refuse_component(const Member &member, std::int32_t component, const std::string &value,
-                          const std::string &rule) const;
+                          const std::string &rule) const {
+        violations_.add({.subject = name_,
+                         .index = index_,
+                         .member = member.name,
+                         .component = component,
+                         .with = member.with,
+                         .value = value,
+                         .rule = rule});
+    }
 
     Violations &violations_;
     const char *name_;

@@ -13,10 +13,8 @@ namespace pt {
 
 // Structs of this library have tens of bytes. A larger size than this must be an uninitialised field; believing it
 // would mean reading beyond the struct.
-constexpr std::uint32_t max_struct_size = 65536;
-
 constexpr bool is_struct_size(std::uint32_t size) {
-    return size >= sizeof size && size <= max_struct_size;
+    return size >= sizeof size && size <= 65536;
 }
 
 inline void require_not_null(const void *pointer, const char *name) {
@@ -35,12 +33,11 @@ inline std::uint32_t struct_size_of(const void *user, const char *name, std::int
     require_not_null(user, name);
     std::uint32_t size = 0;
     std::memcpy(&size, user, sizeof size);
-    if (size < sizeof size)
+    if (!is_struct_size(size))
         throw Error(PT_ERROR_INVALID_ARGUMENT,
-                    wrong_size(name, index, size, "must be the size of the struct, which holds this field"));
-    if (size > max_struct_size)
-        throw Error(PT_ERROR_INVALID_ARGUMENT,
-                    wrong_size(name, index, size, "must be the size of the struct (<= 65536)"));
+                    wrong_size(name, index, size,
+                               std::string("must be the size of the struct") +
+                                   (size < sizeof size ? ", which holds this field" : " (<= 65536)")));
     return size;
 }
 

@@ -98,14 +98,14 @@ void FilmStream::add(std::span<const std::byte> bytes) {
 }
 
 void FilmStream::hand_on() {
-    checksum_.add(piece_);
+    digest_.add_bytes(piece_);
     receive_(piece_);
     piece_.clear();
 }
 
 void FilmStream::end() {
     hand_on();
-    const std::uint64_t value = checksum_.value();
+    const std::uint64_t value = digest_.checksum();
     receive_(std::as_bytes(std::span(&value, 1)));
 }
 

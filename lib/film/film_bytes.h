@@ -69,7 +69,7 @@ private:
     void hand_on();
 
     Receive receive_;
-    RunningChecksum checksum_;
+    Digest digest_;
     std::vector<std::byte> piece_;
 };
 
