@@ -2,7 +2,7 @@
 #include "lib/kernel/accuracy.h"
 
 #include "lib/base/error.h"
-#include "lib/kernel/device_constants.h"
+#include "lib/kernel/specialised_pipeline.h"
 #include "lib/vulkan/buffer.h"
 #include "lib/vulkan/compute_pipeline.h"
 #include "shaders/specialization.h"
@@ -118,20 +118,19 @@ double error_in_ulp(float value, double exact) {
 
 std::vector<float> evaluate(vulkan::Device &device, std::span<const std::uint32_t> spirv,
                             std::span<const float> arguments) {
-    constexpr std::array bindings = {vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eStorageBuffer};
+    constexpr vulkan::Binding bindings[] = {{0}, {1}};
     static_assert(arguments_per_function % gpu::WORKGROUP_SIZE == 0);
     std::vector<std::uint32_t> words(arguments.size() + guard_words, unwritten);
 
     std::array<std::uint32_t, gpu::CONSTANT_COUNT> constants{};
-    set_device_constants(constants, device.policy()); // as it renders
+    set_device_constants(constants, device); // as it renders
     const vulkan::ComputePipeline pipeline(device, spirv, bindings, sizeof arguments_per_function, constants);
     vulkan::Buffer input(device, vulkan::BufferUse::Storage, arguments.size_bytes(), "arguments of functions");
     vulkan::Buffer output(device, vulkan::BufferUse::Storage, words.size() * sizeof(std::uint32_t),
                           "values of functions");
     input.upload(std::as_bytes(arguments), 0);
     output.upload(std::as_bytes(std::span(words)), 0);
-    const std::array buffers = {&input, &output};
-    const vulkan::DescriptorSet set = pipeline.bind(buffers);
+    const vulkan::DescriptorSet set = pipeline.bind(std::array<vulkan::BufferRange, 2>{input, output});
     device.submit([&](const vk::raii::CommandBuffer &commands) {
         pipeline.dispatch(commands, set, std::as_bytes(std::span(&arguments_per_function, 1)),
                           static_cast<std::uint32_t>(arguments.size() / gpu::WORKGROUP_SIZE));

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 
 namespace pt {
 
@@ -26,8 +25,7 @@ BufferWriter::BufferWriter(vulkan::Device &device, ResolvePipelines &pipelines, 
     pipelines_(pipelines),
     film_(film),
     limits_(limits),
-    findings_(device, vulkan::BufferUse::Storage, findings_bytes, "findings"),
-    host_findings_(device, vulkan::BufferUse::HostRead, findings_bytes, "findings") {}
+    results_(device, 0, "findings") {}
 
 BufferWriter::~BufferWriter() {
     try {
@@ -43,17 +41,12 @@ void BufferWriter::write(const ImageQuery &query, const BufferTarget &target) {
     const std::vector<Piece> pieces = this->pieces(query, target);
     sets_.clear();
     for (const Piece &piece : pieces)
-        for (const DeviceFilm::Strip &strip : film_.strips()) {
-            std::array<vulkan::BufferRange, 5> ranges;
-            ranges[gpu::BINDING_FILM] = vulkan::BufferRange(strip.words);
-            ranges[gpu::BINDING_RESOLVED] = piece.range;
-            ranges[gpu::BINDING_FINDINGS] = vulkan::BufferRange(findings_);
-            sets_.push_back(pipeline.bind(ranges));
-        }
+        for (const DeviceFilm::Strip &strip : film_.strips())
+            sets_.push_back(
+                pipeline.bind(std::array<vulkan::BufferRange, 3>{strip.words, piece.range, results_.findings()}));
     gpu::ResolveConstants constants = resolve_constants(query, film_);
     const auto record = [&](const vk::raii::CommandBuffer &commands) {
-        findings_.clear(commands, 0, findings_bytes);
-        vulkan::barrier_between_commands(commands);
+        results_.clear(commands);
         std::span<const vulkan::DescriptorSet> sets = sets_;
         for (const Piece &piece : pieces) {
             constants.first_pixel = piece.pixels.y * film_.width() + piece.pixels.x;
@@ -64,8 +57,7 @@ void BufferWriter::write(const ImageQuery &query, const BufferTarget &target) {
             resolve(commands, pipeline, film_, sets.first(film_.strips().size()), constants);
             sets = sets.subspan(film_.strips().size());
         }
-        vulkan::barrier_between_commands(commands);
-        host_findings_.copy(commands, findings_, findings_bytes);
+        results_.hand_over(commands, 0);
     };
     under_way_ = device_.start(record, target.semaphores);
     if (!target.semaphores.signal)
@@ -108,9 +100,7 @@ void BufferWriter::finish() {
     const vulkan::Device::Ticket ticket = *under_way_;
     under_way_.reset();
     device_.finish(ticket);
-    std::uint32_t lost_pixels = 0;
-    std::memcpy(&lost_pixels, host_findings_.host_bytes().data(), sizeof lost_pixels);
-    require_no_loss(lost_pixels);
+    require_no_loss(results_.lost_pixels());
 }
 
 } // namespace pt

@@ -2,6 +2,7 @@
 // host. Owned by RenderDevice; bound to its film.
 #pragma once
 
+#include "lib/kernel/pixel_results.h"
 #include "lib/kernel/resolve.h"
 #include "lib/vulkan/buffer.h"
 
@@ -57,8 +58,7 @@ private:
     ResolvePipelines &pipelines_;
     DeviceFilm &film_;
     PieceLimits limits_;
-    vulkan::Buffer findings_;
-    vulkan::Buffer host_findings_;
+    PixelResults results_;                    // of pixels only how many were lost
     std::vector<vulkan::DescriptorSet> sets_; // of the work under way: those of each strip, piece by piece
     std::optional<vulkan::Device::Ticket> under_way_;
 };

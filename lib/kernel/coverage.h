@@ -4,17 +4,13 @@
 
 #include "lib/film/film_header.h"
 #include "lib/film/tile_samples.h"
-#include "lib/kernel/gpu_scene.h"
 #include "lib/kernel/scene_kernel.h"
 #include "lib/scene/render_settings.h"
 #include "lib/vulkan/buffer.h"
-#include "lib/vulkan/compute_pipeline.h"
-#include "lib/vulkan/device.h"
 #include "shaders/gpu_layout.h"
 
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <span>
 
@@ -31,14 +27,11 @@ public:
     // Both arguments must outlive the object.
     Coverage(vulkan::Device &device, std::span<const std::uint32_t> code);
 
-    // Takes over a scene, unless it has that one already; see SceneKernel::show().
-    void show(const std::shared_ptr<const GpuScene> &scene, const vulkan::Buffer *tree);
-
-    // Calls receive(counts) for consecutive pieces of the pixels, row by row, of the scene that is shown.
-    // tests_per_submission: how many tests of rays against surfaces one submission should take. Throws
-    // PT_ERROR_INTERNAL if a driver lost work.
+    // Calls receive(counts) for consecutive pieces of the pixels, row by row. tests_per_submission: how many tests of
+    // rays against surfaces one submission should take. Throws PT_ERROR_SHADER if the driver refuses the kernel,
+    // PT_ERROR_INTERNAL if it lost work.
     using Receive = std::function<void(std::span<const std::uint32_t>)>;
-    void read(const CoverageQuery &query, double tests_per_submission, const Receive &receive);
+    void read(const BoundScene &bound, const CoverageQuery &query, double tests_per_submission, const Receive &receive);
 
 private:
     // The buffers that one piece needs.
@@ -47,19 +40,23 @@ private:
         vulkan::Buffer host;    // the same
         vulkan::Buffer points;
         vulkan::Buffer tile_ranges;
+    };
+
+    // What is asked for, and of what.
+    struct Look {
+        const Features &features;
+        const CoverageQuery &query;
+        double rays; // of a submission
         vulkan::DescriptorSet set;
     };
 
-    Buffers &buffers(std::uint64_t pixels, std::size_t tiles);
-    std::uint64_t samples_in_dispatch(double affordable) const;
-    void count(const CoverageQuery &query, gpu::CoverageConstants constants, double tests_per_submission,
-               Buffers &buffers);
-    void take(const CoverageQuery &query, const gpu::CoverageConstants &constants, Buffers &buffers);
+    void make_room(std::uint64_t pixels, std::size_t tiles);
+    std::uint64_t samples_in_dispatch(const Features &features, double affordable) const;
+    void count(const Look &look, gpu::CoverageConstants constants);
+    void take(const Look &look, const gpu::CoverageConstants &constants);
 
     vulkan::Device &device_;
     SceneKernel kernel_;
-    gpu::CoverageConstants constants_{}; // of the scene that is shown
-    Features features_{};                // likewise
     std::optional<Buffers> buffers_;
 };
 

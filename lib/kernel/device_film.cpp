@@ -76,7 +76,7 @@ DeviceFilm::DeviceFilm(vulkan::Device &device, std::uint32_t width, std::uint32_
 }
 
 bool DeviceFilm::is_host_memory() const {
-    return std::ranges::all_of(strips_, [](const Strip &strip) { return strip.words.host_bytes().data() != nullptr; });
+    return std::ranges::all_of(strips_, [](const Strip &strip) { return strip.words.host_memory().data() != nullptr; });
 }
 
 void DeviceFilm::clear(const vk::raii::CommandBuffer &commands) const {
@@ -142,7 +142,7 @@ void DeviceFilm::NewSums::write(std::uint32_t first_pixel, const PixelSums &sums
 void DeviceFilm::NewSums::replace() {
     device_.submit([&](const vk::raii::CommandBuffer &commands) {
         for (std::size_t i = 0; i < words_.size(); ++i)
-            film_.strips_[i].words.copy(commands, words_[i], words_[i].size());
+            film_.strips_[i].words.copy(commands, words_[i], vk::BufferCopy{.size = words_[i].size()});
     });
 }
 

@@ -78,14 +78,8 @@ TileErrors errors_of(const gpu::TileErrors &found, std::uint32_t width, std::uin
 } // namespace
 
 vulkan::ComputePipeline estimate_pipeline(vulkan::Device &device, std::span<const std::uint32_t> code) {
-    constexpr std::array bindings = {vulkan::no_binding,
-                                     vulkan::no_binding,
-                                     vk::DescriptorType::eStorageBuffer,
-                                     vk::DescriptorType::eStorageBuffer,
-                                     vk::DescriptorType::eStorageBuffer,
-                                     vk::DescriptorType::eStorageBuffer};
-    static_assert(gpu::BINDING_FILM == 2 && gpu::BINDING_RESOLVED == 3 && gpu::BINDING_TILE_COUNTS == 4 &&
-                  gpu::BINDING_TILE_SQUARES == 5);
+    constexpr vulkan::Binding bindings[] = {
+        {gpu::BINDING_FILM}, {gpu::BINDING_RESOLVED}, {gpu::BINDING_TILE_COUNTS}, {gpu::BINDING_TILE_SQUARES}};
     return {device, code, bindings, sizeof(gpu::EstimateConstants), {}};
 }
 
@@ -97,11 +91,9 @@ ErrorReader::ErrorReader(vulkan::Device &device, const vulkan::ComputePipeline &
             std::size_t{groups_in_row(grid_of(0))} * grid_of(0).rows() * sizeof(gpu::TileErrors), "error of an image"),
     tile_counts_(device, vulkan::BufferUse::HostWritten, film.grid().count() * sizeof(gpu::uvec2), "samples of tiles"),
     tile_squares_(device, vulkan::BufferUse::HostRead, film.grid().count() * sizeof(glm::vec2), "errors of tiles") {
-    for (DeviceFilm::Strip &strip : film.strips()) {
-        const std::array<vulkan::Buffer *, 6> buffers = {nullptr,  nullptr,       &strip.words,
-                                                         &errors_, &tile_counts_, &tile_squares_};
-        sets_.push_back(estimate.bind(buffers));
-    }
+    for (const DeviceFilm::Strip &strip : film.strips())
+        sets_.push_back(
+            estimate.bind(std::array<vulkan::BufferRange, 4>{strip.words, errors_, tile_counts_, tile_squares_}));
 }
 
 // All strips have the size of the first, except the last one, which may be smaller.
@@ -125,7 +117,7 @@ void ErrorReader::list_counts(const TileSamples &samples) {
 void ErrorReader::collect_tiles(const ErrorQuery &query) const {
     const RelativeUnits units(query.unit);
     const double factor = 1.0 / (static_cast<double>(units.scale) * static_cast<double>(units.scale) * units.factor);
-    const auto *const of_tiles = reinterpret_cast<const glm::vec2 *>(tile_squares_.host_bytes().data());
+    const auto *const of_tiles = reinterpret_cast<const glm::vec2 *>(tile_squares_.host_memory().data());
     for (std::size_t tile = 0; tile < query.by_tile.size(); ++tile)
         query.by_tile[tile] =
             static_cast<double>(of_tiles[tile].x) * factor + static_cast<double>(of_tiles[tile].y) / units.factor;
@@ -172,7 +164,7 @@ void ErrorReader::record_strip(const vk::raii::CommandBuffer &commands, std::siz
 void ErrorReader::collect_strip(std::size_t strip, const ErrorQuery &query, const Receive &receive) const {
     const RelativeUnits units(query.unit);
     const TileGrid grid = grid_of(strip);
-    const auto *found = reinterpret_cast<const gpu::TileErrors *>(errors_.host_bytes().data());
+    const auto *found = reinterpret_cast<const gpu::TileErrors *>(errors_.host_memory().data());
     for (std::uint32_t y = 0; y < grid.height; y += gpu::TILE_SIZE)
         for (std::uint32_t x = 0; x < grid.width; x += gpu::ESTIMATE_WORKGROUP_SIZE)
             receive(errors_of(*found++, std::min(gpu::ESTIMATE_WORKGROUP_SIZE, grid.width - x),

@@ -21,9 +21,7 @@ std::uint64_t words_bytes(std::uint32_t pixel_count) {
 } // namespace
 
 vulkan::ComputePipeline add_pipeline(vulkan::Device &device, std::span<const std::uint32_t> code) {
-    constexpr std::array bindings = {vulkan::no_binding, vulkan::no_binding, vk::DescriptorType::eStorageBuffer,
-                                     vk::DescriptorType::eStorageBuffer};
-    static_assert(gpu::BINDING_FILM == 2 && gpu::BINDING_ADDED == 3);
+    constexpr vulkan::Binding bindings[] = {{gpu::BINDING_FILM}, {gpu::BINDING_ADDED}};
     return {device, code, bindings, sizeof(gpu::AddConstants), {}};
 }
 
@@ -32,15 +30,13 @@ FilmSum::FilmSum(const std::vector<Source> &sources, const vulkan::ComputePipeli
     add_(add),
     film_(home_.device, home_.film.width(), row_count, max_strip_pixels(home_.device.limits())),
     piece_pixels_(std::min(film_.pixel_count(), most_piece_pixels)) {
-    const auto bind = [&](vulkan::Buffer &words) {
+    const auto bind = [&](const vulkan::Buffer &words) {
         std::vector<vulkan::DescriptorSet> sets;
-        for (DeviceFilm::Strip &strip : film_.strips()) {
-            const std::array<vulkan::Buffer *, 4> buffers = {nullptr, nullptr, &strip.words, &words};
-            sets.push_back(add_.bind(buffers));
-        }
+        for (const DeviceFilm::Strip &strip : film_.strips())
+            sets.push_back(add_.bind(std::array<vulkan::BufferRange, 2>{strip.words, words}));
         return sets;
     };
-    for (DeviceFilm::Strip &strip : home_.film.strips())
+    for (const DeviceFilm::Strip &strip : home_.film.strips())
         own_sets_.push_back(bind(strip.words));
     for (const Source &source : std::span(sources).subspan(1)) {
         Distant &distant = others_.emplace_back(Distant{source, {}});
@@ -109,7 +105,7 @@ void FilmSum::add_others(vulkan::SubmissionsUnderWay &at_home, std::uint32_t fir
             fetch.under_way.finish_first();
             if (at_home.count() == slots_.size()) // the slot is free afterwards
                 at_home.finish_first();
-            stream_copy(fetch.slot(index).host_bytes().first(words_bytes(pixels.count)),
+            stream_copy(fetch.slot(index).host_memory().first(words_bytes(pixels.count)),
                         slots_[slot].host_memory().data());
             at_home.start([&](const vk::raii::CommandBuffer &commands) {
                 add(commands, first_pixel, wanted, {pixels, pixels.count, slot_sets_[slot]});

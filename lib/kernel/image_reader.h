@@ -2,8 +2,8 @@
 // the bus. Owned by RenderDevice; bound to its film.
 #pragma once
 
+#include "lib/kernel/pixel_results.h"
 #include "lib/kernel/resolve.h"
-#include "lib/vulkan/buffer.h"
 #include "lib/vulkan/submissions_under_way.h"
 
 #include <algorithm>
@@ -35,9 +35,7 @@ public:
 private:
     // Memory in which the device resolves a piece and the host then reads it.
     struct Slot {
-        vulkan::Buffer resolved;
-        vulkan::Buffer findings;
-        vulkan::Buffer host;                     // findings, then what has been resolved
+        PixelResults results;
         std::vector<vulkan::DescriptorSet> sets; // one per strip of the film
     };
 
@@ -53,9 +51,8 @@ private:
     };
 
     Slot &slot(std::size_t index, std::uint64_t bytes, std::uint32_t format);
-    gpu::ResolveConstants constants_of(const ImageQuery &query, const Pieces &pieces, std::uint64_t piece) const;
-    void record(const vk::raii::CommandBuffer &commands, const Slot &slot, std::uint32_t format,
-                const gpu::ResolveConstants &constants, const vulkan::Buffer &to, std::uint64_t offset) const;
+    void record(const vk::raii::CommandBuffer &commands, const Slot &slot, const ImageQuery &query,
+                const Pieces &pieces, std::uint64_t piece) const;
 
     vulkan::Device &device_;
     ResolvePipelines &pipelines_;

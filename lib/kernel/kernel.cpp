@@ -67,7 +67,7 @@ std::vector<PixelRange> pixels_of_tiles(const TileGrid &grid, std::span<const st
 
 } // namespace
 
-Kernel::Kernel(vulkan::Device &device, TracePipelines &pipelines, DeviceFilm &film, vulkan::Buffer *tree,
+Kernel::Kernel(vulkan::Device &device, TracePipelines &pipelines, DeviceFilm &film, const vulkan::Buffer *tree,
                std::shared_ptr<const GpuScene> scene, const RenderSettings &settings) :
     device_(device),
     pipelines_(pipelines),
@@ -94,26 +94,12 @@ void Kernel::bind_film(const vulkan::ComputePipeline &trace) {
     if (!sets_.empty())
         return;
     std::vector<vulkan::DescriptorSet> sets; // none is kept if one fails
-    for (const DeviceFilm::Strip &strip : film_.strips())
-        sets.push_back(bound(trace, strip));
+    for (const DeviceFilm::Strip &strip : film_.strips()) {
+        std::vector<vulkan::BufferRange> ranges = scene_ranges(*gpu_scene_, scene_, tree_);
+        ranges.insert(ranges.end(), {strip.words, points_, tile_lists_.buffer()});
+        sets.push_back(trace.bind(ranges));
+    }
     sets_ = std::move(sets);
-}
-
-// A kernel for scenes without a tree does not read one, but it still has the binding.
-vulkan::DescriptorSet Kernel::bound(const vulkan::ComputePipeline &trace, const DeviceFilm::Strip &strip) const {
-    const vulkan::Buffer &tree = tree_ ? *tree_ : scene_;
-    const std::uint64_t node_bytes = tree_ ? gpu_scene_->tree->node_words().size_bytes() : vulkan::texel_bytes;
-    const std::uint64_t first_sphere = tree_ ? node_bytes : 0;
-    const std::uint64_t sphere_bytes = tree_ ? gpu_scene_->tree->sphere_words().size_bytes() : vulkan::texel_bytes;
-    const std::array ranges = {vulkan::BufferRange(scene_),
-                               vulkan::BufferRange(scene_),
-                               vulkan::BufferRange(strip.words),
-                               vulkan::BufferRange(),
-                               vulkan::BufferRange(points_),
-                               vulkan::BufferRange(tree.handle(), 0, node_bytes),
-                               vulkan::BufferRange(tree.handle(), first_sphere, sphere_bytes),
-                               vulkan::BufferRange(tile_lists_.buffer())};
-    return trace.bind(ranges);
 }
 
 bool Kernel::can_show(const GpuScene &scene) const {
@@ -221,24 +207,24 @@ void Kernel::dispatch(const vk::raii::CommandBuffer &commands, const vulkan::Com
     }
 }
 
-// A scene of usual size is sent along with the commands; a larger one has a transfer of its own. Only while no work is
-// under way, or if nothing has changed.
 void Kernel::upload_scene() {
-    if (scene_is_old_ && !scene_fits_commands()) {
+    if (scene_is_old_)
         scene_.upload(std::as_bytes(std::span(gpu_scene_->words)), 0);
-        scene_is_old_ = false;
-    }
+    scene_is_old_ = false;
 }
 
-bool Kernel::scene_fits_commands() const {
-    return gpu_scene_->words.size() * sizeof(glm::vec4) <= vulkan::max_recorded_bytes;
+BoundScene Kernel::bound_scene() {
+    upload_scene();
+    return {*gpu_scene_, scene_ranges(*gpu_scene_, scene_, tree_)};
 }
 
 // If the split moves, all samples so far are on one side of it.
 vulkan::Device::Ticket Kernel::start(const TileSlice &slice, bool on_cleared_film, const Behind &behind) {
     const std::vector<Batch> batches = slice.takes ? next_batches(slice) : std::vector<Batch>();
     upload_points(batches);
-    upload_scene();
+    // A scene of usual size is sent along with the commands; a larger one has a transfer of its own.
+    if (gpu_scene_->words.size() * sizeof(glm::vec4) > vulkan::max_recorded_bytes)
+        upload_scene();
     const vulkan::ComputePipeline &fold = pipelines_.fold();
     bind_film(fold);
     const vulkan::ComputePipeline *const trace =

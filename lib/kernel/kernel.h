@@ -6,6 +6,7 @@
 #include "lib/kernel/gpu_scene.h"
 #include "lib/kernel/point_sequence.h"
 #include "lib/kernel/scene_features.h"
+#include "lib/kernel/scene_kernel.h"
 #include "lib/kernel/tile_lists.h"
 #include "lib/kernel/tile_slice.h"
 #include "lib/kernel/trace_pipelines.h"
@@ -27,7 +28,7 @@ class Kernel {
 public:
     // device, pipelines, film and tree must outlive the kernel. tree: the buffer of the scene's tree, NULL if it has
     // none. Throws PT_ERROR_UNSUPPORTED for scenes beyond the device.
-    Kernel(vulkan::Device &device, TracePipelines &pipelines, DeviceFilm &film, vulkan::Buffer *tree,
+    Kernel(vulkan::Device &device, TracePipelines &pipelines, DeviceFilm &film, const vulkan::Buffer *tree,
            std::shared_ptr<const GpuScene> scene, const RenderSettings &settings);
 
     const Features &features() const { return features_; }
@@ -37,6 +38,9 @@ public:
     const GpuScene &scene() const { return *gpu_scene_; }
     bool can_show(const GpuScene &scene) const;
     void show(std::shared_ptr<const GpuScene> scene, const RenderSettings &settings);
+
+    // The scene in its buffers, for other kernels. Only while no work is under way.
+    BoundScene bound_scene();
 
     // Builds the pipelines that this kernel runs, in its own cache or in another one of the same device. Throws
     // PT_ERROR_SHADER if the driver refuses one.
@@ -74,10 +78,8 @@ private:
 
     std::vector<Batch> next_batches(const TileSlice &slice);
     void upload_points(const std::vector<Batch> &batches);
-    void bind_film(const vulkan::ComputePipeline &trace);
-    vulkan::DescriptorSet bound(const vulkan::ComputePipeline &trace, const DeviceFilm::Strip &strip) const;
     void upload_scene();
-    bool scene_fits_commands() const;
+    void bind_film(const vulkan::ComputePipeline &trace);
     void dispatch(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline,
                   std::span<const std::uint32_t> tiles, gpu::FrameConstants frame, std::uint32_t table_offset) const;
     std::uint32_t sharers_of(std::size_t tile_count, std::uint32_t sample_count) const;
@@ -100,8 +102,8 @@ private:
     std::uint32_t max_dispatch_samples_; // per pixel
     bool overlap_;                       // dispatches may add to the film at the same time
     vulkan::Buffer scene_;
-    vulkan::Buffer *tree_;  // NULL if there is none
-    vulkan::Buffer points_; // tables of the slices under way
+    const vulkan::Buffer *tree_; // NULL if there is none
+    vulkan::Buffer points_;      // tables of the slices under way
     TileLists tile_lists_;
     std::vector<vulkan::DescriptorSet> sets_; // one per strip of the film
     std::uint32_t next_table_ = 0;            // in points_, which is used in turn

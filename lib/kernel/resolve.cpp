@@ -8,9 +8,7 @@
 namespace pt {
 
 const vulkan::ComputePipeline &ResolvePipelines::of(std::uint32_t format) {
-    constexpr std::array bindings = {vulkan::no_binding, vulkan::no_binding, vk::DescriptorType::eStorageBuffer,
-                                     vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eStorageBuffer};
-    static_assert(gpu::BINDING_FILM == 2 && gpu::BINDING_RESOLVED == 3 && gpu::BINDING_FINDINGS == 4);
+    constexpr vulkan::Binding bindings[] = {{gpu::BINDING_FILM}, {gpu::BINDING_RESOLVED}, {gpu::BINDING_FINDINGS}};
     std::optional<vulkan::ComputePipeline> &pipeline = pipelines_.at(format);
     if (!pipeline)
         pipeline.emplace(device_, code_, bindings, sizeof(gpu::ResolveConstants), std::array{format});
@@ -32,6 +30,7 @@ gpu::ResolveConstants resolve_constants(const ImageQuery &query, const DeviceFil
 
 void resolve(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline, DeviceFilm &film,
              std::span<const vulkan::DescriptorSet> sets, gpu::ResolveConstants constants) {
+    vulkan::barrier_between_commands(commands);
     for (std::size_t i = 0; i < sets.size(); ++i) {
         const DeviceFilm::Strip &strip = film.strips()[i];
         constants.strip_first_pixel = strip.first_pixel;
@@ -39,6 +38,7 @@ void resolve(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipel
         const std::uint32_t groups = (constants.pixel_count + gpu::WORKGROUP_SIZE - 1) / gpu::WORKGROUP_SIZE;
         pipeline.dispatch(commands, sets[i], std::as_bytes(std::span(&constants, 1)), groups);
     }
+    vulkan::barrier_between_commands(commands);
 }
 
 void require_no_loss(std::uint32_t lost_pixels) {

@@ -26,9 +26,6 @@ struct ImageQuery {
     std::uint32_t format = PT_FORMAT_RGB32F; // PT_FORMAT_*
 };
 
-// What the kernel counts: the pixels whose samples a driver lost.
-inline constexpr std::uint64_t findings_bytes = sizeof(std::uint32_t);
-
 class ResolvePipelines {
 public:
     // Both arguments must outlive the object.
@@ -47,7 +44,8 @@ private:
 // All constants, except for the strip and the place of the image.
 gpu::ResolveConstants resolve_constants(const ImageQuery &query, const DeviceFilm &film);
 
-// Records commands that resolve the pixels named by the constants. sets: the buffers of each strip of the film.
+// Records commands that resolve the pixels named by the constants, with barriers before and behind. sets: the buffers
+// of each strip of the film.
 void resolve(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline, DeviceFilm &film,
              std::span<const vulkan::DescriptorSet> sets, gpu::ResolveConstants constants);
 

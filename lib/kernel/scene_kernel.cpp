@@ -1,55 +1,80 @@
 #include "lib/kernel/scene_kernel.h"
 
-#include "lib/kernel/specialised_code.h"
+#include "lib/base/error.h"
+#include "lib/kernel/specialised_pipeline.h"
 #include "shaders/gpu_layout.h"
 
 #include <algorithm>
+#include <string>
+#include <utility>
 
 namespace pt {
 
-// The camera and the places of surfaces may change for nothing but new words.
-void SceneKernel::show(const std::shared_ptr<const GpuScene> &scene, const vulkan::Buffer *tree,
-                       std::span<const std::uint32_t> constants) {
-    scene_.reset();
-    if (!pipeline_ || !std::ranges::equal(constants_, constants))
-        build(constants);
-    const std::uint64_t bytes =
-        std::max<std::uint64_t>(scene->words.size(), gpu::UNIFORM_SCENE_WORDS) * sizeof(glm::vec4);
-    if (!words_ || words_->size() < bytes) {
-        words_.reset();
-        words_.emplace(device_, vulkan::BufferUse::UniformOrStorage, bytes, "scene that is looked at");
-    }
-    words_->upload(std::as_bytes(std::span(scene->words)), 0);
-    tree_nodes_ = {words_->handle(), 0, vulkan::texel_bytes};
-    tree_spheres_ = tree_nodes_;
-    if (tree) {
-        const std::uint64_t node_bytes = scene->tree->node_words().size_bytes();
-        tree_nodes_ = {tree->handle(), 0, node_bytes};
-        tree_spheres_ = {tree->handle(), node_bytes, scene->tree->sphere_words().size_bytes()};
-    }
-    tests_per_ray_ = surface_tests_per_ray(scene->features, scene->tree.get());
-    scene_ = scene;
+std::vector<vulkan::Binding> with_scene_bindings(std::initializer_list<vulkan::Binding> further) {
+    std::vector<vulkan::Binding> bindings = {{gpu::BINDING_SCENE_UNIFORM, vk::DescriptorType::eUniformBuffer},
+                                             {gpu::BINDING_SCENE_STORAGE},
+                                             {gpu::BINDING_TREE_NODES, vk::DescriptorType::eUniformTexelBuffer},
+                                             {gpu::BINDING_TREE_SPHERES, vk::DescriptorType::eUniformTexelBuffer}};
+    bindings.insert(bindings.end(), further);
+    return bindings;
 }
 
-void SceneKernel::build(std::span<const std::uint32_t> constants) {
+std::vector<vulkan::BufferRange> scene_ranges(const GpuScene &scene, const vulkan::Buffer &words,
+                                              const vulkan::Buffer *tree) {
+    if (!tree)
+        return {words, words, {words.handle(), 0, vulkan::texel_bytes}, {words.handle(), 0, vulkan::texel_bytes}};
+    const std::uint64_t node_bytes = scene.tree->node_words().size_bytes();
+    return {words,
+            words,
+            {tree->handle(), 0, node_bytes},
+            {tree->handle(), node_bytes, scene.tree->sphere_words().size_bytes()}};
+}
+
+SceneKernel::SceneKernel(vulkan::Device &device, std::span<const std::uint32_t> code,
+                         std::vector<vulkan::Binding> bindings, std::uint32_t push_constant_bytes) :
+    device_(device),
+    code_(code),
+    bindings_(std::move(bindings)),
+    push_constant_bytes_(push_constant_bytes) {}
+
+// The camera and the places of surfaces may change for nothing but new words.
+void SceneKernel::fit(std::span<const std::uint32_t> constants) {
+    if (pipeline_ && std::ranges::equal(constants_, constants))
+        return;
     pipeline_.reset();
-    const std::vector<std::uint32_t> code = specialised_code(code_.spirv, constants);
-    if (code.empty())
-        pipeline_.emplace(device_, code_.spirv, code_.bindings, code_.push_constant_bytes, constants);
-    else
-        pipeline_.emplace(device_, code, code_.bindings, code_.push_constant_bytes, std::span<const std::uint32_t>{});
+    pipeline_.emplace(specialised_pipeline(device_, code_, bindings_, push_constant_bytes_, constants));
     constants_.assign(constants.begin(), constants.end());
 }
 
-void SceneKernel::bind_scene(std::span<vulkan::BufferRange> ranges) const {
-    ranges[gpu::BINDING_SCENE_UNIFORM] = vulkan::BufferRange(*words_);
-    ranges[gpu::BINDING_SCENE_STORAGE] = vulkan::BufferRange(*words_);
-    ranges[gpu::BINDING_TREE_NODES] = tree_nodes_;
-    ranges[gpu::BINDING_TREE_SPHERES] = tree_spheres_;
+vulkan::DescriptorSet SceneKernel::bind(const BoundScene &bound,
+                                        std::initializer_list<vulkan::BufferRange> ranges) const {
+    std::vector<vulkan::BufferRange> all = bound.ranges;
+    all.insert(all.end(), ranges);
+    return pipeline_->bind(all);
 }
 
-double SceneKernel::rays_for(double tests) const {
-    return std::clamp(tests / tests_per_ray_, 1.0, 0x1p48);
+void SceneKernel::dispatch(const vk::raii::CommandBuffer &commands, const vulkan::DescriptorSet &set,
+                           std::span<const std::byte> push_constants, std::uint64_t invocations) const {
+    const std::uint64_t groups = (invocations + gpu::WORKGROUP_SIZE - 1) / gpu::WORKGROUP_SIZE;
+    pipeline_->dispatch(commands, set, push_constants, static_cast<std::uint32_t>(groups));
+}
+
+std::uint64_t SceneKernel::pixels_at_once(std::uint64_t pixels, std::uint32_t rays_of_pixel, double rays) const {
+    constexpr std::uint64_t most = 1U << 18; // little compared with the image in the caller's memory
+    const std::uint64_t dispatched =
+        std::uint64_t{device_.limits().max_workgroup_count} * gpu::WORKGROUP_SIZE / rays_of_pixel;
+    const std::uint64_t affordable = static_cast<std::uint64_t>(rays) / rays_of_pixel;
+    return std::min({std::max<std::uint64_t>(affordable, gpu::WORKGROUP_SIZE), dispatched, most, pixels});
+}
+
+double rays_for(double tests, const GpuScene &scene) {
+    return std::clamp(tests / surface_tests_per_ray(scene.features, scene.tree.get()), 1.0, 0x1p48);
+}
+
+void require_all_met(std::uint32_t lost_pixels) {
+    if (lost_pixels > 0)
+        throw Error(PT_ERROR_INTERNAL, "the driver stopped camera rays of " + std::to_string(lost_pixels) +
+                                           " pixels before they had met anything");
 }
 
 } // namespace pt

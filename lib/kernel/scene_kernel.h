@@ -1,60 +1,65 @@
-// A kernel that looks at the scene beside the path tracer's: fitted to the scene like that, with buffers of its own, so
-// that nothing of it is there unless it is asked for. Owned by FirstHits and by Coverage.
+// A kernel that looks at the scene beside the path tracer's, fitted to the scene like that. Owned by FirstHits and by
+// Coverage.
 #pragma once
 
 #include "lib/kernel/gpu_scene.h"
-#include "lib/vulkan/buffer.h"
 #include "lib/vulkan/compute_pipeline.h"
 #include "lib/vulkan/device.h"
 
+#include <cstddef>
 #include <cstdint>
-#include <memory>
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <vector>
 
 namespace pt {
 
+// What kernels read of a scene: the bindings, with further ones behind them, and the buffers for these. words: the
+// scene buffer; tree: that of its tree, NULL if it has none. Kernels for scenes without a tree have the bindings all
+// the same.
+std::vector<vulkan::Binding> with_scene_bindings(std::initializer_list<vulkan::Binding> further);
+std::vector<vulkan::BufferRange> scene_ranges(const GpuScene &scene, const vulkan::Buffer &words,
+                                              const vulkan::Buffer *tree);
+
+// A scene and its buffers on a device, from scene_ranges().
+struct BoundScene {
+    const GpuScene &scene;
+    std::vector<vulkan::BufferRange> ranges;
+};
+
 class SceneKernel {
 public:
-    struct Code {
-        std::span<const std::uint32_t> spirv;
-        std::span<const vk::DescriptorType>
-            bindings; // those of the scene and the tree at their numbers of gpu_layout.h
-        std::uint32_t push_constant_bytes;
-    };
+    // The device, and the code, must outlive the object. bindings: with those of the scene.
+    SceneKernel(vulkan::Device &device, std::span<const std::uint32_t> code, std::vector<vulkan::Binding> bindings,
+                std::uint32_t push_constant_bytes);
 
-    // The device, and the code that is referred to, must outlive the object.
-    SceneKernel(vulkan::Device &device, const Code &code) : device_(device), code_(code) {}
-
-    // Whether it is showing this scene.
-    bool shows(const std::shared_ptr<const GpuScene> &scene) const { return scene_.lock() == scene; }
-
-    // Takes over another scene; earlier bindings are void. tree: the buffer of the scene's tree, NULL if it has none;
-    // it must stay until the next scene. constants: the kernel's, by constant_id. Throws PT_ERROR_SHADER if the driver
+    // Fits the kernel to scenes with these features. constants: by constant_id. Throws PT_ERROR_SHADER if the driver
     // refuses the kernel.
-    void show(const std::shared_ptr<const GpuScene> &scene, const vulkan::Buffer *tree,
-              std::span<const std::uint32_t> constants);
+    void fit(std::span<const std::uint32_t> constants);
 
-    // For the scene that it shows: the pipeline, and its buffers at the bindings that they belong to.
-    const vulkan::ComputePipeline &pipeline() const { return *pipeline_; }
-    void bind_scene(std::span<vulkan::BufferRange> ranges) const;
+    // ranges: for the bindings that follow those of the scene.
+    vulkan::DescriptorSet bind(const BoundScene &bound, std::initializer_list<vulkan::BufferRange> ranges) const;
+    void dispatch(const vk::raii::CommandBuffer &commands, const vulkan::DescriptorSet &set,
+                  std::span<const std::byte> push_constants, std::uint64_t invocations) const;
 
-    // How many rays amount to this many tests of rays against surfaces; at least one.
-    double rays_for(double tests) const;
+    // How many of so many pixels one submission should look at: no more than a dispatch can, and as many as rays may be
+    // traced for their rays_of_pixel each.
+    std::uint64_t pixels_at_once(std::uint64_t pixels, std::uint32_t rays_of_pixel, double rays) const;
 
 private:
-    void build(std::span<const std::uint32_t> constants);
-
     vulkan::Device &device_;
-    Code code_;
+    std::span<const std::uint32_t> code_;
+    std::vector<vulkan::Binding> bindings_;
+    std::uint32_t push_constant_bytes_;
     std::vector<std::uint32_t> constants_; // of the pipeline
     std::optional<vulkan::ComputePipeline> pipeline_;
-    std::weak_ptr<const GpuScene> scene_; // a scene of many spheres is not kept for this
-    std::optional<vulkan::Buffer> words_; // its
-    vulkan::BufferRange tree_nodes_;
-    vulkan::BufferRange tree_spheres_;
-    double tests_per_ray_ = 1.0;
 };
+
+// How many rays amount to this many tests of rays against surfaces; at least one.
+double rays_for(double tests, const GpuScene &scene);
+
+// Throws PT_ERROR_INTERNAL if a driver stopped rays of some pixels.
+void require_all_met(std::uint32_t lost_pixels);
 
 } // namespace pt

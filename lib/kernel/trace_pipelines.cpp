@@ -1,9 +1,9 @@
 // Specialises the kernels; see trace_pipelines.h.
 #include "lib/kernel/trace_pipelines.h"
 
-#include "lib/kernel/device_constants.h"
 #include "lib/kernel/scene_blocks.h"
-#include "lib/kernel/specialised_code.h"
+#include "lib/kernel/scene_kernel.h"
+#include "lib/kernel/specialised_pipeline.h"
 #include "shaders/specialization.h"
 
 #include <algorithm>
@@ -17,16 +17,15 @@ namespace pt {
 
 namespace {
 
-constexpr std::array bindings = {vk::DescriptorType::eUniformBuffer,        vk::DescriptorType::eStorageBuffer,
-                                 vk::DescriptorType::eStorageBuffer,        vulkan::no_binding,
-                                 vk::DescriptorType::eUniformBufferDynamic, vk::DescriptorType::eUniformTexelBuffer,
-                                 vk::DescriptorType::eUniformTexelBuffer,   vk::DescriptorType::eStorageBuffer};
+std::vector<vulkan::Binding> trace_bindings() {
+    return with_scene_bindings(
+        {{gpu::BINDING_FILM}, {gpu::BINDING_POINTS, vk::DescriptorType::eUniformBufferDynamic}, {gpu::BINDING_TILES}});
+}
 
 std::vector<std::uint32_t> constants_of_features(const vulkan::Device &device, const Features &features) {
     const auto constants = specialization_constants(features);
     std::vector<std::uint32_t> result(constants.begin(), constants.end());
-    result[gpu::ID_POINT_BLOCKS] = device.limits().max_uniform_range / std::uint32_t{sizeof(glm::uvec4)};
-    set_device_constants(result, device.policy());
+    set_device_constants(result, device);
     result[gpu::ID_WALK_TRIPS] = features[gpu::ID_TREE] ? device.policy().walk_trips : 0;
     const bool fits = SceneBlocks(features).word_count <= gpu::UNIFORM_SCENE_WORDS;
     result[gpu::ID_UNIFORM_READS] = device.policy().compiles_for_cpu && fits ? 1 : 0;
@@ -53,11 +52,8 @@ TracePipelines::TracePipelines(vulkan::Device &device, KernelCode code) :
 const vulkan::ComputePipeline &TracePipelines::build(std::vector<std::uint32_t> constants) {
     using Clock = std::chrono::steady_clock;
     const Clock::time_point start = Clock::now();
-    const std::vector<std::uint32_t> code = specialised_code(code_.pathtrace, constants);
     vulkan::ComputePipeline pipeline =
-        code.empty()
-            ? vulkan::ComputePipeline(device_, code_.pathtrace, bindings, sizeof(gpu::FrameConstants), constants)
-            : vulkan::ComputePipeline(device_, code, bindings, sizeof(gpu::FrameConstants), {});
+        specialised_pipeline(device_, code_.pathtrace, trace_bindings(), sizeof(gpu::FrameConstants), constants);
     device_.log().info([&] {
         const auto milliseconds = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - start).count();
         const bool own = constants[gpu::ID_SCENE_SOURCE] == gpu::SCENE_IN_CONSTANTS;
@@ -114,7 +110,8 @@ const vulkan::ComputePipeline &TracePipelines::trace(const Features &features, s
 
 const vulkan::ComputePipeline &TracePipelines::fold() {
     if (!fold_)
-        fold_.emplace(device_, code_.fold, bindings, sizeof(gpu::FrameConstants), std::span<const std::uint32_t>{});
+        fold_.emplace(device_, code_.fold, trace_bindings(), sizeof(gpu::FrameConstants),
+                      std::span<const std::uint32_t>{});
     return *fold_;
 }
 

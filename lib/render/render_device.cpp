@@ -187,15 +187,13 @@ BufferWriter &RenderDevice::buffer_writer() {
     return *buffer_writer_;
 }
 
-// The path tracer's kernel is prepared as well: it decides whether the scene is beyond the device, and the tree is
-// uploaded for both.
+// The path tracer's kernel is prepared as well: it decides whether the scene is beyond the device, and has the buffers.
 void RenderDevice::read_first_hits(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings,
                                    const FirstHitQuery &query, const FirstHits::Receive &receive) {
     prepare(scene, settings);
     if (!first_hits_)
         first_hits_.emplace(device_, code_.first_hit);
-    first_hits_->show(scene, tree_buffer_ ? &*tree_buffer_ : nullptr);
-    first_hits_->read(query, target_seconds_ * tests_per_second_, receive);
+    first_hits_->read(kernel_->bound_scene(), query, target_seconds_ * tests_per_second_, receive);
 }
 
 void RenderDevice::read_coverage(const std::shared_ptr<const GpuScene> &scene, const CoverageQuery &query,
@@ -203,8 +201,7 @@ void RenderDevice::read_coverage(const std::shared_ptr<const GpuScene> &scene, c
     prepare(scene, query.settings);
     if (!coverage_)
         coverage_.emplace(device_, code_.coverage);
-    coverage_->show(scene, tree_buffer_ ? &*tree_buffer_ : nullptr);
-    coverage_->read(query, target_seconds_ * tests_per_second_, receive);
+    coverage_->read(kernel_->bound_scene(), query, target_seconds_ * tests_per_second_, receive);
 }
 
 ResolvePipelines &RenderDevice::resolve_pipelines() {

@@ -21,7 +21,7 @@
 #include "lib/scene/scene.h"
 #include "lib/vulkan/caller_vulkan.h"
 #include "lib/vulkan/instance.h"
-#include "lib/vulkan/kept_kernels.h"
+#include "lib/vulkan/pipeline_cache.h"
 
 #include <pt/accuracy.h>
 #include <pt/devices.h>

@@ -203,23 +203,8 @@ void Buffer::clear(const vk::raii::CommandBuffer &commands, std::uint64_t offset
     commands.fillBuffer(handle(), offset, bytes, 0);
 }
 
-std::span<const std::byte> Buffer::host_bytes() const {
+std::span<std::byte> Buffer::host_memory() const {
     return {state_->allocation.mapped, state_->bytes};
-}
-
-std::span<std::byte> Buffer::host_memory() {
-    return {state_->allocation.mapped, state_->bytes};
-}
-
-void Buffer::copy(const vk::raii::CommandBuffer &commands, const Buffer &other, std::uint64_t bytes,
-                  std::uint64_t offset) const {
-    commands.copyBuffer(other.handle(), handle(), vk::BufferCopy{.dstOffset = offset, .size = bytes});
-}
-
-void Buffer::copy(const vk::raii::CommandBuffer &commands, const Buffer &other,
-                  std::span<const vk::BufferCopy> pieces) const {
-    commands.copyBuffer(other.handle(), handle(),
-                        vk::ArrayProxy<const vk::BufferCopy>(static_cast<std::uint32_t>(pieces.size()), pieces.data()));
 }
 
 } // namespace pt::vulkan

@@ -47,8 +47,7 @@ public:
     void download(std::span<const BufferPiece> pieces);
 
     // The bytes of a buffer that the host reads, or writes, in place.
-    std::span<const std::byte> host_bytes() const;
-    std::span<std::byte> host_memory();
+    std::span<std::byte> host_memory() const;
 
     // Records a command that writes these bytes to its beginning: no more than max_recorded_bytes.
     void write(const vk::raii::CommandBuffer &commands, std::span<const std::byte> data) const;
@@ -56,11 +55,11 @@ public:
     // Records a command that zeroes bytes. Offset and size as above.
     void clear(const vk::raii::CommandBuffer &commands, std::uint64_t offset, std::uint64_t bytes) const;
 
-    // Records a copy of the first bytes of another buffer to an offset in this one.
-    void copy(const vk::raii::CommandBuffer &commands, const Buffer &other, std::uint64_t bytes,
-              std::uint64_t offset = 0) const;
+    // Records a copy of pieces of another buffer to this one.
     void copy(const vk::raii::CommandBuffer &commands, const Buffer &other,
-              std::span<const vk::BufferCopy> pieces) const;
+              const vk::ArrayProxy<const vk::BufferCopy> &pieces) const {
+        commands.copyBuffer(other.handle(), handle(), pieces);
+    }
 
 private:
     struct State;

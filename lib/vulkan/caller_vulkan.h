@@ -14,27 +14,19 @@
 namespace pt::vulkan {
 
 // Locks a queue for this thread by the caller's functions, if there are any. For std::lock_guard.
-class QueueLock {
-public:
-    QueueLock() = default; // does nothing
-    QueueLock(pt_queue_fn lock_queue, pt_queue_fn unlock_queue, void *user) :
-        lock_(lock_queue),
-        unlock_(unlock_queue),
-        user_(user) {}
+struct QueueLock {
+    pt_queue_fn lock_queue = nullptr;
+    pt_queue_fn unlock_queue = nullptr;
+    void *user = nullptr;
 
     void lock() const {
-        if (lock_)
-            lock_(user_);
+        if (lock_queue)
+            lock_queue(user);
     }
     void unlock() const {
-        if (unlock_)
-            unlock_(user_);
+        if (unlock_queue)
+            unlock_queue(user);
     }
-
-private:
-    pt_queue_fn lock_ = nullptr;
-    pt_queue_fn unlock_ = nullptr;
-    void *user_ = nullptr;
 };
 
 struct CallerVulkan {

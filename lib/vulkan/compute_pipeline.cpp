@@ -13,32 +13,30 @@ namespace pt::vulkan {
 
 namespace {
 
-vk::raii::DescriptorSetLayout create_set_layout(const Device &device, std::span<const vk::DescriptorType> types) {
-    std::vector<vk::DescriptorSetLayoutBinding> bindings;
-    for (std::uint32_t i = 0; i < types.size(); ++i)
-        if (types[i] != no_binding)
-            bindings.push_back({.binding = i,
-                                .descriptorType = types[i],
-                                .descriptorCount = 1,
-                                .stageFlags = vk::ShaderStageFlagBits::eCompute});
+vk::raii::DescriptorSetLayout create_set_layout(const Device &device, std::span<const Binding> bindings) {
+    std::vector<vk::DescriptorSetLayoutBinding> described;
+    for (const Binding &binding : bindings)
+        described.push_back({.binding = binding.number,
+                             .descriptorType = binding.type,
+                             .descriptorCount = 1,
+                             .stageFlags = vk::ShaderStageFlagBits::eCompute});
     return device.handle().createDescriptorSetLayout(
-        {.bindingCount = static_cast<std::uint32_t>(bindings.size()), .pBindings = bindings.data()});
+        {.bindingCount = static_cast<std::uint32_t>(described.size()), .pBindings = described.data()});
 }
 
 // Drivers silently accept a kernel that uses bindings which its layout lacks, as an edited kernel may do
 // (pt_create_info.shader_dir).
-void require_bindings(std::span<const std::uint32_t> spirv, std::span<const vk::DescriptorType> types) {
-    const auto is_there = [&](std::uint32_t binding) { return binding < types.size() && types[binding] != no_binding; };
+void require_bindings(std::span<const std::uint32_t> spirv, std::span<const Binding> bindings) {
     spirv::for_each_instruction(spirv, spirv::header_words, [&](spirv::Words instruction, std::size_t) {
         if (spirv::opcode_of(instruction) != spirv::OpDecorate)
             return true;
         const bool names_set = instruction[2] == spirv::decoration_descriptor_set && instruction[3] != 0;
-        const bool names_binding = instruction[2] == spirv::decoration_binding && !is_there(instruction[3]);
+        const bool names_binding = instruction[2] == spirv::decoration_binding &&
+                                   std::ranges::find(bindings, instruction[3], &Binding::number) == bindings.end();
         if (names_set || names_binding) {
             std::string known;
-            for (std::uint32_t binding = 0; binding < types.size(); ++binding)
-                if (is_there(binding))
-                    known += (known.empty() ? "" : ", ") + std::to_string(binding);
+            for (const Binding &binding : bindings)
+                known += (known.empty() ? "" : ", ") + std::to_string(binding.number);
             throw Error(PT_ERROR_SHADER, std::string("building a kernel: ") + (names_set ? "set " : "binding ") +
                                              std::to_string(instruction[3]) +
                                              " is not in its layout, which has the bindings " + known + " of set 0");
@@ -79,7 +77,7 @@ vk::raii::Pipeline create_pipeline(Device &device, const vk::raii::PipelineLayou
 } // namespace
 
 ComputePipeline::ComputePipeline(Device &device, std::span<const std::uint32_t> spirv,
-                                 std::span<const vk::DescriptorType> bindings, std::uint32_t push_constant_bytes,
+                                 std::span<const Binding> bindings, std::uint32_t push_constant_bytes,
                                  std::span<const std::uint32_t> constants) :
     device_(&device),
     bindings_(bindings.begin(), bindings.end()) {
@@ -98,20 +96,11 @@ ComputePipeline::ComputePipeline(Device &device, std::span<const std::uint32_t> 
     });
 }
 
-DescriptorSet ComputePipeline::bind(std::span<Buffer *const> buffers) const {
-    std::vector<BufferRange> ranges(buffers.size());
-    for (std::size_t i = 0; i < buffers.size(); ++i)
-        if (buffers[i])
-            ranges[i] = BufferRange(*buffers[i]);
-    return bind(ranges);
-}
-
 DescriptorSet ComputePipeline::bind(std::span<const BufferRange> ranges) const {
     return translated("binding buffers", [&] {
         std::vector<vk::DescriptorPoolSize> sizes;
-        for (const vk::DescriptorType type : bindings_)
-            if (type != no_binding)
-                sizes.push_back({.type = type, .descriptorCount = 1});
+        for (const Binding &binding : bindings_)
+            sizes.push_back({.type = binding.type, .descriptorCount = 1});
         DescriptorSet set;
         set.pool_ = {
             *device_,
@@ -122,26 +111,23 @@ DescriptorSet ComputePipeline::bind(std::span<const BufferRange> ranges) const {
                        .allocateDescriptorSets(
                            {.descriptorPool = *set.pool_, .descriptorSetCount = 1, .pSetLayouts = &layout})[0]
                        .release();
-        for (std::uint32_t i = 0; i < bindings_.size(); ++i) {
-            if (bindings_[i] == no_binding)
-                continue;
-            const bool uniform = bindings_[i] == vk::DescriptorType::eUniformBuffer ||
-                                 bindings_[i] == vk::DescriptorType::eUniformBufferDynamic;
-            const std::uint64_t uniform_bytes =
-                std::min<std::uint64_t>(device_->limits().max_uniform_range, ranges[i].bytes);
-            if (bindings_[i] == vk::DescriptorType::eUniformTexelBuffer)
+        for (std::size_t i = 0; i < bindings_.size(); ++i) {
+            const auto [number, type] = bindings_[i];
+            const bool uniform =
+                type == vk::DescriptorType::eUniformBuffer || type == vk::DescriptorType::eUniformBufferDynamic;
+            if (type == vk::DescriptorType::eUniformTexelBuffer)
                 set.views_.emplace_back(*device_, device_->handle().createBufferView({.buffer = ranges[i].buffer,
                                                                                       .format = texel_format,
                                                                                       .offset = ranges[i].offset,
                                                                                       .range = ranges[i].bytes}));
             const vk::BufferView view = set.views_.empty() ? vk::BufferView() : *set.views_.back();
-            const vk::DescriptorBufferInfo info{.buffer = ranges[i].buffer,
-                                                .offset = ranges[i].offset,
-                                                .range = uniform ? uniform_bytes : ranges[i].bytes};
+            const std::uint64_t most = uniform ? device_->limits().max_uniform_range : ranges[i].bytes;
+            const vk::DescriptorBufferInfo info{
+                .buffer = ranges[i].buffer, .offset = ranges[i].offset, .range = std::min(most, ranges[i].bytes)};
             device_->handle().updateDescriptorSets(vk::WriteDescriptorSet{.dstSet = set.set_,
-                                                                          .dstBinding = i,
+                                                                          .dstBinding = number,
                                                                           .descriptorCount = 1,
-                                                                          .descriptorType = bindings_[i],
+                                                                          .descriptorType = type,
                                                                           .pBufferInfo = &info,
                                                                           .pTexelBufferView = &view},
                                                    {});

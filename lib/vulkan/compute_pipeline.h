@@ -16,7 +16,7 @@ namespace pt::vulkan {
 // buffer, of 256 bytes, which suits every device.
 struct BufferRange {
     BufferRange() = default; // none
-    explicit BufferRange(const Buffer &whole) : buffer(whole.handle()), bytes(whole.size()) {}
+    BufferRange(const Buffer &whole) : buffer(whole.handle()), bytes(whole.size()) {}
     BufferRange(vk::Buffer of, std::uint64_t first, std::uint64_t count) : buffer(of), offset(first), bytes(count) {}
 
     vk::Buffer buffer;
@@ -40,18 +40,20 @@ private:
     vk::DescriptorSet set_; // freed with its pool
 };
 
-// Stands for a binding's type if there is no binding with its number.
-inline constexpr auto no_binding = static_cast<vk::DescriptorType>(VK_DESCRIPTOR_TYPE_MAX_ENUM);
+// A binding of set 0.
+struct Binding {
+    std::uint32_t number;
+    vk::DescriptorType type = vk::DescriptorType::eStorageBuffer;
+};
 
 class ComputePipeline {
 public:
-    // bindings[i] is the type of binding i of set 0, or no_binding; constants[i] are the bits of the specialization
-    // constant with id i. Throws PT_ERROR_SHADER if the driver refuses the kernel.
-    ComputePipeline(Device &device, std::span<const std::uint32_t> spirv, std::span<const vk::DescriptorType> bindings,
+    // constants[i] are the bits of the specialization constant with id i. Throws PT_ERROR_SHADER if the driver refuses
+    // the kernel.
+    ComputePipeline(Device &device, std::span<const std::uint32_t> spirv, std::span<const Binding> bindings,
                     std::uint32_t push_constant_bytes, std::span<const std::uint32_t> constants);
 
-    // buffers[i] is bound to binding i; NULL if there is no such binding.
-    DescriptorSet bind(std::span<Buffer *const> buffers) const;
+    // ranges[i] is for bindings[i].
     DescriptorSet bind(std::span<const BufferRange> ranges) const;
 
     // Records a dispatch of group_count x rows workgroups. offsets: for each dynamic binding, where it begins in its
@@ -62,7 +64,7 @@ public:
 
 private:
     Device *device_;
-    std::vector<vk::DescriptorType> bindings_;
+    std::vector<Binding> bindings_;
     DeviceObject<vk::raii::DescriptorSetLayout> set_layout_;
     DeviceObject<vk::raii::PipelineLayout> layout_;
     DeviceObject<vk::raii::Pipeline> pipeline_;

@@ -77,8 +77,6 @@ void write_barrier(const vk::raii::CommandBuffer &commands, vk::PipelineStageFla
     commands.pipelineBarrier(device_stages, stages, {}, barrier, {}, {});
 }
 
-} // namespace
-
 // What the slowest devices of each kind manage; for a discrete GPU, a thirtieth of the fastest.
 double tests_per_second(std::uint32_t kind) {
     switch (kind) {
@@ -90,6 +88,8 @@ double tests_per_second(std::uint32_t kind) {
         return 2.5e8;
     }
 }
+
+} // namespace
 
 DevicePolicy default_policy(const pt_device_info &info) {
     // A loaded CPU may take any time, so patience has no end. CPUs and integrated GPUs share the host's memory; a
@@ -110,19 +110,13 @@ DevicePolicy default_policy(const pt_device_info &info) {
 }
 
 DevicePolicy gpu_like_policy() {
-    return {.patience = std::chrono::nanoseconds::max(),
-            .share_memory = false,
-            .scene_in_constants = false,
-            .invocations = busy_gpu_invocations,
-            .queue_depth = 2,
-            .polling = gpu_polling,
-            .unrolled = gpu_unrolled,
-            .walk_trips = gpu_walk_trips,
-            .resolve_on_device = true};
+    pt_device_info gpu{};
+    gpu.kind = PT_DEVICE_DISCRETE_GPU;
+    DevicePolicy policy = default_policy(gpu);
+    policy.patience = std::chrono::nanoseconds::max();
+    policy.tests_per_second = DevicePolicy{}.tests_per_second;
+    return policy;
 }
-
-Device::Device(Instance &instance, const vk::raii::PhysicalDevice &physical_device, LogicalDevice logical_device) :
-    Device(instance, physical_device, std::move(logical_device), default_policy(describe(physical_device))) {}
 
 Device::Device(Instance &instance, const vk::raii::PhysicalDevice &physical_device, LogicalDevice logical_device,
                const DevicePolicy &policy) :

@@ -73,7 +73,6 @@ class Device {
 public:
     // The instance must outlive the device. A device that hangs is never destroyed, nor is its instance: both stay
     // until the process ends.
-    Device(Instance &instance, const vk::raii::PhysicalDevice &physical_device, LogicalDevice logical_device);
     Device(Instance &instance, const vk::raii::PhysicalDevice &physical_device, LogicalDevice logical_device,
            const DevicePolicy &policy);
     ~Device();

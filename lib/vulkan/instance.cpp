@@ -118,13 +118,12 @@ void keep_nvidia_driver_loaded() noexcept {
         platform::keep_loaded(name);
 }
 
-Borrowable<vk::raii::Instance> owned_instance(const vk::raii::Context &context, const Log &log, bool validation) {
+vk::raii::Instance owned_instance(const vk::raii::Context &context, const Log &log, bool validation) {
     const vk::DebugUtilsMessengerCreateInfoEXT messages = messenger_info(log);
     try {
         // Since it is in the chain of structs, the messenger also reports on the creation and destruction of the
         // instance.
-        auto instance =
-            Borrowable<vk::raii::Instance>::owned(create_instance(context, validation ? &messages : nullptr));
+        vk::raii::Instance instance = create_instance(context, validation ? &messages : nullptr);
         keep_nvidia_driver_loaded();
         return instance;
     } catch (const vk::SystemError &error) {
@@ -138,22 +137,24 @@ Borrowable<vk::raii::Instance> owned_instance(const vk::raii::Context &context, 
 Instance::Instance(const Log &log, bool validation) :
     log_(std::make_unique<Log>(log)),
     context_(loader()),
-    instance_(owned_instance(context_, *log_, validation)) {
+    instance_(owned_instance(context_, *log_, validation)),
+    is_owned_(true) {
     if (validation)
         messenger_.emplace(translated("creating the validation messenger",
-                                      [&] { return instance_->createDebugUtilsMessengerEXT(messenger_info(*log_)); }));
+                                      [&] { return instance_.createDebugUtilsMessengerEXT(messenger_info(*log_)); }));
 }
 
 Instance::Instance(const Log &log, VkInstance instance) :
     log_(std::make_unique<Log>(log)),
     context_(loader()),
-    instance_(Borrowable<vk::raii::Instance>::borrowed({context_, instance})) {}
+    instance_(context_, instance),
+    is_owned_(false) {}
 
 std::vector<vk::raii::PhysicalDevice> Instance::physical_devices() const {
     std::vector<vk::raii::PhysicalDevice> devices;
     std::string reason = "the drivers found no device";
     try {
-        devices = instance_->enumeratePhysicalDevices();
+        devices = instance_.enumeratePhysicalDevices();
     } catch (const vk::SystemError &error) {
         throw_if_out_of_memory(error, "listing the Vulkan devices");
         reason = error.what();
@@ -165,7 +166,7 @@ std::vector<vk::raii::PhysicalDevice> Instance::physical_devices() const {
 
 void Instance::abandon() {
     messenger_.reset();
-    instance_.disown();
+    is_owned_ = false;
 }
 
 } // namespace pt::vulkan

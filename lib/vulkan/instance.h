@@ -3,7 +3,6 @@
 
 #include "lib/base/log.h"
 #include "lib/vulkan/api.h"
-#include "lib/vulkan/borrowable.h"
 
 #include <memory>
 #include <optional>
@@ -19,10 +18,15 @@ public:
 
     // The caller's, which is left alone.
     Instance(const Log &log, VkInstance instance);
+    Instance(Instance &&) noexcept = default;
+    ~Instance() {
+        if (!is_owned_)
+            instance_.release();
+    }
 
     const Log &log() const { return *log_; }
 
-    const vk::raii::Instance &handle() const { return *instance_; }
+    const vk::raii::Instance &handle() const { return instance_; }
 
     // At least one; throws PT_ERROR_NO_DEVICE otherwise.
     std::vector<vk::raii::PhysicalDevice> physical_devices() const;
@@ -34,7 +38,8 @@ public:
 private:
     std::unique_ptr<const Log> log_; // the layer has its address, also while the Vulkan instance is destroyed
     vk::raii::Context context_;
-    Borrowable<vk::raii::Instance> instance_;
+    vk::raii::Instance instance_;
+    bool is_owned_; // else it is left alone
     std::optional<vk::raii::DebugUtilsMessengerEXT> messenger_;
 };
 

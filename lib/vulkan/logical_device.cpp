@@ -54,26 +54,25 @@ vk::raii::Device create_device(const vk::raii::PhysicalDevice &physical_device, 
 
 } // namespace
 
-LogicalDevice::LogicalDevice(Borrowable<vk::raii::Device> device, vk::raii::Queue queue, std::uint32_t queue_family,
-                             QueueLock queue_lock) :
+LogicalDevice::LogicalDevice(vk::raii::Device device, vk::Queue queue, std::uint32_t queue_family,
+                             const QueueLock &lock, bool owned) :
     device_(std::move(device)),
-    queue_(std::move(queue)),
+    is_owned_(owned),
+    queue_(device_, queue),
     queue_family_(queue_family),
-    queue_lock_(queue_lock) {}
+    queue_lock_(lock) {}
 
 LogicalDevice LogicalDevice::create(const vk::raii::PhysicalDevice &physical_device) {
     const std::uint32_t family = compute_family(physical_device);
     return translated("creating the device", [&] {
-        auto device = Borrowable<vk::raii::Device>::owned(create_device(physical_device, family));
-        vk::raii::Queue queue = device->getQueue(family, 0);
-        return LogicalDevice(std::move(device), std::move(queue), family, QueueLock());
+        vk::raii::Device device = create_device(physical_device, family);
+        const vk::Queue queue = *device.getQueue(family, 0);
+        return LogicalDevice(std::move(device), queue, family, {}, true);
     });
 }
 
 LogicalDevice LogicalDevice::borrow(const vk::raii::PhysicalDevice &physical_device, const CallerVulkan &caller) {
-    auto device = Borrowable<vk::raii::Device>::borrowed({physical_device, caller.device});
-    vk::raii::Queue queue(*device, caller.queue);
-    return {std::move(device), std::move(queue), caller.queue_family, caller.queue_lock};
+    return {{physical_device, caller.device}, caller.queue, caller.queue_family, caller.queue_lock, false};
 }
 
 std::chrono::steady_clock::time_point LogicalDevice::submit(const vk::SubmitInfo &work, vk::Fence fence) const {

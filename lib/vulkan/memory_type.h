@@ -4,6 +4,7 @@
 #include "lib/base/error.h"
 #include "lib/vulkan/api.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -12,8 +13,19 @@ namespace pt::vulkan {
 
 // Indices of the allowed types (bit i stands for type i) that have one of the wanted sets of properties, in the order
 // of these sets, each type once. Throws PT_ERROR_UNSUPPORTED if there is none.
-std::vector<std::uint32_t> memory_types(const vk::PhysicalDeviceMemoryProperties &memory, std::uint32_t allowed,
-                                        std::span<const vk::MemoryPropertyFlags> wanted_best_first);
+inline std::vector<std::uint32_t> memory_types(const vk::PhysicalDeviceMemoryProperties &memory, std::uint32_t allowed,
+                                               std::span<const vk::MemoryPropertyFlags> wanted_best_first) {
+    std::vector<std::uint32_t> types;
+    for (const vk::MemoryPropertyFlags wanted : wanted_best_first)
+        for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i) {
+            const bool fits = (allowed >> i & 1) != 0 && (memory.memoryTypes[i].propertyFlags & wanted) == wanted;
+            if (fits && std::ranges::find(types, i) == types.end())
+                types.push_back(i);
+        }
+    if (types.empty())
+        throw Error(PT_ERROR_UNSUPPORTED, "the device has no memory of the kind that a buffer needs");
+    return types;
+}
 
 // Returns allocate(type) for the first type whose heap has room. If none has, throws what it threw last.
 template <typename Allocate>

@@ -1,9 +1,15 @@
 // Loading and storing a driver's kernels; see pipeline_cache.h.
 #include "lib/vulkan/pipeline_cache.h"
 
+#include "lib/base/digest.h"
+
+#include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <memory>
 #include <new>
+#include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -13,6 +19,36 @@ namespace {
 
 // Far more than the kernels of a context take: anything larger cannot be ours.
 constexpr std::uint64_t most_bytes = std::uint64_t{1} << 28;
+
+constexpr std::string_view magic = "ptkernel";
+
+// A header in front of a driver's bytes identifies them: a driver trusts what it reads, so it must never see other
+// bytes.
+struct KernelSeal {
+    char magic[8];
+    char key[32];
+    std::uint64_t size_bytes; // of what follows
+    std::uint64_t checksum;   // of what follows
+};
+
+// The seal for data under a key of 32 characters.
+KernelSeal kernel_seal(const std::string &key, std::span<const std::byte> data) {
+    KernelSeal seal{};
+    std::ranges::copy(magic, seal.magic);
+    std::copy_n(key.begin(), std::min(key.size(), std::size(seal.key)), seal.key);
+    seal.size_bytes = data.size();
+    seal.checksum = checksum(data);
+    return seal;
+}
+
+// The bytes after the seal; empty unless they are exactly what was sealed under this key.
+std::span<const std::byte> unsealed_kernels(const std::string &key, std::span<const std::byte> bytes) {
+    if (bytes.size() < sizeof(KernelSeal))
+        return {};
+    const std::span<const std::byte> data = bytes.subspan(sizeof(KernelSeal));
+    const KernelSeal expected = kernel_seal(key, data);
+    return std::memcmp(bytes.data(), &expected, sizeof expected) == 0 ? data : std::span<const std::byte>{};
+}
 
 } // namespace
 

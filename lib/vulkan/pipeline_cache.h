@@ -4,13 +4,21 @@
 
 #include "lib/base/log.h"
 #include "lib/vulkan/api.h"
-#include "lib/vulkan/kept_kernels.h"
+
+#include <pt/pt.h>
 
 #include <cstdint>
 #include <string>
 #include <utility>
 
 namespace pt::vulkan {
+
+// The caller's functions; each may be NULL.
+struct KernelStore {
+    pt_load_kernels_fn load = nullptr;
+    pt_store_kernels_fn store = nullptr;
+    void *user = nullptr;
+};
 
 class PipelineCache {
 public:

@@ -130,7 +130,8 @@ TEST_F(BorrowedDeviceTest, ASubmissionThatLosesTheDeviceLetsGoOfTheQueue) {
     const CallerVulkan handles = this->handles(true);
     Instance instance(pt::Log{}, handles.instance);
     const vk::raii::PhysicalDevice physical = validated_physical_device(instance.handle(), handles);
-    Device device(instance, physical, LogicalDevice::borrow(physical, handles));
+    Device device(instance, physical, LogicalDevice::borrow(physical, handles),
+                  pt::vulkan::default_policy(pt::vulkan::describe(physical)));
     const QueueSpy spy(device.handle());
     Buffer buffer(device, BufferUse::Storage, 64, "test");
     QueueSpy::counts.failure = VK_ERROR_DEVICE_LOST;
@@ -158,12 +159,12 @@ TEST_F(BorrowedDeviceTest, ADeviceThatHangsKeepsWhatItsWorkUses) {
                        .queue_depth = 1});
         const ComputePipeline pipeline(
             device, recurrence_spirv(),
-            std::array{vk::DescriptorType::eUniformBuffer, vk::DescriptorType::eStorageBuffer}, 4,
+            std::array<pt::vulkan::Binding, 2>{{{0, vk::DescriptorType::eUniformBuffer}, {1}}}, 4,
             std::array{1664525U, 1013904223U});
         constexpr std::uint32_t groups = 4;
         Buffer offset(device, BufferUse::UniformOrStorage, 1024, "offset");
         Buffer values(device, BufferUse::Storage, groups * 64 * 4, "values");
-        const DescriptorSet set = pipeline.bind(std::array{&offset, &values});
+        const DescriptorSet set = pipeline.bind(std::array<pt::vulkan::BufferRange, 2>{offset, values});
         const std::uint32_t steps = 1;
         const pt::Error loss = error_of([&] {
             device.submit([&](const vk::raii::CommandBuffer &commands) {

@@ -135,8 +135,7 @@ protected:
     std::vector<std::uint32_t> sum(float value, std::uint32_t sample_count) {
         using pt::vulkan::Buffer;
         using pt::vulkan::BufferUse;
-        constexpr std::array bindings = {vk::DescriptorType::eUniformBuffer, vk::DescriptorType::eStorageBuffer,
-                                         vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eStorageBuffer};
+        constexpr pt::vulkan::Binding bindings[] = {{0, vk::DescriptorType::eUniformBuffer}, {1}, {2}, {3}};
         const std::array<std::uint32_t, 3> push = {sample_count, 1, 0};
         const std::vector<glm::vec4> samples(sample_count, glm::vec4(value));
         std::vector<std::uint32_t> words(pt::PixelSums::words_per_pixel);
@@ -146,7 +145,8 @@ protected:
         Buffer input(device(), BufferUse::Storage, samples.size() * sizeof(glm::vec4), "samples");
         film.upload(std::as_bytes(std::span(words)), 0);
         input.upload(std::as_bytes(std::span(samples)), 0);
-        const pt::vulkan::DescriptorSet set = pipeline.bind(std::array{&unused, &unused, &film, &input});
+        const pt::vulkan::DescriptorSet set =
+            pipeline.bind(std::array<pt::vulkan::BufferRange, 4>{unused, unused, film, input});
         device().submit([&](const vk::raii::CommandBuffer &commands) {
             pipeline.dispatch(commands, set, std::as_bytes(std::span(push)), 1);
         });

@@ -21,7 +21,8 @@ void on_message(void * /*user*/, int32_t level, const char *line) {
 struct SharedDevice {
     pt::Log log{&on_message, nullptr};
     pt::vulkan::Instance instance{log, std::getenv("PT_TEST_NO_VALIDATION") == nullptr};
-    pt::vulkan::Device device{instance, chosen(), pt::vulkan::LogicalDevice::create(chosen())};
+    pt::vulkan::Device device{instance, chosen(), pt::vulkan::LogicalDevice::create(chosen()),
+                              pt::vulkan::default_policy(pt::vulkan::describe(chosen()))};
 
     vk::raii::PhysicalDevice chosen() const {
         std::vector<vk::raii::PhysicalDevice> devices = instance.physical_devices();
@@ -32,10 +33,14 @@ struct SharedDevice {
     }
 };
 
-constexpr std::array bindings = {vk::DescriptorType::eUniformBuffer,      vk::DescriptorType::eStorageBuffer,
-                                 vk::DescriptorType::eStorageBuffer,      vk::DescriptorType::eStorageBuffer,
-                                 vk::DescriptorType::eUniformBuffer,      vk::DescriptorType::eUniformTexelBuffer,
-                                 vk::DescriptorType::eUniformTexelBuffer, vk::DescriptorType::eStorageBuffer};
+constexpr pt::vulkan::Binding bindings[] = {{0, vk::DescriptorType::eUniformBuffer},
+                                            {1},
+                                            {2},
+                                            {3},
+                                            {4, vk::DescriptorType::eUniformBuffer},
+                                            {5, vk::DescriptorType::eUniformTexelBuffer},
+                                            {6, vk::DescriptorType::eUniformTexelBuffer},
+                                            {7}};
 
 constexpr std::size_t guard_bytes = 4096;
 constexpr std::byte guard_value{0xa5};
@@ -76,8 +81,8 @@ void Probe::run_over(std::span<const std::byte> input, std::span<std::byte> outp
     std::vector<std::byte> guard(guard_bytes, guard_value);
     out.upload(guard, output.size());
 
-    const std::array buffers = {&scene, &scene, &out, &in, &points, &nodes, &spheres, &in};
-    const pt::vulkan::DescriptorSet set = pipeline_.bind(buffers);
+    const std::array<pt::vulkan::BufferRange, 8> ranges = {scene, scene, out, in, points, nodes, spheres, in};
+    const pt::vulkan::DescriptorSet set = pipeline_.bind(ranges);
     device.submit([&](const vk::raii::CommandBuffer &commands) {
         pipeline_.dispatch(commands, set, push, (invocations + workgroup_size - 1) / workgroup_size);
     });

@@ -25,11 +25,11 @@ public:
         device_(device),
         group_count_(group_count),
         pipeline_(device, recurrence_spirv(),
-                  std::array{vk::DescriptorType::eUniformBuffer, vk::DescriptorType::eStorageBuffer}, 4,
+                  std::array<pt::vulkan::Binding, 2>{{{0, vk::DescriptorType::eUniformBuffer}, {1}}}, 4,
                   std::array{multiplier, increment}),
         offset_(device, pt::vulkan::BufferUse::UniformOrStorage, 1U << 17, "offset"),
         values_(device, pt::vulkan::BufferUse::Storage, value_count() * 4, "values"),
-        set_(pipeline_.bind(std::array{&offset_, &values_})) {}
+        set_(pipeline_.bind(std::array<pt::vulkan::BufferRange, 2>{offset_, values_})) {}
 
     std::size_t value_count() const { return std::size_t{group_count_} * 64; }
     pt::vulkan::Buffer &values() { return values_; }

@@ -49,13 +49,13 @@ TEST_F(VulkanTest, CountsWhatTransfersTake) {
 
 // A streamed buffer holds offsets for dispatches of one submission: each sees the one that its dynamic offset says.
 TEST_F(VulkanTest, ADynamicOffsetChoosesThePartOfAStreamedBuffer) {
-    constexpr std::array bindings = {vk::DescriptorType::eUniformBufferDynamic, vk::DescriptorType::eStorageBuffer};
+    constexpr pt::vulkan::Binding bindings[] = {{0, vk::DescriptorType::eUniformBufferDynamic}, {1}};
     constexpr std::array keep_the_sum = {1U, 0U};
     const ComputePipeline pipeline(device(), recurrence_spirv(), bindings, 4, keep_the_sum);
     const std::uint32_t range = device().limits().max_uniform_range;
     Buffer offsets(device(), BufferUse::Streamed, std::uint64_t{3} * range, "offsets");
     Buffer values(device(), BufferUse::Storage, 64 * 4, "values");
-    const DescriptorSet set = pipeline.bind(std::array{&offsets, &values});
+    const DescriptorSet set = pipeline.bind(std::array<pt::vulkan::BufferRange, 2>{offsets, values});
     const std::uint32_t steps = 1;
     for (const std::uint32_t round : {0U, 1U}) { // the second writes over what the first has read
         std::uint32_t expected = 0;

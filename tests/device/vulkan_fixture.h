@@ -45,7 +45,7 @@ protected:
 
     pt::vulkan::Device &device() {
         if (!device_)
-            device_.emplace(*instance_, physical_device(), pt::vulkan::LogicalDevice::create(physical_device()));
+            device_with(pt::vulkan::default_policy(pt::vulkan::describe(physical_device())));
         return *device_;
     }
 

@@ -1,0 +1,34 @@
+// Makes pipelines of specialised code. Used for every kernel that traces rays.
+#pragma once
+
+#include "lib/kernel/point_sequence.h"
+#include "lib/kernel/specialised_code.h"
+#include "lib/vulkan/compute_pipeline.h"
+#include "lib/vulkan/device.h"
+#include "shaders/specialization.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace pt {
+
+// Sets the specialization constants that depend on the device alone, not on the scene.
+inline void set_device_constants(std::span<std::uint32_t> constants, const vulkan::Device &device) {
+    constants[gpu::ID_UNROLLED] = device.policy().unrolled;
+    constants[gpu::ID_INTEGER_ORDER] = device.policy().compiles_for_cpu ? 1 : 0;
+    constants[gpu::ID_POINT_BLOCKS] = device.limits().max_uniform_range / std::uint32_t{sizeof(PointBlock)};
+}
+
+// constants: by constant_id. Throws PT_ERROR_SHADER if the driver refuses the kernel.
+inline vulkan::ComputePipeline specialised_pipeline(vulkan::Device &device, std::span<const std::uint32_t> spirv,
+                                                    std::span<const vulkan::Binding> bindings,
+                                                    std::uint32_t push_constant_bytes,
+                                                    std::span<const std::uint32_t> constants) {
+    const std::vector<std::uint32_t> code = specialised_code(spirv, constants);
+    if (code.empty())
+        return {device, spirv, bindings, push_constant_bytes, constants};
+    return {device, code, bindings, push_constant_bytes, {}};
+}
+
+} // namespace pt
