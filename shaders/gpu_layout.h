@@ -106,7 +106,7 @@ PT_CONSTANT WORKGROUP_SIZE = 64;
 // A surface is its index: spheres first, then planes, then with TREE the spheres of the tree.
 PT_CONSTANT NO_SURFACE = 0xffffffffu;
 // With S = spheres + planes and each block following the one before:
-//   geometry[S]       sphere: centre as the shutter opens, radius; plane: unit normal, offset (lib/scene/curved_plane.h)
+//   geometry[S]       sphere: centre as the shutter opens, radius; plane: unit normal, offset (lib/scene/seen_scene.h)
 //   emission[S]       radiance R, G, B; mean of the three
 //   diffuse[S]        albedo / pi; probability of choosing the specular lobe
 //   specular[S]       factor (n + 2) / (2 pi); glossiness n (only with GLOSS)

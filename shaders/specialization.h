@@ -13,7 +13,7 @@ namespace pt::gpu {
 #endif
 
 PT_SPECIALIZED(SPHERE_COUNT, 0, 1)        // spheres held by centre and radius; the emitting ones come first
-PT_SPECIALIZED(PLANE_COUNT, 1, 0)         // planes, and spheres held as planes with a curvature (curved_plane.h)
+PT_SPECIALIZED(PLANE_COUNT, 1, 0)         // planes, and spheres held as planes with a curvature (seen_scene.h)
 PT_SPECIALIZED(LAMP_COUNT, 2, 0)          // emitting spheres among SPHERE_COUNT, and in the tree, that can be sampled
 PT_SPECIALIZED(MAX_PATH_LENGTH, 3, 2)     // surface vertices after the camera
 PT_SPECIALIZED(ESTIMATOR, 4, ESTIMATOR_MIS)

@@ -13,10 +13,8 @@ bool lies_apart(const MovingBall &ball, const CurvedPlane &flat) {
 }
 
 bool lies_apart(const MovingBall &ball, const PointBox &box) {
-    const double radius = with_margin(ball.radius);
-    const glm::dvec3 low = glm::min(ball.open, ball.close()) - radius;
-    const glm::dvec3 high = glm::max(ball.open, ball.close()) + radius;
-    return glm::any(glm::lessThan(high, box.low)) || glm::any(glm::lessThan(box.high, low));
+    const PointBox about = box_about({ball.open, ball.way, with_margin(ball.radius)});
+    return glm::any(glm::lessThan(about.high, box.low)) || glm::any(glm::lessThan(box.high, about.low));
 }
 
 bool lies_apart(const SeenSphere &hidden, const SeenScene &scene, const SphereTree *tree, const Camera &camera) {

@@ -2,9 +2,7 @@
 #pragma once
 
 #include "lib/scene/camera.h"
-#include "lib/scene/curved_plane.h"
 #include "lib/scene/seen_scene.h"
-#include "lib/scene/seen_sphere.h"
 #include "lib/tree/sphere_tree.h"
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // The tree of lamps in the words of the scene buffer (shaders/gpu_layout.h).
 #pragma once
 
-#include "lib/scene/seen_sphere.h"
+#include "lib/scene/seen_scene.h"
 
 #include <glm/glm.hpp>
 

@@ -56,7 +56,8 @@ private:
         for (std::uint32_t i = surfaces_.lamp_count + surfaces_.sky_count; i < surfaces_.spheres.size(); ++i) {
             const SeenSphere &sphere = surfaces_.spheres[i];
             const Material &material = materials_[sphere.material];
-            if (!sphere.swept && shows_image(material, ball, glm::length(sphere.open - ball.open) - sphere.radius))
+            if (sphere.kind == Kind::ball &&
+                shows_image(material, ball, glm::length(sphere.open - ball.open) - sphere.radius))
                 add(lamp, i, material.specular, material.glossiness);
         }
     }

@@ -2,8 +2,6 @@
 #include "lib/kernel/prepared_scene.h"
 
 #include "lib/scene/lamp_tree.h"
-#include "lib/scene/scene_digest.h"
-#include "lib/scene/twins.h"
 #include "lib/tree/tree_choice.h"
 
 #include <algorithm>
@@ -83,11 +81,6 @@ std::vector<std::uint32_t> left_out_of(const CheckedScene &checked, const std::v
     return left_out;
 }
 
-PreparedScene with_nobody_told(CheckedScene checked, std::optional<std::uint32_t> tree_from) {
-    WorkProgress nobody;
-    return {std::move(checked), tree_from, nullptr, nobody};
-}
-
 // With the shape of the one before, if that will do.
 std::shared_ptr<const SphereTree> tree_over(const SphereSource &spheres, const std::vector<std::uint32_t> &left_out,
                                             const std::vector<TreeMaterial> &materials, const SphereTree *before,
@@ -102,14 +95,10 @@ std::shared_ptr<const SphereTree> tree_over(const SphereSource &spheres, const s
 
 PreparedScene::PreparedScene(Scene of) :
     scene(std::move(of)),
-    moves(std::ranges::any_of(scene.spheres, &Sphere::moves)),
-    sphere_order(order_along_line(scene.spheres)),
+    moves(std::ranges::any_of(scene.spheres, [](const Sphere &sphere) { return sphere.ball().moves(); })),
     lamp_order(order_in_lamp_tree(scene)) {
     note_materials(is_used(scene));
 }
-
-PreparedScene::PreparedScene(CheckedScene checked, std::optional<std::uint32_t> tree_from) :
-    PreparedScene(with_nobody_told(std::move(checked), tree_from)) {}
 
 PreparedScene::PreparedScene(CheckedScene checked, std::optional<std::uint32_t> tree_from, const PreparedScene *before,
                              WorkProgress &progress) :
@@ -132,7 +121,7 @@ PreparedScene PreparedScene::prepared(CheckedScene checked, std::optional<std::u
 
 PreparedScene PreparedScene::with_tree(const CheckedScene &checked, const std::vector<std::uint32_t> &left_out,
                                        const SphereTree *before, WorkProgress &progress) {
-    PreparedScene prepared(owned_scene_of(checked, left_out));
+    PreparedScene prepared(owned_scene(checked, &left_out));
     std::vector<bool> used = is_used(prepared.scene);
     progress.enter(share_of_materials, static_cast<double>(checked.spheres.size()));
     checked.spheres.mark_materials(used, progress);

@@ -26,24 +26,21 @@ struct PreparedScene {
     bool gloss;                              // some material in use has a specular lobe
     std::shared_ptr<const SphereTree> tree;  // most spheres, if there are many; else NULL
     bool moves;                              // some sphere does
-    std::vector<std::uint32_t> sphere_order; // along the line of twins.h
     std::vector<std::uint32_t> lamp_order;   // of the spheres that emit, in the tree of lamp_tree.h
 
     // Without a tree.
     explicit PreparedScene(Scene of);
 
-    // With a tree if the camera may see at least tree_from spheres, else as many as one pays from. Nothing of the
-    // caller's memory is read afterwards.
-    PreparedScene(CheckedScene checked, std::optional<std::uint32_t> tree_from);
-
-    // The same, but the tree keeps the shape of the one before, if there was one and it still fits. before may be NULL.
+    // With a tree if the camera may see at least tree_from spheres, else as many as one pays from; it keeps the shape
+    // of the one before, if there was one and it still fits. before may be NULL. Nothing of the caller's memory is read
+    // afterwards.
     PreparedScene(CheckedScene checked, std::optional<std::uint32_t> tree_from, const PreparedScene *before,
                   WorkProgress &progress);
 
     // All spheres that emit, including those in the tree.
     std::vector<Sphere> lamps() const;
 
-    // The digest of the scene (scene_digest.h) and its tree. Computed on first use and kept, since most scenes are
+    // The digest of the scene (scene.h) and its tree. Computed on first use and kept, since most scenes are
     // never part of a film.
     const std::string &digest() const;
 

@@ -3,8 +3,7 @@
 
 #include "lib/base/error.h"
 #include "lib/base/rules.h"
-#include "lib/scene/curved_plane.h"
-#include "lib/scene/seen_sphere.h"
+#include "lib/scene/seen_scene.h"
 
 #include <algorithm>
 #include <array>

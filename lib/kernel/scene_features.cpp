@@ -6,7 +6,7 @@
 #include "lib/kernel/point_sequence.h"
 #include "lib/kernel/scene_blocks.h"
 #include "lib/scene/lamp_tree.h"
-#include "lib/scene/start_disc.h"
+#include "lib/scene/seen_scene.h"
 #include "lib/tree/tree_choice.h"
 
 #include <pt/stats.h>
@@ -168,9 +168,9 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
     // Of those in the tree the places are kept as they are at time 0.
     const bool tree_is_late = tree && tree->moves() && camera.shutter_open > 0.0;
     features[gpu::ID_MOTION] = scene.moves && (camera.shutter_close > camera.shutter_open || tree_is_late);
-    features[gpu::ID_TREE_CAPSULES] = tree && tree->has_capsules();
-    features[gpu::ID_CAPSULES] =
-        features[gpu::ID_TREE_CAPSULES] || std::ranges::any_of(surfaces.spheres, &SeenSphere::swept);
+    const auto is_capsule = [](const SeenSphere &sphere) { return sphere.kind == Kind::capsule; };
+    features[gpu::ID_TREE_CAPSULES] = tree && tree->has(Kind::capsule);
+    features[gpu::ID_CAPSULES] = features[gpu::ID_TREE_CAPSULES] || std::ranges::any_of(surfaces.spheres, is_capsule);
     features[gpu::ID_SCENE_SOURCE] = gpu::SCENE_IN_UNIFORM;
     if (tree || SceneBlocks(features).word_count > gpu::UNIFORM_SCENE_WORDS) {
         features[gpu::ID_SCENE_SOURCE] = gpu::SCENE_IN_STORAGE;

@@ -1,11 +1,13 @@
 #include "lib/render/missed_lamps.h"
 
-#include "lib/scene/lamp_share.h"
+#include "lib/scene/seen_scene.h"
 
 #include <pt/stats.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace pt {
 
@@ -23,14 +25,43 @@ double smallest_lobe_share(const PreparedScene &scene, std::uint32_t estimator) 
     return share;
 }
 
+// Of all directions, those of the cone around a sphere: (1 - cos a) / 2, as sin^2 a / (2 (1 + cos a)), by which small
+// ones lose no digits.
+double share_of(const SeenSphere &sphere) {
+    const double sine = sphere.radius / sphere.distance;
+    const double cosine = std::sqrt((1.0 - sine) * (1.0 + sine));
+    return sine * sine / (2.0 * (1.0 + cosine));
+}
+
 } // namespace
+
+double smallest_lamp_share(std::span<const Sphere> lamps, std::span<const Material> materials, const Camera &camera) {
+    constexpr double least_light = 0.01;           // the share of that of all lamps below which a lamp is not missed
+    std::vector<std::pair<double, double>> shares; // with the light of each
+    double all_light = 0.0;
+    for (const Sphere &lamp : lamps) {
+        const Material &material = materials[lamp.material];
+        const SeenSphere seen(lamp, material, camera);
+        if (!seen.emits || seen.height() <= 0.0)
+            continue;
+        const double share = share_of(seen);
+        const double light = share * std::max({material.emission.r, material.emission.g, material.emission.b});
+        shares.emplace_back(share, light);
+        all_light += light;
+    }
+    double smallest = 1.0;
+    for (const auto &[share, light] : shares)
+        if (light >= least_light * all_light)
+            smallest = std::min(smallest, share);
+    return smallest;
+}
 
 bool may_miss_lamps(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings,
                     std::uint64_t samples) {
     constexpr double enough_meetings = 1000.0; // calibrated (shaders/README.md, section 11)
     if (!finds_lamps_by_chance(settings.estimator, settings.max_path_length))
         return false;
-    const double lamp_share = smallest_lamp_share(scene.lamps(), scene.scene.materials, camera).value_or(1.0);
+    const double lamp_share = smallest_lamp_share(scene.lamps(), scene.scene.materials, camera);
     const double share = std::min(lamp_share, smallest_lobe_share(scene, settings.estimator));
     return static_cast<double>(samples) * share < enough_meetings;
 }

@@ -7,8 +7,14 @@
 #include "lib/scene/render_settings.h"
 
 #include <cstdint>
+#include <span>
 
 namespace pt {
+
+// The share of all directions from the camera that the smallest important lamp covers as the shutter opens. A lamp is
+// important if it gives at least a hundredth of the light that arrives there. 1 if no lamp can be missed: lamps that
+// surround the camera do not count, since every direction may meet them.
+double smallest_lamp_share(std::span<const Sphere> lamps, std::span<const Material> materials, const Camera &camera);
 
 // Whether some lamp or lobe is found only by chance and is so small that few of all these samples, if any, have met it.
 bool may_miss_lamps(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings,

@@ -1,7 +1,7 @@
 #include "lib/render/small_lamps.h"
 
 #include "lib/film/error_estimate.h"
-#include "lib/scene/seen_sphere.h"
+#include "lib/scene/seen_scene.h"
 
 #include <algorithm>
 #include <cmath>

@@ -57,10 +57,6 @@ Material owned(const pt_material &material) {
             (material.flags & PT_MATERIAL_HIDDEN_FROM_CAMERA) != 0};
 }
 
-Plane owned(const pt_plane &plane) {
-    return normalized(plane);
-}
-
 // Checks the surfaces' and materials' fields.
 class Checker {
 public:
@@ -146,20 +142,7 @@ void check_all(std::span<const Element> elements, const Checker &checker, WorkPr
     }
 }
 
-template <typename Owned, typename Element>
-std::vector<Owned> owned_all(std::span<const Element> elements) {
-    std::vector<Owned> all;
-    all.reserve(elements.size());
-    std::ranges::transform(elements, std::back_inserter(all), [](const Element &element) { return owned(element); });
-    return all;
-}
-
 } // namespace
-
-CheckedScene checked_scene(const pt_scene &scene) {
-    WorkProgress nobody;
-    return checked_scene(scene, nobody);
-}
 
 CheckedScene checked_scene(const pt_scene &scene, WorkProgress &progress) {
     Violations violations;
@@ -181,7 +164,10 @@ CheckedScene checked_scene(const pt_scene &scene, WorkProgress &progress) {
     check_sphere_arrays(arrays, materials, violations, progress);
     check_all(planes, checker, progress);
     violations.throw_if_any(PT_ERROR_INVALID_SCENE);
-    return {owned_all<Material>(materials), SphereSource(spheres, arrays), owned_all<Plane>(planes)};
+    CheckedScene checked{{}, SphereSource(spheres, arrays), {}};
+    std::ranges::transform(materials, std::back_inserter(checked.materials), owned);
+    std::ranges::transform(planes, std::back_inserter(checked.planes), normalized);
+    return checked;
 }
 
 } // namespace pt

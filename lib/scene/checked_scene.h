@@ -17,10 +17,8 @@ struct CheckedScene {
     std::vector<Plane> planes;
 };
 
-// Checks a scene whose struct_size is settled. Throws PT_ERROR_INVALID_SCENE with all broken rules.
-CheckedScene checked_scene(const pt_scene &scene);
-
-// The same, with its share of the progress of a longer call.
+// Checks a scene whose struct_size is settled, with its share of the progress of a longer call. Throws
+// PT_ERROR_INVALID_SCENE with all broken rules.
 CheckedScene checked_scene(const pt_scene &scene, WorkProgress &progress);
 
 } // namespace pt

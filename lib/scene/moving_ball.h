@@ -1,22 +1,55 @@
-// A ball that moves along a straight line, or a capsule, which is a ball swept along one; and questions about it that
-// do not depend on its material.
+// A ball that moves along a straight line, or a capsule, which is a ball swept along one. Whatever tells these kinds of
+// surfaces apart is here, for the tree, twins, digests and the words of kernels alike; others ask, at the most, whether
+// a surface is a mere ball.
 #pragma once
+
+#include "lib/base/digest.h"
+#include "lib/scene/camera.h"
 
 #include <glm/glm.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace pt {
+
+enum class Kind : std::uint8_t { ball, capsule };
+
+// The kinds that there are, a bit for each.
+using Kinds = std::uint32_t;
+
+constexpr Kinds bit_of(Kind kind) {
+    return 1U << static_cast<unsigned>(kind);
+}
 
 struct MovingBall {
     glm::dvec3 open; // the centre at first
     glm::dvec3 way;  // of the centre from then to the end
     double radius;
-    bool swept = false; // a capsule, which is at all places of its way at once
+    Kind kind = Kind::ball; // a capsule is at all places of its way at once
 
     glm::dvec3 close() const { return open + way; }
+    bool moves() const { return kind == Kind::ball && way != glm::dvec3(0.0); }
 };
+
+struct PointBox {
+    glm::dvec3 low;
+    glm::dvec3 high;
+};
+
+// All that a surface takes up over time.
+inline PointBox box_about(const MovingBall &ball) {
+    return {glm::min(ball.open, ball.close()) - ball.radius, glm::max(ball.open, ball.close()) + ball.radius};
+}
+
+// A ball from when the shutter opens until it closes, or all of a capsule, relative to the camera.
+inline MovingBall seen_ball(const MovingBall &ball, const Camera &camera) {
+    if (ball.kind != Kind::ball)
+        return {ball.open - camera.position, ball.way, ball.radius, ball.kind};
+    return {ball.open + camera.shutter_open * ball.way - camera.position,
+            (camera.shutter_close - camera.shutter_open) * ball.way, ball.radius};
+}
 
 // If a point is nearer to a surface than this share of the radius, float32 may put it on the other side.
 inline constexpr double side_margin = 0x1p-16;
@@ -44,18 +77,18 @@ inline bool may_hold_origin(const MovingBall &ball, double slack = 0.0) {
     return !(least_distance(ball.open, ball.way) > with_margin(ball.radius) + slack);
 }
 
-// Whether a ball and another nearly coincide: no point of either is far from the other, compared with their size. If
-// the other is swept, whether the ball, at some time, may do so with one of those that make it up.
+// Whether a ball and another surface nearly coincide: no point of either is far from the other, compared with their
+// size. If the other is a capsule, whether the ball, at some time, may do so with one of those that make it up.
 inline bool nearly_coincide(const MovingBall &ball, const MovingBall &other) {
-    const double apart = other.swept
+    const double apart = other.kind == Kind::capsule
                              ? std::max(least_distance(other.open - ball.open, other.way) - glm::length(ball.way), 0.0)
                              : std::max(glm::length(ball.open - other.open), glm::length(ball.close() - other.close()));
     return apart + std::abs(ball.radius - other.radius) < two_spheres * std::min(ball.radius, other.radius);
 }
 
-// Stands for a capsule, which does not move: a ball about all of it. Any other is itself.
+// Stands for a surface that does not move: a ball about all of it. A ball is itself.
 inline MovingBall ball_about(const MovingBall &ball) {
-    if (!ball.swept)
+    if (ball.kind == Kind::ball)
         return ball;
     const glm::dvec3 half = 0.5 * ball.way;
     return {ball.open + half, glm::dvec3(0.0), ball.radius + glm::length(half)};
@@ -70,7 +103,7 @@ inline bool lies_apart(const MovingBall &ball, const MovingBall &surface) {
     const glm::dvec3 way = ball.way - about.way;
     const double farthest = std::max(glm::length(from), glm::length(from + way));
     const bool is_beside = least_distance(from, way) > with_margin(ball.radius + about.radius);
-    const bool is_within = !surface.swept && with_margin(farthest + ball.radius) < surface.radius;
+    const bool is_within = surface.kind == Kind::ball && with_margin(farthest + ball.radius) < surface.radius;
     return is_beside || is_within;
 }
 
@@ -78,10 +111,21 @@ inline bool lies_apart(const MovingBall &ball, const MovingBall &surface) {
 // far shorter than any radius (at least 1e-18), and the capsule is held as a ball.
 inline glm::vec4 way_word(const MovingBall &ball) {
     const glm::vec3 rounded = glm::vec3(ball.way) + 0.0F; // -0 is made +0, for twins
-    if (!ball.swept)
+    if (ball.kind == Kind::ball)
         return {rounded, 0.0F};
     const auto inverse = static_cast<float>(1.0 / glm::length(ball.way));
     return std::isfinite(inverse) ? glm::vec4(rounded, inverse) : glm::vec4(0.0F);
+}
+
+// The surface with such a way.
+inline MovingBall surface_of(const glm::dvec3 &open, double radius, const glm::vec4 &way) {
+    return {open, glm::dvec3(way), radius, way.w > 0.0F ? Kind::capsule : Kind::ball};
+}
+
+// Balls add nothing, so that scenes of them alone keep the digest that their films have.
+inline void add_kind(Digest &digest, Kind kind) {
+    if (kind != Kind::ball)
+        digest.add(static_cast<std::uint64_t>(kind));
 }
 
 } // namespace pt

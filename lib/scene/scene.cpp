@@ -1,72 +1,68 @@
-// Takes a scene over from the caller; see scene.h.
+// Takes a scene over from the caller, and tells scenes apart; see scene.h.
 #include "lib/scene/scene.h"
 
 #include "lib/scene/checked_scene.h"
-#include "lib/scene/distinct_materials.h"
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <utility>
 
 namespace pt {
 
 namespace {
 
+// All of a material. In comparisons -0 equals 0, as in the material.
+using MaterialKey = std::array<float, 11>;
+
+MaterialKey key_of(const Material &material) {
+    const auto &[diffuse, specular, emission, glossiness, hidden] = material;
+    return {diffuse.r,  diffuse.g,  diffuse.b,  specular.r, specular.g,          specular.b,
+            emission.r, emission.g, emission.b, glossiness, hidden ? 1.0F : 0.0F};
+}
+
 // Makes a material for each sphere color, or reuses an equal one that exists already.
 class ColoredMaterials {
 public:
-    explicit ColoredMaterials(std::vector<Material> &materials) : materials_(materials), distinct_(materials) {
-        for (std::uint32_t i = 0; i < materials_.size(); ++i)
-            distinct_.first_equal(i);
-    }
+    explicit ColoredMaterials(std::vector<Material> &materials) : materials_(materials) {}
 
     std::uint32_t index_of(std::uint32_t material, const glm::vec3 &color) {
         Material colored = materials_[material];
         colored.diffuse *= color;
         if (colored.diffuse == materials_[material].diffuse)
             return material;
-        const auto added = static_cast<std::uint32_t>(materials_.size());
-        materials_.push_back(colored);
-        const std::uint32_t first = distinct_.first_equal(added);
-        if (first != added)
-            materials_.pop_back();
-        return first;
+        if (indices_.empty())
+            for (std::uint32_t i = 0; i < materials_.size(); ++i)
+                indices_.emplace(key_of(materials_[i]), i);
+        const auto [found, is_new] = indices_.emplace(key_of(colored), static_cast<std::uint32_t>(materials_.size()));
+        if (is_new)
+            materials_.push_back(colored);
+        return found->second;
     }
 
 private:
     std::vector<Material> &materials_;
-    DistinctMaterials distinct_;
+    std::map<MaterialKey, std::uint32_t> indices_; // of the first of equal ones
 };
-
-void append_spheres(Scene &scene, const SphereSource &source) {
-    scene.spheres.reserve(source.size());
-    if (!source.has_colors()) {
-        source.for_each([&](std::size_t, const Sphere &sphere, const glm::vec3 &) { scene.spheres.push_back(sphere); });
-        return;
-    }
-    ColoredMaterials colored(scene.materials);
-    source.for_each([&](std::size_t, Sphere sphere, const glm::vec3 &color) {
-        sphere.material = colored.index_of(sphere.material, color);
-        scene.spheres.push_back(sphere);
-    });
-}
 
 } // namespace
 
-Scene owned_scene(CheckedScene checked) {
-    const auto starts = checked.spheres.array_starts();
+Scene owned_scene(CheckedScene checked, const std::vector<std::uint32_t> *only) {
+    const SphereSource &spheres = checked.spheres;
+    const auto starts = spheres.array_starts();
     Scene owned{std::move(checked.materials), {}, std::move(checked.planes), {starts.begin(), starts.end()}};
-    append_spheres(owned, checked.spheres);
-    return owned;
-}
-
-Scene owned_scene_of(const CheckedScene &checked, const std::vector<std::uint32_t> &spheres) {
-    const auto starts = checked.spheres.array_starts();
-    Scene owned{checked.materials, {}, checked.planes, {starts.begin(), starts.end()}, spheres};
     ColoredMaterials colored(owned.materials);
-    for (const std::uint32_t index : spheres) {
-        owned.spheres.push_back(checked.spheres[index]);
-        Sphere &sphere = owned.spheres.back();
-        sphere.material = colored.index_of(sphere.material, checked.spheres.color(index));
+    WorkProgress nobody;
+    const auto take = [&](std::size_t, Sphere sphere, const glm::vec3 &color) {
+        sphere.material = colored.index_of(sphere.material, color);
+        owned.spheres.push_back(sphere);
+    };
+    if (only == nullptr) {
+        owned.spheres.reserve(spheres.size());
+        spheres.for_each(nobody, take);
+    } else {
+        owned.indices = *only;
+        spheres.for_each(*only, nobody, take);
     }
     return owned;
 }
@@ -78,6 +74,43 @@ SpherePlace place_of_sphere(const Scene &scene, std::size_t position) {
     if (array < 0)
         return {"spheres", static_cast<std::int64_t>(index), -1};
     return {"sphere_arrays", array, static_cast<std::int32_t>(index - *(after - 1))};
+}
+
+void add(Digest &digest, const Material &material) {
+    digest.add(material.diffuse);
+    digest.add(material.specular);
+    digest.add(material.emission);
+    digest.add(static_cast<double>(material.glossiness));
+    if (material.hidden) // so that scenes without such keep the digest that their films have
+        digest.add(std::uint64_t{PT_MATERIAL_HIDDEN_FROM_CAMERA});
+}
+
+// Materials are numbers, in the order in which they are met. Where a number is new, the whole material follows it.
+std::string digest_of(const Scene &scene) {
+    Digest digest;
+    std::map<MaterialKey, std::uint64_t> numbers;
+    const auto add_material = [&](std::uint32_t index) {
+        const Material &material = scene.materials[index];
+        const auto [found, is_new] = numbers.emplace(key_of(material), numbers.size());
+        digest.add(found->second);
+        if (is_new)
+            add(digest, material);
+    };
+    for (const std::size_t count : {scene.spheres.size(), scene.planes.size()})
+        digest.add(std::uint64_t{count});
+    for (const Sphere &sphere : scene.spheres) {
+        digest.add(sphere.center);
+        digest.add(sphere.radius);
+        digest.add(sphere.motion);
+        add_kind(digest, sphere.kind);
+        add_material(sphere.material);
+    }
+    for (const Plane &plane : scene.planes) {
+        digest.add(plane.normal);
+        digest.add(plane.offset);
+        add_material(plane.material);
+    }
+    return digest.text();
 }
 
 } // namespace pt

@@ -1,6 +1,7 @@
 // A scene that obeys the rules of pt.h, owned.
 #pragma once
 
+#include "lib/base/digest.h"
 #include "lib/scene/moving_ball.h"
 #include "shaders/gpu_layout.h"
 
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace pt {
@@ -39,13 +41,12 @@ inline constexpr double least_opaque = 1.0 - 0.5 / gpu::TREE_OPACITY_STEPS; // i
 struct Sphere {
     glm::dvec3 center;
     double radius;
-    glm::dvec3 motion;                 // or, of a capsule, the way from one end to the other
-    std::uint32_t material;            // index into Scene::materials
-    bool swept = false;                // is a capsule
+    glm::dvec3 motion;      // or, of another kind, the way from one end to the other
+    std::uint32_t material; // index into Scene::materials
+    Kind kind = Kind::ball;
     std::int16_t opacity = no_opacity; // in steps, as above
 
-    MovingBall ball() const { return {center, motion, radius, swept}; } // in the time from 0 to 1
-    bool moves() const { return !swept && motion != glm::dvec3(0.0); }
+    MovingBall ball() const { return {center, motion, radius, kind}; } // in the time from 0 to 1
 };
 
 // dot(normal, x) + offset = 0
@@ -71,11 +72,8 @@ struct Scene {
 
 struct CheckedScene;
 
-// Takes over all spheres, ...
-Scene owned_scene(CheckedScene checked);
-
-// ... or only some of them, by their indices in ascending order.
-Scene owned_scene_of(const CheckedScene &checked, const std::vector<std::uint32_t> &spheres);
+// Takes over all spheres or, if only is not NULL, those with these indices, which ascend.
+Scene owned_scene(CheckedScene checked, const std::vector<std::uint32_t> *only = nullptr);
 
 // Where a sphere is in the caller's scene, as the members of a BrokenRule.
 struct SpherePlace {
@@ -85,5 +83,13 @@ struct SpherePlace {
 };
 
 SpherePlace place_of_sphere(const Scene &scene, std::size_t position);
+
+// A digest like Digest::text, of the surfaces in their order and the material of each, by which films tell whether they
+// show the same scene. It does not matter whether spheres came as structs or by columns, which unused materials there
+// are, or in which order and how often materials are listed.
+std::string digest_of(const Scene &scene);
+
+// Adds all of a material to a digest.
+void add(Digest &digest, const Material &material);
 
 } // namespace pt

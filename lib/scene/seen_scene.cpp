@@ -1,44 +1,126 @@
-// Looks at a scene; see seen_scene.h.
+// Looks at a scene, and decides which spheres are seen as planes with a curvature; see seen_scene.h.
 #include "lib/scene/seen_scene.h"
 
 #include "lib/base/error.h"
 #include "lib/base/rules.h"
 
+#include <cmath>
 #include <string>
 
 namespace pt {
 
+namespace {
+
+// A sphere counts as nearly flat if its radius is this many times its distance from the camera: below, its centre and
+// radius cost at most 5 of the 24 bits that a hit near the camera has.
+constexpr double nearly_flat = 32.0;
+
+// A lamp held by its centre is sampled by the cone that it subtends; one held as a plane is found by directions alone.
+// That is as good where the lamp fills half of the view, but directions rarely hit its rim, so noise rises there.
+// Therefore lamps are held by their centres as long as these are precise enough: up to this ratio, where the surface is
+// off by 2^-24 R, 1/256 of the distance.
+constexpr double nearly_flat_lamp = 65536.0;
+
+bool is_large(const SeenSphere &sphere, double ratio) {
+    return sphere.kind == Kind::ball && sphere.radius > ratio * std::abs(sphere.height());
+}
+
+// A moving sphere is seen as if the camera moved the other way, so that its way counts like a distance.
+bool moves_little(const SeenSphere &sphere) {
+    return sphere.radius > nearly_flat * glm::length(sphere.way);
+}
+
+// Whether its surface is so near that it has to be held as a plane, although it moves too far for that. Held by its
+// centre, a sphere's surface is off by 2^-24 of the radius. Where that is more than 1/256 of its distance, the picture
+// would be wrong. Where rays start on a disc, an error that is small beside the disc does no harm.
+bool moves_too_far(const SeenSphere &sphere, const Camera &camera) {
+    return is_large(sphere, nearly_flat_lamp) && sphere.radius > nearly_flat_lamp * camera.start_radius &&
+           !moves_little(sphere);
+}
+
+} // namespace
+
+SeenSphere::SeenSphere(const Sphere &sphere, const Material &of_sphere, const Camera &camera, std::uint32_t of_index) :
+    MovingBall(seen_ball(sphere.ball(), camera)),
+    distance(glm::length(open)),
+    material(sphere.material),
+    index(of_index),
+    emits(pt::emits(of_sphere)),
+    hidden(of_sphere.hidden),
+    is_flat(is_large(*this, emits ? nearly_flat_lamp : nearly_flat) && moves_little(*this)) {}
+
+CurvedPlane curved_plane(const Plane &plane, const Material &of_plane, const Camera &camera, std::uint32_t index) {
+    const double offset = plane.offset + glm::dot(plane.normal, camera.position);
+    return {offset < 0.0 ? -plane.normal : plane.normal,
+            std::abs(offset),
+            0.0,
+            glm::dvec3(0.0),
+            plane.material,
+            index,
+            of_plane.hidden};
+}
+
+CurvedPlane curved_plane(const SeenSphere &sphere) {
+    return {-sphere.open / sphere.distance,
+            sphere.height(),
+            1.0 / sphere.radius,
+            sphere.way,
+            sphere.material,
+            sphere.index,
+            sphere.hidden};
+}
+
 SeenScene seen_scene(const Scene &scene, const Camera &camera) {
     SeenScene seen;
-    seen.spheres.reserve(scene.spheres.size());
-    for (const Sphere &sphere : scene.spheres)
-        seen.spheres.emplace_back(sphere, scene.materials[sphere.material], camera,
-                                  static_cast<std::uint32_t>(seen.spheres.size()));
-    seen.planes.reserve(scene.planes.size());
-    for (const Plane &plane : scene.planes)
-        seen.planes.push_back(curved_plane(plane, scene.materials[plane.material], camera,
-                                           static_cast<std::uint32_t>(seen.planes.size())));
+    for (std::uint32_t i = 0; i < scene.spheres.size(); ++i)
+        seen.spheres.emplace_back(scene.spheres[i], scene.materials[scene.spheres[i].material], camera, i);
+    for (std::uint32_t i = 0; i < scene.planes.size(); ++i)
+        seen.planes.push_back(curved_plane(scene.planes[i], scene.materials[scene.planes[i].material], camera, i));
     return seen;
 }
 
 void require_held_motions(const SeenScene &seen, const Scene &scene, const Camera &camera) {
-    for (std::size_t i = 0; i < seen.spheres.size(); ++i)
-        if (moves_too_far(seen.spheres[i], camera)) {
-            const SpherePlace place = place_of_sphere(scene, i);
-            throw Error(
-                PT_ERROR_UNSUPPORTED,
+    const auto held =
+        std::ranges::find_if(seen.spheres, [&](const SeenSphere &sphere) { return moves_too_far(sphere, camera); });
+    if (held == seen.spheres.end())
+        return;
+    const Sphere &sphere = scene.spheres[held->index];
+    const SpherePlace place = place_of_sphere(scene, held->index);
+    throw Error(PT_ERROR_UNSUPPORTED,
                 BrokenRule{.subject = place.subject,
                            .index = place.index,
                            .member = "motion",
                            .component = place.component,
-                           .value = number_text(scene.spheres[i].motion),
+                           .value = number_text(sphere.motion),
                            .rule = "a sphere whose surface, as the shutter opens, is nearer to " +
                                    std::string(camera.is_orthographic()
                                                    ? "where parallel rays start, in a view whose half diagonal is less,"
                                                    : "the camera") +
-                                   " than a 65536th of its radius (" + number_text(scene.spheres[i].radius) +
+                                   " than a 65536th of its radius (" + number_text(sphere.radius) +
                                    ") must move less than a 32nd of it while the shutter is open"});
-        }
+}
+
+// Let the centre of a ball lie at a distance a before the plane of the disc and c from its axis. The points of the disc
+// have distances between the roots of a^2 + max(c - radius, 0)^2 and a^2 + (c + radius)^2 from it. A ball that moves,
+// and a surface of another kind, is taken to be larger by half its way, unless all of the way is too far from the disc.
+// Float32 can tell the sides apart up to a share of the size of the ball or, for a huge ball, of its distance.
+bool divides_start(const MovingBall &ball, const Camera &camera, double slack) {
+    if (camera.start_radius == 0.0 || !may_hold_origin(ball, camera.start_radius + slack))
+        return false;
+    const glm::dvec3 centre = ball.open + 0.5 * ball.way;
+    const double along = glm::dot(centre, camera.forward);
+    const double across = glm::length(centre - along * camera.forward);
+    const double nearest = std::hypot(along, std::max(across - camera.start_radius, 0.0));
+    const double farthest = std::hypot(along, across + camera.start_radius);
+    const double height = std::abs(glm::length(centre) - ball.radius);
+    const double rounded = side_margin * std::min(ball.radius, std::max(height, camera.start_radius));
+    const double margin = rounded + 0.5 * glm::length(ball.way) + slack;
+    return nearest <= ball.radius + margin && farthest >= ball.radius - margin;
+}
+
+bool divides_start(const CurvedPlane &flat, const Camera &camera) {
+    const double sine = glm::length(glm::cross(flat.normal, camera.forward));
+    return camera.start_radius > 0.0 && std::abs(flat.offset) <= camera.start_radius * (sine + side_margin);
 }
 
 } // namespace pt

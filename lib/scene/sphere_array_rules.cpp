@@ -19,46 +19,23 @@ constexpr std::uint32_t max_array_count = 65536;
 // This refuses negative strides too, which NumPy has and C does not.
 constexpr std::uint32_t max_stride = (std::uint32_t{1} << 31) - 1;
 
-// Where a column is in its array, and which types it may have.
-struct ColumnKind {
-    const char *name;
-    pt_column pt_sphere_array::*column;
-    std::uint32_t components;
-    bool (*is_type)(std::uint32_t type);
-    const char *type_rule;
-    bool is_needed;
+// What the elements of a column may be.
+struct ElementType {
+    bool (*is)(std::uint32_t type);
+    const char *rule;
 };
 
-bool is_real(std::uint32_t type) {
-    return type == PT_TYPE_FLOAT32 || type == PT_TYPE_FLOAT64;
-}
+constexpr ElementType real_type{[](std::uint32_t type) { return type == PT_TYPE_FLOAT32 || type == PT_TYPE_FLOAT64; },
+                                "must be PT_TYPE_FLOAT32 (1) or PT_TYPE_FLOAT64 (2)"};
+constexpr ElementType index_type{[](std::uint32_t type) { return type == PT_TYPE_UINT32; },
+                                 "must be PT_TYPE_UINT32 (3)"};
+constexpr ElementType color_type{[](std::uint32_t type) { return real_type.is(type) || type == PT_TYPE_SRGB8; },
+                                 "must be PT_TYPE_FLOAT32 (1), PT_TYPE_FLOAT64 (2) or PT_TYPE_SRGB8 (4)"};
 
 // is_length without a branch on the sign, which would be mispredicted for every other coordinate.
 bool is_coordinate(double value) {
     return is_length(std::abs(value));
 }
-
-bool is_index(std::uint32_t type) {
-    return type == PT_TYPE_UINT32;
-}
-
-bool is_color(std::uint32_t type) {
-    return is_real(type) || type == PT_TYPE_SRGB8;
-}
-
-const char *const real_types = "must be PT_TYPE_FLOAT32 (1) or PT_TYPE_FLOAT64 (2)";
-const char *const index_types = "must be PT_TYPE_UINT32 (3)";
-const char *const color_types = "must be PT_TYPE_FLOAT32 (1), PT_TYPE_FLOAT64 (2) or PT_TYPE_SRGB8 (4)";
-
-const ColumnKind kinds[] = {
-    {"center", &pt_sphere_array::center, 3, is_real, real_types, true},
-    {"radius", &pt_sphere_array::radius, 1, is_real, real_types, true},
-    {"motion", &pt_sphere_array::motion, 3, is_real, real_types, false},
-    {"material", &pt_sphere_array::material, 1, is_index, index_types, false},
-    {"color", &pt_sphere_array::color, 3, is_color, color_types, false},
-    {"end", &pt_sphere_array::end, 3, is_real, real_types, false},
-    {"opacity", &pt_sphere_array::opacity, 1, is_real, real_types, false},
-};
 
 // Lamps are chosen and sampled by the cone that a ball subtends.
 const char *const dark_rule = "must be of a material without emission: capsules are no lamps";
@@ -73,6 +50,129 @@ const char *const plain_rule = "must be of a material that neither emits nor is 
 bool is_plain(const pt_material &material) {
     return is_dark(material) && (material.flags & PT_MATERIAL_HIDDEN_FROM_CAMERA) == 0;
 }
+
+// The rule that the first bad component breaks.
+template <typename Vector>
+const char *broken(const Vector &value, Rule rule) {
+    const char *x = rule(value.x);
+    const char *y = rule(value.y);
+    return x ? x : y ? y : rule(value.z);
+}
+
+class ColumnChecker;
+
+// Where a column is in its array, which types it may have, and how its elements are checked.
+struct ColumnKind {
+    const char *name;
+    pt_column pt_sphere_array::*column;
+    std::uint32_t components;
+    ElementType type;
+    bool is_needed;
+    void (ColumnChecker::*check)(const ColumnKind &kind) const;
+};
+
+// Checks the columns of one array, all of which can be read.
+class ColumnChecker {
+public:
+    ColumnChecker(const Subject &subject, const pt_sphere_array &array, std::span<const pt_material> materials,
+                  WorkProgress &progress) :
+        subject_(subject),
+        array_(array),
+        materials_(materials),
+        progress_(progress) {}
+
+    template <bool (*holds)(double), Rule rule>
+    void vectors(const ColumnKind &kind) const {
+        with_vectors(array_.*kind.column, [&](auto read) {
+            check(
+                kind.name, elements(array_.*kind.column), read,
+                [](const auto &value) { return holds(value.x) && holds(value.y) && holds(value.z); },
+                [](const auto &value) { return broken(value, rule); });
+        });
+    }
+
+    template <bool (*holds)(double), Rule rule>
+    void numbers(const ColumnKind &kind) const {
+        with_numbers(array_.*kind.column,
+                     [&](auto read) { check(kind.name, elements(array_.*kind.column), read, holds, rule); });
+    }
+
+    void colors(const ColumnKind &kind) const {
+        if (array_.color.type != PT_TYPE_SRGB8)
+            vectors<is_share, share_rule>(kind);
+    }
+
+    void materials(const ColumnKind & /*kind*/) const {
+        check_materials([&](std::uint32_t material) { return material < materials_.size(); },
+                        material_rule(static_cast<std::uint32_t>(materials_.size())));
+    }
+
+    void ends(const ColumnKind &kind) const {
+        vectors<is_coordinate, length_rule>(kind);
+        check_materials(
+            [&](std::uint32_t material) { return material >= materials_.size() || is_dark(materials_[material]); },
+            dark_rule);
+    }
+
+    // Of spheres that a tree would hold with an opacity below 1, the materials too.
+    void opacities(const ColumnKind &kind) const {
+        numbers<is_share, share_rule>(kind);
+        constexpr std::uint32_t none = UINT32_MAX;
+        with_numbers(array_.opacity, [&](auto opacity) {
+            check(
+                "material", array_.count,
+                [&](std::size_t i) { return opacity(i) >= least_opaque ? none : material(i); },
+                [&](std::uint32_t material) { return material >= materials_.size() || is_plain(materials_[material]); },
+                [](std::uint32_t) { return plain_rule; });
+        });
+    }
+
+private:
+    // A single value for all spheres is looked at once.
+    std::size_t elements(const pt_column &column) const { return column.stride_bytes == 0 ? 1 : array_.count; }
+
+    std::uint32_t material(std::size_t i) const {
+        return is_there(array_.material) ? element<std::uint32_t>(array_.material, i) : 0;
+    }
+
+    template <typename Holds>
+    void check_materials(Holds holds, const std::string &rule) const {
+        if (is_there(array_.material))
+            check(
+                "material", elements(array_.material), [&](std::size_t i) { return material(i); }, holds,
+                [&](std::uint32_t) { return rule; });
+        else
+            subject_.require(holds(0), "material", 0U, rule);
+    }
+
+    template <typename Read, typename Holds, typename RuleOf>
+    void check(const char *name, std::size_t count, Read read, Holds holds, RuleOf rule) const {
+        constexpr std::size_t between_looks = 4096;
+        for (std::size_t first = 0; first < count; first += between_looks) {
+            const std::size_t end = std::min(count, first + between_looks);
+            for (std::size_t i = first; i < end; ++i)
+                if (const auto value = read(i); !holds(value))
+                    subject_.refuse_element(name, i, value, rule(value));
+            progress_.add(end - first);
+        }
+    }
+
+    const Subject &subject_;
+    const pt_sphere_array &array_;
+    std::span<const pt_material> materials_;
+    WorkProgress &progress_;
+};
+
+const ColumnKind kinds[] = {
+    {"center", &pt_sphere_array::center, 3, real_type, true, &ColumnChecker::vectors<is_coordinate, length_rule>},
+    {"radius", &pt_sphere_array::radius, 1, real_type, true,
+     &ColumnChecker::numbers<is_positive_length, positive_length_rule>},
+    {"motion", &pt_sphere_array::motion, 3, real_type, false, &ColumnChecker::vectors<is_coordinate, length_rule>},
+    {"material", &pt_sphere_array::material, 1, index_type, false, &ColumnChecker::materials},
+    {"color", &pt_sphere_array::color, 3, color_type, false, &ColumnChecker::colors},
+    {"end", &pt_sphere_array::end, 3, real_type, false, &ColumnChecker::ends},
+    {"opacity", &pt_sphere_array::opacity, 1, real_type, false, &ColumnChecker::opacities},
+};
 
 std::uint32_t component_bytes(std::uint32_t type) {
     if (type == PT_TYPE_FLOAT64)
@@ -97,8 +197,8 @@ bool check_layout(const Subject &array, const pt_column &column, std::uint32_t c
         return (column.type == 0 && column.stride_bytes == 0) ||
                refuse("data", "NULL", "must not be NULL where type or stride_bytes is set");
     }
-    if (!kind.is_type(column.type))
-        return refuse("type", number_text(column.type), kind.type_rule);
+    if (!kind.type.is(column.type))
+        return refuse("type", number_text(column.type), kind.type.rule);
     const std::uint32_t bytes = kind.components * component_bytes(column.type);
     if (column.stride_bytes > max_stride)
         return refuse("stride_bytes", number_text(column.stride_bytes), "must be < 2^31");
@@ -116,124 +216,6 @@ bool check_layout(const Subject &subject, const pt_sphere_array &array) {
         return false;
     }
     return readable;
-}
-
-// Calls refuse(index, value) for each element that does not hold.
-template <typename Read, typename Holds, typename Refuse>
-void check_elements(std::size_t count, WorkProgress &progress, Read read, Holds holds, Refuse refuse) {
-    constexpr std::size_t between_looks = 4096;
-    for (std::size_t first = 0; first < count; first += between_looks) {
-        const std::size_t end = std::min(count, first + between_looks);
-        for (std::size_t i = first; i < end; ++i)
-            if (const auto value = read(i); !holds(value))
-                refuse(i, value);
-        progress.add(end - first);
-    }
-}
-
-// The rule that the first bad component breaks.
-template <typename Vector>
-const char *broken(const Vector &value, Rule rule) {
-    const char *x = rule(value.x);
-    const char *y = rule(value.y);
-    return x ? x : y ? y : rule(value.z);
-}
-
-// Checks the columns of one array, all of which can be read.
-class ColumnChecker {
-public:
-    ColumnChecker(const Subject &subject, std::size_t count, WorkProgress &progress) :
-        subject_(subject),
-        count_(count),
-        progress_(progress) {}
-
-    template <bool (*holds)(double)>
-    void check_vectors(const char *name, const pt_column &column, Rule rule) const {
-        with_vectors(column, [&](auto read) {
-            check_elements(
-                elements(column), progress_, read,
-                [](const auto &value) { return holds(value.x) && holds(value.y) && holds(value.z); },
-                [&](std::size_t i, const auto &value) {
-                    subject_.refuse_element(name, i, value, broken(value, rule));
-                });
-        });
-    }
-
-    template <bool (*holds)(double)>
-    void check_numbers(const char *name, const pt_column &column, Rule rule) const {
-        with_numbers(column, [&](auto read) {
-            check_elements(elements(column), progress_, read, holds,
-                           [&](std::size_t i, auto value) { subject_.refuse_element(name, i, value, rule(value)); });
-        });
-    }
-
-    void check_materials(const pt_column &column, std::uint32_t material_count) const {
-        const std::string rule = material_rule(material_count);
-        check_elements(
-            elements(column), progress_, [&column](std::size_t i) { return element<std::uint32_t>(column, i); },
-            [material_count](std::uint32_t material) { return material < material_count; },
-            [&](std::size_t i, std::uint32_t value) { subject_.refuse_element("material", i, value, rule); });
-    }
-
-    void check_dark(const pt_column &column, std::span<const pt_material> materials) const {
-        check_elements(
-            elements(column), progress_, [&column](std::size_t i) { return element<std::uint32_t>(column, i); },
-            [materials](std::uint32_t material) {
-                return material >= materials.size() || is_dark(materials[material]);
-            },
-            [&](std::size_t i, std::uint32_t value) { subject_.refuse_element("material", i, value, dark_rule); });
-    }
-
-    // Of spheres that a tree would hold with an opacity below 1.
-    void check_translucent(const pt_sphere_array &array, std::span<const pt_material> materials) const {
-        constexpr std::uint32_t none = UINT32_MAX;
-        with_numbers(array.opacity, [&](auto opacity) {
-            check_elements(
-                count_, progress_,
-                [&](std::size_t i) {
-                    return opacity(i) >= least_opaque ? none
-                           : is_there(array.material) ? element<std::uint32_t>(array.material, i)
-                                                      : 0;
-                },
-                [&](std::uint32_t material) { return material >= materials.size() || is_plain(materials[material]); },
-                [&](std::size_t i, std::uint32_t value) { subject_.refuse_element("material", i, value, plain_rule); });
-        });
-    }
-
-private:
-    // A single value for all spheres is looked at once.
-    std::size_t elements(const pt_column &column) const { return column.stride_bytes == 0 ? 1 : count_; }
-
-    const Subject &subject_;
-    std::size_t count_;
-    WorkProgress &progress_;
-};
-
-void check_values(const Subject &subject, const pt_sphere_array &array, std::span<const pt_material> materials,
-                  WorkProgress &progress) {
-    const auto material_count = static_cast<std::uint32_t>(materials.size());
-    const ColumnChecker checker(subject, array.count, progress);
-    checker.check_vectors<is_coordinate>("center", array.center, length_rule);
-    checker.check_numbers<is_positive_length>("radius", array.radius, positive_length_rule);
-    if (is_there(array.motion))
-        checker.check_vectors<is_coordinate>("motion", array.motion, length_rule);
-    if (is_there(array.material))
-        checker.check_materials(array.material, material_count);
-    else
-        subject.require(material_count > 0, "material", 0U, material_rule(material_count));
-    if (is_there(array.color) && array.color.type != PT_TYPE_SRGB8)
-        checker.check_vectors<is_share>("color", array.color, share_rule);
-    if (is_there(array.end)) {
-        checker.check_vectors<is_coordinate>("end", array.end, length_rule);
-        if (is_there(array.material))
-            checker.check_dark(array.material, materials);
-        else if (!materials.empty())
-            subject.require(is_dark(materials.front()), "material", 0U, dark_rule);
-    }
-    if (is_there(array.opacity)) {
-        checker.check_numbers<is_share>("opacity", array.opacity, share_rule);
-        checker.check_translucent(array, materials);
-    }
 }
 
 } // namespace
@@ -277,8 +259,12 @@ void check_sphere_arrays(std::span<const pt_sphere_array> arrays, std::span<cons
                          Violations &violations, WorkProgress &progress) {
     for (std::size_t i = 0; i < arrays.size(); ++i) {
         const Subject subject(violations, "sphere_arrays", i);
-        if (arrays[i].count > 0 && check_layout(subject, arrays[i]))
-            check_values(subject, arrays[i], materials, progress);
+        if (arrays[i].count == 0 || !check_layout(subject, arrays[i]))
+            continue;
+        const ColumnChecker checker(subject, arrays[i], materials, progress);
+        for (const ColumnKind &kind : kinds)
+            if (is_there(arrays[i].*kind.column) || kind.check == &ColumnChecker::materials)
+                (checker.*kind.check)(kind);
     }
 }
 

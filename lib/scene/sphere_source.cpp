@@ -49,7 +49,7 @@ void read_columns(const pt_sphere_array &columns, At at, std::span<Sphere> spher
         for (Sphere &sphere : spheres)
             sphere.motion = glm::dvec3(0.0);
     for (Sphere &sphere : spheres)
-        sphere.swept = is_there(columns.end);
+        sphere.kind = is_there(columns.end) ? Kind::capsule : Kind::ball;
     if (is_there(columns.end))
         with_vectors(columns.end, [&](auto end) {
             for (std::size_t i = 0; i < spheres.size(); ++i)
@@ -82,14 +82,6 @@ void read_color_column(const pt_column &column, At at, std::span<glm::vec3> colo
         std::ranges::fill(colors, glm::vec3(1.0F));
 }
 
-const auto read_spheres = [](const pt_sphere_array &columns, auto at, std::span<Sphere> spheres) {
-    read_columns(columns, at, spheres);
-};
-
-const auto read_own_colors = [](const pt_sphere_array &columns, auto at, std::span<glm::vec3> colors) {
-    read_color_column(columns.color, at, colors);
-};
-
 } // namespace
 
 SphereSource::SphereSource(std::span<const pt_sphere> spheres, std::span<const pt_sphere_array> arrays) {
@@ -111,12 +103,12 @@ SphereSource::SphereSource(std::span<const pt_sphere> spheres, std::span<const p
         if (has_opacities_ && !is_there(part.opacity))
             part.opacity = {&whole, 0, PT_TYPE_FLOAT32};
     for (const pt_sphere_array &array : arrays)
-        capsule_count_ += is_there(array.end) ? array.count : 0;
+        others_count_ += is_there(array.end) ? array.count : 0;
 }
 
-std::vector<std::uint32_t> SphereSource::capsules(std::size_t most) const {
+std::vector<std::uint32_t> SphereSource::other_kinds(std::size_t most) const {
     std::vector<std::uint32_t> indices;
-    if (capsule_count_ > most)
+    if (others_count_ > most)
         return indices;
     for (std::size_t part = 0; part < parts_.size(); ++part)
         if (is_there(parts_[part].end))
@@ -125,15 +117,15 @@ std::vector<std::uint32_t> SphereSource::capsules(std::size_t most) const {
     return indices;
 }
 
-Sphere SphereSource::operator[](std::size_t index) const {
+Sphere SphereSource::operator[](std::uint32_t index) const {
     Sphere sphere;
-    read(index, {&sphere, 1});
+    read({&index, 1}, {&sphere, 1});
     return sphere;
 }
 
-glm::vec3 SphereSource::color(std::size_t index) const {
+glm::vec3 SphereSource::color(std::uint32_t index) const {
     glm::vec3 color;
-    read_colors(index, {&color, 1});
+    read_colors({&index, 1}, {&color, 1});
     return color;
 }
 
@@ -149,52 +141,31 @@ void SphereSource::mark_materials(std::vector<bool> &used, WorkProgress &progres
     }
 }
 
-void SphereSource::read(std::size_t first, std::span<Sphere> spheres) const {
-    read_parts(first, spheres, read_spheres);
-}
-
-void SphereSource::read_colors(std::size_t first, std::span<glm::vec3> colors) const {
-    read_parts(first, colors, read_own_colors);
-}
-
 void SphereSource::read(std::span<const std::uint32_t> indices, std::span<Sphere> spheres) const {
-    read_parts(indices, spheres, read_spheres);
+    read_parts(indices, spheres, [](const pt_sphere_array &columns, auto at, std::span<Sphere> of_part) {
+        read_columns(columns, at, of_part);
+    });
 }
 
 void SphereSource::read_colors(std::span<const std::uint32_t> indices, std::span<glm::vec3> colors) const {
-    read_parts(indices, colors, read_own_colors);
+    read_parts(indices, colors, [](const pt_sphere_array &columns, auto at, std::span<glm::vec3> of_part) {
+        read_color_column(columns.color, at, of_part);
+    });
 }
 
-// The last part that begins at or before an index. Empty parts begin where the next one does; that next one is meant.
-std::size_t SphereSource::part_of(std::size_t index) const {
-    const auto after = std::ranges::upper_bound(starts_, index);
-    return static_cast<std::size_t>(after - starts_.begin()) - 1;
-}
-
-template <typename Element, typename Read>
-void SphereSource::read_parts(std::size_t first, std::span<Element> elements, Read read_part) const {
-    for (std::size_t part = part_of(first); !elements.empty(); ++part) {
-        const std::size_t count = std::min<std::size_t>(elements.size(), starts_[part + 1] - first);
-        const std::size_t first_row = first - starts_[part];
-        if (count > 0)
-            read_part(
-                parts_[part], [=](std::size_t i) { return first_row + i; }, elements.first(count));
-        elements = elements.subspan(count);
-        first += count;
-    }
-}
-
+// A sphere is in the last part that begins at or before its index. Empty parts begin where the next one does; that next
+// one is meant.
 template <typename Element, typename Read>
 void SphereSource::read_parts(std::span<const std::uint32_t> indices, std::span<Element> elements,
                               Read read_part) const {
     while (!indices.empty()) {
-        const std::size_t part = part_of(indices.front());
-        const std::uint32_t start = starts_[part];
-        const std::uint32_t size = starts_[part + 1] - start;
-        const auto is_elsewhere = [=](std::uint32_t index) { return index - start >= size; };
+        const auto after = std::ranges::upper_bound(starts_, indices.front());
+        const pt_sphere_array &part = parts_[static_cast<std::size_t>(after - starts_.begin()) - 1];
+        const std::uint32_t start = *(after - 1);
+        const auto is_elsewhere = [=, size = part.count](std::uint32_t index) { return index - start >= size; };
         const auto count = static_cast<std::size_t>(std::ranges::find_if(indices, is_elsewhere) - indices.begin());
         read_part(
-            parts_[part], [=](std::size_t i) { return std::size_t{indices[i] - start}; }, elements.first(count));
+            part, [=](std::size_t i) { return std::size_t{indices[i] - start}; }, elements.first(count));
         indices = indices.subspan(count);
         elements = elements.subspan(count);
     }

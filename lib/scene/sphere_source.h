@@ -12,6 +12,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -31,40 +32,30 @@ public:
     // Whether rays may pass spheres; otherwise none has an opacity.
     bool has_opacities() const { return has_opacities_; }
 
-    bool has_capsules() const { return capsule_count_ > 0; }
+    bool are_mere_balls() const { return others_count_ == 0; }
 
-    // Indices of the capsules in ascending order; none if they are more than most.
-    std::vector<std::uint32_t> capsules(std::size_t most) const;
+    // Indices of the surfaces of other kinds in ascending order; none if they are more than most.
+    std::vector<std::uint32_t> other_kinds(std::size_t most) const;
 
-    // One sphere, with the factor for its material's diffuse. For many spheres the functions below are faster.
-    Sphere operator[](std::size_t index) const;
-    glm::vec3 color(std::size_t index) const;
-
-    // Reads consecutive spheres from first on, as many as there is room for.
-    void read(std::size_t first, std::span<Sphere> spheres) const;
-    void read_colors(std::size_t first, std::span<glm::vec3> colors) const;
-
-    // Reads the spheres with these indices. Their memory may be anywhere, so all of it is requested before the first is
-    // used.
-    void read(std::span<const std::uint32_t> indices, std::span<Sphere> spheres) const;
-    void read_colors(std::span<const std::uint32_t> indices, std::span<glm::vec3> colors) const;
+    // One sphere, with the factor for its material's diffuse. For many spheres for_each is faster.
+    Sphere operator[](std::uint32_t index) const;
+    glm::vec3 color(std::uint32_t index) const;
 
     // Marks the materials that spheres have. A unit of work is a sphere, or an array with one material for all its
     // spheres.
     void mark_materials(std::vector<bool> &used, WorkProgress &progress) const;
 
-    // Calls use(index, sphere, color) for each, in order.
-    template <typename Use>
-    void for_each(Use use) const {
-        WorkProgress nobody;
-        for_each(nobody, use);
-    }
-
-    // The same; each sphere is a unit of work.
+    // Calls use(index, sphere, color) for each, in order; each is a unit of work.
     template <typename Use>
     void for_each(WorkProgress &progress, Use use) const {
+        std::array<std::uint32_t, chunk_size> indices;
         for_each_read(
-            size(), progress, [](std::size_t first, std::size_t) { return first; }, use);
+            size(), progress,
+            [&](std::size_t first, std::size_t count) {
+                std::iota(indices.begin(), indices.end(), static_cast<std::uint32_t>(first));
+                return std::span<const std::uint32_t>(indices).first(count);
+            },
+            use);
     }
 
     // The same for chosen spheres, in the order of the indices: use(i, sphere, color) is called for the sphere
@@ -82,7 +73,7 @@ public:
 private:
     static constexpr std::size_t chunk_size = 256; // 19 KiB, which stay in the first cache
 
-    // Reads blocks of spheres: from(first, count) says where to read so many.
+    // Reads blocks of spheres: from(first, count) has their indices.
     template <typename From, typename Use>
     void for_each_read(std::size_t all, WorkProgress &progress, From from, Use use) const {
         std::array<Sphere, chunk_size> spheres;
@@ -94,17 +85,18 @@ private:
             if (has_colors_)
                 read_colors(from(first, count), std::span(colors).first(count));
             for (std::size_t i = 0; i < count; ++i)
-                use(first + i, spheres[i], colors[i]);
+                use(static_cast<std::uint32_t>(first + i), spheres[i], colors[i]);
             progress.add(count);
         }
     }
 
-    std::size_t part_of(std::size_t index) const;
+    // Reads the spheres with these indices. Their memory may be anywhere, so all of it is requested before the first is
+    // used.
+    void read(std::span<const std::uint32_t> indices, std::span<Sphere> spheres) const;
+    void read_colors(std::span<const std::uint32_t> indices, std::span<glm::vec3> colors) const;
 
     // Calls read_part(columns, at, elements) for each run of spheres that lie in one array; at(i) is the row of the
     // i-th of them.
-    template <typename Element, typename Read>
-    void read_parts(std::size_t first, std::span<Element> elements, Read read_part) const;
     template <typename Element, typename Read>
     void read_parts(std::span<const std::uint32_t> indices, std::span<Element> elements, Read read_part) const;
 
@@ -112,7 +104,7 @@ private:
     std::vector<std::uint32_t> starts_;  // index of the first sphere of each part, and the number of all
     bool has_colors_;
     bool has_opacities_;
-    std::size_t capsule_count_ = 0;
+    std::size_t others_count_ = 0; // that are no balls
 };
 
 } // namespace pt

@@ -1,12 +1,9 @@
 // Finds twins by their places along a line; see twins.h.
 #include "lib/scene/twins.h"
 
-#include "lib/scene/curved_plane.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
 #include <utility>
 
 namespace pt {
@@ -53,7 +50,7 @@ bool are_twins(const SeenSphere &a, const SeenSphere &b) {
     if (a.is_flat && b.is_flat)
         return are_alike(curved_plane(a), curved_plane(b), same_size);
     const double apart = std::min(tolerance(a), tolerance(b));
-    return a.swept == b.swept && glm::length(a.open - b.open) <= apart && glm::length(a.close() - b.close()) <= apart &&
+    return a.kind == b.kind && glm::length(a.open - b.open) <= apart && glm::length(a.close() - b.close()) <= apart &&
            std::abs(a.radius - b.radius) <= same_size * std::min(a.radius, b.radius);
 }
 
@@ -76,14 +73,11 @@ double reach(const CurvedPlane &) {
 // Indices of elements, sorted by their positions on a line, which are nearly equal for similar elements.
 class Line {
 public:
-    // Sorts the indices from any order; nearly sorted ones are fastest.
     template <typename Element>
-    Line(const std::vector<Element> &elements, const std::vector<std::uint32_t> &order) {
-        points_.reserve(order.size());
-        for (const std::uint32_t index : order)
+    explicit Line(const std::vector<Element> &elements) {
+        for (std::uint32_t index = 0; index < elements.size(); ++index)
             points_.push_back({place_of(elements[index]), index});
-        if (!std::ranges::is_sorted(points_, {}, &Point::place))
-            std::ranges::sort(points_, {}, &Point::place);
+        std::ranges::sort(points_, {}, &Point::place);
     }
 
     std::size_t size() const { return points_.size(); }
@@ -109,91 +103,60 @@ private:
     std::vector<Point> points_;
 };
 
-// Marks the elements that are twins of an earlier one that is not itself a twin. Few elements have another within
-// reach.
+// Removes the elements that are twins of an earlier one that is not itself a twin.
 template <typename Element>
-std::vector<bool> twins_of_earlier(const std::vector<Element> &elements, const Line &line) {
-    std::vector<std::pair<std::uint32_t, std::size_t>> crowded; // their indices, and where on the line they are
+void merge_twins(std::vector<Element> &elements) {
+    const Line line(elements);
+    std::vector<std::size_t> on_line(elements.size());
     for (std::size_t i = 0; i < line.size(); ++i)
-        if (line.any_near(i, reach(elements[line.index(i)]), [](std::uint32_t) { return true; }))
-            crowded.emplace_back(line.index(i), i);
-    std::ranges::sort(crowded);
+        on_line[line.index(i)] = i;
     std::vector<bool> is_twin(elements.size());
-    for (const auto &[index, i] : crowded) {
-        const Element &element = elements[index];
-        const auto is_twin_of = [&, own_index = index](std::uint32_t other) {
-            return other < own_index && !is_twin[other] && are_twins(element, elements[other]);
+    for (std::uint32_t index = 0; index < elements.size(); ++index) {
+        const auto is_twin_of = [&](std::uint32_t other) {
+            return other < index && !is_twin[other] && are_twins(elements[index], elements[other]);
         };
-        is_twin[index] = line.any_near(i, reach(element), is_twin_of);
+        is_twin[index] = line.any_near(on_line[index], reach(elements[index]), is_twin_of);
     }
-    return is_twin;
+    std::size_t index = 0;
+    std::erase_if(elements, [&](const Element &) { return is_twin[index++]; });
 }
 
-bool has_close_lamps(const std::vector<SeenSphere> &spheres, const Line &line, const std::vector<bool> &is_twin) {
+bool has_close_lamps(const std::vector<SeenSphere> &spheres) {
+    const Line line(spheres);
     for (std::size_t i = 0; i < line.size(); ++i) {
         const SeenSphere &lamp = spheres[line.index(i)];
-        const auto is_close = [&](std::uint32_t other) {
-            return !is_twin[other] && nearly_coincide(lamp, spheres[other]);
+        const auto is_close = [&](std::uint32_t other) { return nearly_coincide(lamp, spheres[other]); };
+        // Other kinds are on the line where they begin, however far from there they come near the lamp.
+        const auto is_in = [&](const SeenSphere &other) {
+            return other.kind != Kind::ball && nearly_coincide(lamp, other);
         };
-        // A capsule is on the line where it begins, however far from there it comes near the lamp.
-        const auto is_in = [&](const SeenSphere &other) { return other.swept && nearly_coincide(lamp, other); };
-        if (lamp.emits && !is_twin[line.index(i)] &&
+        if (lamp.emits &&
             (line.any_near(i, two_spheres * lamp.radius, is_close) || std::ranges::any_of(spheres, is_in)))
             return true;
     }
     return false;
 }
 
-bool has_close_planes(const std::vector<CurvedPlane> &planes, const Line &line, const std::vector<bool> &is_twin) {
+bool has_close_planes(const std::vector<CurvedPlane> &planes) {
+    const Line line(planes);
     for (std::size_t i = 0; i < line.size(); ++i) {
-        const std::uint32_t plane = line.index(i);
         const auto is_close = [&](std::uint32_t other) {
-            return !is_twin[other] && are_alike(planes[plane], planes[other], two_planes);
+            return are_alike(planes[line.index(i)], planes[other], two_planes);
         };
-        if (!is_twin[plane] && line.any_near(i, two_planes, is_close))
+        if (line.any_near(i, two_planes, is_close))
             return true;
     }
     return false;
 }
 
-template <typename Element>
-void erase(std::vector<Element> &elements, const std::vector<bool> &is_twin) {
-    std::size_t index = 0;
-    std::erase_if(elements, [&](const Element &) { return is_twin[index++]; });
-}
-
-std::vector<std::uint32_t> order_of_array(std::size_t size) {
-    std::vector<std::uint32_t> order(size);
-    std::iota(order.begin(), order.end(), 0U);
-    return order;
-}
-
 } // namespace
 
-std::vector<std::uint32_t> order_along_line(const std::vector<Sphere> &spheres) {
-    std::vector<double> places;
-    places.reserve(spheres.size());
-    for (const Sphere &sphere : spheres)
-        places.push_back(glm::dot(sphere.center, generic_direction));
-    std::vector<std::uint32_t> order = order_of_array(spheres.size());
-    std::ranges::sort(order, {}, [&](std::uint32_t index) { return places[index]; });
-    return order;
-}
-
-DistinctScene without_twins(SeenScene seen, const std::vector<std::uint32_t> &order) {
-    DistinctScene distinct{std::move(seen), false, false};
-    std::vector<SeenSphere> &spheres = distinct.seen.spheres;
-    const Line sphere_line(spheres, order);
-    const std::vector<bool> sphere_twins = twins_of_earlier(spheres, sphere_line);
-    distinct.close_lamps = has_close_lamps(spheres, sphere_line, sphere_twins);
-    erase(spheres, sphere_twins);
-
-    std::vector<CurvedPlane> &planes = distinct.seen.planes;
-    const Line plane_line(planes, order_of_array(planes.size()));
-    const std::vector<bool> plane_twins = twins_of_earlier(planes, plane_line);
-    distinct.close_planes = has_close_planes(planes, plane_line, plane_twins);
-    erase(planes, plane_twins);
-    return distinct;
+DistinctScene without_twins(SeenScene seen) {
+    merge_twins(seen.spheres);
+    merge_twins(seen.planes);
+    const bool close_lamps = has_close_lamps(seen.spheres);
+    const bool close_planes = has_close_planes(seen.planes);
+    return {std::move(seen), close_lamps, close_planes};
 }
 
 } // namespace pt

@@ -1,17 +1,9 @@
 // Surfaces so close to each other that float32 can hardly tell which of them a ray meets first.
 #pragma once
 
-#include "lib/scene/scene.h"
 #include "lib/scene/seen_scene.h"
 
-#include <cstdint>
-#include <vector>
-
 namespace pt {
-
-// Indices of spheres, sorted along the line on which near ones are found. Sorting is most of the work, and the order is
-// nearly the same for every camera.
-std::vector<std::uint32_t> order_along_line(const std::vector<Sphere> &spheres);
 
 // A scene in which twins are merged. Among spheres, or planes, that float32 cannot tell apart from where the camera is,
 // the first in the array stands for all. Otherwise rounding would choose among them, differently for each ray of a
@@ -22,7 +14,6 @@ struct DistinctScene {
     bool close_planes; // some planes differ by less than a 2^8th in direction and distance
 };
 
-// order: from order_along_line, for the spheres that are seen.
-DistinctScene without_twins(SeenScene seen, const std::vector<std::uint32_t> &order);
+DistinctScene without_twins(SeenScene seen);
 
 } // namespace pt

@@ -6,6 +6,9 @@
 
 #include <glm/glm.hpp>
 
+#include <algorithm>
+#include <bit>
+#include <cmath>
 #include <cstdint>
 
 namespace pt {
@@ -20,13 +23,33 @@ struct Grid {
     double steps_per_unit;
 
     // The finest grid that reaches a distance from its middle, along each axis.
-    Grid(const glm::dvec3 &middle_of, double distance);
+    Grid(const glm::dvec3 &middle_of, double distance) :
+        middle(middle_of),
+        step(step_for(distance)),
+        steps_per_unit(1.0 / step) {}
 
     // The grid place nearest to a point, which the grid must reach.
-    glm::ivec3 place(const glm::dvec3 &point) const;
+    glm::ivec3 place(const glm::dvec3 &point) const {
+        const glm::dvec3 steps = (point - middle) * steps_per_unit;
+        return {nearest(steps.x), nearest(steps.y), nearest(steps.z)};
+    }
 
     // Where a place is.
     glm::dvec3 point(const glm::ivec3 &at) const { return middle + step * glm::dvec3(at); }
+
+private:
+    // The smallest power of two that, times 'reach', is at least a distance; float32 must hold it and its inverse.
+    static double step_for(double distance) {
+        int exponent = 0; // distance / reach = fraction * 2^exponent with fraction in [1/2, 1)
+        std::frexp(distance / reach, &exponent);
+        return std::ldexp(1.0, std::clamp(exponent, -120, 120));
+    }
+
+    // The last bit of such a large number counts ones, so adding to it rounds to whole numbers, ties to even.
+    static int nearest(double number) {
+        constexpr double ones_are_last = 0x1.8p52;
+        return static_cast<int>(static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(number + ones_are_last)));
+    }
 };
 
 // A box of places that includes both ends. A default box is empty.

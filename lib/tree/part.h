@@ -53,12 +53,6 @@ struct Box {
     }
 };
 
-inline Box ball_of(const TreeItem &item) {
-    Box box;
-    box.add_ball(item);
-    return box;
-}
-
 // A sample of this many spheres shows nearly as well as all of them where to divide a part. With 10^6 spheres in even
 // clouds, clumps and shells, rays take the same number of trips through the tree to 0.5%, and 1% more if one sphere in
 // 10^4 is 30 times as large as the others.

@@ -5,6 +5,7 @@
 #include "lib/scene/sphere_source.h"
 #include "lib/tree/grid.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -31,19 +32,36 @@ void for_each_in_tree(const SphereSource &spheres, std::span<const std::uint32_t
 }
 
 struct SphereExtent {
-    glm::dvec3 low{std::numeric_limits<double>::infinity()};
-    glm::dvec3 high{-std::numeric_limits<double>::infinity()};
+    PointBox box{glm::dvec3(std::numeric_limits<double>::infinity()),
+                 glm::dvec3(-std::numeric_limits<double>::infinity())};
     double largest_radius = 0.0;
-    bool moves = false;        // some sphere does, in the tree or left out: a kernel reads the ways of all or of none
-    bool has_capsules = false; // some sphere of the tree is one
+    bool moves = false; // some sphere does, in the tree or left out: a kernel reads the ways of all or of none
+    Kinds kinds = 0;    // of the tree
     std::uint32_t lamp_count = 0;
 
     // materials: all materials of the scene.
     SphereExtent(const SphereSource &spheres, std::span<const std::uint32_t> left_out,
-                 std::span<const TreeMaterial> materials, WorkProgress &progress);
+                 std::span<const TreeMaterial> materials, WorkProgress &progress) {
+        constexpr double share_of_extent = 0.06; // of what is left of the work, as measured with a million spheres
+        progress.enter(share_of_extent, static_cast<double>(spheres.size()));
+        for_each_in_tree(spheres, left_out, progress, [&](std::uint32_t, const Sphere &sphere) {
+            const PointBox own = box_about(sphere.ball());
+            box = {glm::min(box.low, own.low), glm::max(box.high, own.high)};
+            largest_radius = std::max(largest_radius, sphere.radius);
+            moves = moves || sphere.ball().moves();
+            kinds |= bit_of(sphere.kind);
+            lamp_count += materials[sphere.material].emits ? 1 : 0;
+        });
+        for (const std::uint32_t index : left_out)
+            moves = moves || spheres[index].ball().moves();
+    }
 
-    // A grid that reaches all of them.
-    Grid grid() const;
+    // A grid that reaches all of them. With one step more than needed on each side, because places are rounded: the box
+    // of tiny distant balls may consist of nothing but rounding.
+    Grid grid() const {
+        const glm::dvec3 half = 0.5 * box.high - 0.5 * box.low;
+        return {0.5 * box.low + 0.5 * box.high, std::max({half.x, half.y, half.z, largest_radius}) * (1.0 + 0x1p-28)};
+    }
 };
 
 } // namespace pt

@@ -1,8 +1,7 @@
 // Divides spheres, top down; see sphere_order.h.
 #include "lib/tree/sphere_order.h"
 
-#include "lib/tree/binned_cut.h"
-#include "lib/tree/swept_cut.h"
+#include "lib/tree/cuts.h"
 
 #include <algorithm>
 #include <span>
@@ -66,7 +65,7 @@ Part without_twins(Part part, const Making &making) {
     // Not std::ranges, whose result Clang 14 cannot compile.
     const auto twins = std::unique(part.items.begin(), part.items.end(), are_twins);
     part.items = part.items.first(static_cast<std::size_t>(twins - part.items.begin()));
-    making.progress.add(shape_work(count) - shape_work(part.items.size()), 0);
+    making.progress.add(static_cast<double>(count - part.items.size()), 0);
     return part;
 }
 
@@ -101,10 +100,8 @@ Children children_of(Part node, const Making &making, std::uint32_t depth) {
     if (node.items.size() <= tree_width || node.centres.is_point() || depth == free_depth)
         node = without_twins(node, making);
     if (node.items.size() <= tree_width) {
-        const std::size_t count = node.items.size();
-        for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t i = 0; i < node.items.size(); ++i)
             children.add({node.items.subspan(i, 1), {}});
-        making.progress.add(shape_work(count) - static_cast<double>(count) * shape_work(1), 0);
         return children;
     }
     children.add(node);
@@ -113,9 +110,7 @@ Children children_of(Part node, const Making &making, std::uint32_t depth) {
         if (next == nullptr)
             break;
         auto [first, second] = divided(*next, depth);
-        making.progress.add(shape_work(next->items.size()) - shape_work(first.items.size()) -
-                                shape_work(second.items.size()),
-                            next->items.size());
+        making.progress.add(0.0, next->items.size());
         for (Part *const part : {&first, &second})
             if (part->items.size() > 1 && part->centres.is_point() && depth < free_depth)
                 *part = without_twins(*part, making);
@@ -151,7 +146,7 @@ TreeShape tree_shape(std::vector<TreeItem> items, const SphereOrder &order, Work
             if (child.items.size() > 1)
                 continue;
             shape.spheres.push_back(child.items.front().sphere);
-            progress.add(shape_work(1), 0);
+            progress.add(1.0, 0);
         }
         links.inner_count = static_cast<std::uint8_t>(children.count - (shape.spheres.size() - links.first_place));
         for (const Part &child : children.all()) {

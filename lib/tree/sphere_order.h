@@ -5,7 +5,6 @@
 #include "shaders/gpu_layout.h"
 
 #include <array>
-#include <bit>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
@@ -44,13 +43,7 @@ using SphereOrder = std::function<std::strong_ordering(std::uint32_t, std::uint3
 
 // Nodes are divided where surface times expected nodes, summed over both sides, is least (Goldsmith and Salmon 1987; in
 // bins: Wald 2007). Deep in the tree they are halved, which bounds its depth for any spheres: for 2^26 of them it
-// is 27. The work is shape_work() of all items.
+// is 27. The work is one unit for each item.
 TreeShape tree_shape(std::vector<TreeItem> items, const SphereOrder &order, WorkProgress &progress);
-
-// The work of dividing this many spheres until each has its place, about n log2 n. Dividing them once counts as this
-// less the work for both parts, which is never negative.
-constexpr double shape_work(std::size_t spheres) {
-    return static_cast<double>(spheres) * static_cast<double>(std::bit_width(spheres));
-}
 
 } // namespace pt

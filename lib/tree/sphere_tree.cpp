@@ -1,11 +1,8 @@
 // Builds and writes the tree; see sphere_tree.h.
 #include "lib/tree/sphere_tree.h"
 
-#include "lib/scene/seen_sphere.h"
-#include "lib/scene/start_disc.h"
+#include "lib/scene/seen_scene.h"
 #include "lib/tree/equal_words.h"
-#include "lib/tree/scene_numbers.h"
-#include "lib/tree/sphere_words.h"
 #include "lib/tree/tree_node.h"
 
 #include <algorithm>
@@ -38,12 +35,6 @@ constexpr double share_of_nodes = 0.9;
 constexpr double share_of_alike = 0.5;
 constexpr double share_of_close_lamps = 0.5;
 
-// For numbers that fit into an int: std::ceil is a function call in code for old processors.
-int ceiling(double number) {
-    const auto whole = static_cast<int>(number);
-    return whole + (whole < number ? 1 : 0);
-}
-
 TreeNodeView node_of(std::span<const glm::uvec4> words, std::uint32_t node) {
     return TreeNodeView(words.subspan(std::size_t{node} * gpu::TREE_NODE_WORDS));
 }
@@ -53,7 +44,7 @@ std::vector<TreeItem> items_of(const SphereSource &spheres, std::span<const std:
     std::vector<TreeItem> items;
     items.reserve(spheres.size() - left_out.size());
     for_each_in_tree(spheres, left_out, progress, [&](std::uint32_t index, const Sphere &sphere) {
-        items.push_back({ball_of(sphere, grid), index});
+        items.push_back({SphereWords(sphere, grid).ball(grid), index});
     });
     return items;
 }
@@ -64,11 +55,11 @@ SphereTree::SphereTree(const SphereSource &spheres, std::span<const std::uint32_
                        std::span<const TreeMaterial> materials, WorkProgress &progress) :
     SphereTree(SphereExtent(spheres, left_out, materials, progress), spheres, left_out) {
     const auto order = [&](std::uint32_t a, std::uint32_t b) {
-        return words_of(spheres[a], grid_) <=> words_of(spheres[b], grid_);
+        return SphereWords(spheres[a], grid_).all() <=> SphereWords(spheres[b], grid_).all();
     };
     progress.enter(share_of_items, static_cast<double>(spheres.size()));
     std::vector<TreeItem> items = items_of(spheres, left_out, grid_, progress);
-    progress.enter(share_of_shape, shape_work(items.size()));
+    progress.enter(share_of_shape, static_cast<double>(items.size()));
     {
         TreeShape shape = tree_shape(std::move(items), order, progress);
         depth_ = shape.depth;
@@ -109,7 +100,7 @@ SphereTree::SphereTree(const SphereExtent &extent, const SphereSource &spheres,
                        std::span<const std::uint32_t> left_out) :
     grid_(extent.grid()),
     moves_(extent.moves),
-    has_capsules_(extent.has_capsules),
+    kinds_(extent.kinds),
     has_colors_(spheres.has_colors()),
     has_opacities_(spheres.has_opacities()),
     scene_sphere_count_(static_cast<std::uint32_t>(spheres.size())),
@@ -151,30 +142,25 @@ void SphereTree::write_spheres(const SphereSource &spheres, std::span<const Tree
     spheres.for_each(*spheres_, progress, [&](std::size_t place, const Sphere &sphere, const glm::vec3 &color) {
         const auto component = static_cast<int>(place % 4);
         const TreeMaterial &material = materials[sphere.material];
-        words_[first_sphere_ + place] = sphere_word(sphere, grid_);
+        const SphereWords words(sphere, grid_);
+        words_[first_sphere_ + place] = words.place;
         if (has_ways())
-            words_[first_motion_ + place] = motion_word(sphere);
+            words_[first_motion_ + place] = words.way;
         if (has_colors_)
             words_[first_color_ + place / 4][component] = color_word(color);
         words_[first_surface_ + place / 4][component] = material.index;
         if (material.emits)
-            lamps.push_back({static_cast<std::uint32_t>(place), sphere.material});
+            lamps.push_back({(*spheres_)[place], static_cast<std::uint32_t>(place), sphere.material});
     });
-    if (!lamps.empty())
-        write_lamps(lamps, materials);
+    write_lamps(std::move(lamps), materials);
 }
 
-void SphereTree::write_lamps(std::span<const FoundLamp> lamps, std::span<const TreeMaterial> materials) {
-    SceneNumbers numbers(scene_sphere_count_);
-    for (const FoundLamp &lamp : lamps)
-        numbers.add((*spheres_)[lamp.place]);
-    numbers.count();
-    lamp_materials_.resize(lamps.size());
-    words_.resize(first_lamp_ + lamps.size());
+void SphereTree::write_lamps(std::vector<FoundLamp> lamps, std::span<const TreeMaterial> materials) {
+    std::ranges::sort(lamps, {}, &FoundLamp::sphere);
     for (const FoundLamp &lamp : lamps) {
-        const std::uint32_t number = numbers.number_of((*spheres_)[lamp.place]);
-        lamp_materials_[number] = lamp.material;
-        words_[first_lamp_ + number] = {lamp.place, materials[lamp.material].index, 0, 0};
+        const auto number = static_cast<std::uint32_t>(lamp_materials_.size());
+        lamp_materials_.push_back(lamp.material);
+        words_.emplace_back(lamp.place, materials[lamp.material].index, 0, 0);
         words_[first_surface_ + lamp.place / 4][static_cast<int>(lamp.place % 4)] = gpu::TREE_LAMP_BIT + number;
     }
 }
@@ -193,8 +179,9 @@ GridBox SphereTree::write_node(std::uint32_t node, WorkProgress &progress) {
     const TreeLinks links = TreeNodeView(words_of_node(node)).links();
     TreeNode written(links);
     for (std::uint32_t child = links.child_count; child-- > 0;)
-        written.set_box(child, child < links.inner_count ? write_node(links.first_child + child, progress)
-                                                         : box_of_place(links.first_place + child - links.inner_count));
+        written.set_box(child, child < links.inner_count
+                                   ? write_node(links.first_child + child, progress)
+                                   : words_of(links.first_place + child - links.inner_count).box(grid_));
     cost_ += written.box().surface();
     std::ranges::copy(written.words(), words_of_node(node).begin());
     progress.add(1);
@@ -218,45 +205,26 @@ void SphereTree::add_to(Digest &digest) const {
     std::erase(places, nowhere);
     for (const std::uint32_t place : places) {
         const auto component = static_cast<int>(place % 4);
-        const glm::uvec4 &word = words_[first_sphere_ + place];
-        const glm::uvec4 way = has_ways() ? words_[first_motion_ + place] : glm::uvec4(0);
+        const SphereWords words = words_of(place);
         const std::uint32_t surface = words_[first_surface_ + place / 4][component];
         const bool is_lamp = (surface & gpu::TREE_LAMP_BIT) != 0;
         const std::uint32_t material = is_lamp ? words_[first_lamp_ + (surface & ~gpu::TREE_LAMP_BIT)].y : surface;
         const std::uint32_t color =
             has_colors_ ? words_[first_color_ + place / 4][component] : color_word(glm::vec3(1.0F));
-        digest.add(std::array{word.x, word.y, word.z, word.w, way.x, way.y, way.z});
-        if (is_swept(way)) // so that scenes without capsules keep the digest that their films have
-            digest.add(std::uint64_t{1});
+        const std::array all = words.all();
+        digest.add(std::span(all).first(7));
+        add_kind(digest, words.surface(grid_).kind);
         digest.add((std::uint64_t{material} << 32) | color);
     }
 }
 
-// A sphere as the kernel has it, from time 0 to 1 or from end to end.
-MovingBall SphereTree::ball_at(std::uint32_t place) const {
-    const glm::uvec4 &word = words_[first_sphere_ + place];
-    const glm::uvec4 way = has_ways() ? words_[first_motion_ + place] : glm::uvec4(0);
-    return {grid_.point(centre_of(word)), way_of(way), radius_of(word), is_swept(way)};
+SphereWords SphereTree::words_of(std::uint32_t place) const {
+    return {words_[first_sphere_ + place], has_ways() ? words_[first_motion_ + place] : glm::uvec4(0)};
 }
 
 bool SphereTree::is_far(const Camera &camera) const {
     const glm::dvec3 steps = glm::abs(camera.position - grid_.middle) / grid_.step;
     return !(std::max({steps.x, steps.y, steps.z}) <= 2.0 * Grid::reach);
-}
-
-// The box of a sphere as the kernel has it, at any time, or of a capsule. The margin of the kernel covers what rounding
-// adds.
-GridBox SphereTree::box_of_place(std::uint32_t place) const {
-    const glm::uvec4 &word = words_[first_sphere_ + place];
-    const int radius = ceiling(radius_of(word) * grid_.steps_per_unit);
-    const glm::ivec3 centre = centre_of(word);
-    GridBox box{centre - radius, centre + radius};
-    if (has_ways()) {
-        const glm::dvec3 way = way_of(words_[first_motion_ + place]) / grid_.step;
-        box.low += glm::ivec3(glm::floor(glm::min(way, 0.0)));
-        box.high += glm::ivec3(glm::ceil(glm::max(way, 0.0)));
-    }
-    return box;
 }
 
 // Whether some place whose rounded box meets a given box has a property.
@@ -279,7 +247,7 @@ bool SphereTree::any_in(const GridBox &box, Property &&property) const {
 }
 
 Sphere SphereTree::lamp(std::uint32_t number) const {
-    const MovingBall ball = ball_at(words_[first_lamp_ + number].x);
+    const MovingBall ball = surface_of(words_[first_lamp_ + number].x);
     return {ball.open, ball.radius, ball.way, lamp_materials_[number]};
 }
 
@@ -290,8 +258,9 @@ bool SphereTree::may_hold(const Camera &camera) const {
     const auto around = static_cast<int>(nearly) + 1;
     if (!meet(box_, {seen.camera - around, seen.camera + around}) || is_far(camera))
         return false;
-    return any_in({seen.camera - around, seen.camera + around},
-                  [&](std::uint32_t place) { return may_hold_origin(seen_ball(ball_at(place), camera), grid_.step); });
+    return any_in({seen.camera - around, seen.camera + around}, [&](std::uint32_t place) {
+        return may_hold_origin(seen_ball(surface_of(place), camera), grid_.step);
+    });
 }
 
 bool SphereTree::divides_start(const Camera &camera) const {
@@ -303,7 +272,7 @@ bool SphereTree::divides_start(const Camera &camera) const {
     const glm::ivec3 low(glm::floor(glm::clamp(middle - radius, -beyond, beyond)));
     const glm::ivec3 high(glm::ceil(glm::clamp(middle + radius, -beyond, beyond)));
     return any_in({low, high}, [&](std::uint32_t place) {
-        return pt::divides_start(seen_ball(ball_at(place), camera), camera, grid_.step);
+        return pt::divides_start(seen_ball(surface_of(place), camera), camera, grid_.step);
     });
 }
 
@@ -327,7 +296,7 @@ double SphereTree::least_depth(const Camera &camera, const std::function<double(
                     entries.emplace(depth, node.first_child() + child);
             } else {
                 const std::uint32_t place = node.first_place() + child - node.inner_count();
-                least = std::min(least, of_sphere(seen_ball(ball_at(place), camera)));
+                least = std::min(least, of_sphere(seen_ball(surface_of(place), camera)));
             }
         }
     }
@@ -340,12 +309,12 @@ bool SphereTree::finds_close_lamps(WorkProgress &progress) const {
     for (std::uint32_t lamp = 0; lamp < lamp_materials_.size(); ++lamp) {
         progress.add(1.0, as_many_spheres);
         const std::uint32_t place = words_[first_lamp_ + lamp].x;
-        const MovingBall ball = ball_at(place);
+        const MovingBall ball = surface_of(place);
         const auto is_close = [&](std::uint32_t other) {
-            return other != place && nearly_coincide(ball, ball_at(other));
+            return other != place && nearly_coincide(ball, surface_of(other));
         };
         // A sphere that nearly coincides with the lamp holds its centre.
-        const glm::ivec3 centre = centre_of(words_[first_sphere_ + place]);
+        const glm::ivec3 centre(words_[first_sphere_ + place]);
         if (any_in({centre, centre}, is_close))
             return true;
     }

@@ -14,6 +14,7 @@
 #include "lib/tree/grid.h"
 #include "lib/tree/sphere_extent.h"
 #include "lib/tree/sphere_order.h"
+#include "lib/tree/sphere_words.h"
 #include "shaders/gpu_layout.h"
 
 #include <cstdint>
@@ -24,12 +25,6 @@
 #include <vector>
 
 namespace pt {
-
-// In the scene's coordinates.
-struct PointBox {
-    glm::dvec3 low;
-    glm::dvec3 high;
-};
 
 class SphereTree {
 public:
@@ -67,7 +62,7 @@ public:
     std::uint32_t node_count() const { return node_count_; }
     std::uint32_t depth() const { return depth_; }
     bool moves() const { return moves_; }
-    bool has_capsules() const { return has_capsules_; }
+    bool has(Kind kind) const { return (kinds_ & bit_of(kind)) != 0; }
     bool has_opacities() const { return has_opacities_; }
 
     // For each place, the index of its sphere in the scene; and the number of spheres in the scene.
@@ -84,7 +79,7 @@ public:
     // Whether the camera is inside some sphere at any time, or so close to one that float32 cannot tell.
     bool may_hold(const Camera &camera) const;
 
-    // Whether parallel rays of the camera may start on both sides of some sphere (start_disc.h).
+    // Whether parallel rays of the camera may start on both sides of some sphere (seen_scene.h).
     bool divides_start(const Camera &camera) const;
 
     // The least depth of the spheres from a camera. of_region: a lower bound of the depth of everything in a ball.
@@ -98,8 +93,9 @@ public:
     bool has_close_lamps() const { return close_lamps_; }
 
 private:
-    // An emitting sphere, with the index of its material in the scene.
+    // An emitting sphere, with its index and that of its material in the scene.
     struct FoundLamp {
+        std::uint32_t sphere;
         std::uint32_t place;
         std::uint32_t material;
     };
@@ -110,13 +106,13 @@ private:
     void make_room(std::size_t node_count, WorkProgress &progress);
     std::span<glm::uvec4> words_of_node(std::size_t node);
     void write_spheres(const SphereSource &spheres, std::span<const TreeMaterial> materials, WorkProgress &progress);
-    void write_lamps(std::span<const FoundLamp> lamps, std::span<const TreeMaterial> materials);
+    void write_lamps(std::vector<FoundLamp> lamps, std::span<const TreeMaterial> materials);
     void write_nodes(WorkProgress &progress);
     GridBox write_node(std::uint32_t node, WorkProgress &progress);
     bool has_alike(WorkProgress &progress) const;
-    bool has_ways() const { return moves_ || has_capsules_; }
-    MovingBall ball_at(std::uint32_t place) const;
-    GridBox box_of_place(std::uint32_t place) const;
+    bool has_ways() const { return moves_ || (kinds_ & ~bit_of(Kind::ball)) != 0; }
+    SphereWords words_of(std::uint32_t place) const;
+    MovingBall surface_of(std::uint32_t place) const { return words_of(place).surface(grid_); }
     bool is_far(const Camera &camera) const;
     bool finds_close_lamps(WorkProgress &progress) const;
     template <typename Property>
@@ -124,7 +120,7 @@ private:
 
     Grid grid_;
     bool moves_;
-    bool has_capsules_;
+    Kinds kinds_;
     bool has_colors_;
     bool has_opacities_;
     std::uint32_t scene_sphere_count_;

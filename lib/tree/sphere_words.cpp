@@ -1,4 +1,4 @@
-// Rounds spheres to words; see sphere_words.h.
+// Rounds surfaces to words; see sphere_words.h.
 #include "lib/tree/sphere_words.h"
 
 namespace pt {
@@ -16,33 +16,43 @@ std::uint32_t radius_bits(const Sphere &sphere) {
     return ((bits + half - opacity) & ~gpu::TREE_OPACITY_STEPS) + opacity;
 }
 
-} // namespace
-
-glm::uvec4 sphere_word(const Sphere &sphere, const Grid &grid) {
-    return {grid.place(sphere.center), radius_bits(sphere)};
+// For numbers that fit into an int: std::ceil is a function call in code for old processors.
+int ceiling(double number) {
+    const auto whole = static_cast<int>(number);
+    return whole + (whole < number ? 1 : 0);
 }
 
-glm::uvec4 motion_word(const Sphere &sphere) {
-    return std::bit_cast<glm::uvec4>(way_word(sphere.ball()));
+} // namespace
+
+SphereWords::SphereWords(const Sphere &sphere, const Grid &grid) :
+    place(grid.place(sphere.center), radius_bits(sphere)),
+    way(std::bit_cast<glm::uvec4>(way_word(sphere.ball()))) {}
+
+MovingBall SphereWords::surface(const Grid &grid) const {
+    return surface_of(grid.point(centre()), radius(), std::bit_cast<glm::vec4>(way));
+}
+
+GridBox SphereWords::box(const Grid &grid) const {
+    const int reach = ceiling(radius() * grid.steps_per_unit);
+    GridBox box{centre() - reach, centre() + reach};
+    if (way != glm::uvec4(0)) {
+        const glm::dvec3 steps = glm::dvec3(std::bit_cast<glm::vec4>(way)) / grid.step;
+        box.low += glm::ivec3(glm::floor(glm::min(steps, 0.0)));
+        box.high += glm::ivec3(glm::ceil(glm::max(steps, 0.0)));
+    }
+    return box;
+}
+
+std::array<float, 4> SphereWords::ball(const Grid &grid) const {
+    const glm::dvec3 half_way = 0.5 * glm::dvec3(std::bit_cast<glm::vec4>(way));
+    const glm::vec3 middle(glm::dvec3(centre()) + half_way * grid.steps_per_unit);
+    const double reach = radius() + glm::length(half_way);
+    return {middle.x, middle.y, middle.z, static_cast<float>(reach * grid.steps_per_unit)};
 }
 
 std::uint32_t color_word(const glm::vec3 &color) {
     const glm::uvec3 steps(glm::sqrt(glm::clamp(color, 0.0F, 1.0F)) * float{gpu::TREE_COLOR_STEPS} + 0.5F);
     return steps.r | steps.g << 10 | steps.b << 20;
-}
-
-std::array<std::uint32_t, 8> words_of(const Sphere &sphere, const Grid &grid) {
-    const glm::uvec4 place = sphere_word(sphere, grid);
-    const glm::uvec4 motion = motion_word(sphere);
-    return {place.x, place.y, place.z, place.w, motion.x, motion.y, motion.z, motion.w};
-}
-
-std::array<float, 4> ball_of(const Sphere &sphere, const Grid &grid) {
-    const glm::uvec4 word = sphere_word(sphere, grid);
-    const glm::dvec3 half_way = 0.5 * way_of(motion_word(sphere));
-    const glm::vec3 centre(glm::dvec3(centre_of(word)) + half_way * grid.steps_per_unit);
-    const double radius = radius_of(word) + glm::length(half_way);
-    return {centre.x, centre.y, centre.z, static_cast<float>(radius * grid.steps_per_unit)};
 }
 
 } // namespace pt

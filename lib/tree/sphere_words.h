@@ -1,4 +1,4 @@
-// A sphere as the kernel reads it from a tree (gpu_layout.h): its words, and back.
+// A surface as the kernel reads it from a tree (gpu_layout.h), and back. Which kind it is only moving_ball.h knows.
 #pragma once
 
 #include "lib/scene/scene.h"
@@ -12,34 +12,31 @@
 
 namespace pt {
 
-// Its place on the grid, and its radius.
-glm::uvec4 sphere_word(const Sphere &sphere, const Grid &grid);
+// Everything that the kernel knows about where a surface is.
+struct SphereWords {
+    glm::uvec4 place; // of its centre on the grid; the bits of its radius
+    glm::uvec4 way{0};
 
-glm::uvec4 motion_word(const Sphere &sphere);
+    SphereWords(const glm::uvec4 &place_of, const glm::uvec4 &way_of) : place(place_of), way(way_of) {}
+    SphereWords(const Sphere &sphere, const Grid &grid);
+
+    std::array<std::uint32_t, 8> all() const { return std::bit_cast<std::array<std::uint32_t, 8>>(*this); }
+
+    // From time 0 to 1 or from end to end.
+    MovingBall surface(const Grid &grid) const;
+
+    // The box of all that the surface takes up. The margin of the kernel covers what rounding adds.
+    GridBox box(const Grid &grid) const;
+
+    // Centre and radius, in grid steps, of the ball around the surface. Equal for twins.
+    std::array<float, 4> ball(const Grid &grid) const;
+
+private:
+    glm::ivec3 centre() const { return glm::ivec3(place); }
+    double radius() const { return std::bit_cast<float>(place.w); }
+};
 
 // Ten bits for the square root of each component, so that dark colors are kept apart as well as bright ones.
 std::uint32_t color_word(const glm::vec3 &color);
-
-// Everything that the kernel knows about where a sphere is.
-std::array<std::uint32_t, 8> words_of(const Sphere &sphere, const Grid &grid);
-
-// Centre and radius, in grid steps, of the ball around the sphere's way, as the kernel has it. Equal for twins.
-std::array<float, 4> ball_of(const Sphere &sphere, const Grid &grid);
-
-inline glm::ivec3 centre_of(const glm::uvec4 &sphere) {
-    return {std::bit_cast<int>(sphere.x), std::bit_cast<int>(sphere.y), std::bit_cast<int>(sphere.z)};
-}
-
-inline double radius_of(const glm::uvec4 &sphere) {
-    return std::bit_cast<float>(sphere.w);
-}
-
-inline bool is_swept(const glm::uvec4 &motion) {
-    return motion.w != 0;
-}
-
-inline glm::dvec3 way_of(const glm::uvec4 &motion) {
-    return {std::bit_cast<float>(motion.x), std::bit_cast<float>(motion.y), std::bit_cast<float>(motion.z)};
-}
 
 } // namespace pt

@@ -20,16 +20,17 @@ constexpr std::size_t most_outlying = 50;
 // has.
 constexpr double much_farther = 16.0;
 
-// So many capsules at the most are left out of the tree, such as the twelve edges of a cell. Every ray tests them, but
-// a walk then takes all spheres of the tree for balls: 300 or 3,000 in a cell took .81 and .77 of the CPU seconds.
-constexpr std::size_t few_capsules = 16;
+// So many surfaces that are no balls are left out of the tree at the most, such as the twelve edges of a cell. Every
+// ray tests them, but a walk then takes all of the tree for balls: 300 or 3,000 in a cell took .81 and .77 of the CPU
+// seconds.
+constexpr std::size_t few_others = 16;
 
 // The medians of the coordinates of about a thousand spheres.
 glm::dvec3 middle_of(const SphereSource &spheres) {
     constexpr std::size_t enough = 1000;
-    const std::size_t step = spheres.size() / enough + 1;
+    const auto step = static_cast<std::uint32_t>(spheres.size() / enough + 1);
     std::vector<glm::dvec3> centres;
-    for (std::size_t i = 0; i < spheres.size(); i += step)
+    for (std::uint32_t i = 0; i < spheres.size(); i += step)
         centres.push_back(spheres[i].center);
     glm::dvec3 middle;
     for (int axis = 0; axis < 3; ++axis) {
@@ -73,14 +74,14 @@ std::vector<std::uint32_t> outlying_spheres(const SphereSource &spheres, WorkPro
 }
 
 std::uint32_t tree_pays_from(const SphereSource &spheres) {
-    return spheres.has_capsules() ? tree_of_capsules_from : default_tree_from;
+    return spheres.are_mere_balls() ? default_tree_from : tree_of_others_from;
 }
 
 // Only walks through the tree know opacities; of hidden spheres, none is below 1.
 std::vector<std::uint32_t> spheres_beside_tree(const SphereSource &spheres, WorkProgress &progress) {
     const std::vector<std::uint32_t> outlying = outlying_spheres(spheres, progress);
     std::vector<std::uint32_t> beside;
-    std::ranges::set_union(outlying, spheres.capsules(few_capsules), std::back_inserter(beside));
+    std::ranges::set_union(outlying, spheres.other_kinds(few_others), std::back_inserter(beside));
     if (spheres.has_opacities())
         std::erase_if(beside, [&](std::uint32_t i) { return spheres[i].opacity < opaque; });
     return beside;

@@ -139,7 +139,7 @@ TEST_F(Capsules, HaveTheLightOfAPathTracerInDouble) {
         const Blocks exact = exact_blocks(given, count > 100 ? 100 : 600);
         EXPECT_LT(largest_error(given, exact, PT_SAMPLER_SOBOL), most_errors) << name;
         EXPECT_TRUE(stats().features & PT_FEATURE_CAPSULES) << name;
-        EXPECT_EQ((stats().features & PT_FEATURE_TREE) != 0, count >= pt::tree_of_capsules_from) << name;
+        EXPECT_EQ((stats().features & PT_FEATURE_TREE) != 0, count >= pt::tree_of_others_from) << name;
         if (name != "few")
             continue;
         Given shorter = given;

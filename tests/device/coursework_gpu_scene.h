@@ -3,6 +3,7 @@
 
 #include "lib/kernel/gpu_scene.h"
 #include "lib/scene/checked_scene.h"
+#include "tests/support/checked_scene_of.h"
 #include "tests/support/coursework_scene.h"
 
 #include <memory>
@@ -10,6 +11,6 @@
 inline std::shared_ptr<const pt::GpuScene> coursework_gpu_scene(const pt::RenderSettings &settings) {
     const CourseworkScene coursework;
     return std::make_shared<const pt::GpuScene>(
-        pt::gpu_scene(pt::PreparedScene(pt::owned_scene(pt::checked_scene(coursework.scene()))),
+        pt::gpu_scene(pt::PreparedScene(pt::owned_scene(checked_scene_of(coursework.scene()))),
                       pt::validated_camera(CourseworkScene::camera()), settings));
 }

@@ -5,6 +5,7 @@
 #include "tests/device/first_hit_scenes.h"
 #include "tests/device/tree_fixture.h"
 #include "tests/device/tree_scenes.h"
+#include "tests/support/checked_scene_of.h"
 #include "tests/support/context_calls.h"
 #include "tests/support/first_hit_reference.h"
 #include "tests/support/scene_of.h"
@@ -137,7 +138,7 @@ protected:
     static Counts judge(pt_context *context, bool has_tree, const Shot &given) {
         const Pixels pixels = seen_by(context, given);
         const pt_scene scene = given.scene();
-        const pt::PreparedScene prepared(pt::checked_scene(scene), has_tree ? 1 : UINT32_MAX);
+        const pt::PreparedScene prepared = prepared_scene_of(checked_scene_of(scene), has_tree ? 1 : UINT32_MAX);
         View view(given.camera, given.render);
         view.start_distance =
             pt::gpu_scene(prepared, pt::validated_camera(given.camera), pt::validated_render(given.render))

@@ -1,7 +1,7 @@
 // Host and kernel agree on the bytes between them: push constants, and what of a scene is in its buffer. That each word
 // is where the kernel reads it is seen in every picture with an exact value.
 #include "lib/kernel/gpu_scene.h"
-#include "lib/scene/seen_sphere.h"
+#include "lib/scene/seen_scene.h"
 #include "push_layout.spv.h"
 #include "tests/device/probe.h"
 

@@ -11,6 +11,7 @@
 #include "tests/device/probe.h"
 #include "tests/device/scene_constants.h"
 #include "tests/invariance/invariance_scene.h"
+#include "tests/support/checked_scene_of.h"
 
 #include <array>
 #include <cstddef>
@@ -122,5 +123,5 @@ private:
 };
 
 inline KernelRender render_of_scene(const InvarianceScene &scene, std::uint32_t max_path_length = 4) {
-    return {pt::owned_scene(pt::checked_scene(scene.scene())), pt::validated_camera(scene.camera), max_path_length};
+    return {pt::owned_scene(checked_scene_of(scene.scene())), pt::validated_camera(scene.camera), max_path_length};
 }

@@ -6,6 +6,7 @@
 #include "tests/support/context_calls.h"
 #include "tests/support/shared_context.h"
 
+#include "tests/support/checked_scene_of.h"
 #include "tests/support/expected_error.h"
 
 #include <pt/shaders.h>
@@ -231,7 +232,7 @@ TEST_F(ReloadTest, KernelsThatTheDriverRefusesAreNotTaken) {
     settings.device = std::getenv("PT_TEST_DEVICE") ? std::getenv("PT_TEST_DEVICE") : "";
     pt::Renderer renderer(settings);
     pt::WorkProgress nobody;
-    renderer.set_scene(pt::checked_scene(valid_scene()), nobody);
+    renderer.set_scene(checked_scene_of(valid_scene()), nobody);
     renderer.set_camera(pt::validated_camera(valid_camera()));
     renderer.set_render(pt::validated_render(valid_render()));
     const auto take_a_sample = [&] {

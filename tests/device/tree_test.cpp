@@ -2,6 +2,7 @@
 // PT_TEST_TREE_SCENES asks for more scenes than the few of a test run.
 #include "tests/device/kernel_render.h"
 #include "tests/device/tree_scenes.h"
+#include "tests/support/checked_scene_of.h"
 
 #include <gtest/gtest.h>
 
@@ -86,7 +87,7 @@ Compared compare(const pt::PreparedScene &prepared, const pt::Camera &camera) {
 
 Compared compare(const pt::Scene &scene, const pt::Camera &camera) {
     const std::vector<pt_sphere> spheres_of_caller = caller_spheres(scene.spheres);
-    return compare(pt::PreparedScene({scene.materials, {spheres_of_caller, {}}, scene.planes}, 1), camera);
+    return compare(prepared_scene_of({scene.materials, {spheres_of_caller, {}}, scene.planes}, 1), camera);
 }
 
 // Sweeps half of the spheres that are no lamps to others of them. Some begin where another does, and are met at the
@@ -118,7 +119,7 @@ Compared compare_with_capsules(const pt::Scene &scene, const pt::Camera &camera)
                           {},
                           {capsules[0].motion, stride, PT_TYPE_FLOAT64},
                           {}});
-    return compare(pt::PreparedScene({scene.materials, {spheres, arrays}, scene.planes}, 1), camera);
+    return compare(prepared_scene_of({scene.materials, {spheres, arrays}, scene.planes}, 1), camera);
 }
 
 // Of spheres, and of capsules.
@@ -238,7 +239,7 @@ TEST(Tree, WalksThatADriverCutsAreTold) {
         scene.spheres.push_back(
             {{scenes.uniform(-2, 2), scenes.uniform(-2, 2), 0}, 1e-3, glm::dvec3(0.0), i == 0 ? 0U : 1U});
     const std::vector<pt_sphere> spheres_of_caller = caller_spheres(scene.spheres);
-    const pt::PreparedScene prepared({scene.materials, {spheres_of_caller, {}}, {}}, 1);
+    const pt::PreparedScene prepared = prepared_scene_of({scene.materials, {spheres_of_caller, {}}, {}}, 1);
     const pt::Camera camera{{0, 0, 5}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0.0, 1.0};
     KernelRender render(pt::gpu_scene(prepared, camera, KernelRender::settings(2)));
     render.take(1);

@@ -4,6 +4,7 @@
 #include "tests/device/kernel_render.h"
 #include "tests/invariance/invariance_scene.h"
 #include "tests/support/batch_fixture.h"
+#include "tests/support/checked_scene_of.h"
 
 #include <gtest/gtest.h>
 
@@ -118,7 +119,7 @@ double mean_light(const KernelRender &render, const KernelRender::Constants &con
 }
 
 KernelRender render_with_twins(const InvarianceScene &named) {
-    const pt::PreparedScene scene(pt::owned_scene(pt::checked_scene(named.scene())));
+    const pt::PreparedScene scene(pt::owned_scene(checked_scene_of(named.scene())));
     const pt::Camera camera = pt::validated_camera(named.camera);
     return KernelRender(
         pt::gpu_scene({pt::seen_scene(scene.scene, camera), false, false}, scene, camera, KernelRender::settings(2)));

@@ -2,6 +2,7 @@
 // (tree_path.glsl): all bits of films, if the driver rounds as the kernel is written.
 #include "tests/device/kernel_render.h"
 #include "tests/device/tree_scenes.h"
+#include "tests/support/checked_scene_of.h"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +19,7 @@ double mean_of(const std::vector<float> &values) {
 
 pt::PreparedScene all_in_a_tree(const pt::Scene &scene) {
     const std::vector<pt_sphere> spheres = caller_spheres(scene.spheres);
-    return {{scene.materials, {spheres, {}}, scene.planes}, 1};
+    return prepared_scene_of({scene.materials, {spheres, {}}, scene.planes}, 1);
 }
 
 // Scenes with one lamp, few of which each is sampled, more of them than branches, and many; paths of one vertex, of one

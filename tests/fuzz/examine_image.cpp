@@ -8,6 +8,7 @@
 #include "lib/scene/checked_scene.h"
 #include "lib/scene/render_settings.h"
 #include "tests/fuzz/on_device.h"
+#include "tests/support/checked_scene_of.h"
 
 #include <algorithm>
 #include <cmath>
@@ -93,7 +94,7 @@ void examine_one(const Input &input) {
 // surface many times over gets the kernel of one, and a neighbour in which one of them has moved the kernel of two.
 std::optional<pt::Features> features(const Input &input) {
     try {
-        return pt::gpu_scene(pt::PreparedScene(pt::owned_scene(pt::checked_scene(input.scene()))),
+        return pt::gpu_scene(pt::PreparedScene(pt::owned_scene(checked_scene_of(input.scene()))),
                              pt::validated_camera(input.camera), pt::validated_render(input.render))
             .features;
     } catch (const pt::Error &) {

@@ -11,6 +11,7 @@
 #include "lib/scene/checked_scene.h"
 #include "lib/scene/lamp_tree.h"
 #include "lib/scene/render_settings.h"
+#include "tests/support/checked_scene_of.h"
 
 #include <pt/stats.h>
 
@@ -213,7 +214,7 @@ void examine_one(const Input &input) {
     const SizedStruct camera_struct(input.camera, input.struct_sizes[1], input.tail_byte);
     const SizedStruct render_struct(input.render, input.struct_sizes[2], input.tail_byte);
     const auto scene =
-        accepted([&] { return pt::owned_scene(pt::checked_scene(pt::copy_in(scene_struct.as<pt_scene>(), "scene"))); });
+        accepted([&] { return pt::owned_scene(checked_scene_of(pt::copy_in(scene_struct.as<pt_scene>(), "scene"))); });
     const auto camera =
         accepted([&] { return pt::validated_camera(pt::copy_in(camera_struct.as<pt_camera>(), "camera")); });
     const auto settings =

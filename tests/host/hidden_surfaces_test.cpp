@@ -2,6 +2,7 @@
 #include "lib/kernel/gpu_scene.h"
 #include "lib/kernel/hidden_surfaces.h"
 #include "lib/kernel/scene_features.h"
+#include "tests/support/checked_scene_of.h"
 
 #include <gtest/gtest.h>
 #include <pt/stats.h>
@@ -119,7 +120,7 @@ TEST(HiddenSurfaces, WithPathsOnBothSidesAreMetFromBoth) {
 // A capsule is all of its balls at once, while of balls that move each is at its time.
 TEST(HiddenSurfaces, ThatAreCapsulesAreMetAllAlong) {
     const auto with = [](double z, bool is_swept) {
-        const pt::Sphere hidden{{0, 0, z}, 1, {0, 0, 6}, HiddenDark, is_swept};
+        const pt::Sphere hidden{{0, 0, z}, 1, {0, 0, 6}, HiddenDark, is_swept ? pt::Kind::capsule : pt::Kind::ball};
         return features_of(scene_of({{{0, 0, -20}, 1, {0, 0, 6}, Dark}, hidden}));
     };
     EXPECT_FALSE(with(-23, false)[pt::gpu::ID_INSIDE]);
@@ -149,13 +150,13 @@ TEST(HiddenSurfaces, AreNotInTheTree) {
     scene.materials = materials.data();
     scene.sphere_count = 100;
     scene.spheres = spheres.data();
-    const pt::PreparedScene prepared(pt::checked_scene(scene), 90);
+    const pt::PreparedScene prepared = prepared_scene_of(checked_scene_of(scene), 90);
     ASSERT_TRUE(prepared.tree);
     EXPECT_EQ(prepared.tree->sphere_count(), 90U);
     ASSERT_EQ(prepared.scene.indices.size(), 10U);
     for (std::uint32_t i = 0; i < 10; ++i)
         EXPECT_EQ(prepared.scene.indices[i], 10 * i + 3);
-    EXPECT_FALSE(pt::PreparedScene(pt::checked_scene(scene), 91).tree); // seen ones are counted
+    EXPECT_FALSE(prepared_scene_of(checked_scene_of(scene), 91).tree); // seen ones are counted
 }
 
 } // namespace

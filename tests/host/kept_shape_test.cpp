@@ -3,6 +3,7 @@
 #include "tests/host/heap_tree.h"
 
 #include "lib/kernel/prepared_scene.h"
+#include "tests/support/checked_scene_of.h"
 
 #include <gtest/gtest.h>
 
@@ -247,7 +248,7 @@ TEST(KeptShape, HasLampsOfTheirMaterials) {
     materials[2].emission = glm::vec3(2);
     Spheres spheres = heap(ball_count, 0.0); // of the first two
     spheres[0].material = 2;
-    const auto digest = [&] { return pt::PreparedScene({materials, pt::SphereSource(spheres, {}), {}}, 50).digest(); };
+    const auto digest = [&] { return prepared_scene_of({materials, pt::SphereSource(spheres, {}), {}}, 50).digest(); };
     const std::string before = digest();
     spheres[3].material = 2;
     EXPECT_NE(digest(), before);

@@ -3,6 +3,7 @@
 
 #include "lib/base/error.h"
 #include "lib/scene/checked_scene.h"
+#include "tests/support/checked_scene_of.h"
 #include "tests/support/scene_of.h"
 
 #include <gtest/gtest.h>
@@ -66,7 +67,7 @@ struct Particles {
         scene.sphere_arrays = arrays.data();
         scene.sphere_array_count = static_cast<std::uint32_t>(arrays.size());
         spoil_scene(scene);
-        return pt::owned_scene(pt::checked_scene(scene));
+        return pt::owned_scene(checked_scene_of(scene));
     }
 
     // Result and message of the error, or "accepted".

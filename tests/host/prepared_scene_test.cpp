@@ -1,7 +1,7 @@
 // What a prepared scene keeps of its scene's digest.
 #include "lib/kernel/prepared_scene.h"
 
-#include "lib/scene/scene_digest.h"
+#include "lib/scene/scene.h"
 
 #include <gtest/gtest.h>
 

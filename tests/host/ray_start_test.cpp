@@ -2,8 +2,8 @@
 #include "lib/kernel/prepared_scene.h"
 #include "lib/kernel/ray_start.h"
 #include "lib/scene/checked_scene.h"
-#include "lib/scene/seen_sphere.h"
-#include "lib/scene/start_disc.h"
+#include "lib/scene/seen_scene.h"
+#include "tests/support/checked_scene_of.h"
 #include "tests/support/scene_of.h"
 
 #include <gtest/gtest.h>
@@ -123,7 +123,7 @@ TEST(RayStart, OfParallelRaysIsFiveEighthsOfTheDiagonalBeforeTheFirstSurface) {
 // Otherwise vertices would tell the sides of all surfaces, which those that coincide in part confuse.
 TEST(RayStart, OfParallelRaysIsOnOneSideOfALongCapsuleAcrossTheView) {
     pt::Camera camera = parallel_along(oblique, 2.0);
-    pt::Sphere capsule{camera_position - 500.0 * camera.right, 0.25, 1000.0 * camera.right, 0, true};
+    pt::Sphere capsule{camera_position - 500.0 * camera.right, 0.25, 1000.0 * camera.right, 0, pt::Kind::capsule};
     camera.start_radius = std::sqrt(2.0);
     for (const double before : {1.25 * camera.start_radius, 0.9 * camera.start_radius, 0.0}) {
         capsule.center = camera_position - 500.0 * camera.right + (0.25 + before) * camera.forward;
@@ -228,7 +228,7 @@ TEST(RayStart, OfATreeIsThatOfItsSpheres) {
             const bool is_around = way == glm::dvec3(0) && glm::length(centre - camera_position) < radius;
             list.push_back({centre, radius * (is_around ? 1.0 - 0x1p-15 : 1.0 + 0x1p-15), way, 0});
         }
-        const pt::PreparedScene prepared(pt::checked_scene(scene_of({&grey, 1}, held, {})), 1);
+        const pt::PreparedScene prepared = prepared_scene_of(checked_scene_of(scene_of({&grey, 1}, held, {})), 1);
         const double start = pt::starting_ahead(prepared.scene, prepared.tree.get(), camera, square).start_distance;
         const double expected = start_of(list, {}, camera);
         EXPECT_NEAR(start, expected, 1e-3 * (1.0 + 1e-3 * expected)) << "round " << round;

@@ -1,6 +1,7 @@
 // What the kernel may leave out of a scene, by geometry: insides of spheres, planes between surfaces and lamps.
 #include "lib/kernel/gpu_scene.h"
 #include "lib/kernel/scene_features.h"
+#include "tests/support/checked_scene_of.h"
 
 #include <gtest/gtest.h>
 #include <pt/pt.h>
@@ -58,7 +59,7 @@ TEST(FeatureTreeInside, IsWhetherTheCameraIsInASphereOfTheTree) {
     for (int i = 0; i < 100; ++i)
         spheres.push_back({{3.0 * (i % 10), 3.0 * (i / 10.0), -9}, 1, {0, 0, 0}, dark, 0});
     spheres.push_back({{0, 0, 0}, 1000, {0, 0, 0}, shining, 0});
-    const pt::PreparedScene prepared({scene.materials, {spheres, {}}, {}}, 50);
+    const pt::PreparedScene prepared = prepared_scene_of({scene.materials, {spheres, {}}, {}}, 50);
     ASSERT_TRUE(prepared.tree);
     for (const double z : {0.0, -9.0}) {
         const pt::Camera camera{{0, 0, z}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0, 1};

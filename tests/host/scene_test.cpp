@@ -2,6 +2,7 @@
 #include "lib/scene/checked_scene.h"
 
 #include "tests/host/refusals.h"
+#include "tests/support/checked_scene_of.h"
 #include "tests/support/scene_of.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +31,7 @@ struct Draft {
     pt::Scene validated() const {
         pt_scene scene = scene_of(materials, spheres, planes);
         spoil(scene);
-        return pt::owned_scene(pt::checked_scene(scene));
+        return pt::owned_scene(checked_scene_of(scene));
     }
 };
 
@@ -153,7 +154,7 @@ TEST(Scene, AcceptsExtremes) {
     draft.planes[0] = {{0, -1, 0}, 1e18, 4, 0};
     draft.planes[1] = {{0, -1, 0}, -1e-18, 4, 0};
     EXPECT_EQ(scene_outcome(draft), "accepted");
-    EXPECT_TRUE(pt::owned_scene(pt::checked_scene(scene_of({}, {}, {}))).spheres.empty());
+    EXPECT_TRUE(pt::owned_scene(checked_scene_of(scene_of({}, {}, {}))).spheres.empty());
 }
 
 TEST(Scene, CopiesEverything) {

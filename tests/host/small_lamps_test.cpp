@@ -1,9 +1,10 @@
 // How small lamps are spread over pixels, what they add to an error that no sample shows, and how much of all
 // directions the smallest lamp covers.
+#include "lib/render/missed_lamps.h"
 #include "lib/render/small_lamps.h"
 #include "lib/scene/camera.h"
 #include "lib/scene/checked_scene.h"
-#include "lib/scene/lamp_share.h"
+#include "tests/support/checked_scene_of.h"
 #include "tests/support/scene_of.h"
 
 #include <gtest/gtest.h>
@@ -54,7 +55,7 @@ std::vector<pt::LampPiece> pieces_of(const std::vector<pt_sphere> &spheres, cons
     pt_scene scene = scene_of(materials, spheres, planes);
     scene.sphere_arrays = arrays.data();
     scene.sphere_array_count = static_cast<std::uint32_t>(arrays.size());
-    const pt::PreparedScene prepared(pt::checked_scene(scene), has_tree ? 1 : 1000);
+    const pt::PreparedScene prepared = prepared_scene_of(checked_scene_of(scene), has_tree ? 1 : 1000);
     EXPECT_EQ(prepared.tree != nullptr, has_tree);
     return pt::small_lamps_in_view(prepared, seen_by, 400, 200, 0, 200);
 }
@@ -209,7 +210,7 @@ TEST(SmallLamps, PointsOneToACellMeetADiscAsOftenAsStated) {
 }
 
 // How much of all directions the smallest lamp covers, against the area of a cap of the unit sphere.
-std::optional<double> smallest_share(const std::vector<pt::Sphere> &spheres) {
+double smallest_share(const std::vector<pt::Sphere> &spheres) {
     const pt::Material black{glm::vec3(0), glm::vec3(0), glm::vec3(0), 0.0F};
     const pt::Material bright{glm::vec3(0), glm::vec3(0), glm::vec3(0, 0, 5), 0.0F};
     return pt::smallest_lamp_share(spheres, std::vector{black, bright}, camera);
@@ -220,26 +221,26 @@ pt::Sphere ball_at(double distance, double radius, std::uint32_t material) {
 }
 
 TEST(LampShare, IsThatOfTheCapWithinTheCone) {
-    const double near = smallest_share({ball_at(2, 1, lamp)}).value();
+    const double near = smallest_share({ball_at(2, 1, lamp)});
     EXPECT_DOUBLE_EQ(near, 0.5 * (1.0 - std::sqrt(3.0) / 2.0));
-    const double far = smallest_share({ball_at(1e8, 1, lamp)}).value();
+    const double far = smallest_share({ball_at(1e8, 1, lamp)});
     EXPECT_NEAR(far, 0.25e-16, 1e-30);
 }
 
 TEST(LampShare, IsThatOfTheSmallestLampThatMatters) {
-    const double smallest = smallest_share({ball_at(4, 1, lamp)}).value();
+    const double smallest = smallest_share({ball_at(4, 1, lamp)});
     const std::vector<pt::Sphere> spheres{ball_at(2, 1, lamp), ball_at(9, 1, dark), ball_at(4, 1, lamp),
                                           ball_at(1, 50, lamp)};
-    EXPECT_DOUBLE_EQ(smallest_share(spheres).value(), smallest);
+    EXPECT_DOUBLE_EQ(smallest_share(spheres), smallest);
     // One that covers 1/400 as much gives less than a hundredth of the light.
     std::vector<pt::Sphere> with_a_speck = spheres;
     with_a_speck.push_back(ball_at(80, 1, lamp));
-    EXPECT_DOUBLE_EQ(smallest_share(with_a_speck).value(), smallest);
+    EXPECT_DOUBLE_EQ(smallest_share(with_a_speck), smallest);
 }
 
-TEST(LampShare, IsNothingWithoutLampsToMiss) {
-    EXPECT_FALSE(smallest_share({}));
-    EXPECT_FALSE(smallest_share({ball_at(9, 1, dark), ball_at(1, 50, lamp)}));
+TEST(LampShare, IsAllWithoutLampsToMiss) {
+    EXPECT_EQ(smallest_share({}), 1.0);
+    EXPECT_EQ(smallest_share({ball_at(9, 1, dark), ball_at(1, 50, lamp)}), 1.0);
 }
 
 } // namespace

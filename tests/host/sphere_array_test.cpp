@@ -3,10 +3,10 @@
 // they are equal.
 #include "lib/scene/checked_scene.h"
 #include "lib/scene/scene.h"
-#include "lib/scene/scene_digest.h"
 #include "lib/scene/sphere_source.h"
 #include "lib/scene/srgb.h"
 #include "tests/host/particles.h"
+#include "tests/support/checked_scene_of.h"
 #include "tests/support/expected_error.h"
 #include "tests/support/scene_of.h"
 
@@ -58,7 +58,7 @@ std::vector<To> converted(const std::vector<From> &from) {
 TEST(SphereArrays, AreTheSpheresOfStructs) {
     const Particles particles;
     const std::vector<pt_sphere> spheres = particles.spheres();
-    const pt::Scene expected = pt::owned_scene(pt::checked_scene(scene_of(three_materials, spheres, {})));
+    const pt::Scene expected = pt::owned_scene(checked_scene_of(scene_of(three_materials, spheres, {})));
     for (const std::uint32_t gap : {0U, 1U, 4U, 1000U})
         for (const std::size_t offset : {0U, 1U, 3U, 7U}) {
             SCOPED_TRACE(testing::Message() << "gap " << gap << ", offset " << offset);
@@ -122,9 +122,9 @@ TEST(SphereArrays, MayHaveTwoToTheTwentySixthSpheres) {
     pt_scene scene = scene_of(three_materials, {}, {});
     scene.sphere_arrays = &array;
     scene.sphere_array_count = 1;
-    const pt::CheckedScene checked = pt::checked_scene(scene);
+    const pt::CheckedScene checked = checked_scene_of(scene);
     EXPECT_EQ(checked.spheres.size(), std::size_t{1} << 26);
-    EXPECT_EQ(checked.spheres[(std::size_t{1} << 26) - 1].radius, 1.0);
+    EXPECT_EQ(checked.spheres[(1U << 26) - 1].radius, 1.0);
 }
 
 TEST(SphereArrays, OfNoneNeedNoColumns) {
@@ -151,7 +151,7 @@ pt::Scene validated_bytes(const std::vector<unsigned char> &bytes, std::uint32_t
     pt_scene scene = scene_of(three_materials, {}, {});
     scene.sphere_arrays = reinterpret_cast<const pt_sphere_array *>(bytes.data());
     scene.sphere_array_count = count;
-    return pt::owned_scene(pt::checked_scene(scene));
+    return pt::owned_scene(checked_scene_of(scene));
 }
 
 TEST(SphereArrays, MayBeShorterOrLonger) {
@@ -210,9 +210,9 @@ TEST(SphereArrays, ColorsMultiplyTheDiffuse) {
     spheres[1].material = 3;
     spheres[2].material = 4;
     spheres[3].material = 0;
-    EXPECT_EQ(pt::digest_of(scene), pt::digest_of(pt::owned_scene(pt::checked_scene(scene_of(by_hand, spheres, {})))));
+    EXPECT_EQ(pt::digest_of(scene), pt::digest_of(pt::owned_scene(checked_scene_of(scene_of(by_hand, spheres, {})))));
     spheres[2].material = 2;
-    EXPECT_NE(pt::digest_of(scene), pt::digest_of(pt::owned_scene(pt::checked_scene(scene_of(by_hand, spheres, {})))));
+    EXPECT_NE(pt::digest_of(scene), pt::digest_of(pt::owned_scene(checked_scene_of(scene_of(by_hand, spheres, {})))));
 }
 
 TEST(SphereArrays, EqualColorsShareAMaterial) {
@@ -255,12 +255,12 @@ TEST(SphereArrays, ColorsMayBeOfAnyType) {
     const ColumnCopy bytes(std::vector<std::uint8_t>{0, 255, 10, 11, 128, 200, 1, 2, 3, 254, 40, 50}, 3, PT_TYPE_SRGB8,
                            5, 1);
     Particles particles;
-    const auto color = [&](const ColumnCopy &copy, std::size_t index) {
+    const auto color = [&](const ColumnCopy &copy, std::uint32_t index) {
         pt_sphere_array array = particles.array();
         array.color = copy.column();
         return pt::SphereSource({}, {&array, 1}).color(index);
     };
-    for (std::size_t i = 0; i < 4; ++i)
+    for (std::uint32_t i = 0; i < 4; ++i)
         EXPECT_EQ(color(doubles, i), color(floats, i)) << i;
     EXPECT_EQ(color(floats, 3), glm::vec3(0.25F, 0.5F, 0.75F));
     EXPECT_EQ(color(bytes, 0), glm::vec3(0, 1, pt::linear_from_srgb(10)));

@@ -146,14 +146,14 @@ struct Told {
     }
 };
 
-// All of the work is told, and no more, whatever the spheres: it is made of whole numbers, and the stage is half of a
+// All of the work is told, and no more, whatever the spheres: the stage is half of a
 // whole.
 TEST(SphereOrder, TellsHowFarItIs) {
     for (const Kind &kind : kinds()) {
         SCOPED_TRACE(kind.name);
         Told told;
         pt::WorkProgress progress(&Told::receive, &told);
-        progress.enter(0.5, 2.0 * pt::shape_work(many));
+        progress.enter(0.5, 2.0 * many);
         pt::tree_shape(items_of(many, kind.ball), by_number, progress);
         EXPECT_GT(told.shares.size(), 5U);
         progress.add(0.0, std::size_t{1} << 30); // whereupon it tells
@@ -167,7 +167,7 @@ TEST(SphereOrder, EndsWhereItIsAskedTo) {
         SCOPED_TRACE(kind.name);
         Told told{.shares = {}, .stop_at = 0.0};
         pt::WorkProgress progress(&Told::receive, &told);
-        progress.enter(1.0, pt::shape_work(many));
+        progress.enter(1.0, many);
         EXPECT_THROW(pt::tree_shape(items_of(many, kind.ball), by_number, progress), pt::Cancelled);
         EXPECT_EQ(told.shares.size(), 1U);
         EXPECT_LT(told.shares.back(), 0.5);

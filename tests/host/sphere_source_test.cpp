@@ -40,8 +40,9 @@ TEST(SphereSource, ReadsInOrderAcrossArrays) {
     const pt::SphereSource source(structs, arrays);
     ASSERT_EQ(source.size(), 5 + first);
     EXPECT_TRUE(source.has_colors());
-    std::size_t next = 0;
-    source.for_each([&](std::size_t index, const pt::Sphere &sphere, const glm::vec3 &own_color) {
+    std::uint32_t next = 0;
+    pt::WorkProgress nobody;
+    source.for_each(nobody, [&](std::uint32_t index, const pt::Sphere &sphere, const glm::vec3 &own_color) {
         ASSERT_EQ(index, next++);
         expect_equal(sphere, source[index]);
         EXPECT_EQ(own_color, source.color(index));
@@ -66,7 +67,6 @@ TEST(SphereSource, ReadsInOrderAcrossArrays) {
         indices.push_back(i % 3 == 0 ? i * 401 % 1008 : 1007 - i);
     for (std::uint32_t i = 0; i < source.size(); ++i)
         indices.push_back(i);
-    pt::WorkProgress nobody;
     std::size_t read = 0;
     source.for_each(indices, nobody, [&](std::size_t i, const pt::Sphere &sphere, const glm::vec3 &own_color) {
         ASSERT_EQ(i, read++);

@@ -1,7 +1,6 @@
 // How parts of a tree are divided: for few spheres by the best of all cuts, for many nearly so; and a sample of them is
 // as good as all.
-#include "lib/tree/binned_cut.h"
-#include "lib/tree/swept_cut.h"
+#include "lib/tree/cuts.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // by the tests of what camera rays meet first.
 #pragma once
 
-#include "lib/scene/seen_sphere.h"
+#include "lib/scene/seen_scene.h"
 
 #include <pt/pt.h>
 
