@@ -60,22 +60,15 @@ void write_nothing(const Image &image) {
         write_pixels(row, format, image.data + y * row_bytes);
 }
 
-std::vector<float> values_of(const Film::RowPart &part, std::uint32_t quantity) {
-    if (quantity == PT_QUANTITY_SAMPLE_COUNT)
-        return std::vector<float>(part.estimates.radiance.size(), static_cast<float>(part.sample_count));
-    return quantity == PT_QUANTITY_STANDARD_ERROR ? part.estimates.standard_error : part.estimates.radiance;
-}
-
 void write_image(const Film &film, const Image &image) {
     const ImageLayout &layout = image.layout;
     Rectangle pixels = layout.pixels; // of the image
     pixels.x += film.bounds().x;
     pixels.y += film.bounds().y;
     write_nothing(image);
-    film.read(pixels, layout.quantity == PT_QUANTITY_STANDARD_ERROR, [&](const Film::RowPart &part) {
+    film.read(pixels, layout.quantity, [&](const Film::RowPart &part) {
         std::byte *const row = image.data + (part.y - pixels.y) * layout.row_bytes;
-        write_pixels(values_of(part, layout.quantity), layout.format,
-                     row + std::size_t{part.x - pixels.x} * pixel_bytes(layout.format));
+        write_pixels(part.values, layout.format, row + std::size_t{part.x - pixels.x} * pixel_bytes(layout.format));
     });
 }
 

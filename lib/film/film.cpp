@@ -40,13 +40,6 @@ PixelSums part_of(const PixelSums &sums, const Rectangle &pixels, const Rectangl
     return cut;
 }
 
-// Moves the sums to the split that a larger set of samples has. That may put all of them on one side.
-void split_for(PixelSums &sums, const SampleSet &samples, std::uint64_t split) noexcept {
-    const std::uint64_t own = split_of(samples.hull());
-    if (own != split)
-        sums.fold_into(own < split ? older_part : newer_part);
-}
-
 } // namespace
 
 Film::Film(std::span<const std::byte> bytes) {
@@ -130,7 +123,7 @@ std::vector<Film::Tile> Film::outside(const TileMap &map, std::vector<Tile> tile
 void Film::add_to(Tile &tile, const Tile &other, SampleSet samples) noexcept {
     const std::uint64_t split = split_of(samples.hull());
     const std::uint64_t others_split = split_of(other.samples.hull());
-    split_for(tile.sums, tile.samples, split);
+    tile.sums.split_for(tile.samples, split, 0, tile.sums.pixel_count());
     const Rectangle &pixels = tile.pixels;
     const bool has_whole_rows = pixels.width == other.pixels.width;
     const std::size_t row_count = has_whole_rows ? 1 : pixels.height;
@@ -236,7 +229,7 @@ std::uint64_t Film::total_samples() const {
     return total;
 }
 
-void Film::read(const Rectangle &pixels, bool with_standard_error,
+void Film::read(const Rectangle &pixels, std::uint32_t quantity,
                 const std::function<void(const RowPart &)> &receive) const {
     const double unit = std::ldexp(1.0, facts_.unit_exponent);
     for (const TileMap map(list()); const TileMap::Band &band : map.bands())
@@ -248,7 +241,7 @@ void Film::read(const Rectangle &pixels, bool with_standard_error,
                     continue;
                 const Tile &tile = tiles_[span.tile];
                 const PixelSums sums = part_of(tile.sums, tile.pixels, {first, y, end - first, 1});
-                receive({first, y, tile.samples.count(), sums.estimates(unit, with_standard_error)});
+                receive({first, y, sums.values(quantity, unit)});
             }
 }
 

@@ -48,15 +48,15 @@ public:
     std::uint64_t max_sample_count() const;
     std::uint64_t total_samples() const; // of all pixels together
 
-    // Estimates for consecutive pixels of one row.
+    // Consecutive pixels of one row.
     struct RowPart {
         std::uint32_t x, y; // of the image
-        std::uint64_t sample_count;
-        PixelEstimates estimates;
+        std::vector<float> values;
     };
 
     // Calls receive for all pixels of the film that lie in a rectangle, row by row from the left to the right.
-    void read(const Rectangle &pixels, bool with_standard_error,
+    // quantity: as for PixelSums::values().
+    void read(const Rectangle &pixels, std::uint32_t quantity,
               const std::function<void(const RowPart &)> &receive) const;
 
     // The error of the image within the bounds. may_miss_lamps: see error_estimate.h.

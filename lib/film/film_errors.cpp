@@ -11,9 +11,20 @@ TileErrors errors_of(const Rectangle &pixels, const SampleSet &samples, double u
                      const PixelSums &rows) {
     TileValues tile{
         .width = pixels.width, .height = pixels.height, .sample_count = static_cast<double>(samples.count())};
-    tile.rejected = rows.estimate({pixels.x, pixels.width, pixels.height, film_width}, unit,
-                                  {tile.mean.front().data(), tile.standard_error.front().data(),
-                                   tile.lesser.front().data(), tile_size * tile_size, tile_size});
+    PixelValues values(rows, unit);
+    for (std::size_t y = 0; y < pixels.height; ++y)
+        for (std::size_t x = 0; x < pixels.width; ++x) {
+            const std::size_t pixel = y * film_width + pixels.x + x;
+            const std::array<PixelValue, 3> of_pixel = values.of(pixel);
+            for (std::size_t channel = 0; channel < 3; ++channel) {
+                const auto [mean, standard_error, lesser] = of_pixel[channel];
+                tile.mean[channel][y * tile_size + x] = mean;
+                tile.standard_error[channel][y * tile_size + x] = standard_error;
+                tile.lesser[channel][y * tile_size + x] = lesser;
+            }
+            for (std::uint32_t part = 0; part < gpu::FILM_PARTS; ++part)
+                tile.rejected += rows.plane(part, gpu::FILM_REJECTED)[pixel];
+        }
     return tile_errors(tile);
 }
 

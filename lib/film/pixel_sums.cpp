@@ -2,14 +2,12 @@
 
 #include "lib/base/error.h"
 #include "lib/film/part_words.h"
-#include "lib/film/quotient.h"
-#include "lib/film/quotient_block.h"
+
+#include <pt/pt.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <string>
 
 namespace pt {
@@ -37,105 +35,6 @@ private:
     const PixelSums &sums_;
     std::uint32_t part_;
     std::size_t pixel_;
-};
-
-// Estimates adjacent pixels, in blocks.
-class Estimation {
-public:
-    Estimation(const PixelSums &sums, double unit, const EstimatePlanes &to) :
-        sums_(sums),
-        exponent_(std::ilogb(unit) - static_cast<int>(gpu::FILM_FRACTION_BITS)),
-        to_(to) {}
-
-    // Samples left out.
-    std::uint64_t rejected() const { return rejected_; }
-
-    // to_first: the index of the first result.
-    void estimate(std::size_t first, std::size_t count, std::size_t to_first) {
-        if (count == block_pixels && estimate_alike(first, to_first))
-            return;
-        for (std::size_t i = 0; i < count; ++i) {
-            const PartPixel a(sums_, older_part, first + i);
-            const PartPixel b(sums_, newer_part, first + i);
-            rejected_ += a.done() + b.done() - a.accepted() - b.accepted();
-            for (std::size_t channel = 0; channel < 3; ++channel)
-                estimate_one(first + i, to_first + i, channel);
-        }
-    }
-
-private:
-    const std::uint32_t *words(std::uint32_t part, std::size_t plane, std::size_t pixel) const {
-        return sums_.plane(part, plane).subspan(pixel).data();
-    }
-
-    // For a block whose pixels all have the same samples and none was left out, which is nearly every block.
-    bool estimate_alike(std::size_t first, std::size_t to_first) {
-        const std::uint32_t *const a = words(older_part, gpu::FILM_ACCEPTED, first);
-        const std::uint32_t *const b = words(newer_part, gpu::FILM_ACCEPTED, first);
-        const std::uint32_t *const rejected_a = words(older_part, gpu::FILM_REJECTED, first);
-        const std::uint32_t *const rejected_b = words(newer_part, gpu::FILM_REJECTED, first);
-        std::uint32_t others = 0;
-        for (std::size_t i = 0; i < block_pixels; ++i)
-            others |= (a[i] ^ a[0]) | (b[i] ^ b[0]) | rejected_a[i] | rejected_b[i];
-        const std::uint64_t samples = std::uint64_t{*a} + *b;
-        if (others != 0 || *a == 0 || *b == 0 || samples < gpu::FILM_MIN_ERROR_SAMPLES || samples > UINT32_MAX)
-            return false;
-        if (!quotients_ || !quotients_->are_of(*a, *b))
-            quotients_.emplace(*a, *b, exponent_);
-        for (std::size_t channel = 0; channel < 3; ++channel)
-            estimate_alike(first, to_first, channel);
-        return true;
-    }
-
-    void estimate_alike(std::size_t first, std::size_t to_first, std::size_t channel) {
-        const std::size_t plane = channel * gpu::FILM_SUM_WORDS;
-        const BlockSums a{words(older_part, plane, first), sums_.pixel_count()};
-        const BlockSums b{words(newer_part, plane, first), sums_.pixel_count()};
-        const std::size_t to = channel * to_.stride + to_first;
-        BlockEstimates found;
-        const bool with_error = to_.standard_error != nullptr;
-        const BlockDoubts doubts =
-            with_error ? quotients_->estimates(a, b, found) : quotients_->means(a, b, found.mean);
-        std::ranges::copy(found.mean, to_.radiance + to);
-        if (with_error) {
-            std::ranges::copy(found.standard_error, to_.standard_error + to);
-            std::ranges::copy(found.lesser, to_.lesser + to);
-        }
-        if (has_any(doubts))
-            for (std::size_t i = 0; i < block_pixels; ++i)
-                if (doubts[i] != 0)
-                    estimate_one(first + i, to_first + i, channel);
-    }
-
-    // By quotient.h, which works for any sums.
-    void estimate_one(std::size_t pixel, std::size_t to, std::size_t channel) {
-        const PartPixel a(sums_, older_part, pixel);
-        const PartPixel b(sums_, newer_part, pixel);
-        const WideSum sum_a = a.sum(channel);
-        const WideSum sum_b = b.sum(channel);
-        to += channel * to_.stride;
-        to_.radiance[to] = mean_of(sum_a + sum_b, a.accepted() + b.accepted(), exponent_);
-        if (to_.standard_error == nullptr)
-            return;
-        if (a.done() + b.done() < gpu::FILM_MIN_ERROR_SAMPLES || a.accepted() == 0 || b.accepted() == 0) {
-            to_.standard_error[to] = std::numeric_limits<float>::infinity();
-            to_.lesser[to] = 0.0F;
-            return;
-        }
-        if (!weights_ || !weights_->are_of(a.accepted(), b.accepted()))
-            weights_.emplace(a.accepted(), b.accepted());
-        const PartDifference parts = weights_->difference(sum_a, sum_b, exponent_);
-        to_.standard_error[to] = parts.standard_error;
-        to_.lesser[to] =
-            parts.first_is_less ? mean_of(sum_a, a.accepted(), exponent_) : mean_of(sum_b, b.accepted(), exponent_);
-    }
-
-    const PixelSums &sums_;
-    int exponent_;
-    EstimatePlanes to_;
-    std::uint64_t rejected_ = 0;
-    std::optional<BlockQuotients> quotients_; // of the block before: most have the same samples
-    std::optional<PartWeights> weights_;      // likewise of the pixel before
 };
 
 } // namespace
@@ -167,6 +66,13 @@ void PixelSums::copy(const PixelSums &from, std::size_t first, std::size_t count
             std::ranges::copy(from.plane(part, i).subspan(first, count), plane(part, i).subspan(to_first).begin());
 }
 
+void PixelSums::split_for(const SampleSet &samples, std::uint64_t split, std::size_t first,
+                          std::size_t count) noexcept {
+    const std::uint64_t own = split_of(samples.hull());
+    if (!samples.empty() && own != split)
+        fold_into(own < split ? older_part : newer_part, first, count);
+}
+
 PartCounts PixelSums::samples_of(std::size_t pixel) const {
     return {PartPixel(*this, 0, pixel).done(), PartPixel(*this, 1, pixel).done()};
 }
@@ -191,46 +97,59 @@ bool PixelSums::holds(const PartCounts &expected) const {
     return true;
 }
 
-// In blocks whose planes fit into the fastest cache.
-PixelEstimates PixelSums::estimates(double unit, bool with_standard_error) const {
-    constexpr std::size_t most = 256;
-    std::array<float, 9 * most> planes;
-    const EstimatePlanes to{planes.data(), with_standard_error ? &planes[3 * most] : nullptr, &planes[6 * most], most,
-                            most};
-    PixelEstimates estimates;
-    estimates.radiance.resize(3 * pixel_count_);
-    estimates.standard_error.resize(with_standard_error ? 3 * pixel_count_ : 0);
-    for (std::size_t first = 0; first < pixel_count_; first += most) {
-        const std::size_t count = std::min(most, pixel_count_ - first);
-        estimate({first, count, 1, count}, unit, to);
-        const auto interleave = [&](const float *from, std::vector<float> &values) {
-            for (std::size_t i = 0; i < count && !values.empty(); ++i)
-                for (std::size_t channel = 0; channel < 3; ++channel)
-                    values[3 * (first + i) + channel] = from[channel * most + i];
-        };
-        interleave(to.radiance, estimates.radiance);
-        interleave(to.standard_error, estimates.standard_error);
-    }
-    return estimates;
+std::vector<float> PixelSums::values(std::uint32_t quantity, double unit) const {
+    std::vector<float> values;
+    values.reserve(3 * pixel_count_);
+    PixelValues found(*this, unit);
+    for (std::size_t pixel = 0; pixel < pixel_count_; ++pixel)
+        if (quantity == PT_QUANTITY_RADIANCE) {
+            const auto means = found.means(pixel);
+            values.insert(values.end(), means.begin(), means.end());
+        } else if (quantity == PT_QUANTITY_STANDARD_ERROR) {
+            for (const PixelValue &value : found.of(pixel))
+                values.push_back(value.standard_error);
+        } else {
+            const auto [older, newer] = samples_of(pixel);
+            values.insert(values.end(), 3, static_cast<float>(older + newer));
+        }
+    return values;
 }
 
-std::uint64_t PixelSums::estimate(const PixelRows &pixels, double unit, const EstimatePlanes &to) const {
-    Estimation estimation(*this, unit, to);
-    for (std::size_t y = 0; y < pixels.height; ++y)
-        for (std::size_t x = 0; x < pixels.width; x += block_pixels)
-            estimation.estimate(pixels.first + y * pixels.stride + x, std::min(block_pixels, pixels.width - x),
-                                y * to.row_stride + x);
-    return estimation.rejected();
+PixelValues::PixelValues(const PixelSums &sums, double unit) :
+    sums_(sums),
+    exponent_(std::ilogb(unit) - static_cast<int>(gpu::FILM_FRACTION_BITS)),
+    quotients_(1, 1, exponent_) {}
+
+void PixelValues::show(std::uint32_t a, std::uint32_t b) {
+    if (!quotients_.are_of(a, b))
+        quotients_ = PartQuotients(a, b, exponent_);
 }
 
-std::vector<float> PixelSums::sample_counts() const {
-    std::vector<float> counts;
-    counts.reserve(3 * pixel_count_);
-    for (std::size_t pixel = 0; pixel < pixel_count_; ++pixel) {
-        const auto [older, newer] = samples_of(pixel);
-        counts.insert(counts.end(), 3, static_cast<float>(older + newer));
+std::array<float, 3> PixelValues::means(std::size_t pixel) {
+    const PartPixel a(sums_, older_part, pixel);
+    const PartPixel b(sums_, newer_part, pixel);
+    show(a.accepted(), b.accepted());
+    std::array<float, 3> means;
+    for (std::size_t channel = 0; channel < 3; ++channel)
+        means[channel] = quotients_.mean(a.sum(channel), b.sum(channel));
+    return means;
+}
+
+std::array<PixelValue, 3> PixelValues::of(std::size_t pixel) {
+    const PartPixel a(sums_, older_part, pixel);
+    const PartPixel b(sums_, newer_part, pixel);
+    show(a.accepted(), b.accepted());
+    const bool is_known = a.done() + b.done() >= gpu::FILM_MIN_ERROR_SAMPLES && a.accepted() > 0 && b.accepted() > 0;
+    std::array<PixelValue, 3> values;
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        const WideSum sum_a = a.sum(channel);
+        const WideSum sum_b = b.sum(channel);
+        const auto [standard_error, lesser] =
+            is_known ? quotients_.difference(sum_a, sum_b)
+                     : PartQuotients::Difference{std::numeric_limits<float>::infinity(), 0.0F};
+        values[channel] = {quotients_.mean(sum_a, sum_b), standard_error, lesser};
     }
-    return counts;
+    return values;
 }
 
 } // namespace pt

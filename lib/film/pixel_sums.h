@@ -3,38 +3,16 @@
 #pragma once
 
 #include "lib/film/film_parts.h"
+#include "lib/film/quotient.h"
 #include "shaders/gpu_layout.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace pt {
-
-// What the samples say about consecutive pixels, as R, G, B per pixel.
-struct PixelEstimates {
-    std::vector<float> radiance;       // mean of all samples; black where all were rejected
-    std::vector<float> standard_error; // of that mean, from the difference of its parts; infinity where one is empty
-                                       // and with up to 8 samples; nothing if it was not asked for
-};
-
-// A rectangle within consecutive pixels.
-struct PixelRows {
-    std::size_t first;
-    std::size_t width;
-    std::size_t height;
-    std::size_t stride; // from a row to the next
-};
-
-// Where estimates of pixels go, in planes: R of all pixels, then G, then B.
-struct EstimatePlanes {
-    float *radiance;       // of the first pixel
-    float *standard_error; // likewise; nullptr: neither this nor the lesser
-    float *lesser;         // likewise: the smaller of the means of a pixel's parts, with the standard error
-    std::size_t stride;    // from a plane to the next
-    std::size_t row_stride;
-};
 
 class PixelSums {
 public:
@@ -64,9 +42,12 @@ public:
     void add_part(std::uint32_t to_part, std::size_t to_first, const PixelSums &from, std::uint32_t from_part,
                   std::size_t first, std::size_t count) noexcept;
 
-    // Adds the other part to this one and empties it, in all pixels or in consecutive ones.
-    void fold_into(std::uint32_t part) noexcept { fold_into(part, 0, pixel_count_); }
+    // Adds the other part of consecutive pixels to this one and empties it.
     void fold_into(std::uint32_t part, std::size_t first, std::size_t count) noexcept;
+
+    // Moves the sums of consecutive pixels, which are of these samples, to the split that a larger set has. That may
+    // put all of them on one side.
+    void split_for(const SampleSet &samples, std::uint64_t split, std::size_t first, std::size_t count) noexcept;
 
     // Copies consecutive pixels of another object.
     void copy(const PixelSums &from, std::size_t first, std::size_t count, std::size_t to_first) noexcept;
@@ -77,20 +58,40 @@ public:
     // Whether this many samples can have such sums: each accepted sample is below 2^FILM_MAX_EXPONENT.
     bool holds(const PartCounts &expected) const;
 
-    // The mean radiance, in units of a power of two, rounded as quotient.h says.
-    PixelEstimates estimates(double unit, bool with_standard_error) const;
-
-    // The same for some pixels; returns the samples left out of them.
-    std::uint64_t estimate(const PixelRows &pixels, double unit, const EstimatePlanes &to) const;
-
-    // The number of samples of each pixel, as R, G, B.
-    std::vector<float> sample_counts() const;
+    // R, G and B of each pixel of a PT_QUANTITY_* of samples. unit: as for PixelValues.
+    std::vector<float> values(std::uint32_t quantity, double unit) const;
 
     bool operator==(const PixelSums &) const = default;
 
 private:
     std::size_t pixel_count_ = 0;
     std::vector<std::uint32_t> words_;
+};
+
+// What the samples of a pixel say in one channel.
+struct PixelValue {
+    float mean;           // of all samples; 0 where all were rejected
+    float standard_error; // of that mean, from the difference of its parts; infinity where one is empty and with up to
+                          // 8 samples
+    float lesser;         // of the means of the parts; 0 where the standard error is infinity
+};
+
+// Finds these values, rounded as quotient.h says. The sums must outlive it.
+class PixelValues {
+public:
+    // unit: of the sums, a power of two, in radiance.
+    PixelValues(const PixelSums &sums, double unit);
+
+    // In each channel.
+    std::array<float, 3> means(std::size_t pixel);
+    std::array<PixelValue, 3> of(std::size_t pixel);
+
+private:
+    void show(std::uint32_t a, std::uint32_t b);
+
+    const PixelSums &sums_;
+    int exponent_;
+    PartQuotients quotients_; // of the pixel before: most have the same samples
 };
 
 // Throws PT_ERROR_INTERNAL if a pixel does not hold the expected samples: a driver lost work.

@@ -10,31 +10,34 @@ namespace pt {
 // Sums of samples, as whole numbers.
 __extension__ using WideSum = unsigned __int128;
 
-// sum * 2^exponent / count, rounded once, to nearest; 0 without samples.
-float mean_of(WideSum sum, std::uint32_t count, int exponent);
-
-// What the sums of two parts say, each with at least one sample.
-struct PartDifference {
-    float standard_error; // of the mean of all
-    bool first_is_less;   // the mean of the first part is below that of the second
-};
-
-// For sums of a and b samples: the standard error that gpu::ErrorDivisor derives, times 2^exponent.
-class PartWeights {
+// For the sums of a and b samples in two parts, in units of 2^exponent.
+class PartQuotients {
 public:
-    // Both parts have at least one sample.
-    PartWeights(std::uint32_t a, std::uint32_t b) : a_(a), b_(b), divisor_(gpu::error_divisor(a, b)) {}
+    PartQuotients(std::uint32_t a, std::uint32_t b, int exponent);
 
     bool are_of(std::uint32_t a, std::uint32_t b) const { return a == a_ && b == b_; }
-    PartDifference difference(WideSum sum_a, WideSum sum_b, int exponent) const;
 
-    // The factor of |A b - B a| in difference(), without its power of two: within 2^-53 of itself.
-    double scale() const;
+    // Of all samples, rounded once, to nearest; 0 without samples.
+    float mean(WideSum sum_a, WideSum sum_b) const { return mean_of(sum_a + sum_b, a_ + b_, factor_); }
+
+    // For parts with at least one sample each. The standard error is that of the mean, as gpu::ErrorDivisor derives it.
+    struct Difference {
+        float standard_error;
+        float lesser; // of the means of the parts
+    };
+    Difference difference(WideSum sum_a, WideSum sum_b) const;
 
 private:
+    float mean_of(WideSum sum, std::uint32_t count, double factor) const;
+
     std::uint32_t a_;
     std::uint32_t b_;
-    gpu::ErrorDivisor divisor_;
+    int exponent_;
+    gpu::ErrorDivisor divisor_{1, 0};
+    double factor_; // of sums to means, in double
+    double factor_a_;
+    double factor_b_;
+    double factor_of_error_;
 };
 
 } // namespace pt

@@ -12,14 +12,6 @@ namespace {
 // Pixels of a band, 56 MiB: many times what is in transit between two devices, and little beside a large film.
 constexpr std::uint32_t most_band_pixels = 1U << 19;
 
-std::vector<float> values_of(const PixelSums &sums, const ImageQuery &query) {
-    if (query.quantity == PT_QUANTITY_SAMPLE_COUNT)
-        return sums.sample_counts();
-    const bool with_standard_error = query.quantity == PT_QUANTITY_STANDARD_ERROR;
-    PixelEstimates pixels = sums.estimates(query.unit, with_standard_error);
-    return with_standard_error ? std::move(pixels.standard_error) : std::move(pixels.radiance);
-}
-
 } // namespace
 
 std::vector<DeviceFilm *> FilmView::films(const Devices &devices) {
@@ -102,7 +94,7 @@ void FilmView::read_on_host(const Image &image, const ImageQuery &query, const T
     const PixelRange range{query.pixels.y * width, query.pixels.height * width};
     std::uint64_t first = range.first;
     read_films(films(devices_), samples, range, piece_pixels, [&](const PixelSums &sums) {
-        rows.put_part(first, width, values_of(sums, query));
+        rows.put_part(first, width, sums.values(query.quantity, query.unit));
         first += sums.pixel_count();
     });
 }

@@ -39,14 +39,6 @@ SampleSet united(const SampleSet &present, const SampleSet &added) {
     return all;
 }
 
-// Moves the sums of consecutive pixels to the split that a larger set of samples has. That may put all of them on one
-// side.
-void split_for(PixelSums &sums, std::size_t first, std::size_t count, const SampleSet &samples, std::uint64_t split) {
-    const std::uint64_t own = split_of(samples.hull());
-    if (!samples.empty() && own != split)
-        sums.fold_into(own < split ? older_part : newer_part, first, count);
-}
-
 // How many whole rows of a film are handled at a time.
 std::uint32_t rows_of_piece(std::uint32_t width) {
     return std::max(piece_pixels / width, 1U);
@@ -149,8 +141,8 @@ void add(const FilmReader &film, const TileSamples &added, std::span<DeviceFilm 
         read_films(films, present, row * pixels.width, sums);
         const auto bring_together = [&](std::size_t first, std::size_t count, std::size_t tile) {
             const std::uint64_t split = split_of(all.of(tile).hull());
-            split_for(sums, first, count, present.of(tile), split);
-            split_for(others, first, count, added.of(tile), split);
+            sums.split_for(present.of(tile), split, first, count);
+            others.split_for(added.of(tile), split, first, count);
         };
         if (present.even() && added.even())
             bring_together(0, sums.pixel_count(), 0);

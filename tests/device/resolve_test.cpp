@@ -57,8 +57,7 @@ protected:
         Values values;
         const std::uint32_t quantity = standard_error ? PT_QUANTITY_STANDARD_ERROR : PT_QUANTITY_RADIANCE;
         values.device = floats(read(film, {{0, 0, width, height}, quantity, unit, parts_of_100}));
-        const pt::PixelEstimates estimates = sums.estimates(unit, standard_error);
-        values.host = standard_error ? estimates.standard_error : estimates.radiance;
+        values.host = sums.values(quantity, unit);
         return values;
     }
 

@@ -1,19 +1,19 @@
-// The quotients of sums of consecutive pixels are those of quotient.h for each pixel.
+// The values that the host finds in sums, mostly in double, are those that the kernels find in whole numbers.
 #include "lib/film/pixel_sums.h"
 
-#include "lib/film/quotient.h"
-#include "lib/film/quotient_block.h"
+#include "shaders/quotient.h"
 
 #include <gtest/gtest.h>
+#include <pt/pt.h>
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <random>
-#include <utility>
 #include <vector>
 
 namespace pixel_sums {
@@ -134,55 +134,51 @@ TEST(PixelSums, AddAsNumbersOfAllWords) {
         }
 }
 
-struct Expected {
-    float mean;
-    float standard_error;
-    float lesser;
-};
+pt::gpu::uvec4 words_of(pt::WideSum sum) {
+    return {static_cast<std::uint32_t>(sum), static_cast<std::uint32_t>(sum >> 32),
+            static_cast<std::uint32_t>(sum >> 64), static_cast<std::uint32_t>(sum >> 96)};
+}
 
-Expected expected(const Planes &pixel, std::uint32_t channel, int unit_exponent) {
+pt::PixelValue expected(const Planes &pixel, std::uint32_t channel, int unit_exponent) {
     const int exponent = unit_exponent - static_cast<int>(pt::gpu::FILM_FRACTION_BITS);
     const pt::WideSum sum_a = sum_of(pixel, 0, channel);
     const pt::WideSum sum_b = sum_of(pixel, 1, channel);
     const std::uint32_t a = pixel[0][pt::gpu::FILM_ACCEPTED];
     const std::uint32_t b = pixel[1][pt::gpu::FILM_ACCEPTED];
     const std::uint32_t done = a + b + pixel[0][pt::gpu::FILM_REJECTED] + pixel[1][pt::gpu::FILM_REJECTED];
-    const float mean = pt::mean_of(sum_a + sum_b, a + b, exponent);
+    const auto mean_of = [exponent](pt::WideSum sum, std::uint32_t count) {
+        return std::bit_cast<float>(pt::gpu::mean_bits(words_of(sum), count, exponent));
+    };
+    const float mean = mean_of(sum_a + sum_b, a + b);
     if (a == 0 || b == 0 || done < pt::gpu::FILM_MIN_ERROR_SAMPLES)
         return {mean, std::numeric_limits<float>::infinity(), 0.0F};
-    const pt::PartDifference parts = pt::PartWeights(a, b).difference(sum_a, sum_b, exponent);
-    return {mean, parts.standard_error,
-            parts.first_is_less ? pt::mean_of(sum_a, a, exponent) : pt::mean_of(sum_b, b, exponent)};
+    bool first_is_less = false;
+    const pt::gpu::WholeNumber numerator =
+        pt::gpu::weighted_difference(words_of(sum_a), a, words_of(sum_b), b, first_is_less);
+    const std::uint32_t error = pt::gpu::standard_error_bits(numerator, pt::gpu::error_divisor(a, b), exponent);
+    return {mean, std::bit_cast<float>(error), first_is_less ? mean_of(sum_a, a) : mean_of(sum_b, b)};
 }
 
-void expect_those_of_each(const Usual &usual) {
+void expect_those_of_kernels(const Usual &usual) {
     const std::vector<Planes> pixels = random_pixels(8003, usual);
     const pt::PixelSums sums = sums_of(pixels);
     const double unit = std::ldexp(1.0, usual.unit_exponent);
-    const pt::PixelEstimates found = sums.estimates(unit, true);
-    EXPECT_EQ(sums.estimates(unit, false).radiance, found.radiance);
-    const std::size_t count = pixels.size();
-    std::vector<float> planes(9 * count);
-    const std::uint64_t found_rejected = sums.estimate(
-        {0, count, 1, count}, unit, {planes.data(), &planes[3 * count], &planes[6 * count], count, count});
-    std::uint64_t rejected = 0;
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
-        for (const auto &part : pixels[i])
-            rejected += part[pt::gpu::FILM_REJECTED];
+    const std::vector<float> means = sums.values(PT_QUANTITY_RADIANCE, unit);
+    const std::vector<float> errors = sums.values(PT_QUANTITY_STANDARD_ERROR, unit);
+    pt::PixelValues values(sums, unit);
+    for (std::size_t i = 0; i < pixels.size(); ++i)
         for (std::uint32_t channel = 0; channel < 3; ++channel) {
             const auto [mean, standard_error, lesser] = expected(pixels[i], channel, usual.unit_exponent);
-            EXPECT_EQ(found.radiance[3 * i + channel], mean) << i;
-            EXPECT_EQ(found.standard_error[3 * i + channel], standard_error) << i;
-            EXPECT_EQ(planes[channel * count + i], mean) << i;
-            EXPECT_EQ(planes[(6 + channel) * count + i], lesser) << i;
+            EXPECT_EQ(means[3 * i + channel], mean) << i;
+            EXPECT_EQ(errors[3 * i + channel], standard_error) << i;
+            EXPECT_EQ(values.of(i)[channel].mean, mean) << i;
+            EXPECT_EQ(values.of(i)[channel].standard_error, standard_error) << i;
+            EXPECT_EQ(values.of(i)[channel].lesser, lesser) << i;
         }
-    }
-    EXPECT_EQ(found_rejected, rejected);
 }
 
-// Of eight pixels with the same samples at once; weights of one word and of two, and beyond exact products; subnormal
-// numbers, those above all floats, and long sums.
-TEST(PixelSums, SayOfManyPixelsWhatTheySayOfEach) {
+// Weights of one word and of two, and beyond exact products; subnormal numbers, those above all floats, and long sums.
+TEST(PixelSums, HaveTheValuesOfKernels) {
     for (const Usual &usual : {Usual{8, 8, 0, 84},
                                {32, 8, 0, 84},
                                {16, 12, -2, 84},
@@ -197,42 +193,7 @@ TEST(PixelSums, SayOfManyPixelsWhatTheySayOfEach) {
                                {8, 8, 250, 70},
                                {8, 8, 0, 120}}) {
         SCOPED_TRACE(testing::Message() << usual.a << ", " << usual.b << ", 2^" << usual.unit_exponent);
-        expect_those_of_each(usual);
-    }
-}
-
-// Few of them, or blocks would cost time and save none, and none in the middle of two floats where powers of two lose
-// nothing. All of subnormal numbers, of those above all floats and of weights whose products are not exact; many of
-// long sums, or of sums that are long with their weights.
-TEST(PixelSums, OfBlocksAreInDoubtWhereTheyAreUnusual) {
-    constexpr std::size_t all = 1000 * pt::block_pixels;
-    const struct {
-        Usual usual;
-        std::size_t least;
-        std::size_t most;
-    } cases[] = {{{8, 8, 0, 84}, 0, all / 4},    {{49, 49, 0, 84}, 0, all / 4},
-                 {{4096, 4096, 0, 52}, 0, 0},    {{8, 8, -130, 70}, all, all},
-                 {{8, 8, 250, 70}, all, all},    {{1, (1U << 20) + 1, 0, 70}, all, all},
-                 {{8, 8, 0, 128}, all / 8, all}, {{8, 1U << 19, 0, 84}, all / 8, all}};
-    for (const auto &[usual, least, most] : cases) {
-        RandomSums random(usual);
-        const pt::BlockQuotients quotients(usual.a, usual.b, usual.unit_exponent - 60);
-        std::size_t doubts = 0;
-        for (int i = 0; i < 1000; ++i) {
-            std::array<std::array<std::uint32_t, pt::gpu::FILM_SUM_WORDS * pt::block_pixels>, 2> words{};
-            for (std::size_t pixel = 0; pixel < pt::block_pixels; ++pixel) {
-                const auto sums = random.next();
-                for (std::size_t at = pixel; at < words[0].size(); at += pt::block_pixels)
-                    for (std::size_t part = 0; part < 2; ++part)
-                        words[part][at] = static_cast<std::uint32_t>(sums[part] >> (32 * (at / pt::block_pixels)));
-            }
-            pt::BlockEstimates estimates{};
-            for (const std::uint32_t doubt : quotients.estimates({words[0].data(), pt::block_pixels},
-                                                                 {words[1].data(), pt::block_pixels}, estimates))
-                doubts += doubt != 0 ? 1 : 0;
-        }
-        EXPECT_GE(doubts, least) << usual.a << ", " << usual.b << ", 2^" << usual.unit_exponent;
-        EXPECT_LE(doubts, most) << usual.a << ", " << usual.b << ", 2^" << usual.unit_exponent;
+        expect_those_of_kernels(usual);
     }
 }
 
