@@ -15,13 +15,7 @@ TileErrors errors_of(const Rectangle &pixels, const SampleSet &samples, double u
     for (std::size_t y = 0; y < pixels.height; ++y)
         for (std::size_t x = 0; x < pixels.width; ++x) {
             const std::size_t pixel = y * film_width + pixels.x + x;
-            const std::array<PixelValue, 3> of_pixel = values.of(pixel);
-            for (std::size_t channel = 0; channel < 3; ++channel) {
-                const auto [mean, standard_error, lesser] = of_pixel[channel];
-                tile.mean[channel][y * tile_size + x] = mean;
-                tile.standard_error[channel][y * tile_size + x] = standard_error;
-                tile.lesser[channel][y * tile_size + x] = lesser;
-            }
+            tile.pixels[y * tile_size + x] = values.of(pixel);
             for (std::uint32_t part = 0; part < gpu::FILM_PARTS; ++part)
                 tile.rejected += rows.plane(part, gpu::FILM_REJECTED)[pixel];
         }

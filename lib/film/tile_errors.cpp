@@ -1,5 +1,7 @@
 #include "lib/film/tile_errors.h"
 
+#include "shaders/neighbourhood.h"
+
 #include <array>
 #include <cmath>
 #include <numeric>
@@ -8,126 +10,71 @@ namespace pt {
 
 namespace {
 
-using gpu::more_of;
-
 constexpr std::size_t channel_count = 3;
 
-// Positive wherever light may be unseen.
-double brighter_beside(double mean, double largest_beside, double sample_count) {
-    return largest_beside * (1.0 + 0x1p-40) - mean * sample_count;
-}
+// For each pixel of a row, the values to its left, in it and to its right, sorted. Missing ones come first.
+using SortedRow = std::array<gpu::Sorted, tile_size>;
 
-// Numbers of a row of a tile.
-using TileRow = std::array<double, tile_size>;
-
-TileRow row_of(const TileFloats &values, std::size_t first) {
-    TileRow row;
-    for (std::size_t i = 0; i < tile_size; ++i)
-        row[i] = static_cast<double>(values[first + i]);
+SortedRow sorted_row(const TileValues &tile, std::size_t channel, std::size_t y) {
+    const auto mean = [&](std::size_t x) { return tile.pixels[y * tile_size + x][channel].mean; };
+    SortedRow row;
+    for (std::size_t x = 0; x < tile.width; ++x)
+        row[x] = gpu::sorted(x > 0 ? mean(x - 1) : gpu::BELOW_ALL, mean(x),
+                             x + 1 < tile.width ? mean(x + 1) : gpu::BELOW_ALL);
     return row;
 }
 
-struct RowValues {
-    TileRow mean;
-    TileRow standard_error;
-    TileRow lesser;
-
-    RowValues(const TileValues &tile, std::size_t channel, std::size_t first) :
-        mean(row_of(tile.mean[channel], first)),
-        standard_error(row_of(tile.standard_error[channel], first)),
-        lesser(row_of(tile.lesser[channel], first)) {}
-};
-
-struct RowErrors {
-    TileRow relative_square;
-    TileRow unseen;
-    bool has_alone = false; // what follows is 0 where there are none
-    TileRow met_once{};
-    TileRow as_lamps{};
-    TileRow met_again{};
-};
-
-// The largest of a row's numbers.
-double largest_of(const TileRow &row) {
-    static_assert(tile_size == 8);
-    std::array<double, 4> largest;
-    for (std::size_t i = 0; i < 4; ++i)
-        largest[i] = more_of(row[i], row[i + 4]);
-    return more_of(more_of(largest[0], largest[1]), more_of(largest[2], largest[3]));
+// rows: of the tile, in one channel.
+gpu::Neighbourhood neighbourhood_at(const std::array<SortedRow, tile_size> &rows, const TileValues &tile, std::size_t x,
+                                    std::size_t y) {
+    const bool is_first = y == 0;
+    const bool is_last = y + 1 == tile.height;
+    const gpu::Sorted &above = rows[is_first ? y : y - 1][x];
+    const gpu::Sorted &below = rows[is_last ? y : y + 1][x];
+    if (tile.height == 1)
+        return gpu::neighbourhood_in_line(rows[y][x]);
+    if (tile.width == 1)
+        return gpu::neighbourhood_in_line(gpu::column_of(above, rows[y][x], below, is_first, is_last));
+    return gpu::neighbourhood(above, rows[y][x], below, is_first, is_last, x == 0 || x + 1 == tile.width);
 }
 
-// Only few values need a logarithm or stand out; the others are handled without branches.
-void find_row_errors(const RowValues &row, const TileRow &around, const float *largest_beside, double sample_count,
-                     RowErrors &to) {
-    TileRow special; // > 0 where one is
-    const auto limit_of = [&](std::size_t i) {
-        return gpu::limit_of(row.standard_error[i], row.mean[i], row.lesser[i], around[i], relative_offset);
-    };
-    for (std::size_t i = 0; i < tile_size; ++i) {
-        const gpu::Limit limit = limit_of(i);
-        const double beside = brighter_beside(row.mean[i], static_cast<double>(largest_beside[i]), sample_count);
-        to.relative_square[i] = gpu::square_of_quotient(row.standard_error[i], limit.square);
-        to.unseen[i] = 0.0;
-        special[i] = more_of(more_of(limit.light_beyond, limit.alone), beside);
+// Adds what one value tells to its pixel. means: of the tile.
+void add_value(const TileValues &tile, std::size_t channel, std::size_t pixel, const gpu::Neighbourhood &near,
+               const gpu::ValueSet &means, PixelErrors &errors) {
+    const PixelValue &value = tile.pixels[pixel][channel];
+    const auto mean = static_cast<double>(value.mean);
+    const auto standard_error = static_cast<double>(value.standard_error);
+    const auto lesser = static_cast<double>(value.lesser);
+    const auto largest_beside = static_cast<double>(near.largest);
+    const double around = gpu::around(mean, means, static_cast<double>(near.median), largest_beside);
+    const gpu::Limit limit = gpu::limit_of(standard_error, mean, lesser, around, relative_offset);
+    errors.square[pixel] += squared(standard_error);
+    const double relative_square = gpu::relative_square(standard_error, limit);
+    if (limit.alone > 0.0 && gpu::is_met_once(standard_error, mean, lesser)) {
+        errors.met_once[pixel] += relative_square;
+        errors.as_lamps[pixel] += gpu::square_as_lamp(standard_error, mean, relative_offset);
+    } else {
+        errors.relative_square[pixel] += relative_square;
+        errors.met_again[pixel] += limit.alone > 0.0 && gpu::is_met_again(mean, lesser) ? 1.0 : 0.0;
     }
-    if (!(largest_of(special) > 0.0))
-        return;
-    for (std::size_t i = 0; i < tile_size; ++i) {
-        if (!(special[i] > 0.0))
-            continue;
-        const gpu::Limit limit = limit_of(i);
-        to.relative_square[i] = gpu::relative_square(row.standard_error[i], limit);
-        if (limit.alone > 0.0 && gpu::is_met_once(row.standard_error[i], row.mean[i], row.lesser[i])) {
-            to.has_alone = true;
-            to.met_once[i] = to.relative_square[i];
-            to.as_lamps[i] = gpu::square_as_lamp(row.standard_error[i], row.mean[i], relative_offset);
-            to.relative_square[i] = 0.0;
-        } else if (limit.alone > 0.0 && gpu::is_met_again(row.mean[i], row.lesser[i])) {
-            to.has_alone = true;
-            to.met_again[i] = 1.0;
-        }
-        to.unseen[i] =
-            gpu::unseen_square(row.mean[i], static_cast<double>(largest_beside[i]), sample_count, relative_offset);
-    }
-}
-
-// The means of each channel. They are summed side by side, because each sum has to wait for its previous addition.
-std::array<gpu::ValueSet, channel_count> means_of(const TileValues &tile) {
-    std::array<gpu::ValueSet, channel_count> sets{};
-    for (std::size_t y = 0; y < tile.height; ++y)
-        for (std::size_t x = 0; x < tile.width; ++x)
-            for (std::size_t channel = 0; channel < channel_count; ++channel)
-                sets[channel] =
-                    gpu::with_value(sets[channel], static_cast<double>(tile.mean[channel][y * tile_size + x]));
-    return sets;
+    errors.unseen[pixel] += gpu::unseen_square(mean, largest_beside, tile.sample_count, relative_offset);
 }
 
 } // namespace
 
 PixelErrors pixel_errors(const TileValues &tile) {
     PixelErrors errors;
-    const auto means = means_of(tile);
     for (std::size_t channel = 0; channel < channel_count; ++channel) {
-        const Neighbourhoods near = find_neighbourhoods({tile.width, tile.height, tile.mean[channel].data()});
-        for (std::size_t first = 0; first < tile.height * tile_size; first += tile_size) {
-            const RowValues row(tile, channel, first);
-            TileRow around;
-            for (std::size_t i = 0; i < tile_size; ++i)
-                around[i] = gpu::around(row.mean[i], means[channel], static_cast<double>(near.median[first + i]),
-                                        static_cast<double>(near.largest[first + i]));
-            RowErrors of_row;
-            find_row_errors(row, around, &near.largest[first], tile.sample_count, of_row);
-            for (std::size_t i = 0; i < tile.width; ++i) {
-                errors.square[first + i] += squared(row.standard_error[i]);
-                errors.relative_square[first + i] += of_row.relative_square[i];
-                errors.unseen[first + i] += of_row.unseen[i];
-            }
-            for (std::size_t i = 0; of_row.has_alone && i < tile.width; ++i) {
-                errors.met_once[first + i] += of_row.met_once[i];
-                errors.as_lamps[first + i] += of_row.as_lamps[i];
-                errors.met_again[first + i] += of_row.met_again[i];
-            }
+        std::array<SortedRow, tile_size> rows;
+        gpu::ValueSet means{};
+        for (std::size_t y = 0; y < tile.height; ++y) {
+            rows[y] = sorted_row(tile, channel, y);
+            for (std::size_t x = 0; x < tile.width; ++x)
+                means = gpu::with_value(means, static_cast<double>(tile.pixels[y * tile_size + x][channel].mean));
         }
+        for (std::size_t y = 0; y < tile.height; ++y)
+            for (std::size_t x = 0; x < tile.width; ++x)
+                add_value(tile, channel, y * tile_size + x, neighbourhood_at(rows, tile, x, y), means, errors);
     }
     return errors;
 }

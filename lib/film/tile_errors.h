@@ -3,7 +3,8 @@
 // depends on nothing outside it, so tiles can be looked at in any order and anywhere.
 #pragma once
 
-#include "lib/film/neighbourhoods.h"
+#include "lib/film/pixel_sums.h"
+#include "shaders/gpu_layout.h"
 #include "shaders/pixel_error.h"
 
 #include <array>
@@ -12,22 +13,21 @@
 
 namespace pt {
 
+inline constexpr std::size_t tile_size = gpu::TILE_SIZE;
+
 // Keeps black pixels from counting without bound.
 inline constexpr double relative_offset = 0.01;
 
 using gpu::squared;
 
-// The pixels of a tile in each channel, with what is known of its samples.
+// The values of a tile's pixels, with what is known of its samples.
 struct TileValues {
-    using Channels = std::array<TileFloats, 3>;
-
     std::size_t width;
     std::size_t height;
-    double sample_count;       // of a pixel
-    std::uint64_t rejected{};  // samples left out
-    Channels mean{};           // of all samples of a pixel
-    Channels standard_error{}; // of that mean
-    Channels lesser{};         // the smaller of the means of the film's two parts
+    double sample_count;      // of a pixel
+    std::uint64_t rejected{}; // samples left out
+    // In each channel, row by row; rows are tile_size apart, also where the tile is narrower.
+    std::array<std::array<PixelValue, 3>, tile_size * tile_size> pixels{};
 };
 
 // The expected squares of the errors of pixels with values x and limits r, summed over channels; 0 beyond the edge.

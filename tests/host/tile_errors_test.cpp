@@ -1,5 +1,4 @@
-// The errors of tiles, which are found for many values at once, bit for bit: value by value, by the definitions in
-// shaders/pixel_error.h, with sums in the order of the values.
+// The errors of tiles, bit for bit: by the definitions in shaders/pixel_error.h, with sums in the order of the values.
 #include "lib/film/tile_errors.h"
 #include "shaders/pixel_error.h"
 
@@ -39,18 +38,15 @@ public:
                     const unsigned kind = static_cast<unsigned>(random() % 8);
                     const float mean = kind == 0 ? 0.0F : kind == 1 ? 1000.0F * share() : 1.0F + share();
                     const float lesser = kind == 2 ? 0.0F : mean * share();
-                    values_.mean[channel][y * 8 + x] = mean;
-                    values_.lesser[channel][y * 8 + x] = lesser;
-                    values_.standard_error[channel][y * 8 + x] = (mean - lesser) * (kind == 3 ? 0.5F : 1.0F);
+                    values_.pixels[y * 8 + x][channel] = {mean, (mean - lesser) * (kind == 3 ? 0.5F : 1.0F), lesser};
                 }
     }
 
     const pt::TileValues &values() const { return values_; }
 
     Value value(std::size_t channel, std::size_t x, std::size_t y) const {
-        const std::size_t i = y * 8 + x;
-        return {static_cast<double>(values_.mean[channel][i]), static_cast<double>(values_.standard_error[channel][i]),
-                static_cast<double>(values_.lesser[channel][i])};
+        const auto [mean, standard_error, lesser] = values_.pixels[y * 8 + x][channel];
+        return {static_cast<double>(mean), static_cast<double>(standard_error), static_cast<double>(lesser)};
     }
 
     // Of a channel, from the first place to before the last.

@@ -29,10 +29,8 @@ inline void add_tiles(ErrorEstimator &estimator, std::size_t width, const ImageV
             for (std::size_t x = 0; x < tile.width; ++x)
                 for (std::size_t channel = 0; channel < 3; ++channel) {
                     const std::size_t from = 3 * ((pixels.y + y) * width + pixels.x + x) + channel;
-                    const std::size_t to = y * tile_size + x;
-                    tile.mean[channel][to] = image.mean[from];
-                    tile.standard_error[channel][to] = image.standard_error[from];
-                    tile.lesser[channel][to] = image.lesser[from];
+                    tile.pixels[y * tile_size + x][channel] = {image.mean[from], image.standard_error[from],
+                                                               image.lesser[from]};
                 }
         estimator.add(tile_errors(tile));
     }
