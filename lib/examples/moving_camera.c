@@ -1,67 +1,24 @@
 /* A camera that circles a ball: each frame takes a few samples while the program does its other work, and is read as
- * soon as they are done. No threads. The last frame is written to moving_camera.pfm (linear radiance as floats).
+ * soon as they are done. No threads. The last frame is written to moving_camera.pfm.
  *
  *     moving_camera [FRAMES [SAMPLES]]
  *
  * Exit status 0 if every frame was rendered and the last one written.
  */
-#define _POSIX_C_SOURCE 200112L
+#include "ball.h"
 
 #include <pt/async.h>
-#include <pt/pt.h>
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
-
-enum { WIDTH = 128, HEIGHT = 96 };
 
 /* How long a poll may wait in a program with 60 frames a second, nanoseconds; repeated until the frame's samples are
  * done. */
 static const uint64_t poll_nanoseconds = 2000000;
 
-/* The program's other work. An interactive program handles input here, and draws the previous frame. */
-typedef struct other_work {
-    unsigned long times;
-} other_work;
-
-static void do_other_work(other_work *work) {
-    ++work->times;
-}
-
-static double seconds_now(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-static pt_result set_up(pt_context *context) {
-    static const pt_material materials[] = {
-        {{0.8f, 0.8f, 0.8f}, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, 0.0f, 0},    /* white, matt */
-        {{0.4f, 0.1f, 0.1f}, {0.4f, 0.4f, 0.4f}, {0.0f, 0.0f, 0.0f}, 100.0f, 0},  /* red, glossy */
-        {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, {40.0f, 40.0f, 36.0f}, 0.0f, 0}, /* a lamp */
-    };
-    static const pt_sphere spheres[] = {
-        {{0.0, 1.0, 0.0}, 1.0, {0.0, 0.0, 0.0}, 1, 0},
-        {{2.0, 4.0, 2.0}, 1.0, {0.0, 0.0, 0.0}, 2, 0},
-    };
-    static const pt_plane floor = {{0.0, 1.0, 0.0}, 0.0, 0, 0};
-    const pt_scene scene = {
-        .struct_size = sizeof scene,
-        .material_count = 3,
-        .sphere_count = 2,
-        .plane_count = 1,
-        .materials = materials,
-        .spheres = spheres,
-        .planes = &floor,
-    };
-    const pt_render render = {.struct_size = sizeof render, .width = WIDTH, .height = HEIGHT};
-    pt_result result = pt_set_scene(context, &scene);
-
-    if (result >= 0)
-        result = pt_set_render(context, &render);
-    return result;
+/* An interactive program handles input here, and draws the previous frame. */
+static void do_other_work(unsigned long *times) {
+    ++*times;
 }
 
 /* Moves the camera, which goes once around the ball. This discards the samples of the previous frame. */
@@ -77,11 +34,11 @@ static pt_result move_camera(pt_context *context, double turns) {
 
 /* Takes the samples of a frame. The device works while the program goes on, which has to poll. */
 static pt_result render_frame(pt_context *context, const pt_accumulate_info *samples, const pt_image *image,
-                              other_work *work) {
+                              unsigned long *other_work) {
     pt_result result = pt_start(context, samples);
 
     while (result == PT_PENDING) {
-        do_other_work(work);
+        do_other_work(other_work);
         result = pt_poll(context, poll_nanoseconds, NULL);
     }
     if (result >= 0)
@@ -89,43 +46,23 @@ static pt_result render_frame(pt_context *context, const pt_accumulate_info *sam
     return result;
 }
 
-/* Prints the number of frames, and how many a second there were. */
 static pt_result render_frames(pt_context *context, unsigned frames, const pt_accumulate_info *samples,
                                const pt_image *image) {
-    other_work work = {0};
-    double begin;
+    unsigned long other_work = 0;
     unsigned frame;
-    pt_result result = set_up(context);
+    pt_result result = set_up_ball(context);
 
     if (result >= 0)
-        result = move_camera(context, 0.0);
-    if (result >= 0)
         result = pt_prepare(context); /* so that the first frame waits for no kernel */
-    begin = seconds_now();
     for (frame = 0; result >= 0 && frame < frames; ++frame) {
         result = move_camera(context, (double)frame / frames);
         if (result >= 0)
-            result = render_frame(context, samples, image, &work);
+            result = render_frame(context, samples, image, &other_work);
     }
     if (result >= 0)
-        printf("%u frames of %u samples per pixel, %.1f a second; other work was done %lu times\n", frames,
-               (unsigned)samples->sample_count, frames / (seconds_now() - begin), work.times);
+        printf("%u frames of %u samples per pixel; other work was done %lu times\n", frames,
+               (unsigned)samples->sample_count, other_work);
     return result;
-}
-
-/* Writes a file; returns 1 if it is whole. PFM wants the bottom row first; -1 says that the floats are
- * little-endian. */
-static int write_pfm(const char *path, const float *pixels) {
-    FILE *file = fopen(path, "wb");
-    int row;
-    int whole;
-
-    if (!file)
-        return 0;
-    whole = fprintf(file, "PF\n%d %d\n-1.0\n", WIDTH, HEIGHT) > 0;
-    for (row = HEIGHT; row-- > 0;)
-        whole = whole && fwrite(pixels + row * WIDTH * 3, sizeof(float), WIDTH * 3, file) == WIDTH * 3;
-    return fclose(file) == 0 && whole;
 }
 
 int main(int argc, char **argv) {
@@ -139,19 +76,14 @@ int main(int argc, char **argv) {
     pt_context *context;
     pt_result result = pt_create(&create, &context);
 
-    if (result < 0) {
-        fprintf(stderr, "%s\n", pt_last_error(NULL));
-        return EXIT_FAILURE;
-    }
-    result = render_frames(context, frames, &samples, &image);
-    if (result < 0)
+    if (result >= 0)
+        result = render_frames(context, frames, &samples, &image);
+    if (result < 0) /* context is NULL if none was made, and the message that of this thread's pt_create */
         fprintf(stderr, "%s: %s\n", pt_result_name(result), pt_last_error(context));
     pt_destroy(context);
-    if (result < 0)
-        return EXIT_FAILURE;
-    if (!write_pfm("moving_camera.pfm", pixels)) {
+    if (result >= 0 && !write_pfm("moving_camera.pfm", pixels)) {
         perror("moving_camera.pfm");
         return EXIT_FAILURE;
     }
-    return EXIT_SUCCESS;
+    return result >= 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

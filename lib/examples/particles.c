@@ -1,16 +1,12 @@
 /* Ten thousand particles, as simulations have them: positions and colors in arrays, one radius for all. pt_set_scene
- * reads them where they are. The picture goes to particles.pfm (linear radiance as floats).
+ * reads them where they are. The picture goes to particles.pfm.
  *
  *     particles [COUNT [SAMPLES]]
  */
-#include <pt/pt.h>
+#include "ball.h"
 
 #include <math.h>
-#include <stdint.h>
-#include <stdio.h>
 #include <stdlib.h>
-
-enum { WIDTH = 128, HEIGHT = 96 };
 
 typedef struct particles {
     uint32_t count;
@@ -80,42 +76,22 @@ static pt_result render(pt_context *context, const particles *all, uint32_t samp
     return result;
 }
 
-/* Writes a file; returns 1 if it is whole. PFM wants the bottom row first; -1 says that the floats are
- * little-endian. */
-static int write_pfm(const char *path, const float *pixels) {
-    FILE *file = fopen(path, "wb");
-    int row;
-    int whole;
-
-    if (!file)
-        return 0;
-    whole = fprintf(file, "PF\n%d %d\n-1.0\n", WIDTH, HEIGHT) > 0;
-    for (row = HEIGHT; row-- > 0;)
-        whole = whole && fwrite(pixels + row * WIDTH * 3, sizeof(float), WIDTH * 3, file) == WIDTH * 3;
-    return fclose(file) == 0 && whole;
-}
-
 static int render_to_file(const particles *all, uint32_t sample_count) {
     static float pixels[WIDTH * HEIGHT * 3];
     const pt_image image = {.struct_size = sizeof image, .data = pixels, .size_bytes = sizeof pixels};
     pt_context *context;
     pt_result result = pt_create(NULL, &context);
 
-    if (result < 0) {
-        fprintf(stderr, "%s\n", pt_last_error(NULL));
-        return EXIT_FAILURE;
-    }
-    result = render(context, all, sample_count, &image);
-    if (result < 0)
+    if (result >= 0)
+        result = render(context, all, sample_count, &image);
+    if (result < 0) /* context is NULL if none was made, and the message that of this thread's pt_create */
         fprintf(stderr, "%s: %s\n", pt_result_name(result), pt_last_error(context));
     pt_destroy(context);
-    if (result < 0)
-        return EXIT_FAILURE;
-    if (!write_pfm("particles.pfm", pixels)) {
+    if (result >= 0 && !write_pfm("particles.pfm", pixels)) {
         perror("particles.pfm");
         return EXIT_FAILURE;
     }
-    return EXIT_SUCCESS;
+    return result >= 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 
 int main(int argc, char **argv) {

@@ -1,5 +1,5 @@
 /* Progressive display: one thread renders in steps that double, and after each writes the image so far to
- * progressive.ppm and prints its error; the main thread shows how far the step is. Ctrl-C stops it, or a limit of time.
+ * progressive.pfm and prints its error; the main thread shows how far the step is. Ctrl-C stops it, or a limit of time.
  *
  *     progressive [SAMPLES [SECONDS]]
  *
@@ -7,18 +7,16 @@
  */
 #define _POSIX_C_SOURCE 200809L
 
-#include <pt/pt.h>
+#include "ball.h"
+
 #include <pt/stats.h>
 
 #include <math.h>
 #include <pthread.h>
 #include <signal.h>
 #include <stdatomic.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <time.h>
-
-enum { WIDTH = 128, HEIGHT = 96 };
 
 static atomic_int stop; /* set by a signal or by the main thread, read by the thread that renders */
 
@@ -45,58 +43,6 @@ static int32_t on_progress(void *user, double fraction) {
     return atomic_load(&stop);
 }
 
-static pt_result set_up(pt_context *context) {
-    static const pt_material materials[] = {
-        {{0.8f, 0.8f, 0.8f}, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, 0.0f, 0},    /* white, matt */
-        {{0.4f, 0.1f, 0.1f}, {0.4f, 0.4f, 0.4f}, {0.0f, 0.0f, 0.0f}, 100.0f, 0},  /* red, glossy */
-        {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, {40.0f, 40.0f, 36.0f}, 0.0f, 0}, /* a lamp */
-    };
-    static const pt_sphere spheres[] = {
-        {{0.0, 1.0, 0.0}, 1.0, {0.0, 0.0, 0.0}, 1, 0},
-        {{2.0, 4.0, 2.0}, 1.0, {0.0, 0.0, 0.0}, 2, 0},
-    };
-    static const pt_plane floor = {{0.0, 1.0, 0.0}, 0.0, 0, 0};
-    const pt_scene scene = {
-        .struct_size = sizeof scene,
-        .material_count = 3,
-        .sphere_count = 2,
-        .plane_count = 1,
-        .materials = materials,
-        .spheres = spheres,
-        .planes = &floor,
-    };
-    const pt_camera camera = {.struct_size = sizeof camera, .position = {0.0, 1.5, 5.0}, .target = {0.0, 1.0, 0.0}};
-    const pt_render render = {.struct_size = sizeof render, .width = WIDTH, .height = HEIGHT};
-    pt_result result = pt_set_scene(context, &scene);
-
-    if (result >= 0)
-        result = pt_set_camera(context, &camera);
-    if (result >= 0)
-        result = pt_set_render(context, &render);
-    return result;
-}
-
-static unsigned char display_value(float radiance) {
-    return (unsigned char)(255.0f * powf(radiance / (1.0f + radiance), 1.0f / 2.2f)); /* Reinhard et al. 2002 */
-}
-
-/* Writes another file and renames it, so that a viewer that watches the file never sees half an image. */
-static int write_ppm(const float *pixels) {
-    static unsigned char bytes[WIDTH * HEIGHT * 3];
-    FILE *file = fopen("progressive.ppm.part", "wb");
-    int whole;
-    size_t i;
-
-    if (!file)
-        return 0;
-    for (i = 0; i < sizeof bytes; ++i)
-        bytes[i] = display_value(pixels[i]);
-    whole = fprintf(file, "P6\n%d %d\n255\n", WIDTH, HEIGHT) > 0;
-    whole = whole && fwrite(bytes, 1, sizeof bytes, file) == sizeof bytes;
-    whole = (fclose(file) == 0) && whole;
-    return whole && rename("progressive.ppm.part", "progressive.ppm") == 0;
-}
-
 /* Shows the image of the samples so far. */
 static pt_result show(render_job *job, uint32_t sample_count) {
     static float pixels[WIDTH * HEIGHT * 3];
@@ -108,9 +54,11 @@ static pt_result show(render_job *job, uint32_t sample_count) {
         result = pt_get_error_estimate(job->context, &error);
     if (result < 0)
         return result;
-    atomic_store(&job->shown, write_ppm(pixels));
+    /* Renamed, so that a viewer that watches the file never sees half an image. */
+    atomic_store(&job->shown, write_pfm("progressive.pfm.part", pixels) &&
+                                  rename("progressive.pfm.part", "progressive.pfm") == 0);
     if (!atomic_load(&job->shown)) {
-        perror("progressive.ppm");
+        perror("progressive.pfm");
         atomic_store(&stop, 1);
     }
     printf("\r%u samples", (unsigned)sample_count);
@@ -124,7 +72,7 @@ static pt_result show(render_job *job, uint32_t sample_count) {
 static pt_result render_in_steps(render_job *job) {
     pt_stats stats = {.struct_size = sizeof stats};
     pt_accumulate_info step = {.struct_size = sizeof step, .sample_count = 1};
-    pt_result result = set_up(job->context);
+    pt_result result = set_up_ball(job->context);
 
     step.progress = on_progress;
     step.progress_user = job;
