@@ -8,7 +8,6 @@
 #include "lib/denoise/combination.h"
 #include "lib/denoise/open_image_denoise.h"
 
-#include <array>
 #include <cmath>
 #include <vector>
 
@@ -48,10 +47,8 @@ ErrorEstimate denoise(const pt_denoise_info &info) {
     const std::size_t value_count = std::size_t{3} * info.width * info.height;
     std::vector<float> first(value_count);
     std::vector<float> second(value_count);
-    const std::array<FilterTask, 2> tasks{{{info.first, first.data()}, {info.second, second.data()}}};
-    run_open_image_denoise({info.library, info.any_device != 0}, {info.width, info.height, info.albedo, info.normal},
-                           tasks);
-    return combine({info.width, info.height, info.first, info.second, first.data(), second.data()}, info.denoised);
+    run_open_image_denoise(info, first.data(), second.data());
+    return combine(info, first.data(), second.data());
 }
 
 } // namespace

@@ -17,6 +17,16 @@ constexpr double few_tiles =
     8.0; // an estimate from fewer is uncertain, as one from as few pixels is (error_estimate.cpp)
 constexpr double normal_90 = 1.28; // for the normal distribution, 90% lie below so many standard deviations
 
+// A, B, D(A) and D(B), each with width times height times 3 values.
+struct FilteredHalves {
+    std::size_t width;
+    std::size_t height;
+    const float *first;
+    const float *second;
+    const float *first_filtered;
+    const float *second_filtered;
+};
+
 // The median of M over the 3 x 3 pixels about one, repeated at the image's edges.
 double median_about(const FilteredHalves &halves, std::size_t x, std::size_t y, std::size_t channel) {
     std::array<double, 9> values{};
@@ -224,7 +234,8 @@ Interval root_mean(const Tiles &sums, const Tiles &value_counts, bool uncertain)
 
 } // namespace
 
-ErrorEstimate combine(const FilteredHalves &halves, float *to) {
+ErrorEstimate combine(const pt_denoise_info &info, const float *first_filtered, const float *second_filtered) {
+    const FilteredHalves halves{info.width, info.height, info.first, info.second, first_filtered, second_filtered};
     const Tiles shares = best_shares(halves);
     Squares squares(halves);
     Squares relative_squares(halves);
@@ -232,7 +243,7 @@ ErrorEstimate combine(const FilteredHalves &halves, float *to) {
     for_each_value(halves, shares, [&](std::size_t tile, std::size_t channel, std::size_t x, std::size_t y) {
         const double share = at(shares, Place(x, shares.columns), Place(y, shares.rows));
         const Terms terms = terms_at(halves, x, y, channel);
-        to[(y * halves.width + x) * channel_count + channel] =
+        info.denoised[(y * halves.width + x) * channel_count + channel] =
             static_cast<float>(terms.mean + share * terms.difference);
         squares.add(tile, terms, share, 1.0);
         relative_squares.add(tile, terms, share, terms.weight);

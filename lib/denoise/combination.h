@@ -23,24 +23,13 @@
 // sum is at most the sum of squares times their number (Cauchy's inequality).
 #pragma once
 
-#include "lib/denoise/open_image_denoise.h"
 #include "lib/film/error_estimate.h"
 
-#include <vector>
+#include <pt/denoise.h>
 
 namespace pt {
 
-// A, B, D(A) and D(B), each with width times height times 3 values.
-struct FilteredHalves {
-    std::size_t width;
-    std::size_t height;
-    const float *first;
-    const float *second;
-    const float *first_filtered;
-    const float *second_filtered;
-};
-
-// Writes M + t d, and returns its error.
-ErrorEstimate combine(const FilteredHalves &halves, float *to);
+// Writes M + t d to info.denoised, and returns its error. The images are A, B, D(A) and D(B).
+ErrorEstimate combine(const pt_denoise_info &info, const float *first_filtered, const float *second_filtered);
 
 } // namespace pt

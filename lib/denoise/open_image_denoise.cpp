@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace pt {
 
@@ -94,44 +95,45 @@ void require_success(const Library &library, void *device) {
 using Handle = std::unique_ptr<void, void (*)(void *)>;
 
 // Images lie in the device's memory, since a GPU may not read the host's.
-void filter(const Library &library, void *device, const Guides &guides, std::span<const FilterTask> tasks) {
-    const std::size_t size = guides.width * guides.height * 3 * sizeof(float);
+void filter(const Library &library, void *device, const pt_denoise_info &info, float *first_filtered,
+            float *second_filtered) {
+    const std::size_t size = std::size_t{info.width} * info.height * 3 * sizeof(float);
     const Handle filter(library.new_filter(device, "RT"), library.release_filter);
     require_success(library, device);
     const auto new_image = [&](const char *name) {
         Handle image(library.new_buffer(device, size), library.release_buffer);
         require_success(library, device);
-        library.set_image(filter.get(), name, image.get(), oidn_format_float3, guides.width, guides.height, 0, 0, 0);
+        library.set_image(filter.get(), name, image.get(), oidn_format_float3, info.width, info.height, 0, 0, 0);
         return image;
     };
     const Handle radiance = new_image("color");
     const Handle albedo = new_image("albedo");
     const Handle normal = new_image("normal");
     const Handle filtered = new_image("output");
-    library.write_buffer(albedo.get(), 0, size, guides.albedo);
-    library.write_buffer(normal.get(), 0, size, guides.normal);
+    library.write_buffer(albedo.get(), 0, size, info.albedo);
+    library.write_buffer(normal.get(), 0, size, info.normal);
     library.set_bool(filter.get(), "hdr", true);
     library.set_bool(filter.get(), "cleanAux", true);
     library.commit_filter(filter.get());
-    for (const FilterTask &task : tasks) {
-        library.write_buffer(radiance.get(), 0, size, task.radiance);
+    for (const auto &[from, to] : {std::pair(info.first, first_filtered), {info.second, second_filtered}}) {
+        library.write_buffer(radiance.get(), 0, size, from);
         library.execute_filter(filter.get());
-        library.read_buffer(filtered.get(), 0, size, task.filtered);
+        library.read_buffer(filtered.get(), 0, size, to);
     }
     require_success(library, device);
 }
 
 } // namespace
 
-void run_open_image_denoise(const Denoiser &denoiser, const Guides &guides, std::span<const FilterTask> tasks) {
-    const Library library(denoiser.path ? denoiser.path : platform::denoiser_file);
-    const int device_type = denoiser.any_device ? oidn_device_type_default : oidn_device_type_cpu;
+void run_open_image_denoise(const pt_denoise_info &info, float *first_filtered, float *second_filtered) {
+    const Library library(info.library ? info.library : platform::denoiser_file);
+    const int device_type = info.any_device != 0 ? oidn_device_type_default : oidn_device_type_cpu;
     const Handle device(library.new_device(device_type), library.release_device);
     if (!device)
         require_success(library, nullptr);
     library.commit_device(device.get());
     require_success(library, device.get());
-    filter(library, device.get(), guides, tasks);
+    filter(library, device.get(), info, first_filtered, second_filtered);
 }
 
 } // namespace pt
