@@ -209,7 +209,7 @@ PT_FUNCTION uint lamp_tree_groups(uint lamp_count, uint levels)
 }
 
 // ---- Film: two parts, each planes of one uint per pixel of the strip -------------------------------------------------
-// Each has samples of its own (lib/film/film_parts.h): the image is the sum of both, and their difference tells its error.
+// Each has samples of its own (lib/film/sample_set.h): the image is the sum of both, and their difference tells its error.
 PT_CONSTANT FILM_PARTS = 2;
 // Of a part, words 0 to 3, 4 to 7 and 8 to 11 are the exact sums of R, G and B: unsigned 128-bit fixed point, least
 // significant word first, of which the last FILM_FRACTION_BITS bits are the fraction, in film units

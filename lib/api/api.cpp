@@ -101,11 +101,6 @@ pt_accumulate_info validated_accumulate(const pt_accumulate_info *info, bool may
     return accumulate;
 }
 
-SamplesWanted samples_wanted(const pt_accumulate_info &info) {
-    return {
-        info.sample_count, info.target_error, info.sampling, {info.tile_samples, info.tile_samples + info.tile_count}};
-}
-
 // A context in use cannot be freed: pt_destroy can only log that. It does so once, since the log function itself may
 // call pt_destroy. Nothing is logged in a forked child, which may hold the context unintentionally, and where a lock of
 // the log may have been held by a thread that the child lacks.
@@ -250,17 +245,13 @@ pt_result pt_prepare(pt_context *context) {
 }
 
 pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *info) {
-    return pt::guard_context(context, [&](pt::Renderer &renderer) {
-        const pt_accumulate_info accumulate = pt::validated_accumulate(info, true);
-        return renderer.accumulate(pt::samples_wanted(accumulate), {accumulate.progress, accumulate.progress_user});
-    });
+    return pt::guard_context(
+        context, [&](pt::Renderer &renderer) { return renderer.accumulate(pt::validated_accumulate(info, true)); });
 }
 
 pt_result pt_start(pt_context *context, const pt_accumulate_info *info) {
-    return pt::guard_context(context, [&](pt::Renderer &renderer) {
-        const pt_accumulate_info accumulate = pt::validated_accumulate(info, false);
-        return renderer.start(pt::samples_wanted(accumulate));
-    });
+    return pt::guard_context(
+        context, [&](pt::Renderer &renderer) { return renderer.start(pt::validated_accumulate(info, false)); });
 }
 
 pt_result pt_poll(pt_context *context, uint64_t nanoseconds, double *fraction) {

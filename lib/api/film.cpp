@@ -35,20 +35,13 @@ std::span<const std::byte> film_bytes(const void *data, std::uint64_t size_bytes
     return {static_cast<const std::byte *>(data), size_bytes};
 }
 
-const FilmTile &tile_of(const pt_film *film, std::uint32_t index) {
-    require_not_null(film, "film");
-    const std::vector<FilmTile> &tiles = film->film.header().tiles;
+const FilmTile &tile_of(const Film &film, std::uint32_t index) {
+    const std::vector<FilmTile> &tiles = film.header().tiles;
     if (index >= tiles.size())
         throw Error(PT_ERROR_INVALID_ARGUMENT, BrokenRule{.subject = "tile",
                                                           .value = std::to_string(index),
                                                           .rule = "must be below " + std::to_string(tiles.size())});
     return tiles[index];
-}
-
-// Whether the film may have missed lamps. It knows whether its samples find lamps by chance, but not how small the
-// scene's lamps are.
-bool may_miss_lamps(const FilmFacts &facts) {
-    return finds_lamps_by_chance(facts.estimator, facts.max_path_length);
 }
 
 // Fills the image as if no pixel had samples.
@@ -95,7 +88,7 @@ pt_result write_plan(Film &film, double target_error, std::uint32_t most, std::u
                                .value = std::to_string(count),
                                .rule = "must be the number of tiles, " + std::to_string(tile_count)});
     const TileSamples samples = film.samples_by_tile();
-    const std::optional<TileStep> step = film.plan(samples, target_error, most, may_miss_lamps(film.facts()));
+    const std::optional<TileStep> step = film.plan(samples, target_error, most);
     for (std::size_t tile = 0; tile < tile_count; ++tile)
         goals[tile] = static_cast<std::uint32_t>(samples.of(tile).count());
     if (!step)
@@ -131,6 +124,15 @@ pt_film_info info_of(const Film &film) {
             .device = facts.device.c_str()};
 }
 
+// Runs a call on a film.
+template <typename Film, typename Call>
+pt_result guard_film(Film *film, Call &&call) noexcept {
+    return guard(thread_last_error, [&] {
+        require_not_null(film, "film");
+        return call(film->film);
+    });
+}
+
 } // namespace
 
 } // namespace pt
@@ -148,31 +150,26 @@ void pt_close_film(pt_film *film) {
 }
 
 pt_result pt_merge_film(pt_film *film, const void *data, uint64_t size_bytes) {
-    return pt::guard(pt::thread_last_error, [&] {
-        pt::require_not_null(film, "film");
-        film->film.add(pt::Film(pt::film_bytes(data, size_bytes)));
-    });
+    return pt::guard_film(film, [&](pt::Film &opened) { opened.add(pt::Film(pt::film_bytes(data, size_bytes))); });
 }
 
 pt_result pt_write_film(const pt_film *film, void *data, uint64_t *size_bytes) {
-    return pt::guard(pt::thread_last_error, [&] {
-        pt::require_not_null(film, "film");
+    return pt::guard_film(film, [&](const pt::Film &opened) {
         pt::require_not_null(size_bytes, "size_bytes");
-        const std::uint64_t needed = pt::FilmLayout(film->film.header()).size_bytes();
+        const std::uint64_t needed = pt::FilmLayout(opened.header()).size_bytes();
         if (data) {
             pt::require_room(*size_bytes, needed);
-            film->film.write({static_cast<std::byte *>(data), needed});
+            opened.write({static_cast<std::byte *>(data), needed});
         }
         *size_bytes = needed;
     });
 }
 
 pt_result pt_stream_film(const pt_film *film, pt_take_bytes_fn take, void *user) {
-    return pt::guard(pt::thread_last_error, [&] {
-        pt::require_not_null(film, "film");
+    return pt::guard_film(film, [&](const pt::Film &opened) {
         pt::require_not_null(reinterpret_cast<const void *>(take), "take");
         try {
-            film->film.stream([&](std::span<const std::byte> piece) {
+            opened.stream([&](std::span<const std::byte> piece) {
                 if (take(user, piece.data(), piece.size()) != 0)
                     throw pt::Cancelled();
             });
@@ -184,24 +181,20 @@ pt_result pt_stream_film(const pt_film *film, pt_take_bytes_fn take, void *user)
 }
 
 pt_result pt_read_film(const pt_film *film, const pt_image *image) {
-    return pt::guard(pt::thread_last_error, [&] {
-        pt::require_not_null(film, "film");
+    return pt::guard_film(film, [&](const pt::Film &opened) {
         const pt_image target = pt::copy_in(image, "image");
-        const pt::Rectangle &bounds = film->film.bounds();
-        pt::write_image(film->film, pt::validated_image(target, bounds.width, bounds.height, pt::ImageSource::Samples));
+        const pt::Rectangle &bounds = opened.bounds();
+        pt::write_image(opened, pt::validated_image(target, bounds.width, bounds.height, pt::ImageSource::Samples));
     });
 }
 
 pt_result pt_get_film_info(const pt_film *film, pt_film_info *info) {
-    return pt::guard(pt::thread_last_error, [&] {
-        pt::require_not_null(film, "film");
-        pt::copy_out(pt::info_of(film->film), info, "info");
-    });
+    return pt::guard_film(film, [&](const pt::Film &opened) { pt::copy_out(pt::info_of(opened), info, "info"); });
 }
 
 pt_result pt_get_film_tile(const pt_film *film, uint32_t index, pt_film_tile *tile) {
-    return pt::guard(pt::thread_last_error, [&] {
-        const auto &[pixels, samples] = pt::tile_of(film, index);
+    return pt::guard_film(film, [&](const pt::Film &opened) {
+        const auto &[pixels, samples] = pt::tile_of(opened, index);
         pt::copy_out(pt_film_tile{.struct_size = sizeof(pt_film_tile),
                                   .x = pixels.x,
                                   .y = pixels.y,
@@ -213,9 +206,9 @@ pt_result pt_get_film_tile(const pt_film *film, uint32_t index, pt_film_tile *ti
 }
 
 pt_result pt_get_film_ranges(const pt_film *film, uint32_t tile, pt_sample_range *ranges, uint32_t *count) {
-    return pt::guard(pt::thread_last_error, [&] {
+    return pt::guard_film(film, [&](const pt::Film &opened) {
         pt::require_not_null(count, "count");
-        const std::vector<pt::SampleRange> &all = pt::tile_of(film, tile).samples.ranges();
+        const std::vector<pt::SampleRange> &all = pt::tile_of(opened, tile).samples.ranges();
         const auto available = static_cast<std::uint32_t>(all.size());
         *count = ranges ? std::min(*count, available) : available;
         for (std::uint32_t i = 0; ranges && i < *count; ++i)
@@ -224,25 +217,20 @@ pt_result pt_get_film_ranges(const pt_film *film, uint32_t tile, pt_sample_range
 }
 
 pt_result pt_get_film_stats(const pt_film *film, pt_stats *stats) {
-    return pt::guard(pt::thread_last_error, [&] {
-        pt::require_not_null(film, "film");
-        pt::copy_out(pt::stats_of(film->film), stats, "stats");
-    });
+    return pt::guard_film(film, [&](const pt::Film &opened) { pt::copy_out(pt::stats_of(opened), stats, "stats"); });
 }
 
 pt_result pt_get_film_error_estimate(const pt_film *film, pt_error_estimate *error) {
-    return pt::guard(pt::thread_last_error, [&] {
-        pt::require_not_null(film, "film");
+    return pt::guard_film(film, [&](const pt::Film &opened) {
         pt::struct_size_of(error, "error"); // before the work
-        pt::copy_out(pt::stated(film->film.error(pt::may_miss_lamps(film->film.facts()))), error, "error");
+        pt::copy_out(pt::stated(opened.error()), error, "error");
     });
 }
 
 pt_result pt_plan_film(pt_film *film, double target_error, uint32_t most, uint32_t *goals, uint32_t *count) {
-    return pt::guard(pt::thread_last_error, [&] {
-        pt::require_not_null(film, "film");
+    return pt::guard_film(film, [&](pt::Film &opened) {
         pt::require_not_null(count, "count");
         pt::check_target_error(target_error);
-        return pt::write_plan(film->film, target_error, most, goals, *count);
+        return pt::write_plan(opened, target_error, most, goals, *count);
     });
 }

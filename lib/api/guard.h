@@ -2,9 +2,9 @@
 // pt_get_broken_rule.
 #pragma once
 
-#include "lib/api/default_rounding.h"
 #include "lib/base/error.h"
 
+#include <cfenv>
 #include <exception>
 #include <memory>
 #include <new>
@@ -60,6 +60,25 @@ private:
         return failed(PT_ERROR_INTERNAL, "an exception of unknown type");
     }
 }
+
+// Sets the rounding mode that the library computes in, whatever the caller's is. While it lives, this thread rounds to
+// nearest. Threads that are started meanwhile inherit that, such as those with which a driver builds and runs kernels.
+class DefaultRounding {
+public:
+    DefaultRounding() noexcept : callers_(std::fegetround()) { set(FE_TONEAREST); }
+    ~DefaultRounding() { set(callers_); }
+    DefaultRounding(const DefaultRounding &) = delete;
+    DefaultRounding &operator=(const DefaultRounding &) = delete;
+
+private:
+    // Reading the mode is cheap, setting it is not.
+    void set(int mode) const noexcept {
+        if (callers_ != FE_TONEAREST)
+            std::fesetround(mode);
+    }
+
+    int callers_;
+};
 
 // Runs the body of a call of the C interface, which returns a pt_result or nothing (for PT_OK), or throws. An exception
 // from a caller's callback ends here too, as PT_ERROR_INTERNAL with its message: it must not reach the caller, who may

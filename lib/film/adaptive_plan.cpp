@@ -33,7 +33,7 @@ std::optional<TileStep> AdaptivePlan::next_together(const TileSamples &samples, 
     const std::uint64_t count = samples.least();
     if (samples.even() && is_level(count) && are_worth_telling_apart(tile_gains(samples, squares_())))
         return next_apart(samples, round);
-    if (samples.even() && is_check(count) && error_().high <= target_error_)
+    if (samples.even() && is_check(count) && error_().relative_rmse.high <= target_error_)
         return std::nullopt;
     TileStep step;
     const std::uint64_t goal = std::min(next_check(count), most_);
@@ -52,11 +52,16 @@ std::optional<TileStep> AdaptivePlan::next_apart(const TileSamples &samples, Ada
     std::vector<std::uint32_t> tiles = wanting_tiles(samples, gains, round);
     if (tiles.empty() && unfinished_tiles(samples).empty()) {
         const double of_tiles = error_of(samples, squares);
-        const Error error = of_tiles > near_target * target_error_ ? Error{of_tiles, false} : error_();
-        if (error.high <= target_error_)
-            return std::nullopt;
-        const double seen = error.sees_too_little ? of_tiles : error.high;
-        round = round_after(round, samples, squares, gains, squared(seen / target_error_), error.sees_too_little);
+        double error = of_tiles;
+        bool sees_too_little = false;
+        if (of_tiles <= near_target * target_error_) {
+            const ErrorEstimate of_image = error_();
+            if (of_image.relative_rmse.high <= target_error_)
+                return std::nullopt;
+            sees_too_little = (of_image.uncertain & PT_UNCERTAIN_UNSEEN) != 0;
+            error = sees_too_little ? of_tiles : of_image.relative_rmse.high;
+        }
+        round = round_after(round, samples, squares, gains, squared(error / target_error_), sees_too_little);
         tiles = wanting_tiles(samples, gains, round);
     }
     return to_next_level(samples, std::move(tiles));

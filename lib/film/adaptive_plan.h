@@ -5,7 +5,8 @@
 // its own sums and the round alone, and a round ends when every tile has come to rest in it.
 #pragma once
 
-#include "lib/film/adaptive_round.h"
+#include "lib/film/error_estimate.h"
+#include "lib/film/film_header.h"
 #include "lib/film/tile_samples.h"
 
 #include <cstdint>
@@ -23,13 +24,7 @@ struct TileStep {
 
 class AdaptivePlan {
 public:
-    // What a film says about the error of its image.
-    struct Error {
-        double high;          // upper bound of the relative error
-        bool sees_too_little; // PT_UNCERTAIN_UNSEEN
-    };
-
-    using LookAtImage = std::function<Error()>;
+    using LookAtImage = std::function<ErrorEstimate()>;
     using LookAtTiles = std::function<std::vector<double>()>; // their own_square() of tile_errors.h
 
     // most: the largest number of samples for any pixel. error and squares look at the samples as they are at that

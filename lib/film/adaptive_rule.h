@@ -8,7 +8,7 @@
 // order in which tiles came to it, and whatever was interrupted on the way.
 #pragma once
 
-#include "lib/film/adaptive_round.h"
+#include "lib/film/film_header.h"
 #include "lib/film/tile_samples.h"
 
 #include <cstdint>

@@ -2,10 +2,10 @@
 
 #include "lib/base/error.h"
 #include "lib/base/rules.h"
-#include "lib/film/film_tiles.h"
+#include "lib/film/film_facts.h"
+#include "lib/film/tile_map.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <string>
 #include <utility>
@@ -17,10 +17,6 @@ namespace {
 // The largest tile in memory, 7 MB, unless a single row is longer. So little is held twice while another film's tiles
 // cut it.
 constexpr std::uint32_t most_tile_pixels = 1U << 16;
-
-[[noreturn]] void refuse(const std::string &field, const std::string &value, const std::string &rule) {
-    throw Error(PT_ERROR_INCOMPATIBLE, BrokenRule{.subject = "film", .member = field, .value = value, .rule = rule});
-}
 
 std::string where(const Rectangle &pixels) {
     return " in the " + std::to_string(pixels.width) + "x" + std::to_string(pixels.height) + " pixels from (" +
@@ -80,10 +76,10 @@ void Film::require_disjoint(const std::vector<FilmTile> &others, const TileMap &
                 continue;
             const SampleSet &added = others[*piece.tile].samples;
             if (const auto overlap = added.overlap(own.samples))
-                refuse("samples", text_of(added) + where(piece.pixels),
-                       text_of(*overlap) + " are in the film already that it is added to");
+                refuse_film("samples", text_of(added) + where(piece.pixels),
+                            text_of(*overlap) + " are in the film already that it is added to");
             if (own.samples.count() + added.count() > UINT32_MAX)
-                refuse("samples", text_of(added), "a pixel holds at most 2^32 - 1");
+                refuse_film("samples", text_of(added), "a pixel holds at most 2^32 - 1");
         }
 }
 
@@ -217,7 +213,7 @@ std::uint64_t Film::sample_count() const {
 
 std::uint64_t Film::max_sample_count() const {
     std::uint64_t most = 0;
-    for (const Tile &tile : tiles_)
+    for (const FilmTile &tile : header_.tiles)
         most = std::max(most, tile.samples.count());
     return most;
 }
@@ -231,7 +227,6 @@ std::uint64_t Film::total_samples() const {
 
 void Film::read(const Rectangle &pixels, std::uint32_t quantity,
                 const std::function<void(const RowPart &)> &receive) const {
-    const double unit = std::ldexp(1.0, facts_.unit_exponent);
     for (const TileMap map(list()); const TileMap::Band &band : map.bands())
         for (std::uint32_t y = std::max(band.first, pixels.y); y < std::min(band.end, pixels.y + pixels.height); ++y)
             for (const TileMap::Span &span : band.spans) {
@@ -241,7 +236,7 @@ void Film::read(const Rectangle &pixels, std::uint32_t quantity,
                     continue;
                 const Tile &tile = tiles_[span.tile];
                 const PixelSums sums = part_of(tile.sums, tile.pixels, {first, y, end - first, 1});
-                receive({first, y, sums.values(quantity, unit)});
+                receive({first, y, sums.values(quantity, unit())});
             }
 }
 
@@ -258,28 +253,26 @@ void Film::read_rows_from(std::uint32_t first_row, PixelSums &sums) const {
 
 // The error as a context states it for a film with these samples. If no context can have such tiles, all pixels are
 // treated as if they had the fewest samples, and nothing is known about what has changed.
-ErrorEstimate Film::error(bool may_miss_lamps) const {
-    if (sample_count() < min_estimate_samples)
-        return unknown_error();
+ErrorEstimate Film::error() const {
     if (const std::optional<TileSamples> samples = tile_samples(header_.tiles, bounds_))
-        return error(*samples, errors_, may_miss_lamps);
+        return error(*samples, errors_);
     FilmErrors errors;
-    const TileSamples fewest({bounds_.width, bounds_.height}, SampleSet({0, sample_count()}));
-    return error(fewest, errors, may_miss_lamps);
+    return error(TileSamples({bounds_.width, bounds_.height}, SampleSet({0, sample_count()})), errors);
 }
 
-ErrorEstimate Film::error(const TileSamples &samples, FilmErrors &errors, bool may_miss_lamps) const {
+ErrorEstimate Film::error(const TileSamples &samples, FilmErrors &errors) const {
     if (samples.least() < min_estimate_samples)
         return unknown_error();
-    ErrorEstimator estimator(
-        {facts_.sampler, may_miss_lamps, finds_lamps_by_chance(facts_.estimator, facts_.max_path_length)});
-    for (const TileErrors &tile : errors.of(samples, std::ldexp(1.0, facts_.unit_exponent), reader()))
+    // How small the scene's lamps are the film does not know.
+    const bool by_chance = finds_lamps_by_chance(facts_.estimator, facts_.max_path_length);
+    ErrorEstimator estimator({facts_.sampler, by_chance, by_chance});
+    for (const TileErrors &tile : look_at(samples, errors))
         estimator.add(tile);
     return hides_error(estimator.rejected(), total_samples()) ? unknown_error() : estimator.result();
 }
 
-FilmErrors::ReadRows Film::reader() const {
-    return [this](std::uint32_t first_row, PixelSums &sums) { read_rows_from(first_row, sums); };
+std::span<const TileErrors> Film::look_at(const TileSamples &samples, FilmErrors &errors) const {
+    return errors.of(samples, unit(), [this](std::uint32_t row, PixelSums &sums) { read_rows_from(row, sums); });
 }
 
 TileSamples Film::samples_by_tile() const {
@@ -289,19 +282,15 @@ TileSamples Film::samples_by_tile() const {
     return std::move(*samples);
 }
 
-std::optional<TileStep> Film::plan(const TileSamples &samples, double target_error, std::uint64_t most,
-                                   bool may_miss_lamps) {
-    const auto look_at_tiles = [&] {
+std::optional<TileStep> Film::plan(const TileSamples &samples, double target_error, std::uint64_t most) {
+    const auto error_of_image = [&] { return error(samples, errors_); };
+    const auto squares_of_tiles = [&] {
         std::vector<double> squares;
-        for (const TileErrors &tile : errors_.of(samples, std::ldexp(1.0, facts_.unit_exponent), reader()))
+        for (const TileErrors &tile : look_at(samples, errors_))
             squares.push_back(tile.own_square());
         return squares;
     };
-    const auto look = [&]() -> AdaptivePlan::Error {
-        const ErrorEstimate error = this->error(samples, errors_, may_miss_lamps);
-        return {error.relative_rmse.high, (error.uncertain & PT_UNCERTAIN_UNSEEN) != 0};
-    };
-    return AdaptivePlan(target_error, most, look, look_at_tiles).next(samples, header_.round);
+    return AdaptivePlan(target_error, most, error_of_image, squares_of_tiles).next(samples, header_.round);
 }
 
 std::uint64_t Film::rejected_samples() const {

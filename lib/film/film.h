@@ -10,6 +10,7 @@
 #include "lib/film/pixel_sums.h"
 #include "lib/film/tile_map.h"
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -59,8 +60,8 @@ public:
     void read(const Rectangle &pixels, std::uint32_t quantity,
               const std::function<void(const RowPart &)> &receive) const;
 
-    // The error of the image within the bounds. may_miss_lamps: see error_estimate.h.
-    ErrorEstimate error(bool may_miss_lamps) const;
+    // The error of the image within the bounds.
+    ErrorEstimate error() const;
 
     // Samples left out of all pixels.
     std::uint64_t rejected_samples() const;
@@ -70,8 +71,7 @@ public:
     TileSamples samples_by_tile() const;
 
     // What the tiles are to take next (adaptive_plan.h). Moves on to the next round where one is over.
-    std::optional<TileStep> plan(const TileSamples &samples, double target_error, std::uint64_t most,
-                                 bool may_miss_lamps);
+    std::optional<TileStep> plan(const TileSamples &samples, double target_error, std::uint64_t most);
 
     // The number of tiles in the grid over the bounds, as in samples_by_tile().
     std::size_t tile_count() const { return TileGrid{bounds_.width, bounds_.height}.count(); }
@@ -83,8 +83,9 @@ private:
         PixelSums sums;
     };
 
-    ErrorEstimate error(const TileSamples &samples, FilmErrors &errors, bool may_miss_lamps) const;
-    FilmErrors::ReadRows reader() const;
+    ErrorEstimate error(const TileSamples &samples, FilmErrors &errors) const;
+    std::span<const TileErrors> look_at(const TileSamples &samples, FilmErrors &errors) const;
+    double unit() const { return std::ldexp(1.0, facts_.unit_exponent); }
     void read_rows_from(std::uint32_t first_row, PixelSums &sums) const; // as many as these are, of the bounds
     std::vector<FilmTile> list() const;
     void require_disjoint(const std::vector<FilmTile> &others, const TileMap &map) const;

@@ -16,60 +16,44 @@ namespace pt {
 namespace {
 
 // A limit that no film of this library exceeds: its unit exponents are those of radiance up to 2^60 times 10^18.
-constexpr std::int64_t most_unit_exponent = 300;
+constexpr int most_unit_exponent = 300;
 
 std::optional<std::string> value_in(const FilmIdentity &identity, const std::string &name) {
     const auto fact = std::ranges::find(identity, name, &FilmFact::name);
     return fact == identity.end() ? std::nullopt : std::optional(fact->value);
 }
 
+// A fact that is a number within bounds, written in the one way there is.
 template <typename Number>
-std::optional<Number> number_in(const std::string &text) {
+Number number_in(const FilmIdentity &identity, const char *name, Number least, Number most, Violations &violations) {
+    const std::string text = value_in(identity, name).value_or("nothing");
     Number number{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    const bool is_whole = error == std::errc{} && end == text.data() + text.size();
-    return is_whole && std::to_string(number) == text ? std::optional(number) : std::nullopt;
+    std::from_chars(text.data(), text.data() + text.size(), number);
+    if (std::to_string(number) == text && number >= least && number <= most)
+        return number;
+    violations.add({.subject = "film",
+                    .member = name,
+                    .value = text,
+                    .rule = "must be from " + std::to_string(least) + " to " + std::to_string(most)});
+    return least;
 }
-
-// Collects what is wrong with the facts that are asked for.
-class FactReader {
-public:
-    explicit FactReader(const FilmIdentity &identity) : identity_(identity) {}
-
-    template <typename Number>
-    Number read(const char *name, Number least, Number most) {
-        const std::string text = value_in(identity_, name).value_or("nothing");
-        const std::optional<Number> number = number_in<Number>(text);
-        if (number && *number >= least && *number <= most)
-            return *number;
-        violations_.add({.subject = "film",
-                         .member = name,
-                         .value = text,
-                         .rule = "must be from " + std::to_string(least) + " to " + std::to_string(most)});
-        return least;
-    }
-
-    void throw_if_any() const { violations_.throw_if_any(PT_ERROR_INCOMPATIBLE); }
-
-private:
-    const FilmIdentity &identity_;
-    Violations violations_;
-};
 
 } // namespace
 
 FilmFacts facts_of(const FilmIdentity &identity) {
-    FactReader reader(identity);
+    Violations violations;
+    const auto read = [&]<typename Number>(const char *name, Number least, Number most) {
+        return number_in(identity, name, least, most, violations);
+    };
     FilmFacts facts{};
-    facts.width = reader.read<std::uint32_t>("width", 1, UINT32_MAX);
-    facts.height = reader.read<std::uint32_t>("height", 1, UINT32_MAX / facts.width);
-    facts.max_path_length = reader.read<std::uint32_t>("max_path_length", 1, 1024);
-    facts.seed = reader.read<std::uint64_t>("seed", 0, UINT64_MAX);
-    facts.estimator = reader.read<std::uint32_t>("estimator", 1, gpu::LAST_ESTIMATOR);
-    facts.sampler = reader.read<std::uint32_t>("sampler", 1, gpu::LAST_SAMPLER);
-    facts.unit_exponent =
-        static_cast<int>(reader.read<std::int64_t>("unit_exponent", -most_unit_exponent, most_unit_exponent));
-    reader.throw_if_any();
+    facts.width = read("width", 1U, UINT32_MAX);
+    facts.height = read("height", 1U, UINT32_MAX / facts.width);
+    facts.max_path_length = read("max_path_length", 1U, 1024U);
+    facts.seed = read("seed", std::uint64_t{0}, UINT64_MAX);
+    facts.estimator = read("estimator", 1U, gpu::LAST_ESTIMATOR);
+    facts.sampler = read("sampler", 1U, gpu::LAST_SAMPLER);
+    facts.unit_exponent = read("unit_exponent", -most_unit_exponent, most_unit_exponent);
+    violations.throw_if_any(PT_ERROR_INCOMPATIBLE);
     facts.device = value_in(identity, "device").value_or("");
     return facts;
 }
@@ -88,6 +72,10 @@ void require_same(const FilmIdentity &film, const FilmIdentity &other, const std
     violations.throw_if_any(PT_ERROR_INCOMPATIBLE);
     if (film != other)
         throw Error(PT_ERROR_INCOMPATIBLE, "film: lines of its header are repeated, or in another order");
+}
+
+void refuse_film(const std::string &member, const std::string &value, const std::string &rule) {
+    throw Error(PT_ERROR_INCOMPATIBLE, BrokenRule{.subject = "film", .member = member, .value = value, .rule = rule});
 }
 
 } // namespace pt

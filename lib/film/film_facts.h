@@ -26,4 +26,7 @@ FilmFacts facts_of(const FilmIdentity &identity);
 // is to be added to. place: what that is, "as in this context".
 void require_same(const FilmIdentity &film, const FilmIdentity &other, const std::string &place);
 
+// Throws PT_ERROR_INCOMPATIBLE: a film breaks a rule.
+[[noreturn]] void refuse_film(const std::string &member, const std::string &value, const std::string &rule);
+
 } // namespace pt

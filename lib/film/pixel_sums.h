@@ -2,8 +2,8 @@
 // (film_bytes.h), added, and turned into radiance and its error.
 #pragma once
 
-#include "lib/film/film_parts.h"
 #include "lib/film/quotient.h"
+#include "lib/film/sample_set.h"
 #include "shaders/gpu_layout.h"
 
 #include <array>

@@ -1,8 +1,9 @@
 // Which tile of a film each pixel lies in, by rows: how tile lists are checked, cut along each other and
-// brought to the one form in which films are written.
+// brought to the one form in which films are written; and how they become the tiles of a grid and come from them.
 #pragma once
 
 #include "lib/film/film_header.h"
+#include "lib/film/tile_samples.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -57,5 +58,11 @@ Rectangle bounds_of(const std::vector<FilmTile> &tiles);
 // samples are together, and so are equal runs of them in rows one below the other. Tiles come from the top down, and
 // from left to right among those that begin in one row.
 std::vector<FilmTile> canonical_tiles(const std::vector<FilmTile> &tiles);
+
+// The tiles of a film with these pixels of an image, as few as possible.
+std::vector<FilmTile> film_tiles(const TileSamples &samples, const Rectangle &pixels);
+
+// The samples by tile of a grid over these pixels of an image; nothing if the tiles of the film cut those of the grid.
+std::optional<TileSamples> tile_samples(const std::vector<FilmTile> &tiles, const Rectangle &pixels);
 
 } // namespace pt

@@ -1,7 +1,6 @@
 // Which samples each tile of a film holds. Many tiles have the same samples, so each different set is kept once.
 #pragma once
 
-#include "lib/film/film_parts.h"
 #include "lib/film/sample_set.h"
 #include "lib/film/tile_grid.h"
 

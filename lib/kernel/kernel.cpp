@@ -2,7 +2,7 @@
 #include "lib/kernel/kernel.h"
 
 #include "lib/base/error.h"
-#include "lib/film/film_parts.h"
+#include "lib/film/sample_set.h"
 #include "lib/kernel/host_fold.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Samples of some tiles of a film: as many as go into one submission.
 #pragma once
 
-#include "lib/film/film_parts.h"
+#include "lib/film/sample_set.h"
 
 #include <cstdint>
 #include <span>

@@ -4,12 +4,12 @@
 #pragma once
 
 #include "lib/film/tile_samples.h"
-#include "lib/render/cancellation.h"
 #include "lib/render/render_device.h"
 #include "lib/render/tile_tasks.h"
 
 #include <pt/pt.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -24,6 +24,26 @@ namespace pt {
 struct Progress {
     pt_progress_fn function; // may be NULL
     void *user;
+};
+
+// Whether samples are under way, and whether somebody wants no more of them. The one part of a context that every
+// thread may touch at any time. Owned by Renderer.
+class Cancellation {
+public:
+    void begin() noexcept { state_ = State::UnderWay; }
+    void end() noexcept { state_ = State::Idle; }
+
+    // False if nothing is under way.
+    bool ask() noexcept {
+        State state = State::UnderWay;
+        return state_.compare_exchange_strong(state, State::Asked) || state == State::Asked;
+    }
+
+    bool is_asked() const noexcept { return state_ == State::Asked; }
+
+private:
+    enum class State { Idle, UnderWay, Asked };
+    std::atomic<State> state_{State::Idle};
 };
 
 // Totals for all submissions that have been waited for, on all devices.

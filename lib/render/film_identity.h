@@ -1,7 +1,7 @@
 // What decides the bits of a picture's samples.
 #pragma once
 
-#include "lib/film/film_facts.h"
+#include "lib/film/film_header.h"
 #include "lib/kernel/prepared_scene.h"
 #include "lib/kernel/shader_source.h"
 #include "lib/scene/camera.h"
@@ -21,10 +21,5 @@ inline constexpr std::uint32_t estimator_version = 7;
 // whether kernels have the numbers of the scene as constants (trace_pipelines.h).
 FilmIdentity identity_of(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings,
                          const KernelCode &code, const std::vector<pt_device_info> &devices);
-
-// Throws PT_ERROR_INCOMPATIBLE with a line for each fact in which a film differs from its context.
-inline void require_same(const FilmIdentity &film, const FilmIdentity &context) {
-    require_same(film, context, "as in this context");
-}
 
 } // namespace pt

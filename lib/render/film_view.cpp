@@ -1,7 +1,5 @@
 #include "lib/render/film_view.h"
 
-#include "lib/render/image_rows.h"
-
 #include <algorithm>
 #include <utility>
 

@@ -1,12 +1,13 @@
-// The rules of images that callers ask for; see image.h.
 #include "lib/render/image.h"
 
 #include "lib/base/rules.h"
+#include "lib/base/stream_copy.h"
 #include "lib/film/pixel_format.h"
 #include "shaders/gpu_layout.h"
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 namespace pt {
 
@@ -121,6 +122,38 @@ BufferImage validated_image(const pt_buffer_image &source, std::uint32_t width, 
         checked_layout(image, source, buffer_word_bytes, source.offset_bytes, width, height, ImageSource::Samples);
     violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
     return {layout, source.buffer, source.offset_bytes, source.wait_semaphore, source.signal_semaphore};
+}
+
+ImageRows::ImageRows(const Image &image) :
+    image_(image),
+    width_bytes_(std::size_t{image.layout.pixels.width} * pixel_bytes(image.layout.format)) {}
+
+void ImageRows::put(std::span<const std::byte> pixels) {
+    while (!pixels.empty()) {
+        const std::size_t in_row = done_bytes_ % width_bytes_;
+        const std::size_t count = std::min(pixels.size(), width_bytes_ - in_row);
+        stream_copy(pixels.first(count), image_.data + done_bytes_ / width_bytes_ * image_.layout.row_bytes + in_row);
+        pixels = pixels.subspan(count);
+        done_bytes_ += count;
+    }
+}
+
+void ImageRows::put(std::span<const float> values) {
+    std::vector<std::byte> pixels(values.size() / 3 * pixel_bytes(image_.layout.format));
+    write_pixels(values, image_.layout.format, pixels.data());
+    put(pixels);
+}
+
+void ImageRows::put_part(std::uint64_t first_pixel, std::uint32_t width, std::span<const float> values) {
+    const Rectangle &wanted = image_.layout.pixels;
+    for (std::uint64_t pixel = first_pixel, end = first_pixel + values.size() / 3; pixel < end;) {
+        const std::uint64_t row = pixel / width;
+        const std::uint64_t first = std::max(pixel, row * width + wanted.x);
+        const std::uint64_t last = std::min(end, row * width + wanted.x + wanted.width);
+        if (first < last && row >= wanted.y && row - wanted.y < wanted.height)
+            put(values.subspan(3 * (first - first_pixel), 3 * (last - first)));
+        pixel = (row + 1) * width;
+    }
 }
 
 } // namespace pt

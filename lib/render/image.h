@@ -1,4 +1,4 @@
-// Where a caller wants an image: in memory or in a buffer of the device, checked against its size.
+// Where a caller wants an image: in memory or in a buffer of the device, checked against its size, and filled.
 #pragma once
 
 #include "lib/film/film_header.h"
@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace pt {
 
@@ -41,5 +42,24 @@ Image validated_image(const pt_image &source, std::uint32_t width, std::uint32_t
 // The same for an image in memory of the library: without gaps.
 ImageLayout validated_mapped_layout(const pt_image &source, std::uint32_t width, std::uint32_t height);
 BufferImage validated_image(const pt_buffer_image &source, std::uint32_t width, std::uint32_t height);
+
+// The caller's memory for an image, filled pixel by pixel in the order of rows.
+class ImageRows {
+public:
+    explicit ImageRows(const Image &image);
+
+    // Takes the next pixels, in the format of the image, or as R, G and B of each.
+    void put(std::span<const std::byte> pixels);
+    void put(std::span<const float> values);
+
+    // Takes R, G and B of consecutive pixels of an image of this width, from first_pixel on, and keeps those within the
+    // rectangle.
+    void put_part(std::uint64_t first_pixel, std::uint32_t width, std::span<const float> values);
+
+private:
+    Image image_;
+    std::size_t width_bytes_;
+    std::uint64_t done_bytes_ = 0; // without gaps
+};
 
 } // namespace pt

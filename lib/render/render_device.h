@@ -151,4 +151,19 @@ private:
     bool film_is_void_ = true;         // it is to be cleared before it is used
 };
 
+// Hands to the caller, at the end of a call, the kernels that were built in it.
+class KernelsKept {
+public:
+    explicit KernelsKept(const std::vector<std::unique_ptr<RenderDevice>> &devices) : devices_(devices) {}
+    KernelsKept(const KernelsKept &) = delete;
+    KernelsKept &operator=(const KernelsKept &) = delete;
+    ~KernelsKept() {
+        for (const auto &device : devices_)
+            device->save_kernels();
+    }
+
+private:
+    const std::vector<std::unique_ptr<RenderDevice>> &devices_;
+};
+
 } // namespace pt

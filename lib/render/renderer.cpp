@@ -5,7 +5,6 @@
 #include "lib/base/error.h"
 #include "lib/kernel/accuracy.h"
 #include "lib/kernel/gpu_scene.h"
-#include "lib/render/kernels_kept.h"
 #include "lib/vulkan/device_choice.h"
 
 #include <algorithm>

@@ -11,7 +11,6 @@
 #include "lib/kernel/prepared_scene.h"
 #include "lib/kernel/shader_source.h"
 #include "lib/render/accumulation.h"
-#include "lib/render/cancellation.h"
 #include "lib/render/film_view.h"
 #include "lib/render/image.h"
 #include "lib/render/render_device.h"
@@ -56,14 +55,6 @@ struct CreateSettings {
 // All Vulkan devices of this machine.
 std::vector<pt_device_info> list_devices();
 
-// What pt_accumulate was asked for.
-struct SamplesWanted {
-    std::uint32_t count;                // more in every pixel, or with a target error at most
-    double target_error;                // relative; 0: none
-    std::uint32_t sampling;             // PT_SAMPLING_*
-    std::vector<std::uint32_t> by_tile; // more in each tile, without a target error; empty: in all alike
-};
-
 // Methods throw pt::Error. A method that fails has changed nothing, except that a lost device stays lost, and that
 // methods that take samples keep whole ones. While samples are under way, only poll(), cancel() and const methods may
 // be called.
@@ -96,10 +87,10 @@ public:
     void prepare();
 
     // Takes samples: PT_OK, PT_CANCELLED or PT_TARGET_REACHED.
-    pt_result accumulate(const SamplesWanted &wanted, const Progress &progress);
+    pt_result accumulate(const pt_accumulate_info &wanted);
 
     // The same, without waiting: PT_PENDING if samples are under way when it returns, or PT_TARGET_REACHED.
-    pt_result start(const SamplesWanted &wanted);
+    pt_result start(const pt_accumulate_info &wanted);
 
     struct Advance {
         pt_result result; // PT_PENDING while samples are under way, then that of accumulate()
@@ -140,8 +131,8 @@ public:
 private:
     // The samples that are being taken.
     struct Job {
-        SamplesWanted wanted;
-        std::uint64_t most;               // that a pixel is to have
+        double target_error;              // relative; 0: none
+        std::uint64_t most;               // samples that a pixel is to have
         std::uint64_t together_to;        // until all tiles have as many, they take the same ones
         bool is_together;                 // while that lasts
         std::vector<std::uint64_t> goals; // or what each tile is to have, without a look at any error
@@ -167,14 +158,12 @@ private:
     void look(std::span<double> by_tile, bool is_recorded);
     const std::vector<double> &tile_squares();
     bool is_on_target(double target_error);
-    bool is_adaptive(const SamplesWanted &wanted) const;
     std::uint64_t adaptive_from() const;
-    void require_tiles(const SamplesWanted &wanted) const;
-    void begin(const SamplesWanted &wanted, const Progress &progress, bool is_polled);
-    void make_job(const SamplesWanted &wanted, const Progress &progress, bool is_polled);
+    void require_tiles(const pt_accumulate_info &wanted) const;
+    void begin(const pt_accumulate_info &wanted, bool is_polled);
+    void make_job(const pt_accumulate_info &wanted, bool is_polled);
     void end_job() noexcept;
     Advance go_on(std::uint64_t nanoseconds);
-    void require_under_way() const;
     pt_result advance(Accumulation::Clock::time_point until);
     std::optional<pt_result> next_step();
     std::optional<pt_result> next_step_together();

@@ -1,22 +1,65 @@
 // What a renderer gives of its samples, and takes in of others: the error, images, films, figures; see renderer.h.
 #include "lib/base/error.h"
 #include "lib/film/film_bytes.h"
-#include "lib/film/film_tiles.h"
+#include "lib/film/film_facts.h"
+#include "lib/film/pixel_format.h"
 #include "lib/kernel/gpu_scene.h"
-#include "lib/render/coverage_image.h"
 #include "lib/render/film_identity.h"
-#include "lib/render/first_hit_image.h"
-#include "lib/render/kernels_kept.h"
 #include "lib/render/missed_lamps.h"
 #include "lib/render/renderer.h"
 #include "lib/render/saved_film.h"
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <optional>
 #include <utility>
 
 namespace pt {
+
+namespace {
+
+// Of a quantity that is_of_first_hits. Kernels know surfaces by other numbers than callers.
+void read_first_hits(const Image &image, const RenderSettings &settings, const std::shared_ptr<const GpuScene> &scene,
+                     RenderDevice &device) {
+    FirstHitQuery query{image.layout.pixels, image.layout.quantity, image.layout.format};
+    query.pixels.y += settings.first_row;
+    ImageRows rows(image);
+    device.read_first_hits(scene, settings, query, [&](std::span<const std::byte> pixels) {
+        if (query.quantity != PT_QUANTITY_OBJECT) {
+            rows.put(pixels);
+            return;
+        }
+        std::vector<std::uint32_t> objects(pixels.size() / sizeof(std::uint32_t));
+        std::memcpy(objects.data(), pixels.data(), pixels.size());
+        for (std::uint32_t &object : objects)
+            object = scene->object_of(object);
+        rows.put(std::as_bytes(std::span(objects)));
+    });
+}
+
+// Both numbers are below 2^32, so the quotient in double, rounded to float, is the correctly rounded one, except within
+// 2^-53 of the middle of two floats.
+void read_coverage(const Image &image, const TileSamples &samples, const RenderSettings &settings,
+                   const std::shared_ptr<const GpuScene> &scene, RenderDevice &device) {
+    const Rectangle &pixels = image.layout.pixels;
+    ImageRows rows(image);
+    std::uint64_t done = 0;
+    device.read_coverage(scene, {pixels, samples, settings}, [&](std::span<const std::uint32_t> counts) {
+        std::vector<float> values;
+        for (const std::uint32_t count : counts) {
+            const auto x = static_cast<std::uint32_t>(pixels.x + done % pixels.width);
+            const auto y = static_cast<std::uint32_t>(pixels.y + done / pixels.width);
+            const std::uint64_t all = samples.of(samples.grid().tile_at(x, y)).count();
+            const double share = all > 0 ? static_cast<double>(count) / static_cast<double>(all) : 0.0;
+            values.insert(values.end(), 3, static_cast<float>(share));
+            ++done;
+        }
+        rows.put(values);
+    });
+}
+
+} // namespace
 
 // Parallel rays may come from anywhere far away, so the size of a lamp is judged from where the kernel's coordinates
 // begin.
@@ -86,18 +129,16 @@ ImageQuery Renderer::query(const ImageLayout &layout) const {
 
 void Renderer::readback(const Image &image) {
     require_settings();
-    if (is_of_first_hits(image.layout.quantity)) { // a few rays a pixel: one device does
-        const KernelsKept kept(devices_);
-        read_first_hits(image, *settings_, gpu_scene_of_settings(), *devices_.front());
-        return;
-    }
-    require_samples();
     const KernelsKept kept(devices_);
-    if (image.layout.quantity == PT_QUANTITY_COVERAGE) {
+    const bool is_of_hits = is_of_first_hits(image.layout.quantity);
+    if (!is_of_hits)
+        require_samples();
+    if (is_of_hits) // a few rays a pixel: one device does
+        read_first_hits(image, *settings_, gpu_scene_of_settings(), *devices_.front());
+    else if (image.layout.quantity == PT_QUANTITY_COVERAGE)
         read_coverage(image, samples_, *settings_, gpu_scene_of_settings(), *devices_.front());
-        return;
-    }
-    view_.read(image, query(image.layout), samples_);
+    else
+        view_.read(image, query(image.layout), samples_);
 }
 
 // If no device makes the image in memory that the host can read, the host makes it in its own.
@@ -155,7 +196,7 @@ void Renderer::save_film(const FilmHeader &header, std::span<std::byte> bytes) c
 void Renderer::add_film(std::span<const std::byte> bytes) {
     require_settings();
     const FilmReader film(bytes);
-    require_same(film.header().identity, identity());
+    require_same(film.header().identity, identity(), "as in this context");
     const TileSamples added = samples_of_film(film.header(), pixels());
     TileSamples all = united(samples_, added);
     add(film, added, FilmView::films(devices_), samples_, all, pixels(), devices_.front()->device());

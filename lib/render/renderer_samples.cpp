@@ -2,7 +2,6 @@
 #include "lib/base/error.h"
 #include "lib/film/adaptive_plan.h"
 #include "lib/kernel/gpu_scene.h"
-#include "lib/render/kernels_kept.h"
 #include "lib/render/renderer.h"
 
 #include <algorithm>
@@ -24,9 +23,10 @@ Error too_many_samples(std::uint32_t sample_count, const std::string &reason, st
 }
 
 // The largest possible amount: tiles times samples.
-std::uint64_t amount_of(const SamplesWanted &wanted, const TileGrid &grid) {
-    return wanted.by_tile.empty() ? std::uint64_t{wanted.count} * grid.count()
-                                  : std::accumulate(wanted.by_tile.begin(), wanted.by_tile.end(), std::uint64_t{0});
+std::uint64_t amount_of(const pt_accumulate_info &wanted, const TileGrid &grid) {
+    return wanted.tile_samples == nullptr
+               ? std::uint64_t{wanted.sample_count} * grid.count()
+               : std::accumulate(wanted.tile_samples, wanted.tile_samples + wanted.tile_count, std::uint64_t{0});
 }
 
 } // namespace
@@ -44,23 +44,19 @@ void Renderer::require_room_for(std::uint32_t sample_count) const {
     }
 }
 
-bool Renderer::is_adaptive(const SamplesWanted &wanted) const {
-    return wanted.target_error > 0.0 && wanted.sampling != PT_SAMPLING_UNIFORM;
-}
-
-void Renderer::require_tiles(const SamplesWanted &wanted) const {
-    if (!wanted.by_tile.empty() && wanted.by_tile.size() != all_tiles_.size())
+void Renderer::require_tiles(const pt_accumulate_info &wanted) const {
+    if (wanted.tile_samples != nullptr && wanted.tile_count != all_tiles_.size())
         throw Error(PT_ERROR_INVALID_ARGUMENT,
                     BrokenRule{.subject = "accumulate",
                                .member = "tile_count",
-                               .value = std::to_string(wanted.by_tile.size()),
+                               .value = std::to_string(wanted.tile_count),
                                .rule = "must be the number of tiles, " + std::to_string(all_tiles_.size())});
 }
 
-void Renderer::begin(const SamplesWanted &wanted, const Progress &progress, bool is_polled) {
+void Renderer::begin(const pt_accumulate_info &wanted, bool is_polled) {
     cancellation_.begin();
     try {
-        make_job(wanted, progress, is_polled);
+        make_job(wanted, is_polled);
     } catch (...) {
         end_job(); // nothing has been begun
         throw;
@@ -68,10 +64,10 @@ void Renderer::begin(const SamplesWanted &wanted, const Progress &progress, bool
 }
 
 // If samples will be polled, all kernels are built here; otherwise when they are needed.
-void Renderer::make_job(const SamplesWanted &wanted, const Progress &progress, bool is_polled) {
+void Renderer::make_job(const pt_accumulate_info &wanted, bool is_polled) {
     require_settings();
     require_tiles(wanted);
-    require_room_for(wanted.count);
+    require_room_for(wanted.sample_count);
     for (const auto &device : devices_)
         device->prepare(gpu_scene_of_settings(), *settings_);
     if (is_polled) {
@@ -79,22 +75,29 @@ void Renderer::make_job(const SamplesWanted &wanted, const Progress &progress, b
             device->prepare_for_polls(wanted.target_error > 0.0);
         view_.prepare();
     }
-    const std::uint64_t most = samples_.most() + wanted.count;
-    const std::uint64_t together_to = is_adaptive(wanted) ? std::min(most, adaptive_from()) : most;
+    const bool is_adaptive = wanted.target_error > 0.0 && wanted.sampling != PT_SAMPLING_UNIFORM;
+    const std::uint32_t *const of_tiles = wanted.tile_samples;
+    const std::uint64_t most = samples_.most() + wanted.sample_count;
+    const std::uint64_t together_to = is_adaptive ? std::min(most, adaptive_from()) : most;
     const bool is_together =
-        wanted.by_tile.empty() && samples_.even() && (!is_adaptive(wanted) || samples_.of(0).count() < together_to);
+        of_tiles == nullptr && samples_.even() && (!is_adaptive || samples_.of(0).count() < together_to);
     std::vector<std::uint64_t> goals;
-    if (!is_together && !is_adaptive(wanted))
+    if (!is_together && !is_adaptive)
         for (const std::uint32_t tile : all_tiles_)
-            goals.push_back(samples_.of(tile).count() + (wanted.by_tile.empty() ? wanted.count : wanted.by_tile[tile]));
+            goals.push_back(samples_.of(tile).count() + (of_tiles != nullptr ? of_tiles[tile] : wanted.sample_count));
     // NOLINTNEXTLINE(modernize-make-unique): an aggregate, which cannot be moved
-    job_.reset(new Job{wanted,
+    job_.reset(new Job{wanted.target_error,
                        most,
                        together_to,
                        is_together,
                        std::move(goals),
-                       {devices_, samples_, settings_->first_sample, amount_of(wanted, samples_.grid()), progress,
-                        cancellation_, work_}});
+                       {devices_,
+                        samples_,
+                        settings_->first_sample,
+                        amount_of(wanted, samples_.grid()),
+                        {wanted.progress, wanted.progress_user},
+                        cancellation_,
+                        work_}});
 }
 
 void Renderer::end_job() noexcept {
@@ -124,27 +127,23 @@ Renderer::Advance Renderer::go_on(std::uint64_t nanoseconds) {
     }
 }
 
-pt_result Renderer::accumulate(const SamplesWanted &wanted, const Progress &progress) {
+pt_result Renderer::accumulate(const pt_accumulate_info &wanted) {
     const KernelsKept kept(devices_);
-    begin(wanted, progress, false);
+    begin(wanted, false);
     return go_on(UINT64_MAX).result;
 }
 
-pt_result Renderer::start(const SamplesWanted &wanted) {
+pt_result Renderer::start(const pt_accumulate_info &wanted) {
     const KernelsKept kept(devices_);
-    begin(wanted, {nullptr, nullptr}, true);
+    begin(wanted, true);
     return go_on(0).result;
 }
 
 Renderer::Advance Renderer::poll(std::uint64_t nanoseconds) {
-    require_under_way();
-    const KernelsKept kept(devices_);
-    return go_on(nanoseconds);
-}
-
-void Renderer::require_under_way() const {
     if (!job_)
         throw Error(PT_ERROR_INVALID_STATE, nothing_under_way);
+    const KernelsKept kept(devices_);
+    return go_on(nanoseconds);
 }
 
 pt_result Renderer::advance(Accumulation::Clock::time_point until) {
@@ -177,12 +176,8 @@ std::optional<pt_result> Renderer::next_step() {
     // A film whose tiles are not to be told apart yet comes here if it may take no sample.
     if (samples_.even() && samples_.of(0).count() < adaptive_from())
         return PT_OK;
-    const auto look_at_tiles = [&] { return tile_squares(); };
-    const auto look = [&] {
-        const ErrorEstimate &error = this->error();
-        return AdaptivePlan::Error{error.relative_rmse.high, (error.uncertain & PT_UNCERTAIN_UNSEEN) != 0};
-    };
-    const AdaptivePlan plan(job_->wanted.target_error, job_->most, look, look_at_tiles);
+    const AdaptivePlan plan(
+        job_->target_error, job_->most, [&] { return error(); }, [&] { return tile_squares(); });
     const std::optional<TileStep> step = plan.next(samples_, round_);
     if (!step)
         return PT_TARGET_REACHED;
@@ -192,9 +187,9 @@ std::optional<pt_result> Renderer::next_step() {
 // With a target error: from one sample count at which the error is checked to the next.
 std::optional<pt_result> Renderer::next_step_together() {
     const std::uint64_t count = samples_.of(0).count();
-    if (is_on_target(job_->wanted.target_error))
+    if (is_on_target(job_->target_error))
         return PT_TARGET_REACHED;
-    const std::uint64_t check = job_->wanted.target_error > 0.0 ? next_check(count) : job_->together_to;
+    const std::uint64_t check = job_->target_error > 0.0 ? next_check(count) : job_->together_to;
     const bool is_looked_at = check < job_->together_to;
     job_->accumulation.set_goal_of_all(all_tiles_, std::min(check, job_->together_to),
                                        is_looked_at ? std::optional(scene_->film_unit) : std::nullopt);

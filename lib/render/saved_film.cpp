@@ -2,7 +2,7 @@
 
 #include "lib/base/error.h"
 #include "lib/base/rules.h"
-#include "lib/film/film_tiles.h"
+#include "lib/film/film_facts.h"
 #include "lib/film/tile_map.h"
 
 #include <algorithm>
@@ -14,10 +14,6 @@ namespace pt {
 
 namespace {
 
-[[noreturn]] void refuse_added(const std::string &field, const std::string &value, const std::string &rule) {
-    throw Error(PT_ERROR_INCOMPATIBLE, BrokenRule{.subject = "film", .member = field, .value = value, .rule = rule});
-}
-
 void require_within(const Rectangle &film, const Rectangle &pixels) {
     const auto text = [](const Rectangle &of) {
         return "rows [" + std::to_string(of.y) + ", " + std::to_string(std::uint64_t{of.y} + of.height) +
@@ -26,14 +22,14 @@ void require_within(const Rectangle &film, const Rectangle &pixels) {
     const bool within = film.x >= pixels.x && film.y >= pixels.y && film.x + film.width <= pixels.x + pixels.width &&
                         film.y + film.height <= pixels.y + pixels.height;
     if (!within)
-        refuse_added("tile", text(film), "must lie in " + text(pixels) + ", as in this context");
+        refuse_film("tile", text(film), "must lie in " + text(pixels) + ", as in this context");
 }
 
 SampleSet united(const SampleSet &present, const SampleSet &added) {
     if (const auto overlap = added.overlap(present))
-        refuse_added("samples", text_of(added), text_of(*overlap) + " are in this context's film already");
+        refuse_film("samples", text_of(added), text_of(*overlap) + " are in this context's film already");
     if (present.count() + added.count() > UINT32_MAX)
-        refuse_added("samples", text_of(added), "a pixel holds at most 2^32 - 1");
+        refuse_film("samples", text_of(added), "a pixel holds at most 2^32 - 1");
     SampleSet all = present;
     all.add(added);
     return all;

@@ -236,7 +236,9 @@ TEST_F(ReloadTest, KernelsThatTheDriverRefusesAreNotTaken) {
     renderer.set_camera(pt::validated_camera(valid_camera()));
     renderer.set_render(pt::validated_render(valid_render()));
     const auto take_a_sample = [&] {
-        EXPECT_EQ(renderer.accumulate({1, 0.0, PT_SAMPLING_BEST, {}}, {nullptr, nullptr}), PT_OK);
+        pt_accumulate_info one_sample{};
+        one_sample.sample_count = 1;
+        EXPECT_EQ(renderer.accumulate(one_sample), PT_OK);
     };
     take_a_sample();
 

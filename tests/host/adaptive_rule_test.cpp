@@ -246,10 +246,11 @@ public:
         return film.squares;
     }
 
-    AdaptivePlan::Error error_of(ModelFilm &film) const {
+    pt::ErrorEstimate error_of(ModelFilm &film) const {
         squares_of(film);
         const double sum = std::accumulate(film.squares.begin(), film.squares.end(), 0.0);
-        return {std::sqrt(sum / (pixels_of_tile * static_cast<double>(plan_grid.count()))), false};
+        const double error = std::sqrt(sum / (pixels_of_tile * static_cast<double>(plan_grid.count())));
+        return {.rmse = {}, .relative_rmse = {error, error, error}, .uncertain = 0};
     }
 
 private:
@@ -338,7 +339,7 @@ TEST(AdaptivePlan, ARoundThatIsUnderWayIsNotTheEnd) {
     const AdaptivePlan plan(
         goal_error, 24,
         [] {
-            return AdaptivePlan::Error{goal_error / 2, false};
+            return pt::ErrorEstimate{{}, {0.0, 0.0, goal_error / 2}, 0};
         },
         [&] { return film.squares; });
     const std::optional<TileStep> step = plan.next(film.samples, film.round);

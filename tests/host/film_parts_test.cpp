@@ -1,5 +1,5 @@
 // Which samples the two parts of a film hold.
-#include "lib/film/film_parts.h"
+#include "lib/film/sample_set.h"
 
 #include "lib/kernel/tile_slice.h"
 

@@ -125,7 +125,7 @@ TEST(Film, MeansAndErrorsAreRoundedOnce) {
     Samples samples;
     give(samples, {0, 0, image_width, image_height}, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11});
     const pt::Film film(film_by_sample(samples));
-    film.read(film.bounds(), false, [&](const pt::Film::RowPart &row) {
+    film.read(film.bounds(), PT_QUANTITY_RADIANCE, [&](const pt::Film::RowPart &row) {
         for (std::uint32_t i = 0; i < image_width; ++i)
             for (std::uint32_t channel = 0; channel < 3; ++channel) {
                 const film_maker::Pixel pixel{row.y, i};
@@ -137,7 +137,7 @@ TEST(Film, MeansAndErrorsAreRoundedOnce) {
                         ++accepted;
                     }
                 const auto mean = static_cast<float>(sum / accepted * 0x1p-63L); // 2^-60, in units of 2^-3
-                ASSERT_EQ(row.estimates.radiance[3 * i + channel], mean) << row.y << ' ' << i;
+                ASSERT_EQ(row.values[3 * i + channel], mean) << row.y << ' ' << i;
             }
     });
 }

@@ -1,6 +1,6 @@
 // The error that a rendering states without a reference, against its true error by converged references.
 #include "lib/film/error_estimate.h"
-#include "lib/film/film_parts.h"
+#include "lib/film/sample_set.h"
 #include "tests/render/reference_image.h"
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"

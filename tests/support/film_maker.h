@@ -3,7 +3,7 @@
 
 #include "lib/base/digest.h"
 #include "lib/film/film_bytes.h"
-#include "lib/film/film_parts.h"
+#include "lib/film/sample_set.h"
 
 #include <algorithm>
 #include <cstddef>
