@@ -23,16 +23,10 @@ std::string where(const Rectangle &pixels) {
            std::to_string(pixels.x) + ", " + std::to_string(pixels.y) + ")";
 }
 
-// The index of a pixel of the image within a rectangle.
-std::size_t index_in(const Rectangle &pixels, std::uint32_t x, std::uint32_t y) {
-    return std::size_t{y - pixels.y} * pixels.width + (x - pixels.x);
-}
-
 PixelSums part_of(const PixelSums &sums, const Rectangle &pixels, const Rectangle &part) {
     PixelSums cut;
     cut.resize(part.pixel_count());
-    for (std::uint32_t y = part.y; y < part.y + part.height; ++y)
-        cut.copy(sums, index_in(pixels, part.x, y), part.width, index_in(part, part.x, y));
+    cut.copy(part, sums, pixels);
     return cut;
 }
 
@@ -45,7 +39,7 @@ Film::Film(std::span<const std::byte> bytes) {
     if (tiles.empty())
         throw Error(PT_ERROR_INCOMPATIBLE, "film: it has no tile");
     bounds_ = bounds_of(tiles);
-    if (bounds_.x + bounds_.width > facts_.width || bounds_.y + bounds_.height > facts_.height)
+    if (bounds_.right() > facts_.width || bounds_.bottom() > facts_.height)
         throw Error(PT_ERROR_INCOMPATIBLE, "film: its tiles reach beyond the image");
     header_ = {reader.header().identity, canonical_tiles(tiles), reader.header().round};
     for (std::size_t i = 0; i < tiles.size(); ++i) {
@@ -71,16 +65,9 @@ std::vector<FilmTile> Film::list() const {
 // Throws PT_ERROR_INCOMPATIBLE if a pixel has a sample both here and in others, whose map is given.
 void Film::require_disjoint(const std::vector<FilmTile> &others, const TileMap &map) const {
     for (const Tile &own : tiles_)
-        for (const TileMap::Piece &piece : map.cut(own.pixels)) {
-            if (!piece.tile)
-                continue;
-            const SampleSet &added = others[*piece.tile].samples;
-            if (const auto overlap = added.overlap(own.samples))
-                refuse_film("samples", text_of(added) + where(piece.pixels),
-                            text_of(*overlap) + " are in the film already that it is added to");
-            if (own.samples.count() + added.count() > UINT32_MAX)
-                refuse_film("samples", text_of(added), "a pixel holds at most 2^32 - 1");
-        }
+        for (const TileMap::Piece &piece : map.cut(own.pixels))
+            if (piece.tile)
+                require_apart(others[*piece.tile].samples, own.samples, where(piece.pixels));
 }
 
 // Cuts tile by tile, so that only one tile at a time is held twice. Afterwards each tile lies within one tile of the
@@ -130,7 +117,7 @@ void Film::add_to(Tile &tile, const Tile &other, SampleSet samples) noexcept {
         const std::uint32_t to_part = others_split == split ? part : others_split < split ? older_part : newer_part;
         for (std::size_t row = 0; row < row_count; ++row)
             tile.sums.add_part(to_part, row * run, other.sums, part,
-                               index_in(other.pixels, pixels.x, pixels.y) + row * other.pixels.width, run);
+                               other.pixels.index_of(pixels.x, pixels.y) + row * other.pixels.width, run);
     }
     tile.samples = std::move(samples);
 }
@@ -195,7 +182,7 @@ void Film::stream_plane(const std::vector<TileMap::Piece> &pieces, std::uint32_t
             for (auto piece = first; piece != end; ++piece) {
                 const Tile &tile = tiles_[*piece->tile];
                 stream.add(tile.sums.plane(part, plane)
-                               .subspan(index_in(tile.pixels, piece->pixels.x, y), piece->pixels.width));
+                               .subspan(tile.pixels.index_of(piece->pixels.x, y), piece->pixels.width));
             }
         first = end;
     }
@@ -228,10 +215,10 @@ std::uint64_t Film::total_samples() const {
 void Film::read(const Rectangle &pixels, std::uint32_t quantity,
                 const std::function<void(const RowPart &)> &receive) const {
     for (const TileMap map(list()); const TileMap::Band &band : map.bands())
-        for (std::uint32_t y = std::max(band.first, pixels.y); y < std::min(band.end, pixels.y + pixels.height); ++y)
+        for (std::uint32_t y = std::max(band.first, pixels.y); y < std::min(band.end, pixels.bottom()); ++y)
             for (const TileMap::Span &span : band.spans) {
                 const std::uint32_t first = std::max(span.first, pixels.x);
-                const std::uint32_t end = std::min(span.end, pixels.x + pixels.width);
+                const std::uint32_t end = std::min(span.end, pixels.right());
                 if (first >= end)
                     continue;
                 const Tile &tile = tiles_[span.tile];
@@ -245,10 +232,7 @@ void Film::read_rows_from(std::uint32_t first_row, PixelSums &sums) const {
     const Rectangle rows{bounds_.x, bounds_.y + first_row, bounds_.width,
                          static_cast<std::uint32_t>(sums.pixel_count() / bounds_.width)};
     for (const Tile &tile : tiles_)
-        for (std::uint32_t y = std::max(tile.pixels.y, rows.y);
-             y < std::min(tile.pixels.y + tile.pixels.height, rows.y + rows.height); ++y)
-            sums.copy(tile.sums, index_in(tile.pixels, tile.pixels.x, y), tile.pixels.width,
-                      index_in(rows, tile.pixels.x, y));
+        sums.copy(rows, tile.sums, tile.pixels);
 }
 
 // The error as a context states it for a film with these samples. If no context can have such tiles, all pixels are

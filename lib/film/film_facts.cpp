@@ -74,6 +74,13 @@ void require_same(const FilmIdentity &film, const FilmIdentity &other, const std
         throw Error(PT_ERROR_INCOMPATIBLE, "film: lines of its header are repeated, or in another order");
 }
 
+void require_apart(const SampleSet &added, const SampleSet &present, const std::string &where) {
+    if (const auto overlap = added.overlap(present))
+        refuse_film("samples", text_of(added) + where, text_of(*overlap) + " are there already");
+    if (present.count() + added.count() > UINT32_MAX)
+        refuse_film("samples", text_of(added), "a pixel holds at most 2^32 - 1");
+}
+
 void refuse_film(const std::string &member, const std::string &value, const std::string &rule) {
     throw Error(PT_ERROR_INCOMPATIBLE, BrokenRule{.subject = "film", .member = member, .value = value, .rule = rule});
 }

@@ -26,6 +26,9 @@ FilmFacts facts_of(const FilmIdentity &identity);
 // is to be added to. place: what that is, "as in this context".
 void require_same(const FilmIdentity &film, const FilmIdentity &other, const std::string &place);
 
+// Throws PT_ERROR_INCOMPATIBLE if samples cannot be added to those of the same pixels. where: these, for the message.
+void require_apart(const SampleSet &added, const SampleSet &present, const std::string &where);
+
 // Throws PT_ERROR_INCOMPATIBLE: a film breaks a rule.
 [[noreturn]] void refuse_film(const std::string &member, const std::string &value, const std::string &rule);
 

@@ -5,6 +5,7 @@
 #include "lib/film/sample_set.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -27,8 +28,23 @@ struct Rectangle {
     std::uint32_t x, y, width, height;
 
     std::uint64_t pixel_count() const { return std::uint64_t{width} * height; }
+    std::uint32_t right() const { return x + width; }
+    std::uint32_t bottom() const { return y + height; }
+
+    // The index of a pixel of the image among those of the rectangle, row by row.
+    std::size_t index_of(std::uint32_t column, std::uint32_t row) const {
+        return std::size_t{row - y} * width + (column - x);
+    }
+
     bool operator==(const Rectangle &) const = default;
 };
+
+// The pixels that both have; without width or height if there are none.
+inline Rectangle common(const Rectangle &a, const Rectangle &b) {
+    const std::uint32_t x = std::max(a.x, b.x);
+    const std::uint32_t y = std::max(a.y, b.y);
+    return {x, y, std::max(std::min(a.right(), b.right()), x) - x, std::max(std::min(a.bottom(), b.bottom()), y) - y};
+}
 
 // Pixels that have the same samples.
 struct FilmTile {

@@ -2,6 +2,7 @@
 // (film_bytes.h), added, and turned into radiance and its error.
 #pragma once
 
+#include "lib/film/film_header.h"
 #include "lib/film/quotient.h"
 #include "lib/film/sample_set.h"
 #include "shaders/gpu_layout.h"
@@ -13,6 +14,21 @@
 #include <vector>
 
 namespace pt {
+
+// The words of a part, plane by plane, as in gpu_layout.h. Word: std::uint32_t, or const.
+template <typename Word>
+struct PartWords {
+    Word *first;        // of the first pixel's
+    std::size_t stride; // from a plane to the next
+};
+
+// Adds the exact sums of consecutive pixels in one part to those in another part.
+void add_words(const PartWords<std::uint32_t> &to, const PartWords<const std::uint32_t> &from,
+               std::size_t pixel_count) noexcept;
+
+// Undoes the addition.
+void subtract_words(const PartWords<std::uint32_t> &to, const PartWords<const std::uint32_t> &from,
+                    std::size_t pixel_count) noexcept;
 
 class PixelSums {
 public:
@@ -51,6 +67,9 @@ public:
 
     // Copies consecutive pixels of another object.
     void copy(const PixelSums &from, std::size_t first, std::size_t count, std::size_t to_first) noexcept;
+
+    // Copies the pixels that two rectangles of an image have in common: own is of this object, of_from of the other.
+    void copy(const Rectangle &own, const PixelSums &from, const Rectangle &of_from) noexcept;
 
     // Samples of a pixel in each part, accepted or rejected.
     PartCounts samples_of(std::size_t pixel) const;

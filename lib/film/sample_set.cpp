@@ -43,13 +43,6 @@ SampleRange SampleSet::hull() const {
     return empty() ? SampleRange{} : SampleRange{ranges_.front().first, ranges_.back().end};
 }
 
-std::optional<SampleRange> SampleSet::overlap(const SampleRange &range) const {
-    const auto own = std::ranges::upper_bound(ranges_, range.first, {}, &SampleRange::end);
-    if (range.empty() || own == ranges_.end() || own->first >= range.end)
-        return std::nullopt;
-    return SampleRange{std::max(own->first, range.first), std::min(own->end, range.end)};
-}
-
 // A single pass along both sets, since the header of a film may have a great many ranges.
 std::optional<SampleRange> SampleSet::overlap(const SampleSet &other) const {
     auto own = ranges_.begin();
@@ -72,10 +65,11 @@ SampleRange SampleSet::next_missing(std::uint64_t from) const {
 }
 
 void SampleSet::add(const SampleRange &range) {
-    assert(!overlap(range));
     if (range.empty())
         return;
     const auto place = std::ranges::upper_bound(ranges_, range.first, {}, &SampleRange::first);
+    assert(place == ranges_.end() || range.end <= place->first);
+    assert(place == ranges_.begin() || (place - 1)->end <= range.first);
     const auto added = ranges_.insert(place, range);
     if (const auto next = added + 1; next != ranges_.end() && next->first == added->end) {
         added->end = next->end;
@@ -97,17 +91,6 @@ void SampleSet::add(const SampleSet &other) {
             ranges_.back().end = range.end;
         else
             ranges_.push_back(range);
-}
-
-void SampleSet::remove(const SampleRange &range) {
-    const auto place = std::ranges::find_if(
-        ranges_, [&](const SampleRange &own) { return own.first <= range.first && range.end <= own.end; });
-    assert(place != ranges_.end());
-    const SampleRange after{range.end, place->end};
-    place->end = range.first;
-    if (place->empty())
-        ranges_.erase(place);
-    add(after);
 }
 
 std::string text_of(const SampleSet &samples) {

@@ -48,16 +48,14 @@ public:
     SampleRange hull() const;
 
     // The first samples that are in both.
-    std::optional<SampleRange> overlap(const SampleRange &range) const;
     std::optional<SampleRange> overlap(const SampleSet &other) const;
 
     // The first samples from an index on that are not in the set, up to the next that is; empty if all are.
     SampleRange next_missing(std::uint64_t from) const;
 
-    // Samples that are added must not be there yet, samples that are removed must be.
+    // Samples that are added must not be there yet.
     void add(const SampleRange &range);
     void add(const SampleSet &other);
-    void remove(const SampleRange &range);
 
     bool operator==(const SampleSet &) const = default;
 

@@ -12,14 +12,6 @@ namespace pt {
 
 namespace {
 
-std::uint32_t right_of(const Rectangle &pixels) {
-    return pixels.x + pixels.width;
-}
-
-std::uint32_t bottom_of(const Rectangle &pixels) {
-    return pixels.y + pixels.height;
-}
-
 // In ascending order, each once.
 std::vector<std::uint32_t> distinct(std::vector<std::uint32_t> numbers) {
     std::sort(numbers.begin(), numbers.end());
@@ -69,11 +61,11 @@ std::vector<TileMap::Piece> cut_rows(const std::vector<TileMap::Span> &spans, co
         x = std::max(x, end);
     };
     auto span = std::ranges::upper_bound(spans, x, {}, &TileMap::Span::end);
-    for (; span != spans.end() && span->first < right_of(rows); ++span) {
+    for (; span != spans.end() && span->first < rows.right(); ++span) {
         add_up_to(span->first, std::nullopt);
-        add_up_to(std::min(span->end, right_of(rows)), span->tile);
+        add_up_to(std::min(span->end, rows.right()), span->tile);
     }
-    add_up_to(right_of(rows), std::nullopt);
+    add_up_to(rows.right(), std::nullopt);
     return pieces;
 }
 
@@ -110,7 +102,7 @@ TileMap::TileMap(const std::vector<FilmTile> &tiles) {
     std::vector<std::uint32_t> rows;
     for (const FilmTile &tile : tiles) {
         rows.push_back(tile.pixels.y);
-        rows.push_back(bottom_of(tile.pixels));
+        rows.push_back(tile.pixels.bottom());
     }
     rows = distinct(std::move(rows));
     for (std::size_t i = 0; i + 1 < rows.size(); ++i)
@@ -118,8 +110,8 @@ TileMap::TileMap(const std::vector<FilmTile> &tiles) {
     for (std::size_t i = 0; i < tiles.size(); ++i) {
         const Rectangle &pixels = tiles[i].pixels;
         auto band = std::ranges::lower_bound(bands_, pixels.y, {}, &Band::first);
-        for (; band != bands_.end() && band->first < bottom_of(pixels); ++band)
-            band->spans.push_back({pixels.x, right_of(pixels), i});
+        for (; band != bands_.end() && band->first < pixels.bottom(); ++band)
+            band->spans.push_back({pixels.x, pixels.right(), i});
     }
     std::erase_if(bands_, [](const Band &band) { return band.spans.empty(); });
     for (Band &band : bands_) {
@@ -143,10 +135,10 @@ std::vector<TileMap::Piece> TileMap::cut(const Rectangle &pixels) const {
     std::vector<Piece> pieces;
     std::size_t above = 0; // the first piece of the rows above
     auto band = std::ranges::upper_bound(bands_, pixels.y, {}, &Band::end);
-    for (std::uint32_t y = pixels.y; y < bottom_of(pixels);) {
+    for (std::uint32_t y = pixels.y; y < pixels.bottom();) {
         const bool is_free = band == bands_.end() || band->first > y;
-        const std::uint32_t next = band == bands_.end() ? bottom_of(pixels) : is_free ? band->first : band->end;
-        const std::uint32_t end = std::min(next, bottom_of(pixels));
+        const std::uint32_t next = band == bands_.end() ? pixels.bottom() : is_free ? band->first : band->end;
+        const std::uint32_t end = std::min(next, pixels.bottom());
         const std::vector<Piece> rows =
             cut_rows(is_free ? std::vector<Span>() : band->spans, {pixels.x, y, pixels.width, end - y});
         if (continue_below(std::span(pieces).subspan(above), rows)) {
@@ -166,8 +158,8 @@ std::vector<TileMap::Piece> TileMap::cut(const Rectangle &pixels) const {
 Rectangle bounds_of(const std::vector<FilmTile> &tiles) {
     Rectangle bounds = tiles.front().pixels;
     for (const FilmTile &tile : tiles) {
-        const std::uint32_t right = std::max(right_of(bounds), right_of(tile.pixels));
-        const std::uint32_t bottom = std::max(bottom_of(bounds), bottom_of(tile.pixels));
+        const std::uint32_t right = std::max(bounds.right(), tile.pixels.right());
+        const std::uint32_t bottom = std::max(bounds.bottom(), tile.pixels.bottom());
         bounds.x = std::min(bounds.x, tile.pixels.x);
         bounds.y = std::min(bounds.y, tile.pixels.y);
         bounds.width = right - bounds.x;

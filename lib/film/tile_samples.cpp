@@ -15,14 +15,6 @@ bool TileSamples::empty() const {
     return std::ranges::all_of(sets_, [](const SampleSet &set) { return set.empty(); });
 }
 
-SampleRange TileSamples::hull() const {
-    SampleRange all;
-    for (const SampleSet &set : sets_)
-        if (!set.empty())
-            all = all.empty() ? set.hull() : hull_of(all, set.hull());
-    return all;
-}
-
 std::uint64_t TileSamples::least() const {
     std::uint64_t least = of(0).count();
     for (const std::uint32_t set : set_of_)

@@ -29,7 +29,6 @@ public:
 
     // Of all tiles.
     bool empty() const;
-    SampleRange hull() const;
     std::uint64_t least() const; // samples of a pixel
     std::uint64_t most() const;
     std::uint64_t total() const; // of all pixels together

@@ -3,7 +3,7 @@
 // submission that follows.
 #pragma once
 
-#include "lib/film/part_words.h"
+#include "lib/film/pixel_sums.h"
 #include "lib/kernel/device_film.h"
 
 #include <cstdint>

@@ -26,10 +26,7 @@ void require_within(const Rectangle &film, const Rectangle &pixels) {
 }
 
 SampleSet united(const SampleSet &present, const SampleSet &added) {
-    if (const auto overlap = added.overlap(present))
-        refuse_film("samples", text_of(added), text_of(*overlap) + " are in this context's film already");
-    if (present.count() + added.count() > UINT32_MAX)
-        refuse_film("samples", text_of(added), "a pixel holds at most 2^32 - 1");
+    require_apart(added, present, "");
     SampleSet all = present;
     all.add(added);
     return all;
@@ -40,50 +37,26 @@ std::uint32_t rows_of_piece(std::uint32_t width) {
     return std::max(piece_pixels / width, 1U);
 }
 
-// The rows of a tile that lie in consecutive rows of its film.
-struct RowsInTile {
-    std::uint32_t first; // of the film
-    std::uint32_t end;
-
-    RowsInTile(const Rectangle &tile, std::uint32_t first_row, std::uint32_t row_count) :
-        first(std::max(tile.y, first_row)),
-        end(std::max(std::min(tile.y + tile.height, first_row + row_count), first)) {}
-
-    std::uint32_t count() const { return end - first; }
-};
-
-// Copies the pixels of a tile's rows between memory that holds them alone and the rows of the film from first_row on.
-template <typename Copy>
-void for_each_row(const Rectangle &tile, const RowsInTile &rows, std::uint32_t first_row, std::uint32_t width,
-                  const Copy &copy) {
-    for (std::uint32_t y = rows.first; y < rows.end; ++y)
-        copy(std::size_t{y - first_row} * width + tile.x, std::size_t{y - rows.first} * tile.width, tile.width);
-}
-
 } // namespace
 
 void save(std::span<DeviceFilm *const> films, const TileSamples &samples, const FilmHeader &header,
-          const Rectangle &origin, std::span<std::byte> bytes) {
+          const Rectangle &pixels, std::span<std::byte> bytes) {
     FilmWriter writer(header, bytes);
-    const std::uint32_t width = samples.grid().width;
-    std::uint32_t row = 0;
+    Rectangle rows{pixels.x, pixels.y, pixels.width, 0};
     PixelSums part;
     const PixelRange all{0, films.front()->pixel_count()};
-    read_films(films, samples, all, rows_of_piece(width) * width, [&](const PixelSums &sums) {
-        const auto row_count = static_cast<std::uint32_t>(sums.pixel_count() / width);
+    read_films(films, samples, all, rows_of_piece(pixels.width) * pixels.width, [&](const PixelSums &sums) {
+        rows.height = static_cast<std::uint32_t>(sums.pixel_count() / pixels.width);
         for (std::size_t i = 0; i < header.tiles.size(); ++i) {
-            const Rectangle &pixels = header.tiles[i].pixels;
-            const Rectangle tile{pixels.x - origin.x, pixels.y - origin.y, pixels.width, pixels.height};
-            const RowsInTile rows(tile, row, row_count);
-            if (rows.count() == 0)
+            const Rectangle &tile = header.tiles[i].pixels;
+            const Rectangle of_tile = common(tile, rows);
+            if (of_tile.height == 0)
                 continue;
-            part.resize(std::size_t{rows.count()} * tile.width);
-            for_each_row(tile, rows, row, width, [&](std::size_t in_film, std::size_t in_part, std::size_t count) {
-                part.copy(sums, in_film, count, in_part);
-            });
-            writer.write(i, std::uint64_t{rows.first - tile.y} * tile.width, part);
+            part.resize(of_tile.pixel_count());
+            part.copy(of_tile, sums, rows);
+            writer.write(i, tile.index_of(tile.x, of_tile.y), part);
         }
-        row += row_count;
+        rows.y += rows.height;
     });
     writer.end();
 }
@@ -119,18 +92,15 @@ void add(const FilmReader &film, const TileSamples &added, std::span<DeviceFilm 
         const std::uint32_t row_count = std::min(step, pixels.height - row);
         PixelSums others;
         others.resize(std::size_t{row_count} * pixels.width);
+        const Rectangle rows{pixels.x, pixels.y + row, pixels.width, row_count};
         for (std::size_t i = 0; i < tiles.size(); ++i) {
-            const Rectangle tile{tiles[i].pixels.x - pixels.x, tiles[i].pixels.y - pixels.y, tiles[i].pixels.width,
-                                 tiles[i].pixels.height};
-            const RowsInTile rows(tile, row, row_count);
-            if (rows.count() == 0)
+            const Rectangle &tile = tiles[i].pixels;
+            const Rectangle of_tile = common(tile, rows);
+            if (of_tile.height == 0)
                 continue;
-            part.resize(std::size_t{rows.count()} * tile.width);
-            film.read(i, std::uint64_t{rows.first - tile.y} * tile.width, part);
-            for_each_row(tile, rows, row, pixels.width,
-                         [&](std::size_t in_film, std::size_t in_part, std::size_t count) {
-                             others.copy(part, in_part, count, in_film);
-                         });
+            part.resize(of_tile.pixel_count());
+            film.read(i, tile.index_of(tile.x, of_tile.y), part);
+            others.copy(rows, part, of_tile);
         }
         PixelSums sums;
         sums.resize(others.pixel_count());

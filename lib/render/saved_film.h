@@ -12,9 +12,9 @@
 namespace pt {
 
 // Writes the sum of films of one size, which together hold these samples, into memory of the size that FilmLayout asks
-// for. The header has the same samples. origin: the pixels of the image that the films cover; the header may lack some.
+// for. The header has the same samples. pixels: those of the image that the films cover; the header may lack some.
 void save(std::span<DeviceFilm *const> films, const TileSamples &samples, const FilmHeader &header,
-          const Rectangle &origin, std::span<std::byte> bytes);
+          const Rectangle &pixels, std::span<std::byte> bytes);
 
 // The samples of a film, by tile of a context with these pixels. Throws PT_ERROR_INCOMPATIBLE if the film has other
 // pixels or cuts tiles.

@@ -32,7 +32,7 @@ TileTasks::Task &TileTasks::add_task(std::uint32_t set, std::uint64_t wanted, co
                                      std::uint32_t first_sample) {
     SampleRange samples = present.next_missing(first_sample);
     samples.end = std::min(samples.end, samples.first + (wanted - present.count()));
-    return tasks_.emplace_back(Task{set, wanted, present.empty() ? SampleRange{} : present.hull(), samples});
+    return tasks_.emplace_back(Task{set, wanted, present.hull(), samples});
 }
 
 TileSlice TileTasks::next(const Schedule &schedule) {

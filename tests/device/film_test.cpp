@@ -227,7 +227,7 @@ TEST(Film, SumsAddAndFold) {
     pt::PixelSums expected = whole(0);
     expected.plane(pt::older_part, 3)[0] = 1;
     EXPECT_TRUE(sums == expected);
-    sums.fold_into(pt::newer_part);
+    sums.fold_into(pt::newer_part, 0, 1);
     EXPECT_EQ(sums.plane(pt::newer_part, 3)[0], 1U);
     pt::require_samples(sums.samples_of(0), {0, 10});
 }

@@ -73,7 +73,7 @@ TEST_F(RenderDeviceTest, AnErrorBehindItsSamplesIsThatOfTheFilm) {
     pt::TileSamples taken(device.film().grid());
     std::array<double, 6> last{};
     for (const pt::SampleRange range : {pt::SampleRange{100, 116}, {116, 120}, {120, 128}, {40, 60}, {128, 140}}) {
-        const pt::SampleRange before = taken.hull();
+        const pt::SampleRange before = taken.of(0).hull();
         taken.add(all_tiles, range);
         const pt::ErrorQuery query{1.0, taken};
         device.start({all_tiles, before, range, true}, &query);

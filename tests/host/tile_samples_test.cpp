@@ -41,15 +41,11 @@ TEST(SampleSet, IsTheSetOfItsIndices) {
             std::uint64_t missing = 0;
             for (std::uint64_t j = range.first; j < range.end; ++j)
                 missing += expected.contains(j) ? 0 : 1;
-            ASSERT_EQ(set.overlap(range).has_value(), missing < range.count());
+            ASSERT_EQ(set.overlap(SampleSet(range)).has_value(), missing < range.count());
             if (missing == range.count()) {
                 set.add(range);
                 for (std::uint64_t j = range.first; j < range.end; ++j)
                     expected.insert(j);
-            } else if (missing == 0) {
-                set.remove(range);
-                for (std::uint64_t j = range.first; j < range.end; ++j)
-                    expected.erase(j);
             }
             ASSERT_EQ(members(set), expected);
             ASSERT_EQ(set.count(), expected.size());
@@ -89,7 +85,7 @@ TEST(SampleSet, SetsAreAddedToSets) {
         a.add(b);
         ASSERT_EQ(a, expected);
         for (const SampleRange &range : b.ranges()) {
-            ASSERT_FALSE(before.overlap(range));
+            ASSERT_FALSE(before.overlap(SampleSet(range)));
             ASSERT_EQ(a.overlap(SampleSet({range.end - 1, range.end + 1}))->first, range.end - 1);
         }
         ASSERT_EQ(a.overlap(b).has_value(), !b.empty());
@@ -97,10 +93,11 @@ TEST(SampleSet, SetsAreAddedToSets) {
 }
 
 TEST(SampleSet, ReachesToTheLastIndex) {
-    SampleSet set({0, pt::sample_index_end});
-    EXPECT_EQ(set.count(), std::uint64_t{1} << 32);
-    EXPECT_TRUE(set.next_missing(5).empty());
-    set.remove({7, 8});
+    const SampleSet all({0, pt::sample_index_end});
+    EXPECT_EQ(all.count(), std::uint64_t{1} << 32);
+    EXPECT_TRUE(all.next_missing(5).empty());
+    SampleSet set({0, 7});
+    set.add({8, pt::sample_index_end});
     EXPECT_EQ(set.next_missing(0), (SampleRange{7, 8}));
     EXPECT_EQ(pt::text_of(set), "[0, 7), [8, 4294967296)");
 }
@@ -131,7 +128,7 @@ TEST(TileSamples, AreThoseThatWereAddedToEach) {
         std::vector<std::uint32_t> tiles;
         const std::uint64_t first = generator() % 20 * 8;
         for (std::uint32_t tile = 0; tile < small_grid.count(); ++tile)
-            if (generator() % 3 != 0 && !expected[tile].overlap(SampleRange{first, first + 8}))
+            if (generator() % 3 != 0 && !expected[tile].overlap(SampleSet({first, first + 8})))
                 tiles.push_back(tile);
         samples.add(tiles, {first, first + 8});
         for (const std::uint32_t tile : tiles)
@@ -139,14 +136,11 @@ TEST(TileSamples, AreThoseThatWereAddedToEach) {
         if (step % 5 == 0)
             samples.tidy();
         std::uint64_t total = 0;
-        SampleRange hull;
         for (std::size_t tile = 0; tile < small_grid.count(); ++tile) {
             ASSERT_EQ(samples.of(tile), expected[tile]) << step;
             total += expected[tile].count() * small_grid.pixels(tile).pixel_count();
-            hull = expected[tile].empty() ? hull : pt::hull_of(hull, expected[tile].hull());
         }
         ASSERT_EQ(samples.total(), total);
-        ASSERT_EQ(samples.hull(), hull);
         const auto [least, most] = std::ranges::minmax(expected, {}, &SampleSet::count);
         ASSERT_EQ(samples.least(), least.count());
         ASSERT_EQ(samples.most(), most.count());
@@ -195,7 +189,8 @@ TEST(TileTasks, BringTilesToTheirGoals) {
                 const pt::TileSlice slice = tasks.next(schedule);
                 const std::uint32_t first = slice.tiles.front();
                 for (const std::uint32_t tile : slice.tiles)
-                    ASSERT_TRUE(samples.of(tile) == samples.of(first) && !samples.of(tile).overlap(slice.samples));
+                    ASSERT_TRUE(samples.of(tile) == samples.of(first) &&
+                                !samples.of(tile).overlap(SampleSet(slice.samples)));
                 EXPECT_EQ(slice.before, samples.of(first).empty() ? pt::SampleRange{} : samples.of(first).hull());
                 samples.add(slice.tiles, slice.samples);
                 const bool ends = tasks.ends_samples(slice.tiles.size());
