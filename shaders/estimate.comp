@@ -36,8 +36,6 @@ const uint RELATIVE_SQUARE = 1u;
 const uint MET_ONCE = 2u;
 const uint AS_LAMPS = 3u;
 const uint KINDS = 4u;
-const uint FIRST_RARE_KIND = MET_ONCE; // from here on, few pixels have squares
-const uint RARE_KINDS = KINDS - FIRST_RARE_KIND;
 
 struct Squares {
     float sum;
@@ -56,11 +54,6 @@ struct Errors {
 shared float means[TILE_SIZE][ESTIMATE_WORKGROUP_SIZE]; // of one channel
 shared ValueSet column_sets[ESTIMATE_WORKGROUP_SIZE];
 shared Errors errors[ESTIMATE_WORKGROUP_SIZE]; // of columns, and then of tiles
-
-// Squares of the rare kinds, for the pixels of each invocation, over all channels. In shared memory and not in
-// registers, since most tiles have none: in registers a target of 1% took 1.04 times as long on an H100 (1024x512
-// pixels, two vertices).
-shared float rare_squares[RARE_KINDS][TILE_SIZE][ESTIMATE_WORKGROUP_SIZE];
 
 // How many pixels are requested from memory before the first is waited for. Measured on an H200: with 1024x512 pixels
 // an error took 89 us with 1, 84 with 2 and 83 with 4; with twice as many pixels 151, 147 and 134.
@@ -153,17 +146,6 @@ Squares united(Squares a, Squares b)
                                   : 0.0);
 }
 
-// The sum over the pixels of an invocation that have such squares.
-Squares rare_squares_of(uint kind, uint invocation, uint with_rare)
-{
-    if (with_rare == 0u)
-        return Squares(0.0, 0.0);
-    float values[TILE_SIZE];
-    [[unroll]] for (uint i = 0u; i < TILE_SIZE; ++i)
-        values[i] = (with_rare & 1u << i) != 0u ? rare_squares[kind - FIRST_RARE_KIND][i][invocation] : 0.0;
-    return squares_of(values);
-}
-
 // The sum over all tiles, with the part of a whole tile that each covers.
 ErrorSquares squares_of_tiles(uint kind, uvec2 size)
 {
@@ -251,11 +233,10 @@ void main()
     }
 
     const float offset_square = squared(estimate.relative_offset);
-    float squares[FIRST_RARE_KIND][TILE_SIZE]; // of all channels
-    [[unroll]] for (uint kind = 0u; kind < FIRST_RARE_KIND; ++kind)
+    float squares[KINDS][TILE_SIZE]; // of all channels
+    [[unroll]] for (uint kind = 0u; kind < KINDS; ++kind)
         [[unroll]] for (uint i = 0u; i < TILE_SIZE; ++i)
             squares[kind][i] = 0.0;
-    uint with_rare = 0u; // bits of pixels
     uint met_again = 0u;
     float unseen = 0.0;
     for (uint channel = 0u; channel < 3u; ++channel) {
@@ -316,12 +297,8 @@ void main()
                 const float square = relative_square(scaled_error, limit);
                 const bool once = is_met_once(standard_error, mean, lessers[i]);
                 if (limit.alone > 0.0 && once) {
-                    const vec2 rare = vec2(square, square_as_lamp(scaled_error, mean, offset_square));
-                    const bool is_first = (with_rare & 1u << i) == 0u;
-                    [[unroll]] for (uint kind = 0u; kind < RARE_KINDS; ++kind)
-                        rare_squares[kind][i][invocation] =
-                            (is_first ? 0.0 : rare_squares[kind][i][invocation]) + rare[kind];
-                    with_rare |= 1u << i;
+                    squares[MET_ONCE][i] += square;
+                    squares[AS_LAMPS][i] += square_as_lamp(scaled_error, mean, offset_square);
                 } else
                     squares[RELATIVE_SQUARE][i] += square;
                 met_again += limit.alone > 0.0 && !once && is_met_again(mean, lessers[i]) ? 1u : 0u;
@@ -331,10 +308,8 @@ void main()
     }
 
     // Sums of columns of tiles, then of tiles, then of all.
-    [[unroll]] for (uint kind = 0u; kind < FIRST_RARE_KIND; ++kind)
+    [[unroll]] for (uint kind = 0u; kind < KINDS; ++kind)
         errors[invocation].squares[kind] = squares_of(squares[kind]);
-    for (uint kind = FIRST_RARE_KIND; kind < KINDS; ++kind)
-        errors[invocation].squares[kind] = rare_squares_of(kind, invocation, with_rare);
     errors[invocation].met_again = met_again;
     errors[invocation].unseen = unseen;
     errors[invocation].findings = findings;

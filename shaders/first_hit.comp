@@ -12,14 +12,10 @@ layout(local_size_x = WORKGROUP_SIZE) in;
 layout(push_constant) uniform Push { FirstHitConstants view; };
 
 #include "camera_walk.glsl"
-#include "half.glsl"
 #include "maths.glsl"
-
-layout(set = 0, binding = BINDING_RESOLVED) writeonly buffer Resolved { uint words[]; } resolved; // of pixels
-layout(set = 0, binding = BINDING_FINDINGS) buffer Findings { uint lost_pixels; } findings; // whose rays were cut
+#include "resolved.glsl"
 
 const uint FLOAT_INFINITY_BITS = 0x7f800000u;
-const uint SIGN_BIT = 0x80000000u;
 
 shared vec3 values[WORKGROUP_SIZE]; // of rays whose mean is taken
 
@@ -51,29 +47,6 @@ vec3 value_of(CameraRay ray, Hit hit)
     if (view.quantity == QUANTITY_ALBEDO)
         return albedo_of(hit.surface);
     return vertex_at(arrival_of(ray, hit), ray.time).normal;
-}
-
-// The same for a number of either sign.
-uint signed_half_bits(uint float_bits)
-{
-    return half_bits(float_bits & ~SIGN_BIT) | ((float_bits & SIGN_BIT) >> 16u);
-}
-
-void write_pixel(uint index, uvec3 value)
-{
-    if (view.format == FORMAT_R32UI) {
-        resolved.words[index] = value.x;
-    } else if (view.format == FORMAT_RGBA16F) {
-        uvec3 halves = uvec3(signed_half_bits(value.x), signed_half_bits(value.y), signed_half_bits(value.z));
-        resolved.words[2u * index] = halves.x | halves.y << 16u;
-        resolved.words[2u * index + 1u] = halves.z | HALF_ONE_BITS << 16u;
-    } else {
-        uint pixel_words = view.format == FORMAT_RGBA32F ? 4u : 3u;
-        [[unroll]] for (uint channel = 0u; channel < 3u; ++channel)
-            resolved.words[pixel_words * index + channel] = value[channel];
-        if (view.format == FORMAT_RGBA32F)
-            resolved.words[4u * index + 3u] = floatBitsToUint(1.0);
-    }
 }
 
 void main()
@@ -117,5 +90,5 @@ void main()
         words = uvec3(FLOAT_INFINITY_BITS);
     if (view.quantity == QUANTITY_OBJECT)
         words = uvec3(surface);
-    write_pixel(index, words);
+    write_pixel(words_of_pixel(view.format) * index, view.format, words);
 }

@@ -25,6 +25,10 @@ PT_CONSTANT SCENE_IN_STORAGE = 0;
 PT_CONSTANT SCENE_IN_UNIFORM = 1;
 PT_CONSTANT SCENE_IN_CONSTANTS = 2;
 
+// Kinds of surfaces that are held by a ball, a bit each (lib/scene/moving_ball.h).
+PT_CONSTANT KIND_BALL = 1;
+PT_CONSTANT KIND_CAPSULE = 2;
+
 // The numbers of pt.h.
 #include "enumerations.h"
 
@@ -111,7 +115,7 @@ PT_CONSTANT NO_SURFACE = 0xffffffffu;
 //   diffuse[S]        albedo / pi; probability of choosing the specular lobe
 //   specular[S]       factor (n + 2) / (2 pi); glossiness n (only with GLOSS)
 //   motion[spheres]   way of the centre while the shutter is open; 0. Of a capsule, which is a sphere that is swept from
-//                     one end to the other: the way between these; 1 / its length (only with MOTION or CAPSULES)
+//                     one end to the other: the way between these; 1 / its length (only with HAS_WAYS)
 //   curvature[planes] curvature; way of the surface while the shutter is open (only with CURVATURE)
 //   tree              of lamps, if they have one (below), which is read from the storage buffer
 //   spots[SPOT_COUNT] lamp and surface: MATERIAL_INDEX_BITS + each, as the bits of floats; what the surface reflects of

@@ -9,15 +9,10 @@ layout(local_size_x = WORKGROUP_SIZE) in;
 layout(push_constant) uniform Push { ResolveConstants resolve; };
 
 #include "film_parts.glsl"
-#include "half.glsl"
 #include "quotient.h"
+#include "resolved.glsl"
 
 layout(constant_id = 0) const uint FORMAT = FORMAT_RGB32F;
-
-layout(set = 0, binding = BINDING_RESOLVED) writeonly buffer Resolved { uint words[]; } resolved; // of pixels
-layout(set = 0, binding = BINDING_FINDINGS) buffer Findings { uint lost_pixels; } findings; // whose samples a driver lost
-
-const uint PIXEL_WORDS = FORMAT == FORMAT_RGB32F ? 3u : FORMAT == FORMAT_RGBA32F ? 4u : 2u;
 
 // With fewer samples the two parts say next to nothing.
 bool knows_error(PartCount older, PartCount newer)
@@ -56,19 +51,9 @@ void main()
     PartCount newer = part_count(1u, pixel_in_strip, resolve.strip_pixel_count);
     if (resolve.sample_counts.x != ANY_COUNT && uvec2(older.done, newer.done) != resolve.sample_counts)
         atomicAdd(findings.lost_pixels, 1u);
-    uint first_word = resolve.first_word + row * resolve.row_words + column * PIXEL_WORDS;
-    uvec2 halves = uvec2(0u, HALF_ONE_BITS << 16);
-    [[unroll]] for (uint channel = 0u; channel < 3u; ++channel) {
-        uint value = value_of(channel, pixel_in_strip, older, newer);
-        if (FORMAT == FORMAT_RGBA16F)
-            halves[channel / 2u] |= half_bits(value) << 16u * (channel % 2u);
-        else
-            resolved.words[first_word + channel] = value;
-    }
-    if (FORMAT == FORMAT_RGBA32F)
-        resolved.words[first_word + 3u] = floatBitsToUint(1.0);
-    if (FORMAT == FORMAT_RGBA16F) {
-        resolved.words[first_word] = halves[0];
-        resolved.words[first_word + 1u] = halves[1];
-    }
+    uvec3 value;
+    [[unroll]] for (uint channel = 0u; channel < 3u; ++channel)
+        value[channel] = value_of(channel, pixel_in_strip, older, newer);
+    uint first_word = resolve.first_word + row * resolve.row_words + column * words_of_pixel(FORMAT);
+    write_pixel(first_word, FORMAT, value);
 }

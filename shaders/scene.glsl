@@ -3,6 +3,7 @@
 #ifndef SCENE_GLSL
 #define SCENE_GLSL
 
+#include "ball.glsl"
 #include "gpu_layout.h"
 #include "scene_constants.glsl"
 #include "specialization.h"
@@ -15,8 +16,6 @@ layout(set = 0, binding = BINDING_SCENE_UNIFORM) uniform SceneUniform {
 layout(set = 0, binding = BINDING_SCENE_STORAGE) readonly buffer SceneStorage { vec4 words[]; } scene_storage;
 
 const uint SURFACE_COUNT = SPHERE_COUNT + PLANE_COUNT;
-const bool STARTS_ON_DISC = ORTHOGRAPHIC + LENS > 0; // not all camera rays at one point, nor just ahead of one
-const uint CAMERA_BLOCKS = 1u + LENS;                // of numbers, which a camera ray takes
 
 // Runs a statement for each index from first to end - 1, both constants. Loops over few indices are unrolled
 // (DevicePolicy::unrolled).
@@ -78,35 +77,13 @@ const uint EMITTING_SPHERES = LAMP_COUNT + SKY_COUNT;
 const uint DIFFUSE = 2u * SURFACE_COUNT;
 const uint SPECULAR = 3u * SURFACE_COUNT;
 const uint MOTIONS = HAS_TABLE ? EMISSION + EMITTING_SPHERES + PLANES_EMIT * PLANE_COUNT : (3u + GLOSS) * SURFACE_COUNT;
-const uint HAS_WAYS = MOTION + CAPSULES > 0u ? 1u : 0u;
-const uint CURVATURES = MOTIONS + HAS_WAYS * SPHERE_COUNT;
+const uint CURVATURES = MOTIONS + (HAS_WAYS ? SPHERE_COUNT : 0u);
 const uint LAMP_TREE = CURVATURES + CURVATURE * PLANE_COUNT;
 // ... SPOTS only in the uniform buffer, the others only in the storage buffer.
 const uint SPOTS = LAMP_TREE + LAMP_TREE_WORDS;
 const uint INDICES = LAMP_TREE + LAMP_TREE_WORDS;
 const uint TREE_FRAME = INDICES + (SURFACE_COUNT + 3u) / 4u;
 const uint TABLE = TREE_FRAME + 5u * TREE;
-
-// A capsule is a sphere that does not move, but is swept along a segment. Its axis: the way from one end to the other, and
-// 1 / its length.
-const vec4 NO_AXIS = vec4(0.0);
-
-// A sphere at a time, or the first end of a capsule and its axis.
-struct Ball {
-    vec4 centre_radius;
-    vec4 axis;
-};
-
-vec4 axis_of(vec4 way) { return way.w > 0.0 ? way : NO_AXIS; }
-
-vec3 moved(vec4 way, float time) { return CAPSULES == 1 && way.w > 0.0 ? vec3(0.0) : time * way.xyz; }
-
-// to_first: the way from some place to the first end of an axis. Returns the way from that end to the point of the axis
-// that is nearest to the place.
-vec3 to_nearest(vec3 to_first, vec4 axis)
-{
-    return clamp(-dot(to_first, axis.xyz * axis.w) * axis.w, 0.0, 1.0) * axis.xyz;
-}
 
 #include "tree.glsl"
 
@@ -181,28 +158,18 @@ vec4 specular_of(uint surface)
     return HAS_TABLE ? scene_word(material_words(surface) + 1u) : scene_word_among(SPECULAR, SURFACE_COUNT, surface);
 }
 
-// Centre and radius of a sphere at a time from 0 (the shutter opens) to 1 (it closes), for tracing, lamp sampling and
-// densities alike. The sphere is the index of a loop, ...
-vec4 sphere_at(uint sphere, float time)
-{
-    vec4 centre_radius = scene_word(sphere);
-    if (MOTION == 1)
-        centre_radius.xyz += moved(scene_word(MOTIONS + sphere), time);
-    return centre_radius;
-}
-
+// A sphere at a time from 0 (the shutter opens) to 1 (it closes), for tracing, lamp sampling and densities alike. It is
+// the index of a loop, ...
 Ball ball_at(uint sphere, float time)
 {
-    return Ball(sphere_at(sphere, time), CAPSULES == 1 ? axis_of(scene_word(MOTIONS + sphere)) : NO_AXIS);
+    return ball_from(scene_word(sphere), HAS_WAYS ? scene_word(MOTIONS + sphere) : vec4(0.0), time, KINDS);
 }
 
-// ... or any of the first count spheres, by an index that may differ between invocations.
-vec4 sphere_among(uint count, uint sphere, float time)
+// ... any of the first count spheres, by an index that may differ between invocations, ...
+Ball ball_among(uint count, uint sphere, float time)
 {
-    vec4 centre_radius = scene_word_among(0u, count, sphere);
-    if (MOTION == 1)
-        centre_radius.xyz += moved(scene_word_among(MOTIONS, count, sphere), time);
-    return centre_radius;
+    vec4 way = HAS_WAYS ? scene_word_among(MOTIONS, count, sphere) : vec4(0.0);
+    return ball_from(scene_word_among(0u, count, sphere), way, time, KINDS);
 }
 
 bool is_sphere(uint surface)
@@ -210,32 +177,20 @@ bool is_sphere(uint surface)
     return surface < SPHERE_COUNT || (TREE == 1u && surface >= SURFACE_COUNT);
 }
 
-// Of any sphere, by its surface, ...
-vec4 sphere_of(uint surface, float time)
+// ... any, by its surface, ...
+Ball ball_of(uint surface, float time)
 {
     if (TREE == 1u && surface >= SURFACE_COUNT)
-        return tree_sphere(surface - SURFACE_COUNT, time);
-    return sphere_among(SPHERE_COUNT, surface, time);
+        return tree_ball(surface - SURFACE_COUNT, time);
+    return ball_among(SPHERE_COUNT, surface, time);
 }
 
-// ... of a capsule, the one that is nearest to a point; ...
-vec4 sphere_near(uint surface, float time, vec3 point)
-{
-    vec4 sphere = sphere_of(surface, time);
-    if (CAPSULES == 1) {
-        vec4 axis = TREE == 1u && surface >= SURFACE_COUNT ? tree_axis(surface - SURFACE_COUNT)
-                                                           : axis_of(scene_word_among(MOTIONS, SPHERE_COUNT, surface));
-        sphere.xyz += to_nearest(sphere.xyz - point, axis);
-    }
-    return sphere;
-}
-
-// ... and of any lamp, by its number.
+// ... or any lamp, by its number.
 vec4 sphere_of_lamp(uint lamp, float time)
 {
     if (TREE_LAMPS > 0u && lamp >= WALKED_LAMPS)
-        return tree_sphere(tree_lamp_place(lamp - WALKED_LAMPS), time);
-    return sphere_among(WALKED_LAMPS, lamp, time);
+        return tree_ball(tree_lamp_place(lamp - WALKED_LAMPS), time).centre_radius;
+    return ball_among(WALKED_LAMPS, lamp, time).centre_radius;
 }
 
 // Whether a lamp is in the scene buffer, by its surface.
@@ -257,7 +212,7 @@ struct Level {
 Level level_of(vec4 normal_offset, vec4 curvature_motion, vec3 point, float time)
 {
     vec4 n = normal_offset;
-    if (PLANES_MOVE == 1)
+    if (CURVATURE == 1 && MOTION == 1)
         point -= time * curvature_motion.yzw;
     float curvature = curvature_motion.x;
     Level level = Level(n.x * point.x + (n.y * point.y + (n.z * point.z + n.w)), n.xyz, curvature);
@@ -288,7 +243,7 @@ Level level_among(uint plane, vec3 point, float time)
 // The height of the camera above a plane that is the index of a loop.
 float camera_height(uint plane, float time)
 {
-    return PLANES_MOVE == 1 ? level_at(plane, vec3(0.0), time).height : scene_word(plane).w;
+    return CURVATURE == 1 && MOTION == 1 ? level_at(plane, vec3(0.0), time).height : scene_word(plane).w;
 }
 
 #endif

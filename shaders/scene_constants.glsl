@@ -10,34 +10,23 @@
     layout(constant_id = CONSTANT_COUNT + 4u * uint(word) + component) const float scene_##word##name = 0.0;
 #define SCENE_WORD(word)                                                                                               \
     SCENE_FLOAT(word, 0u, x) SCENE_FLOAT(word, 1u, y) SCENE_FLOAT(word, 2u, z) SCENE_FLOAT(word, 3u, w)
-SCENE_WORD(0) SCENE_WORD(1) SCENE_WORD(2) SCENE_WORD(3)
-SCENE_WORD(4) SCENE_WORD(5) SCENE_WORD(6) SCENE_WORD(7)
-SCENE_WORD(8) SCENE_WORD(9) SCENE_WORD(10) SCENE_WORD(11)
-SCENE_WORD(12) SCENE_WORD(13) SCENE_WORD(14) SCENE_WORD(15)
-SCENE_WORD(16) SCENE_WORD(17) SCENE_WORD(18) SCENE_WORD(19)
-SCENE_WORD(20) SCENE_WORD(21) SCENE_WORD(22) SCENE_WORD(23)
-SCENE_WORD(24) SCENE_WORD(25) SCENE_WORD(26) SCENE_WORD(27)
-SCENE_WORD(28) SCENE_WORD(29) SCENE_WORD(30) SCENE_WORD(31)
-SCENE_WORD(32) SCENE_WORD(33) SCENE_WORD(34) SCENE_WORD(35)
-SCENE_WORD(36) SCENE_WORD(37) SCENE_WORD(38) SCENE_WORD(39)
-SCENE_WORD(40) SCENE_WORD(41) SCENE_WORD(42) SCENE_WORD(43)
-SCENE_WORD(44) SCENE_WORD(45) SCENE_WORD(46) SCENE_WORD(47)
-SCENE_WORD(48) SCENE_WORD(49) SCENE_WORD(50) SCENE_WORD(51)
-SCENE_WORD(52) SCENE_WORD(53) SCENE_WORD(54) SCENE_WORD(55)
-SCENE_WORD(56) SCENE_WORD(57) SCENE_WORD(58) SCENE_WORD(59)
-SCENE_WORD(60) SCENE_WORD(61) SCENE_WORD(62) SCENE_WORD(63)
+#define ALL_WORDS(first, next)                                                                                         \
+    first(0) next(1) next(2) next(3) next(4) next(5) next(6) next(7)                                                   \
+    next(8) next(9) next(10) next(11) next(12) next(13) next(14) next(15)                                              \
+    next(16) next(17) next(18) next(19) next(20) next(21) next(22) next(23)                                            \
+    next(24) next(25) next(26) next(27) next(28) next(29) next(30) next(31)                                            \
+    next(32) next(33) next(34) next(35) next(36) next(37) next(38) next(39)                                            \
+    next(40) next(41) next(42) next(43) next(44) next(45) next(46) next(47)                                            \
+    next(48) next(49) next(50) next(51) next(52) next(53) next(54) next(55)                                            \
+    next(56) next(57) next(58) next(59) next(60) next(61) next(62) next(63)
+ALL_WORDS(SCENE_WORD, SCENE_WORD)
 
 #define WORD(word) vec4(scene_##word##x, scene_##word##y, scene_##word##z, scene_##word##w)
-vec4 scene_constants[CONSTANT_SCENE_WORDS] = vec4[](
-    WORD(0), WORD(1), WORD(2), WORD(3), WORD(4), WORD(5), WORD(6), WORD(7),
-    WORD(8), WORD(9), WORD(10), WORD(11), WORD(12), WORD(13), WORD(14), WORD(15),
-    WORD(16), WORD(17), WORD(18), WORD(19), WORD(20), WORD(21), WORD(22), WORD(23),
-    WORD(24), WORD(25), WORD(26), WORD(27), WORD(28), WORD(29), WORD(30), WORD(31),
-    WORD(32), WORD(33), WORD(34), WORD(35), WORD(36), WORD(37), WORD(38), WORD(39),
-    WORD(40), WORD(41), WORD(42), WORD(43), WORD(44), WORD(45), WORD(46), WORD(47),
-    WORD(48), WORD(49), WORD(50), WORD(51), WORD(52), WORD(53), WORD(54), WORD(55),
-    WORD(56), WORD(57), WORD(58), WORD(59), WORD(60), WORD(61), WORD(62), WORD(63));
+#define NEXT_WORD(word) , WORD(word)
+vec4 scene_constants[CONSTANT_SCENE_WORDS] = vec4[](ALL_WORDS(WORD, NEXT_WORD));
+#undef NEXT_WORD
 #undef WORD
+#undef ALL_WORDS
 #undef SCENE_WORD
 #undef SCENE_FLOAT
 

@@ -29,7 +29,6 @@ PT_SPECIALIZED(PLANES_BLOCK, 14, 1)       // 1: a plane may stand between a surf
 PT_SPECIALIZED(PLANES_EMIT, 16, 1)        // 1: some plane, or sphere held as one, emits
 PT_SPECIALIZED(SKY_COUNT, 17, 0)          // emitting spheres that hold the camera, next after the lamps
 PT_SPECIALIZED(KNOWN_SIDES, 18, 0)        // 1: the camera, on no plane, tells the sides of surfaces that have paths
-PT_SPECIALIZED(PLANES_MOVE, 19, 1)        // 1: some sphere held as a plane moves while the shutter is open
 PT_SPECIALIZED(CLOSE_LAMPS, 20, 1)        // 1: some lamp nearly coincides with another sphere (twins.h)
 PT_SPECIALIZED(STARTS_AHEAD, 21, 1)       // 1: camera rays start on a plane across the view (ray_start.h), ...
 PT_SPECIALIZED(ORTHOGRAPHIC, 29, 0)       // 1: and are parallel
@@ -52,12 +51,12 @@ PT_SPECIALIZED(HIDDEN_SKIES, 31, 0)
 PT_SPECIALIZED(HIDDEN_OTHERS, 32, 0)
 PT_SPECIALIZED(HIDDEN_PLANES, 33, 0)
 PT_SPECIALIZED(UNIFORM_READS, 38, 0)      // 1: the scene buffer has few words, which are read by the uniform binding
-PT_SPECIALIZED(CAPSULES, 40, 0)           // 1: some spheres are swept along a segment, in the tree or not
-PT_SPECIALIZED(TREE_CAPSULES, 41, 0)      // 1: some of those are in the tree
-PT_SPECIALIZED(TREE_OPACITY, 42, 0)       // 1: rays pass spheres of the tree at random
+PT_SPECIALIZED(KINDS, 40, 1)              // of spheres, in the tree or not: KIND_BALL and others
+PT_SPECIALIZED(TREE_KINDS, 41, 1)         // of those in the tree
+PT_SPECIALIZED(TREE_OPACITY, 19, 0)       // 1: rays pass spheres of the tree at random
 PT_SPECIALIZED(UNROLLED, 36, 112)         // surfaces over which loops are unrolled, at the most
 PT_SPECIALIZED(INTEGER_ORDER, 37, 0)      // 1: integers are compared faster than floats (maths.glsl)
-const uint CONSTANT_COUNT = 43;
+const uint CONSTANT_COUNT = 42;
 // With SCENE_IN_CONSTANTS the floats of the scene buffer follow, component i of word w as constant_id
 // CONSTANT_COUNT + 4 w + i.
 const uint CONSTANT_SCENE_WORDS = 64;
@@ -66,5 +65,10 @@ const uint CONSTANT_SCENE_WORDS = 64;
 } // namespace pt::gpu
 #endif
 #undef PT_SPECIALIZED
+
+#ifndef __cplusplus
+const bool STARTS_ON_DISC = ORTHOGRAPHIC + LENS > 0; // not all camera rays at one point, nor just ahead of one
+const uint CAMERA_BLOCKS = 1u + LENS;                // of numbers, which a camera ray takes
+#endif
 
 #endif

@@ -23,6 +23,8 @@ SpotWord spot_word(uint spot)
 
 uint spot_surface(uint spot) { return spot_word(spot).surface; }
 
+vec4 plane_word(uint surface) { return scene_word_among(SPHERE_COUNT, max(PLANE_COUNT, 1u), surface - SPHERE_COUNT); }
+
 bool is_glow(SpotWord word) { return GLOSS == 0u || word.glossiness < 0.0; }
 
 // A spot as seen from a vertex.
@@ -46,7 +48,7 @@ float spot_weight(float irradiance, float found_anyway)
 
 Spot view_glow(Vertex vertex, vec4 lamp, float radiance, SpotWord word)
 {
-    vec4 plane = scene_word_among(SPHERE_COUNT, max(PLANE_COUNT, 1u), word.surface - SPHERE_COUNT);
+    vec4 plane = plane_word(word.surface);
     float height = dot(plane.xyz, lamp.xyz) + plane.w;
     float vertex_height = abs(dot(plane.xyz, vertex.position) + plane.w);
     vec3 to_foot = lamp.xyz - height * plane.xyz - vertex.position;
@@ -69,7 +71,7 @@ struct MirrorPoint {
 
 MirrorPoint mirror_point_of_plane(Vertex vertex, vec4 lamp, uint surface)
 {
-    vec4 plane = scene_word_among(SPHERE_COUNT, max(PLANE_COUNT, 1u), surface - SPHERE_COUNT);
+    vec4 plane = plane_word(surface);
     float lamp_height = dot(plane.xyz, lamp.xyz) + plane.w;
     float height = dot(plane.xyz, vertex.position) + plane.w;
     vec3 foot = vertex.position - height * plane.xyz;
@@ -84,7 +86,7 @@ MirrorPoint mirror_point_of_plane(Vertex vertex, vec4 lamp, uint surface)
 // and its density is computed about the same one.
 MirrorPoint mirror_point_of_sphere(Vertex vertex, vec4 lamp, uint surface, float time)
 {
-    vec4 sphere = sphere_of(surface, time);
+    vec4 sphere = ball_of(surface, time).centre_radius;
     vec3 a = vertex.position - sphere.xyz;
     vec3 b = lamp.xyz - sphere.xyz;
     float radius = sphere.w;
@@ -184,7 +186,7 @@ vec3 direction_to_spot(Spots spots, uint spot, vec3 position, float time, vec2 p
     if (GLOSS == 1u)
         cos_sin = is_glow(word) ? cos_sin : lobe_cos_sin(at.w, place.x);
     if (PLANE_COUNT > 0u && is_glow(word)) {
-        vec4 plane = scene_word_among(SPHERE_COUNT, max(PLANE_COUNT, 1u), word.surface - SPHERE_COUNT);
+        vec4 plane = plane_word(word.surface);
         axis = dot(plane.xyz, at.xyz) + plane.w > 0.0 ? -plane.xyz : plane.xyz;
     }
     vec3 direction = direction_about(axis, cos_sin, place.y);
@@ -203,7 +205,7 @@ float spot_density(Spots spots, Arrival arrival, float distance, float time)
         vec4 at = spots.views[i].place;
         float of_spot;
         if (is_glow(word)) {
-            vec4 plane = scene_word_among(SPHERE_COUNT, max(PLANE_COUNT, 1u), word.surface - SPHERE_COUNT);
+            vec4 plane = plane_word(word.surface);
             vec3 from_lamp = arrival.point - at.xyz;
             float ratio = distance / dot(from_lamp, from_lamp);
             of_spot = at.w * ratio * ratio / (PI * max(abs(dot(plane.xyz, arrival.direction)), NUMBER_STEP));

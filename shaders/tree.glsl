@@ -28,32 +28,21 @@ float tree_shutter_time() { return scene_storage.words[TREE_FRAME + 4u].x; }
 // The place of a sphere's centre on the grid, and the bits of its radius.
 uvec4 tree_sphere_word(uint place) { return tree_word(place); }
 
-// Centre and radius of the sphere at a place, which has this word, at a time: as seen from a place of the grid and so
-// many steps from there.
-vec4 tree_sphere_of(uvec4 word, ivec3 base, vec3 rest, uint place, float time)
+// The sphere at a place, which has this word, at a time: as seen from a place of the grid and so many steps from there.
+Ball tree_ball_from(uvec4 word, ivec3 base, vec3 rest, uint place, float time)
 {
     vec3 centre = (vec3(ivec3(word.xyz) - base) - rest) * tree_step();
-    if (MOTION == 1) {
-        vec4 way = uintBitsToFloat(tree_word(tree_first_motion() + place));
-        centre += moved(way, tree_shutter_open() + time * tree_shutter_time());
-    }
-    return vec4(centre, uintBitsToFloat(word.w));
-}
-
-vec4 tree_axis(uint place)
-{
-    return TREE_CAPSULES == 1 ? axis_of(uintBitsToFloat(tree_word(tree_first_motion() + place))) : NO_AXIS;
-}
-
-vec4 tree_sphere_from(ivec3 base, vec3 rest, uint place, float time)
-{
-    return tree_sphere_of(tree_sphere_word(place), base, rest, place, time);
+    vec4 way = vec4(0.0);
+    if (MOTION == 1 || TREE_KINDS > KIND_BALL)
+        way = uintBitsToFloat(tree_word(tree_first_motion() + place));
+    return ball_from(vec4(centre, uintBitsToFloat(word.w)), way, tree_shutter_open() + time * tree_shutter_time(),
+                     TREE_KINDS);
 }
 
 // The same as seen from the camera.
-vec4 tree_sphere(uint place, float time)
+Ball tree_ball(uint place, float time)
 {
-    return tree_sphere_from(tree_camera(), -tree_shift() / tree_step(), place, time);
+    return tree_ball_from(tree_sphere_word(place), tree_camera(), -tree_shift() / tree_step(), place, time);
 }
 
 uint tree_surface(uint place)

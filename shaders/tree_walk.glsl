@@ -36,26 +36,22 @@ void keep_closer_of_tree(inout Hit hit, inout uvec4 hit_word, float distance, ui
 }
 
 // Distance along a direction to a sphere of the tree, or NO_HIT, and the sphere as the ray's start sees it.
-float distance_in_tree(Start start, GridRay ray, vec3 direction, uint surface, vec4 ball, vec4 axis, float time)
+float distance_in_tree(Start start, GridRay ray, vec3 direction, uint surface, Ball ball, float time)
 {
     bool leaving = surface == start.surface;
+    vec3 to_first = ball.centre_radius.xyz;
     if (TREE_INSIDE == 0) {
-        if (TREE_CAPSULES == 1)
-            ball.xyz += swept_to(ball.xyz, axis, ball.w, direction, false);
-        return ray.advance + distance_from_outside(ball.xyz, ball.w, direction, leaving);
+        vec3 to_centre = to_met(ball, to_first, direction, false, TREE_KINDS);
+        return ray.advance + distance_from_outside(to_centre, ball.centre_radius.w, direction, leaving);
     }
-    vec3 from_side = KNOWN_SIDES == 1 ? tree_sphere(surface - SURFACE_COUNT, time).xyz : ball.xyz;
-    if (TREE_CAPSULES == 0) {
-        bool outside = dot(from_side, from_side) > ball.w * ball.w;
-        return ray.advance + sphere_distance(ball.xyz, ball.w, direction, leaving, start.inside, outside);
-    }
-    return ray.advance + ball_distance(Ball(ball, axis), ball.xyz, from_side, direction, leaving, start.inside);
+    vec3 from_side = KNOWN_SIDES == 1 ? tree_ball(surface - SURFACE_COUNT, time).centre_radius.xyz : to_first;
+    return ray.advance + ball_distance(ball, to_first, from_side, direction, leaving, start.inside, TREE_KINDS);
 }
 
 // As a ray of the same direction would meet it before the lamp. distance: where that ray meets it. A lamp that is not in
 // the tree goes before all that is.
 bool blocks_in_tree(Start start, GridRay ray, ShadowRay shadow, vec3 direction, float distance, uint surface,
-                    uvec4 word, vec4 ball, vec4 axis)
+                    uvec4 word, Ball ball)
 {
     if (INSIDE == 1 || CLOSE_LAMPS == 1) {
         bool before = distance < shadow.distance;
@@ -64,9 +60,7 @@ bool blocks_in_tree(Start start, GridRay ray, ShadowRay shadow, vec3 direction, 
         return before && surface != shadow.lamp;
     }
     bool at_end = surface == start.surface || surface == shadow.lamp;
-    if (TREE_CAPSULES == 1)
-        ball.xyz += swept_to(ball.xyz, axis, ball.w, direction, false);
-    return sphere_blocks(ball.xyz, ball.w, direction, at_end, shadow.distance - ray.advance);
+    return ball_blocks(ball, ball.centre_radius.xyz, direction, at_end, shadow.distance - ray.advance, TREE_KINDS);
 }
 
 // See ended_as_met of ray_tests.glsl.
@@ -74,8 +68,9 @@ ShadowRay ended_as_met_in_tree(ShadowRay shadow, Start start, float time)
 {
     if (CLOSE_LAMPS == 1 && TREE_LAMPS > 0u && shadow.distance > 0.0 && shadow.lamp >= SURFACE_COUNT) {
         GridRay ray = grid_ray(start.origin, shadow.direction);
-        vec4 ball = tree_sphere_from(ray.base, ray.rest, shadow.lamp - SURFACE_COUNT, time);
-        float distance = distance_in_tree(start, ray, shadow.direction, shadow.lamp, ball, NO_AXIS, time);
+        uint place = shadow.lamp - SURFACE_COUNT;
+        Ball ball = tree_ball_from(tree_sphere_word(place), ray.base, ray.rest, place, time);
+        float distance = distance_in_tree(start, ray, shadow.direction, shadow.lamp, ball, time);
         shadow.distance = distance < NO_HIT ? distance : shadow.distance;
     }
     return shadow;
@@ -237,11 +232,10 @@ bool passes(uvec4 word, GridRay ray, vec3 direction)
 void test_sphere(inout Walk walk, bool exists, uint place, uvec4 word, GridRay ray, bool in_shadow)
 {
     uint surface = SURFACE_COUNT + place;
-    vec4 ball = tree_sphere_of(word, ray.base, ray.rest, place, walk.time);
-    vec4 axis = tree_axis(place);
+    Ball ball = tree_ball_from(word, ray.base, ray.rest, place, walk.time);
     vec3 direction = in_shadow ? walk.shadow.direction : walk.direction;
-    float distance = distance_in_tree(walk.start, ray, direction, surface, ball, axis, walk.time);
-    bool between = blocks_in_tree(walk.start, ray, walk.shadow, direction, distance, surface, word, ball, axis);
+    float distance = distance_in_tree(walk.start, ray, direction, surface, ball, walk.time);
+    bool between = blocks_in_tree(walk.start, ray, walk.shadow, direction, distance, surface, word, ball);
     bool meets = exists;
     if (TREE_OPACITY == 1)
         meets = exists && !passes(word, ray, direction);

@@ -29,10 +29,12 @@ Vertex vertex_at(Arrival arrival, float time)
     vec3 position = arrival.point;
     vec3 normal;
     if (is_sphere(surface)) {
-        vec4 sphere = sphere_near(surface, time, position);
-        vec3 from_centre = position - sphere.xyz; // normalize() would be three divisions on lavapipe
+        Ball ball = ball_of(surface, time);
+        vec3 centre = ball.centre_radius.xyz;
+        centre = nearest_centre(ball, centre, centre - position, KINDS);
+        vec3 from_centre = position - centre; // normalize() would be three divisions on lavapipe
         normal = from_centre * inversesqrt(dot(from_centre, from_centre));
-        position = sphere.xyz + sphere.w * normal;
+        position = centre + ball.centre_radius.w * normal;
     } else {
         Level level = level_among(surface, position, time);
         normal = CURVATURE == 1 ? normalize(level.gradient) : level.gradient;

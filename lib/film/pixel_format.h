@@ -24,7 +24,7 @@ constexpr std::uint32_t pixel_bytes(std::uint32_t format) {
 }
 
 // The float16 nearest to a number >= 0, ties to even; infinity from 65520 on. In whole numbers, as in
-// shaders/half.glsl.
+// shaders/resolved.glsl.
 std::uint16_t half_bits(float value);
 
 // Writes pixels, given as R, G and B, in a format that has them.

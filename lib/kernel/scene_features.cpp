@@ -100,7 +100,6 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
                      const Camera &camera, const RenderSettings &render) {
     const auto lamps = std::span(surfaces.spheres).first(surfaces.lamp_count);
     const auto glows = [&](const CurvedPlane &plane) { return emits(scene.scene.materials[plane.material]); };
-    const auto moves = [](const CurvedPlane &plane) { return plane.way != glm::dvec3(0.0); };
     const auto is_behind_a_plane = [&](const SeenSphere &lamp) { return !is_in_region(distinct.seen.planes, lamp); };
     const auto divides = [&](const auto &surface) { return divides_start(surface, camera); };
     const auto is_at_camera = [&](const SeenSphere &sphere) { return may_hold_origin(sphere) || divides(sphere); };
@@ -142,7 +141,6 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
         features[gpu::ID_TREE_OPACITY] || (tree && (tree->may_hold(camera) || tree->divides_start(camera)));
     features[gpu::ID_INSIDE] = features[gpu::ID_TREE_INSIDE] || std::ranges::any_of(surfaces.spheres, may_hold_paths);
     features[gpu::ID_PLANES_EMIT] = std::ranges::any_of(surfaces.planes, glows);
-    features[gpu::ID_PLANES_MOVE] = std::ranges::any_of(surfaces.planes, moves);
     // Planes with curvature may bulge towards the camera.
     features[gpu::ID_PLANES_BLOCK] = features[gpu::ID_CURVATURE] || planes_divide || planes_are_passed ||
                                      std::ranges::any_of(lamps, is_behind_a_plane) ||
@@ -168,9 +166,11 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
     // Of those in the tree the places are kept as they are at time 0.
     const bool tree_is_late = tree && tree->moves() && camera.shutter_open > 0.0;
     features[gpu::ID_MOTION] = scene.moves && (camera.shutter_close > camera.shutter_open || tree_is_late);
-    const auto is_capsule = [](const SeenSphere &sphere) { return sphere.kind == Kind::capsule; };
-    features[gpu::ID_TREE_CAPSULES] = tree && tree->has(Kind::capsule);
-    features[gpu::ID_CAPSULES] = features[gpu::ID_TREE_CAPSULES] || std::ranges::any_of(surfaces.spheres, is_capsule);
+    Kinds kinds = tree ? tree->kinds() : Kinds();
+    features[gpu::ID_TREE_KINDS] = kinds.bits();
+    for (const SeenSphere &sphere : surfaces.spheres)
+        kinds.add(sphere.kind);
+    features[gpu::ID_KINDS] = kinds.bits();
     features[gpu::ID_SCENE_SOURCE] = gpu::SCENE_IN_UNIFORM;
     if (tree || SceneBlocks(features).word_count > gpu::UNIFORM_SCENE_WORDS) {
         features[gpu::ID_SCENE_SOURCE] = gpu::SCENE_IN_STORAGE;
@@ -288,10 +288,11 @@ std::uint32_t feature_bits(const Features &features) {
         {gpu::ID_HIDDEN_OTHERS, PT_FEATURE_HIDDEN},
         {gpu::ID_HIDDEN_PLANES, PT_FEATURE_HIDDEN},
         {gpu::ID_LENS, PT_FEATURE_LENS},
-        {gpu::ID_CAPSULES, PT_FEATURE_CAPSULES},
         {gpu::ID_TREE_OPACITY, PT_FEATURE_OPACITY},
     };
     std::uint32_t bits = features.scene_in_uniform() ? 0 : PT_FEATURE_LARGE;
+    if ((features[gpu::ID_KINDS] & gpu::KIND_CAPSULE) != 0)
+        bits |= PT_FEATURE_CAPSULES;
     for (const auto &[id, bit] : bits_of_constants)
         bits |= features[id] > 0 ? bit : 0;
     return bits;

@@ -51,16 +51,7 @@ void split(const LampTreeShape &shape, std::span<Place> places, std::uint64_t fi
 LampTreeShape::LampTreeShape(std::uint32_t lamp_count) : lamp_count_(lamp_count) {
     while (lamp_count > std::uint64_t{16} << (2 * levels_))
         ++levels_;
-    const std::uint64_t below_group = std::uint64_t{4} << (2 * levels_);
-    top_groups_ = static_cast<std::uint32_t>((lamp_count + below_group - 1) / below_group);
-}
-
-std::uint64_t LampTreeShape::groups_above(std::uint32_t level) const {
-    return top_groups_ * (((std::uint64_t{1} << (2 * level)) - 1) / 3);
-}
-
-std::uint32_t LampTreeShape::first_lamp(std::uint64_t slot) const {
-    return static_cast<std::uint32_t>((slot * lamp_count_ + slots() - 1) / slots());
+    top_groups_ = gpu::lamp_tree_top_groups(lamp_count, levels_);
 }
 
 std::vector<std::uint32_t> order_in_lamp_tree(const Scene &scene) {
@@ -72,10 +63,8 @@ std::vector<std::uint32_t> order_in_lamp_tree(const Scene &scene) {
         const LampTreeShape shape(static_cast<std::uint32_t>(places.size()));
         split(shape, places, 0, shape.slots());
     }
-    std::vector<std::uint32_t> order;
-    order.reserve(places.size());
-    for (const Place &place : places)
-        order.push_back(place.sphere);
+    std::vector<std::uint32_t> order(places.size());
+    std::ranges::transform(places, order.begin(), &Place::sphere);
     return order;
 }
 

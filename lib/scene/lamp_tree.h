@@ -23,11 +23,15 @@ public:
     // Groups of a level; the top is level 0.
     std::uint64_t groups_of(std::uint32_t level) const { return std::uint64_t{top_groups_} << (2 * level); }
     // Groups above a level.
-    std::uint64_t groups_above(std::uint32_t level) const;
+    std::uint64_t groups_above(std::uint32_t level) const {
+        return top_groups_ * (((std::uint64_t{1} << (2 * level)) - 1) / 3);
+    }
     std::uint64_t all_groups() const { return groups_above(levels_ + 1); }
 
     // The index, in the order of the tree, of the first lamp that is not before this slot.
-    std::uint32_t first_lamp(std::uint64_t slot) const;
+    std::uint32_t first_lamp(std::uint64_t slot) const {
+        return static_cast<std::uint32_t>((slot * lamp_count_ + slots() - 1) / slots());
+    }
 
 private:
     std::uint32_t lamp_count_;

@@ -5,6 +5,7 @@
 
 #include "lib/base/digest.h"
 #include "lib/scene/camera.h"
+#include "shaders/gpu_layout.h"
 
 #include <glm/glm.hpp>
 
@@ -14,14 +15,18 @@
 
 namespace pt {
 
-enum class Kind : std::uint8_t { ball, capsule };
+enum class Kind : std::uint8_t { ball = gpu::KIND_BALL, capsule = gpu::KIND_CAPSULE };
 
-// The kinds that there are, a bit for each.
-using Kinds = std::uint32_t;
+// The bits of all kinds that there are.
+class Kinds {
+public:
+    void add(Kind kind) { bits_ |= static_cast<std::uint32_t>(kind); }
+    std::uint32_t bits() const { return bits_; }
+    bool have_ways() const { return bits_ > gpu::KIND_BALL; } // even if nothing moves
 
-constexpr Kinds bit_of(Kind kind) {
-    return 1U << static_cast<unsigned>(kind);
-}
+private:
+    std::uint32_t bits_ = 0;
+};
 
 struct MovingBall {
     glm::dvec3 open; // the centre at first
@@ -125,7 +130,7 @@ inline MovingBall surface_of(const glm::dvec3 &open, double radius, const glm::v
 // Balls add nothing, so that scenes of them alone keep the digest that their films have.
 inline void add_kind(Digest &digest, Kind kind) {
     if (kind != Kind::ball)
-        digest.add(static_cast<std::uint64_t>(kind));
+        digest.add(std::uint64_t{static_cast<std::uint8_t>(kind)} - 1);
 }
 
 } // namespace pt

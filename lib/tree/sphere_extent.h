@@ -36,7 +36,7 @@ struct SphereExtent {
                  glm::dvec3(-std::numeric_limits<double>::infinity())};
     double largest_radius = 0.0;
     bool moves = false; // some sphere does, in the tree or left out: a kernel reads the ways of all or of none
-    Kinds kinds = 0;    // of the tree
+    Kinds kinds;        // of the tree
     std::uint32_t lamp_count = 0;
 
     // materials: all materials of the scene.
@@ -49,7 +49,7 @@ struct SphereExtent {
             box = {glm::min(box.low, own.low), glm::max(box.high, own.high)};
             largest_radius = std::max(largest_radius, sphere.radius);
             moves = moves || sphere.ball().moves();
-            kinds |= bit_of(sphere.kind);
+            kinds.add(sphere.kind);
             lamp_count += materials[sphere.material].emits ? 1 : 0;
         });
         for (const std::uint32_t index : left_out)

@@ -62,7 +62,7 @@ public:
     std::uint32_t node_count() const { return node_count_; }
     std::uint32_t depth() const { return depth_; }
     bool moves() const { return moves_; }
-    bool has(Kind kind) const { return (kinds_ & bit_of(kind)) != 0; }
+    Kinds kinds() const { return kinds_; }
     bool has_opacities() const { return has_opacities_; }
 
     // For each place, the index of its sphere in the scene; and the number of spheres in the scene.
@@ -110,7 +110,7 @@ private:
     void write_nodes(WorkProgress &progress);
     GridBox write_node(std::uint32_t node, WorkProgress &progress);
     bool has_alike(WorkProgress &progress) const;
-    bool has_ways() const { return moves_ || (kinds_ & ~bit_of(Kind::ball)) != 0; }
+    bool has_ways() const { return moves_ || kinds_.have_ways(); }
     SphereWords words_of(std::uint32_t place) const;
     MovingBall surface_of(std::uint32_t place) const { return words_of(place).surface(grid_); }
     bool is_far(const Camera &camera) const;
