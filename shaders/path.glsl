@@ -79,7 +79,7 @@ vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
     uint branch = 0u;
     do {
         SampleKey branch_numbers = branch_key(key, branch);
-        LampLight lamp = no_lamp_light();
+        LampLight lamp = NO_LAMP_LIGHT;
         if (SAMPLE_EVERY_LAMP && branch < LAMP_COUNT) {
             vec2 place = every_lamp_numbers(key, branch);
             lamp = light_of_lamp(whole, vertex, material, choice_of(lamps, branch), place, 1.0, directions);

@@ -50,9 +50,8 @@ vec4 scene_word(uint index)
 }
 
 // The word first + index, with an index below count that may differ between invocations: constants have no addresses,
-// so it is selected from all of them. Where all were alike, a compiler would know the result and could take it out of
-// products, which rounds otherwise than a word that is read. An invocation that there never is, which it cannot know,
-// keeps the bits the same, whatever the source.
+// so it is selected from all of them. A branch that is never taken stops constant folding where all are alike, so all
+// scene sources round alike.
 vec4 scene_word_among(uint first, uint count, uint index)
 {
     if (SCENE_SOURCE != SCENE_IN_CONSTANTS)
@@ -100,7 +99,7 @@ uint material_words(uint surface)
     return TABLE + (1u + GLOSS) * (in_tree ? tree_material(surface - SURFACE_COUNT) : stored_index(INDICES, surface));
 }
 
-// Lamps have numbers of their own. Those that are not in the tree come first, with the same number as their surface.
+// Lamps have numbers of their own. Those that are not in the tree come first, numbered like their surfaces.
 const uint WALKED_LAMPS = LAMP_COUNT - TREE_LAMPS;
 
 // The lamp that a surface is; at least LAMP_COUNT if it is none.

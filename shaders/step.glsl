@@ -52,10 +52,7 @@ struct LampLight {
     float weight;
 };
 
-LampLight no_lamp_light()
-{
-    return LampLight(NO_SHADOW_RAY, vec3(0.0), 0.0);
-}
+const LampLight NO_LAMP_LIGHT = LampLight(NO_SHADOW_RAY, vec3(0.0), 0.0);
 
 // Light of a lamp. The vertex takes this many samples of it, and this many directions leave the vertex.
 LampLight light_of_lamp(vec3 throughput, Vertex vertex, Material material, LampChoice choice, vec2 place,
@@ -233,7 +230,7 @@ void extend(inout Path path, SampleKey key, uint begin, uint as_vertex, float ti
     Vertex vertex = vertex_at(path.arrival, time);
     Material material = material_to_leave(vertex.surface, as_vertex);
     Lamps lamps;
-    LampLight lamp = no_lamp_light();
+    LampLight lamp = NO_LAMP_LIGHT;
     if (SAMPLE_LAMPS) {
         lamps = lamps_from(vertex, time);
         ChosenLampNumbers chosen = chosen_lamp_numbers(key, begin);

@@ -45,7 +45,7 @@ Walk leave_last_vertex(inout TreeSample current, out Departure departure, out La
     Material material = material_to_leave(vertex.surface, current.path.vertex_count);
 
     // The light of a lamp: the branch's own, or one that is chosen.
-    LampLight lamp = no_lamp_light();
+    LampLight lamp = NO_LAMP_LIGHT;
     if (SAMPLE_LAMPS) {
         lamps = lamps_from(vertex, time);
         LampChoice choice;

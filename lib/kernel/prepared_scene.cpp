@@ -16,7 +16,10 @@ namespace {
 // Of the scene's materials, whether some surface has them.
 std::vector<bool> is_used(const Scene &scene) {
     std::vector<bool> used(scene.materials.size());
-    scene.for_each_surface([&](const auto &surface) { used[surface.material] = true; });
+    for (const Sphere &sphere : scene.spheres)
+        used[sphere.material] = true;
+    for (const Plane &plane : scene.planes)
+        used[plane.material] = true;
     return used;
 }
 

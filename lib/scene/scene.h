@@ -9,7 +9,6 @@
 
 #include <glm/glm.hpp>
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -62,12 +61,6 @@ struct Scene {
     std::vector<Plane> planes;
     std::vector<std::uint32_t> array_starts = {}; // index of the first sphere of each of pt_scene.sphere_arrays
     std::vector<std::uint32_t> indices = {};      // of the spheres in the caller's scene, where they are not all of it
-
-    template <typename Use>
-    void for_each_surface(const Use &use) const {
-        std::ranges::for_each(spheres, use);
-        std::ranges::for_each(planes, use);
-    }
 };
 
 struct CheckedScene;

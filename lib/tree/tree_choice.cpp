@@ -44,12 +44,8 @@ glm::dvec3 middle_of(const SphereSource &spheres) {
     return middle;
 }
 
-double reach_of(const Sphere &sphere, const glm::dvec3 &middle) {
-    return glm::length(sphere.center - middle) + glm::length(sphere.motion) + sphere.radius;
-}
-
-} // namespace
-
+// The few spheres that would make the grid of a tree coarse: huge ones, like a ground, and distant ones, like a sun.
+// They reach 16 times as far from the middle of the scene as all others. By index in ascending order.
 std::vector<std::uint32_t> outlying_spheres(const SphereSource &spheres, WorkProgress &progress) {
     const std::size_t few = std::min(most_outlying, spheres.size() / 2);
     const glm::dvec3 middle = middle_of(spheres);
@@ -58,7 +54,8 @@ std::vector<std::uint32_t> outlying_spheres(const SphereSource &spheres, WorkPro
     using Reach = std::pair<double, std::uint32_t>;
     std::vector<Reach> farthest;
     spheres.for_each(progress, [&](std::size_t i, const Sphere &sphere, const glm::vec3 &) {
-        const Reach reach(reach_of(sphere, middle), static_cast<std::uint32_t>(i));
+        const double length = glm::length(sphere.center - middle) + glm::length(sphere.motion) + sphere.radius;
+        const Reach reach(length, static_cast<std::uint32_t>(i));
         if (farthest.size() > few && reach.first <= farthest.back().first)
             return;
         farthest.insert(std::ranges::upper_bound(farthest, reach, std::greater()), reach);
@@ -72,6 +69,8 @@ std::vector<std::uint32_t> outlying_spheres(const SphereSource &spheres, WorkPro
     std::ranges::sort(outlying);
     return outlying;
 }
+
+} // namespace
 
 std::uint32_t tree_pays_from(const SphereSource &spheres) {
     return spheres.are_mere_balls() ? default_tree_from : tree_of_others_from;

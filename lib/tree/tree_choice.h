@@ -18,15 +18,11 @@ inline constexpr std::uint32_t default_tree_from = 113;
 // compiled for seconds: 24 took as long either way, 84 in a list 2.8 times as long (a box of 12 edges).
 inline constexpr std::uint32_t tree_of_others_from = 24;
 
-// The few spheres that would make the grid of a tree coarse: huge ones, like a ground, and distant ones, like a sun.
-// They reach 16 times as far from the middle of the scene as all others. By index in ascending order; each sphere is a
-// unit of work.
-std::vector<std::uint32_t> outlying_spheres(const SphereSource &spheres, WorkProgress &progress);
-
 // How many spheres that the camera may see make a tree pay.
 std::uint32_t tree_pays_from(const SphereSource &spheres);
 
-// The spheres that are better tested one by one: those outlying, and those that are no balls if they are few. Likewise.
+// The spheres that are better tested one by one: huge and distant ones, which would make the grid of a tree coarse, and
+// those that are no balls if they are few. By index in ascending order; each sphere is a unit of work.
 std::vector<std::uint32_t> spheres_beside_tree(const SphereSource &spheres, WorkProgress &progress);
 
 } // namespace pt

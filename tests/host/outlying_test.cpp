@@ -21,7 +21,7 @@ std::vector<pt_sphere> heap(std::size_t count) {
 
 std::vector<std::uint32_t> outlying_of(const std::vector<pt_sphere> &spheres) {
     pt::WorkProgress nobody;
-    return pt::outlying_spheres(pt::SphereSource(spheres, {}), nobody);
+    return pt::spheres_beside_tree(pt::SphereSource(spheres, {}), nobody);
 }
 
 using Indices = std::vector<std::uint32_t>;
