@@ -59,10 +59,11 @@ void write_image(const Film &film, const Image &image) {
     pixels.x += film.bounds().x;
     pixels.y += film.bounds().y;
     write_nothing(image);
-    film.read(pixels, layout.quantity, [&](const Film::RowPart &part) {
-        std::byte *const row = image.data + (part.y - pixels.y) * layout.row_bytes;
-        write_pixels(part.values, layout.format, row + std::size_t{part.x - pixels.x} * pixel_bytes(layout.format));
-    });
+    const auto write_row = [&](std::uint32_t x, std::uint32_t y, const std::vector<float> &values) {
+        std::byte *const row = image.data + (y - pixels.y) * layout.row_bytes;
+        write_pixels(values, layout.format, row + std::size_t{x - pixels.x} * pixel_bytes(layout.format));
+    };
+    film.read(pixels, layout.quantity, write_row);
 }
 
 pt_stats stats_of(const Film &film) {

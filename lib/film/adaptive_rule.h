@@ -3,16 +3,19 @@
 // the error of the image is small enough. So samples go where they gain most: equal errors everywhere would take as
 // many as an even film (mean squares v after equal times), equal gains take them in proportion to the root of v.
 //
-// Pure arithmetic on what a film says. A tile's decision depends on its own sums and on the round alone, so that at the
-// end of a round it holds the first of these numbers of samples at which it gains no more than the bound: whatever the
-// order in which tiles came to it, and whatever was interrupted on the way.
+// Pure arithmetic on what a film says. At the end of a round a tile holds the first of these numbers of samples at
+// which it gains no more than the bound, whatever the order in which tiles came to it.
 #pragma once
 
+#include "lib/film/error_estimate.h"
 #include "lib/film/film_header.h"
 #include "lib/film/tile_samples.h"
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace pt {
@@ -21,15 +24,9 @@ namespace pt {
 std::uint64_t next_level(std::uint64_t sample_count);
 bool is_level(std::uint64_t sample_count);
 
-// Tiles that were interrupted on their way to a level, or have not begun.
-std::vector<std::uint32_t> unfinished_tiles(const TileSamples &samples);
-
 // For each tile, by how much doubling its samples is expected to lessen its square error, divided by the number of
 // samples that this costs; 0 if that is unknown. squares: for each tile the expected sum of squared relative errors.
 std::vector<double> tile_gains(const TileSamples &samples, std::span<const double> squares);
-
-// The error of the image as far as each tile knows its own part; tiles that know nothing do not count.
-double error_of(const TileSamples &samples, std::span<const double> squares);
 
 // Whether tiles of a film with the same samples everywhere differ so much that it pays to tell them apart.
 bool are_worth_telling_apart(std::span<const double> gains);
@@ -44,5 +41,42 @@ std::vector<std::uint32_t> wanting_tiles(const TileSamples &samples, std::span<c
 // more, and excess counts only what tiles themselves show, so it may be 1 or less.
 AdaptiveRound round_after(const AdaptiveRound &round, const TileSamples &samples, std::span<const double> squares,
                           std::span<const double> gains, double excess, bool sees_too_little);
+
+// Tiles that are to take samples, in ascending order, and the number of samples that each is to have then.
+struct TileStep {
+    std::vector<std::uint32_t> tiles;
+    std::function<std::uint64_t(std::uint32_t)> goal;
+};
+
+// The rule from look to look. However often it is interrupted, and by whatever limits of samples, a film comes to the
+// same samples in the same tiles: as long as tiles are together they are looked at when all have the same; later a
+// tile's decision depends on its own sums and the round alone, and a round ends when every tile has come to rest in it.
+class AdaptivePlan {
+public:
+    using LookAtImage = std::function<ErrorEstimate()>;
+    using LookAtTiles = std::function<std::vector<double>()>; // their own_square() of tile_errors.h
+
+    // most: the largest number of samples for any pixel. error and squares look at the samples as they are at that
+    // moment, which takes time.
+    AdaptivePlan(double target_error, std::uint64_t most, LookAtImage error, LookAtTiles squares) :
+        target_error_(target_error),
+        most_(most),
+        error_(std::move(error)),
+        squares_(std::move(squares)) {}
+
+    // Nothing if the film has the target error; no tiles if none may take more. The goals refer to these samples, which
+    // must outlive them. Moves on to the next round where one is over.
+    std::optional<TileStep> next(const TileSamples &samples, AdaptiveRound &round) const;
+
+private:
+    std::optional<TileStep> next_together(const TileSamples &samples, AdaptiveRound &round) const;
+    std::optional<TileStep> next_apart(const TileSamples &samples, AdaptiveRound &round) const;
+    TileStep to_next_level(const TileSamples &samples, std::vector<std::uint32_t> tiles) const;
+
+    double target_error_;
+    std::uint64_t most_;
+    LookAtImage error_;
+    LookAtTiles squares_;
+};
 
 } // namespace pt

@@ -212,8 +212,7 @@ std::uint64_t Film::total_samples() const {
     return total;
 }
 
-void Film::read(const Rectangle &pixels, std::uint32_t quantity,
-                const std::function<void(const RowPart &)> &receive) const {
+void Film::read(const Rectangle &pixels, std::uint32_t quantity, const ReceiveRow &receive) const {
     for (const TileMap map(list()); const TileMap::Band &band : map.bands())
         for (std::uint32_t y = std::max(band.first, pixels.y); y < std::min(band.end, pixels.bottom()); ++y)
             for (const TileMap::Span &span : band.spans) {
@@ -223,7 +222,7 @@ void Film::read(const Rectangle &pixels, std::uint32_t quantity,
                     continue;
                 const Tile &tile = tiles_[span.tile];
                 const PixelSums sums = part_of(tile.sums, tile.pixels, {first, y, end - first, 1});
-                receive({first, y, sums.values(quantity, unit())});
+                receive(first, y, sums.values(quantity, unit()));
             }
 }
 

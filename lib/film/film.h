@@ -2,12 +2,12 @@
 // as an image and written again, without a device. Behind pt_film.
 #pragma once
 
-#include "lib/film/adaptive_plan.h"
+#include "lib/film/adaptive_rule.h"
 #include "lib/film/error_estimate.h"
 #include "lib/film/film_bytes.h"
-#include "lib/film/film_errors.h"
 #include "lib/film/film_facts.h"
 #include "lib/film/pixel_sums.h"
+#include "lib/film/tile_errors.h"
 #include "lib/film/tile_map.h"
 
 #include <cmath>
@@ -49,16 +49,10 @@ public:
     std::uint64_t max_sample_count() const;
     std::uint64_t total_samples() const; // of all pixels together
 
-    // Consecutive pixels of one row.
-    struct RowPart {
-        std::uint32_t x, y; // of the image
-        std::vector<float> values;
-    };
-
-    // Calls receive for all pixels of the film that lie in a rectangle, row by row from the left to the right.
-    // quantity: as for PixelSums::values().
-    void read(const Rectangle &pixels, std::uint32_t quantity,
-              const std::function<void(const RowPart &)> &receive) const;
+    // Calls receive(x, y, values) for all pixels of the film that lie in a rectangle of the image: consecutive ones of
+    // a row, row by row from the left to the right. quantity: as for PixelSums::values().
+    using ReceiveRow = std::function<void(std::uint32_t x, std::uint32_t y, const std::vector<float> &values)>;
+    void read(const Rectangle &pixels, std::uint32_t quantity, const ReceiveRow &receive) const;
 
     // The error of the image within the bounds.
     ErrorEstimate error() const;
@@ -70,7 +64,7 @@ public:
     // the grid.
     TileSamples samples_by_tile() const;
 
-    // What the tiles are to take next (adaptive_plan.h). Moves on to the next round where one is over.
+    // What the tiles are to take next (adaptive_rule.h). Moves on to the next round where one is over.
     std::optional<TileStep> plan(const TileSamples &samples, double target_error, std::uint64_t most);
 
     // The number of tiles in the grid over the bounds, as in samples_by_tile().

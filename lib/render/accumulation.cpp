@@ -2,12 +2,13 @@
 #include "lib/render/accumulation.h"
 
 #include <algorithm>
+#include <numeric>
 #include <thread>
 #include <utility>
 
 namespace pt {
 
-Accumulation::Accumulation(const Devices &devices, TileSamples samples, std::uint32_t first_sample,
+Accumulation::Accumulation(const RenderDevices &devices, TileSamples samples, std::uint32_t first_sample,
                            std::uint64_t wanted, const Progress &progress, const Cancellation &cancellation,
                            DeviceWork &work) :
     devices_(devices),
@@ -16,15 +17,17 @@ Accumulation::Accumulation(const Devices &devices, TileSamples samples, std::uin
     cancellation_(cancellation),
     wanted_(std::max<std::uint64_t>(wanted, 1)),
     samples_(std::move(samples)),
-    first_sample_(first_sample) {}
+    all_tiles_(samples_.grid().count()),
+    first_sample_(first_sample) {
+    std::iota(all_tiles_.begin(), all_tiles_.end(), 0U);
+}
 
 bool Accumulation::set_goal(std::span<const std::uint32_t> tiles, const TileTasks::Goal &goal) {
     return set(TileTasks(samples_, first_sample_, tiles, goal), std::nullopt);
 }
 
-bool Accumulation::set_goal_of_all(std::span<const std::uint32_t> all_tiles, std::uint64_t goal,
-                                   std::optional<double> unit_of_error) {
-    return set(TileTasks(samples_.of(0), first_sample_, all_tiles, goal), unit_of_error);
+bool Accumulation::set_goal_of_all(std::uint64_t goal, std::optional<double> unit_of_error) {
+    return set(TileTasks(samples_.of(0), first_sample_, all_tiles_, goal), unit_of_error);
 }
 
 bool Accumulation::set(TileTasks tasks, std::optional<double> unit_of_error) {

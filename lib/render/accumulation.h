@@ -54,12 +54,11 @@ struct DeviceWork {
 
 class Accumulation {
 public:
-    using Devices = std::vector<std::unique_ptr<RenderDevice>>;
     using Clock = std::chrono::steady_clock;
 
     // Devices, cancellation and work must outlive it. samples: those already in the films. wanted: at most how many
     // will be added, tiles times samples, for the progress.
-    Accumulation(const Devices &devices, TileSamples samples, std::uint32_t first_sample, std::uint64_t wanted,
+    Accumulation(const RenderDevices &devices, TileSamples samples, std::uint32_t first_sample, std::uint64_t wanted,
                  const Progress &progress, const Cancellation &cancellation, DeviceWork &work);
     Accumulation(const Accumulation &) = delete;
     Accumulation &operator=(const Accumulation &) = delete;
@@ -67,8 +66,8 @@ public:
     // Sets the next goal (TileTasks). False if no tile has fewer samples than it is to have. unit_of_error: the unit of
     // the films, if their error is to be looked at afterwards. Only while nothing is under way.
     bool set_goal(std::span<const std::uint32_t> tiles, const TileTasks::Goal &goal);
-    bool set_goal_of_all(std::span<const std::uint32_t> all_tiles, std::uint64_t goal,
-                         std::optional<double> unit_of_error);
+    bool set_goal_of_all(const TileTasks::Goal &goal) { return set_goal(all_tiles_, goal); }
+    bool set_goal_of_all(std::uint64_t goal, std::optional<double> unit_of_error);
 
     // Takes the samples, or fewer if it is stopped. Returns false if they are still under way at this time; call it
     // again then.
@@ -113,13 +112,14 @@ private:
     RenderDevice *next_to_finish(Clock::time_point until) const;
     void finish_slice(RenderDevice &device);
 
-    const Devices &devices_;
+    const RenderDevices &devices_;
     DeviceWork &work_;
     Progress progress_;
     const Cancellation &cancellation_;
     std::uint64_t wanted_;
     std::uint64_t done_ = 0;
     TileSamples samples_; // that the films hold or have begun
+    std::vector<std::uint32_t> all_tiles_;
     std::uint32_t first_sample_;
     TileTasks tasks_;
     std::optional<double> unit_of_error_;

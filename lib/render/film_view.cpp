@@ -12,7 +12,7 @@ constexpr std::uint32_t most_band_pixels = 1U << 19;
 
 } // namespace
 
-std::vector<DeviceFilm *> FilmView::films(const Devices &devices) {
+std::vector<DeviceFilm *> FilmView::films(const RenderDevices &devices) {
     std::vector<DeviceFilm *> films;
     for (const auto &device : devices)
         films.push_back(&device->film());

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "lib/film/error_estimate.h"
-#include "lib/film/film_errors.h"
+#include "lib/film/tile_errors.h"
 #include "lib/film/tile_samples.h"
 #include "lib/kernel/error_reader.h"
 #include "lib/kernel/film_sum.h"
@@ -25,10 +25,8 @@ namespace pt {
 
 class FilmView {
 public:
-    using Devices = std::vector<std::unique_ptr<RenderDevice>>;
-
     // The devices must outlive it.
-    explicit FilmView(const Devices &devices) : devices_(devices) {}
+    explicit FilmView(const RenderDevices &devices) : devices_(devices) {}
 
     // Reads the image of the films' samples, in the format that it asks for. Throws PT_ERROR_INTERNAL if a driver lost
     // work.
@@ -53,7 +51,7 @@ public:
     void drop() noexcept { sums_.clear(); }
 
     // The films of the devices, brought up to date.
-    static std::vector<DeviceFilm *> films(const Devices &devices);
+    static std::vector<DeviceFilm *> films(const RenderDevices &devices);
 
 private:
     // The sum of some rows of the films, with its readers.
@@ -80,7 +78,7 @@ private:
     void estimate_on_host(const ErrorQuery &query, const ErrorReader::Receive &receive);
     void read_on_host(const Image &image, const ImageQuery &query, const TileSamples &samples) const;
 
-    const Devices &devices_;
+    const RenderDevices &devices_;
     FilmErrors errors_;   // as far as the host finds them
     std::list<Sum> sums_; // of the sizes that bands have: two at the most
 };

@@ -117,12 +117,10 @@ void RenderDevice::prepare(const std::shared_ptr<const GpuScene> &scene, const R
     drop_kernel(); // before the new one takes memory
     plant(scene->tree);
     kernel_.emplace(device_, *pipelines_, *film_, tree_buffer_ ? &*tree_buffer_ : nullptr, scene, settings);
-    ScheduleLimits limits{};
-    limits.target_seconds = target_seconds_;
-    limits.first_slice_paths =
-        target_seconds_ * tests_per_second_ / surface_tests_per_path(kernel_->features(), scene->tree.get());
-    limits.max_samples = kernel_->max_samples();
-    schedule_.emplace(limits);
+    const double tests_per_path = surface_tests_per_path(kernel_->features(), scene->tree.get());
+    schedule_.emplace(ScheduleLimits{.target_seconds = target_seconds_,
+                                     .first_slice_paths = target_seconds_ * tests_per_second_ / tests_per_path,
+                                     .max_samples = kernel_->max_samples()});
 }
 
 // A tree is uploaded once, for all kernels that will use it.

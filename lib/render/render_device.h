@@ -151,10 +151,12 @@ private:
     bool film_is_void_ = true;         // it is to be cleared before it is used
 };
 
+using RenderDevices = std::vector<std::unique_ptr<RenderDevice>>; // of a renderer, at least one
+
 // Hands to the caller, at the end of a call, the kernels that were built in it.
 class KernelsKept {
 public:
-    explicit KernelsKept(const std::vector<std::unique_ptr<RenderDevice>> &devices) : devices_(devices) {}
+    explicit KernelsKept(const RenderDevices &devices) : devices_(devices) {}
     KernelsKept(const KernelsKept &) = delete;
     KernelsKept &operator=(const KernelsKept &) = delete;
     ~KernelsKept() {
@@ -163,7 +165,7 @@ public:
     }
 
 private:
-    const std::vector<std::unique_ptr<RenderDevice>> &devices_;
+    const RenderDevices &devices_;
 };
 
 } // namespace pt

@@ -8,7 +8,6 @@
 #include "lib/vulkan/device_choice.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace pt {
@@ -106,8 +105,6 @@ void Renderer::set_camera(const Camera &camera) {
 void Renderer::set_render(const RenderSettings &settings) {
     require_alive();
     TileSamples none({settings.width, settings.row_count});
-    std::vector<std::uint32_t> all_tiles(none.grid().count());
-    std::iota(all_tiles.begin(), all_tiles.end(), 0U);
     const bool same_size =
         settings_ && settings.width == settings_->width && settings.row_count == settings_->row_count;
     if (!same_size) {
@@ -122,7 +119,6 @@ void Renderer::set_render(const RenderSettings &settings) {
     gpu_scene_.reset();
     settings_ = settings;
     samples_ = std::move(none);
-    all_tiles_ = std::move(all_tiles);
 }
 
 void Renderer::reload_shaders() {

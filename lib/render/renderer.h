@@ -175,14 +175,13 @@ private:
     KernelCode code_;
     vulkan::Instance instance_;
     std::optional<std::uint32_t> tree_from_;
-    std::vector<std::unique_ptr<RenderDevice>> devices_; // at least one
+    RenderDevices devices_;
     FilmView view_{devices_};
     std::optional<PreparedScene> scene_;
     std::optional<Camera> camera_;
     std::optional<RenderSettings> settings_;            // the devices have films if it is there
     std::shared_ptr<const GpuScene> gpu_scene_;         // of the three above; NULL where one has changed
     TileSamples samples_;                               // whole ones
-    std::vector<std::uint32_t> all_tiles_;              // of them
     AdaptiveRound round_;                               // that they have come to
     std::optional<ErrorEstimate> error_;                // of them, once it has been asked for
     std::optional<std::uint64_t> rejected_samples_;     // likewise

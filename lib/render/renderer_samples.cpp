@@ -1,6 +1,6 @@
 // How a renderer takes samples: as many as are asked for, or until an error is reached; see renderer.h.
 #include "lib/base/error.h"
-#include "lib/film/adaptive_plan.h"
+#include "lib/film/adaptive_rule.h"
 #include "lib/kernel/gpu_scene.h"
 #include "lib/render/renderer.h"
 
@@ -45,12 +45,13 @@ void Renderer::require_room_for(std::uint32_t sample_count) const {
 }
 
 void Renderer::require_tiles(const pt_accumulate_info &wanted) const {
-    if (wanted.tile_samples != nullptr && wanted.tile_count != all_tiles_.size())
+    const std::size_t tiles = samples_.grid().count();
+    if (wanted.tile_samples != nullptr && wanted.tile_count != tiles)
         throw Error(PT_ERROR_INVALID_ARGUMENT,
                     BrokenRule{.subject = "accumulate",
                                .member = "tile_count",
                                .value = std::to_string(wanted.tile_count),
-                               .rule = "must be the number of tiles, " + std::to_string(all_tiles_.size())});
+                               .rule = "must be the number of tiles, " + std::to_string(tiles)});
 }
 
 void Renderer::begin(const pt_accumulate_info &wanted, bool is_polled) {
@@ -83,7 +84,7 @@ void Renderer::make_job(const pt_accumulate_info &wanted, bool is_polled) {
         of_tiles == nullptr && samples_.even() && (!is_adaptive || samples_.of(0).count() < together_to);
     std::vector<std::uint64_t> goals;
     if (!is_together && !is_adaptive)
-        for (const std::uint32_t tile : all_tiles_)
+        for (std::size_t tile = 0; tile < samples_.grid().count(); ++tile)
             goals.push_back(samples_.of(tile).count() + (of_tiles != nullptr ? of_tiles[tile] : wanted.sample_count));
     // NOLINTNEXTLINE(modernize-make-unique): an aggregate, which cannot be moved
     job_.reset(new Job{wanted.target_error,
@@ -171,8 +172,7 @@ std::optional<pt_result> Renderer::next_step() {
         return PT_OK;
     job_->is_together = false;
     if (!job_->goals.empty())
-        return unless_done(
-            job_->accumulation.set_goal(all_tiles_, [&](std::uint32_t tile) { return job_->goals[tile]; }));
+        return unless_done(job_->accumulation.set_goal_of_all([&](std::uint32_t tile) { return job_->goals[tile]; }));
     // A film whose tiles are not to be told apart yet comes here if it may take no sample.
     if (samples_.even() && samples_.of(0).count() < adaptive_from())
         return PT_OK;
@@ -191,7 +191,7 @@ std::optional<pt_result> Renderer::next_step_together() {
         return PT_TARGET_REACHED;
     const std::uint64_t check = job_->target_error > 0.0 ? next_check(count) : job_->together_to;
     const bool is_looked_at = check < job_->together_to;
-    job_->accumulation.set_goal_of_all(all_tiles_, std::min(check, job_->together_to),
+    job_->accumulation.set_goal_of_all(std::min(check, job_->together_to),
                                        is_looked_at ? std::optional(scene_->film_unit) : std::nullopt);
     return std::nullopt;
 }

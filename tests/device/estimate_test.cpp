@@ -1,8 +1,8 @@
 // The estimate of an image's error from the device, against that of the host in double.
 #include "lib/base/error.h"
 #include "lib/film/error_estimate.h"
-#include "lib/film/film_errors.h"
 #include "lib/film/quotient.h"
+#include "lib/film/tile_errors.h"
 #include "lib/kernel/device_film.h"
 #include "lib/kernel/error_reader.h"
 #include "lib/kernel/shader_source.h"

@@ -1,6 +1,5 @@
 // Which tiles take more samples, and a film on its way to a target error, however it is interrupted: on films whose
 // errors are known, without a device. With n samples, a tile of variance v has the squared error v / n.
-#include "lib/film/adaptive_plan.h"
 #include "lib/film/adaptive_rule.h"
 #include "lib/film/error_estimate.h"
 #include "lib/film/tile_samples.h"

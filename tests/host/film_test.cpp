@@ -125,21 +125,22 @@ TEST(Film, MeansAndErrorsAreRoundedOnce) {
     Samples samples;
     give(samples, {0, 0, image_width, image_height}, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11});
     const pt::Film film(film_by_sample(samples));
-    film.read(film.bounds(), PT_QUANTITY_RADIANCE, [&](const pt::Film::RowPart &row) {
-        for (std::uint32_t i = 0; i < image_width; ++i)
-            for (std::uint32_t channel = 0; channel < 3; ++channel) {
-                const film_maker::Pixel pixel{row.y, i};
-                long double sum = 0.0L; // of twelve numbers below 2^84: exact to 64 bits, the float has 24
-                int accepted = 0;
-                for (std::uint32_t index = 0; index < 12; ++index)
-                    if (!film_maker::is_rejected(pixel, index)) {
-                        sum += static_cast<long double>(film_maker::value_of(pixel, index, channel));
-                        ++accepted;
-                    }
-                const auto mean = static_cast<float>(sum / accepted * 0x1p-63L); // 2^-60, in units of 2^-3
-                ASSERT_EQ(row.values[3 * i + channel], mean) << row.y << ' ' << i;
-            }
-    });
+    film.read(film.bounds(), PT_QUANTITY_RADIANCE,
+              [&](std::uint32_t, std::uint32_t y, const std::vector<float> &values) {
+                  for (std::uint32_t i = 0; i < image_width; ++i)
+                      for (std::uint32_t channel = 0; channel < 3; ++channel) {
+                          const film_maker::Pixel pixel{y, i};
+                          long double sum = 0.0L; // of twelve numbers below 2^84: exact to 64 bits, the float has 24
+                          int accepted = 0;
+                          for (std::uint32_t index = 0; index < 12; ++index)
+                              if (!film_maker::is_rejected(pixel, index)) {
+                                  sum += static_cast<long double>(film_maker::value_of(pixel, index, channel));
+                                  ++accepted;
+                              }
+                          const auto mean = static_cast<float>(sum / accepted * 0x1p-63L); // 2^-60, in units of 2^-3
+                          ASSERT_EQ(values[3 * i + channel], mean) << y << ' ' << i;
+                      }
+              });
 }
 
 void seal(Bytes &bytes) {

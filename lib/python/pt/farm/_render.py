@@ -71,7 +71,7 @@ def _counts_to(samples: int) -> Iterator[int]:
 def _to_error(coordinator: Coordinator, job: AnyJob, samples: int, target_error: float, sampling: Sampling) -> Result:
     def further() -> Goals | None:
         """What the tiles that have come back take next while others are still under way: only their own samples decide
-        that (lib/film/adaptive_plan.h)."""
+        that (lib/film/adaptive_rule.h)."""
         result, planned = coordinator.film.plan(target_error, samples)
         return planned if result == Outcome.PENDING else None
 
