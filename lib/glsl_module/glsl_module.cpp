@@ -1,7 +1,6 @@
 // The module that compiles GLSL to SPIR-V with glslang; glsl_module.h says why it is one.
 #include "lib/glsl_module/glsl_module.h"
 
-#include "lib/glsl_module/includer.h"
 #include "lib/platform/file.h"
 
 #include <glslang/Public/ResourceLimits.h>
@@ -9,20 +8,116 @@
 #include <glslang/SPIRV/GlslangToSpv.h>
 #include <spirv-tools/libspirv.hpp>
 
+#include <algorithm>
+#include <cerrno>
+#include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <filesystem>
+#include <memory>
 #include <mutex>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 namespace pt::glsl {
 
 namespace {
 
+namespace fs = std::filesystem;
 using Words = std::vector<std::uint32_t>;
+
+// Reads a whole file, without a byte order mark; throws std::runtime_error with the system's reason.
+std::string read_source(const fs::path &path) {
+    const auto fail = [&] { throw std::runtime_error(path.string() + ": " + std::generic_category().message(errno)); };
+    const platform::FileDescriptor file(platform::open_to_read(path));
+    if (!file.is_open())
+        fail();
+    std::string text;
+    char block[4096];
+    for (std::ptrdiff_t count = 1; count > 0;) {
+        count = platform::read_some(file.get(), block);
+        if (count < 0)
+            fail(); // for example because it is a directory
+        text.append(block, static_cast<std::size_t>(count));
+    }
+    constexpr std::string_view byte_order_mark = "\xef\xbb\xbf"; // of UTF-8, which editors may add
+    if (text.starts_with(byte_order_mark))
+        text.erase(0, byte_order_mark.size());
+    return text;
+}
+
+// Finds and reads the files that the #include lines of a shader name: beside the including file, then in the directory.
+// glslang calls back, and its messages use the paths under which files were found.
+class Includer : public glslang::TShader::Includer {
+public:
+    Includer(fs::path directory, const fs::path &main_file) :
+        directory_(std::move(directory)),
+        open_files_{main_file} {}
+
+    IncludeResult *includeLocal(const char *name, const char *including_file, std::size_t /*depth*/) override {
+        if (is_endless_)
+            return refuse("not read after that");
+        const fs::path path = find(name, including_file).lexically_normal();
+        is_endless_ = std::ranges::count(open_files_, path) >= most_open_times;
+        if (is_endless_)
+            return refuse("the file includes itself, without an include guard");
+        try {
+            auto text = std::make_unique<std::string>(read_source(path));
+            open_files_.push_back(path);
+            return hand_over(path.string(), std::move(text));
+        } catch (const std::runtime_error &error) {
+            return refuse(error.what());
+        }
+    }
+
+    // glslang calls this after includeLocal has found nothing, so the reason is given here; and for #include <name>.
+    // For glslang, an empty name means that there is no file; the text says why.
+    IncludeResult *includeSystem(const char * /*name*/, const char * /*file*/, std::size_t /*depth*/) override {
+        const std::string reason = std::exchange(reason_, "");
+        return hand_over("",
+                         std::make_unique<std::string>(reason.empty() ? "only #include \"name\" is known" : reason));
+    }
+
+    void releaseInclude(IncludeResult *result) override {
+        if (!result)
+            return;
+        if (!result->headerName.empty())
+            open_files_.pop_back();
+        delete static_cast<std::string *>(result->userData);
+        delete result;
+    }
+
+private:
+    // A file that includes itself, perhaps by way of others, is fine if it has an include guard: it is then open twice.
+    static constexpr std::ptrdiff_t most_open_times = 2;
+
+    // glslang refers to the text until it calls releaseInclude.
+    static IncludeResult *hand_over(const std::string &name, std::unique_ptr<std::string> text) {
+        auto *const result = new IncludeResult(name, text->data(), text->size(), text.get());
+        static_cast<void>(text.release()); // the result's user data owns it
+        return result;
+    }
+
+    fs::path find(const char *name, const char *including_file) const {
+        const fs::path beside = fs::path(including_file).parent_path() / name;
+        std::error_code ignored;
+        return fs::exists(beside, ignored) ? beside : directory_ / name;
+    }
+
+    IncludeResult *refuse(const std::string &reason) {
+        reason_ = reason;
+        return nullptr;
+    }
+
+    fs::path directory_;
+    std::vector<fs::path> open_files_; // each included by the one before
+    std::string reason_;               // why the last #include line was refused
+    bool is_endless_ = false;          // a file includes itself: no further #include is followed
+};
 
 // The rules of glslangValidator -V; and going on after an error, so that all errors are reported at once. If glslang
 // stopped within an included file, it would take the next directive for another error.
@@ -42,7 +137,7 @@ void start_glslang() {
 }
 
 // The options are those of the command in PtShaders.cmake, so that the words equal the embedded ones.
-Words spirv_of(const std::filesystem::path &path, const std::filesystem::path &directory) {
+Words spirv_of(const fs::path &path, const fs::path &directory) {
     const std::string name = path.string();
     const std::string text = read_source(path);
     const char *const texts[] = {text.data()};
@@ -73,7 +168,7 @@ Words spirv_of(const std::filesystem::path &path, const std::filesystem::path &d
 }
 
 // Validates as the build does: drivers do not check the SPIR-V that they are given.
-void validate(const Words &words, const std::filesystem::path &path) {
+void validate(const Words &words, const fs::path &path) {
     std::string log;
     spvtools::SpirvTools tools(SPV_ENV_VULKAN_1_2);
     tools.SetMessageConsumer([&](spv_message_level_t, const char *, const spv_position_t &, const char *message) {
@@ -84,11 +179,11 @@ void validate(const Words &words, const std::filesystem::path &path) {
         throw std::runtime_error(path.string() + ": the SPIR-V is not valid" + log);
 }
 
-Words compile(const std::filesystem::path &directory, const char *name) {
+Words compile(const fs::path &directory, const char *name) {
     static std::mutex one_at_a_time; // glslang's memory pools belong to threads, its tables to the process
     const std::lock_guard lock(one_at_a_time);
     start_glslang();
-    const std::filesystem::path path = directory / name;
+    const fs::path path = directory / name;
     Words words = spirv_of(path, directory);
     validate(words, path);
     return words;
@@ -98,18 +193,18 @@ Words compile(const std::filesystem::path &directory, const char *name) {
 
 } // namespace pt::glsl
 
-extern "C" PT_API int32_t pt_compile_glsl(const char *directory, const char *name, pt_glsl_words_fn words,
-                                          pt_glsl_log_fn log, void *user) {
+extern "C" PT_API int32_t pt_glsl_compile(const char *directory, const char *name, pt_glsl_receive_fn receive,
+                                          void *user) {
+    std::string_view log = "an exception of unknown type";
     try {
         const pt::glsl::Words compiled = pt::glsl::compile(platform::path_of(directory), name);
-        words(user, compiled.data(), compiled.size());
+        receive(user, compiled.data(), compiled.size() * sizeof compiled[0]);
         return 0;
     } catch (const std::exception &error) {
-        const std::string_view text = error.what();
-        log(user, text.data(), text.size());
+        log = error.what();
+        receive(user, log.data(), log.size());
     } catch (...) {
-        constexpr std::string_view text = "an exception of unknown type";
-        log(user, text.data(), text.size());
+        receive(user, log.data(), log.size());
     }
     return -1;
 }

@@ -11,19 +11,17 @@
 extern "C" {
 #endif
 
-/* Receive the words of the SPIR-V, or the compiler's log, which is not zero-terminated. Both belong to the module and
+/* Receives the words of the SPIR-V, or the compiler's log, which is not zero-terminated. Both belong to the module and
  * are valid during the call. Must not throw. */
-typedef void (*pt_glsl_words_fn)(void *user, const uint32_t *words, size_t count);
-typedef void (*pt_glsl_log_fn)(void *user, const char *text, size_t size);
+typedef void (*pt_glsl_receive_fn)(void *user, const void *bytes, size_t size);
 
 /* Compiles the compute shader directory/name as it is now, with the files that it includes, to the same SPIR-V that the
  * build embeds for the same text. An included file is looked for beside the file that includes it, then in directory.
- * Calls words once and returns 0, or calls log once, with lines that begin with the names of file and line, and returns
- * -1. From any thread. */
-typedef int32_t (*pt_compile_glsl_fn)(const char *directory, const char *name, pt_glsl_words_fn words,
-                                      pt_glsl_log_fn log, void *user);
+ * Calls receive once, with the words, and returns 0; or with the log, whose lines begin with the names of file and
+ * line, and returns -1. From any thread. */
+typedef int32_t (*pt_compile_glsl_fn)(const char *directory, const char *name, pt_glsl_receive_fn receive, void *user);
 
-#define PT_COMPILE_GLSL_SYMBOL "pt_compile_glsl"
+#define PT_COMPILE_GLSL_SYMBOL "pt_glsl_compile"
 
 #ifdef __cplusplus
 }

@@ -1,4 +1,3 @@
-// Embedded words, and the compiler's module; see shader_source.h.
 #include "lib/kernel/shader_source.h"
 
 #include "accuracy.spv.h"
@@ -14,7 +13,8 @@
 #include "pathtrace.spv.h"
 #include "resolve.spv.h"
 
-#include <algorithm>
+#include <cstddef>
+#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <utility>
@@ -44,42 +44,33 @@ pt_compile_glsl_fn load_compiler(const std::string &shader_directory) {
                                                  .rule = "the compiler's module cannot be loaded: " + reasons});
 }
 
-// What the module hands over. It calls back under its own C frame, which no exception may cross.
+// What the module hands over: words or a log. It calls back under its own C frame, which no exception may cross.
 struct Compilation {
-    std::vector<std::uint32_t> words;
-    std::string log;
+    std::vector<std::byte> bytes;
     std::exception_ptr error;
 
-    static void receive_words(void *user, const std::uint32_t *words, std::size_t count) {
+    static void receive(void *user, const void *bytes, std::size_t size) noexcept {
         auto *const self = static_cast<Compilation *>(user);
-        self->keep([&] { self->words.assign(words, words + count); });
-    }
-
-    static void receive_log(void *user, const char *text, std::size_t size) {
-        auto *const self = static_cast<Compilation *>(user);
-        self->keep([&] { self->log.assign(text, size); });
-    }
-
-private:
-    template <typename Copy>
-    void keep(Copy &&copy) noexcept {
         try {
-            copy();
+            self->bytes.assign(static_cast<const std::byte *>(bytes), static_cast<const std::byte *>(bytes) + size);
         } catch (...) {
-            error = std::current_exception();
+            self->error = std::current_exception();
         }
     }
 };
 
 std::vector<std::uint32_t> compile(pt_compile_glsl_fn compiler, const std::string &directory, const char *name) {
     Compilation compilation;
-    const std::int32_t result =
-        compiler(directory.c_str(), name, &Compilation::receive_words, &Compilation::receive_log, &compilation);
+    const std::int32_t result = compiler(directory.c_str(), name, &Compilation::receive, &compilation);
     if (compilation.error)
         std::rethrow_exception(compilation.error);
+    const std::vector<std::byte> &bytes = compilation.bytes;
     if (result != 0)
-        throw Error(PT_ERROR_SHADER, std::string(name) + " does not compile:\n" + compilation.log);
-    return std::move(compilation.words);
+        throw Error(PT_ERROR_SHADER, std::string(name) + " does not compile:\n" +
+                                         std::string(reinterpret_cast<const char *>(bytes.data()), bytes.size()));
+    std::vector<std::uint32_t> words(bytes.size() / sizeof(std::uint32_t));
+    std::memcpy(words.data(), bytes.data(), bytes.size());
+    return words;
 }
 
 // Of the words of each kernel, in the order of the members.
@@ -90,13 +81,6 @@ KernelCode code_of(std::vector<std::vector<std::uint32_t>> words) {
 }
 
 } // namespace
-
-bool KernelCode::operator==(const KernelCode &other) const {
-    return std::ranges::equal(pathtrace, other.pathtrace) && std::ranges::equal(fold, other.fold) &&
-           std::ranges::equal(add, other.add) && std::ranges::equal(resolve, other.resolve) &&
-           std::ranges::equal(estimate, other.estimate) && std::ranges::equal(accuracy, other.accuracy) &&
-           std::ranges::equal(first_hit, other.first_hit) && std::ranges::equal(coverage, other.coverage);
-}
 
 // Unpacked when first asked for, in a millisecond, and kept for all contexts.
 KernelCode embedded_code() {

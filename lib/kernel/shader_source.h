@@ -23,7 +23,7 @@ struct KernelCode {
     std::shared_ptr<const std::vector<std::vector<std::uint32_t>>> words; // what these refer to
 
     // Equal if the words are, wherever they are stored.
-    bool operator==(const KernelCode &other) const;
+    bool operator==(const KernelCode &other) const { return *words == *other.words; }
 };
 
 KernelCode embedded_code();

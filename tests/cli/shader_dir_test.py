@@ -162,7 +162,7 @@ class Module(CommandLineTest):
 
     def test_one_function_is_to_be_seen(self):
         done = subprocess.run(["nm", "-D", "--defined-only", MODULE], capture_output=True, text=True, check=True)
-        self.assertEqual([line.split()[-1] for line in done.stdout.splitlines()], ["pt_compile_glsl"])
+        self.assertEqual([line.split()[-1] for line in done.stdout.splitlines()], ["pt_glsl_compile"])
 
     def test_the_library_does_not_need_it(self):
         done = subprocess.run(["ldd", PT], capture_output=True, text=True, check=True)

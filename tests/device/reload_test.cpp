@@ -14,6 +14,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
+#include <vector>
 
 #ifdef __SANITIZE_ADDRESS__
 #include <sanitizer/lsan_interface.h>
@@ -243,13 +245,13 @@ TEST_F(ReloadTest, KernelsThatTheDriverRefusesAreNotTaken) {
     take_a_sample();
 
     constexpr uint32_t main_word = 0x6e69616d; // "main", little-endian
-    const std::span<const uint32_t> good = pt::embedded_code().pathtrace;
-    std::vector<uint32_t> words(good.begin(), good.end());
-    const auto entry = std::ranges::find(words, main_word);
-    ASSERT_NE(entry, words.end());
-    *entry = 0x6e69616e;
     pt::KernelCode bad = pt::embedded_code();
-    bad.pathtrace = words;
+    std::vector<std::vector<uint32_t>> words = *bad.words;
+    const auto entry = std::ranges::find(words.front(), main_word);
+    ASSERT_NE(entry, words.front().end());
+    *entry = 0x6e69616e;
+    bad.words = std::make_shared<const std::vector<std::vector<uint32_t>>>(words);
+    bad.pathtrace = bad.words->front();
     const pt::Error error = error_of([&] {
         [[maybe_unused]] const DriverMayLeak allowance{};
         renderer.set_code(bad);
