@@ -1,4 +1,3 @@
-// How broken rules are put into words, for all messages; see error.h.
 #include "lib/base/error.h"
 
 #include <utility>

@@ -3,6 +3,7 @@
 
 #include <pt/pt.h>
 
+#include <algorithm>
 #include <cstddef>
 
 namespace pt {
@@ -23,7 +24,12 @@ public:
     WorkProgress &operator=(const WorkProgress &) = delete;
 
     // Begins a stage, which is this share of what is left of the whole. work: how much it has to do, in any unit.
-    void enter(double share_of_rest, double work);
+    void enter(double share_of_rest, double work) {
+        begin_ = end_; // a stage that ended early counts as done
+        end_ += share_of_rest * (1.0 - end_);
+        work_ = work;
+        done_ = 0.0;
+    }
 
     // Notes that so much more of the stage's work is done, by looking at so many elements. The number of elements
     // decides when to report.
@@ -38,14 +44,23 @@ public:
     void add(std::size_t elements) { add(static_cast<double>(elements), elements); }
 
     // Reports 1: all is done except what cannot fail.
-    void finish();
+    void finish() {
+        enter(1.0, 1.0);
+        done_ = 1.0;
+        tell();
+    }
 
 private:
     // So many elements take between half a millisecond and several: often enough for people who watch, rarely enough
     // for slow callbacks.
     static constexpr std::size_t elements_between_calls = std::size_t{1} << 17;
 
-    void tell();
+    void tell() {
+        untold_ = 0;
+        const double share = work_ > 0.0 ? std::clamp(done_ / work_, 0.0, 1.0) : 0.0;
+        if (function_ && function_(user_, begin_ + (end_ - begin_) * share) != 0)
+            throw Cancelled();
+    }
 
     pt_progress_fn function_ = nullptr;
     void *user_ = nullptr;

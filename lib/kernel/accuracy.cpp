@@ -1,4 +1,3 @@
-// Arguments, exact values and error bounds of the elementary functions; see accuracy.h.
 #include "lib/kernel/accuracy.h"
 
 #include "lib/base/error.h"

@@ -44,17 +44,11 @@ void BufferWriter::write(const ImageQuery &query, const BufferTarget &target) {
         for (const DeviceFilm::Strip &strip : film_.strips())
             sets_.push_back(
                 pipeline.bind(std::array<vulkan::BufferRange, 3>{strip.words, piece.range, results_.findings()}));
-    gpu::ResolveConstants constants = resolve_constants(query, film_);
     const auto record = [&](const vk::raii::CommandBuffer &commands) {
         results_.clear(commands);
         std::span<const vulkan::DescriptorSet> sets = sets_;
         for (const Piece &piece : pieces) {
-            constants.first_pixel = piece.pixels.y * film_.width() + piece.pixels.x;
-            constants.width = piece.pixels.width;
-            constants.pixel_count = static_cast<std::uint32_t>(piece.pixels.pixel_count());
-            constants.first_word = piece.first_word;
-            constants.row_words = piece.row_words;
-            resolve(commands, pipeline, film_, sets.first(film_.strips().size()), constants);
+            resolve(commands, pipeline, film_, sets.first(film_.strips().size()), query, piece.resolved);
             sets = sets.subspan(film_.strips().size());
         }
         results_.hand_over(commands, 0);
@@ -88,10 +82,8 @@ BufferWriter::Piece BufferWriter::piece(const Rectangle &pixels, const ImageQuer
     const std::uint64_t bound =
         begin / device_.limits().storage_buffer_alignment * device_.limits().storage_buffer_alignment;
     const std::uint64_t row_words = pixels.height > 1 ? target.row_bytes / word_bytes : 0; // may be large
-    return {pixels,
-            {target.buffer, bound, end - bound},
-            static_cast<std::uint32_t>((begin - bound) / word_bytes),
-            static_cast<std::uint32_t>(row_words)};
+    return {{pixels, static_cast<std::uint32_t>((begin - bound) / word_bytes), static_cast<std::uint32_t>(row_words)},
+            {target.buffer, bound, end - bound}};
 }
 
 void BufferWriter::finish() {

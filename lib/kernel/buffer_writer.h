@@ -42,12 +42,10 @@ public:
     void write(const ImageQuery &query, const BufferTarget &target);
 
 private:
-    // A rectangle of the image, and its place in a binding.
+    // A piece of the image, and the binding that it has a place in.
     struct Piece {
-        Rectangle pixels; // of the film
+        ResolvedPiece resolved;
         vulkan::BufferRange range;
-        std::uint32_t first_word; // in the range
-        std::uint32_t row_words;
     };
 
     std::vector<Piece> pieces(const ImageQuery &query, const BufferTarget &target) const;

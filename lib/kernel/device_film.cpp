@@ -10,19 +10,6 @@ namespace pt {
 
 namespace {
 
-// The pixels that a range and a strip have in common.
-struct Overlap {
-    std::uint32_t first;
-    std::uint32_t count;
-
-    Overlap(const DeviceFilm::Strip &strip, std::uint32_t first_pixel, std::size_t pixel_count) {
-        const std::uint64_t end =
-            std::min<std::uint64_t>(first_pixel + pixel_count, std::uint64_t{strip.first_pixel} + strip.pixel_count);
-        first = std::max(first_pixel, strip.first_pixel);
-        count = end > first ? static_cast<std::uint32_t>(end - first) : 0;
-    }
-};
-
 // The largest strip that is whole rows of tiles, or, if not even one row fits, as many pixels as do.
 std::uint32_t strip_pixels(std::uint32_t width, std::uint32_t most) {
     const std::uint64_t row_of_tiles = std::uint64_t{width} * gpu::TILE_SIZE;
@@ -36,16 +23,6 @@ std::uint64_t word_offset(const DeviceFilm::Strip &strip, std::uint32_t part, st
     return words * sizeof(std::uint32_t);
 }
 
-// Writes sums into words that belong to a strip, or will.
-void write_sums(const DeviceFilm::Strip &strip, vulkan::Buffer &words, std::uint32_t first_pixel,
-                const PixelSums &sums) {
-    const Overlap pixels(strip, first_pixel, sums.pixel_count());
-    for (std::uint32_t part = 0; part < gpu::FILM_PARTS; ++part)
-        for (std::size_t plane = 0; plane < gpu::FILM_WORDS && pixels.count > 0; ++plane)
-            words.upload(std::as_bytes(sums.plane(part, plane).subspan(pixels.first - first_pixel, pixels.count)),
-                         word_offset(strip, part, plane, pixels.first));
-}
-
 void require_memory(const vulkan::Device &device, std::uint64_t bytes, const std::string &what) {
     const std::uint64_t in_use = device.allocated_bytes();
     if (!device.has_memory(in_use + bytes))
@@ -56,6 +33,12 @@ void require_memory(const vulkan::Device &device, std::uint64_t bytes, const std
 
 } // namespace
 
+PixelRange common_pixels(const PixelRange &a, const PixelRange &b) {
+    const std::uint32_t first = std::max(a.first, b.first);
+    const std::uint64_t end = std::min(std::uint64_t{a.first} + a.count, std::uint64_t{b.first} + b.count);
+    return {first, end > first ? static_cast<std::uint32_t>(end - first) : 0};
+}
+
 std::uint32_t max_strip_pixels(const vulkan::Limits &limits) {
     const std::uint64_t bytes = std::min<std::uint64_t>(limits.max_storage_buffer_range, limits.max_allocation_bytes);
     const std::uint64_t pixels = bytes / (PixelSums::words_per_pixel * sizeof(std::uint32_t));
@@ -65,8 +48,7 @@ std::uint32_t max_strip_pixels(const vulkan::Limits &limits) {
 
 DeviceFilm::DeviceFilm(vulkan::Device &device, std::uint32_t width, std::uint32_t height,
                        std::uint32_t max_strip_pixels) :
-    width_(width),
-    height_(height) {
+    grid_{width, height} {
     for (std::uint32_t first = 0; first < pixel_count();) {
         const std::uint32_t count = std::min(strip_pixels(width, max_strip_pixels), pixel_count() - first);
         const std::uint64_t words_bytes = count * PixelSums::words_per_pixel * sizeof(std::uint32_t);
@@ -86,7 +68,8 @@ void DeviceFilm::clear(const vk::raii::CommandBuffer &commands) const {
 
 void DeviceFilm::read(std::uint32_t first_pixel, PixelSums &sums) {
     for (Strip &strip : strips_) {
-        const Overlap pixels(strip, first_pixel, sums.pixel_count());
+        const PixelRange pixels =
+            common_pixels(strip.pixels(), {first_pixel, static_cast<std::uint32_t>(sums.pixel_count())});
         if (pixels.count == 0)
             continue;
         std::vector<vulkan::BufferPiece> pieces;
@@ -100,13 +83,13 @@ void DeviceFilm::read(std::uint32_t first_pixel, PixelSums &sums) {
 }
 
 bool DeviceFilm::has_whole_tiles() const {
-    return strips_.size() == 1 || strips_.front().pixel_count % (std::uint64_t{width_} * gpu::TILE_SIZE) == 0;
+    return strips_.size() == 1 || strips_.front().pixel_count % (std::uint64_t{grid_.width} * gpu::TILE_SIZE) == 0;
 }
 
 void DeviceFilm::copy_to(const vk::raii::CommandBuffer &commands, const PixelRange &pixels,
                          const vulkan::Buffer &to) const {
     for (const Strip &strip : strips_) {
-        const Overlap overlap(strip, pixels.first, pixels.count);
+        const PixelRange overlap = common_pixels(strip.pixels(), pixels);
         if (overlap.count == 0)
             continue;
         std::vector<vk::BufferCopy> pieces;
@@ -122,11 +105,6 @@ void DeviceFilm::copy_to(const vk::raii::CommandBuffer &commands, const PixelRan
     }
 }
 
-void DeviceFilm::write(const PixelSums &sums) {
-    for (Strip &strip : strips_)
-        write_sums(strip, strip.words, 0, sums);
-}
-
 DeviceFilm::NewSums::NewSums(vulkan::Device &device, DeviceFilm &film) : device_(device), film_(film) {
     const std::uint64_t bytes = film.pixel_count() * PixelSums::words_per_pixel * sizeof(std::uint32_t);
     require_memory(device, bytes, "a sum of films");
@@ -135,8 +113,16 @@ DeviceFilm::NewSums::NewSums(vulkan::Device &device, DeviceFilm &film) : device_
 }
 
 void DeviceFilm::NewSums::write(std::uint32_t first_pixel, const PixelSums &sums) {
-    for (std::size_t i = 0; i < words_.size(); ++i)
-        write_sums(film_.strips_[i], words_[i], first_pixel, sums);
+    for (std::size_t i = 0; i < words_.size(); ++i) {
+        const Strip &strip = film_.strips_[i];
+        const PixelRange pixels =
+            common_pixels(strip.pixels(), {first_pixel, static_cast<std::uint32_t>(sums.pixel_count())});
+        for (std::uint32_t part = 0; part < gpu::FILM_PARTS; ++part)
+            for (std::size_t plane = 0; plane < gpu::FILM_WORDS && pixels.count > 0; ++plane)
+                words_[i].upload(
+                    std::as_bytes(sums.plane(part, plane).subspan(pixels.first - first_pixel, pixels.count)),
+                    word_offset(strip, part, plane, pixels.first));
+    }
 }
 
 void DeviceFilm::NewSums::replace() {
@@ -158,12 +144,6 @@ std::uint64_t DeviceFilm::rejected_samples() {
         }
     }
     return total;
-}
-
-void for_each_piece(std::uint32_t pixel_count, std::uint32_t most_pixels,
-                    const std::function<void(std::uint32_t, std::uint32_t)> &function) {
-    for (std::uint32_t first = 0; first < pixel_count; first += std::min(most_pixels, pixel_count - first))
-        function(first, std::min(most_pixels, pixel_count - first));
 }
 
 namespace {
@@ -219,11 +199,11 @@ void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, 
                 std::uint32_t most_pixels, const std::function<void(const PixelSums &)> &receive) {
     PixelSums sums;
     PixelSums others;
-    for_each_piece(pixels.count, most_pixels, [&](std::uint32_t first, std::uint32_t count) {
-        sums.resize(count);
-        read_films(films, samples, pixels.first + first, sums, others);
+    for (std::uint32_t done = 0; done < pixels.count; done += static_cast<std::uint32_t>(sums.pixel_count())) {
+        sums.resize(std::min(most_pixels, pixels.count - done));
+        read_films(films, samples, pixels.first + done, sums, others);
         receive(sums);
-    });
+    }
 }
 
 } // namespace pt

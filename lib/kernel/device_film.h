@@ -7,7 +7,6 @@
 #include "lib/vulkan/device.h"
 #include "shaders/gpu_layout.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -21,6 +20,9 @@ struct PixelRange {
     std::uint32_t count;
 };
 
+// Those that two ranges have in common; none, if the count is 0.
+PixelRange common_pixels(const PixelRange &a, const PixelRange &b);
+
 class DeviceFilm {
 public:
     // As many consecutive pixels, row by row, as fit into one binding.
@@ -28,6 +30,8 @@ public:
         std::uint32_t first_pixel;
         std::uint32_t pixel_count;
         vulkan::Buffer words; // gpu::FILM_WORDS planes of the older part, then of the newer
+
+        PixelRange pixels() const { return {first_pixel, pixel_count}; }
     };
 
     static constexpr std::uint64_t bytes_per_pixel = PixelSums::words_per_pixel * sizeof(std::uint32_t);
@@ -36,9 +40,9 @@ public:
     // sizes beyond the device.
     DeviceFilm(vulkan::Device &device, std::uint32_t width, std::uint32_t height, std::uint32_t max_strip_pixels);
 
-    std::uint32_t width() const { return width_; }
-    std::uint32_t pixel_count() const { return width_ * height_; }
-    TileGrid grid() const { return {width_, height_}; }
+    std::uint32_t width() const { return grid_.width; }
+    std::uint32_t pixel_count() const { return grid_.width * grid_.height; }
+    const TileGrid &grid() const { return grid_; }
     std::vector<Strip> &strips() { return strips_; }
     const std::vector<Strip> &strips() const { return strips_; }
 
@@ -54,9 +58,6 @@ public:
     // Records commands that copy the words of consecutive pixels into a buffer: planes without gaps, one part after the
     // other.
     void copy_to(const vk::raii::CommandBuffer &commands, const PixelRange &pixels, const vulkan::Buffer &to) const;
-
-    // Sets the sums of the first pixels, as many as there are in sums.
-    void write(const PixelSums &sums);
 
     // Reads the sums of consecutive pixels, as many as there is room for.
     void read(std::uint32_t first_pixel, PixelSums &sums);
@@ -84,8 +85,7 @@ public:
     std::uint64_t rejected_samples();
 
 private:
-    std::uint32_t width_;
-    std::uint32_t height_;
+    TileGrid grid_;
     std::vector<Strip> strips_;
 };
 
@@ -101,10 +101,6 @@ void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, 
 // How many pixels of films are read or written at a time, so that a large image is not held twice. Not a power of two:
 // planes a power of two apart would put the words of a pixel into the same set of the processor's cache.
 inline constexpr std::uint32_t piece_pixels = 130'000;
-
-// Calls function(first pixel, number of pixels) for consecutive pieces.
-void for_each_piece(std::uint32_t pixel_count, std::uint32_t most_pixels,
-                    const std::function<void(std::uint32_t, std::uint32_t)> &function);
 
 // The largest strip that a device can bind, in pixels.
 std::uint32_t max_strip_pixels(const vulkan::Limits &limits);

@@ -23,6 +23,9 @@ struct RelativeUnits {
     float scale;   // an error is below 2^FILM_MAX_EXPONENT, and scaled and divided by the offset below 2^60
     double factor; // of the squares, because the offset is another
 
+    // What undoes scale and factor in squares.
+    double undone() const { return 1.0 / (static_cast<double>(scale) * static_cast<double>(scale) * factor); }
+
     // If the offset is far above everything that a film can hold, it alone is the denominator of all pixels. A smaller
     // offset that is still far above makes all squares larger by one factor, which is divided out afterwards.
     explicit RelativeUnits(double unit) {
@@ -57,16 +60,14 @@ gpu::uvec2 counts_of(const SampleSet &set) {
 TileErrors errors_of(const gpu::TileErrors &found, std::uint32_t width, std::uint32_t height, double unit,
                      const RelativeUnits &units) {
     require_no_loss(found.lost_pixels);
-    const double scale = static_cast<double>(units.scale);
     TileErrors errors;
     errors.value_count = 3.0 * width * height;
     errors.squares_of_tile_sizes =
         9.0 * squares_of_pieces(width, gpu::TILE_SIZE) * squares_of_pieces(height, gpu::TILE_SIZE);
     errors.square = squares_of(found.square, unit * unit);
-    const double relative_factor = 1.0 / (scale * scale * units.factor);
-    errors.relative_square = squares_of(found.relative_square, relative_factor);
-    errors.met_once = squares_of(found.met_once, relative_factor);
-    errors.as_lamps = squares_of(found.as_lamps, relative_factor);
+    errors.relative_square = squares_of(found.relative_square, units.undone());
+    errors.met_once = squares_of(found.met_once, units.undone());
+    errors.as_lamps = squares_of(found.as_lamps, units.undone());
     errors.met_again = found.met_again;
     errors.unseen = static_cast<double>(found.unseen) / units.factor;
     errors.rejected = std::uint64_t{found.rejected.y} << 32 | found.rejected.x;
@@ -116,11 +117,10 @@ void ErrorReader::list_counts(const TileSamples &samples) {
 // The kernel computes in film units, with another offset and scale; this undoes them (RelativeUnits).
 void ErrorReader::collect_tiles(const ErrorQuery &query) const {
     const RelativeUnits units(query.unit);
-    const double factor = 1.0 / (static_cast<double>(units.scale) * static_cast<double>(units.scale) * units.factor);
     const auto *const of_tiles = reinterpret_cast<const glm::vec2 *>(tile_squares_.host_memory().data());
     for (std::size_t tile = 0; tile < query.by_tile.size(); ++tile)
-        query.by_tile[tile] =
-            static_cast<double>(of_tiles[tile].x) * factor + static_cast<double>(of_tiles[tile].y) / units.factor;
+        query.by_tile[tile] = static_cast<double>(of_tiles[tile].x) * units.undone() +
+                              static_cast<double>(of_tiles[tile].y) / units.factor;
 }
 
 void ErrorReader::read(const ErrorQuery &query, const Receive &receive) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <list>
 
 namespace pt {
 
@@ -65,10 +64,8 @@ void FilmSum::gather(std::uint32_t first_row, const PixelRange &wanted) {
 
 void FilmSum::add_own(const vk::raii::CommandBuffer &commands, std::uint32_t first_pixel,
                       const PixelRange &wanted) const {
-    for (std::size_t i = 0; i < own_sets_.size(); ++i) {
-        const DeviceFilm::Strip &strip = home_.film.strips()[i];
-        add(commands, first_pixel, wanted, {{strip.first_pixel, strip.pixel_count}, strip.pixel_count, own_sets_[i]});
-    }
+    for (std::size_t i = 0; i < own_sets_.size(); ++i)
+        add(commands, first_pixel, wanted, {home_.film.strips()[i].pixels(), own_sets_[i]});
 }
 
 // Three steps overlap: the host copies a piece, its device copies the next one, and the first device adds the previous
@@ -108,7 +105,7 @@ void FilmSum::add_others(vulkan::SubmissionsUnderWay &at_home, std::uint32_t fir
             stream_copy(fetch.slot(index).host_memory().first(words_bytes(pixels.count)),
                         slots_[slot].host_memory().data());
             at_home.start([&](const vk::raii::CommandBuffer &commands) {
-                add(commands, first_pixel, wanted, {pixels, pixels.count, slot_sets_[slot]});
+                add(commands, first_pixel, wanted, {pixels, slot_sets_[slot]});
             });
             slot = (slot + 1) % slots_.size();
             if (const auto next = static_cast<std::uint32_t>(index + fetch.distant.slots.size()); next < piece_count)
@@ -120,18 +117,16 @@ void FilmSum::add_others(vulkan::SubmissionsUnderWay &at_home, std::uint32_t fir
 void FilmSum::add(const vk::raii::CommandBuffer &commands, std::uint32_t first_pixel, const PixelRange &wanted,
                   const Added &added) const {
     gpu::AddConstants constants{};
-    constants.added_stride = added.stride;
+    constants.added_stride = added.pixels.count;
     for (std::size_t i = 0; i < added.sets.size(); ++i) {
         const DeviceFilm::Strip &strip = film_.strips()[i];
-        const std::uint32_t strip_first = first_pixel + strip.first_pixel;
-        const std::uint32_t first = std::max({strip_first, wanted.first, added.pixels.first});
-        const std::uint32_t end = std::min(
-            {strip_first + strip.pixel_count, wanted.first + wanted.count, added.pixels.first + added.pixels.count});
-        if (first >= end)
+        const PixelRange of_strip{first_pixel + strip.first_pixel, strip.pixel_count};
+        const auto [first, count] = common_pixels(common_pixels(of_strip, wanted), added.pixels);
+        if (count == 0)
             continue;
         constants.strip_pixel_count = strip.pixel_count;
-        constants.first_pixel = first - strip_first;
-        constants.pixel_count = end - first;
+        constants.first_pixel = first - of_strip.first;
+        constants.pixel_count = count;
         constants.added_first_pixel = first - added.pixels.first;
         const std::uint32_t groups = (constants.pixel_count + gpu::WORKGROUP_SIZE - 1) / gpu::WORKGROUP_SIZE;
         add_.dispatch(commands, added.sets[i], std::as_bytes(std::span(&constants, 1)), groups);

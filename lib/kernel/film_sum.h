@@ -43,8 +43,7 @@ private:
 
     // Words of consecutive pixels that are to be added, and where they are.
     struct Added {
-        PixelRange pixels;                           // of the films
-        std::uint32_t stride;                        // words of a plane
+        PixelRange pixels;                           // of the films: a plane has a word of each
         std::span<const vulkan::DescriptorSet> sets; // one per strip of the sum
     };
 

@@ -1,4 +1,3 @@
-// From a scene and a camera to bytes for the kernel; see gpu_scene.h.
 #include "lib/kernel/gpu_scene.h"
 
 #include "lib/base/mixed.h"
@@ -60,8 +59,7 @@ public:
     }
 
     void material_index(std::uint32_t surface, std::uint32_t index) {
-        words_[blocks_.index + surface / 4][static_cast<int>(surface % 4)] =
-            std::bit_cast<float>(gpu::MATERIAL_INDEX_BITS + index);
+        write_number(std::span(words_).subspan(blocks_.index), surface, index);
     }
 
     void sphere(std::uint32_t surface, const SeenSphere &sphere) {
@@ -222,7 +220,6 @@ GpuScene gpu_scene(const DistinctScene &distinct, const PreparedScene &scene, co
     return {features,
             words_of(surfaces, spots, scene, start, features),
             frame_constants(start, settings, scene.film_unit),
-            scene.film_unit,
             scene.tree,
             start.start_distance,
             objects_of(surfaces, scene)};

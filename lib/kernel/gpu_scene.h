@@ -19,8 +19,7 @@ struct GpuScene {
     // The scene buffer. Positions are made relative to the camera in double precision before they are rounded, so a
     // scene far from the origin looks like one at the origin. Motion is cut down to the time while the shutter is open.
     std::vector<glm::vec4> words;
-    gpu::FrameConstants frame; // what does not change from slice to slice
-    double film_unit;
+    gpu::FrameConstants frame;              // what does not change from slice to slice
     std::shared_ptr<const SphereTree> tree; // NULL without
     double start_distance;                  // of the coordinates' origin from the pinhole, along the view (ray_start.h)
     std::vector<std::uint32_t> objects;     // numbers in the caller's scene, of the surfaces that are not in the tree

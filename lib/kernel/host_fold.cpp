@@ -18,14 +18,13 @@ constexpr std::array<std::size_t, 4> rare_planes = {gpu::FILM_SUM_WORDS - 1, 2 *
 template <typename Function>
 void for_each_strip(DeviceFilm &film, const PixelRange &pixels, std::uint32_t part, const Function &function) {
     for (DeviceFilm::Strip &strip : film.strips()) {
-        const std::uint32_t first = std::max(pixels.first, strip.first_pixel);
-        const std::uint32_t end = std::min(pixels.first + pixels.count, strip.first_pixel + strip.pixel_count);
-        if (first >= end)
+        const auto [first, count] = common_pixels(pixels, strip.pixels());
+        if (count == 0)
             continue;
         auto *const words = reinterpret_cast<std::uint32_t *>(strip.words.host_memory().data());
         const std::size_t first_of_part = std::size_t{part} * gpu::FILM_WORDS * strip.pixel_count;
         function(PartWords<std::uint32_t>{words + first_of_part + (first - strip.first_pixel), strip.pixel_count},
-                 end - first);
+                 count);
     }
 }
 

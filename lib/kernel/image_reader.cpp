@@ -91,13 +91,12 @@ ImageReader::Slot &ImageReader::slot(std::size_t index, std::uint64_t bytes, std
 // Records commands that resolve a piece.
 void ImageReader::record(const vk::raii::CommandBuffer &commands, const Slot &slot, const ImageQuery &query,
                          const Pieces &pieces, std::uint64_t piece) const {
-    gpu::ResolveConstants constants = resolve_constants(query, film_);
-    const std::uint64_t row = query.pixels.y + piece * pieces.most / query.pixels.width;
-    constants.row_words =
-        static_cast<std::uint32_t>(query.pixels.width * pieces.bytes_of_pixel / sizeof(std::uint32_t));
-    constants.first_pixel = static_cast<std::uint32_t>(row * film_.width() + query.pixels.x);
-    constants.pixel_count = static_cast<std::uint32_t>(pieces.pixels_of(piece));
-    resolve(commands, pipelines_.of(query.format), film_, slot.sets, constants);
+    const auto [x, y, width, height] = query.pixels;
+    const auto first_row = static_cast<std::uint32_t>(piece * pieces.most / width);
+    const auto rows = static_cast<std::uint32_t>(pieces.pixels_of(piece) / width);
+    const auto row_words = static_cast<std::uint32_t>(width * pieces.bytes_of_pixel / sizeof(std::uint32_t));
+    resolve(commands, pipelines_.of(query.format), film_, slot.sets, query,
+            {{x, y + first_row, width, rows}, 0, row_words});
 }
 
 } // namespace pt

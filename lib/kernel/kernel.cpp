@@ -1,4 +1,3 @@
-// Specialisation, points and dispatches of the path-tracing kernel; see kernel.h.
 #include "lib/kernel/kernel.h"
 
 #include "lib/base/error.h"
@@ -13,10 +12,6 @@
 namespace pt {
 
 namespace {
-
-// Tables of points for one slice, at most 4 MiB: one for each dispatch. The split of the film may add one more cut.
-constexpr std::uint32_t max_tables = 64;
-constexpr std::uint32_t max_full_dispatches = max_tables - 1;
 
 std::uint64_t checked_scene_bytes(const vulkan::Device &device, std::size_t words) {
     const std::uint64_t bytes = std::max<std::uint64_t>(words, gpu::UNIFORM_SCENE_WORDS) * sizeof(glm::vec4);
@@ -73,13 +68,9 @@ Kernel::Kernel(vulkan::Device &device, TracePipelines &pipelines, DeviceFilm &fi
     pipelines_(pipelines),
     film_(film),
     gpu_scene_(std::move(scene)),
-    features_(gpu_scene_->features),
-    layout_(pt::point_layout(features_)),
-    sampler_(settings.sampler),
-    seed_(settings.seed),
-    frame_(gpu_scene_->frame),
+    layout_(pt::point_layout(features())),
     table_bytes_(device.limits().max_uniform_range),
-    max_dispatch_samples_(samples_of_dispatch(device, features_, layout_, table_bytes_)),
+    max_dispatch_samples_(samples_of_dispatch(device, features(), layout_, table_bytes_)),
     overlap_(device.policy().invocations > 0),
     scene_(device, vulkan::BufferUse::UniformOrStorage, checked_scene_bytes(device, gpu_scene_->words.size()), "scene"),
     tree_(tree),
@@ -87,7 +78,7 @@ Kernel::Kernel(vulkan::Device &device, TracePipelines &pipelines, DeviceFilm &fi
             std::uint64_t{table_bytes_} * (layout_.row_blocks() > 0 ? max_tables * device.policy().queue_depth : 1),
             "points of a slice"),
     tile_lists_(device, film.grid()) {
-    frame_.film_first_pixel = settings.first_row * settings.width;
+    show(gpu_scene_, settings);
 }
 
 void Kernel::bind_film(const vulkan::ComputePipeline &trace) {
@@ -103,13 +94,12 @@ void Kernel::bind_film(const vulkan::ComputePipeline &trace) {
 }
 
 bool Kernel::can_show(const GpuScene &scene) const {
-    return scene.features == features_ && scene.words.size() == gpu_scene_->words.size() &&
+    return scene.features == features() && scene.words.size() == gpu_scene_->words.size() &&
            scene.tree == gpu_scene_->tree;
 }
 
 void Kernel::show(std::shared_ptr<const GpuScene> scene, const RenderSettings &settings) {
     gpu_scene_ = std::move(scene);
-    sampler_ = settings.sampler;
     seed_ = settings.seed;
     frame_ = gpu_scene_->frame;
     frame_.film_first_pixel = settings.first_row * settings.width;
@@ -118,21 +108,17 @@ void Kernel::show(std::shared_ptr<const GpuScene> scene, const RenderSettings &s
 }
 
 void Kernel::build(TracePipelines &pipelines) const {
-    pipelines.trace(features_, gpu_scene_->words, seconds_);
+    pipelines.trace(features(), gpu_scene_->words, seconds_);
     pipelines.fold();
 }
 
 void Kernel::dispatch_nothing() {
-    const std::array pipelines = {&pipelines_.trace(features_, gpu_scene_->words, seconds_), &pipelines_.fold()};
+    const std::array pipelines = {&pipelines_.trace(features(), gpu_scene_->words, seconds_), &pipelines_.fold()};
     bind_film(*pipelines.front());
     device_.submit([&](const vk::raii::CommandBuffer &commands) {
         for (const vulkan::ComputePipeline *pipeline : pipelines)
             pipeline->dispatch(commands, sets_.front(), std::as_bytes(std::span(&frame_, 1)), 0, {{0}});
     });
-}
-
-std::uint32_t Kernel::max_samples() const {
-    return max_dispatch_samples_ * max_full_dispatches;
 }
 
 // One dispatch for each batch, all in one part of the film as the slice leaves it. The tables are free: slices end in
@@ -160,7 +146,7 @@ void Kernel::upload_points(const std::vector<Batch> &batches) {
     for (const Batch &batch : batches) {
         std::vector<std::uint32_t> indices(batch.sample_count);
         std::iota(indices.begin(), indices.end(), batch.first_sample);
-        const std::vector<PointBlock> table = point_table(sampler_, seed_, indices, layout_);
+        const std::vector<PointBlock> table = point_table(features()[gpu::ID_SAMPLER], seed_, indices, layout_);
         points_.upload(std::as_bytes(std::span(table)), batch.table_offset);
     }
 }
@@ -228,7 +214,7 @@ vulkan::Device::Ticket Kernel::start(const TileSlice &slice, bool on_cleared_fil
     const vulkan::ComputePipeline &fold = pipelines_.fold();
     bind_film(fold);
     const vulkan::ComputePipeline *const trace =
-        batches.empty() ? nullptr : &pipelines_.trace(features_, gpu_scene_->words, seconds_);
+        batches.empty() ? nullptr : &pipelines_.trace(features(), gpu_scene_->words, seconds_);
     gpu::FrameConstants frame = frame_;
     frame.first_entry = tile_lists_.first_entry(slice.tiles);
     const FilmPart kept = split_of(slice.before) < slice.split() ? older_part : newer_part;

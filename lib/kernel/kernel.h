@@ -31,7 +31,7 @@ public:
     Kernel(vulkan::Device &device, TracePipelines &pipelines, DeviceFilm &film, const vulkan::Buffer *tree,
            std::shared_ptr<const GpuScene> scene, const RenderSettings &settings);
 
-    const Features &features() const { return features_; }
+    const Features &features() const { return gpu_scene_->features; }
 
     // The scene that is rendered next. show() takes scenes that have the same features. Only while no work is under
     // way.
@@ -51,7 +51,7 @@ public:
     void dispatch_nothing();
 
     // How many samples one submission may add to a pixel.
-    std::uint32_t max_samples() const;
+    std::uint32_t max_samples() const { return max_dispatch_samples_ * (max_tables - 1); }
 
     // Records commands that follow the samples in their submission.
     using Behind = std::function<void(const vk::raii::CommandBuffer &)>;
@@ -65,6 +65,9 @@ public:
     double finish(vulkan::Device::Ticket ticket, double expected_seconds = 0.0);
 
 private:
+    // Tables of points for one slice, at most 4 MiB: one for each dispatch. The split of the film may add one more cut.
+    static constexpr std::uint32_t max_tables = 64;
+
     // The samples of one dispatch, all for one part of the film, and where their points begin in the table.
     struct Batch {
         std::uint32_t first_sample;
@@ -93,9 +96,7 @@ private:
     TracePipelines &pipelines_;
     DeviceFilm &film_;
     std::shared_ptr<const GpuScene> gpu_scene_; // never NULL
-    Features features_;
     PointLayout layout_;
-    std::uint32_t sampler_;
     std::uint64_t seed_;
     gpu::FrameConstants frame_;
     std::uint32_t table_bytes_;          // of the points that a dispatch sees

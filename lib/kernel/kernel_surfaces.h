@@ -2,6 +2,7 @@
 #pragma once
 
 #include "lib/scene/camera.h"
+#include "lib/scene/moving_ball.h"
 #include "lib/scene/seen_scene.h"
 #include "lib/tree/sphere_tree.h"
 
@@ -30,6 +31,14 @@ struct KernelSurfaces {
     std::uint32_t sky_count;
     HiddenCounts hidden;
 };
+
+// Whether a ball lies apart from these, as from a ball (moving_ball.h).
+bool lies_apart(const MovingBall &ball, const CurvedPlane &flat);
+bool lies_apart(const MovingBall &ball, const PointBox &box);
+
+// Whether a hidden sphere lies apart from all that the camera sees. Paths begin there, and so never get into the
+// sphere. tree: NULL if there is none; all of it is seen.
+bool lies_apart(const SeenSphere &hidden, const SeenScene &scene, const SphereTree *tree, const Camera &camera);
 
 // tree: NULL if the scene has none.
 KernelSurfaces kernel_surfaces(const SeenScene &distinct, const SphereTree *tree, const Camera &camera);

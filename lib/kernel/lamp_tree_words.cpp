@@ -1,12 +1,11 @@
-// Adds up the nodes of the tree of lamps; see lamp_tree_words.h.
 #include "lib/kernel/lamp_tree_words.h"
 
+#include "lib/kernel/scene_blocks.h"
 #include "lib/scene/lamp_tree.h"
 #include "shaders/gpu_layout.h"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 
 namespace pt {
@@ -93,32 +92,15 @@ Node node_of(std::span<const Lamp> lamps) {
     return node;
 }
 
-class LampTreeWriter {
-public:
-    LampTreeWriter(std::span<glm::vec4> words, bool motion) : words_(words), motion_(motion) {}
-
-    void node(std::uint64_t group, std::uint64_t place, const Node &node) {
-        const std::uint64_t word = gpu::lamp_tree_group_words(motion_ ? 1 : 0) * group;
-        const auto component = static_cast<int>(place);
-        for (int axis = 0; axis < 3; ++axis)
-            words_[word + static_cast<std::size_t>(axis)][component] = node.ball.open[axis];
-        words_[word + 3][component] = static_cast<float>(node.power);
-        words_[word + 4][component] = node.spread;
-        if (motion_)
-            for (int axis = 0; axis < 3; ++axis)
-                words_[word + 5 + static_cast<std::size_t>(axis)][component] = node.ball.way[axis];
-    }
-
-    // Of a block of numbers.
-    void number(std::uint64_t first_word, std::uint64_t place, std::uint64_t number) {
-        words_[first_word + place / 4][static_cast<int>(place % 4)] =
-            std::bit_cast<float>(gpu::MATERIAL_INDEX_BITS + static_cast<std::uint32_t>(number));
-    }
-
-private:
-    std::span<glm::vec4> words_;
-    bool motion_;
-};
+// words: of the group.
+void write_node(std::span<glm::vec4> words, int place, const Node &node, bool motion) {
+    for (int axis = 0; axis < 3; ++axis)
+        words[static_cast<std::size_t>(axis)][place] = node.ball.open[axis];
+    words[3][place] = static_cast<float>(node.power);
+    words[4][place] = node.spread;
+    for (int axis = 0; motion && axis < 3; ++axis)
+        words[5 + static_cast<std::size_t>(axis)][place] = node.ball.way[axis];
+}
 
 } // namespace
 
@@ -131,7 +113,7 @@ std::uint64_t lamp_tree_words(std::uint32_t lamp_count, bool motion) {
 void write_lamp_tree(std::span<glm::vec4> words, std::span<const TreeLamp> lamps, bool motion) {
     const LampTreeShape shape(static_cast<std::uint32_t>(lamps.size()));
     const std::vector<Lamp> scaled = scaled_lamps(lamps);
-    LampTreeWriter writer(words, motion);
+    const std::uint64_t group_words = gpu::lamp_tree_group_words(motion ? 1 : 0);
     for (std::uint32_t level = 0; level <= shape.levels(); ++level) {
         const std::uint64_t nodes = 4 * shape.groups_of(level);
         const std::uint64_t slots_of_node = shape.slots() / nodes;
@@ -144,17 +126,18 @@ void write_lamp_tree(std::span<glm::vec4> words, std::span<const TreeLamp> lamps
             } else if (first < end) {
                 node = {scaled[first].ball, scaled[first].power, scaled[first].ball.radius};
             }
-            writer.node(shape.groups_above(level) + i / 4, i % 4, node);
+            write_node(words.subspan(group_words * (shape.groups_above(level) + i / 4)), static_cast<int>(i % 4), node,
+                       motion);
         }
     }
-    const std::uint64_t lamp_words = gpu::lamp_tree_group_words(motion ? 1 : 0) * shape.all_groups();
-    const std::uint64_t slot_words = lamp_words + shape.slots() / 4;
+    const std::span<glm::vec4> lamp_words = words.subspan(group_words * shape.all_groups());
+    const std::span<glm::vec4> slot_words = lamp_words.subspan(shape.slots() / 4);
     for (std::uint64_t slot = 0; slot < shape.slots(); ++slot) {
         const std::uint32_t first = shape.first_lamp(slot);
         const bool is_taken = first < shape.first_lamp(slot + 1);
-        writer.number(lamp_words, slot, is_taken ? scaled[first].index : 0);
+        write_number(lamp_words, slot, is_taken ? scaled[first].index : 0);
         if (is_taken)
-            writer.number(slot_words, scaled[first].index, slot);
+            write_number(slot_words, scaled[first].index, static_cast<std::uint32_t>(slot));
     }
 }
 

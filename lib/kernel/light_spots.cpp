@@ -1,4 +1,3 @@
-// Chooses spots; see light_spots.h.
 #include "lib/kernel/light_spots.h"
 
 #include "lib/kernel/scene_blocks.h"
@@ -26,6 +25,10 @@ double mean_of_color(const glm::vec3 &color) {
     return (static_cast<double>(color.r) + color.g + color.b) / 3.0;
 }
 
+float reflectance(const glm::vec3 &color) {
+    return static_cast<float>(mean_of_color(color));
+}
+
 double height_above(const CurvedPlane &plane, const SeenSphere &lamp) {
     return std::abs(glm::dot(plane.normal, lamp.open) + plane.offset);
 }
@@ -36,63 +39,37 @@ bool shows_image(const Material &material, const SeenSphere &lamp, double distan
            1.0 / material.glossiness + sine * sine / 4.0 <= widest_image;
 }
 
-class SpotChoice {
-public:
-    SpotChoice(const KernelSurfaces &surfaces, const std::vector<Material> &materials) :
-        surfaces_(surfaces),
-        materials_(materials) {}
-
-    std::vector<LightSpot> spots() {
-        for (std::uint32_t lamp = 0; lamp < surfaces_.lamp_count; ++lamp) {
-            add_images_in_spheres(lamp);
-            add_spots_of_planes(lamp);
-        }
-        return spots_;
+void add_images_in_spheres(std::vector<LightSpot> &spots, std::uint32_t lamp, const KernelSurfaces &surfaces,
+                           const std::vector<Material> &materials) {
+    const SeenSphere &ball = surfaces.spheres[lamp];
+    for (std::uint32_t i = surfaces.lamp_count + surfaces.sky_count; i < surfaces.spheres.size(); ++i) {
+        const SeenSphere &sphere = surfaces.spheres[i];
+        const Material &material = materials[sphere.material];
+        if (sphere.kind == Kind::ball &&
+            shows_image(material, ball, glm::length(sphere.open - ball.open) - sphere.radius))
+            spots.push_back({lamp, i, reflectance(material.specular), material.glossiness});
     }
+}
 
-private:
-    void add_images_in_spheres(std::uint32_t lamp) {
-        const SeenSphere &ball = surfaces_.spheres[lamp];
-        for (std::uint32_t i = surfaces_.lamp_count + surfaces_.sky_count; i < surfaces_.spheres.size(); ++i) {
-            const SeenSphere &sphere = surfaces_.spheres[i];
-            const Material &material = materials_[sphere.material];
-            if (sphere.kind == Kind::ball &&
-                shows_image(material, ball, glm::length(sphere.open - ball.open) - sphere.radius))
-                add(lamp, i, material.specular, material.glossiness);
-        }
+void add_spots_of_planes(std::vector<LightSpot> &spots, std::uint32_t lamp, const KernelSurfaces &surfaces,
+                         const std::vector<Material> &materials) {
+    const SeenSphere &ball = surfaces.spheres[lamp];
+    double farthest = 0.0;
+    for (const CurvedPlane &plane : surfaces.planes)
+        farthest = std::max(farthest, height_above(plane, ball));
+    auto surface = static_cast<std::uint32_t>(surfaces.spheres.size());
+    for (const CurvedPlane &plane : surfaces.planes) {
+        const Material &material = materials[plane.material];
+        const double height = height_above(plane, ball);
+        const bool flat = plane.curvature == 0.0;
+        if (flat && height >= least_glow_height * ball.radius && height <= largest_glow_height * farthest &&
+            mean_of_color(material.diffuse) >= least_glow_diffuse)
+            spots.push_back({lamp, surface, reflectance(material.diffuse), -1.0F});
+        if (flat && shows_image(material, ball, height))
+            spots.push_back({lamp, surface, reflectance(material.specular), material.glossiness});
+        ++surface;
     }
-
-    void add_spots_of_planes(std::uint32_t lamp) {
-        const SeenSphere &ball = surfaces_.spheres[lamp];
-        double farthest = 0.0;
-        for (const CurvedPlane &plane : surfaces_.planes)
-            farthest = std::max(farthest, height_above(plane, ball));
-        for (std::uint32_t i = 0; i < surfaces_.planes.size(); ++i) {
-            const CurvedPlane &plane = surfaces_.planes[i];
-            const Material &material = materials_[plane.material];
-            const double height = height_above(plane, ball);
-            if (plane.curvature != 0.0)
-                continue;
-            if (height >= least_glow_height * ball.radius && height <= largest_glow_height * farthest &&
-                mean_of_color(material.diffuse) >= least_glow_diffuse)
-                add(lamp, surface_of_plane(i), material.diffuse, -1.0F);
-            if (shows_image(material, ball, height))
-                add(lamp, surface_of_plane(i), material.specular, material.glossiness);
-        }
-    }
-
-    void add(std::uint32_t lamp, std::uint32_t surface, const glm::vec3 &reflectance, float glossiness) {
-        spots_.push_back({lamp, surface, static_cast<float>(mean_of_color(reflectance)), glossiness});
-    }
-
-    std::uint32_t surface_of_plane(std::uint32_t plane) const {
-        return static_cast<std::uint32_t>(surfaces_.spheres.size()) + plane;
-    }
-
-    const KernelSurfaces &surfaces_;
-    const std::vector<Material> &materials_;
-    std::vector<LightSpot> spots_;
-};
+}
 
 } // namespace
 
@@ -102,7 +79,11 @@ std::vector<LightSpot> light_spots(const KernelSurfaces &surfaces, const std::ve
     if (!are_of_use || features[gpu::ID_LAMP_COUNT] > gpu::EVERY_LAMP_LIMIT || !features.scene_in_uniform() ||
         SceneBlocks(features).word_count + gpu::SPOT_LIMIT > gpu::UNIFORM_SCENE_WORDS)
         return {};
-    std::vector<LightSpot> spots = SpotChoice(surfaces, materials).spots();
+    std::vector<LightSpot> spots;
+    for (std::uint32_t lamp = 0; lamp < surfaces.lamp_count; ++lamp) {
+        add_images_in_spheres(spots, lamp, surfaces, materials);
+        add_spots_of_planes(spots, lamp, surfaces, materials);
+    }
     if (spots.size() > gpu::SPOT_LIMIT)
         spots.clear();
     return spots;

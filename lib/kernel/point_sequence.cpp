@@ -1,4 +1,3 @@
-// Sobol and Halton points in integer arithmetic; see point_sequence.h.
 #include "lib/kernel/point_sequence.h"
 
 #include "lib/base/mixed.h"
@@ -6,10 +5,8 @@
 #include <pt/pt.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstddef>
-#include <numeric>
 
 namespace pt {
 
@@ -176,10 +173,6 @@ std::uint32_t sobol(std::uint32_t index, std::uint32_t dimension) {
     return x;
 }
 
-std::uint32_t prime_base(std::uint32_t dimension) {
-    return primes[dimension];
-}
-
 std::uint32_t radical_inverse(std::uint64_t index, std::uint32_t dimension) {
     // index = sum d_k b^k with K digits; reversed = sum d_k b^(K - 1 - k), so the inverse is reversed / b^K.
     const std::uint64_t base = primes[dimension];
@@ -206,18 +199,6 @@ std::uint32_t owen_scrambled(std::uint32_t coordinate, std::uint32_t seed) {
     return reversed_bits(v);
 }
 
-bool PointLayout::has_time() const {
-    return block_dimensions.front() == gpu::camera_dimensions(1);
-}
-
-std::uint32_t PointLayout::shared_dimensions() const {
-    return std::accumulate(block_dimensions.begin(), block_dimensions.begin() + shared_blocks, 0U);
-}
-
-std::uint32_t PointLayout::dimensions() const {
-    return std::accumulate(block_dimensions.begin(), block_dimensions.end(), 0U);
-}
-
 namespace {
 
 // A point in all dimensions of a layout.
@@ -240,7 +221,7 @@ public:
         sobol_(sampler == PT_SAMPLER_SOBOL),
         rows_(layout.has_time() ? rows_in_motion : rows_at_rest),
         seed_(seed),
-        point_(layout.dimensions()) {}
+        point_(layout.dimensions_of(layout.block_count())) {}
 
     // The coordinates of the point with an index in the dimensions [first, end).
     std::span<const std::uint32_t> coordinates(std::uint64_t index, std::uint32_t first, std::uint32_t end) {
@@ -300,8 +281,8 @@ std::vector<PointBlock> point_table(std::uint32_t sampler, std::uint64_t seed, s
     };
     const auto shared_blocks = block_dimensions.first(layout.shared_blocks);
     const auto branch_blocks = block_dimensions.subspan(layout.shared_blocks);
-    const std::uint32_t shared = layout.shared_dimensions();
-    const std::uint32_t all = layout.dimensions();
+    const std::uint32_t shared = layout.dimensions_of(layout.shared_blocks);
+    const std::uint32_t all = layout.dimensions_of(layout.block_count());
     for (const std::uint32_t index : indices) {
         add_blocks(writer.coordinates(index, 0, shared), shared_blocks);
         for (std::uint32_t branch = 0; branch < layout.branches; ++branch)

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -17,9 +18,6 @@ inline constexpr std::uint32_t sequence_dimensions = 64;
 // Coordinate of the point with an index in the Sobol sequence with the direction numbers of Joe and Kuo, as a
 // multiple of 2^-32. dimension < sequence_dimensions.
 std::uint32_t sobol(std::uint32_t index, std::uint32_t dimension);
-
-// The dimension-th prime, from 2 on: the base of radical inverses. dimension < sequence_dimensions.
-std::uint32_t prime_base(std::uint32_t dimension);
 
 // Radical inverse of an index below 2^35 in the dimension-th prime base (Halton 1960), as the largest multiple of
 // 2^-32 not above it.
@@ -35,11 +33,12 @@ struct PointLayout {
     std::uint32_t row_blocks() const { return gpu::row_blocks(block_count(), shared_blocks, branches); }
 
     // Whether the first block has a time beside the place in the pixel.
-    bool has_time() const;
+    bool has_time() const { return block_dimensions.front() == gpu::camera_dimensions(1); }
 
-    // The dimensions of the shared blocks, and of all blocks.
-    std::uint32_t shared_dimensions() const;
-    std::uint32_t dimensions() const;
+    // The dimensions of the first blocks.
+    std::uint32_t dimensions_of(std::uint32_t blocks) const {
+        return std::accumulate(block_dimensions.begin(), block_dimensions.begin() + blocks, 0U);
+    }
 };
 
 // A coordinate with its binary digits scrambled as Owen does (1995): each digit is flipped or not by a hash of the

@@ -1,4 +1,3 @@
-// Finds how near the first surface in view can be; see ray_start.h.
 #include "lib/kernel/ray_start.h"
 
 #include "lib/base/error.h"

@@ -15,7 +15,8 @@ const vulkan::ComputePipeline &ResolvePipelines::of(std::uint32_t format) {
     return *pipeline;
 }
 
-gpu::ResolveConstants resolve_constants(const ImageQuery &query, const DeviceFilm &film) {
+void resolve(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline, const DeviceFilm &film,
+             std::span<const vulkan::DescriptorSet> sets, const ImageQuery &query, const ResolvedPiece &piece) {
     gpu::ResolveConstants constants{};
     constants.sample_counts = gpu::uvec2(gpu::ANY_COUNT);
     if (query.samples)
@@ -24,12 +25,11 @@ gpu::ResolveConstants resolve_constants(const ImageQuery &query, const DeviceFil
     constants.exponent = std::ilogb(query.unit) - static_cast<int>(gpu::FILM_FRACTION_BITS);
     constants.quantity = query.quantity;
     constants.film_width = film.width();
-    constants.width = query.pixels.width;
-    return constants;
-}
-
-void resolve(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline, DeviceFilm &film,
-             std::span<const vulkan::DescriptorSet> sets, gpu::ResolveConstants constants) {
+    constants.first_pixel = piece.pixels.y * film.width() + piece.pixels.x;
+    constants.width = piece.pixels.width;
+    constants.pixel_count = static_cast<std::uint32_t>(piece.pixels.pixel_count());
+    constants.first_word = piece.first_word;
+    constants.row_words = piece.row_words;
     vulkan::barrier_between_commands(commands);
     for (std::size_t i = 0; i < sets.size(); ++i) {
         const DeviceFilm::Strip &strip = film.strips()[i];

@@ -13,7 +13,6 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <vector>
 
 namespace pt {
 
@@ -41,13 +40,17 @@ private:
     std::array<std::optional<vulkan::ComputePipeline>, format_count> pipelines_;
 };
 
-// All constants, except for the strip and the place of the image.
-gpu::ResolveConstants resolve_constants(const ImageQuery &query, const DeviceFilm &film);
+// A rectangle of the film, and the words that its pixels go to.
+struct ResolvedPiece {
+    Rectangle pixels;
+    std::uint32_t first_word; // in what is bound
+    std::uint32_t row_words;  // from row to row
+};
 
-// Records commands that resolve the pixels named by the constants, with barriers before and behind. sets: the buffers
-// of each strip of the film.
-void resolve(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline, DeviceFilm &film,
-             std::span<const vulkan::DescriptorSet> sets, gpu::ResolveConstants constants);
+// Records commands that resolve a piece of what is read, with barriers before and behind. sets: the buffers of each
+// strip of the film.
+void resolve(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline, const DeviceFilm &film,
+             std::span<const vulkan::DescriptorSet> sets, const ImageQuery &query, const ResolvedPiece &piece);
 
 // Throws PT_ERROR_INTERNAL if a driver lost samples of some pixels.
 void require_no_loss(std::uint32_t lost_pixels);

@@ -1,9 +1,6 @@
-// Finds the features of a scene; see scene_features.h.
 #include "lib/kernel/scene_features.h"
 
-#include "lib/kernel/hidden_surfaces.h"
 #include "lib/kernel/lamp_tree_words.h"
-#include "lib/kernel/point_sequence.h"
 #include "lib/kernel/scene_blocks.h"
 #include "lib/scene/lamp_tree.h"
 #include "lib/scene/seen_scene.h"
@@ -12,7 +9,6 @@
 #include <pt/stats.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <numeric>
 #include <span>

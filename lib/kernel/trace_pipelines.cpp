@@ -1,4 +1,3 @@
-// Specialises the kernels; see trace_pipelines.h.
 #include "lib/kernel/trace_pipelines.h"
 
 #include "lib/kernel/scene_blocks.h"
@@ -7,11 +6,8 @@
 #include "shaders/specialization.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <chrono>
-#include <string>
-#include <utility>
 
 namespace pt {
 
@@ -96,7 +92,8 @@ const vulkan::ComputePipeline &TracePipelines::trace(const Features &features, s
         note_own(own, seconds); // own_ is this scene's afterwards, or nobody's
         if (const vulkan::ComputePipeline *const kept = find(own))
             return *kept;
-        if (kept_.empty() || ahead_ || (!as_they_are_ && clock_.is_time(seconds))) {
+        if (kept_.empty() || own_kernels_ == OwnKernels::at_once ||
+            (own_kernels_ == OwnKernels::when_they_pay && clock_.is_time(seconds))) {
             OwnKernel next{own, seconds, 0.0};
             const vulkan::ComputePipeline &built = build(std::move(own));
             own_ = std::move(next);

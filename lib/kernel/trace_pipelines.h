@@ -40,21 +40,10 @@ public:
     // camera. The reference holds until the next call.
     const vulkan::ComputePipeline &trace(const Features &features, std::span<const glm::vec4> words, double seconds);
 
-    // While one of these exists, every scene gets a kernel of its own at once: whoever prepares kernels ahead has the
-    // time.
-    class Ahead {
-    public:
-        explicit Ahead(TracePipelines &pipelines) : pipelines_(pipelines) { pipelines_.ahead_ = true; }
-        Ahead(const Ahead &) = delete;
-        Ahead &operator=(const Ahead &) = delete;
-        ~Ahead() { pipelines_.ahead_ = false; }
-
-    private:
-        TracePipelines &pipelines_;
-    };
-
-    // Until this is taken back, no scene gets a kernel of its own: polls build nothing.
-    void keep_kernels_as_they_are(bool keep) { as_they_are_ = keep; }
+    // From now on scenes get kernels of their own when these pay; or every scene at once, for whoever prepares kernels
+    // ahead and has the time; or no scene, since polls build nothing.
+    enum class OwnKernels { when_they_pay, at_once, never };
+    void build_own(OwnKernels when) { own_kernels_ = when; }
 
     // The kernel that adds one part of the film to the other.
     const vulkan::ComputePipeline &fold();
@@ -83,8 +72,7 @@ private:
     std::list<Specialised> kept_; // the last used first
     OwnKernelClock clock_;
     std::optional<OwnKernel> own_;
-    bool ahead_ = false;
-    bool as_they_are_ = false;
+    OwnKernels own_kernels_ = OwnKernels::when_they_pay;
     std::optional<vulkan::ComputePipeline> fold_;
 };
 

@@ -18,9 +18,9 @@ constexpr double share_assumed_of_learnt = 0.125;
 } // namespace
 
 RenderDevice::RenderDevice(vulkan::Instance &instance, const vk::raii::PhysicalDevice &physical_device,
-                           vulkan::LogicalDevice logical_device, const vulkan::DevicePolicy &policy,
-                           const KernelCode &code, double target_seconds) :
-    device_(instance, physical_device, std::move(logical_device), policy),
+                           const vulkan::DevicePolicy &policy, const KernelCode &code, double target_seconds,
+                           const vulkan::CallerVulkan *caller) :
+    device_(instance, physical_device, policy, caller),
     code_(code),
     pipelines_(std::make_unique<TracePipelines>(device_, code)),
     target_seconds_(target_seconds),
@@ -107,7 +107,7 @@ void RenderDevice::save_kernels() noexcept {
 // If the kernel stays, so does the schedule, since a sample costs about the same. For another kernel the schedule
 // starts from what this device is known to manage.
 void RenderDevice::prepare(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings) {
-    pipelines_->keep_kernels_as_they_are(false);
+    pipelines_->build_own(TracePipelines::OwnKernels::when_they_pay);
     if (kernel_ && &kernel_->scene() == scene.get())
         return;
     if (kernel_ && kernel_->can_show(*scene)) {
@@ -147,8 +147,8 @@ void RenderDevice::plant(const std::shared_ptr<const SphereTree> &tree) {
 }
 
 void RenderDevice::prepare_ahead(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings) {
-    const TracePipelines::Ahead ahead(*pipelines_);
     prepare(scene, settings);
+    pipelines_->build_own(TracePipelines::OwnKernels::at_once); // until the next prepare()
     kernel_->build(*pipelines_);
     kernel_->dispatch_nothing();
     if (device_.policy().resolve_on_device) {
@@ -161,7 +161,7 @@ void RenderDevice::prepare_for_polls(bool with_errors) {
     kernel_->build(*pipelines_);
     if (with_errors && device_.policy().resolve_on_device)
         estimate_pipeline();
-    pipelines_->keep_kernels_as_they_are(true);
+    pipelines_->build_own(TracePipelines::OwnKernels::never);
 }
 
 DeviceFilm &RenderDevice::film() {

@@ -28,10 +28,10 @@ namespace pt {
 
 class RenderDevice {
 public:
-    // The instance must outlive it. target_seconds: how long a slice should take.
+    // The instance must outlive it. target_seconds: how long a slice should take. caller: see vulkan::Device.
     RenderDevice(vulkan::Instance &instance, const vk::raii::PhysicalDevice &physical_device,
-                 vulkan::LogicalDevice logical_device, const vulkan::DevicePolicy &policy, const KernelCode &code,
-                 double target_seconds);
+                 const vulkan::DevicePolicy &policy, const KernelCode &code, double target_seconds,
+                 const vulkan::CallerVulkan *caller = nullptr);
     // Waits for work under way, for as long as the patience of the device allows.
     ~RenderDevice();
     RenderDevice(const RenderDevice &) = delete;

@@ -44,22 +44,21 @@ void Renderer::use_own_devices(const CreateSettings &settings) {
     const std::vector<vk::raii::PhysicalDevice> devices = instance_.physical_devices();
     for (const std::size_t index : vulkan::choose_devices(describe_all(instance_), settings.device))
         for (std::uint32_t i = 0; i < settings.devices_of_each; ++i)
-            add_device(devices[index], vulkan::LogicalDevice::create(devices[index]), settings);
+            add_device(devices[index], settings);
 }
 
 void Renderer::use_device_of(const vulkan::CallerVulkan &caller, const CreateSettings &settings) {
-    const vk::raii::PhysicalDevice physical_device = validated_physical_device(instance_.handle(), caller);
-    add_device(physical_device, vulkan::LogicalDevice::borrow(physical_device, caller), settings);
+    add_device(validated_physical_device(instance_.handle(), caller), settings, &caller);
 }
 
-void Renderer::add_device(const vk::raii::PhysicalDevice &physical_device, vulkan::LogicalDevice logical_device,
-                          const CreateSettings &settings) {
+void Renderer::add_device(const vk::raii::PhysicalDevice &physical_device, const CreateSettings &settings,
+                          const vulkan::CallerVulkan *caller) {
     vulkan::DevicePolicy policy =
         settings.like_gpus ? vulkan::gpu_like_policy() : vulkan::default_policy(vulkan::describe(physical_device));
     policy.scene_in_constants = policy.scene_in_constants && settings.scene_kernels;
     policy.adaptive_from = settings.adaptive_from.value_or(policy.adaptive_from);
-    devices_.push_back(std::make_unique<RenderDevice>(instance_, physical_device, std::move(logical_device), policy,
-                                                      code_, settings.submit_milliseconds * 1e-3));
+    devices_.push_back(std::make_unique<RenderDevice>(instance_, physical_device, policy, code_,
+                                                      settings.submit_milliseconds * 1e-3, caller));
     devices_.back()->keep_kernels(settings.kernel_store);
     log().info([&] {
         const pt_device_info &info = devices_.back()->device().info();

@@ -141,8 +141,8 @@ private:
 
     void use_own_devices(const CreateSettings &settings);
     void use_device_of(const vulkan::CallerVulkan &caller, const CreateSettings &settings);
-    void add_device(const vk::raii::PhysicalDevice &physical_device, vulkan::LogicalDevice logical_device,
-                    const CreateSettings &settings);
+    void add_device(const vk::raii::PhysicalDevice &physical_device, const CreateSettings &settings,
+                    const vulkan::CallerVulkan *caller = nullptr);
     bool is_alive() const;
     void require_alive() const;
     void require_settings() const;

@@ -1,4 +1,3 @@
-// Allocation and transfers; see buffer.h.
 #include "lib/vulkan/buffer.h"
 
 #include "lib/vulkan/device_object.h"
@@ -193,10 +192,8 @@ void Buffer::download(std::span<const BufferPiece> pieces) {
 }
 
 void Buffer::write(const vk::raii::CommandBuffer &commands, std::span<const std::byte> data) const {
-    if (data.empty()) // Vulkan does not allow it; a scene without surfaces has no words
-        return;
-    commands.updateBuffer<std::byte>(
-        handle(), 0, vk::ArrayProxy<const std::byte>(static_cast<std::uint32_t>(data.size()), data.data()));
+    if (!data.empty()) // Vulkan does not allow it; a scene without surfaces has no words
+        commands.updateBuffer<std::byte>(handle(), 0, data);
 }
 
 void Buffer::clear(const vk::raii::CommandBuffer &commands, std::uint64_t offset, std::uint64_t bytes) const {

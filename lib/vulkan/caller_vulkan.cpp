@@ -1,4 +1,3 @@
-// Rules for the caller's Vulkan handles; see caller_vulkan.h.
 #include "lib/vulkan/caller_vulkan.h"
 
 #include "lib/base/error.h"

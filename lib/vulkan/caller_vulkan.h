@@ -1,5 +1,5 @@
 // The caller's Vulkan handles, checked: pt_vulkan as the library uses it. Made by api.cpp, used by Instance,
-// LogicalDevice and Renderer, none of which owns the handles.
+// Device and Renderer, none of which owns the handles.
 #pragma once
 
 #include "lib/vulkan/api.h"

@@ -1,4 +1,3 @@
-// Pipelines and descriptor sets; see compute_pipeline.h.
 #include "lib/vulkan/compute_pipeline.h"
 
 #include "lib/base/error.h"
@@ -6,8 +5,8 @@
 #include "lib/vulkan/result.h"
 
 #include <algorithm>
+#include <set>
 #include <string>
-#include <vector>
 
 namespace pt::vulkan {
 
@@ -34,9 +33,12 @@ void require_bindings(std::span<const std::uint32_t> spirv, std::span<const Bind
         const bool names_binding = instruction[2] == spirv::decoration_binding &&
                                    std::ranges::find(bindings, instruction[3], &Binding::number) == bindings.end();
         if (names_set || names_binding) {
-            std::string known;
+            std::set<std::uint32_t> numbers;
             for (const Binding &binding : bindings)
-                known += (known.empty() ? "" : ", ") + std::to_string(binding.number);
+                numbers.insert(binding.number);
+            std::string known;
+            for (const std::uint32_t number : numbers)
+                known += (known.empty() ? "" : ", ") + std::to_string(number);
             throw Error(PT_ERROR_SHADER, std::string("building a kernel: ") + (names_set ? "set " : "binding ") +
                                              std::to_string(instruction[3]) +
                                              " is not in its layout, which has the bindings " + known + " of set 0");
@@ -140,13 +142,9 @@ void ComputePipeline::dispatch(const vk::raii::CommandBuffer &commands, const De
                                std::span<const std::byte> push_constants, std::uint32_t group_count,
                                std::span<const std::uint32_t> offsets, std::uint32_t rows) const {
     commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline_);
-    commands.bindDescriptorSets(
-        vk::PipelineBindPoint::eCompute, *layout_, 0, set.handle(),
-        vk::ArrayProxy<const std::uint32_t>(static_cast<std::uint32_t>(offsets.size()), offsets.data()));
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, set.handle(), offsets);
     if (!push_constants.empty())
-        commands.pushConstants<std::byte>(
-            *layout_, vk::ShaderStageFlagBits::eCompute, 0,
-            vk::ArrayProxy<const std::byte>(static_cast<std::uint32_t>(push_constants.size()), push_constants.data()));
+        commands.pushConstants<std::byte>(*layout_, vk::ShaderStageFlagBits::eCompute, 0, push_constants);
     commands.dispatch(group_count, rows, 1);
 }
 

@@ -1,15 +1,15 @@
-// Creation of the device, submission and waiting; see device.h.
 #include "lib/vulkan/device.h"
 
 #include "lib/base/digest.h"
 #include "lib/base/error.h"
 #include "lib/vulkan/device_choice.h"
+#include "lib/vulkan/logical_device.h"
 #include "lib/vulkan/result.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstring>
 #include <limits>
+#include <mutex>
 #include <string_view>
 
 namespace pt::vulkan {
@@ -118,18 +118,23 @@ DevicePolicy gpu_like_policy() {
     return policy;
 }
 
-Device::Device(Instance &instance, const vk::raii::PhysicalDevice &physical_device, LogicalDevice logical_device,
-               const DevicePolicy &policy) :
+Device::Device(Instance &instance, const vk::raii::PhysicalDevice &physical_device, const DevicePolicy &policy,
+               const CallerVulkan *caller) :
     instance_(instance),
     info_(describe(physical_device)),
     limits_(limits_of(physical_device)),
     policy_(policy),
     memory_properties_(physical_device.getMemoryProperties()),
     driver_id_(driver_id_of(physical_device)),
-    logical_device_(std::move(logical_device)) {
+    queue_family_(caller ? caller->queue_family : compute_family(physical_device)),
+    queue_lock_(caller ? caller->queue_lock : QueueLock()),
+    device_{caller ? vk::raii::Device(physical_device, caller->device)
+                   : translated("creating the device", [&] { return create_device(physical_device, queue_family_); }),
+            caller == nullptr},
+    queue_(handle(), caller ? vk::Queue(caller->queue) : *handle().getQueue(queue_family_, 0)) {
     translated("preparing the device", [&] {
-        command_pool_ = handle().createCommandPool({.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer,
-                                                    .queueFamilyIndex = logical_device_.queue_family()});
+        command_pool_ = handle().createCommandPool(
+            {.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer, .queueFamilyIndex = queue_family_});
         std::vector<vk::raii::CommandBuffer> commands =
             handle().allocateCommandBuffers({.commandPool = *command_pool_,
                                              .level = vk::CommandBufferLevel::ePrimary,
@@ -152,7 +157,7 @@ Device::~Device() {
         submission.commands.release();
     }
     command_pool_.release();
-    logical_device_.abandon();
+    device_.is_owned = false;
     instance_.abandon();
 }
 
@@ -208,14 +213,16 @@ Device::Ticket Device::start(const Record &record, const Semaphores &semaphores)
         const vk::CommandBuffer commands = *free->commands;
         const vk::PipelineStageFlags waiting_stages = Stage::eComputeShader;
         try {
-            free->start = logical_device_.submit({.waitSemaphoreCount = semaphores.wait ? 1U : 0U,
-                                                  .pWaitSemaphores = &semaphores.wait,
-                                                  .pWaitDstStageMask = &waiting_stages,
-                                                  .commandBufferCount = 1,
-                                                  .pCommandBuffers = &commands,
-                                                  .signalSemaphoreCount = semaphores.signal ? 1U : 0U,
-                                                  .pSignalSemaphores = &semaphores.signal},
-                                                 *free->fence);
+            const std::lock_guard held(queue_lock_);
+            free->start = Clock::now();
+            queue_.submit(vk::SubmitInfo{.waitSemaphoreCount = semaphores.wait ? 1U : 0U,
+                                         .pWaitSemaphores = &semaphores.wait,
+                                         .pWaitDstStageMask = &waiting_stages,
+                                         .commandBufferCount = 1,
+                                         .pCommandBuffers = &commands,
+                                         .signalSemaphoreCount = semaphores.signal ? 1U : 0U,
+                                         .pSignalSemaphores = &semaphores.signal},
+                          *free->fence);
         } catch (const vk::DeviceLostError &error) {
             comes_to_rest(); // waits for earlier submissions: what they use may be destroyed from here on
             lose([&] { return error.what(); });

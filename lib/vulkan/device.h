@@ -2,8 +2,8 @@
 // made on it.
 #pragma once
 
+#include "lib/vulkan/caller_vulkan.h"
 #include "lib/vulkan/instance.h"
-#include "lib/vulkan/logical_device.h"
 #include "lib/vulkan/pipeline_cache.h"
 
 #include <pt/devices.h>
@@ -73,8 +73,9 @@ class Device {
 public:
     // The instance must outlive the device. A device that hangs is never destroyed, nor is its instance: both stay
     // until the process ends.
-    Device(Instance &instance, const vk::raii::PhysicalDevice &physical_device, LogicalDevice logical_device,
-           const DevicePolicy &policy);
+    // caller: whose device and queue are used, and left alone; NULL for a device of its own.
+    Device(Instance &instance, const vk::raii::PhysicalDevice &physical_device, const DevicePolicy &policy,
+           const CallerVulkan *caller = nullptr);
     ~Device();
     Device(const Device &) = delete;
     Device &operator=(const Device &) = delete;
@@ -133,8 +134,8 @@ public:
     // Starts a submission and waits for it.
     double submit(const Record &record) { return finish(start(record)); }
 
-    const vk::raii::Device &handle() const { return logical_device_.handle(); }
-    bool is_borrowed() const { return logical_device_.is_borrowed(); }
+    const vk::raii::Device &handle() const { return device_.handle; }
+    bool is_borrowed() const { return !device_.is_owned; }
     PipelineCache &pipeline_cache() { return pipeline_cache_; }
 
     // The key under which the driver's kernels of some code are kept: it stands for this model of device, its driver
@@ -146,6 +147,16 @@ public:
     void count_release(std::uint64_t bytes) { allocated_bytes_ -= bytes; }
 
 private:
+    struct OwnedOrLent {
+        vk::raii::Device handle;
+        bool is_owned; // else it is left alone
+
+        ~OwnedOrLent() {
+            if (!is_owned)
+                handle.release();
+        }
+    };
+
     // When something happened, as far as that is known.
     struct Moment {
         Clock::time_point earliest;
@@ -176,7 +187,10 @@ private:
     DevicePolicy policy_;
     vk::PhysicalDeviceMemoryProperties memory_properties_;
     std::array<std::uint32_t, 7> driver_id_; // numbers that tell drivers and models of devices apart
-    LogicalDevice logical_device_;
+    std::uint32_t queue_family_;
+    QueueLock queue_lock_; // does nothing for the device's own queue, which no other thread knows
+    OwnedOrLent device_;
+    vk::raii::Queue queue_;
     vk::raii::CommandPool command_pool_ = nullptr;
     std::vector<Submission> submissions_;
     Moment last_end_{};

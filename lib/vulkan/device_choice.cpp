@@ -1,4 +1,3 @@
-// Description and ranking of devices; see device_choice.h.
 #include "lib/vulkan/device_choice.h"
 
 #include "lib/base/error.h"
@@ -13,6 +12,15 @@
 namespace pt::vulkan {
 
 namespace {
+
+using Kind = vk::PhysicalDeviceType;
+
+constexpr bool is(int number, Kind kind) {
+    return number == static_cast<int>(kind);
+}
+static_assert(is(PT_DEVICE_OTHER, Kind::eOther) && is(PT_DEVICE_INTEGRATED_GPU, Kind::eIntegratedGpu) &&
+              is(PT_DEVICE_DISCRETE_GPU, Kind::eDiscreteGpu) && is(PT_DEVICE_VIRTUAL_GPU, Kind::eVirtualGpu) &&
+              is(PT_DEVICE_CPU, Kind::eCpu));
 
 template <std::size_t size>
 void copy_text(char (&target)[size], const std::string &text) {
@@ -82,11 +90,9 @@ std::string mismatch(const pt_device_info &device, const std::string &wanted) {
 
 // Lower is better.
 int rank(const pt_device_info &device) {
-    constexpr std::array best_first = {PT_DEVICE_DISCRETE_GPU, PT_DEVICE_INTEGRATED_GPU, PT_DEVICE_VIRTUAL_GPU,
-                                       PT_DEVICE_CPU};
-    const auto found =
-        std::ranges::find_if(best_first, [&](int kind) { return static_cast<std::uint32_t>(kind) == device.kind; });
-    return static_cast<int>(found - best_first.begin());
+    constexpr std::array<std::uint32_t, 4> best_first = {PT_DEVICE_DISCRETE_GPU, PT_DEVICE_INTEGRATED_GPU,
+                                                         PT_DEVICE_VIRTUAL_GPU, PT_DEVICE_CPU};
+    return static_cast<int>(std::ranges::find(best_first, device.kind) - best_first.begin());
 }
 
 std::size_t indexed_device(std::span<const pt_device_info> devices, const std::string &wanted) {
@@ -109,22 +115,8 @@ std::size_t indexed_device(std::span<const pt_device_info> devices, const std::s
 pt_device_info describe(const vk::raii::PhysicalDevice &device) {
     const vk::PhysicalDeviceProperties basic = device.getProperties();
     pt_device_info info{};
-    switch (basic.deviceType) {
-    case vk::PhysicalDeviceType::eIntegratedGpu:
-        info.kind = PT_DEVICE_INTEGRATED_GPU;
-        break;
-    case vk::PhysicalDeviceType::eDiscreteGpu:
-        info.kind = PT_DEVICE_DISCRETE_GPU;
-        break;
-    case vk::PhysicalDeviceType::eVirtualGpu:
-        info.kind = PT_DEVICE_VIRTUAL_GPU;
-        break;
-    case vk::PhysicalDeviceType::eCpu:
-        info.kind = PT_DEVICE_CPU;
-        break;
-    default:
-        info.kind = PT_DEVICE_OTHER;
-    }
+    const auto kind = static_cast<std::uint32_t>(basic.deviceType); // newer kinds may follow
+    info.kind = kind <= std::uint32_t{PT_DEVICE_CPU} ? kind : std::uint32_t{PT_DEVICE_OTHER};
     copy_text(info.name, basic.deviceName);
     info.memory_bytes = largest_device_heap(device);
     const std::string reason = unsuitable_reason(device, basic.apiVersion);

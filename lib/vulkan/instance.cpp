@@ -1,4 +1,3 @@
-// Creation of the instance and the explanation of its failures; see instance.h.
 #include "lib/vulkan/instance.h"
 
 #include "lib/base/error.h"

@@ -1,4 +1,3 @@
-// Loading and storing a driver's kernels; see pipeline_cache.h.
 #include "lib/vulkan/pipeline_cache.h"
 
 #include "lib/base/digest.h"
@@ -10,7 +9,6 @@
 #include <new>
 #include <span>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace pt::vulkan {

@@ -1,4 +1,3 @@
-// Translation table; see result.h.
 #include "lib/vulkan/result.h"
 
 #include <string>

@@ -29,7 +29,6 @@ using pt::vulkan::ComputePipeline;
 using pt::vulkan::DescriptorSet;
 using pt::vulkan::Device;
 using pt::vulkan::Instance;
-using pt::vulkan::LogicalDevice;
 
 // Stands between a device and Vulkan, and looks whether the queue is held. For one device at a time.
 class QueueSpy {
@@ -89,8 +88,8 @@ protected:
         const CallerVulkan handles = this->handles(with_lock);
         Instance instance(pt::Log{}, handles.instance);
         const vk::raii::PhysicalDevice physical = validated_physical_device(instance.handle(), handles);
-        pt::RenderDevice device(instance, physical, LogicalDevice::borrow(physical, handles),
-                                pt::vulkan::default_policy(pt::vulkan::describe(physical)), pt::embedded_code(), 0.05);
+        pt::RenderDevice device(instance, physical, pt::vulkan::default_policy(pt::vulkan::describe(physical)),
+                                pt::embedded_code(), 0.05, &handles);
         const QueueSpy spy(device.device().handle());
         const pt::RenderSettings settings = pt::validated_render(render_of(20, 10, 2));
         device.set_film(device.make_film(settings));
@@ -130,8 +129,7 @@ TEST_F(BorrowedDeviceTest, ASubmissionThatLosesTheDeviceLetsGoOfTheQueue) {
     const CallerVulkan handles = this->handles(true);
     Instance instance(pt::Log{}, handles.instance);
     const vk::raii::PhysicalDevice physical = validated_physical_device(instance.handle(), handles);
-    Device device(instance, physical, LogicalDevice::borrow(physical, handles),
-                  pt::vulkan::default_policy(pt::vulkan::describe(physical)));
+    Device device(instance, physical, pt::vulkan::default_policy(pt::vulkan::describe(physical)), &handles);
     const QueueSpy spy(device.handle());
     Buffer buffer(device, BufferUse::Storage, 64, "test");
     QueueSpy::counts.failure = VK_ERROR_DEVICE_LOST;
@@ -151,12 +149,13 @@ TEST_F(BorrowedDeviceTest, ADeviceThatHangsKeepsWhatItsWorkUses) {
     {
         Instance instance(pt::Log{}, handles.instance);
         const vk::raii::PhysicalDevice physical = validated_physical_device(instance.handle(), handles);
-        Device device(instance, physical, LogicalDevice::borrow(physical, handles),
+        Device device(instance, physical,
                       {.patience = std::chrono::nanoseconds{0},
                        .share_memory = true,
                        .scene_in_constants = false,
                        .invocations = 0,
-                       .queue_depth = 1});
+                       .queue_depth = 1},
+                      &handles);
         const ComputePipeline pipeline(
             device, recurrence_spirv(),
             std::array<pt::vulkan::Binding, 2>{{{0, vk::DescriptorType::eUniformBuffer}, {1}}}, 4,

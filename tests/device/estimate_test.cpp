@@ -6,6 +6,7 @@
 #include "lib/kernel/device_film.h"
 #include "lib/kernel/error_reader.h"
 #include "lib/kernel/shader_source.h"
+#include "tests/device/film_words.h"
 #include "tests/device/vulkan_fixture.h"
 #include "tests/support/expected_error.h"
 
@@ -100,7 +101,7 @@ protected:
         const pt::vulkan::ComputePipeline pipeline = pt::estimate_pipeline(device(), pt::embedded_code().estimate);
         pt::DeviceFilm film(device(), size.width, size.height, max_strip_pixels);
         EXPECT_TRUE(film.has_whole_tiles());
-        film.write(sums);
+        fill(device(), film, sums);
         pt::ErrorEstimator estimator(conditions);
         const pt::TileSamples samples = samples_of(size);
         pt::ErrorReader(device(), pipeline, film).read({unit, samples}, [&](const auto &tiles) {
@@ -163,7 +164,7 @@ TEST_F(EstimateTest, OfTilesIsThatOfTheHost) {
         for (const double unit : {1.0, 0x1p-40, 0x1p52}) {
             const pt::vulkan::ComputePipeline pipeline = pt::estimate_pipeline(device(), pt::embedded_code().estimate);
             pt::DeviceFilm film(device(), size.width, size.height, size.width * 4 * pt::gpu::TILE_SIZE);
-            film.write(sums);
+            fill(device(), film, sums);
             std::vector<double> squares(samples.grid().count());
             pt::ErrorEstimator estimator(conditions);
             pt::ErrorReader(device(), pipeline, film).read({unit, samples, squares}, [&](const auto &tiles) {
@@ -191,7 +192,7 @@ TEST_F(EstimateTest, SamplesThatATileLostAreAnError) {
     samples.set(7, pt::SampleSet({0, 2 * part_samples + 1}));
     const pt::vulkan::ComputePipeline pipeline = pt::estimate_pipeline(device(), pt::embedded_code().estimate);
     pt::DeviceFilm film(device(), 40, 40, 1600);
-    film.write(sums);
+    fill(device(), film, sums);
     std::vector<double> squares(samples.grid().count());
     pt::ErrorReader reader(device(), pipeline, film);
     EXPECT_THROW(reader.read({1.0, samples, squares}, [](const auto &) {}), pt::Error);
@@ -216,14 +217,14 @@ TEST_F(EstimateTest, SamplesThatAPixelLostAreAnErrorOnTheHost) {
             for (std::uint32_t x = 32; x < 40; ++x)
                 sums.plane(pt::newer_part, pt::gpu::FILM_ACCEPTED)[y * 45 + x] =
                     samples.even() ? part_samples : part_samples / 2;
-        film.write(sums);
+        fill(device(), film, sums);
         EXPECT_NO_THROW(pt::read_films(all, samples, first, read));
         for (const std::size_t pixel : {50, 71, 77, 80, 84, 85, 100, 944})
             for (const std::uint32_t part : {pt::older_part, pt::newer_part})
                 for (const int change : {1, -1}) {
                     pt::PixelSums damaged = sums;
                     damaged.plane(part, pt::gpu::FILM_ACCEPTED)[pixel] += static_cast<std::uint32_t>(change);
-                    film.write(damaged);
+                    fill(device(), film, damaged);
                     EXPECT_THROW(pt::read_films(all, samples, first, read), pt::Error) << pixel;
                 }
     }

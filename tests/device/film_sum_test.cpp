@@ -1,6 +1,7 @@
 // Sums of films of several devices on one of them, against sums on the host.
 #include "lib/kernel/film_sum.h"
 #include "lib/kernel/shader_source.h"
+#include "tests/device/film_words.h"
 #include "tests/device/vulkan_fixture.h"
 
 #include <gtest/gtest.h>
@@ -26,8 +27,7 @@ protected:
 
     // A film with random sums, their most significant words and carries into these among them, on a device of its own.
     void add_film(std::uint32_t max_strip_pixels) {
-        devices_.emplace_back(instance(), physical_device(), pt::vulkan::LogicalDevice::create(physical_device()),
-                              pt::vulkan::gpu_like_policy());
+        devices_.emplace_back(instance(), physical_device(), pt::vulkan::gpu_like_policy());
         films_.emplace_back(devices_.back(), sum_width, sum_height, max_strip_pixels);
         pt::PixelSums sums;
         sums.resize(films_.back().pixel_count());
@@ -35,7 +35,7 @@ protected:
             for (std::size_t plane = 0; plane < pt::gpu::FILM_WORDS; ++plane)
                 for (std::uint32_t &word : sums.plane(part, plane))
                     word = random_word();
-        films_.back().write(sums);
+        fill(devices_.back(), films_.back(), sums);
     }
 
     // With different strips.

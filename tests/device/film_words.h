@@ -2,6 +2,7 @@
 #pragma once
 
 #include "lib/film/pixel_sums.h"
+#include "lib/kernel/device_film.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -16,4 +17,11 @@ inline pt::PixelSums sums_of(std::span<const std::uint32_t> words, std::size_t p
             std::ranges::copy(words.subspan((part * pt::gpu::FILM_WORDS + plane) * pixel_count, pixel_count),
                               sums.plane(part, plane).begin());
     return sums;
+}
+
+// Sets the sums of the first pixels of a film, as many as there are in sums.
+inline void fill(pt::vulkan::Device &device, pt::DeviceFilm &film, const pt::PixelSums &sums) {
+    pt::DeviceFilm::NewSums filled(device, film);
+    filled.write(0, sums);
+    filled.replace();
 }

@@ -1,6 +1,7 @@
 // A fold of the film's parts on the host: in which pixels, with which sums, and whether it can be undone.
 #include "lib/kernel/host_fold.h"
 
+#include "tests/device/film_words.h"
 #include "tests/device/vulkan_fixture.h"
 
 #include <gtest/gtest.h>
@@ -40,7 +41,7 @@ protected:
         if (!film_->is_host_memory())
             GTEST_SKIP() << "the film is in the device's own memory";
         ASSERT_GT(film_->strips().size(), 1U);
-        film_->write(before_);
+        fill(device(), *film_, before_);
     }
 
     void TearDown() override {
@@ -70,7 +71,7 @@ protected:
 TEST_F(HostFold, AddsThePartsOfItsPixels) {
     const std::vector<pt::PixelRange> pixels = {{3, 5}, {60, 40}, {191, 1}};
     for (std::uint32_t into = 0; into < pt::gpu::FILM_PARTS; ++into) {
-        film_->write(before_);
+        fill(device(), *film_, before_);
         pt::HostFold fold(*film_, into);
         ASSERT_TRUE(fold.fold(pixels));
         fold.keep();
@@ -93,7 +94,7 @@ TEST_F(HostFold, IsUndoneUnlessItIsKept) {
 TEST_F(HostFold, LeavesRareWordsToKernels) {
     for (const std::size_t plane : {std::size_t{3}, std::size_t{7}, std::size_t{11}, std::size_t{13}}) {
         before_.plane(1, plane)[100] = 1;
-        film_->write(before_);
+        fill(device(), *film_, before_);
         pt::HostFold fold(*film_, 0);
         EXPECT_FALSE(fold.fold({{80, 30}})) << plane;
         EXPECT_TRUE(words() == before_) << plane;
@@ -105,7 +106,7 @@ TEST_F(HostFold, LeavesRareWordsToKernels) {
 // The part that takes them in is added to, whatever it has.
 TEST_F(HostFold, TakesInWhereRareWordsAre) {
     before_.plane(0, 3)[100] = 7;
-    film_->write(before_);
+    fill(device(), *film_, before_);
     const std::vector<pt::PixelRange> pixels = {{80, 30}};
     pt::HostFold fold(*film_, 0);
     ASSERT_TRUE(fold.fold(pixels));

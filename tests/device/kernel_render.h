@@ -113,7 +113,7 @@ public:
         const pt::PixelSums sums = sums_of(film, width * height);
         for (std::size_t pixel = 0; pixel < sums.pixel_count(); ++pixel)
             pt::require_samples(sums.samples_of(pixel), {frame_.sample_count, 0});
-        return sums.values(PT_QUANTITY_RADIANCE, scene_.film_unit);
+        return sums.values(PT_QUANTITY_RADIANCE, 1.0 / double{scene_.frame.film_scale});
     }
 
 private:

@@ -21,8 +21,7 @@ void on_message(void * /*user*/, int32_t level, const char *line) {
 struct SharedDevice {
     pt::Log log{&on_message, nullptr};
     pt::vulkan::Instance instance{log, std::getenv("PT_TEST_NO_VALIDATION") == nullptr};
-    pt::vulkan::Device device{instance, chosen(), pt::vulkan::LogicalDevice::create(chosen()),
-                              pt::vulkan::default_policy(pt::vulkan::describe(chosen()))};
+    pt::vulkan::Device device{instance, chosen(), pt::vulkan::default_policy(pt::vulkan::describe(chosen()))};
 
     vk::raii::PhysicalDevice chosen() const {
         std::vector<vk::raii::PhysicalDevice> devices = instance.physical_devices();

@@ -23,8 +23,7 @@ protected:
     }
 
     pt::RenderDevice ready_device(double target_seconds, const pt::vulkan::DevicePolicy &policy) {
-        return pt::RenderDevice(instance(), physical_device(), pt::vulkan::LogicalDevice::create(physical_device()),
-                                policy, pt::embedded_code(), target_seconds);
+        return pt::RenderDevice(instance(), physical_device(), policy, pt::embedded_code(), target_seconds);
     }
 
     static void set_up(pt::RenderDevice &device) {

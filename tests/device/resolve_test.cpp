@@ -6,6 +6,7 @@
 #include "lib/kernel/image_reader.h"
 #include "lib/kernel/shader_source.h"
 #include "tests/device/exact_quotient.h"
+#include "tests/device/film_words.h"
 #include "tests/device/random_sums.h"
 #include "tests/device/vulkan_fixture.h"
 #include "tests/support/expected_error.h"
@@ -100,7 +101,7 @@ TEST_F(Resolve, BitsAreThoseOfTheExactQuotient) {
     for (std::size_t batch = 0; batch < batches_; ++batch) {
         const std::vector<ResolvedPixel> pixels = random_pixels(random, width * height);
         const pt::PixelSums sums = film_of(pixels);
-        film.write(sums);
+        fill(device(), film, sums);
         for (const double unit : {1.0, 0x1p-100, 0x1p110}) {
             const int exponent = std::ilogb(unit) - fraction_bits;
             const Values means = resolved(film, sums, unit, false);
@@ -144,7 +145,7 @@ TEST_F(Resolve, FormatsAreThoseOfTheHost) {
         pixel.parts[0].accepted = 1;
     const pt::PixelSums sums = film_of(pixels);
     pt::DeviceFilm film(device(), width, height, 30'000);
-    film.write(sums);
+    fill(device(), film, sums);
     pt::ImageQuery query{
         {0, 0, width, height}, PT_QUANTITY_RADIANCE, std::ldexp(1.0, exponent + fraction_bits), parts_of_100};
     ASSERT_EQ(floats(read(film, query)), numbers);
@@ -170,7 +171,7 @@ TEST_F(Resolve, BuffersHoldTheImageAndNothingElse) {
     constexpr std::uint32_t high = 60;
     pt::DeviceFilm film(device(), wide, high, 991);
     const std::vector<ResolvedPixel> pixels = random_pixels(random, wide * high);
-    film.write(film_of(pixels));
+    fill(device(), film, film_of(pixels));
     pt::vulkan::Buffer buffer(device(), pt::vulkan::BufferUse::Storage, 200'000, "test");
     const std::vector<std::byte> guards(buffer.size(), std::byte{0xa5});
     const auto large = pt::BufferWriter::piece_limits(device().limits());
@@ -207,7 +208,7 @@ TEST_F(Resolve, SamplesLostOnTheWayToABufferAreAnError) {
     const std::vector<ResolvedPixel> pixels(std::size_t{width} * height, ResolvedPixel{{{{}, 100}, {{}, 100}}});
     pt::PixelSums sums = film_of(pixels);
     sums.plane(1, pt::gpu::FILM_ACCEPTED)[7] = 99;
-    film.write(sums);
+    fill(device(), film, sums);
     pt::vulkan::Buffer buffer(device(), pt::vulkan::BufferUse::Storage, pixels.size() * 12, "test");
     const vk::raii::Semaphore semaphore = device().handle().createSemaphore({});
     const pt::ImageQuery query{{0, 0, width, height}, PT_QUANTITY_RADIANCE, 1.0, parts_of_100};
@@ -231,7 +232,7 @@ TEST_F(Resolve, LostSamplesAreAnError) {
     const std::vector<ResolvedPixel> pixels(std::size_t{width} * high, ResolvedPixel{{{{}, 100}, {{}, 100}}});
     pt::PixelSums sums = film_of(pixels);
     const auto read_sums = [&] {
-        film.write(sums);
+        fill(device(), film, sums);
         read(film, {{0, 0, width, high}, PT_QUANTITY_RADIANCE, 1.0, parts_of_100});
     };
     read_sums();

@@ -80,12 +80,11 @@ TEST_F(TracePipelinesTest, WhoPreparesKernelsGetsTheFastest) {
     use(true);
     const ComputePipeline *own = trace(ball, 0.0);
     const ComputePipeline *any = trace(other_ball, 0.0);
-    {
-        const pt::TracePipelines::Ahead ahead(*pipelines_);
-        const ComputePipeline *other_own = trace(other_ball, 0.0);
-        EXPECT_NE(other_own, any);
-        EXPECT_NE(other_own, own);
-    }
+    pipelines_->build_own(pt::TracePipelines::OwnKernels::at_once);
+    const ComputePipeline *other_own = trace(other_ball, 0.0);
+    EXPECT_NE(other_own, any);
+    EXPECT_NE(other_own, own);
+    pipelines_->build_own(pt::TracePipelines::OwnKernels::when_they_pay);
     EXPECT_EQ(trace({{0, 0, -6, 1}, {1, 1, 1, 1}, {0, 0, 0, 0}}, 0.0), any);
 }
 
@@ -93,9 +92,9 @@ TEST_F(TracePipelinesTest, WhoPollsKeepsTheKernelThatThereIs) {
     use(true);
     trace(ball, 0.0);
     const ComputePipeline *any = trace(other_ball, 0.0);
-    pipelines_->keep_kernels_as_they_are(true);
+    pipelines_->build_own(pt::TracePipelines::OwnKernels::never);
     EXPECT_EQ(trace(other_ball, 100.0), any);
-    pipelines_->keep_kernels_as_they_are(false);
+    pipelines_->build_own(pt::TracePipelines::OwnKernels::when_they_pay);
     EXPECT_NE(trace(other_ball, 100.0), any);
 }
 
@@ -130,7 +129,7 @@ TEST_F(TracePipelinesTest, ASceneOfManyWordsReadsABuffer) {
     EXPECT_EQ(&pipelines_->trace(features, Words(66, glm::vec4(1)), 0.0), any);
     EXPECT_EQ(&pipelines_->trace(features, Words(66), 100.0), any);
     features[pt::gpu::ID_SPHERE_COUNT] = 21; // 63 words
-    const pt::TracePipelines::Ahead ahead(*pipelines_);
+    pipelines_->build_own(pt::TracePipelines::OwnKernels::at_once);
     const ComputePipeline *own = &pipelines_->trace(features, Words(pt::gpu::CONSTANT_SCENE_WORDS - 1), 0.0);
     EXPECT_NE(&pipelines_->trace(features, Words(pt::gpu::CONSTANT_SCENE_WORDS - 1, glm::vec4(1)), 0.0), own);
 }
@@ -140,7 +139,7 @@ TEST_F(TracePipelinesTest, WhereConstantsAreNoFasterAllScenesReadABuffer) {
     const ComputePipeline *any = trace(ball, 0.0);
     EXPECT_EQ(trace(other_ball, 0.0), any);
     EXPECT_EQ(trace(other_ball, 100.0), any);
-    const pt::TracePipelines::Ahead ahead(*pipelines_);
+    pipelines_->build_own(pt::TracePipelines::OwnKernels::at_once);
     EXPECT_EQ(trace(other_ball, 0.0), any);
 }
 

@@ -51,7 +51,7 @@ protected:
 
     // A device in the place of the one before.
     pt::vulkan::Device &device_with(const pt::vulkan::DevicePolicy &policy) {
-        device_.emplace(*instance_, physical_device(), pt::vulkan::LogicalDevice::create(physical_device()), policy);
+        device_.emplace(*instance_, physical_device(), policy);
         return *device_;
     }
 

@@ -227,12 +227,13 @@ void examine_one(const Input &input) {
         require_settings(*settings);
     if (!scene || !camera || !settings)
         return;
-    const auto gpu_scene = accepted([&] { return pt::gpu_scene(pt::PreparedScene(*scene), *camera, *settings); });
+    const pt::PreparedScene prepared(*scene);
+    const auto gpu_scene = accepted([&] { return pt::gpu_scene(prepared, *camera, *settings); });
     if (!gpu_scene)
         return;
     require_features(gpu_scene->features, *scene);
     require_words(gpu_scene->words, gpu_scene->features);
-    require_frame(gpu_scene->frame, gpu_scene->film_unit);
+    require_frame(gpu_scene->frame, prepared.film_unit);
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 // Surfaces that the camera does not see: where they confine paths, and what the kernel is told about them.
 #include "lib/kernel/gpu_scene.h"
-#include "lib/kernel/hidden_surfaces.h"
+#include "lib/kernel/kernel_surfaces.h"
 #include "lib/kernel/scene_features.h"
 #include "tests/support/checked_scene_of.h"
 

@@ -238,8 +238,8 @@ const Indices some_indices = {0, 1, 2, 7, 12345, 0x40000001U, 0x80000000U, 0xfff
 
 TEST(PointTable, RowsAreThePoints) {
     const pt::PointLayout layout = all_dimensions();
-    ASSERT_EQ(layout.dimensions(), pt::sequence_dimensions);
-    ASSERT_EQ(layout.shared_dimensions(), 1U + 2U + 3U);
+    ASSERT_EQ(layout.dimensions_of(layout.block_count()), pt::sequence_dimensions);
+    ASSERT_EQ(layout.dimensions_of(layout.shared_blocks), 1U + 2U + 3U);
     for (const std::uint32_t sampler : {PT_SAMPLER_SOBOL, PT_SAMPLER_HALTON, PT_SAMPLER_HALTON_CP}) {
         const Table table = pt::point_table(sampler, table_seed, some_indices, layout);
         ASSERT_EQ(table.size(), some_indices.size() * layout.block_count());
