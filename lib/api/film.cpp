@@ -125,9 +125,9 @@ pt_film_info info_of(const Film &film) {
             .device = facts.device.c_str()};
 }
 
-// Runs a call on a film.
-template <typename Film, typename Call>
-pt_result guard_film(Film *film, Call &&call) noexcept {
+// Runs a call on the film of a handle: a pt_film, which may be const.
+template <typename Handle, typename Call>
+pt_result guard_film(Handle *film, Call &&call) noexcept {
     return guard(thread_last_error, [&] {
         require_not_null(film, "film");
         return call(film->film);

@@ -26,7 +26,7 @@ public:
     void add(std::span<const std::uint32_t> words);
     void add(std::string_view text);
 
-    // Of such bytes alone, checksum() is that of all of them together.
+    // Adds bytes as they are. If nothing else is added, checksum() is that of all these bytes in a row.
     void add_bytes(std::span<const std::byte> bytes);
     std::uint64_t checksum() const;
 

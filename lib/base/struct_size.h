@@ -11,8 +11,8 @@
 
 namespace pt {
 
-// Structs of this library have tens of bytes. A larger size than this must be an uninitialised field; believing it
-// would mean reading beyond the struct.
+// Structs of this library have tens of bytes. A size above 65536 must be an uninitialised field; believing it would
+// mean reading beyond the struct.
 constexpr bool is_struct_size(std::uint32_t size) {
     return size >= sizeof size && size <= 65536;
 }

@@ -46,7 +46,7 @@ public:
     void download(std::span<std::byte> data, std::uint64_t offset);
     void download(std::span<const BufferPiece> pieces);
 
-    // The bytes of a buffer that the host reads, or writes, in place.
+    // The bytes of a buffer that the host reads, or writes, in place; at NULL if it cannot.
     std::span<std::byte> host_memory() const;
 
     // Records a command that writes these bytes to its beginning: no more than max_recorded_bytes.

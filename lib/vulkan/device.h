@@ -60,7 +60,7 @@ struct DevicePolicy {
 
 DevicePolicy default_policy(const pt_device_info &info);
 
-// A GPU's policy, except for its patience: with it, tests reach on a CPU what otherwise only GPUs do.
+// A GPU's policy, but with endless patience and a CPU's tests_per_second: tests reach on a CPU what only GPUs do.
 DevicePolicy gpu_like_policy();
 
 // Binary semaphores of a submission, or none: it waits before its kernels, and signals at its end.
