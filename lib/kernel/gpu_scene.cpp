@@ -13,6 +13,7 @@
 #include <cstring>
 #include <numbers>
 #include <span>
+#include <utility>
 
 namespace pt {
 
@@ -206,9 +207,9 @@ std::uint32_t GpuScene::object_of(std::uint32_t surface) const {
 
 GpuScene gpu_scene(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings) {
     const Camera start = starting_ahead(scene.scene, scene.tree.get(), camera, settings);
-    const SeenScene seen = seen_scene(scene.scene, start);
+    SeenScene seen = seen_scene(scene.scene, start);
     require_held_motions(seen, scene.scene, start);
-    return gpu_scene(without_twins(seen), scene, start, settings);
+    return gpu_scene(without_twins(std::move(seen)), scene, start, settings);
 }
 
 GpuScene gpu_scene(const DistinctScene &distinct, const PreparedScene &scene, const Camera &start,

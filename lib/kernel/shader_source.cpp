@@ -69,7 +69,7 @@ std::vector<std::uint32_t> compile(pt_compile_glsl_fn compiler, const std::strin
         throw Error(PT_ERROR_SHADER, std::string(name) + " does not compile:\n" +
                                          std::string(reinterpret_cast<const char *>(bytes.data()), bytes.size()));
     std::vector<std::uint32_t> words(bytes.size() / sizeof(std::uint32_t));
-    std::memcpy(words.data(), bytes.data(), bytes.size());
+    std::memcpy(words.data(), bytes.data(), words.size() * sizeof words[0]);
     return words;
 }
 

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <string>
+#include <string_view>
 
 namespace pt {
 
@@ -140,7 +142,7 @@ private:
         if (is_there(array_.material))
             check(
                 "material", elements(array_.material), [&](std::size_t i) { return material(i); }, holds,
-                [&](std::uint32_t) { return rule; });
+                [&](std::uint32_t) { return std::string_view(rule); });
         else
             subject_.require(holds(0), "material", 0U, rule);
     }
