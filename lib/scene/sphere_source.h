@@ -37,15 +37,15 @@ public:
     // Indices of the surfaces of other kinds in ascending order; none if they are more than most.
     std::vector<std::uint32_t> other_kinds(std::size_t most) const;
 
-    // One sphere, with the factor for its material's diffuse. For many spheres for_each is faster.
+    // One sphere. For many, for_each is faster.
     Sphere operator[](std::uint32_t index) const;
-    glm::vec3 color(std::uint32_t index) const;
 
     // Marks the materials that spheres have. A unit of work is a sphere, or an array with one material for all its
     // spheres.
     void mark_materials(std::vector<bool> &used, WorkProgress &progress) const;
 
-    // Calls use(index, sphere, color) for each, in order; each is a unit of work.
+    // Calls use(index, sphere, color) for each, in order; each is a unit of work. color: the factor for the diffuse of
+    // the sphere's material.
     template <typename Use>
     void for_each(WorkProgress &progress, Use use) const {
         std::array<std::uint32_t, chunk_size> indices;
