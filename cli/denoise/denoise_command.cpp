@@ -9,6 +9,7 @@
 #include "cli/image/image_file.h"
 #include "cli/render/denoise.h"
 #include "cli/render/render_output.h"
+#include "lib/platform/module.h"
 
 #include <nlohmann/json.hpp>
 
@@ -19,7 +20,7 @@ struct DenoiseOptions {
     std::string first; // films
     std::string second;
     std::string guides; // .exr
-    std::string library = usual_denoiser;
+    std::string library = platform::denoiser_file;
     OutputOptions output;
     std::vector<SceneOverride> display; // overrides of the scene's display section
 };

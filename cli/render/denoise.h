@@ -8,8 +8,6 @@
 
 namespace cli {
 
-inline constexpr const char *usual_denoiser = "libOpenImageDenoise.so.2";
-
 // Throws Failure(ExitCode::file), and says what installs it, unless the library can denoise.
 void require_denoiser(const std::string &library);
 

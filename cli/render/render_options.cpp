@@ -8,6 +8,7 @@
 #include "cli/render/denoise.h"
 #include "cli/render/picture_layer.h"
 #include "cli/render/render_command.h"
+#include "lib/platform/module.h"
 
 #include <algorithm>
 #include <array>
@@ -57,7 +58,7 @@ void add_picture_options(CLI::App &command, RenderOptions &options) {
                      "Give " + extensions(&ImageFormat::has_alpha, " and ") +
                          " an alpha channel: the share of a pixel's samples that see a surface");
     command.option_defaults()->group("Picture");
-    command.add_flag(concat("--denoise{", usual_denoiser, "}"), options.denoiser,
+    command.add_flag(concat("--denoise{", platform::denoiser_file, "}"), options.denoiser,
                      "Take out noise, by the library Open Image Denoise 2, and state the error of the result");
     add_parsed(command, "--crop", options.crop, &parse_rectangle,
                "must be four whole numbers like 10,20,640,480: x, y, width and height",
