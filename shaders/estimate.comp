@@ -35,7 +35,7 @@ const uint SQUARE = 0u;
 const uint RELATIVE_SQUARE = 1u;
 const uint MET_ONCE = 2u;
 const uint AS_LAMPS = 3u;
-const uint KINDS = 4u;
+const uint SQUARE_KINDS = 4u;
 
 struct Squares {
     float sum;
@@ -44,7 +44,7 @@ struct Squares {
 
 // What a column of a tile, and later a whole tile, says about the errors of its pixels.
 struct Errors {
-    Squares squares[KINDS];
+    Squares squares[SQUARE_KINDS];
     uint met_again; // values
     float unseen;
     Findings findings;
@@ -167,7 +167,7 @@ ErrorSquares squares_of_tiles(uint kind, uvec2 size)
 // well.
 void write_errors(uint group, uint invocation, uvec2 size)
 {
-    if (invocation < KINDS) {
+    if (invocation < SQUARE_KINDS) {
         ErrorSquares squares = squares_of_tiles(invocation, size);
         if (invocation == SQUARE)
             estimated.groups[group].square = squares;
@@ -233,8 +233,8 @@ void main()
     }
 
     const float offset_square = squared(estimate.relative_offset);
-    float squares[KINDS][TILE_SIZE]; // of all channels
-    [[unroll]] for (uint kind = 0u; kind < KINDS; ++kind)
+    float squares[SQUARE_KINDS][TILE_SIZE]; // of all channels
+    [[unroll]] for (uint kind = 0u; kind < SQUARE_KINDS; ++kind)
         [[unroll]] for (uint i = 0u; i < TILE_SIZE; ++i)
             squares[kind][i] = 0.0;
     uint met_again = 0u;
@@ -308,7 +308,7 @@ void main()
     }
 
     // Sums of columns of tiles, then of tiles, then of all.
-    [[unroll]] for (uint kind = 0u; kind < KINDS; ++kind)
+    [[unroll]] for (uint kind = 0u; kind < SQUARE_KINDS; ++kind)
         errors[invocation].squares[kind] = squares_of(squares[kind]);
     errors[invocation].met_again = met_again;
     errors[invocation].unseen = unseen;
@@ -316,7 +316,7 @@ void main()
     barrier();
     // An invocation sums up one kind of squares of a tile; one invocation for each tile sums up everything else.
     const uint tile = invocation % TILES;
-    const uint kind = min(invocation / TILES, KINDS - 1u);
+    const uint kind = min(invocation / TILES, SQUARE_KINDS - 1u);
     const uint first = tile * TILE_SIZE;
     Squares of_kind = errors[first].squares[kind];
     for (uint i = 1u; i < TILE_SIZE; ++i)
@@ -329,7 +329,7 @@ void main()
             of_tile.findings = united(of_tile.findings, errors[first + i].findings);
         }
     barrier(); // all have read the columns
-    if (invocation < KINDS * TILES)
+    if (invocation < SQUARE_KINDS * TILES)
         errors[tile].squares[kind] = of_kind;
     if (invocation < TILES) {
         errors[tile].met_again = of_tile.met_again;
