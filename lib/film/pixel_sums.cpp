@@ -23,13 +23,13 @@ public:
     std::uint64_t done() const { return std::uint64_t{word(gpu::FILM_ACCEPTED)} + word(gpu::FILM_REJECTED); }
 
     WideSum sum(std::size_t channel) const {
-        WideSum sum = 0;
-        for (std::size_t i = gpu::FILM_SUM_WORDS; i-- > 0;)
-            sum = sum << 32 | word(channel * gpu::FILM_SUM_WORDS + i);
-        return sum;
+        static_assert(gpu::FILM_SUM_WORDS == 4);
+        const std::size_t first = channel * gpu::FILM_SUM_WORDS;
+        return WideSum{two_words(first + 2)} << 64 | two_words(first);
     }
 
 private:
+    std::uint64_t two_words(std::size_t plane) const { return std::uint64_t{word(plane + 1)} << 32 | word(plane); }
     std::uint32_t word(std::size_t plane) const { return sums_.plane(part_, plane)[pixel_]; }
 
     const PixelSums &sums_;

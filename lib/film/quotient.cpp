@@ -13,10 +13,12 @@ gpu::uvec4 words_of(WideSum sum) {
             static_cast<std::uint32_t>(sum >> 64), static_cast<std::uint32_t>(sum >> 96)};
 }
 
-// Off by at most a 2^52th of itself: the upper half is rounded, and so is the sum of the two halves.
+// Off by at most a 2^52th of itself: the upper half is rounded, and so are the lower half and the sum of the two. The
+// lower half by words, since a number of 64 bits without a sign takes a branch that nobody can foresee.
 double nearly(WideSum number) {
-    return static_cast<double>(static_cast<std::uint64_t>(number >> 64)) * 0x1p64 +
-           static_cast<double>(static_cast<std::uint64_t>(number));
+    const double lower = static_cast<double>(static_cast<std::uint32_t>(number >> 32)) * 0x1p32 +
+                         static_cast<double>(static_cast<std::uint32_t>(number));
+    return static_cast<double>(static_cast<std::uint64_t>(number >> 64)) * 0x1p64 + lower;
 }
 
 // The float nearest to a product, if every number within 2^-50 of that in double, relatively, is rounded to it (Ziv
