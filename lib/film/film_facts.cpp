@@ -23,7 +23,8 @@ std::optional<std::string> value_in(const FilmIdentity &identity, const std::str
     return fact == identity.end() ? std::nullopt : std::optional(fact->value);
 }
 
-// A fact that is a number within bounds, written in the one way there is.
+// A fact that is a number within bounds, written in the one way there is. If it is none, that is added to the
+// violations, and the least number stands for it.
 template <typename Number>
 Number number_in(const FilmIdentity &identity, const char *name, Number least, Number most, Violations &violations) {
     const std::string text = value_in(identity, name).value_or("nothing");
@@ -76,7 +77,8 @@ void require_same(const FilmIdentity &film, const FilmIdentity &other, const std
 
 void require_apart(const SampleSet &added, const SampleSet &present, const std::string &where) {
     if (const auto overlap = added.overlap(present))
-        refuse_film("samples", text_of(added) + where, text_of(*overlap) + " are there already");
+        refuse_film("samples", text_of(added) + where,
+                    text_of(*overlap) + " are in the film already that it is added to");
     if (present.count() + added.count() > UINT32_MAX)
         refuse_film("samples", text_of(added), "a pixel holds at most 2^32 - 1");
 }

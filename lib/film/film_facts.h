@@ -1,4 +1,5 @@
-// The identity of a film as numbers, for callers that have nothing but the film.
+// The identity of a film as numbers, for callers that have nothing but the film, and what films must have in common, or
+// not, to be added.
 #pragma once
 
 #include "lib/film/film_header.h"
@@ -26,7 +27,8 @@ FilmFacts facts_of(const FilmIdentity &identity);
 // is to be added to. place: what that is, "as in this context".
 void require_same(const FilmIdentity &film, const FilmIdentity &other, const std::string &place);
 
-// Throws PT_ERROR_INCOMPATIBLE if samples cannot be added to those of the same pixels. where: these, for the message.
+// Throws PT_ERROR_INCOMPATIBLE if samples cannot be added to those of the same pixels: they have some in common, or are
+// too many together. where: " in" which pixels, for the message, or nothing.
 void require_apart(const SampleSet &added, const SampleSet &present, const std::string &where);
 
 // Throws PT_ERROR_INCOMPATIBLE: a film breaks a rule.

@@ -177,7 +177,8 @@ void expect_those_of_kernels(const Usual &usual) {
         }
 }
 
-// Weights of one word and of two, and beyond exact products; subnormal numbers, those above all floats, and long sums.
+// Weights of one word and of two, and beyond products of 128 bits; subnormal numbers, those above all floats, and long
+// sums.
 TEST(PixelSums, HaveTheValuesOfKernels) {
     for (const Usual &usual : {Usual{8, 8, 0, 84},
                                {32, 8, 0, 84},
@@ -186,6 +187,7 @@ TEST(PixelSums, HaveTheValuesOfKernels) {
                                {5, 11, 0, 84},
                                {49, 49, 0, 84},
                                {1U << 31, 1U << 30, 0, 84},
+                               {1U << 31, 1U << 30, 0, 100},
                                {1, 1U << 20, 0, 64},
                                {1, (1U << 20) + 1, 0, 70},
                                {8, 1U << 19, 0, 84},

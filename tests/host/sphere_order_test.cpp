@@ -146,8 +146,7 @@ struct Told {
     }
 };
 
-// All of the work is told, and no more, whatever the spheres: the stage is half of a
-// whole.
+// All of the work is told, and no more, whatever the spheres: the stage is half of a whole.
 TEST(SphereOrder, TellsHowFarItIs) {
     for (const Kind &kind : kinds()) {
         SCOPED_TRACE(kind.name);
