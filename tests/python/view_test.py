@@ -164,6 +164,8 @@ class Views(unittest.TestCase):
                 self.assertIn("refused", page.ask(message), message)
             self.assertEqual(page.ask({"pixel": [5000, 0]}), {"pixel": {}})
             before = page.frame()
+            self.assertIn("halton-cp", before["choices"]["sampler"])
+            self.assertEqual(before["choices"]["estimator"][0], "best")
             page.send({"camera": {**camera, "position": [0, 1, 0]}})  # the library's rule
             self.assertIn("position", page.frame(lambda state: state["faults"])["faults"][0]["text"])
             page.send({"camera": before["first_camera"]})

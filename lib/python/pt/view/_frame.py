@@ -11,12 +11,13 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 from pt._columns import Array
-from pt._enums import Quantity, Uncertain
+from pt._enums import Estimator, Quantity, Sampler, Uncertain
 from pt._stats import ErrorEstimate
 
 LAYERS: Final = {"mean": Quantity.RADIANCE, "standard error": Quantity.STANDARD_ERROR, "samples": Quantity.SAMPLE_COUNT,
                  "depth": Quantity.DEPTH, "normal": Quantity.NORMAL, "albedo": Quantity.ALBEDO}
 OF_SAMPLES: Final = 3  # the first layers; the others tell what camera rays meet first
+METHODS: Final[dict[str, Any]] = {"sampler": Sampler, "estimator": Estimator}
 
 
 @dataclass(frozen=True)
@@ -34,7 +35,7 @@ class Frame:
 
     def message(self, with_pixels: bool) -> bytes:
         """The length of the state, the state as JSON, and the pixels as float32, aligned to 4 bytes."""
-        state = json.dumps({**self.state, "frame": self.number}).encode()
+        state = json.dumps({**self.state, "frame": self.number, "choices": choices()}).encode()
         state += b" " * (-len(state) % 4)
         pixels = b"" if self.pixels is None or not with_pixels else self.pixels.tobytes()
         return struct.pack("<I", len(state)) + state + pixels
@@ -52,6 +53,11 @@ def facts_of(estimate: ErrorEstimate) -> dict[str, Any]:
     numbers = {"error": estimate.relative_rmse, "low": estimate.relative_rmse_low, "high": estimate.relative_rmse_high}
     return {**{name: number if math.isfinite(number) else None for name, number in numbers.items()},
             "uncertain": [name_of(flag) for flag in Uncertain if flag in estimate.uncertain]}
+
+
+def choices() -> dict[str, list[str]]:
+    """What there is to choose from on the page."""
+    return {"layer": list(LAYERS), **{name: [name_of(each) for each in kinds] for name, kinds in METHODS.items()}}
 
 
 def name_of(member: Any) -> str:

@@ -17,10 +17,9 @@ from typing import Any, Final, Protocol
 from aiohttp import WSMsgType, web
 
 from pt._camera import Camera
-from pt._enums import Estimator, Sampler
 from pt._exr import encode_exr
 from pt._files import write_atomically
-from pt.view._frame import LAYERS, Frame, name_of
+from pt.view._frame import LAYERS, METHODS, Frame, name_of
 
 PAGE: Final = {path.name: path.read_bytes() for path in pathlib.Path(__file__).with_name("page").iterdir()
                if path.suffix in (".html", ".css", ".js")}
@@ -230,9 +229,8 @@ def changes_of(message: dict[str, Any]) -> dict[str, Any]:
             changes[name] = value
         elif name == "max_path_length":
             changes.setdefault("method", {})[name] = _whole(value, 1, 1024)
-        elif name in ("sampler", "estimator"):
-            kinds: Any = Sampler if name == "sampler" else Estimator
-            changes.setdefault("method", {})[name] = {name_of(each): each for each in kinds}[value]
+        elif name in METHODS:
+            changes.setdefault("method", {})[name] = {name_of(each): each for each in METHODS[name]}[value]
         else:
             raise ValueError(f"{name} = {value!r}: cannot be changed so")
     return changes

@@ -3,9 +3,6 @@ import {orbit, pan, turnsAbout, zoom} from "./camera.js";
 import {automaticExposure, curves, layerBytes, toBytes} from "./tone.js";
 
 const $ = id => document.getElementById(id);
-const samplers = ["best", "random", "halton", "halton-cp", "sobol"];
-const estimators = ["best", "uniform", "cosine", "bsdf", "light", "mis"];
-const layers = ["mean", "standard error", "samples", "depth", "normal", "albedo"];
 
 let socket, editor;
 let state = {};   // as sent with the last frame
@@ -255,11 +252,11 @@ function begin() {
   const {exposure, tonemap, gamma} = state.display;
   display = {exposure: exposure === "auto" ? 0 : exposure, automatic: exposure === "auto", curve: tonemap, gamma: gamma ?? 0};
   fill($("curve"), Object.keys(curves), display.curve);
-  fill($("sampler"), samplers);
-  fill($("estimator"), estimators);
+  for (const name of ["sampler", "estimator"])
+    fill($(name), state.choices[name]);
   $("gamma").value = gamma ?? "";
   $("automatic").checked = display.automatic;
-  for (const layer of state.camera ? layers : layers.slice(0, 3))
+  for (const layer of state.choices.layer.slice(0, state.camera ? undefined : 3))
     choice($("layers"), layer, () => send({layer}));
   const [width, height] = state.size;
   for (const part of [1, 2, 4, 8, 16])
