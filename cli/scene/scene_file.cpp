@@ -118,7 +118,7 @@ bool is_of_command(const SceneFile &scene, const BrokenRule &rule, const JsonPat
 
 std::string place_text(const SceneFile &scene, const JsonPath &path) {
     const auto line = path.empty() ? std::nullopt : line_of(scene.text, path);
-    return scene.path + (line ? ":" + std::to_string(*line) : "");
+    return line ? concat(scene.path, ":", *line) : scene.path;
 }
 
 } // namespace

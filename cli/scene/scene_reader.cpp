@@ -1,5 +1,6 @@
 // Reads the sections of a scene file by the table of its keys, with the values that take the place of its own.
 #include "cli/base/names.h"
+#include "cli/base/text.h"
 #include "cli/scene/scene_keys.h"
 
 #include <algorithm>
@@ -131,7 +132,7 @@ private:
         for (const SceneKey &key : section_->keys) {
             const auto found = value.find(key.name);
             if (found == value.end() && key.is_required)
-                refuse(place, "\"" + std::string(key.name) + "\" is missing");
+                refuse(place, concat('"', key.name, "\" is missing"));
             if (found == value.end())
                 continue;
             const JsonPlace member = place.member(key.name);
@@ -229,7 +230,7 @@ private:
             const JsonPlace place = root.member(section->name);
             for (const SceneKey &key : section->keys)
                 if (key.is_required && !scene_.gives(place.member(key.name).path()))
-                    refuse(place, "\"" + std::string(key.name) + "\" is missing");
+                    refuse(place, concat('"', key.name, "\" is missing"));
         }
         check_projection(scene_.camera, root.member("camera"));
     }

@@ -3,6 +3,7 @@
 #include "lib/film/film_bytes.h"
 #include "lib/film/film_facts.h"
 #include "lib/film/pixel_format.h"
+#include "lib/film/tile_map.h"
 #include "lib/kernel/gpu_scene.h"
 #include "lib/render/film_identity.h"
 #include "lib/render/missed_lamps.h"
