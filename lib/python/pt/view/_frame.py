@@ -35,7 +35,7 @@ class Frame:
 
     def message(self, with_pixels: bool) -> bytes:
         """The length of the state, the state as JSON, and the pixels as float32, aligned to 4 bytes."""
-        state = json.dumps({**self.state, "frame": self.number, "choices": choices()}).encode()
+        state = json.dumps({**self.state, "frame": self.number, "choices": CHOICES}).encode()
         state += b" " * (-len(state) % 4)
         pixels = b"" if self.pixels is None or not with_pixels else self.pixels.tobytes()
         return struct.pack("<I", len(state)) + state + pixels
@@ -55,14 +55,13 @@ def facts_of(estimate: ErrorEstimate) -> dict[str, Any]:
             "uncertain": [name_of(flag) for flag in Uncertain if flag in estimate.uncertain]}
 
 
-def choices() -> dict[str, list[str]]:
-    """What there is to choose from on the page."""
-    return {"layer": list(LAYERS), **{name: [name_of(each) for each in kinds] for name, kinds in METHODS.items()}}
-
-
 def name_of(member: Any) -> str:
     name: str = member.name.lower().replace("_", "-")
     return name
+
+
+# What there is to choose from on the page.
+CHOICES: Final = {"layer": list(LAYERS), **{name: [name_of(each) for each in kinds] for name, kinds in METHODS.items()}}
 
 
 def faults_of(text: str) -> list[dict[str, Any]]:
