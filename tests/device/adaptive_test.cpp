@@ -1,5 +1,5 @@
-// Films whose tiles have different samples: each tile has the bits of an even film with as many, and neither splits of
-// the work, nor films that are saved and added, nor the number of devices change which tile has how many.
+// Adaptive films. Each tile has the bits of an even film with its sample count; splits of the work, saved and added
+// films and the number of devices change no count.
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
@@ -19,7 +19,7 @@
 
 namespace {
 
-constexpr uint32_t uneven_width = 75; // neither is a multiple of a tile's
+constexpr uint32_t uneven_width = 75; // neither is a multiple of the tile size
 constexpr uint32_t uneven_height = 44;
 constexpr double uneven_target = 0.015;
 constexpr uint32_t no_limit = 1U << 20;
@@ -39,7 +39,7 @@ protected:
         ContextFixture::TearDown();
     }
 
-    // On which tiles are told apart from 16 samples on, whatever the device.
+    // Its tiles differ from 16 samples on, on any device.
     pt_context *context() { return alone_.get(); }
 
     Context context_on(uint32_t device_count, uint32_t submit_milliseconds = 50, bool like_gpus = false) {
@@ -74,7 +74,7 @@ private:
     Context alone_;
 };
 
-// The film of the host, and that which kernels read, on one device and on several.
+// Films in host memory and films that kernels read, on one device and on several.
 TEST_F(AdaptiveTest, EachTileHasTheBitsOfAnEvenFilm) {
     for (const auto &[device_count, like_gpus] : {std::pair{1U, false}, {1U, true}, {3U, true}}) {
         const Context uneven = context_on(device_count, 50, like_gpus);
@@ -83,10 +83,10 @@ TEST_F(AdaptiveTest, EachTileHasTheBitsOfAnEvenFilm) {
         const Values counts = values(uneven.get(), PT_QUANTITY_SAMPLE_COUNT);
         const Values radiance = values(uneven.get());
         const Values error = values(uneven.get(), PT_QUANTITY_STANDARD_ERROR);
-        for (uint32_t y = 0; y < uneven_height; ++y) // in whole squares
+        for (uint32_t y = 0; y < uneven_height; ++y) // squares have one count
             for (uint32_t x = 0; x < uneven_width; ++x)
                 EXPECT_EQ(counts[3 * (y * uneven_width + x)], counts[3 * (y / 8 * 8 * uneven_width + x / 8 * 8)]);
-        std::map<uint32_t, std::size_t> pixels; // by number of samples
+        std::map<uint32_t, std::size_t> pixels; // by sample count
         for (std::size_t i = 0; i < counts.size(); i += 3)
             ++pixels[static_cast<uint32_t>(counts[i])];
         EXPECT_GE(pixels.size(), 3U);
@@ -112,7 +112,6 @@ TEST_F(AdaptiveTest, EachTileHasTheBitsOfAnEvenFilm) {
     }
 }
 
-// It takes fewer samples than an even film with the same target.
 TEST_F(AdaptiveTest, TakesFewerSamples) {
     begin(context());
     ASSERT_EQ(take(context(), no_limit, uneven_target, PT_SAMPLING_ADAPTIVE), PT_TARGET_REACHED);
@@ -124,8 +123,8 @@ TEST_F(AdaptiveTest, TakesFewerSamples) {
     EXPECT_LT(adaptive, 0.9 * uniform.mean_sample_count);
 }
 
-// In calls of random lengths, some of them stopped by their progress, and films that go on in another context.
-// PT_TEST_SPLITS=200 makes as many.
+// Calls of random lengths, some cancelled by their progress, and films continued in another context. PT_TEST_SPLITS=200
+// sets the number.
 TEST_F(AdaptiveTest, SplitsAndResumesChangeNoBit) {
     const char *const wanted = std::getenv("PT_TEST_SPLITS");
     const int splits = wanted ? std::atoi(wanted) : 3;
@@ -164,7 +163,7 @@ TEST_F(AdaptiveTest, SplitsAndResumesChangeNoBit) {
     }
 }
 
-// Even samples beside uneven ones, before and after them, and a merge with tiles that another film has.
+// Even samples before, after and between uneven ones, and a merge with tiles of another film.
 TEST_F(AdaptiveTest, UnevenFilmsTakeEvenSamplesAndAddUp) {
     const Context uneven = context_on(2, 1);
     begin(uneven.get());
@@ -176,7 +175,7 @@ TEST_F(AdaptiveTest, UnevenFilmsTakeEvenSamplesAndAddUp) {
         ASSERT_EQ(after[i], before[i] + 9.0F);
     const Bytes saved = film_of(uneven.get());
 
-    // The other samples of an even film with as many as the fewest, taken for themselves.
+    // The samples that an even film with the smallest count lacks.
     const auto least = stats_of(uneven.get()).sample_count;
     begin(context());
     ASSERT_EQ(pt_add_film(context(), saved.data(), saved.size()), PT_OK) << pt_last_error(context());
@@ -188,7 +187,7 @@ TEST_F(AdaptiveTest, UnevenFilmsTakeEvenSamplesAndAddUp) {
     EXPECT_EQ(stats_of(context()).sample_count, least);
 }
 
-// No pixel gets more than was asked for, and what is missing is taken later. With none, others come to rest.
+// No pixel gets more samples than asked for; a later call takes the rest.
 TEST_F(AdaptiveTest, TheMostSamplesAreThoseOfAPixel) {
     const Bytes expected = film_on_target(context());
     begin(context());

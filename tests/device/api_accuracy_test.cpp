@@ -1,4 +1,4 @@
-// The contract of pt_get_accuracy: counts, rows, and a context that stays as it was.
+// The contract of pt_get_accuracy: counts, rows, and an unchanged context.
 #include "lib/kernel/accuracy.h"
 #include "tests/device/api_fixture.h"
 
@@ -48,7 +48,7 @@ TEST_F(ApiTest, AccuracyWritesAtMostCountRows) {
     }
 }
 
-// In the middle of a render: its image goes on as if nothing had been, and statistics and memory are as before.
+// In the middle of a render: image, statistics and memory stay the same.
 TEST_F(ApiTest, AccuracyChangesNothing) {
     set_all();
     accumulate(3);

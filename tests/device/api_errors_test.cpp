@@ -1,4 +1,4 @@
-// The last error as data: pt_get_broken_rule beside the message of pt_last_error, on a real device.
+// pt_get_broken_rule beside pt_last_error, on a real device.
 #include "tests/device/api_fixture.h"
 #include "tests/support/scene_of.h"
 
@@ -20,7 +20,7 @@ pt_broken_rule rule_of(const pt_context *context, uint32_t index) {
     return rule;
 }
 
-// The message that a rule stands for, put together as pt/errors.h says.
+// The rule's message, composed as pt/errors.h says.
 std::string text_of(const pt_broken_rule &rule) {
     std::ostringstream text;
     text << rule.subject;
@@ -45,7 +45,7 @@ std::string all_text_of(const pt_context *context) {
 
 class ErrorsTest : public ApiTest {
 protected:
-    // That a call failed, and that its message and its one rule say the same of the field.
+    // The call failed, and message and rule name the same field.
     void expect_rule(pt_result result, const char *subject, int64_t index, const char *member, int32_t component) {
         EXPECT_LT(result, PT_OK);
         ASSERT_EQ(pt_get_broken_rule(context(), 0, nullptr), 1U) << message();
@@ -110,7 +110,7 @@ TEST_F(ErrorsTest, NameWhatElseEntersAValue) {
     expect_rule(pt_set_render(context(), &render), "render", -1, "first_row", -1);
     EXPECT_STREQ(rule_of(context(), 0).with, "+ row_count");
     render = valid_render();
-    render.height = 1U << 30; // beyond the memory of any device
+    render.height = 1U << 30; // beyond any device's memory
     render.width = 3;
     expect_rule(pt_set_render(context(), &render), "render", -1, "width", -1);
     EXPECT_STREQ(rule_of(context(), 0).with, "* rows");
@@ -123,7 +123,7 @@ TEST_F(ErrorsTest, NameArgumentsAndSizes) {
     expect_rule(pt_set_camera(context(), &camera), "camera", -1, "struct_size", -1);
 }
 
-// What only pt_accumulate can say: the motion is too much for the camera.
+// Only pt_accumulate can detect motion too large for the camera.
 TEST_F(ErrorsTest, NameASphereThatThisCameraCannotSee) {
     pt_sphere huge = sphere;
     huge.center[1] = -1e9 - 1;
@@ -150,7 +150,7 @@ TEST_F(ErrorsTest, StayAsLongAsTheMessage) {
     set_all();
     EXPECT_LT(pt_set_camera(context(), nullptr), PT_OK);
     const pt_broken_rule before = rule_of(context(), 0);
-    set_all(); // what succeeds leaves the last error
+    set_all(); // success leaves the last error
     EXPECT_STREQ(before.subject, "camera");
     EXPECT_EQ(rule_of(context(), 0).subject, before.subject);
     std::vector<float> pixels(width * height * 3);
@@ -164,7 +164,7 @@ TEST_F(ErrorsTest, WriteNoMoreThanTheCallerKnows) {
     pt_broken_rule rule;
     std::memset(&rule, 0x55, sizeof rule);
     const pt_broken_rule untouched = rule;
-    for (const uint32_t size : {0U, 3U, 65537U}) { // no struct's
+    for (const uint32_t size : {0U, 3U, 65537U}) { // not a size of the struct
         rule.struct_size = size;
         EXPECT_EQ(pt_get_broken_rule(context(), 0, &rule), 1U);
         EXPECT_EQ(rule.subject, untouched.subject) << size;
@@ -175,7 +175,7 @@ TEST_F(ErrorsTest, WriteNoMoreThanTheCallerKnows) {
     EXPECT_EQ(rule.value, untouched.value);
 }
 
-// A refused call's message is about no field, and what other threads may not look at has no rules for them.
+// A call refused during another concerns no field, and other threads see no rules.
 TEST_F(ErrorsTest, BelongToWhoMayLookAtThem) {
     set_all();
     EXPECT_LT(pt_set_camera(context(), nullptr), PT_OK);

@@ -1,4 +1,4 @@
-// A context on a real device with a scene whose image is known exactly. Used by the tests of the contract of pt.h.
+// A context on a real device, with a scene whose image is known exactly.
 #pragma once
 
 #include "tests/support/context_fixture.h"
@@ -17,7 +17,7 @@ namespace api {
 inline constexpr uint32_t width = 12;
 inline constexpr uint32_t height = 7;
 
-// A sphere around the camera that emits red, green and blue of 1, 2 and 4: every pixel is that, exactly.
+// A sphere around the camera with emission 1, 2, 4: every pixel has exactly this radiance.
 inline const pt_material material{{0, 0, 0}, {0, 0, 0}, {1, 2, 4}, 0, 0};
 inline const pt_sphere sphere{{0, 0, 0}, 9, {0, 0, 0}, 0, 0};
 inline const std::array<float, 3> radiance{1, 2, 4};
@@ -51,7 +51,6 @@ inline pt_image tight_image(std::vector<float> &pixels) {
     return image_target(pixels);
 }
 
-// Gives a context the scene, the camera and the render settings.
 inline void set_all(pt_context *context) {
     const pt_scene scene = valid_scene();
     const pt_camera camera = valid_camera();
@@ -78,7 +77,7 @@ protected:
         return pixels;
     }
 
-    // That a readback gives the scene's image, of the given number of samples.
+    // Reads back: each pixel must have the scene's radiance.
     void expect_image(uint32_t sample_count) {
         EXPECT_EQ(stats().sample_count, sample_count);
         const std::vector<float> pixels = image();

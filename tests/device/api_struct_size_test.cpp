@@ -1,5 +1,4 @@
-// The growth rule of structs on a real device, for each struct and each size that it may have had: for callers compiled
-// with older or newer headers, fields that one side does not know count as zeros.
+// The growth rule of structs for each size: fields unknown to the caller or the library count as zeros.
 #include "tests/device/api_fixture.h"
 
 #include <algorithm>
@@ -11,10 +10,10 @@ namespace api {
 
 namespace {
 
-// The result and, of a failure, the message.
+// The result and the message of a failure.
 using Outcome = std::pair<pt_result, std::string>;
 
-// Sizes from the first field alone to the whole, in steps of 8 bytes, so that no pointer is cut in two.
+// Sizes from the first field to the whole, in steps of 8 bytes so that no pointer is split.
 template <typename T>
 std::vector<uint32_t> older_sizes() {
     std::vector<uint32_t> sizes{sizeof(uint32_t)};
@@ -30,8 +29,8 @@ T with_tail(const T &value, uint32_t size, int byte) {
     return copy;
 }
 
-// The sizes at which a call makes something else of an older struct, behind which other things lie in memory, than of
-// the whole struct with zeros there. None should.
+// Sizes at which an older struct, followed by unrelated bytes, is read differently from the whole struct with zeros
+// there. There should be none.
 template <typename T, typename Call>
 std::vector<uint32_t> misread_sizes(const T &value, const Call &call) {
     std::vector<uint32_t> misread;
@@ -46,7 +45,7 @@ std::vector<uint32_t> misread_sizes(const T &value, const Call &call) {
     return misread;
 }
 
-// A struct as a caller with a newer header has it.
+// A struct as compiled with newer headers.
 template <typename T>
 struct Newer {
     T known;
@@ -60,8 +59,8 @@ Newer<T> newer_than(const T &value) {
     return newer;
 }
 
-// That a call takes a newer struct with zeros behind what the library knows as it takes value, looks at each byte
-// there, and says which is set; and that it refuses sizes that no struct has. It is called name in messages.
+// The call must accept a newer struct with zeros in the unknown tail, name each nonzero byte there, and refuse sizes
+// that the struct never had. name: in messages.
 template <typename T, typename Call>
 void expect_sizes_heeded(const T &value, const std::string &name, const Call &call) {
     EXPECT_EQ(call(newer_than(value).known), call(value));
@@ -93,7 +92,7 @@ protected:
 };
 
 TEST(StructSize, AMisreadStructIsNoticed) {
-    const auto reads_beyond = [](const pt_camera &camera) { return camera.focus; }; // its last
+    const auto reads_beyond = [](const pt_camera &camera) { return camera.focus; }; // its last field
     const auto reads_size = [](const pt_camera &camera) { return camera.struct_size; };
     EXPECT_EQ(misread_sizes(valid_camera(), reads_beyond), older_sizes<pt_camera>());
     EXPECT_EQ(misread_sizes(valid_camera(), reads_size), older_sizes<pt_camera>());
@@ -191,8 +190,8 @@ TEST(StructSize, CreateInfo) {
     expect_sizes_heeded(info, "create", call);
 }
 
-// That a call writes as many bytes as the caller's struct has, the same as into the whole one, and refuses sizes that
-// no struct has. It is called name in messages.
+// The call must write exactly the caller's size, with the bytes of the whole struct, and refuse sizes that the struct
+// never had. name: in messages.
 template <typename T, typename Call>
 void expect_written_sizes_heeded(const T &whole, const std::string &name, const Call &call) {
     for (const uint32_t size : older_sizes<T>()) {

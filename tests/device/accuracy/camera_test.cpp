@@ -19,7 +19,7 @@ struct Item {
     glm::vec4 forward;
     std::uint32_t column, row;
     glm::vec2 place;
-    float lens_radius, lens_blur; // the focus is radius / blur times as far away as the image plane
+    float lens_radius, lens_blur; // focus distance over image plane distance: radius / blur
     glm::vec2 disc;
 };
 
@@ -27,7 +27,7 @@ struct Result {
     glm::vec4 direction, lens_origin, lens_direction;
 };
 
-// Fields of view from 1e-8 to nearly pi, images of one pixel to 16384 wide; a quarter of the pixels in a corner.
+// Fields of view from 1e-8 to nearly pi, images of 1 to 16384 pixels; a quarter of the pixels in a corner.
 std::vector<Item> items() {
     Inputs inputs(4);
     std::vector<Item> items;
@@ -54,16 +54,14 @@ std::vector<Item> items() {
     return items;
 }
 
-// Absolute, as the components of a unit vector pass through 0. With W = forward + x right - y up, whose parts are
-// perpendicular and so no longer than W, and u = 2^-24: x and y err by u, and so do their products: 2 u (|x| + |y|) <=
-// 2.9 u |W|. The two sums err by u |W| each. normalize is W / length(W): the dot product 3 u, half of it in the root,
-// sqrt 9 u and the division 5 u.
+// Absolute, u = 2^-24. W = forward + x right - y up; its parts are perpendicular, so none is longer than W:
+// x, y and their products 2 u (|x| + |y|) <= 2.9 u |W|; the two sums 2 u |W|;
+// normalize = W / length(W): dot product 3 u, halved by the root; sqrt 9 u; division 5 u.
 constexpr Real bound = (2.9L + 2 + 15.5L) * half_ulp;
 
-// Of a ray through a lens, how far it is on the plane in focus from the pinhole's there, over its length to there. The
-// origin a r errs by 2 u |a| for the product with each axis and its sum, with what the axis lacks of unit length; its
-// opposite in the direction, a place of the image that errs by u of the sum and u of the product, is as large: in all
-// 7 u of the lens's radius. The direction errs as above.
+// Distance in the plane of focus between the lens ray and the pinhole ray, over their length. The origin a r errs by 2
+// u |a| per axis (product, sum) plus the axis's lack of unit length; its opposite in the direction errs as much, and
+// the place in the image by u (sum) and u (product): 7 u of the radius. The direction adds its own bound.
 Real lens_bound(Real radius, Real distance) {
     return 7 * half_ulp * radius / distance + bound;
 }

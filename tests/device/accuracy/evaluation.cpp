@@ -10,10 +10,10 @@ namespace accuracy {
 
 namespace {
 
-// A number that no function here gives: NaN with a payload.
+// A NaN with a payload; no function returns it.
 constexpr std::uint32_t sentinel = 0xffa5c35aU;
 
-// Items of which a word is unwritten.
+// Items that have an unwritten word.
 std::vector<std::uint32_t> unwritten_items(Probe &probe, std::span<const std::byte> inputs,
                                            std::span<std::byte> outputs, const ItemRange &range) {
     const std::size_t item_bytes = outputs.size() / range.count;

@@ -1,5 +1,5 @@
-// Evaluates shader functions on the device over many items: structs of 16-byte vectors in and out, one item per
-// invocation, as tests/device/probe/items.glsl reads and writes them.
+// Evaluates shader functions on the device over many items. Inputs and outputs are structs of 16-byte vectors, one item
+// per invocation (tests/device/probe/items.glsl).
 #pragma once
 
 #include "tests/device/probe.h"
@@ -9,8 +9,8 @@
 
 namespace accuracy {
 
-// Fails the running test if the kernel leaves a word of an output unwritten. That this would be seen is checked too, by
-// a run that skips one item.
+// Fails the running test if the kernel leaves an output word unwritten. A second run that skips one item shows that
+// this is detected.
 void evaluate_bytes(Probe &probe, std::span<const std::byte> inputs, std::span<std::byte> outputs,
                     std::uint32_t item_count);
 

@@ -1,4 +1,4 @@
-// Random and awkward inputs for the comparisons, always the same.
+// Random and extreme inputs for the comparisons, from fixed seeds.
 #pragma once
 
 #include "tests/device/accuracy/comparison.h"
@@ -18,7 +18,7 @@ public:
 
     std::uint32_t word() { return static_cast<std::uint32_t>(generator_()); }
 
-    // A multiple of 2^-24 in [0, 1), as the sampler gives them; one in sixteen times one of the first or last four.
+    // A multiple of 2^-24 in [0, 1), like the sampler's; one in sixteen is among the first or last four.
     float number() {
         const std::uint32_t bits = word() >> 8;
         const std::uint32_t choice = word();
@@ -26,10 +26,10 @@ public:
         return static_cast<float>((choice & 0xf00U) == 0 ? extreme : bits) * 0x1p-24F;
     }
 
-    // Spread evenly over the exponents.
+    // Uniform in the logarithm.
     double log_uniform(double low, double high) { return low * std::pow(high / low, word() * 0x1p-32); }
 
-    // A unit vector rounded to float; one in eight times an axis, or 2^-k away from one.
+    // A unit vector rounded to float; one in eight is an axis, or 2^-k away from one.
     glm::vec3 direction() {
         const std::uint32_t choice = word();
         glm::dvec3 vector(normal(), normal(), normal());
@@ -43,7 +43,7 @@ public:
     }
 
 private:
-    double normal() { // by the central limit theorem: portable, and any distribution without holes will do
+    double normal() { // by the central limit theorem: portable, and any distribution without gaps will do
         double sum = 0.0;
         for (int i = 0; i < 12; ++i)
             sum += word() * 0x1p-32;
@@ -53,7 +53,7 @@ private:
     std::mt19937 generator_;
 };
 
-// How far the length of a vector, meant to be 1, is from it.
+// Deviation of a nominal unit vector's length from 1.
 inline Real length_error(const glm::vec3 &vector) {
     return std::abs(glm::length(Direction(vector)) - 1);
 }

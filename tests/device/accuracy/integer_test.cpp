@@ -1,4 +1,4 @@
-// The functions on integers, which must be exact: hash, and floats as fixed point.
+// The exact integer functions: hash, and float to fixed point.
 #include "integer_items.spv.h"
 #include "shaders/specialization.h"
 #include "tests/device/accuracy/evaluation.h"
@@ -16,7 +16,7 @@ namespace {
 
 struct Item {
     glm::uvec4 words;
-    glm::uvec4 number; // the first is the float whose fixed point is taken
+    glm::uvec4 number; // x: the float to convert
 };
 
 struct Result {
@@ -33,7 +33,7 @@ std::vector<Item> items() {
                                    : item.number.x % std::bit_cast<std::uint32_t>(0x1p28F);
         items.push_back(item);
     }
-    // All bits, none, one; the ends of each binade; denormal numbers.
+    // All bits, none, one; both ends of each binade; denormal numbers.
     for (std::uint32_t bit = 0; bit < 32; ++bit)
         items.push_back({{0, 0xffffffffU, 1U << bit, ~(1U << bit)}, {1U << bit % 28, 0, 0, 0}});
     for (std::uint32_t exponent = 1; exponent < 127 + 28; ++exponent)
@@ -42,7 +42,7 @@ std::vector<Item> items() {
     return items;
 }
 
-// One round of pcg4d (Jarzynski and Olano 2020): each word takes the product of two others, in turn.
+// One round of pcg4d (Jarzynski and Olano 2020).
 void mix(std::array<std::uint32_t, 4> &v) {
     constexpr int factors[4][2] = {{1, 3}, {2, 0}, {0, 1}, {1, 2}};
     for (std::size_t i = 0; i < 4; ++i)
@@ -51,7 +51,7 @@ void mix(std::array<std::uint32_t, 4> &v) {
 
 glm::uvec4 pcg4d(const glm::uvec4 &input) {
     std::array<std::uint32_t, 4> v{};
-    for (int i = 0; i < 4; ++i) // the linear congruential step of Numerical Recipes
+    for (int i = 0; i < 4; ++i) // linear congruential step of Numerical Recipes
         v[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(1664525ULL * input[i] + 1013904223ULL);
     mix(v);
     for (std::uint32_t &word : v)
@@ -60,7 +60,7 @@ glm::uvec4 pcg4d(const glm::uvec4 &input) {
     return {v[0], v[1], v[2], v[3]};
 }
 
-// Words of value * 2^60 rounded to nearest, the least significant first. Exact in double.
+// value * 2^60 rounded to nearest, least significant word first. Exact in double.
 glm::uvec4 fixed_point(float value) {
     glm::uvec4 words;
     double rest = std::nearbyint(std::ldexp(double{value}, 60));
@@ -100,7 +100,7 @@ TEST(AccuracyIntegers, AreExact) {
     for (const char *function : {"pcg4d", "fixed_point"})
         std::printf("accuracy: %-28s %6zu inputs, exact\n", function, all.size());
 
-    // Negative control: a bit in each.
+    // Negative control: one bit each.
     results[77].hash.x ^= 1U;
     results[79].fixed.y ^= 1U << 16;
     const Differences one = differences(all, results);

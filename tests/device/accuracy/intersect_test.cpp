@@ -1,4 +1,4 @@
-// Distances to spheres and planes against long double: near, far and grazing, from inside and from the surface itself.
+// Distances to spheres and planes against long double: near, far, grazing, from inside and from the surface.
 #include "distance_items.spv.h"
 #include "shaders/specialization.h"
 #include "tests/device/accuracy/direction.h"
@@ -14,13 +14,13 @@ namespace accuracy::intersect {
 
 namespace {
 
-// Where a ray starts.
+// Item::start.
 constexpr float anywhere = 0.0F;
 constexpr float leaving_outside = 1.0F;
 constexpr float leaving_inside = 2.0F;
 
 struct Item {
-    glm::vec3 centre; // from the ray's start; also the normal of the plane
+    glm::vec3 centre; // relative to the ray's start; also the plane's normal
     float radius;     // also the height above the plane
     glm::vec3 direction;
     float start;
@@ -28,12 +28,12 @@ struct Item {
 
 struct Result {
     float sphere, plane;
-    float blocks_before, blocks_behind; // shadow rays that end before and behind the hit
+    float blocks_before, blocks_behind; // of shadow rays ending before and behind the hit
 };
 
 constexpr float no_hit = 3.0e38F;
 
-// A ray that passes a sphere at distance d and impact parameter i r from its centre.
+// A ray passing a sphere at a distance, with impact parameter `impact` radii from its center.
 Item passing_ray(Inputs &inputs, double distance, double radius, double impact, float start) {
     const glm::dvec3 direction(inputs.direction());
     const glm::dvec3 across =
@@ -44,9 +44,8 @@ Item passing_ray(Inputs &inputs, double distance, double radius, double impact, 
     return {glm::vec3(centre), static_cast<float>(radius), glm::vec3(direction), start};
 }
 
-// Near spheres and such at a million radii; impacts from the middle to grazing within 1e-6 and beyond; starts inside,
-// some of them just below the surface and along it; and starts on the surface, where the distance of the centre is the
-// radius to rounding.
+// Distances up to a million radii; impacts from the center to grazing within 1e-6 and beyond; starts inside, some just
+// below the surface and along it; starts on the surface, up to rounding.
 std::vector<Item> items() {
     Inputs inputs(10);
     std::vector<Item> items;
@@ -67,17 +66,17 @@ std::vector<Item> items() {
     return items;
 }
 
-// Roots of the sphere in long double; met: 0 or 1, or -1 where float32 cannot tell.
+// The sphere's root in long double. met: 0 or 1, or -1 where float32 cannot decide.
 struct Exact {
     int met;
     Real distance;
     Real bound;
 };
 
-// In float32, with d the distance of the centre, b = centre . direction its part along the ray, l that across, u =
-// 2^-24: b errs by 3 u d and the lengths; the vector across by u |b| + u l, and by the error of b, which lies along the
-// ray and so adds to its square alone; l^2 by 3 u more, r^2 by u and the difference by u. sqrt: 9 u. The direction's
-// lack of unit length is an error of the distance too.
+// u = 2^-24, d = |center|, b = center . direction, l = |center - b direction|.
+// b: 3 u d and the lack of unit length. The vector across: u |b| + u l; the error of b lies along the ray, so only its
+// square counts.
+// l^2: 3 u more; r^2: u; difference: u; sqrt: 9 u.
 Exact exact_sphere(const Item &item) {
     const Direction centre(item.centre);
     const Direction direction = glm::normalize(Direction(item.direction));
@@ -88,7 +87,7 @@ Exact exact_sphere(const Item &item) {
     if (item.start == leaving_outside)
         return {0, no_hit, 1};
     if (item.start == leaving_inside)
-        return {std::abs(b) > b_bound ? 1 : -1, 2 * std::abs(b), 2 * b_bound}; // along the surface there is no telling
+        return {std::abs(b) > b_bound ? 1 : -1, 2 * std::abs(b), 2 * b_bound}; // undecided along the surface
     const Real l = glm::length(centre - b * direction);
     const Real along = 2 * b_bound;
     const Real l_bound = half_ulp * (std::abs(b) + l);
@@ -98,16 +97,16 @@ Exact exact_sphere(const Item &item) {
     const Real bound = b_bound + 9 * half_ulp * half_chord + std::sqrt(std::max<Real>(square, 0) + square_bound) -
                        std::sqrt(std::max<Real>(square - square_bound, 0)) + 2 * half_ulp * (std::abs(b) + half_chord);
     if (std::abs(d * d - r * r) < 5 * half_ulp * d * d)
-        return {-1, 0, 0}; // on the surface, as far as can be told
+        return {-1, 0, 0}; // undecided: on the surface
     const bool outside = d > r;
     const Real distance = outside ? b - half_chord : b + half_chord;
     if (outside && std::abs(square) <= square_bound)
-        return {-1, 0, 0}; // grazing, as far as can be told
+        return {-1, 0, 0}; // undecided: grazing
     const bool met = (square > 0 || !outside) && distance > 0;
     return {std::abs(distance) <= bound ? -1 : static_cast<int>(met), distance, bound};
 }
 
-// -h / (n . v): the dot product errs by 2 u of at most |n|; the division by 5 u.
+// -h / (n . v): dot product 2 u |n|, division 5 u.
 Exact exact_plane(const Item &item) {
     const Direction normal(item.centre);
     const Real rate = glm::dot(normal, Direction(item.direction));
@@ -115,12 +114,12 @@ Exact exact_plane(const Item &item) {
     if (item.start != anywhere)
         return {0, no_hit, 1};
     if (std::abs(rate) <= 2 * rate_bound)
-        return {-1, 0, 0}; // parallel, as far as can be told
+        return {-1, 0, 0}; // undecided: parallel
     const Real distance = -item.radius / rate;
     return {distance > 0, distance, std::abs(distance) * (rate_bound / (std::abs(rate) - rate_bound) + 5 * half_ulp)};
 }
 
-// Whether the device meets a surface exactly where it is to be met, as far as can be told.
+// Whether the device agrees on hit or miss, where that is decided.
 bool agrees(const Exact &exact, float found) {
     return exact.met < 0 || (found != no_hit) == (exact.met == 1);
 }
@@ -130,14 +129,14 @@ void compare(Comparison &comparison, const Exact &exact, float found, Real unit,
         comparison.add(found / unit, exact.distance / unit, exact.bound / unit, list(item));
 }
 
-// Negative control: a sphere that is larger by a thousandth.
+// Negative control: a radius larger by a thousandth.
 Exact exact_larger_sphere(Item item) {
     item.radius *= 1.001F;
     return exact_sphere(item);
 }
 
-// Rays that can start where the camera is outside of all spheres: from elsewhere outside, farther off than float32 may
-// err in telling so, or leaving on the outside. (Tests of paths hold the kernel to points between.)
+// Rays that can start where the camera is outside all spheres: clearly outside by float32's error, or leaving on the
+// outside. Tests of paths cover points between.
 bool starts_outside(const Item &item) {
     const Real d = glm::length(Direction(item.centre));
     const Real r = item.radius;
@@ -146,20 +145,20 @@ bool starts_outside(const Item &item) {
 
 struct Wrong {
     std::size_t undecided = 0;
-    std::size_t found = 0;      // surfaces that are met and should not be, or the reverse
-    std::size_t of_control = 0; // the same where the exact sphere is a larger one
-    std::size_t shadows = 0;    // hits that block a shadow ray that ends before them, or do not block one behind
+    std::size_t found = 0;      // hits where none should be, or the reverse
+    std::size_t of_control = 0; // the same against the larger sphere
+    std::size_t shadows = 0;    // wrong answers of shadow rays
 };
 
-// Whether the sphere blocks shadow rays as it should. From a ten-thousandth of the distance of the centre on, a tenth
-// of the hit's distance is a hundred times what float32 leaves in doubt.
+// Whether the sphere blocks exactly the shadow rays that end behind the hit. Decided if the hit's distance exceeds 1e-4
+// |center|: a tenth of it is then a hundred times the float32 error.
 bool blocks_rightly(const Exact &exact, const Result &found, const Item &item) {
     if (exact.met == 1 && exact.distance > 1e-4L * glm::length(Direction(item.centre)))
         return found.blocks_before == 0.0F && found.blocks_behind == 1.0F;
     return exact.met != 0 || found.blocks_behind == 0.0F;
 }
 
-// Holds a kernel's distances against the exact ones, with rows of the table of accuracy under a name.
+// Compares a kernel's distances with the exact ones, in rows named after `name`.
 Wrong compare_all(const std::vector<Item> &all, std::uint32_t inside, const std::string &name) {
     Comparison sphere("sphere_distance" + name, "of the centre");
     Comparison leaving("sphere_distance" + name + ", leaving", "of the radius");
@@ -184,7 +183,7 @@ Wrong compare_all(const std::vector<Item> &all, std::uint32_t inside, const std:
         compare(plane, on_plane, results[i].plane, std::abs(on_plane.distance), all[i]);
     }
     sphere.finish();
-    if (inside == 1) // leaving on the outside, no ray meets its sphere
+    if (inside == 1) // leaving on the outside, no ray hits its sphere
         leaving.finish();
     plane.finish();
     return wrong;
@@ -209,7 +208,7 @@ TEST(AccuracyIntersect, OfDistancesWherePathsAreNeverInside) {
     EXPECT_LT(wrong.undecided, outside.size() / 4); // half of them graze
 }
 
-// Negative control: from inside, spheres are lost.
+// Negative control: kernels without `inside` lose spheres from inside.
 TEST(AccuracyIntersect, WherePathsAreNeverInsideNoneMayBe) {
     std::vector<Item> inside = items();
     std::erase_if(inside, starts_outside);

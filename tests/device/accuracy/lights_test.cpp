@@ -1,4 +1,4 @@
-// How lights.glsl sees and samples a lamp, against long double: from angles of 1e-7 to touching.
+// Sampling a lamp in lights.glsl against long double: from angles of 1e-7 to touching.
 #include "lamp_items.spv.h"
 #include "shaders/specialization.h"
 #include "tests/device/accuracy/direction.h"
@@ -13,7 +13,7 @@ namespace accuracy::lights {
 
 namespace {
 
-constexpr std::uint32_t lamp_count = 512; // whose geometry and emission fill a probe's scene
+constexpr std::uint32_t lamp_count = 512; // their geometry and emission fill a probe's scene
 
 struct Lamp {
     glm::vec3 centre;
@@ -45,8 +45,8 @@ std::vector<Lamp> lamps() {
     return lamps;
 }
 
-// Vertices at r / sine from a lamp of radius r: sines from 1e-7 to 1, and to within 1e-6 of 1. A quarter of the normals
-// leave the lamp just above the horizon or below it.
+// Vertices at r / sine from a lamp of radius r: sines from 1e-7 to 1, and within 1e-6 of 1. A quarter of the normals
+// put the lamp just above or below the horizon.
 std::vector<Item> items(const std::vector<Lamp> &lamps) {
     Inputs inputs(7);
     std::vector<Item> items;
@@ -67,20 +67,20 @@ std::vector<Item> items(const std::vector<Lamp> &lamps) {
     return items;
 }
 
-// What an argument that is off by a bound does to its square root: near 0 more than half of its share.
+// Error of sqrt(square) for an argument error `bound`; near 0 more than half of the relative error.
 Real root_bound(Real square, Real bound) {
     const Real root = std::sqrt(std::max<Real>(square, 0));
     return std::max(std::sqrt(std::max<Real>(square, 0) + bound) - root,
                     root - std::sqrt(std::max<Real>(square - bound, 0)));
 }
 
-// A lamp as its vertex sees it, and what float32 may lose of that. u = 2^-24.
+// A lamp as seen from a vertex, with float32 bounds, u = 2^-24.
 struct View {
     Direction axis;
     Real distance;
     Real squared_sine;
-    Real height;       // 1 - cos of half the angle
-    Real height_share; // of which that may be off
+    Real height;       // 1 - cos(half angle)
+    Real height_share; // its relative error
     Real highest_cosine;
 
     View(const Lamp &lamp, const Item &item) {
@@ -91,17 +91,15 @@ struct View {
         const Real cosine = std::sqrt(std::max<Real>(1 - squared_sine, 0));
         height = squared_sine / (1 + cosine);
         highest_cosine = glm::dot(glm::normalize(Direction(item.normal)), axis) + Real{lamp.radius} / distance;
-        // sin^2: u for r^2, 5 u for d^2 (2 u for the differences, u for squares, 2 u for sums) and 5 u for the
-        // division. 1 - sin^2 is off by that and u / 2, absolute, so its root by much where the lamp is near; the
-        // root's own error is 9 u, that of the sum u, and the division's 5 u.
+        // sin^2: r^2 u; d^2 5 u (differences 2 u, squares u, sums 2 u); division 5 u. 1 - sin^2 errs by that and u / 2,
+        // absolute, so its root by much for near lamps; then sqrt 9 u, sum u, division 5 u.
         const Real cosine_bound = root_bound(1 - squared_sine, 11.5L * half_ulp) + 9 * half_ulp * cosine;
         height_share = 16 * half_ulp + (cosine_bound + 2 * half_ulp) / (1 + cosine - cosine_bound);
     }
 };
 
-// Absolute, in length. The axis errs by 8.5 u: u for the differences, 6.5 u for inversesqrt of d^2, u for the product;
-// directions with it, and by three times that across, as the basis turns with the axis. Then direction_about, with u
-// for the product u.x h.
+// Absolute. The axis errs by 8.5 u (differences u, inversesqrt of d^2 6.5 u, product u); directions err with it, and by
+// three times that across, because the basis turns with the axis. Then direction_about, with u for the product u.x h.
 Real direction_bound(const View &view, const glm::vec3 &axis, Real h) {
     const Real axis_bound = 8.5L * half_ulp;
     const Real sine = std::sqrt(h * (2 - h));
@@ -109,8 +107,8 @@ Real direction_bound(const View &view, const glm::vec3 &axis, Real h) {
            std::sqrt(Real{2}) * sine * (3 + 2.5L) * axis_bound + axis_bound;
 }
 
-// Absolute. d errs by 7.5 u: 5 u for d^2 less half of it in the root, 4 u for inversesqrt, u for the product. The
-// root's argument r^2 - d^2 h (2 - h) by 3 u of r^2, and of its second term by 18 u and the share of h.
+// Absolute. d: 7.5 u (half of 5 u for d^2, inversesqrt 4 u, product u). r^2 - d^2 h (2 - h): 3 u r^2, and 18 u and h's
+// relative error for the second term.
 Real distance_bound(const View &view, const Lamp &lamp, Real h) {
     const Real share = view.height_share + half_ulp;
     const Real squared_radius = Real{lamp.radius} * lamp.radius;
@@ -142,9 +140,8 @@ struct AccuracyLights : testing::Test {
     }
 };
 
-// The weight, radiance sin^2 min(1, highest cosine), is never 0 where its bound on the irradiance is not, as far as
-// that can be told: dot product and sum err by 4 u and, with their factor 1 / d, 6.5 u and u more; so does the normal's
-// length.
+// The weight, radiance sin^2 min(1, highest cosine), must not be 0 where its bound on the irradiance is not. Dot
+// product and sum err by 4 u, their factor 1 / d by 6.5 u + u, and the normal's length counts.
 TEST_F(AccuracyLights, OfLampSamples) {
     Comparison height("one_minus_cos", "of itself");
     Comparison density("cone_density", "of itself");
@@ -159,7 +156,7 @@ TEST_F(AccuracyLights, OfLampSamples) {
         const Result &result = results_[i];
         const View view(lamp, item);
         if (view.squared_sine > 1 - 12 * half_ulp)
-            continue; // on the lamp, as far as can be told
+            continue; // undecided: on the lamp
         const std::vector<float> input = list(item.position, lamp.centre, lamp.radius, item.normal, item.numbers);
         height.add(result.height / view.height, 1, view.height_share, input);
 
@@ -174,7 +171,7 @@ TEST_F(AccuracyLights, OfLampSamples) {
             continue;
         }
         lost += result.weight > 0.0F ? 0 : 1;
-        // 1 / (2 pi h): u / 2 for the constant, u for the product and 5 u for the division.
+        // 1 / (2 pi h): constant u / 2, product u, division 5 u.
         density.add(result.density * (2 * pi * view.height), 1, view.height_share * 1.01L + 7 * half_ulp, input);
         const Real h = item.numbers.x * view.height;
         direction.add(result.direction,

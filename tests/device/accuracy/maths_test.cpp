@@ -1,5 +1,4 @@
-// The elementary functions on the device, by the library's own measurement, and whether that measurement detects
-// errors.
+// The library's measurement of the elementary functions, and whether it detects errors.
 #include "lib/kernel/accuracy.h"
 
 #include "accuracy_skips.spv.h"
@@ -32,7 +31,7 @@ TEST(AccuracyMaths, OfElementaryFunctions) {
     }
 }
 
-// Against the definition, at the ends of a binade and where nothing is near.
+// Against the definition, at the ends of a binade and far from any float.
 TEST(AccuracyMaths, ErrorsAreInUlpOfTheExactValue) {
     EXPECT_EQ(pt::error_in_ulp(1.0F, 1.0), 0.0);
     EXPECT_EQ(pt::error_in_ulp(1.0F + 0x1p-23F, 1.0), 1.0);
@@ -45,7 +44,7 @@ TEST(AccuracyMaths, ErrorsAreInUlpOfTheExactValue) {
     EXPECT_EQ(pt::error_in_ulp(std::numeric_limits<float>::quiet_NaN(), 1.0), infinity);
 }
 
-// Each function: its arguments keep to its range, and reach both ends.
+// The arguments span the function's range exactly.
 TEST(AccuracyMaths, ArgumentsCoverTheRange) {
     for (const pt::ElementaryFunction &function : pt::elementary_functions()) {
         const std::vector<float> arguments = pt::accuracy_arguments(function);
@@ -56,7 +55,7 @@ TEST(AccuracyMaths, ArgumentsCoverTheRange) {
     }
 }
 
-// Negative control: a single value of 16384 that is off by a little more than the bound is found.
+// Negative control: one value of 16384, wrong by little more than the bound, is found.
 TEST(AccuracyMaths, ASingleErrorIsSeen) {
     for (const pt::ElementaryFunction &function : pt::elementary_functions()) {
         const std::vector<float> arguments = pt::accuracy_arguments(function);
@@ -76,7 +75,7 @@ TEST(AccuracyMaths, ASingleErrorIsSeen) {
     }
 }
 
-// Negative control: a kernel that leaves out one value.
+// Negative control: a kernel that skips a value.
 TEST(AccuracyMaths, AnUnwrittenValueIsSeen) {
     std::vector<float> arguments(4 * pt::gpu::WORKGROUP_SIZE, 1.0F);
     const std::vector<float> values = pt::evaluate(probe_device(), accuracy_skips_spirv(), arguments);

@@ -41,8 +41,8 @@ glm::vec3 beside(Inputs &inputs, const glm::vec3 &direction, double angle) {
     return {glm::normalize(std::cos(angle) * axis + std::sin(angle) * across)};
 }
 
-// Exponents 0 to 1e9, and outgoing directions where such lobes are neither 0 nor 1, and elsewhere. about_mirror: near
-// the mirror direction of the axis; else near the axis itself.
+// Exponents 0 to 1e9; most outgoing directions where the lobe is neither 0 nor 1. about_mirror: around the axis's
+// mirror direction, else around the axis.
 std::vector<Item> items(bool about_mirror) {
     Inputs inputs(about_mirror ? 2 : 3);
     std::vector<Item> items;
@@ -51,7 +51,7 @@ std::vector<Item> items(bool about_mirror) {
         item.axis = inputs.direction();
         item.normal = inputs.direction();
         if (glm::dot(item.normal, item.axis) > 0.0F)
-            item.normal = -item.normal; // on the side that the path came from
+            item.normal = -item.normal; // the side the path came from
         const float exponents[] = {0.0F, 1.0F, 1e9F, static_cast<float>(inputs.log_uniform(1e-3, 1e9))};
         item.glossiness = exponents[std::min<std::size_t>(i % 16, 3)];
         const double width = std::min(1.0, std::sqrt(2.0 / std::max(item.glossiness, 1.0F)));
@@ -75,7 +75,7 @@ Probe phong_probe() {
     return {phong_items_spirv(), sizeof(ItemRange), constants};
 }
 
-// A number and how far from it float32 may be.
+// An exact value and its float32 error bound.
 struct Bounded {
     Real exact;
     Real bound;
@@ -85,11 +85,11 @@ Real power(Real cosine, Real n) {
     return cosine > 0 ? std::pow(cosine, n) : 0;
 }
 
-// max(0, wo . r)^n for the unit vectors along r and wo, where the device's r is off by mirror_error. With u = 2^-24:
-// y = |wo - r|^2 / 2 errs by 2 u for the differences, u for the squares, 2 u for the sums; unit vectors that are too
-// long by a and b make it y (1 + a) (1 + b) + (a - b)^2 / 2; and mirror_error by the chord and itself. log2(1 -
-// y) errs by 22 u (18 ulp of at most u / 2 each where the logarithm is 0.42), its product with n by u, and 2^x by 3 + 2
-// |x| ulp of at most 2 u. Below 2^-99 the lobe is 0.
+// max(0, wo . r)^n for the unit vectors along r and wo; the device's r errs by mirror_error. With u = 2^-24:
+// y = |wo - r|^2 / 2: differences 2 u, squares u, sums 2 u; lengths 1 + a, 1 + b give y (1 + a) (1 + b) + (a - b)^2 /
+// 2; mirror_error times the chord and itself.
+// log2(1 - y): 22 u (18 ulp of at most u / 2 where the logarithm is 0.42); times n: u; 2^x: 3 + 2 |x| ulp of at most 2
+// u. Below 2^-99 the lobe is 0.
 Bounded lobe(const Direction &r, const Direction &wo, Real r_length, Real wo_length, Real mirror_error, Real n) {
     const Direction chord = wo - r;
     const Real y = glm::dot(chord, chord) / 2;
@@ -108,8 +108,8 @@ Bounded lobe_about_axis(const Item &item) {
                 length_error(item.outgoing), 0, item.glossiness);
 }
 
-// reflect(I, N) = I - 2 (N . I) N: the dot product errs by 2 u, so 2 (N . I) N by 4 u and 2 u more, the difference by
-// u; a normal that is not of unit length by four times that.
+// reflect(I, N) = I - 2 (N . I) N: dot product 2 u, so 2 (N . I) N 4 u + 2 u; difference u; four times the normal's
+// lack of unit length.
 Bounded lobe_about_mirror(const Item &item) {
     const Direction normal = glm::normalize(Direction(item.normal));
     const Direction r = glm::reflect(glm::normalize(Direction(item.axis)), normal);
@@ -117,8 +117,8 @@ Bounded lobe_about_mirror(const Item &item) {
                 7 * half_ulp + 4 * length_error(item.normal), item.glossiness);
 }
 
-// Coefficients of the diffuse and the specular term of the value (over the cosine) or of the density, by the
-// definitions in pt.h and in Lafortune and Willems (1994). Their sum is the most that the whole can be.
+// Diffuse and specular coefficients of the value (over the cosine) or of the density, by pt.h and Lafortune and Willems
+// (1994). Their sum bounds the whole.
 struct Terms {
     Real diffuse, specular;
 
@@ -134,15 +134,14 @@ Terms density_terms(const Item &item) {
     return {(1 - p) / pi, p * (Real{item.glossiness} + 1) / (2 * pi)};
 }
 
-// The cosine of the outgoing direction, not below 0: 2 u for the dot product, and the lengths.
+// max(0, cosine of the outgoing direction): dot product 2 u, and the lengths.
 Bounded cosine_of(const Item &item) {
     const Direction normal = glm::normalize(Direction(item.normal));
     return {std::max<Real>(glm::dot(normal, glm::normalize(Direction(item.outgoing))), 0),
             2 * half_ulp + length_error(item.normal) + length_error(item.outgoing)};
 }
 
-// The longest chain of roundings is that of the specular term: n + 2, its product with the factor and that with the
-// lobe 3 u, the division by 2 pi 5.5 u, the sum u, and the product with the cosine u.
+// The specular term's chain is longest: n + 2, the factor and the lobe 3 u; division by 2 pi 5.5 u; sum u; cosine u.
 constexpr Real rounding = 11 * half_ulp;
 
 Bounded value_of(const Item &item) {
@@ -172,8 +171,8 @@ TEST(AccuracyPhong, OfLobes) {
         const Item &item = all[i];
         const Bounded lobe = lobe_about_axis(item);
         power.add(results[i].power, lobe.exact, lobe.bound, list(item.axis, item.glossiness, item.outgoing));
-        // 1 - 2^(log2(1 - u) / (n + 1)): 22 u, u for n + 1 and 5 u for the division count for less than themselves, as
-        // x e^x / (1 - e^x) <= 1; and 2.5 ulp <= 5 u.
+        // 1 - 2^(log2(1 - u) / (n + 1)): 22 u, n + 1 u and division 5 u are damped by x e^x / (1 - e^x) <= 1; 2^x 2.5
+        // ulp <= 5 u.
         const Real h = -std::expm1(std::log1p(-Real{item.numbers.x}) / (Real{item.glossiness} + 1));
         direction.add(glm::vec3(results[i].direction),
                       turned_to(item.axis, direction_at(1 - h, std::sqrt(h * (2 - h)), item.numbers.y)),

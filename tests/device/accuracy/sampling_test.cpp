@@ -11,7 +11,7 @@ namespace {
 
 struct Item {
     glm::vec3 axis;
-    float height; // of the cone direction: 1 - cos
+    float height; // 1 - cos of the cone direction
     glm::vec2 numbers;
     float density, other_density;
 };
@@ -23,8 +23,8 @@ struct Result {
 std::vector<Item> items() {
     Inputs inputs(1);
     std::vector<Item> items;
-    // Heights from 5e-15, an angle of 1e-7, to 2, the opposite direction. Densities that are squares or ratios beyond
-    // what a float holds; but Vulkan states an error of division only for divisors from 2^-126 to 2^126 = 8.5e37.
+    // Heights from 5e-15 (an angle of 1e-7) to 2 (the opposite direction). Densities whose squares or ratios overflow a
+    // float, but from 2^-126 to 2^126 = 8.5e37: Vulkan bounds the error of division for such divisors only.
     for (std::size_t i = 0; i < random_count; ++i)
         items.push_back({inputs.direction(), static_cast<float>(inputs.log_uniform(5e-15, 2.0)),
                          glm::vec2(inputs.number(), inputs.number()),
@@ -39,20 +39,19 @@ std::vector<Item> items() {
     return items;
 }
 
-// Given both cosine and sine of the polar angle to rounding, 1 - u and u themselves being exact: sqrt 9 u for each, so
-// 9 u in length, and the two rotations.
+// u and 1 - u are exact; their roots, cosine and sine, err by 9 u each, so by 9 u in length. Then both rotations.
 Real cosine_hemisphere_bound(const Item &item) {
     const Real sine = std::sqrt(Real{item.numbers.x});
     return rotation_bound(item.axis, sine) + azimuth_bound(sine) + 9 * half_ulp;
 }
 
-// 1 - 2 u is exact; the sine 2 sqrt(u (1 - u)) errs by half of u and by 9 u.
+// 1 - 2 u is exact; the sine 2 sqrt(u (1 - u)) errs by u / 2 + 9 u.
 Real uniform_bound(Real sine) {
     return azimuth_bound(sine) + 9.5L * half_ulp * sine + half_ulp / 2;
 }
 
-// Both directions are right where the axis is perpendicular to them, as far as the dot product (2 u and the lengths)
-// can tell: then the nearer one counts.
+// Mirrors a direction to the axis's side. Where the dot product (2 u and the lengths) cannot tell the side, takes the
+// nearer of both.
 Direction mirrored_up(const Direction &direction, const Item &item, const glm::vec4 &found) {
     const Real cosine = glm::dot(direction, Direction(item.axis));
     const bool undecided = std::abs(cosine) < 4 * half_ulp + uniform_bound(1);
@@ -60,7 +59,7 @@ Direction mirrored_up(const Direction &direction, const Item &item, const glm::v
     return side < 0 ? -direction : direction;
 }
 
-// The point of the disc in another way than the kernel's, by the wedge between the diagonals in which the square's is.
+// The point of the disc by wedges between the square's diagonals, unlike the kernel.
 Direction concentric(const glm::vec2 &numbers) {
     const Real x = 2 * Real{numbers.x} - 1;
     const Real y = 2 * Real{numbers.y} - 1;
@@ -73,8 +72,8 @@ Direction concentric(const glm::vec2 &numbers) {
     return side * radius * Direction(std::cos(angle), std::sin(angle), 0);
 }
 
-// 2 u - 1 is exact, as u has 24 bits. The ratio, at most 1, errs by 5 u, and so the angle by 5 pi / 4 u; the eighth is
-// exact. The product errs by half of u in each component.
+// 2 u - 1 is exact for 24 bits. The ratio (at most 1) errs by 5 u, the angle by 5 pi / 4 u; its eighth is exact. The
+// product errs by u / 2 per component.
 constexpr Real concentric_share = 5 * pi / 4 * half_ulp;
 
 class AccuracySampling : public testing::Test {
@@ -107,7 +106,7 @@ TEST_F(AccuracySampling, OfDirectionsAndWeights) {
         const Direction point = concentric(item.numbers);
         disc.add(glm::vec3(result.weight.z, result.weight.w, 0.0F), point,
                  glm::length(point) * (concentric_share + azimuth_bound(1)), list(item));
-        // w = 1 / (1 + q^2): q 5 u, q^2 11 u, the sum u, the division 2.5 ulp. Where a square overflows, w is 0.
+        // w = 1 / (1 + q^2): q 5 u, q^2 11 u, sum u, division 2.5 ulp. Where a square overflows, w is 0.
         const Real a = item.density;
         const Real b = item.other_density;
         add_in_ulp(weight, result.weight.x, a * a / (a * a + b * b), 14.5L, 0x1p-100L, list(item));
@@ -119,8 +118,7 @@ TEST_F(AccuracySampling, OfDirectionsAndWeights) {
     disc.finish();
 }
 
-// Multiple importance sampling is unbiased because the two weights of a direction sum to 1: each is within 14.5 ulp of
-// at most 2^-24 of its value.
+// Unbiased multiple importance sampling needs weights that sum to 1; each is within 14.5 ulp of at most 2^-24.
 TEST_F(AccuracySampling, WeightsOfBothTechniquesSumToOne) {
     std::vector<Item> exchanged = items_;
     for (Item &item : exchanged)

@@ -1,4 +1,4 @@
-// How far the points that vertex_at finds are from their surfaces, however wrong the distance along the ray.
+// Distance of the points of vertex_at from their surfaces, for wrong distances along the ray.
 #include "shaders/specialization.h"
 #include "tests/device/accuracy/direction.h"
 #include "tests/device/accuracy/evaluation.h"
@@ -29,7 +29,7 @@ struct Result {
     glm::vec4 mirror;
 };
 
-// Spheres by centre and radius, then planes by normal and offset.
+// Spheres (center, radius), then planes (normal, offset).
 std::vector<glm::vec4> surfaces() {
     Inputs inputs(8);
     std::vector<glm::vec4> surfaces;
@@ -42,7 +42,7 @@ std::vector<glm::vec4> surfaces() {
     return surfaces;
 }
 
-// Rays that end within a thousandth of their length of a point of the surface.
+// Rays that end within a thousandth of their length from a point of the surface.
 std::vector<Item> items(const std::vector<glm::vec4> &surfaces) {
     Inputs inputs(9);
     std::vector<Item> items;
@@ -63,10 +63,9 @@ std::vector<Item> items(const std::vector<glm::vec4> &surfaces) {
     return items;
 }
 
-// In float32, u = 2^-24. Sphere: normalize gives the radius 15.5 u (dot product 3 u, halved in the root; sqrt 9 u;
-// division 5 u), its product u; the sum u of the point. Plane: normal . p + offset errs by 2 u |p| and u of the sum,
-// the correction by 3 u of itself, the difference by u |p|; a normal that is off unit length by l leaves 2 l of the
-// height.
+// u = 2^-24. Sphere: normalize times radius 15.5 u (dot product 3 u, halved by the root; sqrt 9 u; division 5 u);
+// product u; sum u |p|. Plane: normal . p + offset 2 u |p| + u; correction 3 u of itself; difference u |p|; a normal
+// off unit length by l leaves 2 l of the height.
 Real sphere_bound(const glm::vec4 &sphere, const Direction &point) {
     return half_ulp * (16.5L * sphere.w + glm::length(point));
 }
@@ -107,11 +106,11 @@ TEST(AccuracyVertex, OfPoints) {
             const Real height = glm::dot(Direction(surface), position) + surface.w;
             from_plane.add(height / scale, 0, plane_bound(surface, reached, height_before) / scale, input);
         }
-        // 3 u, as far as a dot product can tell.
+        // A dot product errs by 3 u.
         EXPECT_LE(glm::dot(normal, Direction(item.direction)), 3 * half_ulp) << "not on the side of the ray's start";
         inside += results[i].inside == 1.0F ? 1 : 0;
-        // About the normal as it is: the dot product errs by 2 u, so 2 (n . d) n by 4 u and 2 u more, the difference by
-        // u. That of a ray along the surface is the ray itself.
+        // About the stored normal: dot product 2 u, so 2 (n . d) n 4 u + 2 u; difference u. A ray along the surface is
+        // its own mirror image.
         mirror.add(glm::vec3(results[i].mirror), glm::reflect(Direction(item.direction), normal), 7 * half_ulp, input);
     }
     EXPECT_TRUE(inside > 0 && inside < all.size()) << "only one side was tested";
