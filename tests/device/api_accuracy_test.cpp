@@ -48,7 +48,7 @@ TEST_F(ApiTest, AccuracyWritesAtMostCountRows) {
     }
 }
 
-// In the middle of a render: image, statistics and memory stay the same.
+// Image, statistics and memory stay the same during a render.
 TEST_F(ApiTest, AccuracyChangesNothing) {
     set_all();
     accumulate(3);

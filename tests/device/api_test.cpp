@@ -1,5 +1,5 @@
-// The contract of pt.h on a real device: states, messages, progress, and that a failed call changes nothing. The
-// rules of single fields have their own tests, without a device.
+// The contract of pt.h on a real device: states, messages, progress, and failed calls that change nothing. Rules of
+// single fields are tested without a device.
 #include "tests/device/api_fixture.h"
 #include "tests/support/image_target.h"
 
@@ -85,7 +85,7 @@ TEST_F(ApiTest, SampleIndicesEndAt32Bits) {
     expect_image(2);
 }
 
-// 2^32 indices are one more than a pixel's count of samples can hold.
+// A pixel counts at most 2^32 - 1 samples.
 TEST_F(ApiTest, PixelsHoldAtMost32BitsOfSamples) {
     set_all();
     accumulate(1);
@@ -149,7 +149,7 @@ TEST_F(ApiTest, FailedCallsChangeNothing) {
     }
     expect_image(3);
 
-    accumulate(2); // goes on as if nothing had happened
+    accumulate(2); // as if nothing had happened
     expect_image(5);
 }
 
@@ -204,7 +204,7 @@ TEST_F(ApiTest, ProgressRisesToOneOnTheCallingThread) {
     EXPECT_FALSE(progress.elsewhere);
 }
 
-// Every sample of this scene is the same, so that its error is 0 as soon as it is looked at.
+// All samples of this scene are equal, so its error is 0 at the first check.
 TEST_F(ApiTest, TheErrorIsKnownFrom16Samples) {
     set_all();
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -233,7 +233,7 @@ TEST_F(ApiTest, TheErrorIsKnownFrom16Samples) {
     expect_image(116);
 }
 
-// What a C++ callback throws does not cross the C boundary; the film holds whole samples.
+// An exception of a C++ callback does not cross the C boundary; the film keeps whole samples.
 TEST_F(ApiTest, ProgressThatThrowsIsAnErrorThatKeepsTheFilmWhole) {
     set_all();
     const pt_accumulate_info info{sizeof info,

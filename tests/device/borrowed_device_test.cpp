@@ -1,5 +1,4 @@
-// What the library does on a borrowed device, beneath pt.h: submissions under the caller's lock, waiting, and leaving a
-// device that hangs alone.
+// Borrowed devices, beneath pt.h: submissions under the caller's lock, waits, and a device that hangs.
 #include "lib/base/error.h"
 #include "lib/render/render_device.h"
 #include "lib/vulkan/buffer.h"
@@ -30,12 +29,12 @@ using pt::vulkan::DescriptorSet;
 using pt::vulkan::Device;
 using pt::vulkan::Instance;
 
-// Stands between a device and Vulkan, and looks whether the queue is held. For one device at a time.
+// Wraps a device's queue functions and records whether the queue is locked. One device at a time.
 class QueueSpy {
 public:
     explicit QueueSpy(const vk::raii::Device &device) {
         counts = {};
-        // The dispatcher is the device's own table of functions, and no constant.
+        // The dispatcher is the device's own, mutable function table.
         using Functions = std::remove_cvref_t<decltype(*device.getDispatcher())>;
         auto *functions = const_cast<Functions *>(device.getDispatcher());
         real_submit = functions->vkQueueSubmit;
@@ -53,7 +52,7 @@ public:
     struct Counts {
         int locks, submissions, submissions_without_lock, waits_for_all;
         bool held;
-        VkResult failure; // of the submissions to come, which do not reach the device; VK_SUCCESS: they do
+        VkResult failure; // returned instead of submitting, unless VK_SUCCESS
     };
     static inline Counts counts{};
 
@@ -99,7 +98,7 @@ protected:
         device.finish();
         EXPECT_EQ(device.film().rejected_samples(), 0U);
         device.discard_samples();
-        // What the film's buffers do not need on a device that shares its memory with the host.
+        // Transfers that the film's buffers skip where host and device share memory.
         std::array<std::byte, 64> words{};
         Buffer buffer(device.device(), BufferUse::Storage, words.size(), "test");
         clear(device.device(), buffer);
@@ -117,7 +116,7 @@ TEST_F(BorrowedDeviceTest, EverySubmissionHoldsTheQueue) {
     EXPECT_EQ(QueueSpy::counts.waits_for_all, 0);
 }
 
-// The negative control: without the caller's functions the spy sees it.
+// Negative control: without the caller's functions the spy sees unlocked submissions.
 TEST_F(BorrowedDeviceTest, WithoutALockNoSubmissionHoldsTheQueue) {
     render(false);
     EXPECT_GE(QueueSpy::counts.submissions, 2);
@@ -141,8 +140,8 @@ TEST_F(BorrowedDeviceTest, ASubmissionThatLosesTheDeviceLetsGoOfTheQueue) {
     EXPECT_EQ(QueueSpy::counts.submissions, 1);
 }
 
-#ifndef __SANITIZE_ADDRESS__ // what stays behind is a leak, as it should be
-// A submission that is given up is still under way: nothing that it uses may be destroyed, nor the caller's device.
+#ifndef __SANITIZE_ADDRESS__ // what stays behind is a deliberate leak
+// A submission that was given up is still running: neither what it uses nor the caller's device may be destroyed.
 TEST_F(BorrowedDeviceTest, ADeviceThatHangsKeepsWhatItsWorkUses) {
     const CallerVulkan handles = this->handles(false);
     std::optional<Gate> gate(caller_->device());

@@ -1,6 +1,5 @@
-// A program's own Vulkan: instance with the validation layer, device and queue, made without the library. What the
-// layer says is kept, until the instance is destroyed. PT_TEST_DEVICE and PT_TEST_NO_VALIDATION as in
-// context_fixture.h.
+// A program's own Vulkan, made without the library: instance with the validation layer, device and queue.
+// PT_TEST_DEVICE and PT_TEST_NO_VALIDATION as in context_fixture.h.
 #pragma once
 
 #include "lib/vulkan/device_choice.h"
@@ -19,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-// Messages of the layer, which may come from any thread.
+// The validation layer's messages. Thread-safe.
 class LayerMessages {
 public:
     std::vector<std::string> take() {
@@ -27,7 +26,7 @@ public:
         return std::exchange(lines_, {});
     }
 
-    template <typename Severity, typename Types, typename Data> // of the C header, or of newer versions of Vulkan-Hpp
+    template <typename Severity, typename Types, typename Data> // of the C header or newer Vulkan-Hpp
     static VKAPI_ATTR VkBool32 VKAPI_CALL receive(Severity /*severity*/, Types /*types*/, const Data *data,
                                                   void *user) {
         auto *messages = static_cast<LayerMessages *>(user);
@@ -90,7 +89,7 @@ private:
         const vk::DebugUtilsMessengerCreateInfoEXT messenger = messenger_info(messages);
         if (!validation())
             return context.createInstance({.pApplicationInfo = &application});
-        return context.createInstance({.pNext = &messenger, // hears of the creation and destruction of the instance
+        return context.createInstance({.pNext = &messenger, // reports creation and destruction of the instance too
                                        .pApplicationInfo = &application,
                                        .enabledLayerCount = layers.size(),
                                        .ppEnabledLayerNames = layers.data(),
@@ -105,7 +104,7 @@ private:
         return instance.createDebugUtilsMessengerEXT(messenger_info(messages));
     }
 
-    // Chosen from the library's list, which has the same order and works for instances of any version.
+    // The library's list has the same order for instances of any version.
     static vk::raii::PhysicalDevice choose(const vk::raii::Instance &instance) {
         std::uint32_t count = 0;
         pt_get_devices(nullptr, &count);
@@ -139,8 +138,7 @@ private:
     vk::raii::Queue queue_;
 };
 
-// Tests with a Vulkan of their own. What the layer says fails them; it reports what is left on the device when that is
-// destroyed.
+// Tests with their own Vulkan fail on any message of the layer; at destruction it reports what is left.
 class CallerVulkanFixture : public testing::Test {
 protected:
     void SetUp() override { caller_.emplace(messages_); }

@@ -1,6 +1,5 @@
-// Capsules: beside exact intersections in double, in light beside a path tracer of its own in double, and where they
-// are spheres or tell nothing of how the scene is held. PT_TEST_MANY asks for 100 random scenes. Run alone with
-// --gtest_filter=Capsule*.
+// Capsules: intersections against double, light against a path tracer in double, and capsules that are spheres.
+// PT_TEST_MANY renders 100 random scenes.
 #include "lib/tree/tree_choice.h"
 #include "tests/support/light_in_double.h"
 
@@ -23,7 +22,7 @@ namespace {
 
 using namespace light_in_double;
 
-// Spheres, capsules and planes, and what looks at them.
+// A scene and a camera.
 struct Case {
     std::string name;
     Given given;
@@ -38,7 +37,7 @@ struct Nearest {
     std::size_t index = 0;
 };
 
-// Of the capsules, from a point outside.
+// The point must be outside.
 Nearest nearest_of(const std::vector<Given::Capsule> &capsules, const glm::dvec3 &point) {
     Nearest nearest;
     for (std::size_t i = 0; i < capsules.size(); ++i) {
@@ -53,7 +52,7 @@ Nearest nearest_of(const std::vector<Given::Capsule> &capsules, const glm::dvec3
     return nearest;
 }
 
-// Through the centre of a pixel, as long as its depth is 1.
+// Through the pixel's center, of depth 1.
 glm::dvec3 ray_of(const pt_camera &camera, std::uint32_t pixel) {
     const glm::dvec3 forward = glm::normalize(vector_of(camera.target) - vector_of(camera.position));
     const glm::dvec3 right = glm::normalize(glm::cross(forward, vector_of(camera.up)));
@@ -63,7 +62,7 @@ glm::dvec3 ray_of(const pt_camera &camera, std::uint32_t pixel) {
                              (pixel / picture.x + 0.5 - 0.5 * picture.y) * up);
 }
 
-// The camera in a capsule, in which there are a ball and a lamp.
+// The camera, a ball and a lamp inside a capsule.
 Given inside() {
     Given given = random_scene(9, 5, 3, 3.0);
     given.planes.clear();
@@ -90,8 +89,8 @@ protected:
         return read(quantity);
     }
 
-    // Pixels whose depth or object is not what a search along the ray through the centre finds in double: the distance
-    // to a capsule is a bound on how far the ray may go on.
+    // Pixels whose depth or object differs from a search in double along the central ray, which steps by the distance
+    // to the nearest capsule.
     std::size_t wrong_pixels(const Given &seen, const Given &truth) {
         const std::vector<float> depths = first_hits(seen, PT_QUANTITY_DEPTH);
         std::vector<std::uint32_t> objects(std::size_t{picture.x} * picture.y);
@@ -115,8 +114,8 @@ protected:
             }
             const bool meets = nearest.distance < 1e-9;
             met += meets ? 1 : 0;
-            // float32 holds what is seen from 8 away to 8 2^-24, and the huge one to 2^-23 of its radius; at a grazing
-            // angle the depth is off by the root.
+            // float32 is off by 8 2^-24 at a distance of 8, and by 2^-23 of the huge radius; at grazing angles the
+            // depth by the root.
             const bool is_near = std::abs(depths[3 * i] - depth) < 2e-4 * depth;
             const bool is_object = objects[i] == seen.spheres.size() + nearest.index;
             wrong += meets != std::isfinite(depths[3 * i]) || (meets && !(is_near && is_object)) ? 1 : 0;
@@ -126,7 +125,7 @@ protected:
     }
 };
 
-// Negative control: capsules that are shorter by three tenths are told from them.
+// Negative control: capsules shorter by three tenths.
 TEST_F(Capsules, HaveTheLightOfAPathTracerInDouble) {
     std::vector<Case> cases{{"few", random_scene(1, 6, 3, 8.0)},
                             {"from inside", inside()},
@@ -150,7 +149,7 @@ TEST_F(Capsules, HaveTheLightOfAPathTracerInDouble) {
     }
 }
 
-// How much two images differ, as a share of their light.
+// Mean absolute difference relative to the light.
 double difference(const std::vector<float> &a, const std::vector<float> &b) {
     double differences = 0.0;
     double light = 0.0;
@@ -161,14 +160,14 @@ double difference(const std::vector<float> &a, const std::vector<float> &b) {
     return differences / light;
 }
 
-// Ends that coincide make a sphere: to the bit beside other capsules, and where there are none, in a kernel without
-// them, as far as compilers round both alike. What a ray meets depends on rounding within 2^-22 of the silhouettes of
-// 100 balls, so for fewer than 1e-4 of the rays; a single ball more or less is a hundredth.
+// Coinciding ends make a sphere: to the bit beside other capsules; without capsules, up to the compiler's rounding in
+// another kernel. Hits depend on rounding within 2^-22 of the silhouettes of 100 balls, for fewer than 1e-4 of the
+// rays; one ball more or less changes a hundredth.
 TEST_F(Capsules, AreSpheresWhereTheirEndsCoincide) {
     for (const bool all : {false, true}) {
         Given given = all ? random_scene(4, 200, 100, 8.0) : random_scene(1, 6, 3, 8.0);
         if (all)
-            given.camera.shutter_close = 0.0; // compilers may round motion otherwise in another kernel
+            given.camera.shutter_close = 0.0; // compilers may round motion differently in another kernel
         Given spheres = given;
         spheres.capsules.clear();
         for (std::size_t i = 0; i < given.capsules.size(); ++i) {
@@ -198,8 +197,8 @@ TEST_F(Capsules, HaveTheSameBitsOfSplitsAndScale) {
         expect_the_same_bits_of_splits_and_scale(given);
 }
 
-// Grazing, tiny, huge, touching and nested ones, along the view; in a tree with others. Negative control: radii that
-// are larger by 3%.
+// Grazing, tiny, huge, touching and nested capsules, along the view, and in a tree. Negative control: radii larger by
+// 3%.
 TEST_F(Capsules, AreMetWhereTheirDistanceIsZero) {
     Given given = random_scene(11, 40, 0, 8.0);
     given.planes.clear();
@@ -220,7 +219,7 @@ TEST_F(Capsules, AreMetWhereTheirDistanceIsZero) {
     EXPECT_TRUE(stats().features & PT_FEATURE_TREE);
 }
 
-// Parallel rays along the axis meet the nearer end alone, and across it a rectangle and two half discs.
+// Parallel rays along the axis see one end; across it a rectangle and two half discs.
 TEST_F(Capsules, AreSeenInParallel) {
     constexpr double radius = 0.75;
     Given given;
@@ -249,7 +248,7 @@ TEST_F(Capsules, AreSeenInParallel) {
         covered += share / (3.0 * picture.x * picture.y);
     const double area = 2.0 * 0.5 * std::hypot(2.0, 0.5) + std::numbers::pi * 0.25;
     EXPECT_NEAR(covered, area / 24.0, 2e-3);
-    // The cosine of the normal and the ray, over a disc and over a rectangle.
+    // Cosine of normal and ray, over a disc and a rectangle.
     const double facing = 2.0 / 3.0 * std::numbers::pi * 0.25 + std::numbers::pi / 4.0 * std::hypot(2.0, 0.5);
     glm::dvec3 normal(0.0);
     double albedo = 0.0;

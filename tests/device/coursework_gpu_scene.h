@@ -1,4 +1,4 @@
-// The coursework scene as kernels read it. Used by the tests of kernels and of their devices.
+// The coursework scene as kernels read it.
 #pragma once
 
 #include "lib/kernel/gpu_scene.h"

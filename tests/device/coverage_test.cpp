@@ -1,6 +1,5 @@
-// The coverage of pixels, through pt.h. Where every surface shines with a radiance of 1 and nothing is reflected, the
-// mean radiance is the share of the samples that meet one: sums are exact, so coverage must have the same bits,
-// whatever the samples. Run alone with --gtest_filter=Coverage*.
+// Coverage, through pt.h. Where every surface emits 1 and reflects nothing, the mean radiance is the share of samples
+// that hit; sums are exact, so coverage has the same bits.
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
@@ -31,7 +30,7 @@ struct Shining {
     pt_camera camera = CourseworkScene::camera();
 };
 
-// Balls before a plane whose horizon is in view.
+// Balls in front of a plane whose horizon is in view.
 Shining some(std::uint32_t count, double motion) {
     Shining scene;
     std::mt19937 random(11);
@@ -74,7 +73,7 @@ protected:
         return values_of(from, std::size_t{picture_width} * rows, quantity);
     }
 
-    // And that there are edges.
+    // Compares, and requires pixels at edges.
     static void expect_that_of_radiance(pt_context *of, std::uint32_t rows = picture_height) {
         const std::vector<float> expected = read(of, PT_QUANTITY_RADIANCE, rows);
         EXPECT_EQ(read(of, PT_QUANTITY_COVERAGE, rows), expected);
@@ -84,7 +83,7 @@ protected:
 
 TEST_F(Coverage, IsThatOfTheSamplesThemselves) {
     struct Case {
-        std::uint32_t spheres; // few, or so many that there is a tree
+        std::uint32_t spheres; // few, or enough for a tree
         double motion;
         std::uint32_t sampler;
         double aperture = 0.0;
@@ -104,7 +103,7 @@ TEST_F(Coverage, IsThatOfTheSamplesThemselves) {
     }
 }
 
-// More than a table of points holds, and many submissions.
+// More samples than a table of points holds, in many submissions.
 TEST_F(Coverage, OfManySamplesIsTakenInParts) {
     const Context hurried = create_context([](pt_create_info &info) { info.submit_milliseconds = 1; });
     ASSERT_TRUE(hurried);
@@ -118,7 +117,7 @@ TEST_F(Coverage, OfManySamplesIsTakenInParts) {
         }
     }
 
-    // And pieces of the pixels.
+    // Pieces of the image.
     constexpr std::uint32_t width = 400;
     constexpr std::uint32_t height = 300;
     set(hurried.get(), some(5, 1.0), render_of(width, height, 1));
@@ -132,7 +131,7 @@ TEST_F(Coverage, OfManySamplesIsTakenInParts) {
     EXPECT_TRUE(covered == radiance);
 }
 
-// Tiles with samples of their own, and ranges with gaps between them.
+// Tiles with different sample counts, and ranges with gaps.
 TEST_F(Coverage, KnowsWhichSamplesEachTileHas) {
     const Context adaptive =
         create_context([](pt_create_info &) {},
@@ -144,7 +143,7 @@ TEST_F(Coverage, KnowsWhichSamplesEachTileHas) {
     ASSERT_LT(*std::ranges::min_element(counts), *std::ranges::max_element(counts));
     expect_that_of_radiance(adaptive.get());
 
-    // Some rows have earlier samples too, so that the first range of tiles is not that of others.
+    // Rows with an earlier first sample, so that tiles differ in their first range.
     pt_render later = picture();
     later.first_sample = 5000;
     later.row_count = 8;
@@ -165,7 +164,7 @@ TEST_F(Coverage, KnowsWhichSamplesEachTileHas) {
     expect_that_of_radiance(context());
 }
 
-// Of rows, of rectangles, of several devices, of what starts ahead of the camera, and of nothing.
+// Rows, rectangles, several devices, spheres around the camera, and an empty scene.
 TEST_F(Coverage, OfPartsIsPartOfTheWhole) {
     const Context shared = create_context(
         [](pt_create_info &) {}, [](const auto *info, auto **made) { return create_shared(2, *info, made, true); });

@@ -1,4 +1,4 @@
-// The estimate of an image's error from the device, against that of the host in double.
+// The device's estimate of an image's error against the host's, in double.
 #include "lib/base/error.h"
 #include "lib/film/error_estimate.h"
 #include "lib/film/quotient.h"
@@ -20,17 +20,17 @@ namespace {
 
 constexpr std::uint32_t part_samples = 32;
 
-// Images of everything that the estimate tells apart: smooth light, noise, black, edges, and single bright samples.
+// Smooth light, noise, black, edges, and single bright samples.
 class Films {
 public:
-    // Of which so many samples were left out in the first pixel's newer part.
+    // rejected: samples left out in the first pixel's newer part.
     pt::PixelSums film(std::uint32_t width, std::uint32_t height, std::uint32_t rejected = 0) {
         pt::PixelSums sums;
         sums.resize(std::size_t{width} * height);
         for (std::uint32_t i = 0; i < width * height; ++i) {
             const bool lit = (i % width * 3 + i / width * 2) % 61 > 20;
             const bool firefly = uniform_(generator_) < 0.004;
-            const bool half_lit = uniform_(generator_) < 0.03; // in one part alone, like a pixel at an edge
+            const bool half_lit = uniform_(generator_) < 0.03; // in one part alone, as at an edge
             const double level = lit ? 0.4 + 0.3 * std::sin(0.05 * (i % width)) : 0.0;
             for (std::uint32_t part = 0; part < pt::gpu::FILM_PARTS; ++part) {
                 const double noise = 1.0 + 0.2 * (uniform_(generator_) - 0.5);
@@ -110,7 +110,7 @@ protected:
         return {estimator.result(), estimator.rejected()};
     }
 
-    // To the rounding of some ten operations in float32.
+    // Within the rounding of about ten operations in float32.
     static void expect_close(const pt::Interval &found, const pt::Interval &expected, const std::string &which) {
         const auto expect = [&](double value, double exact) {
             EXPECT_LE(std::abs(value - exact), 4e-6 * exact) << which << ": " << value << ", not " << exact;
@@ -123,7 +123,7 @@ protected:
     Films films_;
 };
 
-// Also in units in which the squares of radiance, and their sums, are no floats.
+// Also in units where squares of radiance, or their sums, overflow or underflow float.
 TEST_F(EstimateTest, IsThatOfTheHost) {
     for (const Size &size : {Size{1, 1}, Size{7, 3}, Size{33, 32}, Size{200, 111}, Size{64, 300}})
         for (const double unit : {1.0, 0x1p-120, 0x1p-60, 0x1p30, 0x1p52}) {
@@ -154,7 +154,7 @@ TEST_F(EstimateTest, LostSamplesAreAnError) {
     EXPECT_STREQ(error.what(), "the driver lost samples of 1 pixels");
 }
 
-// What is said of all tiles, and of each by itself.
+// All tiles together, and each alone.
 TEST_F(EstimateTest, OfTilesIsThatOfTheHost) {
     Films films;
     double largest = 0.0;
@@ -184,7 +184,6 @@ TEST_F(EstimateTest, OfTilesIsThatOfTheHost) {
     EXPECT_GT(largest, 0.0);
 }
 
-// A tile that lost a sample is found by its own count.
 TEST_F(EstimateTest, SamplesThatATileLostAreAnError) {
     Films films;
     const pt::PixelSums sums = films.film(40, 40);
@@ -200,7 +199,7 @@ TEST_F(EstimateTest, SamplesThatATileLostAreAnError) {
     EXPECT_NO_THROW(reader.read({1.0, samples, squares}, [](const auto &) {}));
 }
 
-// So they are where the host reads the film, from any pixel on: one that is missing in any pixel, and one too many.
+// The same on the host: a sample missing in any pixel, and one too many.
 TEST_F(EstimateTest, SamplesThatAPixelLostAreAnErrorOnTheHost) {
     Films films;
     pt::PixelSums sums = films.film(45, 21);

@@ -1,4 +1,4 @@
-// Every estimator with every sampler has the same mean. Run alone with --gtest_filter=Estimator*.
+// All estimators and samplers have the same mean.
 #include "tests/support/batch_fixture.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/scene_of.h"
@@ -13,14 +13,14 @@
 
 namespace {
 
-// One false alarm in a million for the file: each comparison has its share of that.
+// One false alarm in a million for the file, shared by its comparisons.
 constexpr double false_alarms = 1e-6;
 constexpr double comparisons = 1000;
 double allowed(std::size_t batch_count) {
     return student_bound(false_alarms / comparisons, batch_count);
 }
 
-// A scene from lists, which it keeps.
+// Owns the scene's lists.
 struct ListedScene {
     std::vector<pt_material> materials;
     std::vector<pt_sphere> spheres;
@@ -39,8 +39,7 @@ pt_material lamp(float radiance) {
 
 constexpr pt_plane floor_plane{{0, 1, 0}, 1, 0, 0};
 
-// A lamp so large that directions find it by chance, over a floor with a diffuse and a glossy ball: finite variance
-// for all.
+// A lamp large enough to be hit by chance, over a floor with a diffuse and a glossy ball: finite variance for all.
 ListedScene large_lamp() {
     const pt_material glossy{{0.3F, 0.3F, 0.3F}, {0.5F, 0.5F, 0.5F}, {0, 0, 0}, 10, 0};
     return {{diffuse(0.8F), lamp(5), diffuse(0.6F), glossy},
@@ -54,8 +53,8 @@ constexpr uint32_t mean_batches = 32;
 constexpr uint32_t mean_samples = 48;
 
 struct Means {
-    Estimate whole;       // image
-    Estimate glossy_part; // its right half below the horizon, where the glossy ball is
+    Estimate whole;       // the whole image
+    Estimate glossy_part; // its right half below the horizon, with the glossy ball
 };
 
 Means means_of(const Batches &batches) {
@@ -68,7 +67,7 @@ Means means_of(const Batches &batches) {
     return {estimate_over(batches, all), estimate_over(batches, part)};
 }
 
-// Standard errors between two independent estimates.
+// In standard errors of two independent estimates.
 double difference(const Estimate &a, const Estimate &b) {
     return (a.mean - b.mean) / std::hypot(a.standard_error, b.standard_error);
 }
@@ -83,7 +82,7 @@ TEST_P(EstimatorMeans, AgreeForAllEstimatorsAndSamplers) {
     const Means reference = means_of(render_batches(render, mean_batches, 8 * mean_samples));
     const double bound = allowed(mean_batches);
     double worst_error = 0.0;
-    // A sampler gives the same numbers to every estimator, so beyond two vertices one is enough for each.
+    // A sampler's numbers do not depend on the estimator, so one each suffices beyond two vertices.
     for (const uint32_t estimator :
          {PT_ESTIMATOR_UNIFORM, PT_ESTIMATOR_COSINE, PT_ESTIMATOR_BSDF, PT_ESTIMATOR_LIGHT, PT_ESTIMATOR_MIS})
         for (const uint32_t sampler : {PT_SAMPLER_RANDOM, PT_SAMPLER_HALTON, PT_SAMPLER_HALTON_CP, PT_SAMPLER_SOBOL}) {
@@ -102,7 +101,7 @@ TEST_P(EstimatorMeans, AgreeForAllEstimatorsAndSamplers) {
             worst_error = std::max(worst_error, means.whole.standard_error / means.whole.mean);
         }
     std::printf("largest standard error of a mean: %.2f%%\n", 100.0 * worst_error);
-    // Negative control: what the least precise of them would find of a lamp 25% brighter, the most precise of one 1%.
+    // Negative control: the least precise would see a lamp 25% brighter, the most precise one 1% brighter.
     EXPECT_GT(0.25 / worst_error, bound);
     EXPECT_GT(std::abs(deviation(reference.whole, 1.01 * reference.whole.mean)), bound);
 }

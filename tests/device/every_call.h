@@ -1,4 +1,4 @@
-// Every call on a context that returns a result, made once. Used by the tests of contexts that refuse them all.
+// Makes every call on a context that returns a result, once.
 #pragma once
 
 #include "tests/device/api_fixture.h"
@@ -64,7 +64,6 @@ inline Outcomes outcomes_of_every_call(pt_context *context) {
     return outcomes;
 }
 
-// That each of them was refused so.
 inline void expect_every_call(const Outcomes &outcomes, const std::string &expected) {
     EXPECT_EQ(outcomes.size(), 14U);
     for (const auto &[name, outcome] : outcomes)

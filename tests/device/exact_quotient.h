@@ -1,4 +1,4 @@
-// Checks whether floats are the correct quotients of sums, by exact integers and long double.
+// Checks floats against exact quotients of sums.
 #pragma once
 
 #include "lib/film/quotient.h"
@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <utility>
 
-// a * 2^shift against b, exactly: -1, 0 or 1.
+// Compares a * 2^shift with b: -1, 0 or 1.
 inline int compare_shifted(pt::WideSum a, int shift, pt::WideSum b) {
     if (shift < 0)
         return -compare_shifted(b, -shift, a);
@@ -23,7 +23,7 @@ inline int compare_shifted(pt::WideSum a, int shift, pt::WideSum b) {
     return shifted < b ? -1 : shifted > b ? 1 : 0;
 }
 
-// Half of the sum of a float >= 0 and the next one, as mantissa * 2^exponent.
+// The midpoint between a float >= 0 and the next one, as mantissa * 2^exponent.
 struct Middle {
     pt::WideSum mantissa;
     int exponent;
@@ -36,10 +36,10 @@ inline Middle middle_above(std::uint32_t float_bits) {
     return {2 * pt::WideSum{mantissa} + 1, static_cast<int>(std::max(exponent, 1U)) - 127 - 23 - 1};
 }
 
-// Whether bits are those of the float nearest to sum * 2^exponent / count, the even one of two that are as near.
+// Whether the float is nearest to sum * 2^exponent / count, ties to even.
 inline bool is_nearest(std::uint32_t bits, pt::WideSum sum, std::uint32_t count, int exponent) {
     const bool even = bits % 2 == 0;
-    if (bits < 0x7f800000) { // the next above infinity is none
+    if (bits < 0x7f800000) { // nothing above infinity
         const Middle above = middle_above(bits);
         const int order = compare_shifted(above.mantissa * count, above.exponent - exponent, sum);
         if (order < 0 || (order == 0 && !even))
@@ -52,7 +52,7 @@ inline bool is_nearest(std::uint32_t bits, pt::WideSum sum, std::uint32_t count,
     return order < 0 || (order == 0 && even);
 }
 
-// (|A b - B a|) 2^exponent / ((a + b) sqrt(a b)), the numerator exact, in 64-bit limbs.
+// |A b - B a| 2^exponent / ((a + b) sqrt(a b)); the numerator is exact, in 64-bit limbs.
 inline long double exact_standard_error(pt::WideSum sum_a, std::uint32_t a, pt::WideSum sum_b, std::uint32_t b,
                                         int exponent) {
     const auto multiplied = [](pt::WideSum sum, std::uint32_t factor) {
@@ -66,14 +66,14 @@ inline long double exact_standard_error(pt::WideSum sum_a, std::uint32_t a, pt::
         std::swap(larger, smaller);
     const pt::WideSum high = larger.first - smaller.first - (larger.second < smaller.second ? 1 : 0);
     const std::uint64_t low = larger.second - smaller.second;
-    // Of the 160 bits the leading 64 decide.
+    // The leading 64 of 160 bits suffice.
     const long double numerator =
         high >> 64 != 0 ? std::ldexp(static_cast<long double>(high), 64) : static_cast<long double>(high << 64 | low);
     const long double sum = static_cast<long double>(a) + b;
     return std::ldexp(numerator / sum / std::sqrt(static_cast<long double>(a) * b), exponent);
 }
 
-// Within .52 of the last place, at the edges of float's range too.
+// Within .52 of the last place, at both ends of float's range too.
 inline bool is_close(float found, long double exact) {
     if (std::isinf(found))
         return exact >= 0x1.ffffffp127L;

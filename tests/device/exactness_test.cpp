@@ -1,4 +1,4 @@
-// The film's promise: the same samples give the same bits, however they are split over calls and submissions.
+// The same samples give the same bits, in any split over calls and submissions.
 #include "lib/film/error_estimate.h"
 #include "tests/device/coursework_gpu_scene.h"
 #include "tests/device/probe.h"
@@ -18,7 +18,7 @@
 
 namespace {
 
-constexpr uint32_t width = 200; // no multiple of the workgroup size
+constexpr uint32_t width = 200; // not a multiple of the workgroup size
 constexpr uint32_t height = 75;
 
 using Image = std::vector<float>;
@@ -38,7 +38,7 @@ protected:
         return image;
     }
 
-    // 8 x 8 pixels, of which each sample is the radiance.
+    // 8 x 8 pixels; each sample is exactly the radiance.
     Image image_inside_a_lamp(float radiance, uint32_t samples) {
         const pt_material material{{0, 0, 0}, {0, 0, 0}, {radiance, radiance, radiance}, 0, 0};
         const pt_sphere sphere{{0, 0, 0}, 50, {0, 0, 0}, 0, 0};
@@ -54,17 +54,15 @@ TEST_F(ExactnessTest, SplittingOverCallsKeepsTheBits) {
     EXPECT_NE(image_of({7, 19, 37}), at_once) << "a missing sample must show";
 }
 
-// A dispatch gathers so many samples before it adds them to the film, and the table of a sequence's points
-// has room for so many: where the samples of a call reach that, pass it, or pass it by far, they are those of many
-// calls.
+// A dispatch gathers a limited number of samples, and the table of points has limited room. Calls that reach or exceed
+// these limits must give the bits of many small calls.
 class GatheringTest : public ExactnessTest {
 protected:
-    // With submissions of a second, which have room for all.
+    // Submissions of a second have room for all samples.
     Context create_fixtures_context() override {
         return create_context([](pt_create_info &info) { info.submit_milliseconds = 1000; });
     }
 
-    // How paths are made.
     struct Paths {
         uint32_t sampler;
         uint32_t max_length;
@@ -82,7 +80,7 @@ protected:
         return image;
     }
 
-    // Samples that a dispatch can take at most.
+    // The largest number of samples in a dispatch.
     uint32_t most_of_a_dispatch(const Paths &paths) {
         const pt::Features features =
             coursework_gpu_scene({3, 1, paths.max_length, 0, 0, PT_ESTIMATOR_MIS, paths.sampler, 0, 1})->features;
@@ -95,7 +93,7 @@ protected:
         return static_cast<uint32_t>(most);
     }
 
-    // So many samples at once, in one submission, against pieces, none of which fills a dispatch.
+    // One call in one submission against pieces, none of which fills a dispatch.
     void expect_same_in_pieces(const Paths &paths, uint32_t sample_count) {
         const uint64_t submissions = stats().submit_count;
         const Image at_once = small_image_of(paths, {sample_count});
@@ -109,7 +107,7 @@ protected:
     }
 };
 
-// A dispatch does not reach over a power of two, so it takes the most that it can after one.
+// Dispatches end at powers of two, so the largest one starts there.
 TEST_F(GatheringTest, OfRandomSamplesKeepsTheBits) {
     constexpr Paths paths{PT_SAMPLER_RANDOM, 2};
     constexpr uint32_t most = pt::gpu::FILM_MAX_GATHERED;
@@ -127,7 +125,7 @@ TEST_F(GatheringTest, OfPointsFromATableKeepsTheBits) {
         expect_same_in_pieces(paths, 512 + sample_count);
 }
 
-// That it is the same sample however the samples come there is told by PollingTest and AdaptiveTest.
+// PollingTest and AdaptiveTest check that the stopping sample does not depend on the split.
 TEST_F(ExactnessTest, TheTargetErrorIsReachedAtTheFirstCheckThatSaysSo) {
     constexpr uint32_t most = 4096;
     constexpr double target = 0.07;
@@ -140,11 +138,11 @@ TEST_F(ExactnessTest, TheTargetErrorIsReachedAtTheFirstCheckThatSaysSo) {
     EXPECT_LT(reached.sample_count, most);
     EXPECT_LE(error().relative_rmse_high, target);
 
-    // Again: it is reached already.
+    // Reached already.
     ASSERT_EQ(pt_accumulate(context(), &until_target), PT_TARGET_REACHED);
     EXPECT_EQ(stats().sample_count, reached.sample_count);
 
-    // And one check earlier it was not.
+    // One check earlier it was not reached.
     set_up_coursework(context(), 3);
     uint64_t before = pt::next_check(0);
     while (pt::next_check(before) < reached.sample_count)
@@ -153,7 +151,7 @@ TEST_F(ExactnessTest, TheTargetErrorIsReachedAtTheFirstCheckThatSaysSo) {
     EXPECT_GT(error().relative_rmse_high, target);
 }
 
-// All samples are taken where the target is out of reach, and where it would be reached with the last.
+// All samples are taken if the target is out of reach, or reached with the last one.
 TEST_F(ExactnessTest, SamplesMayRunOutBeforeTheTargetErrorIsReached) {
     set_up_coursework(context(), 3);
     for (const double target : {1e-9, 1e9}) {
@@ -163,9 +161,9 @@ TEST_F(ExactnessTest, SamplesMayRunOutBeforeTheTargetErrorIsReached) {
     EXPECT_EQ(stats().sample_count, 16U);
 }
 
-// Standard errors of n samples against the images of the first a of them, the largest power of two below n, and of
-// the others, each rendered by itself: |A - B| sqrt(a b) / n. In calls that end before, at and after the numbers at
-// which the parts of the film are folded, and across several of them.
+// Standard errors of n samples are |A - B| sqrt(a b) / n. A is the image of the first a, the largest power of two below
+// n, B that of the others; each rendered alone. Calls end before, at, after and across the counts at which parts are
+// folded.
 TEST_F(ExactnessTest, StandardErrorsAreThoseOfTheFilmsParts) {
     const auto standard_errors = [&] {
         Image errors(width * height * 3);
@@ -183,8 +181,9 @@ TEST_F(ExactnessTest, StandardErrorsAreThoseOfTheFilmsParts) {
         readback(image);
         return image;
     };
-    // The largest deviation from the standard errors of two parts, over what rounding explains: of the two images and
-    // of the standard error to float32.
+    // Standard errors of n samples are |A - B| sqrt(a b) / n. A is the image of the first a, the largest power of two
+    // below n, and B the image of the others. Calls end before, at, after and across the counts at which parts are
+    // folded.
     const auto deviation = [&](const Image &found, const Image &older, const Image &newer, double a, double b) {
         double worst = 0.0;
         for (std::size_t i = 0; i < found.size(); ++i) {
@@ -207,14 +206,13 @@ TEST_F(ExactnessTest, StandardErrorsAreThoseOfTheFilmsParts) {
         const Image first = part_of(0, older);
         const Image last = part_of(older, newer);
         EXPECT_LE(deviation(found, first, last, older, newer), 1.01) << older << " and " << newer;
-        // Negative control: a sample that is missing from a part shows.
+        // Negative control: a part that lacks a sample.
         EXPECT_GT(deviation(found, part_of(0, older - 1), last, older, newer), 1e3) << older << " and " << newer;
     }
 }
 
-// A sphere that emits 0.1 around the camera: every sample is exactly the float32 nearest to 0.1, so the mean of any
-// number of them is too. Loop trips in all go far beyond the 65,535 after which a known driver stops a kernel: the
-// count kept by the kernel, checked at readback, shows that no sample is lost.
+// A sphere around the camera emits 0.1, so each sample and each mean is exactly float32(0.1). The loops exceed 65,535
+// trips, after which a known driver stops kernels; the sample count, checked at readback, shows that none is lost.
 TEST_F(ExactnessTest, NoSampleIsLostInLongRuns) {
     const Image image = image_inside_a_lamp(0.1F, 1U << 20);
     EXPECT_EQ(image, Image(image.size(), 0.1F));

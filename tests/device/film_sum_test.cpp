@@ -1,4 +1,4 @@
-// Sums of films of several devices on one of them, against sums on the host.
+// Films of several devices summed on one of them, against sums on the host.
 #include "lib/kernel/film_sum.h"
 #include "lib/kernel/shader_source.h"
 #include "tests/device/film_words.h"
@@ -13,7 +13,7 @@
 
 namespace {
 
-// So large that a film comes in several pieces, the last of them smaller.
+// Large enough for several pieces, the last one smaller.
 constexpr std::uint32_t sum_width = 307;
 constexpr std::uint32_t sum_height = 331;
 
@@ -25,7 +25,7 @@ protected:
         VulkanFixture::TearDown();
     }
 
-    // A film with random sums, their most significant words and carries into these among them, on a device of its own.
+    // Random sums on a device of its own, with nonzero most significant words and carries into them.
     void add_film(std::uint32_t max_strip_pixels) {
         devices_.emplace_back(instance(), physical_device(), pt::vulkan::gpu_like_policy());
         films_.emplace_back(devices_.back(), sum_width, sum_height, max_strip_pixels);
@@ -38,7 +38,6 @@ protected:
         fill(devices_.back(), films_.back(), sums);
     }
 
-    // With different strips.
     void add_films() {
         add_film(1U << 30);
         add_film(sum_width * 100);
@@ -84,7 +83,7 @@ private:
     std::mt19937 generator_{2026};
 };
 
-// Of some rows and pixels, whatever it held before.
+// Some rows and pixels, whatever the target held.
 TEST_F(FilmSumTest, IsThatOfTheHost) {
     add_films();
     const pt::vulkan::ComputePipeline add = pipeline();

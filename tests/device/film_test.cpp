@@ -1,4 +1,4 @@
-// Exact sums: the device's fixed-point additions against sums of the same floats in wider integers on the host.
+// The device's fixed-point sums against wider integers on the host.
 #include "lib/kernel/device_film.h"
 
 #include "film_sums.spv.h"
@@ -24,7 +24,7 @@ __extension__ using Wide = unsigned __int128;
 constexpr std::uint32_t pixels = 1000;
 constexpr std::uint32_t per_pixel = 40;
 
-// A float as a multiple of 2^-60, finer bits rounded to nearest, ties to even: in double, where both steps are exact.
+// Rounds to a multiple of 2^-60, ties to even; both steps are exact in double.
 Wide multiple_of_2_to_minus_60(float value) {
     return static_cast<Wide>(std::nearbyint(std::ldexp(double{value}, 60)));
 }
@@ -36,7 +36,7 @@ bool acceptable(const glm::vec4 &sample) {
     return good;
 }
 
-// Samples over the whole range, with exact powers of two, zeros, denormals and unacceptable ones among them.
+// The whole range, with powers of two, zeros, denormals and unacceptable values.
 std::vector<glm::vec4> awkward_samples() {
     std::mt19937 generator(1);
     std::uniform_real_distribution<float> exponent(-60.0F, 28.0F);
@@ -59,7 +59,7 @@ std::vector<glm::vec4> awkward_samples() {
         for (int channel = 0; channel < 3; ++channel)
             sample[channel] =
                 kind(generator) == 0 ? special[generator() % std::size(special)] : std::exp2(exponent(generator));
-    // A pixel as bright as can be, whose sums reach into the most significant words.
+    // The brightest possible pixel fills the most significant words.
     std::fill_n(samples.begin(), per_pixel, glm::vec4(0x1.fffffep27F));
     return samples;
 }
@@ -68,7 +68,7 @@ std::uint32_t word(const std::vector<std::uint32_t> &film, std::size_t plane, st
     return film[(pt::gpu::FILM_WORDS + plane) * pixels + pixel];
 }
 
-// In the second part of the film; the first stays as it is.
+// Adds to the second part of the film; the first must not change.
 TEST(Film, DeviceSumsAreExact) {
     struct {
         std::uint32_t per_pixel, count, film_part;
@@ -100,8 +100,8 @@ TEST(Film, DeviceSumsAreExact) {
     }
 }
 
-// The most samples that an invocation gathers, with windows as full as they can be: the first by the
-// brightest sample, the others by halves of a window's unit that round up or down.
+// The most samples per invocation with full windows: the brightest sample fills the first; half units of a window,
+// rounded up or down, fill the others.
 TEST(Film, WindowsHoldTheMostSamplesThatAnInvocationGathers) {
     struct {
         std::uint32_t per_pixel, count, film_part;
@@ -119,7 +119,7 @@ TEST(Film, WindowsHoldTheMostSamplesThatAnInvocationGathers) {
     }
 }
 
-// A device that rounds towards zero, as Vulkan allows: llvmpipe's threads inherit the mode of the one that makes them.
+// A device that rounds towards zero, as Vulkan allows: llvmpipe's threads inherit the rounding mode.
 class FilmRoundedToZero : public VulkanFixture {
 protected:
     void SetUp() override {
@@ -131,7 +131,7 @@ protected:
         std::fesetround(FE_TONEAREST);
     }
 
-    // The words of the red sum of so many samples of the same value.
+    // The red sum's words for equal samples.
     std::vector<std::uint32_t> sum(float value, std::uint32_t sample_count) {
         using pt::vulkan::Buffer;
         using pt::vulkan::BufferUse;
@@ -164,8 +164,8 @@ protected:
     }
 };
 
-// All that rounding to zero leaves for the second and the third window, nearly a whole unit of the one before; and the
-// negative control: so many samples that only halves of a unit would fit.
+// Rounding to zero leaves nearly a whole unit for the second and third window. Negative control: as many samples as
+// only half units would allow.
 TEST_F(FilmRoundedToZero, WindowsHoldTheMostSamplesThatAnInvocationGathers) {
     if (device().info().kind != PT_DEVICE_CPU)
         GTEST_SKIP() << "a GPU does not round as this thread does";
@@ -175,7 +175,7 @@ TEST_F(FilmRoundedToZero, WindowsHoldTheMostSamplesThatAnInvocationGathers) {
     }
 }
 
-// What one part of the film holds of a pixel, with the red sum as a number of units.
+// One pixel in one part of the film; red in units.
 struct Part {
     std::uint32_t red;
     std::uint32_t accepted;
@@ -212,7 +212,7 @@ TEST(Film, LostSamplesAreAnError) {
               PT_ERROR_INTERNAL);
 }
 
-// Carries go through all words of a sum, and parts stay apart until they are folded.
+// Carries pass through all words; parts stay apart until folded.
 TEST(Film, SumsAddAndFold) {
     const auto whole = [](std::uint32_t word) {
         pt::PixelSums sums = one_pixel({0, 1, 2}, {0, 3, 4});
@@ -245,8 +245,7 @@ TEST(Film, SumsThatNoSamplesHaveAreSeen) {
 
 using FilmStrips = VulkanFixture;
 
-// Word p of plane i of a film that is cut into strips is 100 i + p, and pieces of it are read that begin and end
-// anywhere.
+// Plane i holds 100 i + p at pixel p of a film in strips; pieces with any ends are read.
 TEST_F(FilmStrips, AreReadAsOne) {
     constexpr std::uint32_t film_pixels = 16;
     pt::DeviceFilm film(device(), 4, 4, 6);
@@ -271,7 +270,7 @@ TEST_F(FilmStrips, AreReadAsOne) {
         }
 }
 
-// In pieces that meet anywhere, and all at once.
+// In pieces that meet anywhere, and at once.
 TEST_F(FilmStrips, AreReplacedAsOne) {
     pt::DeviceFilm film(device(), 4, 4, 6);
     const auto filled = [](std::uint32_t first, std::uint32_t count, std::uint32_t offset) {

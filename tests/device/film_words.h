@@ -1,4 +1,4 @@
-// The words of a film as kernels leave them, as sums. Used by tests that run kernels by themselves.
+// Converts the film's words, as kernels leave them, to sums.
 #pragma once
 
 #include "lib/film/pixel_sums.h"
@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <span>
 
-// words: plane after plane of part 0, the older one, then of part 1.
+// words: the planes of part 0 (older), then of part 1.
 inline pt::PixelSums sums_of(std::span<const std::uint32_t> words, std::size_t pixel_count) {
     pt::PixelSums sums;
     sums.resize(pixel_count);
@@ -19,7 +19,7 @@ inline pt::PixelSums sums_of(std::span<const std::uint32_t> words, std::size_t p
     return sums;
 }
 
-// Sets the sums of the first pixels of a film, as many as there are in sums.
+// Replaces the sums of the film's first pixels.
 inline void fill(pt::vulkan::Device &device, pt::DeviceFilm &film, const pt::PixelSums &sums) {
     pt::DeviceFilm::NewSums filled(device, film);
     filled.write(0, sums);

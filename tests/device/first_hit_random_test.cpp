@@ -1,6 +1,5 @@
-// What camera rays meet first in random scenes of 1 to 2,000 spheres, in a tree and in a list, from wherever a camera
-// may be, against long double: depth, normal, albedo and object. PT_TEST_MANY asks for 600 scenes,
-// PT_TEST_FIRST_SCENE for those from one of them on. Run alone with --gtest_filter=RandomFirstHit*.
+// First hits of camera rays in random scenes of 1 to 2,000 spheres, in trees and lists, against long double: depth,
+// normal, albedo and object. PT_TEST_MANY: 600 scenes; PT_TEST_FIRST_SCENE: the first.
 #include "lib/kernel/gpu_scene.h"
 #include "tests/device/first_hit_scenes.h"
 #include "tests/device/tree_fixture.h"
@@ -26,7 +25,7 @@ namespace {
 
 using namespace first_hits;
 
-// Of a crop of columns x rows.
+// A scene and a crop of columns x rows.
 struct Shot : Given {
     std::string name;
     pt_render render{};
@@ -35,21 +34,21 @@ struct Shot : Given {
 
 constexpr std::uint32_t columns = 16; // of the crop
 constexpr std::uint32_t rows = 2;
-constexpr std::uint32_t lattice_size = 16; // of the rays of a pixel
+constexpr std::uint32_t lattice_size = 16; // rays of a pixel
 
 struct Pixels {
     std::vector<std::uint32_t> objects;
-    std::vector<float> depths, normals, albedos; // three a pixel
+    std::vector<float> depths, normals, albedos; // three per pixel
 
     bool operator==(const Pixels &) const = default;
 };
 
-// Of pixels that float32 can be sure of, and of those that see a sphere.
+// Pixels compared, those that float32 decides, and those that show a sphere.
 struct Counts {
     std::uint32_t pixels = 0;
     std::uint32_t certain = 0;
     std::uint32_t spheres = 0;
-    std::uint32_t means = 0; // pixels whose means float32 can be sure of, of every eighth
+    std::uint32_t means = 0; // decided pixels among every eighth, whose means are compared
 };
 
 glm::dvec3 albedo_of(const Given &given, std::uint32_t object) {
@@ -64,7 +63,7 @@ glm::dvec3 albedo_of(const Given &given, std::uint32_t object) {
     return albedo;
 }
 
-// The mean over the rays of a pixel; nothing if one of them is uncertain.
+// Means over a pixel's rays; empty if a ray is undecided.
 struct Means {
     Vector normal{0.0L};
     Real normal_tolerance = 0.0L;
@@ -116,15 +115,15 @@ protected:
         return pixels;
     }
 
-    // Normal and albedo; false if they are uncertain.
+    // Compares normal and albedo; false if undecided.
     static bool judge_means(const Pixels &pixels, std::uint32_t pixel, const Shot &given, const pt_scene &scene,
                             const View &view) {
         const std::optional<Means> means = means_of(given, scene, view, given.first_column + pixel % columns,
                                                     given.render.first_row + pixel / columns);
         if (!means)
             return false;
-        // Sums of 16 numbers of at most 1; albedos are products with pi and a share of it, and have been divided by
-        // those: a dozen roundings.
+        // Sums of 16 numbers up to 1. Albedos were multiplied by pi and a share of it, and divided again: a dozen
+        // roundings.
         const double of_sum = 16.0 * static_cast<double>(rounding);
         for (int i = 0; i < 3; ++i) {
             const std::size_t place = 3 * pixel + static_cast<std::size_t>(i);
@@ -161,7 +160,7 @@ protected:
             EXPECT_EQ(pixels.depths[3 * pixel + 1], pixels.depths[3 * pixel]);
             EXPECT_EQ(pixels.depths[3 * pixel + 2], pixels.depths[3 * pixel]);
             const Real depth = met->distance * glm::dot(ray.direction, view.forward);
-            // The cosine to the axis, and the product, are off by 8 roundings.
+            // Cosine to the axis and product: 8 roundings.
             const Real tolerance = met->tolerance + 8.0L * rounding * met->distance;
             if (met->object == PT_NO_OBJECT)
                 EXPECT_EQ(pixels.depths[3 * pixel], std::numeric_limits<float>::infinity());
@@ -186,13 +185,13 @@ public:
                                        {material.emission.r, 0, 0},
                                        0,
                                        0});
-        given.materials[1].specular[0] = 0.5F; // in red more than 1 with the diffuse
+        given.materials[1].specular[0] = 0.5F; // with the diffuse above 1 in red
         if (chance(0.3))
             given.materials[2].flags = PT_MATERIAL_HIDDEN_FROM_CAMERA;
         given.spheres = caller_spheres(scene.spheres);
         for (const pt::Plane &plane : scene.planes)
             given.planes.push_back({{plane.normal.x, plane.normal.y, plane.normal.z}, plane.offset, 1, 0});
-        if (chance(0.4)) // a sky, which is in the tree unless it is far away
+        if (chance(0.4)) // a sky; in the tree unless far away
             given.spheres.push_back({{0, 0, 0}, decades(0.8, 3), {0, 0, 0}, 1, 0});
         set_camera(given);
         return given;
@@ -206,7 +205,7 @@ private:
         return static_cast<std::uint32_t>(uniform(0, std::nextafter(most + 1.0, 0.0)));
     }
 
-    // Inside, beside, or far from the cloud; towards one of its spheres.
+    // Inside, beside, or far from the cloud; looks at one of its spheres.
     void set_camera(Shot &given) {
         pt_camera &camera = given.camera;
         camera = {};
@@ -268,9 +267,8 @@ TEST_F(RandomFirstHit, IsThatOfLongDouble) {
     }
 }
 
-// Balls in a sky, which vanished where rays started beyond the tree as soon as the camera was in the ball about it.
-// With places that are whole numbers of quarters, and the camera at one, float32 and the grid have the same numbers,
-// and so pictures of a tree and of a list the same bits.
+// Balls in a sky, with rays that start beyond the tree. Coordinates in quarters, the camera's too, are exact in float32
+// and on the tree's grid, so tree and list must agree to the bit.
 TEST_F(RandomFirstHit, OfALatticeInASkyIsThatOfAList) {
     Shot shot;
     shot.materials = {{{0.7F, 0.7F, 0.7F}, {0, 0, 0}, {0, 0, 0}, 0, 0}, {{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0, 0}};

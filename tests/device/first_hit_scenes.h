@@ -1,4 +1,4 @@
-// Scenes of which tests ask what camera rays meet first.
+// Scenes for tests of first hits.
 #pragma once
 
 #include "tests/support/coursework_scene.h"
@@ -19,10 +19,10 @@ struct Given {
     pt_scene scene() const { return scene_of(materials, spheres, planes); }
 };
 
-// A glossy one, one that gives off more red than it receives, and a lamp.
+// A glossy one, one that reflects more red than it receives, and a lamp.
 inline std::vector<pt_material> some_materials() {
     return {{{0.8F, 0.4F, 0.2F}, {0.1F, 0.2F, 0.3F}, {0, 0, 0}, 7, 0},
-            {{0.9F, 0.1F, 0}, {0.3F, 0, 0}, {0, 0, 0}, 0, 0}, // more than 1 in red
+            {{0.9F, 0.1F, 0}, {0.3F, 0, 0}, {0, 0, 0}, 0, 0}, // above 1 in red
             {{0.25F, 0.5F, 0.75F}, {0, 0, 0}, {30, 20, 10}, 0, 0}};
 }
 
@@ -33,7 +33,7 @@ inline Given coursework() {
             {scene.planes.begin(), scene.planes.end()}};
 }
 
-// So many that there is a tree, with a globe beside it that is too large for it, and planes; some move.
+// Enough spheres for a tree, with planes and a globe too large for the tree; some move.
 inline Given many(bool moves) {
     Given given;
     given.materials = some_materials();

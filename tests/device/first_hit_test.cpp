@@ -1,5 +1,5 @@
-// What camera rays meet first, through pt.h: of what it depends, and that reading it does not affect the samples. Run
-// alone with --gtest_filter=FirstHit*. RandomFirstHit compares it with long double.
+// First hits of camera rays, through pt.h: what they depend on, and that reading them leaves samples alone.
+// RandomFirstHit compares them with long double.
 #include "lib/film/pixel_format.h"
 #include "tests/device/first_hit_scenes.h"
 #include "tests/support/context_calls.h"
@@ -55,8 +55,8 @@ protected:
     }
 };
 
-// A pixel's bits do not depend on what is read besides it, nor on which rows are rendered, nor on how long submissions
-// are, nor on how many devices there are; and the other formats have the same numbers.
+// A pixel's bits do not depend on the rectangle, the rows, the length of submissions or the number of devices; other
+// formats hold the same numbers.
 TEST_F(FirstHit, RectanglesRowsAndDevicesAgree) {
     const Given given = many(true);
     set(context(), given, picture());
@@ -91,7 +91,7 @@ TEST_F(FirstHit, RectanglesRowsAndDevicesAgree) {
         EXPECT_EQ(read(shared.get(), quantity), all);
         EXPECT_EQ(read(hurried.get(), quantity), all);
     }
-    // Halves have the signs of normals.
+    // Half floats keep the signs of normals.
     const std::vector<float> normal = read(context(), PT_QUANTITY_NORMAL);
     std::vector<std::uint16_t> halves(normal.size() / 3 * 4);
     target = {};
@@ -119,7 +119,7 @@ TEST_F(FirstHit, RectanglesRowsAndDevicesAgree) {
                                    std::span(all_objects).subspan(std::size_t{9} * picture_width, 7 * picture_width)));
 }
 
-// They need no sample, take none, and samples that are taken around them have the bits that they have without.
+// First hits need and take no sample; samples around them keep their bits.
 TEST_F(FirstHit, IsNothingToSamples) {
     for (const Given &given : {coursework(), many(true)}) {
         const Context without = create_context();
@@ -138,11 +138,11 @@ TEST_F(FirstHit, IsNothingToSamples) {
         readback(image);
         EXPECT_EQ(image, expected);
         EXPECT_EQ(read(context(), PT_QUANTITY_NORMAL), normal);
-        EXPECT_GT(stats().device_bytes, bytes); // memory is taken when they are asked for
+        EXPECT_GT(stats().device_bytes, bytes); // memory is allocated on demand
     }
 }
 
-// Another camera, scene or size is seen at once, whether it takes another kernel or not.
+// A new camera, scene or size takes effect at once, with the same kernel or another.
 TEST_F(FirstHit, FollowsTheSetters) {
     Given given = coursework();
     set(context(), given, picture());
@@ -160,7 +160,7 @@ TEST_F(FirstHit, FollowsTheSetters) {
     EXPECT_EQ(objects(context()), other);
 }
 
-// Of surfaces that are one the first has the number, be they in a tree or not.
+// Of coinciding surfaces the first gives the number, in a tree or not.
 TEST_F(FirstHit, TwinsHaveTheNumberOfTheFirst) {
     for (const std::uint32_t count : {8U, 200U}) {
         Given given;
@@ -174,7 +174,7 @@ TEST_F(FirstHit, TwinsHaveTheNumberOfTheFirst) {
     }
 }
 
-// Spheres by columns are counted after those of structs, and have their colors: in a tree held to a thousandth.
+// Spheres in columns are numbered after structs and keep their colors, within a thousandth in a tree.
 TEST_F(FirstHit, ColumnsHaveNumbersAndColors) {
     Given given;
     given.materials = {{{0.8F, 0.8F, 0.8F}, {0, 0, 0}, {0, 0, 0}, 0, 0}};

@@ -1,4 +1,4 @@
-// Work that a device cannot finish before the test allows it, however fast the device and slow the test.
+// Holds a device's work until the test opens the gate.
 #pragma once
 
 #include "lib/vulkan/api.h"
@@ -11,13 +11,13 @@ public:
     Gate(const Gate &) = delete;
     Gate &operator=(const Gate &) = delete;
 
-    // What is recorded after it waits for open().
+    // Commands recorded afterwards wait for open().
     void record(const vk::raii::CommandBuffer &commands) const {
         commands.waitEvents(*event_, vk::PipelineStageFlagBits::eHost, vk::PipelineStageFlagBits::eComputeShader, {},
                             {}, {});
     }
 
-    // Returns when the work has ended.
+    // Opens the gate and waits until the device is idle.
     void open() const {
         event_.set();
         device_.waitIdle();

@@ -1,5 +1,5 @@
-// Host and kernel agree on the bytes between them: push constants, and what of a scene is in its buffer. That each word
-// is where the kernel reads it is seen in every picture with an exact value.
+// Host and kernel agree on push constants and on the scene buffer's contents. Exact pictures elsewhere check each
+// word's place.
 #include "lib/kernel/gpu_scene.h"
 #include "lib/scene/seen_scene.h"
 #include "push_layout.spv.h"
@@ -35,7 +35,7 @@ pt::Camera camera_at(glm::dvec3 position) {
     return {position, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0.25, 0.75};
 }
 
-// A plane, a ball that moves, and a lamp: the lamp goes first, then the other spheres, then the planes.
+// A plane, a moving ball and a lamp. Order in the buffer: lamp, other spheres, planes.
 pt::Scene small_scene() {
     pt::Scene scene;
     scene.materials = {{{0.5F, 0.25F, 0}, {0, 0, 0}, {0, 0, 0}, 0},
@@ -60,8 +60,8 @@ TEST(GpuLayout, WhatTheSceneDoesNotUseIsNotInTheBuffer) {
     EXPECT_EQ(gpu_scene.words.size(), 9U);
 }
 
-// A floor sphere, as seen from 2 above it, becomes a plane with a curvature, ahead of the flat ones; so does a lamp
-// that is 2048 times as large as far away, and then it counts as a lamp no more.
+// A floor sphere seen from 2 above becomes a curved plane, ahead of flat ones. So does a lamp 2048 times as large as
+// its distance, which then is no lamp any more.
 TEST(GpuLayout, HugeSpheresArePlanesWithACurvature) {
     pt::Scene scene = small_scene();
     scene.spheres.push_back({{0, -1026, 1}, 1024, {0, 0, 0}, 0});
@@ -86,7 +86,7 @@ TEST(GpuLayout, HugeSpheresArePlanesWithACurvature) {
     EXPECT_EQ(words[24], glm::vec4(0));
 }
 
-// What is not huge against its distance and its way keeps its centre and radius.
+// Spheres not huge against distance and motion keep center and radius.
 TEST(GpuLayout, OtherSpheresKeepTheirCentre) {
     const pt::Material diffuse{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0};
     const pt::Material lamp{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0};

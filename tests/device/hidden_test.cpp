@@ -1,4 +1,4 @@
-// Surfaces that are hidden from the camera, through pt.h. Run alone with --gtest_filter=Hidden*.
+// Surfaces hidden from the camera, through pt.h.
 #include "tests/support/batch_fixture.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/image_target.h"
@@ -21,7 +21,7 @@ namespace {
 constexpr std::uint32_t picture_width = 40;
 constexpr std::uint32_t picture_height = 30;
 
-// Three materials, each also hidden from the camera: a surface has its kind, or its kind + hidden.
+// Three materials, then the same hidden from the camera.
 constexpr std::uint32_t hidden = 3;
 
 struct Hiding {
@@ -67,8 +67,8 @@ pt_sphere ball(double x, double y, double z, double radius, std::uint32_t materi
 // ---- Light that is 1 wherever one looks
 // -------------------------------------------------------------------------------
 
-// All that there is shines with a radiance of 1, and all around everything that the camera sees. A vertex that reflects
-// half of that has 1.5, whatever stands where: light that leaks, or that is lost, shows.
+// Every surface emits 1, and the scene is closed: a vertex that reflects half has exactly 1.5. Light that leaks or is
+// lost shows.
 constexpr std::uint32_t shining = 0;
 
 Hiding closed(const std::string &name) {
@@ -95,7 +95,7 @@ std::vector<Hiding> closed_scenes() {
     between_planes.spheres = {ball(0, 0, -9, 1, shining), ball(1.5, 0, -9, 0.75, shining)};
     between_planes.planes = {{{0, 0, 1}, 6, shining + hidden, 0}, {{0, 0, 1}, 12, shining + hidden, 0}};
 
-    // Held as planes with a curvature: the camera hovers over one globe, in which the ball lies, and is in another.
+    // Spheres stored as curved planes: the camera is above one globe, which holds the ball, and inside another.
     Hiding &globes = add("globes");
     globes.spheres = {ball(0, 0, -9, 1, shining), ball(0, 0, -1e7 - 5, 1e7, shining + hidden),
                       ball(0, 0, -1e7 + 3, 1e7, shining + hidden)};
@@ -129,10 +129,10 @@ std::vector<Hiding> closed_scenes() {
     return scenes;
 }
 
-// Two roundings of each of five operations, as in the furnace of the analytic tests.
+// Two roundings of each of five operations, as in the analytic furnace.
 constexpr double few_roundings = 8.0 * 0x1p-24;
 
-// Of the pixels in which something is seen, the largest relative difference from the light that it should have.
+// Largest relative error among pixels with coverage.
 double largest_error(const std::vector<float> &image, const std::vector<float> &coverage, double radiance) {
     double largest = 0.0;
     for (std::size_t i = 0; i < image.size(); ++i)
@@ -141,7 +141,7 @@ double largest_error(const std::vector<float> &image, const std::vector<float> &
     return largest / radiance;
 }
 
-// By directions of the cosine and of the lobes, scene by scene in turn: building kernels takes the time.
+// Cosine or lobe sampling, alternating by scene because kernels take long to build.
 TEST_F(HiddenFromCamera, ClosedScenesNeitherLeakNorLoseLight) {
     std::uint32_t estimator = PT_ESTIMATOR_COSINE;
     for (const Hiding &given : closed_scenes()) {
@@ -153,14 +153,14 @@ TEST_F(HiddenFromCamera, ClosedScenesNeitherLeakNorLoseLight) {
         const std::vector<float> covered = coverage();
         EXPECT_LE(largest_error(image, covered, 1.5), few_roundings);
         EXPECT_GT(largest_error(image, covered, 1.545), few_roundings);
-        // Something is seen, and the shells are not.
+        // Something is visible, and the shells are not.
         EXPECT_TRUE(std::ranges::any_of(covered, [](float share) { return share == 1.0F; }));
         const bool has_a_sky = given.name == "a shell that cuts a floor and a ball";
         EXPECT_NE(has_a_sky, std::ranges::any_of(covered, [](float share) { return share == 0.0F; }));
     }
 }
 
-// With lamps that are sampled samples differ. One false alarm in a million for all the scenes.
+// Lamp sampling makes samples differ. One false alarm in a million for all scenes.
 TEST_F(HiddenFromCamera, LampsInClosedScenesAreCountedOnce) {
     constexpr std::uint32_t batch_count = 12;
     for (const Hiding &given : closed_scenes()) {
@@ -194,7 +194,7 @@ Hiding with_lamps(const std::string &name) {
              pt_material{{0, 0, 0}, {0, 0, 0}, {5, 5, 5}, 0, 0}, pt_material{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0, 0}}};
 }
 
-// What black surfaces keep from the lamp is black to the last bit, though the camera looks through them.
+// Black hidden surfaces block the lamp exactly, though the camera looks through them.
 TEST_F(HiddenFromCamera, BlackSurfacesKeepLightOut) {
     Hiding shell = with_lamps("a shell");
     shell.spheres = {ball(0, 0, -9, 1, white), ball(0, 0, -9, 1.5, black + hidden), ball(3, 5, -5, 2, lamp)};
@@ -214,7 +214,7 @@ TEST_F(HiddenFromCamera, BlackSurfacesKeepLightOut) {
         for (pt_sphere &sphere : open.spheres)
             sphere.radius *= sphere.material == black + hidden ? 1e-3 : 1.0;
         for (pt_plane &plane : open.planes)
-            plane.offset = -1e6; // behind the camera, and the lamps
+            plane.offset = -1e6; // behind the camera and the lamps
         const std::vector<float> lit = image_of(open, render, 8);
         double light = 0.0;
         for (std::size_t i = 0; i < image.size(); ++i)
@@ -229,7 +229,7 @@ TEST_F(HiddenFromCamera, BlackSurfacesKeepLightOut) {
 // ---- Everything else as it was
 // ----------------------------------------------------------------------------------------
 
-// Whether the camera sees a lamp changes the pixels in which it is, and of the others no bit.
+// Hiding a lamp changes its own pixels only.
 TEST_F(HiddenFromCamera, ALampLightsAsIfItWereSeen) {
     Hiding seen = with_lamps("in view");
     seen.spheres = {ball(0, -0.5, -9, 1, white), ball(1.5, 1.5, -8, 0.5, lamp), ball(-2, 1, -7, 0.25, lamp)};

@@ -1,4 +1,4 @@
-// A fold of the film's parts on the host: in which pixels, with which sums, and whether it can be undone.
+// Folds of the film's parts on the host: pixels, sums, and undoing.
 #include "lib/kernel/host_fold.h"
 
 #include "tests/device/film_words.h"
@@ -18,7 +18,7 @@ namespace {
 constexpr std::uint32_t fold_width = 16;
 constexpr std::uint32_t fold_height = 12;
 
-// Film with random words, but for the rare ones, which are 0.
+// Random words; the rarely used ones are 0.
 pt::PixelSums random_sums() {
     std::mt19937 random(5);
     pt::PixelSums sums;
@@ -32,7 +32,7 @@ pt::PixelSums random_sums() {
     return sums;
 }
 
-// In strips that are cut within rows.
+// Strips are cut within rows.
 class HostFold : public VulkanFixture {
 protected:
     void SetUp() override {
@@ -56,7 +56,7 @@ protected:
         return sums;
     }
 
-    // The other part of these pixels added to this one.
+    // The expected film: the other part of these pixels added to this one.
     pt::PixelSums folded(std::span<const pt::PixelRange> pixels, std::uint32_t into) const {
         pt::PixelSums sums = before_;
         for (const pt::PixelRange &range : pixels)
@@ -90,7 +90,7 @@ TEST_F(HostFold, IsUndoneUnlessItIsKept) {
     EXPECT_TRUE(words() == before_);
 }
 
-// Which the next kernel would take to be 0.
+// The next kernel would take the rare words to be 0.
 TEST_F(HostFold, LeavesRareWordsToKernels) {
     for (const std::size_t plane : {std::size_t{3}, std::size_t{7}, std::size_t{11}, std::size_t{13}}) {
         before_.plane(1, plane)[100] = 1;
@@ -103,7 +103,7 @@ TEST_F(HostFold, LeavesRareWordsToKernels) {
     }
 }
 
-// The part that takes them in is added to, whatever it has.
+// The receiving part may hold anything.
 TEST_F(HostFold, TakesInWhereRareWordsAre) {
     before_.plane(0, 3)[100] = 7;
     fill(device(), *film_, before_);

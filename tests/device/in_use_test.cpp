@@ -1,4 +1,4 @@
-// Calls on a context that is in a call already: from its callbacks, and from another thread.
+// Calls on a context that is already in a call: from callbacks and from another thread.
 #include "lib/api/in_use.h"
 #include "tests/device/api_fixture.h"
 #include "tests/device/every_call.h"
@@ -29,7 +29,7 @@ protected:
         expect_every_call(outcomes, "PT_ERROR_INVALID_STATE: " + message);
     }
 
-    // Accumulates a sample, and does something in the first callback of that.
+    // Accumulates a sample; the first progress callback runs the action.
     void accumulate_and(const std::function<void()> &action, pt_result expected = PT_OK) {
         struct Once {
             const std::function<void()> &action;
@@ -97,7 +97,7 @@ TEST_F(InUseTest, CallsFromAnotherThreadAreRefused) {
     EXPECT_EQ(message(), "");
 }
 
-// What is refused leaves the message of the call in progress alone, which is the newer one once that call has failed.
+// A refused call leaves the outer call's message alone, which is newer once that call fails.
 TEST_F(InUseTest, TheMessageIsThatOfTheLastCallThatFailed) {
     set_all();
     std::string inside;
@@ -112,7 +112,7 @@ TEST_F(InUseTest, TheMessageIsThatOfTheLastCallThatFailed) {
     std::thread([&] { EXPECT_EQ(message(), "thrown by a callback"); }).join();
 }
 
-// The driver's threads are not in the child, where a call that reached it would wait for ever.
+// A forked child lacks the driver's threads; a call that reached the driver would wait forever.
 TEST_F(InUseTest, AChildOfForkIsRefused) {
     set_all();
     const std::string not_ours = "this context belongs to the process that this one was forked from";
@@ -135,7 +135,7 @@ TEST_F(InUseTest, AChildOfForkIsRefused) {
 
 using Lines = std::vector<std::string>;
 
-// Tries to end its context whenever it is told something.
+// Tries to destroy its context at each line.
 struct EagerLog {
     Lines lines;
     pt_context *context = nullptr;

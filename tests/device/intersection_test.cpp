@@ -1,5 +1,5 @@
-// Rays against one sphere as the device meets it, from huge ones held as planes with a curvature to rays that start a
-// few ulp from a surface, compared with long double. Run alone with --gtest_filter=Intersection*.
+// Rays against one sphere on the device, from huge ones stored as curved planes to rays that start a few ulp from a
+// surface, against long double.
 #include "intersection.spv.h"
 #include "lib/kernel/gpu_scene.h"
 #include "tests/device/probe.h"
@@ -20,7 +20,7 @@ constexpr std::uint32_t nothing = 0xffffffffU;
 
 struct Ray {
     glm::vec3 origin;
-    float start; // 0: on no surface, 1: on the sphere, outside, -1: on it, inside
+    float start; // 0: on no surface; 1: on the sphere, outside; -1: inside
     glm::vec3 direction;
     float unused = 0.0F;
 };
@@ -33,7 +33,7 @@ struct Met {
     std::uint32_t surface, blocked, inside, unused_too;
 };
 
-// A sphere relative to the camera.
+// Relative to the camera.
 struct Ball {
     glm::dvec3 center;
     double radius;
@@ -41,14 +41,14 @@ struct Ball {
 
 enum class Held { AsTheSceneNeeds, ByItsCenter };
 
-// What the device meets. Rays start on either side of the sphere, wherever the camera is. One that moves by a 32nd of
-// its radius is held by its centre and radius; it stands still at the time of the rays.
+// The device's hits. Rays may start on either side of the sphere, wherever the camera is. A ball that moves by a 32nd
+// of its radius is stored by its center; it stands still at the rays' time.
 std::vector<Met> follow(const Ball &ball, const std::vector<Ray> &rays, Held held = Held::AsTheSceneNeeds) {
     pt::Scene scene;
     scene.materials = {{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0}};
     scene.spheres = {{ball.center, ball.radius, {held == Held::ByItsCenter ? ball.radius : 0.0, 0, 0}, 0}};
     const pt::Camera camera{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0.0, 1.0};
-    const pt::PreparedScene prepared(scene); // and not refused, though it moves too far
+    const pt::PreparedScene prepared(scene); // without the check that refuses such motion
     const pt::GpuScene gpu_scene = pt::gpu_scene({pt::seen_scene(scene, camera), false, false}, prepared, camera,
                                                  {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4});
     const auto count = static_cast<std::uint32_t>(rays.size());
@@ -64,7 +64,7 @@ std::vector<Met> follow(const Ball &ball, const std::vector<Ray> &rays, Held hel
     return probe.run<Met>(input, rays.size(), count, count);
 }
 
-// A ray and a sphere in long double. height is (|x - c|^2 - R^2) / (2 R) of the ray's origin x.
+// height = (|x - c|^2 - R^2) / (2 R), for the ray's origin x.
 struct Reference {
     long double height, half_chord, to_middle;
 
@@ -77,7 +77,7 @@ struct Reference {
         half_chord = std::sqrt(std::max(0.0L, radius * radius - glm::dot(across, across)));
         height = (glm::length(from_center) - radius) * (glm::length(from_center) + radius) / (2.0L * radius);
     }
-    // Through products, as in to_middle -+ half_chord both would cancel.
+    // By products: to_middle -+ half_chord would cancel.
     long double near_root(long double radius) const {
         return to_middle > 0 ? 2 * radius * height / (to_middle + half_chord) : to_middle - half_chord;
     }
@@ -86,14 +86,12 @@ struct Reference {
     }
 };
 
-// The largest error of distance, position and normal, each as a multiple of what rounding explains: 1 is the bound.
+// Largest errors of distance, position and normal over their bounds.
 //
-// The height of a ray's origin x is n . x + o + k / 2 |y|^2 with y = x + o n. Rounding n, o and k on the host and
-// each of at most ten operations on the device leaves it off by at most 8 eps S with S = |x| + |o| + |y| (1 + k |y|),
-// and its slope along the ray by 8 eps (1 + k |y|). With c, the cosine at which the ray meets the surface, the
-// distance t changes by 1 / c of an error of the height, and by t / c of one of the slope; twice that leaves room for
-// the root's own rounding: 16 eps (S + t (1 + k |y|)) / c. A point on the surface is off it by the error of the
-// height there alone, its normal by k times that, and by rounding.
+// With y = x + o n the height of a ray's origin x is n . x + o + k / 2 |y|^2, S = |x| + |o| + |y| (1 + k |y|) and c the
+// cosine at the hit. Rounding n, o, k on the host and up to ten operations on the device: height 8 eps S, slope 8 eps
+// (1 + k |y|). Distance: height error / c + slope error t / c, doubled for the root: 16 eps (S + t (1 + k |y|)) / c. A
+// point errs by the height there, its normal by k times that, and by rounding.
 struct Worst {
     double distance = 0, position = 0, normal = 0;
     int missed = 0, compared = 0;
@@ -111,7 +109,7 @@ Worst compare(const Ball &ball, const std::vector<Ray> &rays, const std::vector<
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const Reference reference(ball, rays[i]);
         const long double cosine = reference.half_chord / radius;
-        if (cosine < 1e-3L) // the bound does not hold for rays that touch
+        if (cosine < 1e-3L) // the bound excludes grazing rays
             continue;
         const bool outside = rays[i].start != 0.0F ? rays[i].start > 0.0F : reference.height > 0.0L;
         const long double t = rays[i].start < 0.0F ? 2 * reference.to_middle
@@ -152,7 +150,7 @@ public:
         std::normal_distribution<double> normal;
         return glm::normalize(glm::dvec3(normal(engine_), normal(engine_), normal(engine_)));
     }
-    // From within a cube of half the given side about the camera; directions with slopes over three decades.
+    // Origins within a cube of half side `reach` about the camera; slopes over three decades.
     std::vector<Ray> around_camera(double reach, std::size_t count) {
         std::vector<Ray> rays(count);
         for (Ray &ray : rays) {
@@ -169,7 +167,7 @@ private:
     std::mt19937 engine_;
 };
 
-// The camera stands 1.5 above or below the surface of a sphere that is tilted, so that no component is exact.
+// The camera is 1.5 above or below a sphere, tilted so that no component is exact.
 Ball under_the_camera(double radius, double height) {
     return {-(radius + height) * glm::normalize(glm::dvec3(0.1, 1.0, -0.2)), radius};
 }
@@ -183,7 +181,7 @@ void expect_within_bounds(const Worst &worst) {
 
 constexpr std::size_t ray_count = 20000;
 
-// A floor seen from above and a dome seen from within, of radii over seven decades: distance, point and normal.
+// A floor from above and a dome from within, radii over seven decades.
 TEST(Intersection, HugeSpheresAreMetWithinTheRoundingOfTheScene) {
     RandomRays random(1);
     const std::vector<Ray> rays = random.around_camera(10.0, ray_count);
@@ -206,7 +204,7 @@ TEST(Intersection, TheSameBoundFailsForHugeSpheresHeldByTheirCenter) {
     EXPECT_GT(worst.position, 100.0);
 }
 
-// From up to five radii away, where the surface is no plane any more: aimed at random points of the sphere.
+// From up to five radii away, aimed at random points of the sphere.
 TEST(Intersection, CurvedPlanesAreMetFromFarAway) {
     RandomRays random(2);
     const Ball ball = under_the_camera(1e3, 1.5);
@@ -222,9 +220,8 @@ TEST(Intersection, CurvedPlanesAreMetFromFarAway) {
     expect_within_bounds(worst);
 }
 
-// Rays that leave the surface: outside they never meet it again, inside they meet the far wall, whatever the rounding
-// of their origin. A chord of length t = 2 s / k carries the error 8 eps of the slope s as 16 eps R = 8 eps t / s,
-// which the bound allows.
+// Leaving rays: outside they never hit again; inside they hit the far wall, whatever the rounding of their origin. A
+// chord t = 2 s / k turns the slope's 8 eps into 16 eps R = 8 eps t / s, which the bound allows.
 TEST(Intersection, RaysThatLeaveAHugeSphereMeetItAgainFromInsideOnly) {
     for (const double radius : {1e3, 1e6, 1e9}) {
         RandomRays random(3);
@@ -249,7 +246,7 @@ TEST(Intersection, RaysThatLeaveAHugeSphereMeetItAgainFromInsideOnly) {
     }
 }
 
-// Whether a sphere is met if the sign of the distance tells it, in float32: the rule that fails.
+// The wrong rule, in float32: a hit wherever the distance is positive.
 bool met_by_sign(const Ball &ball, const Ray &ray) {
     const glm::vec3 to_center = glm::vec3(ball.center) - ray.origin;
     const auto radius = static_cast<float>(ball.radius);
@@ -262,9 +259,9 @@ bool met_by_sign(const Ball &ball, const Ray &ray) {
     return b + half_chord > 0.0F;
 }
 
-// Rays that start on no sphere, but up to 64 ulp from this one: it lets none through, and from outside holds up none
-// that leads away. Rounding of the squared distance and of the squared radius leaves the side of an origin within 3
-// eps r of the surface undecided; there a ray that leads inwards is met all the same, at once or on the far side.
+// Rays that start up to 64 ulp from a sphere, but not on it. None leaks through; none that leads away outside is
+// stopped. Within 3 eps r of the surface float32 cannot tell the side; inward rays still hit, at once or at the far
+// side.
 TEST(Intersection, NothingLeaksThroughASphereNearItsSurface) {
     RandomRays random(4);
     const Ball ball{{0, 0, 0}, 3.0};

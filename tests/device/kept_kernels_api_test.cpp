@@ -1,4 +1,4 @@
-// The contract of pt_prepare, and of kernels that the caller keeps from context to context.
+// The contract of pt_prepare, and of kernels that the caller keeps between contexts.
 #include "tests/device/api_fixture.h"
 #include "tests/support/context_calls.h"
 #include "tests/support/coursework_scene.h"
@@ -20,7 +20,7 @@ namespace {
 
 using Kept = std::vector<std::byte>;
 
-// A program that keeps kernels in memory, and hears what is said of them.
+// Keeps kernels in memory and records calls and log lines.
 struct Keeper {
     std::map<std::string, Kept> kept;
     std::vector<std::string> loads; // keys
@@ -69,7 +69,7 @@ protected:
         });
     }
 
-    // Renders, and returns the bytes of the film's image.
+    // Renders and reads back.
     std::vector<float> rendered(pt_context *context, std::uint32_t count) {
         const pt_accumulate_info info = samples(count);
         EXPECT_EQ(pt_accumulate(context, &info), PT_OK) << pt_last_error(context);
@@ -144,7 +144,7 @@ TEST_F(KeptKernelsApiTest, AreKeptUnderOneKeyAndGivenBack) {
     EXPECT_EQ(rendered(second.get(), 3), rendered(context(), 3));
     pt_device_info device{};
     ASSERT_EQ(pt_get_context_device(second.get(), &device), PT_OK);
-    if (device.kind == PT_DEVICE_CPU) { // lavapipe has nothing to add; what other drivers add they know
+    if (device.kind == PT_DEVICE_CPU) { // lavapipe adds nothing; other drivers may
         EXPECT_EQ(again.stores.size(), 0U) << "what is kept already";
     }
 }
@@ -187,7 +187,7 @@ TEST_F(KeptKernelsApiTest, DamagedAndForeignOnesAreLeftAlone) {
     EXPECT_GE(damaged.stores.size(), 1U) << "good ones take their place";
 }
 
-// Of a size that cannot be, or that changes meanwhile.
+// Impossible sizes, and sizes that change between calls.
 TEST_F(KeptKernelsApiTest, LoadMaySayAnything) {
     for (const std::uint64_t claimed : {UINT64_MAX, std::uint64_t{1} << 40, std::uint64_t{100}}) {
         std::uint64_t size = claimed;

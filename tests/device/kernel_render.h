@@ -1,5 +1,4 @@
-// The path-tracing kernel over a small film, as lib/kernel/kernel.cpp runs it, but with the scene and the
-// constants that a test asks for. Used by the tests of what must not change a picture.
+// Runs the path-tracing kernel over a small film as lib/kernel/kernel.cpp does, with the test's scene and constants.
 #pragma once
 
 #include "lib/film/pixel_sums.h"
@@ -41,7 +40,7 @@ public:
         frame_.sample_count = frame_.share = most_samples;
     }
 
-    // Fewer samples of a pixel.
+    // Sets the number of samples.
     void take(std::uint32_t samples) { frame_.sample_count = samples; }
 
     static pt::RenderSettings settings(std::uint32_t max_path_length) {
@@ -52,19 +51,19 @@ public:
     const std::vector<glm::vec4> &words() const { return scene_.words; }
     Constants constants() const { return pt::specialization_constants(scene_.features); }
 
-    // The film of the words of a scene that the kernel finds where source says.
+    // The film for a scene in the given source (gpu::SCENE_IN_...).
     FilmWords film(std::uint32_t source, const std::vector<glm::vec4> &words) const {
         return film_of_kernel(constants(), source, words);
     }
 
-    // The same with specialization constants of the test's own.
+    // With the test's specialization constants.
     FilmWords film_of_kernel(const Constants &constants, std::uint32_t source,
                              const std::vector<glm::vec4> &words) const {
         Probe probe = probe_of_kernel(constants, source, words);
         return film_by(probe);
     }
 
-    // The same by a kernel that the driver specialises, which takes ten times as long to build.
+    // With a kernel specialised by the driver; ten times slower to build.
     FilmWords film_by_driver(std::uint32_t source) const {
         const auto values = with_scene_source(constants(), source, words());
         Probe probe(pt::embedded_code().pathtrace, sizeof frame_, values);
@@ -72,7 +71,7 @@ public:
         return film_by(probe);
     }
 
-    // That kernel, for several films.
+    // The same kernel, for several films.
     Probe probe_of_kernel(const Constants &constants, std::uint32_t source, const std::vector<glm::vec4> &words) const {
         const auto values = with_scene_source(constants, source, words);
         Probe probe(pt::specialised_code(pt::embedded_code().pathtrace, values), sizeof frame_, values);
@@ -80,8 +79,7 @@ public:
         return probe;
     }
 
-    // The kernel with the scene that has a tree: films by it are those of the tree as it is then. walk_trips: as
-    // ID_WALK_TRIPS has them.
+    // The kernel for the scene with a tree; films read the tree's current words. walk_trips: as ID_WALK_TRIPS.
     Probe probe_of_tree(std::uint32_t walk_trips = 0) const {
         Constants of_scene = this->constants();
         of_scene[pt::gpu::ID_WALK_TRIPS] = walk_trips;
@@ -105,10 +103,10 @@ public:
         return film;
     }
 
-    // The words of the tree, if the scene has one, for a test to change.
+    // The tree's words, mutable; empty without a tree.
     std::vector<glm::uvec4> &tree() { return tree_; }
 
-    // What the film shows. Throws if samples are lost.
+    // The film's image. Throws if samples are lost.
     std::vector<float> radiance(const FilmWords &film) const {
         const pt::PixelSums sums = sums_of(film, width * height);
         for (std::size_t pixel = 0; pixel < sums.pixel_count(); ++pixel)

@@ -1,5 +1,5 @@
-// Lamps as the device chooses and samples them from a vertex: directions and choices against what the shipped functions
-// state, and what they state against geometry in double. Run alone with --gtest_filter=Lamp*.
+// Lamps chosen and sampled from a vertex on the device: frequencies against the stated densities, and these against
+// geometry in double.
 #include "lamps.spv.h"
 #include "shaders/specialization.h"
 #include "tests/device/probe.h"
@@ -21,13 +21,13 @@ struct Lamp {
     float radiance;
 };
 
-// What the probe writes for each sample, and first for each lamp.
+// One sample of the probe; one for each lamp comes first.
 struct Drawn {
     glm::vec3 direction;
     float distance;
     std::uint32_t lamp;
-    float density;     // over solid angle, given the lamp: as the sample states it
-    float hit_density; // as it is stated for a direction that happens to hit the lamp
+    float density;     // over solid angle, given the lamp
+    float hit_density; // stated for a direction that happens to hit the lamp
     float probability;
 };
 
@@ -60,21 +60,21 @@ std::vector<Drawn> draw(const std::vector<Lamp> &lamps, const Viewpoint &from, s
     return probe.run<Drawn>({}, count, push, count);
 }
 
-// The lamps of most tests: emission over ten decades.
+// Emission over ten decades.
 const std::vector<Lamp> uneven_lamps = {
     {{0.5F, 3.0F, -1.0F}, 1.0F, 2.0F},       // overhead
-    {{4.0F, -0.3F, 2.0F}, 0.8F, 30.0F},      // its centre below the horizon
+    {{4.0F, -0.3F, 2.0F}, 0.8F, 30.0F},      // its center below the horizon
     {{-300.0F, 500.0F, 200.0F}, 0.5F, 1e6F}, // far and tiny, r / d = 8e-4
-    {{-0.6F, 0.55F, 0.5F}, 0.9F, 0.01F},     // near: its surface 0.05 away
+    {{-0.6F, 0.55F, 0.5F}, 0.9F, 0.01F},     // its surface 0.05 away
     {{0.0F, -5.0F, 0.0F}, 2.0F, 1e8F},       // wholly below the horizon
     {{-3.0F, 1.0F, 4.0F}, 0.02F, 5000.0F},   // small
     {{1.0F, 0.2F, -0.5F}, 0.1F, 1e-4F},      // dim
 };
 constexpr std::size_t below_horizon = 4;
-// Probabilities that err by 3% add 2^19 * 0.03^2 = 472 to a chi-square, of a standard deviation below 4.
+// Probabilities off by 3% add 2^19 * 0.03^2 = 472 to a chi-square with a standard deviation below 4.
 constexpr std::uint32_t draws_of_lamps = 1U << 19;
 
-// One false alarm in a million, over the chi-squares of this file together.
+// One false alarm in a million for this file's chi-squares.
 const double lamp_bound = statistics::normal_quantile(1e-6 / 2);
 
 void expect_stated_probabilities(const std::vector<Lamp> &lamps) {
@@ -96,7 +96,7 @@ void expect_stated_probabilities(const std::vector<Lamp> &lamps) {
     EXPECT_GT(statistics::chi_square_deviate(observed, wrong), lamp_bound) << "probabilities wrong by 3% must show";
 }
 
-// Of many lamps, and of so few that the kernel keeps how it sees them.
+// Many lamps, and few enough for the kernel to keep their views.
 TEST(LampChoice, FollowsTheStatedProbability) {
     expect_stated_probabilities(uneven_lamps);
     std::vector<Lamp> few(uneven_lamps.begin(), uneven_lamps.begin() + 4);
@@ -104,8 +104,8 @@ TEST(LampChoice, FollowsTheStatedProbability) {
     expect_stated_probabilities(few);
 }
 
-// As it is documented: nine tenths by radiance (r / d)^2 min(1, (n . v + r) / d), one tenth evenly. And so never
-// below a tenth of the even share for a lamp that is partly above the horizon, however dim; 0 for one below it.
+// As documented: nine tenths by radiance (r / d)^2 min(1, (n . v + r) / d), one tenth evenly among lamps partly above
+// the horizon; 0 below it.
 TEST(LampChoice, HasTheDocumentedProbability) {
     const std::vector<Drawn> drawn = draw(uneven_lamps, {}, 9, 64);
     std::vector<double> weights;
@@ -122,7 +122,7 @@ TEST(LampChoice, HasTheDocumentedProbability) {
     }
 }
 
-// A lamp that the vertex sees barely: its top above the horizon by a 1000th of its radius down to nothing.
+// Lamps whose top is above the horizon by their radius down to nothing.
 TEST(LampChoice, IsPossibleExactlyForLampsAboveTheHorizon) {
     std::vector<Lamp> lamps;
     std::vector<bool> above;
@@ -140,7 +140,7 @@ TEST(LampChoice, IsPossibleExactlyForLampsAboveTheHorizon) {
 TEST(LampChoice, LeavesOutLampsThatContainTheVertexOrAreIt) {
     const std::vector<Lamp> lamps = {
         {{0.1F, 0.2F, 0.0F}, 1.0F, 5.0F},    // around the vertex
-        {{0.0F, -2.0F, 0.0F}, 2.0F, 5.0F},   // the vertex lies on it
+        {{0.0F, -2.0F, 0.0F}, 2.0F, 5.0F},   // the vertex is on it
         {{0.0F, 1000.0F, 0.0F}, 0.1F, 1e-6F} // the only one left, and dim
     };
     Viewpoint on_second;
@@ -152,7 +152,7 @@ TEST(LampChoice, LeavesOutLampsThatContainTheVertexOrAreIt) {
     }
 }
 
-// No lamp at all: every density is 0, and nothing is NaN.
+// Without a possible lamp every density is 0, and nothing is NaN.
 TEST(LampChoice, StatesZeroWhereNoLampCanBeSampled) {
     const std::vector<Lamp> lamps = {{{0.0F, -3.0F, 0.0F}, 1.0F, 5.0F}, {{0.0F, 0.0F, 0.0F}, 9.0F, 5.0F}};
     for (const Drawn &sample : draw(lamps, {}, 12, 256)) {

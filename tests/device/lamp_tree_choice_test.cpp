@@ -1,5 +1,4 @@
-// Lamps that the device chooses by the tree, against what it states as their probabilities. Run alone with
-// --gtest_filter=LampTree*.
+// The device's choices from the lamp tree against their stated probabilities.
 #include "tests/device/lamp_tree_probe.h"
 #include "tests/device/lamp_tree_reference.h"
 #include "tests/support/lamp_scenes.h"
@@ -16,7 +15,7 @@
 
 namespace {
 
-// Lamps that are expected less than 20 times share a cell, which also tells whether rare ones are as rare as they say.
+// Lamps expected fewer than 20 times share a cell.
 struct Frequencies {
     std::vector<double> observed, expected, wrong;
 };
@@ -50,8 +49,7 @@ Frequencies frequencies(const std::vector<TreeDrawn> &drawn, std::uint32_t lamp_
     return cells;
 }
 
-// That each sample has the probability that is stated for its lamp, to the bit, and that no light is said to come from
-// a lamp that cannot be sampled, also where that is so of all.
+// Each sample states its lamp's probability to the bit, and lamps that cannot be sampled give no light.
 void expect_what_is_stated(const std::vector<TreeDrawn> &drawn, const std::vector<double> &weights) {
     for (std::size_t i = weights.size(); i < drawn.size(); ++i) {
         const TreeDrawn &sample = drawn[i];
@@ -65,8 +63,8 @@ void expect_what_is_stated(const std::vector<TreeDrawn> &drawn, const std::vecto
     }
 }
 
-// One false alarm in a million, over the 72 chi-squares of this file together, which allows 5.6 deviations. Errors of
-// 10% add 2^16 * 0.1^2 = 655 to a chi-square, whose standard deviation is 45 for 1000 lamps: 15 deviations.
+// One false alarm in a million over 72 chi-squares: 5.6 deviations. Errors of 10% add 2^16 * 0.1^2 = 655; the standard
+// deviation is 45 for 1000 lamps: 15 deviations.
 TEST(LampTreeChoice, FollowsTheStatedProbability) {
     const double bound = statistics::normal_quantile(1e-6 / 72);
     for (const auto &[name, scene] : lamp_scenes::all()) {

@@ -1,4 +1,4 @@
-// Lamps as the device chooses them by the tree, from vertices all over a scene. Used by the tests of that choice.
+// Lamps chosen by the tree on the device, from vertices all over a scene.
 #pragma once
 
 #include "lamps.spv.h"
@@ -35,7 +35,7 @@ public:
         probe_.set_scene(scene.words);
     }
 
-    // count draws after what choice_of() says of each lamp.
+    // The lamps' choice_of(), then `count` draws.
     std::vector<TreeDrawn> draw(const TreeVertex &vertex, std::uint32_t count, std::uint32_t seed = 1) {
         const Push push{glm::vec4(vertex.position, 0), glm::vec4(vertex.normal, vertex.time), vertex.surface, seed,
                         lamp_count_ + count};
@@ -65,7 +65,7 @@ private:
     Probe probe_;
 };
 
-// Vertices on the ground, in the air, with all lamps ahead and all behind, far away, and by a lamp.
+// On the ground, in the air, all lamps ahead or behind, far away, and beside a lamp.
 inline std::vector<TreeVertex> tree_vertices(const pt::GpuScene &scene) {
     const glm::vec3 lamp(scene.words[scene.features[pt::gpu::ID_LAMP_COUNT] / 2]);
     const float radius = scene.words[scene.features[pt::gpu::ID_LAMP_COUNT] / 2].w;

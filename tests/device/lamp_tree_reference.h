@@ -1,4 +1,4 @@
-// What a tree over lamps should choose, in double. Used by the tests of the device's choices.
+// The lamp tree's choices in double.
 #pragma once
 
 #include "lib/kernel/gpu_scene.h"
@@ -16,7 +16,7 @@
 
 inline constexpr double uniform_share = 0.1;
 
-// The probabilities in double, from what gpu_layout.h says of the tree's words and shaders/README.md of its choices.
+// The probabilities by gpu_layout.h's words and the choices of shaders/README.md.
 class TreeReference {
 public:
     explicit TreeReference(const pt::GpuScene &scene) : features_(scene.features), words_(scene.words) {
@@ -114,7 +114,7 @@ private:
     std::uint32_t top_ = 0;
 };
 
-// Weights as shaders/README.md defines them, from the lamps themselves.
+// Weights by shaders/README.md, from the lamps themselves.
 inline std::vector<double> lamp_weights(const pt::GpuScene &scene, const TreeVertex &vertex) {
     std::vector<double> weights;
     const pt::SceneBlocks blocks(scene.features);

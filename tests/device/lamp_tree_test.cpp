@@ -1,5 +1,4 @@
-// What the device states as the probabilities of lamps in a tree, against a reference in double, and how sharp they
-// are. Run alone with --gtest_filter=LampTree*.
+// The device's stated probabilities of lamps in a tree, against double, and how sharp they are.
 #include "tests/device/lamp_tree_probe.h"
 #include "tests/device/lamp_tree_reference.h"
 #include "tests/support/lamp_scenes.h"
@@ -15,8 +14,8 @@
 
 namespace {
 
-// A quotient of importances is off by the rounding of differences of places: 2^-20 of a share at most in these scenes,
-// where nothing is nearer to a vertex than a 1000th of what it is off the camera.
+// Differences of positions are rounded: up to 2^-20 of a quotient, because nothing here is nearer to a vertex than a
+// 1000th of its distance from the camera.
 TEST(LampTreeProbabilities, AreThoseOfAReferenceInDouble) {
     for (const auto &[name, scene] : lamp_scenes::all()) {
         const pt::GpuScene gpu_scene = lamp_scenes::gpu_scene(scene);
@@ -34,13 +33,13 @@ TEST(LampTreeProbabilities, AreThoseOfAReferenceInDouble) {
                 stated_sum += stated[lamp];
             }
             EXPECT_NEAR(sum, 1.0, 1e-12) << name;
-            EXPECT_NEAR(stated_sum, 1.0, 64 * 0x1p-24) << name; // each level's quotients are rounded a few times
+            EXPECT_NEAR(stated_sum, 1.0, 64 * 0x1p-24) << name; // each level rounds its quotients a few times
         }
     }
 }
 
-// Of a sample of the lamps' irradiance: sum w^2 / P over (sum w)^2, less 1. The weights alone have 0, with the uniform
-// share 1 / 9 at most; choice by power has 9 on the ground here.
+// sum w^2 / P over (sum w)^2, less 1. Weights alone give 0, with the uniform share at most 1 / 9; choice by power has 9
+// on the ground here.
 double relative_variance(TreeProbe &probe, const pt::GpuScene &scene, const TreeVertex &vertex) {
     const std::vector<double> weights = lamp_weights(scene, vertex);
     const std::vector<double> probabilities = probe.probabilities(vertex);
@@ -58,7 +57,7 @@ double median(std::vector<double> values) {
     return values[values.size() / 2];
 }
 
-// On the ground, and in the midst of the lamps with the horizon in all directions.
+// On the ground, and amid the lamps with the horizon in all directions.
 TEST(LampTreeProbabilities, AreSharp) {
     for (const double motion : {0.0, 3.0}) {
         const pt::GpuScene scene = lamp_scenes::gpu_scene(lamp_scenes::in_a_box(10000, 8, motion));

@@ -1,6 +1,5 @@
-// Code that the kernel omits because a scene does not need it changes no picture: the handling of insides where the
-// camera is in no sphere, planes as obstacles where no lamp is behind one, and as lights where none emits; the sides of
-// vertices and the ends of shadow rays.
+// Code that the kernel omits for a scene changes no picture: insides with the camera outside all spheres, planes as
+// obstacles with no lamp behind, planes as lamps where none emits, sides of vertices, ends of shadow rays.
 #include "tests/device/kernel_render.h"
 #include "tests/invariance/invariance_scene.h"
 
@@ -24,16 +23,15 @@ Image image_with(const KernelRender &render, const KernelRender::Constants &cons
     return render.radiance(render.film_of_kernel(constants, gpu::SCENE_IN_UNIFORM, render.words()));
 }
 
-// The image of a kernel that has one of its constants turned over.
+// With one feature constant inverted.
 Image image_with_other(const KernelRender &render, std::uint32_t id) {
     KernelRender::Constants constants = render.constants();
     constants[id] = 1 - constants[id];
     return image_with(render, constants);
 }
 
-// Values that differ by more than the rounding of paths whose rays meet the same surfaces. A vertex is off by some
-// 2^-24 of its distance; each ball on the way magnifies that by at most twice its distance over its radius, here 30, so
-// two of them keep it below 1e-3 of the light.
+// Values that differ by more than rounding along equal paths: a vertex errs by about 2^-24 of its distance, each ball
+// magnifies that by up to 2 distance / radius, here 30, so two keep it below 1e-3 of the light.
 std::size_t differing_values(const Image &a, const Image &b) {
     const float mean = std::accumulate(a.begin(), a.end(), 0.0F) / static_cast<float>(a.size());
     std::size_t count = 0;
@@ -42,12 +40,11 @@ std::size_t differing_values(const Image &a, const Image &b) {
     return count;
 }
 
-// Rounding decides what a ray meets where it passes a rim, or leaves a point where two surfaces meet, by 2^-20 of the
-// scene or less: among 3072 samples, each of some 20 rays against 9 surfaces, half a time on average. More than 6 such
-// samples, of 3 values each, come with a probability of 1e-6.
+// Rounding decides at rims and where surfaces meet, within 2^-20 of the scene: on average in half a sample of 3072,
+// each of some 20 rays against 9 surfaces. More than 6 such samples, of 3 values each, have a probability of 1e-6.
 constexpr std::size_t decided_by_rounding = 18;
 
-// Balls that pass through each other, a floor and a wall, one of them on the move. All lamps are in the room.
+// Overlapping balls, one moving, a floor and a wall; all lamps inside.
 InvarianceScene room() {
     InvarianceScene scene = InvarianceScene::coursework();
     scene.spheres[3].center[0] = 1.0;
@@ -60,11 +57,11 @@ struct Case {
     const char *name;
     InvarianceScene scene;
     std::uint32_t id;
-    std::uint32_t constant; // that the scene has
-    bool shows;             // whether the other one makes another picture
+    std::uint32_t constant; // in the scene
+    bool shows;             // whether inverting it changes the picture
 };
 
-// The last ones are the negative controls: what the scene needs is left out, which must show.
+// The last cases are negative controls: omitted code that the scene needs.
 std::vector<Case> cases() {
     InvarianceScene within = room();
     within.spheres.push_back({{0, 0, -5}, 20, {0, 0, 0}, 4, 0});
@@ -97,8 +94,8 @@ TEST(LeftOut, ShowsWhereItIsNeededAlone) {
     }
 }
 
-// The same bits: light that is not there is 0. Without gloss, as glossy vertices choose their last direction otherwise
-// where planes emit.
+// The same bits: missing emission is 0. No gloss, because glossy vertices choose their last direction differently where
+// planes emit.
 TEST(LeftOut, EmissionOfPlanesWhereNoneEmits) {
     InvarianceScene scene = room();
     for (pt_material &material : scene.materials)

@@ -1,5 +1,4 @@
-// Images through a lens: of random scenes against an independent path tracer in double, and of scenes that are known
-// exactly. Run alone with --gtest_filter=Lens*.
+// Images through a lens: random scenes against a path tracer in double, and exact cases.
 #include "tests/support/light_in_double.h"
 
 #include <pt/film.h>
@@ -23,7 +22,7 @@ constexpr std::array<std::uint32_t, 4> samplers = {PT_SAMPLER_RANDOM, PT_SAMPLER
 
 Given random_balls(std::uint32_t seed, std::uint32_t count, double distance) {
     Given given = random_scene(seed, 0, count, distance);
-    given.camera.aperture = 0.25 * distance; // what is 2 behind the focus is spread over a disc of radius 0.25
+    given.camera.aperture = 0.25 * distance; // a point 2 behind the focus spreads over a disc of radius 0.25
     given.camera.focus = distance - 1.0;
     return given;
 }
@@ -34,8 +33,8 @@ struct Case {
     std::uint32_t reference_samples;
 };
 
-// Also a view so narrow that rays start ahead of the lens (a pixel is below 2^-14 of its distance), and a lens that the
-// floor and a ball cut. What is below the floor has no light.
+// Also a view so narrow that rays start ahead of the lens (a pixel below 2^-14 of its distance), and a lens cut by the
+// floor and a ball. Below the floor is no light.
 std::vector<Case> cases() {
     Given cut = random_balls(5, 7, 8.0);
     cut.camera.position[1] = -1.0;
@@ -49,8 +48,7 @@ std::vector<Case> cases() {
 
 using Lens = LightInDouble;
 
-// The first scene by every sampler, the others, as each takes kernels of their own, by the default and by another in
-// turn.
+// The first scene by every sampler; the others, which need kernels of their own, by the default and one other.
 TEST_F(Lens, ShowsWhatAPathTracerInDoubleDoes) {
     const std::vector<Case> all = cases();
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -63,9 +61,8 @@ TEST_F(Lens, ShowsWhatAPathTracerInDoubleDoes) {
     }
 }
 
-// A shining ball behind the focus whose disc is larger than the picture, so that its brightness goes by the inverse
-// square of the disc's radius. Negative controls: a lens that is 3% wider and one whose focus is 3% farther, by which
-// the brightness falls by 6% and by 9%, are told from it.
+// A shining ball behind the focus whose disc exceeds the picture: brightness goes with the inverse square of the disc's
+// radius. Negative controls: a lens 3% wider (6% less light), a focus 3% farther (9%).
 TEST_F(Lens, IsAsWideAndFocusedAsStated) {
     Given given;
     given.planes.clear();
@@ -92,14 +89,14 @@ TEST_F(Lens, IsAsWideAndFocusedAsStated) {
 }
 
 TEST_F(Lens, HasTheSameBitsOfSplitsAndScale) {
-    for (const std::size_t i : {1, 2, 3}) { // a narrow view, the lens cut by surfaces, a tree
+    for (const std::size_t i : {1, 2, 3}) { // a narrow view, the cut lens, a tree
         SCOPED_TRACE(cases()[i].name);
         expect_the_same_bits_of_splits_and_scale(cases()[i].given);
     }
 }
 
-// What camera rays meet first is that of the pinhole in the middle of the lens; and a lens without a diameter, whatever
-// its focus, is a pinhole to the bit.
+// First hits are those of the pinhole at the lens's center; a lens without diameter is a pinhole to the bit, whatever
+// its focus.
 TEST_F(Lens, WithoutADiameterIsAPinhole) {
     Given lens = random_balls(1, 7, 8.0);
     Given pinhole = lens;
@@ -120,9 +117,9 @@ TEST_F(Lens, WithoutADiameterIsAPinhole) {
         };
         read(pinhole, first_hits);
         read(lens, through_lens);
-        // Of two kernels, each of which its driver may round in its own way.
+        // Two kernels; the driver may round each differently.
         for (std::size_t i = 0; i < first_hits.size(); ++i) {
-            const bool is_equal = through_lens[i] == first_hits[i]; // as infinite depths are
+            const bool is_equal = through_lens[i] == first_hits[i]; // so are infinite depths
             EXPECT_TRUE(is_equal || std::abs(through_lens[i] - first_hits[i]) <= 1e-6 * std::max(1.0F, first_hits[i]))
                 << quantity << ": " << through_lens[i] << " and " << first_hits[i];
         }

@@ -1,4 +1,4 @@
-// What a context writes to its log without validation.
+// A context's log without validation.
 #include "tests/device/api_fixture.h"
 
 #include <pt/devices.h>
@@ -37,7 +37,7 @@ TEST_F(LogTest, NamesTheDeviceAndTheKernelsBuilt) {
     const pt_accumulate_info one = samples(1);
     ASSERT_EQ(pt_accumulate(logged.get(), &one), PT_OK);
     ASSERT_EQ(lines.size(), 1U);
-    // Not by std::regex, which GCC 12 does not compile without warnings where sanitizers are on.
+    // Without std::regex, which GCC 12 compiles with warnings under sanitizers.
     const std::string &built = lines[0];
     EXPECT_TRUE(built.starts_with("3 built a kernel for this scene alone in ") ||
                 built.starts_with("3 built a kernel for all scenes of this kind in "))

@@ -1,5 +1,5 @@
-// Huge spheres that move, through pt.h, against frozen times and rest, and the shutter's interval. Run alone with
-// --gtest_filter=*Motion*. Tabulated scenes of tests/analytic/ have a ball and a lamp that move.
+// Moving huge spheres, through pt.h, against frozen times and rest; the shutter's interval. tests/analytic/ has a
+// moving ball and lamp.
 #include "tests/support/batch_fixture.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/scene_of.h"
@@ -13,7 +13,7 @@
 
 namespace {
 
-// One false alarm in a million for the file: each comparison has its share of that.
+// One false alarm in a million for the file, shared by its comparisons.
 constexpr double motion_comparisons = 200;
 double allowed_deviation(std::size_t batch_count) {
     return student_bound(1e-6 / motion_comparisons, batch_count);
@@ -21,7 +21,7 @@ double allowed_deviation(std::size_t batch_count) {
 
 class Motion : public BatchFixture {
 protected:
-    // A sphere that shines on a floor.
+    // An emitting sphere over a floor.
     void set_up_sphere(const pt_sphere &sphere, double shutter_open = 0, double shutter_close = 1) {
         const pt_material materials[] = {{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0, 0},
                                          {{0.8F, 0.8F, 0.8F}, {0, 0, 0}, {0, 0, 0}, 0, 0}};
@@ -46,7 +46,7 @@ constexpr uint32_t lamp_batches = 16;
 
 // ---- A huge ball on the move ---------------------------------------------------------------------------------------
 
-// The floor is a ball whose top is at the height -1, and moves.
+// The floor is a moving ball whose top is at height -1.
 struct FloorBall {
     double radius;
     double motion[3];
@@ -82,7 +82,7 @@ protected:
     }
 };
 
-// However little it moves, it is where it is at rest.
+// Tiny motion has the light of rest.
 TEST_F(HugeMotion, InTheLimitOfNoneIsRest) {
     for (const double radius : {1e4, 1e7, 1e8, 1e12})
         for (const double length : {1e-9, 1e-6}) {
@@ -96,11 +96,11 @@ TEST_F(HugeMotion, InTheLimitOfNoneIsRest) {
         }
 }
 
-// A lamp is held like a plane from a radius of 65536 distances on, whatever it moves: its inside is not seen.
+// A lamp from a radius of 65536 distances on is stored as a plane, however it moves; its inside is never seen.
 TEST_F(HugeMotion, OfALampTheOutsideIsSeen) {
     constexpr double radius = 1e6;
     const pt_material materials[] = {{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0, 0}, {{0, 0, 0}, {0, 0, 0}, {4, 4, 4}, 0, 0}};
-    // Overhead another lamp fills the view; from within the floor none of it would be seen.
+    // A second lamp overhead fills the view; from inside the floor it would be hidden.
     const pt_sphere spheres[] = {{{0, -1e-3 - radius, 0}, radius, {1e3, 0, 0}, 0, 0}, {{0, 50, 0}, 5, {0, 0, 0}, 1, 0}};
     const pt_scene scene = scene_of(materials, spheres, {});
     pt_camera camera{};
@@ -114,8 +114,8 @@ TEST_F(HugeMotion, OfALampTheOutsideIsSeen) {
         EXPECT_EQ(value, 4.0F) << "the lamp overhead fills the view";
 }
 
-// By the midpoint rule over 32 instants: the light goes with height^-2 or so of a lamp 3 above, which
-// changes by 1/4 of its value: an error of (1/4)^2 * 6 / 24 / 32^2 = 2e-5 of it at most.
+// Midpoint rule over 32 instants. The light of a lamp 3 above goes with about height^-2, which changes by 1/4: relative
+// error (1/4)^2 * 6 / 24 / 32^2 = 2e-5.
 TEST_F(HugeMotion, IsTheMeanOfFrozenTimes) {
     constexpr uint32_t times = 32;
     for (const FloorBall &floor : {FloorBall{1e7, {3, 0.5, -2}}, FloorBall{1e5, {1000, 0.25, 0}}}) {
@@ -131,7 +131,7 @@ TEST_F(HugeMotion, IsTheMeanOfFrozenTimes) {
         const Estimate moving = light(lamp_batches, 1024);
         const double error = std::hypot(moving.standard_error, std::sqrt(square), 1e-4 * mean);
         EXPECT_LT(std::abs(moving.mean - mean) / error, allowed_deviation(lamp_batches)) << floor.radius;
-        // Negative control: down instead of up.
+        // Negative control: the opposite vertical motion.
         set_up_floor({floor.radius, {floor.motion[0], -floor.motion[1], floor.motion[2]}});
         EXPECT_GT(std::abs(light(lamp_batches, 1024).mean - mean) / error, allowed_deviation(lamp_batches))
             << floor.radius;
@@ -155,7 +155,7 @@ TEST_F(HugeMotion, IsRefusedWhereItIsTooLong) {
     EXPECT_EQ(pt_accumulate(context(), &info), PT_OK) << "held by its centre";
 }
 
-// In parallel views their width counts instead of the distance, wherever the camera is.
+// Parallel views count their width instead of the distance, wherever the camera is.
 TEST_F(HugeMotion, IsRefusedInNarrowParallelViews) {
     const pt_material shining{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0, 0};
     const pt_sphere globe{{0, -1e7, 0}, 1e7, {1e6, 0, 0}, 0, 0};
@@ -184,7 +184,7 @@ TEST_F(HugeMotion, IsRefusedInNarrowParallelViews) {
 
 // ---- The shutter ---------------------------------------------------------------------------------------------------
 
-// All numbers are exact in binary, so that even the bits are equal.
+// All numbers are exact in binary, so the bits are equal.
 TEST_F(Motion, ShutterIsTheSameAsRebasedMotion) {
     const pt_render render = render_of(64, 32, 2);
     set_up_sphere({{-2, 0.5, -6}, 0.5, {4, 0.5, 1}, 0, 0}, 0.25, 0.75);

@@ -1,4 +1,4 @@
-// Zeros that a scene gives as -0 are zeros: no sample counts as negative because of them.
+// A scene's -0 is zero: no sample counts as negative because of it.
 #include "tests/device/kernel_render.h"
 #include "tests/invariance/invariance_scene.h"
 #include "tests/support/context_calls.h"
@@ -17,7 +17,7 @@ using Image = std::vector<float>;
 constexpr std::uint32_t zero_width = 16;
 constexpr std::uint32_t zero_height = 12;
 
-// A room with a lamp that has no blue, all zeros of whose materials have a sign.
+// A room with a lamp without blue; every zero of its materials has the sign.
 InvarianceScene scene_with_zeros(float zero) {
     InvarianceScene scene = InvarianceScene::coursework();
     scene.materials[1].emission[2] = 0;
@@ -42,14 +42,14 @@ protected:
     }
 };
 
-// With one vertex a sample is what the surface emits, and nothing is added to it; with three there are lamps, too.
+// One vertex shows the emission alone; three include lamps.
 TEST_F(NegativeZero, OfMaterialsIsZero) {
     for (const std::uint32_t max_path_length : {1U, 3U})
         EXPECT_EQ(image_of(scene_with_zeros(-0.0F), max_path_length), image_of(scene_with_zeros(0.0F), max_path_length))
             << "vertices: " << max_path_length;
 }
 
-// Negative control: were -0 to reach the kernel, the film would take it for a negative number.
+// Negative control: the film would take a -0 in the kernel for a negative number.
 TEST(NegativeZeroInTheSceneBuffer, IsRejected) {
     const KernelRender render = render_of_scene(scene_with_zeros(0.0F), 1);
     std::vector<glm::vec4> words = render.words();

@@ -1,5 +1,4 @@
-// Opacities: shares of rays in closed form and beside a path tracer in double, and what no bit of the image depends on.
-// Run alone with --gtest_filter=Opacity*.
+// Opacity: shares of rays in closed form, light against a path tracer in double, and bits that must not change.
 #include "tests/support/light_in_double.h"
 
 #include <pt/stats.h>
@@ -22,7 +21,7 @@ using namespace light_in_double;
 
 class Opacity : public LightInDouble {
 protected:
-    // The share of the light of a sky, of radiance 3, 4 and 5, that passes black capsules.
+    // The share of a sky's light (radiance 3, 4, 5) that passes black capsules.
     double share_passed(const std::vector<Given::Capsule> &capsules) {
         Given given = black(capsules);
         given.spheres = {{{0, 0, 0}, 100.0, {0, 0, 0}, 2, 0}};
@@ -57,7 +56,7 @@ Given::Capsule ball_at(const glm::dvec3 &center, double radius, float opacity) {
     return {{center.x, center.y, center.z}, {center.x, center.y, center.z}, radius, 1, opacity};
 }
 
-// Rods and balls of any opacity about the origin, above a floor, and a lamp.
+// Rods and balls of any opacity about the origin, above a floor; and a lamp.
 Given cloud(std::uint32_t count) {
     std::mt19937 engine(5);
     const auto uniform = [&](double low, double high) {
@@ -76,9 +75,8 @@ Given cloud(std::uint32_t count) {
     return given;
 }
 
-// Balls in a row leave the product of what each lets pass, and cover the rest. Of 98,304 rays the share is off by five
-// standard errors, .008 at most, once in 1.7 million times. Negative control: in a row of opacities that are larger by
-// 3% it is.
+// A row of balls passes the product of their transparencies. With 98,304 rays, five standard errors (at most .008) are
+// exceeded once in 1.7 million times. Negative control: opacities larger by 3%.
 TEST_F(Opacity, IsTheShareOfRaysThatMeet) {
     const auto passed = [&](float first, float second) {
         const std::vector<Given::Capsule> row{ball_at({0, 0, 2}, 1.0, first), ball_at({0, 0, -2}, 1.0, second)};
@@ -94,8 +92,8 @@ TEST_F(Opacity, IsTheShareOfRaysThatMeet) {
     EXPECT_NEAR(passed(0.0F, 0.0F), 1.0, 1e-6);
 }
 
-// Spheres about one centre, or apart along an axis by whole steps of a coarse or a fine grid, are met independently:
-// two of opacity .5 let a fourth pass, to the same error.
+// Concentric spheres, and spheres apart by whole grid steps along an axis, are independent: two of opacity .5 pass a
+// fourth.
 TEST_F(Opacity, OfTwoSpheresIsIndependent) {
     const auto passed = [&](const glm::dvec3 &second, double radius, double extent) {
         return share_passed(
@@ -109,7 +107,7 @@ TEST_F(Opacity, OfTwoSpheresIsIndependent) {
     }
 }
 
-// Shells in one another, one through the floor and one about the camera: paths are on both sides of each.
+// Nested shells, one through the floor and one about the camera: paths run on both sides of each.
 Given shells() {
     Given given = cloud(20);
     for (const auto &[height, radius] : {std::pair(0.0, 2.0), {0.0, 1.2}, {-1.5, 1.8}, {-0.5, 3.0}})
@@ -118,7 +116,7 @@ Given shells() {
     return given;
 }
 
-// What is beyond an opaque plane stays there, though a sphere reaches through it.
+// A sphere that reaches through an opaque plane shows nothing behind it.
 TEST_F(Opacity, LeavesPlanesOpaque) {
     Given given = shells();
     given.spheres[0].center[1] = -4.0;
@@ -126,7 +124,7 @@ TEST_F(Opacity, LeavesPlanesOpaque) {
     EXPECT_EQ(std::ranges::count(radiance, 0.0F), static_cast<std::ptrdiff_t>(radiance.size()));
 }
 
-// Negative control: opacities that are larger by a sixth are told from them.
+// Negative control: opacities larger by a sixth.
 TEST_F(Opacity, HasTheLightOfAPathTracerInDouble) {
     const Given given = shells();
     const Blocks exact = exact_blocks(given, 1200);
@@ -137,7 +135,7 @@ TEST_F(Opacity, HasTheLightOfAPathTracerInDouble) {
     EXPECT_GT(largest_error(denser, exact, PT_SAMPLER_SOBOL), most_errors);
 }
 
-// The order of the spheres, which is another tree, the scale, short submissions, and a device for each half.
+// Order of the spheres (another tree), scale, short submissions, two devices.
 TEST_F(Opacity, LeavesNoBitToChance) {
     const Given given = cloud(60);
     const std::vector<float> whole = image(given, 16);

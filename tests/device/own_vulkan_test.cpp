@@ -1,5 +1,5 @@
-// Contexts on the caller's own Vulkan, through pt.h. What the layer in the caller's instance says, leaks included,
-// fails the test.
+// Contexts on the caller's own Vulkan, through pt.h. Messages of the caller's validation layer, leaks included, fail
+// the test.
 #include "tests/device/caller_vulkan.h"
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
@@ -33,7 +33,7 @@ std::vector<float> render(pt_context *context, std::uint64_t seed, std::uint32_t
     return image;
 }
 
-// A mutex for pt_vulkan.lock_queue, which counts.
+// A counting mutex for pt_vulkan.lock_queue.
 struct QueueMutex {
     std::mutex mutex;
     std::uint64_t locks = 0;
@@ -75,7 +75,7 @@ protected:
         return Context(created);
     }
 
-    // Why no context is made, as "result name: message".
+    // pt_create's failure as "result name: message".
     static std::string refusal(const pt_create_info &info) {
         pt_context *created = nullptr;
         const pt_result result = pt_create(&info, &created);
@@ -85,7 +85,7 @@ protected:
     }
     static std::string refusal(const pt_vulkan &vulkan) { return refusal(info_of(vulkan)); }
 
-    // The caller's device and queue do the caller's work.
+    // The caller's device and queue still work.
     void expect_usable() const {
         const vk::raii::Device &device = caller().device();
         const vk::raii::CommandPool pool = device.createCommandPool({.queueFamilyIndex = caller().family()});
@@ -137,7 +137,7 @@ TEST_F(OwnVulkanTest, ContextsInTwoThreadsShareTheQueue) {
     EXPECT_EQ(together[1], alone[1]);
     EXPECT_NE(together[0], together[1]);
     EXPECT_EQ(mutex.locks, mutex.unlocks);
-    EXPECT_GE(mutex.locks, 2 * rounds + 2); // a submission to each image at the least
+    EXPECT_GE(mutex.locks, 2 * rounds + 2); // a submission per image at least
 }
 
 TEST_F(OwnVulkanTest, TheQueueIsFreeWhileTheContextCallsBack) {
@@ -170,7 +170,7 @@ TEST_F(OwnVulkanTest, TheQueueIsFreeWhileTheContextCallsBack) {
     EXPECT_EQ(observer.mutex.locks, observer.mutex.unlocks);
 }
 
-// Drivers may compile a kernel no sooner than it is dispatched, so pt_prepare does that, with no work at all.
+// pt_prepare makes an empty dispatch, because drivers may compile kernels only then.
 TEST_F(OwnVulkanTest, PreparingIsOneSubmission) {
     QueueMutex mutex;
     pt_vulkan vulkan = caller().handles();
@@ -182,8 +182,7 @@ TEST_F(OwnVulkanTest, PreparingIsOneSubmission) {
     EXPECT_EQ(mutex.locks, before + 1);
 }
 
-// A GPU estimates errors behind the samples that they are about: a look at a target costs no submission of its own.
-// Only an error that is asked for without samples does.
+// A GPU estimates errors in the submissions of samples; only an error without samples needs one of its own.
 TEST_F(OwnVulkanTest, LooksAtATargetAreNoSubmissions) {
     QueueMutex mutex;
     pt_vulkan vulkan = caller().handles();
@@ -253,7 +252,7 @@ TEST_F(OwnVulkanTest, ExcludesWhatIsTheLibrarysOwn) {
                              "vulkan, whose instance has its "
                              "own layers\n"
                              "create.device = \"all\": must be NULL with vulkan, which has one");
-    info.struct_size = offsetof(pt_create_info, vulkan); // and so there is none
+    info.struct_size = offsetof(pt_create_info, vulkan); // so there is none
     info.flags = 0;
     info.device = std::getenv("PT_TEST_DEVICE");
     pt_context *created = nullptr;
@@ -278,7 +277,7 @@ TEST_F(OwnVulkanTest, ThePhysicalDeviceMustBeTheInstances) {
     EXPECT_NE(message.find(": must be one of vulkan.instance"), std::string::npos) << message;
 }
 
-// Drivers that offer functions beyond the instance's version cannot be told from newer instances.
+// Skipped on drivers that offer functions beyond the instance's version.
 TEST_F(OwnVulkanTest, TheInstanceMustHaveVersion1_2) {
     for (const std::uint32_t version : {VK_API_VERSION_1_0, VK_API_VERSION_1_1}) {
         const CallersOwnVulkan older(messages_, version);
@@ -294,7 +293,7 @@ TEST_F(OwnVulkanTest, TheInstanceMustHaveVersion1_2) {
     EXPECT_TRUE(context_on(newer.handles()));
 }
 
-// The negative control of every test here: what stays on the device is reported.
+// Negative control of all tests here: the layer reports a leaked object.
 TEST_F(OwnVulkanTest, TheLayerReportsLeaks) {
     if (!CallersOwnVulkan::validation())
         GTEST_SKIP() << "the layer is off";

@@ -1,4 +1,4 @@
-// Samples that are under way between calls: the contract of pt_start, pt_poll and pt_cancel.
+// The contract of pt_start, pt_poll and pt_cancel.
 #include "tests/device/api_fixture.h"
 #include "tests/device/every_call.h"
 #include "tests/support/context_calls.h"
@@ -27,9 +27,8 @@ const std::string under_way =
 const std::string not_under_way = "no samples are under way: call pt_start first";
 
 using Pixels = std::vector<float>;
-using Pattern = std::vector<uint64_t>; // nanoseconds of the polls, over and over
+using Pattern = std::vector<uint64_t>; // nanoseconds of the polls, repeated
 
-// How the device is used: as several, in submissions of a length, as a CPU or as a GPU.
 struct Use {
     uint32_t devices;
     uint32_t submit_milliseconds;
@@ -55,7 +54,7 @@ protected:
         return pt_start(on, &info);
     }
 
-    // What has been started comes to this.
+    // Polls until the end; returns the result.
     static pt_result end_of(pt_context *on, const Pattern &pattern = {to_the_end}) {
         double last = 0.0;
         for (std::size_t i = 0;; ++i) {
@@ -78,7 +77,7 @@ protected:
 
     static Pixels image_of(pt_context *on) { return values_of(on, std::size_t{polled_width} * polled_height); }
 
-    // Of the fixture's context, by pt_accumulate.
+    // By pt_accumulate on the fixture's context.
     Pixels accumulated(uint32_t count) {
         set_up(context());
         accumulate(count);
@@ -102,7 +101,7 @@ TEST_F(PollingTest, AnyPatternOfPollsGivesTheBitsOfACallThatWaits) {
     }
 }
 
-// Right after the start, or some polls later, over and over; and between them calls that wait.
+// Cancels right after the start or some polls later, again and again, with waiting calls between.
 TEST_F(PollingTest, CancellingKeepsWholeSamplesAndTheContextGoesOn) {
     for (const Use &use : {Use{1, 1, false}, Use{1, 1, true}, Use{3, 1, true}}) {
         const Context on = context_for(use);
@@ -136,7 +135,7 @@ TEST_F(PollingTest, CancellingKeepsWholeSamplesAndTheContextGoesOn) {
     }
 }
 
-// The camera moves when samples are under way: these are given up, and nothing of them is in the image.
+// Cancels running samples, then moves the camera: nothing of them is in the image.
 TEST_F(PollingTest, AfterACancellationTheCameraMayMove) {
     const Pixels expected = accumulated(3);
     const Context on = context_for({1, 1, true});
@@ -154,8 +153,8 @@ TEST_F(PollingTest, AfterACancellationTheCameraMayMove) {
     EXPECT_EQ(image_of(on.get()), expected);
 }
 
-// Also where samples are cancelled over and over, which ends with the sample that some tiles have begun: the error is
-// looked at where it would be otherwise, and never while slices are under way.
+// Also with repeated cancellations, which finish the sample that some tiles have begun: the error is checked at the
+// same counts, and never while slices run.
 TEST_F(PollingTest, ATargetIsReachedAtTheSameCount) {
     constexpr uint32_t most = 4096;
     constexpr double target = 0.1;

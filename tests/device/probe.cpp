@@ -1,4 +1,3 @@
-// The shared device and the run of a probe; see probe.h.
 #include "tests/device/probe.h"
 
 #include "lib/vulkan/device_choice.h"
@@ -17,7 +16,7 @@ void on_message(void * /*user*/, int32_t level, const char *line) {
         ADD_FAILURE() << "the Vulkan layer says: " << line;
 }
 
-// Instance and device of the whole program, best device first, as pt_create chooses it.
+// Instance and device of the program, chosen as pt_create does.
 struct SharedDevice {
     pt::Log log{&on_message, nullptr};
     pt::vulkan::Instance instance{log, std::getenv("PT_TEST_NO_VALIDATION") == nullptr};
@@ -44,7 +43,7 @@ constexpr pt::vulkan::Binding bindings[] = {{0, vk::DescriptorType::eUniformBuff
 constexpr std::size_t guard_bytes = 4096;
 constexpr std::byte guard_value{0xa5};
 constexpr std::uint32_t workgroup_size = 64;
-constexpr std::size_t scene_bytes = 16384; // what a uniform buffer surely holds
+constexpr std::size_t scene_bytes = 16384; // every uniform buffer holds these
 
 } // namespace
 

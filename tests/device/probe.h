@@ -1,4 +1,4 @@
-// Runs a small kernel that calls the shipped shader functions on the device, for the tests that compare their results.
+// Runs small kernels that call the shipped shader functions.
 #pragma once
 
 #include "lib/kernel/point_sequence.h"
@@ -13,20 +13,20 @@
 #include <span>
 #include <vector>
 
-// The device that all probes of a test program share, with the validation layer unless PT_TEST_NO_VALIDATION is set.
+// One device for all probes of a program, with the validation layer unless PT_TEST_NO_VALIDATION is set.
 pt::vulkan::Device &probe_device();
 
-// What probes have for the specialization constant ID_POINT_BLOCKS: the 16 KiB that every device offers.
+// ID_POINT_BLOCKS of probes: the 16 KiB that every device offers.
 inline constexpr std::uint32_t probe_point_blocks = 1024;
 
 class Probe {
 public:
-    // constants[i] are the bits of the specialization constant with id i; without them the shaders' defaults hold.
+    // constants[i]: bits of the specialization constant with id i; missing ones keep the shaders' defaults.
     Probe(std::span<const std::uint32_t> spirv, std::uint32_t push_bytes,
           std::span<const std::uint32_t> constants = {});
 
-    // What the following runs find in the scene buffer (bindings 0 and 1), in the tree buffer (binding 5) and in the
-    // table of points (binding 4), which holds up to probe_point_blocks.
+    // Contents for later runs: scene buffer (bindings 0 and 1), tree buffer (5), table of points (4), of up to
+    // probe_point_blocks.
     void set_scene(std::span<const glm::vec4> words) { scene_.assign(words.begin(), words.end()); }
     void set_tree(std::span<const glm::uvec4> nodes, std::span<const glm::uvec4> spheres) {
         tree_nodes_.assign(nodes.begin(), nodes.end());
@@ -34,8 +34,8 @@ public:
     }
     void set_points(std::span<const pt::PointBlock> blocks) { points_.assign(blocks.begin(), blocks.end()); }
 
-    // Gives the kernel input (binding 3) and push constants, runs one invocation per item of invocations, and returns
-    // output_count values (binding 2, zero before). Guard words after the output must survive.
+    // Runs one invocation per item with input (binding 3) and push constants; returns output_count values (binding 2,
+    // initially zero). Guard words after the output must survive.
     template <typename Output, typename Push>
     std::vector<Output> run(std::span<const glm::vec4> input, std::size_t output_count, const Push &push,
                             std::uint32_t invocations) {
@@ -45,7 +45,7 @@ public:
         return output;
     }
 
-    // The same over an output that is not empty: what the kernel does not write, stays.
+    // The same over given output; unwritten parts stay.
     void run_over(std::span<const std::byte> input, std::span<std::byte> output, std::span<const std::byte> push,
                   std::uint32_t invocations);
 

@@ -1,6 +1,6 @@
-// Images of random scenes against those of an independent path tracer in double: trees, parallel rays, what is hidden
-// from the camera, nested balls, motion, spots, twins, all estimators and samplers. PT_TEST_SCENES is the number of
-// scenes; by default one of each kind in a tree and one in a list. Run alone with --gtest_filter=RandomLight*.
+// Random scenes against a path tracer in double: trees, parallel rays, hidden surfaces, nested balls, motion, spots,
+// twins, all estimators and samplers. PT_TEST_SCENES: the number of scenes; by default each kind once in a tree and
+// once in a list.
 #include "tests/support/batch_fixture.h"
 #include "tests/support/light_in_double.h"
 #include "tests/support/shared_context.h"
@@ -40,7 +40,7 @@ struct Picture {
     Kind kind;
     bool has_tree;
     Given given;
-    Given expected; // the same without twins
+    Given expected; // without twins
     pt_render render;
 
     std::string name() const { return std::string(kind_names[kind]) + (has_tree ? ", tree" : ", list"); }
@@ -67,7 +67,7 @@ public:
                 {{uniform(-0.2, 0.2), uniform(-0.2, 0.2), 1}, -uniform(0, 4), material_count + 1, 0});
         set_camera(given, picture.kind);
         picture.expected = given;
-        // In narrow and parallel views, which start near a surface, and in trees float32 tells more apart.
+        // Narrow and parallel views, which start near a surface, and trees resolve more in float32.
         const bool tells_more = picture.has_tree || given.camera.vertical_fov != 0.8;
         if (picture.kind == twins)
             add_twins(given, tells_more ? 0.0 : 1e-7);
@@ -85,7 +85,7 @@ private:
         return material + (kind == hidden && chance(0.4) ? material_count : 0);
     }
 
-    // Lobes that an estimator without lamps or without lobes hardly finds are left to the others.
+    // Moderate exponents where the estimator samples no lobes or no lamps.
     void set_materials(Given &given, Kind kind) {
         const double exponent = kind == weak_estimators ? decades(0, 1.3) : decades(0, kind == spots ? 4 : 3);
         given.materials.push_back({{0.2F, 0.1F, 0.1F}, {0.5F, 0.6F, 0.7F}, {0, 0, 0}, static_cast<float>(exponent), 0});
@@ -95,7 +95,7 @@ private:
         }
     }
 
-    // Balls that cut each other, one of them a lamp at least.
+    // Overlapping balls with at least one lamp.
     void add_balls(Given &given, Kind kind) {
         for (std::uint32_t i = 0; i < 8; ++i) {
             const std::uint32_t material = i == 0 || chance(0.15) ? lamp : chance(0.4) ? glossy : whole(2);
@@ -108,11 +108,11 @@ private:
                 ball.motion[i % 3] = uniform(-1, 1);
             given.spheres.push_back(ball);
         }
-        if (kind == spots) { // a glow on the floor
+        if (kind == spots) { // makes a glow on the floor
             given.spheres[0] = {{uniform(-1, 1), -1.25, uniform(1, 2.5)}, 0.2, {0, 0, 0}, lamp, 0};
             given.spheres[1] = {{uniform(-1.5, 1.5), -0.8, uniform(0, 1)}, 0.7, {0, 0, 0}, glossy, 0};
         }
-        if (kind == nested) { // a dark ball in a lamp, a lamp in a shell, and all of it in a ball
+        if (kind == nested) { // a dark ball in a lamp, a lamp in a shell, and a ball around all
             pt_sphere dark = given.spheres[0];
             dark.radius *= chance(0.5) ? 1.0 - 1e-5 : 0.5;
             dark.material = 0;
@@ -121,7 +121,7 @@ private:
         }
     }
 
-    // Again, somewhat elsewhere and of another material, which does not count.
+    // Copies, slightly displaced, of other materials, which do not count.
     void add_twins(Given &given, double apart) {
         const std::size_t count = given.spheres.size();
         for (std::size_t i = 0; i < count; ++i) {
@@ -180,8 +180,8 @@ protected:
         return deviation(picture.has_tree ? with_tree_.get() : context(), given, exact, picture.render);
     }
 
-    // The sum of many images' deviations, in standard errors: each has the variance of Student's t with 11 degrees of
-    // freedom, where the images' own noise is all. One without noise does not outweigh the others.
+    // The sum of the images' deviations in standard errors; each has the variance of Student's t with 11 degrees of
+    // freedom, if their noise is all. Clamped, so that an image without noise does not dominate.
     static double pooled(const std::vector<double> &deviations) {
         double sum = 0.0;
         for (const double deviation : deviations)
@@ -207,9 +207,9 @@ Given turned(const Picture &picture) {
     return other;
 }
 
-// One false alarm in a thousand runs for single images and blocks, one in ten thousand for all images together.
-// Negative controls: lobes that reflect 3% more in one scene of each kind are told, and in those of them that are in
-// trees, whose kernels stay, lamps that are brighter by 3% and another view.
+// One false alarm in a thousand runs for single images and blocks, in ten thousand for all together. Negative controls:
+// lobes reflecting 3% more in one scene of each kind; with trees, whose kernels stay, also lamps 3% brighter and
+// another view.
 TEST_F(RandomLight, IsThatOfAPathTracerInDouble) {
     const double bound = student_bound(1e-3 / (14.0 * scene_count()), image_count);
     std::vector<double> deviations;

@@ -1,4 +1,4 @@
-// Sums of samples as films hold them, random ones and edge cases, for tests of kernels that read films.
+// Random sums and edge cases of films, for kernels that read films.
 #pragma once
 
 #include "lib/film/pixel_sums.h"
@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-// The sums of three channels and the samples of one part of a pixel.
+// One part of a pixel.
 struct ResolvedPart {
     pt::WideSum sums[3];
     std::uint32_t accepted;
@@ -19,7 +19,7 @@ struct ResolvedPixel {
     ResolvedPart parts[2];
 };
 
-// Random, with every length of sums and counts as likely, and with the largest, the smallest, and ties.
+// All lengths of sums and counts are equally likely; includes the largest, the smallest, and ties.
 class RandomSums {
 public:
     std::uint32_t count(std::uint32_t most) {
@@ -49,7 +49,7 @@ public:
             return most;
         case 3:
         case 4:
-        case 5: { // count * (m + 1/2) 2^k, or beside it: between two floats with m and m + 1 of 24 bits
+        case 5: { // count * (m + 1/2) 2^k or its neighbours: between the floats with 24-bit mantissas m and m + 1
             const pt::WideSum half = 2 * (generator_() % (1U << 23) + (1U << 23)) + 1;
             const int shift = std::uniform_int_distribution(0, 60)(generator_);
             return (half * count << shift) + generator_() % 3 - 1;
@@ -65,7 +65,7 @@ public:
         const std::uint32_t first = count(UINT32_MAX - 1);
         const std::uint32_t second = count(UINT32_MAX - first);
         ResolvedPixel pixel{{{{sum(first), sum(first), sum(first)}, first}, {{sum(second), 0, 0}, second}}};
-        // Means that are equal, or nearly so: what their difference leaves of them is small.
+        // Nearly equal means, whose difference cancels.
         const pt::WideSum nearly = pixel.parts[0].sums[1] / first * second;
         pixel.parts[1].sums[1] = nearly + kind_(generator_) % 2;
         pixel.parts[1].sums[2] = sum(second);
@@ -86,7 +86,7 @@ inline pt::PixelSums film_of(const std::vector<ResolvedPixel> &pixels) {
                 sums.plane(part, word)[i] = static_cast<std::uint32_t>(
                     pixels[i].parts[part].sums[word / pt::gpu::FILM_SUM_WORDS] >> 32 * (word % 4));
             sums.plane(part, pt::gpu::FILM_ACCEPTED)[i] = pixels[i].parts[part].accepted;
-            // So that all pixels have as many, if need be modulo 2^32, as the device counts them.
+            // Equal sample counts in all pixels, modulo 2^32 as on the device.
             sums.plane(part, pt::gpu::FILM_REJECTED)[i] = 100 - pixels[i].parts[part].accepted;
         }
     return sums;

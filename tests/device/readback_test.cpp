@@ -1,4 +1,4 @@
-// Rectangles and formats of pt_readback: parts of the whole image, bit for bit, whether host or device make it.
+// Rectangles and formats of pt_readback have the whole image's bits, from host or device.
 #include "lib/film/pixel_format.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
@@ -17,12 +17,12 @@ namespace {
 
 constexpr std::uint32_t whole_width = 61;
 constexpr std::uint32_t first_row = 7;
-constexpr std::uint32_t whole_height = 40; // rows that are rendered
+constexpr std::uint32_t whole_height = 40; // rendered rows
 constexpr std::byte untouched{0xa5};
 
 class ReadbackTest : public ContextFixture {
 protected:
-    // With samples in both parts of the film, so that standard errors are numbers.
+    // Both parts of the film get samples, so standard errors are numbers.
     static void render(pt_context *context) {
         const CourseworkScene coursework;
         pt_render settings = render_of(whole_width, whole_height + 2 * first_row, 3);
@@ -31,7 +31,7 @@ protected:
         render_image(context, coursework.scene(), CourseworkScene::camera(), settings, 17);
     }
 
-    // Each path: sums become pixels on the host, on the device, and on the host where devices share the work.
+    // Each path of a readback: on the host, on the device, and on the host with shared work.
     template <typename Test>
     void on_each_path(const Test &test) {
         for (const auto &[devices, like_gpus] : {std::tuple(1U, false), {1U, true}, {2U, true}}) {
@@ -94,7 +94,7 @@ TEST_F(ReadbackTest, RectanglesAndFormatsArePartsOfTheImage) {
     });
 }
 
-// Whoever has the memory, and after images of other sizes.
+// With the caller's or the context's memory, and after images of other sizes.
 TEST_F(ReadbackTest, MappedImagesHaveTheSameBytes) {
     on_each_path([](pt_context *context) {
         for (const std::uint32_t quantity : {PT_QUANTITY_RADIANCE, PT_QUANTITY_STANDARD_ERROR, PT_QUANTITY_DEPTH})
@@ -168,7 +168,7 @@ TEST_F(ReadbackTest, RectanglesMustLieWithinWhatIsRendered) {
     render(context());
     std::vector<float> pixels(std::size_t{3} * whole_width * whole_height);
     pt_image target = image_target(pixels);
-    target.y = whole_height - 1; // of rows that are rendered, not of the image
+    target.y = whole_height - 1; // counts rendered rows, not the image's
     target.width = 1;
     target.height = 1;
     EXPECT_EQ(pt_readback(context(), &target), PT_OK) << pt_last_error(context());

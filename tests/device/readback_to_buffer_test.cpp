@@ -24,7 +24,7 @@ constexpr std::uint32_t guard_word = 0xa5a5a5a5;
 
 using BufferContents = std::vector<std::byte>;
 
-// A buffer of the caller's that kernels write, and where the host looks into it.
+// A buffer for kernels, mapped for the host.
 class CallersBuffer {
 public:
     CallersBuffer(const CallersOwnVulkan &caller, vk::BufferUsageFlags usage) :
@@ -70,7 +70,7 @@ protected:
         CallerVulkanFixture::TearDown();
     }
 
-    // A context with samples in both parts of its film.
+    // Both parts of its film get samples.
     void use_context(bool like_gpus) {
         const pt_vulkan vulkan = caller_->handles();
         pt_create_info info{};
@@ -99,7 +99,7 @@ protected:
         return std::bit_cast<std::uint64_t>(static_cast<VkSemaphore>(*semaphore));
     }
 
-    // What the buffer holds after the image is written to guard words.
+    // The buffer's contents after writing the image over guard words.
     BufferContents expected(const pt_buffer_image &image) const {
         const std::uint64_t row =
             std::uint64_t{image.width == 0 ? lent_width : image.width} * pt::pixel_bytes(image.format);
@@ -123,7 +123,7 @@ protected:
         return bytes;
     }
 
-    // Work of the caller's. Both semaphores may be none.
+    // Submits the caller's work. Semaphores may be null.
     template <typename Record>
     void submit(const Record &record, vk::Semaphore wait, vk::Semaphore signal) {
         if (!pool_)
@@ -144,7 +144,7 @@ protected:
                                                .pSignalSemaphores = &signal});
     }
 
-    // Copies the buffer on the device, after the semaphore, and waits for that.
+    // Copies the buffer on the device after the semaphore, and waits.
     void copy_to(const CallersBuffer &copy, vk::Semaphore semaphore) {
         submit(
             [&](const vk::raii::CommandBuffer &commands) {
@@ -200,7 +200,7 @@ TEST_F(ReadbackToBufferTest, HasTheBitsOfReadback) {
     }
 }
 
-// The call returns while the work before it cannot end, and the caller's commands after it find the pixels.
+// The call returns before the gated work ends; the caller's later commands find the pixels.
 TEST_F(ReadbackToBufferTest, WithASemaphoreToSignalTheHostDoesNotWait) {
     for (const bool like_gpus : {false, true}) {
         use_context(like_gpus);
@@ -221,7 +221,7 @@ TEST_F(ReadbackToBufferTest, WithASemaphoreToSignalTheHostDoesNotWait) {
     }
 }
 
-// Of semaphores that were left alone, and of those used twice, the layer would tell in the second round.
+// The second round makes the layer report semaphores left signaled or used twice.
 TEST_F(ReadbackToBufferTest, SemaphoresOrderItOnTheDevice) {
     use_context(true);
     const vk::raii::Semaphore before = caller_->device().createSemaphore({});
@@ -245,7 +245,7 @@ TEST_F(ReadbackToBufferTest, SemaphoresOrderItOnTheDevice) {
     }
 }
 
-// While a call's work is under way, the context may be used, given other settings, and destroyed.
+// While the call's work is running, the context may be used, changed and destroyed.
 TEST_F(ReadbackToBufferTest, TheContextGoesOnMeanwhile) {
     use_context(true);
     const BufferContents before = expected(target());
@@ -272,8 +272,7 @@ TEST_F(ReadbackToBufferTest, TheContextGoesOnMeanwhile) {
     caller_->device().waitIdle();
 }
 
-// Not even where the host has the film in its memory: samples that move the film's split are begun while the image of
-// those before cannot be made yet.
+// Also with the film in host memory: samples that move its split begin before the earlier image can be made.
 TEST_F(ReadbackToBufferTest, LaterSamplesDoNotChangeIt) {
     for (const bool like_gpus : {false, true}) {
         use_context(like_gpus);

@@ -1,4 +1,4 @@
-// A kernel with a result that the host knows, and numbers in buffers. Used by the tests of lib/vulkan/.
+// A kernel whose result the host knows, for the tests of lib/vulkan/.
 #pragma once
 
 #include "lib/vulkan/buffer.h"
@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-// The kernel recurrence.comp: values[i] becomes what step makes of values[i] + offset, step by step.
+// recurrence.comp: iterates step() from values[i] + offset.
 class Recurrence {
 public:
     static constexpr std::uint32_t multiplier = 1664525;
@@ -34,7 +34,6 @@ public:
     std::size_t value_count() const { return std::size_t{group_count_} * 64; }
     pt::vulkan::Buffer &values() { return values_; }
 
-    // Fills the kernel's buffers.
     void start_with(std::span<const std::uint32_t> values) {
         const std::array words = {offset, 0U, 0U, 0U};
         offset_.upload(std::as_bytes(std::span(words)), 0);

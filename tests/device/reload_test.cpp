@@ -1,4 +1,4 @@
-// The contract of pt_reload_shaders: kernels are replaced only on success, and all samples are of one kernel.
+// The contract of pt_reload_shaders: kernels are replaced on success only, and all samples are of one kernel.
 #include "lib/render/renderer.h"
 #include "lib/scene/scene.h"
 #include "tests/device/api_fixture.h"
@@ -51,7 +51,7 @@ protected:
 
     static uint32_t sample_count_of(pt_context *on) { return stats_of(on).sample_count; }
 
-    // That the context holds so many samples of the fixture's scene, which is uniform, times a factor.
+    // The context has `count` samples of the uniform scene, times a factor.
     static void expect_samples(pt_context *on, uint32_t count, float factor) {
         EXPECT_EQ(sample_count_of(on), count);
         std::vector<float> pixels(width * height * 3, -1.0F);
@@ -66,7 +66,7 @@ protected:
         EXPECT_NE(own_message().find(part), std::string::npos) << own_message() << "\nmust contain\n" << part;
     }
 
-    // The exact change: powers of two scale every sum without rounding.
+    // Exact: powers of two scale sums without rounding.
     void double_the_radiance() const {
         shaders_.replace("pathtrace.comp", "* held.film_scale", "* (2.0 * held.film_scale)");
     }
@@ -135,7 +135,7 @@ TEST_F(ReloadTest, AContextIsNotCreatedOfWhatDoesNotCompile) {
 
 TEST_F(ReloadTest, AFailureKeepsKernelsAndSamples) {
     accumulate_on(own(), 3);
-    double_the_radiance(); // must not come into force with the rest broken
+    double_the_radiance(); // must not take effect while another file is broken
     const std::string film = shaders_.read("film.glsl");
     expect_refusal(shaders_.break_after_line("film.glsl", 30));
     expect_samples(own(), 3, 1);
@@ -182,7 +182,7 @@ int32_t stop(void * /*user*/, double /*fraction*/) {
     return 1;
 }
 
-// A sample that is split over submissions goes on after a reload that changes nothing.
+// A sample split over submissions continues after a reload without changes.
 TEST_F(ReloadTest, WorkUnderWayGoesOnOrIsDiscarded) {
     const std::string folder = shaders_.path();
     const Context slow = create_context([&](pt_create_info &info) {
@@ -220,15 +220,14 @@ TEST_F(ReloadTest, AllDevicesGetTheKernels) {
     expect_samples(shared.get(), 64, 2);
 }
 
-// lavapipe 22.3.6 loses memory when it refuses a kernel.
+// lavapipe 22.3.6 leaks when it refuses a kernel.
 #ifdef __SANITIZE_ADDRESS__
 using DriverMayLeak = __lsan::ScopedDisabler;
 #else
 struct DriverMayLeak {};
 #endif
 
-// Code whose entry point has another name than "main" is no kernel for any driver. Without the validation layer,
-// which would complain of it first.
+// A renamed entry point makes code that every driver refuses. Without the validation layer, which would complain first.
 TEST_F(ReloadTest, KernelsThatTheDriverRefusesAreNotTaken) {
     pt::CreateSettings settings;
     settings.device = std::getenv("PT_TEST_DEVICE") ? std::getenv("PT_TEST_DEVICE") : "";

@@ -1,4 +1,4 @@
-// Slices of a device as Accumulation asks for them.
+// Slices on a device, as Accumulation requests them.
 #include "lib/render/render_device.h"
 #include "tests/device/coursework_gpu_scene.h"
 #include "tests/device/vulkan_fixture.h"
@@ -40,7 +40,7 @@ protected:
         return sums;
     }
 
-    // Takes samples in these tiles, which have those before.
+    // Takes `samples` in tiles that have `before`.
     static void take(pt::RenderDevice &device, std::span<const std::uint32_t> tiles, const pt::SampleRange &before,
                      const pt::SampleRange &samples) {
         device.start({tiles, before, samples, true});
@@ -48,9 +48,9 @@ protected:
     }
 };
 
-constexpr std::array<std::uint32_t, 6> all_tiles = {0, 1, 2, 3, 4, 5}; // the last ones in part
+constexpr std::array<std::uint32_t, 6> all_tiles = {0, 1, 2, 3, 4, 5}; // the last ones partial
 
-// The sums of what the film's tiles say, in their order: another film has others.
+// A fingerprint of the film's tile errors.
 std::array<double, 6> sums_of_tiles(const std::function<void(const pt::ErrorReader::Receive &)> &read) {
     std::array<double, 6> sums{};
     read([&](const pt::TileErrors &tiles) {
@@ -64,7 +64,7 @@ std::array<double, 6> sums_of_tiles(const std::function<void(const pt::ErrorRead
     return sums;
 }
 
-// Over samples that move the split of the film's parts, up or down, and samples that do not.
+// Samples that move the film's split up or down, and samples that do not.
 TEST_F(RenderDeviceTest, AnErrorBehindItsSamplesIsThatOfTheFilm) {
     pt::RenderDevice device = ready_device(60.0, pt::vulkan::gpu_like_policy());
     set_up(device);

@@ -1,5 +1,5 @@
-// Means and standard errors of exact sums, from the device and from the host, against exact whole numbers and long
-// double. PT_TEST_SUMS is the number of random sums, where these are to be more.
+// Means and standard errors of exact sums, from device and host, against exact integers and long double. PT_TEST_SUMS:
+// the number of random sums.
 #include "lib/film/pixel_format.h"
 #include "lib/film/quotient.h"
 #include "lib/kernel/buffer_writer.h"
@@ -48,7 +48,6 @@ protected:
         return pixels;
     }
 
-    // What kernel and host make of the sums.
     struct Values {
         std::vector<float> device;
         std::vector<float> host;
@@ -93,7 +92,7 @@ private:
     std::optional<pt::ResolvePipelines> pipelines_;
 };
 
-// Units so that the means are what pictures have, and beyond both ends of the range of float.
+// Units for usual means, and beyond both ends of float's range.
 TEST_F(Resolve, BitsAreThoseOfTheExactQuotient) {
     device_with(pt::vulkan::gpu_like_policy());
     RandomSums random;
@@ -126,7 +125,7 @@ TEST_F(Resolve, BitsAreThoseOfTheExactQuotient) {
     }
 }
 
-// Every float16 number and what is at both sides of the middles between them, and numbers beyond both ends.
+// Every float16, both sides of the midpoints between them, and numbers beyond both ends.
 TEST_F(Resolve, FormatsAreThoseOfTheHost) {
     device_with(pt::vulkan::gpu_like_policy());
     std::vector<float> numbers = {65536.0F, 1e9F, 0x1p-40F};
@@ -137,7 +136,7 @@ TEST_F(Resolve, FormatsAreThoseOfTheHost) {
             numbers.push_back(number);
     }
     numbers.resize(3 * std::size_t{width} * height);
-    constexpr int exponent = -60; // of the last bit of all of them, and of the sums
+    constexpr int exponent = -60; // of the last bit of numbers and sums
     std::vector<ResolvedPixel> pixels(std::size_t{width} * height);
     for (std::size_t i = 0; i < numbers.size(); ++i)
         pixels[i / 3].parts[0].sums[i % 3] = static_cast<WideSum>(std::ldexp(numbers[i], -exponent));
@@ -162,8 +161,7 @@ TEST_F(Resolve, FormatsAreThoseOfTheHost) {
         }
 }
 
-// Into a buffer of the device, strip by strip of the film and piece by piece of the buffer: the bytes that the host
-// reads, at any place, and nothing beside them.
+// Into a buffer, by strips of the film and pieces of the buffer: the host's bytes at any offset, and nothing else.
 TEST_F(Resolve, BuffersHoldTheImageAndNothingElse) {
     device_with(pt::vulkan::gpu_like_policy());
     RandomSums random;
@@ -201,7 +199,7 @@ TEST_F(Resolve, BuffersHoldTheImageAndNothingElse) {
     }
 }
 
-// Of a call that does not wait the next one tells, and writes nothing.
+// The call does not wait; the next one reports the loss and writes nothing.
 TEST_F(Resolve, SamplesLostOnTheWayToABufferAreAnError) {
     device_with(pt::vulkan::gpu_like_policy());
     pt::DeviceFilm film(device(), width, height, 30'000);
@@ -224,7 +222,7 @@ TEST_F(Resolve, SamplesLostOnTheWayToABufferAreAnError) {
     writer.write(of_one, {buffer.handle(), 0, width * 12, {}});
 }
 
-// In the first of several pieces, while the next is under way: whatever that comes to, the device can go on.
+// In the first of several pieces while the next is running; the device stays usable.
 TEST_F(Resolve, LostSamplesAreAnError) {
     device_with(pt::vulkan::gpu_like_policy());
     constexpr std::uint32_t high = 1200;

@@ -1,4 +1,4 @@
-// The caller's rounding mode: it changes no bit of an image, and every call restores it.
+// The caller's rounding mode changes no bit of an image, and every call restores it.
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
@@ -22,7 +22,7 @@ protected:
         bool operator==(const Outcome &) const = default;
     };
 
-    // A context's life in one rounding mode, driver threads and all, in which the sampler has points to compute.
+    // A context's whole life, driver threads included, in one rounding mode, with points to compute.
     Outcome render(int rounding) {
         std::fesetround(rounding);
         const Context made = create_context([](pt_create_info &info) { info.flags = 0; });

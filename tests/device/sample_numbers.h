@@ -1,5 +1,4 @@
-// Takes numbers of samples with the shipped sampler on the device, and compares them with uniform ones. Used by the
-// tests of the sampler.
+// The sampler's numbers from the device, and statistics against uniform ones.
 #pragma once
 
 #include "lib/kernel/point_sequence.h"
@@ -19,7 +18,7 @@
 
 namespace sample_numbers {
 
-// What the probe takes as push constants: which samples of which pixels, and which block of them.
+// Push constants of the probe.
 struct Request {
     glm::uvec2 seed{1, 2};
     std::uint32_t first_pixel = 0;
@@ -33,7 +32,7 @@ struct Request {
     std::uint64_t table_seed() const { return std::uint64_t{seed.x} << 32 | seed.y; }
 };
 
-// Numbers as multiples of 2^-24, pixel by pixel.
+// Numbers times 2^24, pixel by pixel.
 using Blocks = std::vector<glm::uvec4>;
 
 inline constexpr double scale = 16777216.0; // 2^24
@@ -54,9 +53,9 @@ inline Blocks as_integers(const std::vector<glm::vec4> &numbers) {
 
 inline constexpr std::uint32_t table_blocks = 4;
 inline constexpr std::uint32_t shared_blocks = 1;  // of a scene without lamps
-inline constexpr std::uint32_t most_blocks = 6000; // of a path, so not all of them are in the table
+inline constexpr std::uint32_t most_blocks = 6000; // of a path; more than the table holds
 
-// Rows for up to 256 samples with one branch fit into the probe's table.
+// Rows for up to 256 samples with one branch fill the probe's table.
 inline pt::PointLayout layout_of(std::uint32_t branches) {
     return {std::vector<std::uint32_t>(table_blocks, 4), shared_blocks, branches};
 }
@@ -74,23 +73,23 @@ inline Blocks take_from(const Table &table, std::uint32_t sampler, const Request
     constants[pt::gpu::ID_SAMPLER] = sampler;
     constants[pt::gpu::ID_TABLE_BLOCKS] = sampler == PT_SAMPLER_RANDOM ? 0 : table_blocks;
     constants[pt::gpu::ID_BRANCH_COUNT] = branches;
-    constants[pt::gpu::ID_MAX_PATH_LENGTH] = most_blocks; // one block for each vertex without a lamp
+    constants[pt::gpu::ID_MAX_PATH_LENGTH] = most_blocks; // one block per vertex without a lamp
     constants[pt::gpu::ID_POINT_BLOCKS] = probe_point_blocks;
     Probe probe(sample_numbers_spirv(), sizeof request, constants);
     probe.set_points(table);
     return as_integers(probe.run<glm::vec4>({}, request.invocations(), request, request.invocations()));
 }
 
-// What is beyond the table takes none.
+// Without a table for blocks beyond it.
 inline Blocks take(std::uint32_t sampler, const Request &request) {
     const bool in_table = sampler != PT_SAMPLER_RANDOM && request.block < table_blocks;
     return take_from(in_table ? table_of(sampler, request) : Table{}, sampler, request);
 }
 
-// One false alarm in a million, over the at most 72 chi-squares of these tests together.
+// One false alarm in a million over at most 72 chi-squares.
 inline const double bound = statistics::normal_quantile(1e-6 / 72);
 
-// Chi-square deviate of numbers against uniform ones.
+// Chi-square deviate against uniform numbers.
 inline double uniform_deviate(const std::vector<std::uint32_t> &numbers) {
     constexpr std::uint32_t cells = 256;
     std::vector<double> observed(cells);
@@ -100,7 +99,7 @@ inline double uniform_deviate(const std::vector<std::uint32_t> &numbers) {
                                           std::vector<double>(cells, static_cast<double>(numbers.size()) / cells));
 }
 
-// Chi-square deviate of pairs of numbers against uniform ones of the square.
+// Chi-square deviate of pairs against uniform points of the square.
 inline double pair_deviate(const std::vector<std::uint32_t> &x, const std::vector<std::uint32_t> &y) {
     constexpr std::uint32_t side_bits = 6;
     constexpr std::uint32_t cells = 1U << (2 * side_bits);
@@ -110,7 +109,7 @@ inline double pair_deviate(const std::vector<std::uint32_t> &x, const std::vecto
     return statistics::chi_square_deviate(observed, std::vector<double>(cells, static_cast<double>(x.size()) / cells));
 }
 
-// One component of blocks, every stride-th from first on.
+// One component of every stride-th block.
 inline std::vector<std::uint32_t> component(const Blocks &blocks, int which, std::size_t first = 0,
                                             std::size_t stride = 1) {
     std::vector<std::uint32_t> numbers;

@@ -1,5 +1,4 @@
-// How Sobol points are scrambled on the device: another way in every pixel, dimension and seed. Run alone with
-// --gtest_filter=*Sobol*.
+// Scrambles of Sobol points on the device differ by pixel, dimension and seed.
 #include "tests/device/sample_numbers.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +11,7 @@ using namespace sample_numbers;
 
 namespace {
 
-// 64 points of 24 bits: two equal sets by chance are out of the question.
+// 64 points of 24 bits are never equal by chance.
 TEST(SamplerSobol, ScramblesDifferBetweenPixelsDimensionsAndSeeds) {
     Request request;
     request.pixel_count = 1024;
@@ -33,9 +32,9 @@ TEST(SamplerSobol, ScramblesDifferBetweenPixelsDimensionsAndSeeds) {
     EXPECT_EQ(distinct.size(), taken);
 }
 
-// The point with index 0 lies at the origin in every dimension, so its numbers are scrambling and shift alone. Their
-// first digits must be independent between the blocks of a path, or paths whose fate hangs on several of them
-// (Russian roulette) come out wrong at low sample counts. Seeds and pixels vary together.
+// Point 0 is the origin in every dimension, so its numbers are scramble and shift alone. Their first digits must be
+// independent between the blocks of a path: otherwise paths that depend on several of them (Russian roulette) are wrong
+// at low sample counts. Seeds and pixels vary together.
 std::vector<std::vector<std::uint32_t>> scrambles_of_blocks(int component_index) {
     std::vector<std::vector<std::uint32_t>> blocks;
     for (std::uint32_t block = 0; block < table_blocks; ++block) {
@@ -53,7 +52,7 @@ std::vector<std::vector<std::uint32_t>> scrambles_of_blocks(int component_index)
     return blocks;
 }
 
-// Chi-square deviate of three numbers of a pixel against uniform ones of the cube.
+// Chi-square deviate of triples against uniform points of the cube.
 double triple_deviate(const std::vector<std::uint32_t> &x, const std::vector<std::uint32_t> &y,
                       const std::vector<std::uint32_t> &z) {
     constexpr std::uint32_t cells = 16 * 16 * 16;
@@ -63,8 +62,8 @@ double triple_deviate(const std::vector<std::uint32_t> &x, const std::vector<std
     return statistics::chi_square_deviate(observed, std::vector<double>(cells, static_cast<double>(x.size()) / cells));
 }
 
-// The shifts of a pixel's blocks are multiples of one word: where the factors of three blocks had a sum of 0 with small
-// weights, as those of an arithmetic progression have, the shifts would lie on a few planes.
+// The shifts of a pixel's blocks are multiples of one word. If the factors of three blocks summed to 0 with small
+// weights, as in arithmetic progressions, the shifts would lie on few planes.
 TEST(SobolScrambling, IsIndependentAmongThreeBlocksOfAPath) {
     for (const int which : {0, 1, 2}) {
         const auto blocks = scrambles_of_blocks(which);

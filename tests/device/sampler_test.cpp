@@ -1,5 +1,4 @@
-// The numbers of samples as the device makes them: range, uniformity, and what each sampler promises about pixels.
-// Run alone with --gtest_filter=Sampler*.
+// The device's numbers of samples: range, uniformity, and each sampler's promises about pixels.
 #include "tests/device/sample_numbers.h"
 
 #include <gtest/gtest.h>
@@ -40,7 +39,7 @@ TEST_P(Sampler, StaysBelowOneForWordsOfAllOnes) {
     }
 }
 
-// In each pixel alone a number is uniform over samples; over pixels each sample is, unless all pixels share it.
+// Over the samples of a pixel, and over the pixels of a sample unless all pixels share it.
 TEST_P(Sampler, IsUniformOverPixels) {
     if (GetParam() == PT_SAMPLER_HALTON)
         GTEST_SKIP() << "the same in every pixel";
@@ -50,7 +49,7 @@ TEST_P(Sampler, IsUniformOverPixels) {
     const Blocks blocks = take(GetParam(), request);
     EXPECT_LT(uniform_deviate(component(blocks, 0)), bound);
     EXPECT_LT(uniform_deviate(component(blocks, 3)), bound);
-    // Neighbouring dimensions, and neighbouring pixels.
+    // Neighbouring dimensions and pixels.
     EXPECT_LT(pair_deviate(component(blocks, 0), component(blocks, 1)), bound);
     EXPECT_LT(pair_deviate(component(blocks, 1), component(blocks, 3)), bound);
     EXPECT_LT(pair_deviate(component(blocks, 2, 0, 2), component(blocks, 2, 1, 2)), bound);
@@ -59,7 +58,7 @@ TEST_P(Sampler, IsUniformOverPixels) {
     EXPECT_LT(pair_deviate(component(blocks, 3), component(take(GetParam(), request), 0)), bound);
 }
 
-// A block that the table does not have is random whatever the sampler; so is every one of the random sampler.
+// Blocks beyond the table are random with any sampler.
 TEST_P(Sampler, IsRandomBeyondTheTable) {
     Request request;
     request.block = table_blocks;
@@ -69,19 +68,18 @@ TEST_P(Sampler, IsRandomBeyondTheTable) {
     const Blocks blocks = take(GetParam(), request);
     EXPECT_EQ(blocks, take(PT_SAMPLER_RANDOM, request));
     EXPECT_LT(uniform_deviate(component(blocks, 1)), bound);
-    // Successive samples, and samples of neighbouring pixels.
+    // Successive samples, and neighbouring pixels.
     EXPECT_LT(pair_deviate(component(blocks, 0, 0, 2), component(blocks, 0, 1, 2)), bound);
     const Blocks one(blocks.begin(), blocks.begin() + request.sample_count);
     const Blocks other(blocks.begin() + request.sample_count, blocks.end());
     EXPECT_LT(pair_deviate(component(one, 2), component(other, 2)), bound);
-    // The last block within the table is not.
+    // The last block of the table is not random.
     --request.block;
     request.sample_count = 256;
     EXPECT_EQ(take(GetParam(), request) == take(PT_SAMPLER_RANDOM, request), GetParam() == PT_SAMPLER_RANDOM);
 }
 
-// Without a table too a branch is a sample of its own; where B i + b passes 2^32, its numbers are not those of the
-// sample whose index is left.
+// Without a table too a branch is an independent sample, also where B i + b passes 2^32.
 TEST(SamplerRandom, BranchesAreSamplesOfTheirOwn) {
     constexpr std::uint32_t branches = 4;
     Request request;
@@ -146,8 +144,8 @@ TEST(SamplerHalton, OfABranchIsTheRadicalInverseOfASampleOfItsOwn) {
         }
 }
 
-// Whether in each pixel the points of the table are all shifted by one number in each dimension: digit by digit, or
-// modulo 1, where cutting the sum to 24 bits leaves a difference of a unit.
+// Whether a pixel shifts all points of the table by one number per dimension: digit by digit, or modulo 1, where
+// truncation to 24 bits leaves a unit.
 bool is_shifted_in_pixels(const Table &table, const Blocks &blocks, std::uint32_t sampler, const Request &request) {
     constexpr std::uint32_t mask = (1U << 24) - 1;
     const auto shift_of = [&](std::uint32_t place, int d) {
@@ -165,7 +163,7 @@ bool is_shifted_in_pixels(const Table &table, const Blocks &blocks, std::uint32_
     return true;
 }
 
-// So what is a net, as Sobol's points are, stays one in every pixel.
+// Such shifts keep Sobol's nets in every pixel.
 TEST(SamplerShifts, AreOneInEachPixelAndDimension) {
     Request request;
     request.pixel_count = 256;
@@ -181,8 +179,8 @@ TEST(SamplerShifts, AreOneInEachPixelAndDimension) {
         }
 }
 
-// The chi-squares must be able to fail: Halton's points of one pixel are far more even than random ones are, but
-// repeated over pixels they are far less so, and a correlation of 3 in 100 between neighbours shows.
+// Halton's points over pixels are far less even than random ones, and a correlation of 3 in 100 between neighbours
+// shows.
 TEST(SamplerChecks, NegativeControls) {
     Request request;
     request.pixel_count = 1U << 18;

@@ -1,4 +1,4 @@
-// Films that are saved and added: the bits of renders that were never cut, and refusals that change nothing.
+// Films saved and added have the bits of uninterrupted renders; refusals change nothing.
 #include "lib/base/digest.h"
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
@@ -24,7 +24,6 @@ using Bytes = std::vector<char>;
 constexpr uint32_t film_width = 21;
 constexpr uint32_t film_height = 14;
 
-// What a context has to show.
 struct Picture {
     std::vector<float> radiance, standard_error;
     pt_stats stats;
@@ -81,7 +80,7 @@ protected:
         return bytes;
     }
 
-    // Gives changed bytes the checksum that fits.
+    // Replaces the checksum.
     static void seal(Bytes &film) {
         const std::size_t checked = film.size() - sizeof(uint64_t);
         const uint64_t checksum = pt::checksum(std::as_bytes(std::span(film).first(checked)));
@@ -103,7 +102,7 @@ protected:
         return picture;
     }
 
-    // The film of the samples [first, end), rendered by themselves.
+    // The film of the samples [first, end) alone.
     Bytes part(uint32_t first, uint32_t end) {
         set_up(context(), settings(first));
         accumulate_on(context(), end - first);
@@ -117,7 +116,7 @@ protected:
     }
 };
 
-// Ends of the ranges are on either side of splits, and one range is within eight samples.
+// Ends on either side of splits, and a range within eight samples.
 TEST_F(SavedFilm, PartsAddUpToTheWholeInAnyOrder) {
     const Picture expected = whole(150);
     const uint32_t ends[] = {0, 3, 7, 30, 64, 65, 100, 128, 150};
@@ -164,11 +163,11 @@ TEST_F(SavedFilm, AsAValueShowsWhatTheContextShows) {
     EXPECT_EQ(kept_error.uncertain, rendered.uncertain);
     for (double Error::*const each : {&Error::rmse, &Error::rmse_low, &Error::rmse_high, &Error::relative_rmse,
                                       &Error::relative_rmse_low, &Error::relative_rmse_high})
-        // A GPU sums up the squares of 16 tiles, at most 3072, in float32: each sum is within 3072 x 2^-24.
+        // A GPU sums the squares of 16 tiles, at most 3072, in float32: within 3072 x 2^-24.
         EXPECT_NEAR(kept_error.*each, rendered.*each, 2e-4 * rendered.*each);
 }
 
-// Sums of parts of the sequence that are added to others, in a context that has rendered itself, and by itself again.
+// Partial films added to a context that has rendered, which then renders the missing samples.
 TEST_F(SavedFilm, AContextGoesOnWithTheSamplesThatAreMissing) {
     const Picture expected = whole(100);
     const Bytes middle = part(20, 50);
@@ -185,7 +184,7 @@ TEST_F(SavedFilm, AContextGoesOnWithTheSamplesThatAreMissing) {
     EXPECT_FALSE(whole(99) == expected);
 }
 
-// The hull of the samples is then all that there is.
+// The range of samples then covers all indices.
 TEST_F(SavedFilm, FilmsReachToTheLastIndex) {
     constexpr uint32_t first_of_last = UINT32_MAX - 39;
     const Bytes early = part(0, 30);
@@ -230,7 +229,7 @@ TEST_F(SavedFilm, RowsAreFilmsOfTheirOwn) {
             "rendered on"));
 }
 
-// Whatever differs is named, and the context has what it had.
+// The message names the difference; the context keeps its film.
 TEST_F(SavedFilm, StrangersAreRefusedAndNothingChanges) {
     const auto strange_film = [&](const std::function<void(pt_render &, pt_camera &)> &change) {
         pt_render render = settings(0);
@@ -246,7 +245,7 @@ TEST_F(SavedFilm, StrangersAreRefusedAndNothingChanges) {
         std::copy(to.begin(), to.end(), place);
         return film;
     };
-    // As if made by another one: the first letter of its value differs, and the checksum fits.
+    // As by another scene: the value's first letter changes, the checksum fits.
     const auto with_another = [](Bytes film, const std::string &name) {
         const std::string start = "\n" + name + ' ';
         const auto value = std::search(film.begin(), film.end(), start.begin(), start.end()) +
@@ -290,7 +289,7 @@ TEST_F(SavedFilm, StrangersAreRefusedAndNothingChanges) {
     }
 }
 
-// Each line by itself says what it should.
+// Each line alone is valid.
 TEST_F(SavedFilm, RepeatedLinesAreRefused) {
     Bytes film = part(12, 20);
     set_up(context(), settings(0));

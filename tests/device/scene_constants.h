@@ -1,5 +1,4 @@
-// Specialization constants for a kernel that finds its scene in one place or another. Used by the tests of those
-// places.
+// Specialization constants that tell a kernel where its scene is.
 #pragma once
 
 #include "shaders/specialization.h"
@@ -10,7 +9,7 @@
 #include <span>
 #include <vector>
 
-// Takes over constants; the numbers of the words follow them if they are where the scene is.
+// Appends the scene's words if they are constants.
 inline std::vector<std::uint32_t> with_scene_source(std::span<const std::uint32_t> constants, std::uint32_t source,
                                                     std::span<const glm::vec4> words) {
     std::vector<std::uint32_t> result(constants.begin(), constants.end());
@@ -23,7 +22,7 @@ inline std::vector<std::uint32_t> with_scene_source(std::span<const std::uint32_
     return result;
 }
 
-// Fills the scene's buffer, unless the kernel has the scene without: then with other words of the same number.
+// Fills the scene's buffer; with wrong words if the scene is in constants.
 inline void set_scene_for(Probe &probe, std::uint32_t source, std::span<const glm::vec4> words) {
     if (source == pt::gpu::SCENE_IN_CONSTANTS)
         probe.set_scene(std::vector<glm::vec4>(words.size(), glm::vec4(-77.0F)));

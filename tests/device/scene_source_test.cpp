@@ -1,5 +1,5 @@
-// The path tracer gives the same bits wherever it finds the scene: in constants of its own, in a uniform or a storage
-// buffer, or in a storage buffer that it reads by the uniform binding; and whether it compares floats or integers.
+// The path tracer gives the same bits from constants, uniform or storage buffers, or a storage buffer read through the
+// uniform binding, and whether it compares floats or integers.
 #include "tests/device/kernel_render.h"
 #include "tests/device/table_words.h"
 #include "tests/invariance/invariance_scene.h"
@@ -23,8 +23,7 @@ constexpr std::uint32_t source_width = KernelRender::width;
 constexpr std::uint32_t source_height = KernelRender::height;
 constexpr std::uint32_t sample_count = KernelRender::most_samples;
 
-// Whether the kernel makes the same film of the words of the scene, where source says that it finds them, as of the
-// scene.
+// Compares the film of given words in a given place with the scene's own film.
 struct Comparison {
     const KernelRender &render;
     const FilmWords film;
@@ -38,12 +37,12 @@ struct Comparison {
         return render.film(source, words) == film;
     }
 
-    // The storage buffer is that of large scenes, whose surfaces share materials.
+    // Storage buffers are for large scenes, whose surfaces share materials.
     bool holds_in_storage() const {
         return holds(gpu::SCENE_IN_STORAGE, table_words(render.features(), render.words()));
     }
 
-    // The same scene, of which a kernel with another specialization constant reads or compares otherwise.
+    // The same scene with one more specialization constant set.
     bool holds_in_storage_with(std::uint32_t constant) const {
         KernelRender::Constants constants = render.constants();
         constants[constant] = 1;
@@ -52,7 +51,7 @@ struct Comparison {
     }
 };
 
-// A floor, a ball, and lamps: few surfaces, as it is building kernels that takes the time.
+// A floor, a ball and lamps: few surfaces, because kernels take long to build.
 InvarianceScene scene_with_lamps(int lamp_count) {
     InvarianceScene scene = InvarianceScene::coursework();
     scene.planes.resize(1);
@@ -62,7 +61,7 @@ InvarianceScene scene_with_lamps(int lamp_count) {
     return scene;
 }
 
-// At rest, and with so many lamps that one is chosen at each vertex.
+// At rest, with enough lamps that each vertex chooses one.
 InvarianceScene diffuse_scene() {
     InvarianceScene scene = scene_with_lamps(gpu::EVERY_LAMP_LIMIT + 1);
     for (pt_material &material : scene.materials)
@@ -70,8 +69,7 @@ InvarianceScene diffuse_scene() {
     return scene;
 }
 
-// Where scenes are not compiled into the kernel, each has one source, and compilers may fuse a product and a sum of
-// the one where they do not of another.
+// Elsewhere each scene has one source, and compilers may fuse products and sums differently for another.
 class SceneSource : public testing::Test {
 protected:
     void SetUp() override {
@@ -89,7 +87,7 @@ TEST_F(SceneSource, KeepsTheBitsOfADiffuseSceneWithManyLamps) {
     EXPECT_TRUE(same.holds(gpu::SCENE_IN_UNIFORM, render.words()));
     EXPECT_TRUE(same.holds_in_storage());
 
-    // Negative control: one number is off by its last bit.
+    // Negative control: one number off by its last bit.
     std::vector<glm::vec4> words = render.words();
     float &radius = words[render.features()[gpu::ID_LAMP_COUNT]].w; // of the first ball
     radius = std::nextafter(radius, std::numeric_limits<float>::infinity());
@@ -97,7 +95,7 @@ TEST_F(SceneSource, KeepsTheBitsOfADiffuseSceneWithManyLamps) {
     EXPECT_FALSE(same.holds(gpu::SCENE_IN_CONSTANTS, words));
     EXPECT_FALSE(same.holds(gpu::SCENE_IN_STORAGE, table_words(render.features(), words)));
 
-    // And the floor, the last surface, has the ball's material instead of its own: the index alone says so.
+    // And the floor, the last surface, gets the ball's material by its index alone.
     std::vector<glm::vec4> table = table_words(render.features(), render.words());
     const std::uint32_t ball = render.features()[gpu::ID_LAMP_COUNT];
     const std::uint32_t floor = render.features().surface_count() - 1;
@@ -107,8 +105,7 @@ TEST_F(SceneSource, KeepsTheBitsOfADiffuseSceneWithManyLamps) {
     EXPECT_FALSE(same.holds(gpu::SCENE_IN_STORAGE, table));
 }
 
-// With one lamp its radiance, place and size are constants everywhere, which invites compilers to move them about in
-// products.
+// One lamp's radiance, place and size are constants everywhere, which invites compilers to reorder products.
 TEST_F(SceneSource, KeepsTheBitsWithOneLampMotionGlossAndAHugeSphere) {
     InvarianceScene scene = scene_with_lamps(1);
     scene.camera.shutter_close = 1.0;
@@ -126,7 +123,7 @@ TEST_F(SceneSource, KeepsTheBitsWithOneLampMotionGlossAndAHugeSphere) {
     EXPECT_TRUE(render.film_by_driver(gpu::SCENE_IN_UNIFORM) == same.film) << "whoever fills the constants in";
 }
 
-// With two lamps that are alike but for their places, what is selected among their radiances is the same for both.
+// Two lamps that differ by place alone: selecting either's radiance gives the same.
 TEST_F(SceneSource, KeepsTheBitsOfTwoEqualLamps) {
     InvarianceScene scene = scene_with_lamps(2);
     scene.spheres[2].material = scene.spheres[1].material;
@@ -136,14 +133,14 @@ TEST_F(SceneSource, KeepsTheBitsOfTwoEqualLamps) {
     const Comparison same(render);
     EXPECT_TRUE(same.holds(gpu::SCENE_IN_UNIFORM, render.words()));
 
-    // Negative control: the last bit of the radiance of one of them.
+    // Negative control: the last bit of one radiance.
     std::vector<glm::vec4> words = render.words();
     float &red = words[render.features().surface_count() + 1].r;
     red = std::nextafter(red, 0.0F);
     EXPECT_FALSE(same.holds(gpu::SCENE_IN_UNIFORM, words));
 }
 
-// Balls and planes of one glossy material that shines: all that the scene says of a surface but its place is the same.
+// Balls and planes of one emitting glossy material differ by place alone.
 TEST_F(SceneSource, KeepsTheBitsOfSurfacesOfOneMaterial) {
     InvarianceScene scene = scene_with_lamps(2);
     std::fill_n(scene.materials[3].diffuse, 3, 0.3F);
@@ -162,7 +159,7 @@ TEST_F(SceneSource, KeepsTheBitsOfSurfacesOfOneMaterial) {
     EXPECT_TRUE(same.holds_in_storage());
 }
 
-// With one surface all that the scene says is constant everywhere: from inside a glossy ball that shines.
+// Inside a single emitting glossy ball everything is constant.
 TEST_F(SceneSource, KeepsTheBitsOfASingleSurface) {
     InvarianceScene scene = InvarianceScene::coursework();
     scene.planes.clear();
@@ -176,8 +173,8 @@ TEST_F(SceneSource, KeepsTheBitsOfASingleSurface) {
     EXPECT_TRUE(Comparison(render).holds(gpu::SCENE_IN_UNIFORM, render.words()));
 }
 
-// Through pt.h: the second scene of a context takes the place of one with the same features, and there the kernel may
-// read a buffer; in a context of its own it may have constants.
+// Through pt.h: a context's second scene of the same features may read a buffer; in its own context it may have
+// constants.
 class SceneSourceTest : public ContextFixture {
 protected:
     static std::vector<float> image_of(pt_context *on, const InvarianceScene &source) {

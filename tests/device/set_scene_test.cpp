@@ -1,5 +1,4 @@
-// The progress of pt_set_scene, what is left when it is stopped, and successive scenes that keep a tree's shape: a
-// context that had other scenes before makes the same films as a new one.
+// pt_set_scene: progress, cancellation, and successive scenes that keep a tree's shape, against new contexts.
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/scene_of.h"
@@ -20,7 +19,7 @@ namespace {
 constexpr std::uint32_t picture_width = 16;
 constexpr std::uint32_t picture_height = 12;
 
-// Balls in [-1, 1]^3 by columns, and a lamp above them.
+// Balls in [-1, 1]^3 in columns, and a lamp above.
 struct Cloud {
     std::vector<pt_material> materials = {{{0.8F, 0.7F, 0.6F}, {0, 0, 0}, {0, 0, 0}, 0, 0},
                                           {{0, 0, 0}, {0, 0, 0}, {30, 30, 30}, 0, 0}};
@@ -38,7 +37,7 @@ struct Cloud {
         array.radius = {&radius, 0, PT_TYPE_FLOAT32};
     }
 
-    // Refers to this object.
+    // Points into this object.
     pt_scene scene() {
         array.center = {centers.data(), 12, PT_TYPE_FLOAT32};
         pt_scene scene = scene_of(materials, {&lamp, 1}, {});
@@ -47,7 +46,7 @@ struct Cloud {
         return scene;
     }
 
-    // By a tenth of the radius at the most.
+    // By up to a tenth of the radius.
     void move() {
         std::mt19937 engine(37);
         for (float &coordinate : centers)
@@ -55,13 +54,13 @@ struct Cloud {
     }
 };
 
-constexpr std::uint32_t many = 30'000; // for some calls of progress
+constexpr std::uint32_t many = 30'000; // enough for some calls of progress
 
 class SetSceneTest : public ContextFixture {
 protected:
     struct Told {
         std::vector<double> shares;
-        std::size_t most = SIZE_MAX; // calls that go on
+        std::size_t most = SIZE_MAX; // calls before cancelling
 
         static std::int32_t receive(void *user, double share) {
             auto *const told = static_cast<Told *>(user);
@@ -99,7 +98,7 @@ protected:
 
 TEST_F(SetSceneTest, TellsHowFarItIs) {
     Cloud cloud(many);
-    for (int round = 0; round < 3; ++round, cloud.move()) { // anew, and with the shape kept
+    for (int round = 0; round < 3; ++round, cloud.move()) { // first built, then with the shape kept
         Told told;
         ASSERT_EQ(set_telling(context(), cloud.scene(), told), PT_OK) << pt_last_error(context());
         EXPECT_GE(told.shares.size(), 2U);
@@ -113,7 +112,7 @@ TEST_F(SetSceneTest, TellsHowFarItIs) {
     EXPECT_EQ(told.shares, std::vector<double>{1.0});
 }
 
-// A scene that is refused is not said to be done.
+// A refused scene never reports the end.
 TEST_F(SetSceneTest, TellsNoEndOfWhatItRefuses) {
     Cloud cloud(many);
     cloud.centers.back() = INFINITY;
@@ -122,7 +121,7 @@ TEST_F(SetSceneTest, TellsNoEndOfWhatItRefuses) {
     EXPECT_TRUE(told.shares.empty() || told.shares.back() < 1.0);
 }
 
-// At whatever call: scene and samples are those before, and the next scene is taken as if nothing had been.
+// Cancelled at any call: scene and samples stay, and the next scene works.
 TEST_F(SetSceneTest, LeavesAllAsItWasWhereItIsStopped) {
     Cloud before(200);
     Cloud cloud(many);

@@ -1,4 +1,4 @@
-// A copy of the kernels' GLSL sources that a test may edit; removed when the test ends.
+// An editable copy of the kernels' GLSL, removed with the test.
 #pragma once
 
 #include "tests/cli/temporary_folder.h"
@@ -14,7 +14,7 @@ public:
 
     std::string path() const { return std::filesystem::path(file("x")).parent_path(); }
 
-    // Replaces a part that is in the file once.
+    // The part must occur exactly once.
     void replace(const std::string &name, const std::string &old_part, const std::string &new_part) const {
         std::string text = read(name);
         const std::size_t place = text.find(old_part);
@@ -23,7 +23,7 @@ public:
         write(name, text.replace(place, old_part.size(), new_part));
     }
 
-    // Writes what does not compile after a line, and returns how the compiler names the place.
+    // Inserts a line that does not compile; returns the place as the compiler names it.
     std::string break_after_line(const std::string &name, int line) const {
         std::string text = read(name);
         std::size_t place = 0;

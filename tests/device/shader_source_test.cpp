@@ -1,5 +1,4 @@
-// Kernels compiled from GLSL while the program runs: they equal the words that the build embeds; and messages about
-// files that do not compile. Without a device.
+// Kernels compiled at run time equal the embedded words; messages about files that do not compile. Without a device.
 #include "lib/kernel/shader_source.h"
 
 #include "lib/base/error.h"
@@ -29,7 +28,7 @@ class ShaderSourceTest : public testing::Test {
 protected:
     KernelCode compiled() const { return ShaderSource(shaders.path()).read(); }
 
-    // The message of a failure that is the files' fault.
+    // The message of a PT_ERROR_SHADER.
     std::string complaint() const {
         const pt::Error error = error_of([&] { compiled(); });
         EXPECT_EQ(pt::result_name(error.code()), std::string("PT_ERROR_SHADER"));
@@ -116,7 +115,7 @@ TEST_F(ShaderSourceTest, AFolderIsNoFile) {
     expect_complaint(shaders.file("folder") + ": Is a directory");
 }
 
-// Behind an include guard a file may include itself; without one that has no end, however many lines do so.
+// Include guards permit recursion; without them it has no end, however many lines include.
 TEST_F(ShaderSourceTest, AnEndlessIncludeIsRefused) {
     shaders.write("circle.glsl", "#ifndef CIRCLE\n#define CIRCLE\n#include \"arc.glsl\"\n#endif\n");
     shaders.write("arc.glsl", "#include \"circle.glsl\"\n#include \"circle.glsl\"\n");
@@ -128,7 +127,7 @@ TEST_F(ShaderSourceTest, AnEndlessIncludeIsRefused) {
     EXPECT_EQ(count_of("includes itself", complaint()), 1U);
 }
 
-// Beside the including file first, then in the folder of the kernels.
+// Beside the including file first, then in the kernels' folder.
 TEST_F(ShaderSourceTest, IncludedFilesAreFoundInTwoPlaces) {
     std::filesystem::create_directory(shaders.file("parts"));
     std::filesystem::rename(shaders.file("path.glsl"), shaders.file("parts/path.glsl"));

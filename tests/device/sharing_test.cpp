@@ -1,4 +1,4 @@
-// The work of a context shared by several devices, and an image rendered in pieces: neither changes a bit.
+// Sharing a context's work between devices, or rendering in pieces, changes no bit.
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
@@ -18,7 +18,7 @@ using Image = std::vector<float>;
 
 class SharingTest : public ContextFixture {
 protected:
-    // A context on the fixture's device, taken as often as devices are wanted.
+    // Uses the fixture's device device_count times.
     Context context_on(uint32_t device_count, uint32_t submit_milliseconds, bool like_gpus = false) {
         return create_context([&](pt_create_info &info) { info.submit_milliseconds = submit_milliseconds; },
                               [&](const pt_create_info *info, pt_context **context) {
@@ -51,8 +51,7 @@ protected:
     }
 };
 
-// Submissions of 1 ms have a sample of some tiles; of 50 ms, they hold many samples.
-// Films of GPUs meet on the first of them.
+// Submissions of 1 ms hold a sample of some tiles; of 50 ms, many samples. GPUs' films are summed on the first.
 TEST_F(SharingTest, SeveralDevicesGiveTheBitsOfOne) {
     const Context alone = context_on(1, 50);
     set_up(alone.get());
@@ -128,7 +127,7 @@ TEST_F(SharingTest, RowsAreThoseOfTheWholeImage) {
     EXPECT_NE(image_of(context(), 7), Image(whole.begin(), whole.begin() + std::ptrdiff_t{shared_width} * 7 * 3));
 }
 
-// So large that films meet in two bands of rows; and a rectangle in both.
+// Large enough for two bands of rows; and a rectangle across both.
 TEST_F(SharingTest, LargeFilmsMeetInBands) {
     constexpr uint32_t width = 1060;
     constexpr uint32_t height = 500;

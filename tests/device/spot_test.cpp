@@ -1,5 +1,5 @@
-// Spots as the device chooses and samples them from a vertex: the mean of 1 / density over the directions that end in a
-// region is the region's solid angle. Run alone with --gtest_filter=Spot*.
+// Spots sampled from a vertex on the device: the mean of 1 / density over directions that end in a region is its solid
+// angle.
 #include "shaders/specialization.h"
 #include "spots.spv.h"
 #include "tests/device/probe.h"
@@ -17,16 +17,15 @@
 
 namespace {
 
-// What the probe writes for each sample.
 struct DrawnSpot {
     glm::vec3 direction;
     float density;
     std::uint32_t surface;
-    float distance; // 0: something else was in the way
+    float distance; // 0: blocked
     std::array<std::uint32_t, 2> reserved;
 };
 
-// The kernel's order: two lamps, a ball, then a floor.
+// The kernel's order.
 constexpr std::uint32_t first_lamp = 0;
 constexpr std::uint32_t second_lamp = 1;
 constexpr std::uint32_t ball = 2;
@@ -43,7 +42,7 @@ struct SpotOf {
     float glossiness;
 };
 
-// From a point of a wall that faces the scene.
+// From a wall that faces the scene.
 std::vector<DrawnSpot> draw_spots(const std::vector<SpotOf> &spots, std::uint32_t count) {
     struct {
         glm::vec4 position, normal;
@@ -74,7 +73,7 @@ std::vector<DrawnSpot> draw_spots(const std::vector<SpotOf> &spots, std::uint32_
     return probe.run<DrawnSpot>({}, count, push, count);
 }
 
-// Where a spot is brightest: the mean of the directions that met the surface.
+// The mean direction that hits the surface, where the spot is brightest.
 glm::dvec3 middle_of(const std::vector<DrawnSpot> &drawn, std::uint32_t surface) {
     glm::dvec3 sum(0);
     for (const DrawnSpot &sample : drawn)
@@ -83,8 +82,7 @@ glm::dvec3 middle_of(const std::vector<DrawnSpot> &drawn, std::uint32_t surface)
     return glm::normalize(sum);
 }
 
-// Deviate of the mean of 1 / (density density_error) over the directions in a cone, all of which meet the surface, from
-// the cone's solid angle.
+// Deviate of the mean of 1 / (density density_error) over a cone within the surface from the cone's solid angle.
 double solid_angle_deviate(const std::vector<DrawnSpot> &drawn, std::uint32_t surface, double radius,
                            double density_error) {
     const glm::dvec3 middle = middle_of(drawn, surface);
@@ -106,7 +104,7 @@ struct SpotCase {
     const char *name;
     std::vector<SpotOf> spots;
     std::uint32_t surface;
-    double radius; // of the cone, as a chord: all of it meets the surface, and no direction in it is very rare
+    double radius; // of the cone, as a chord; within the surface, without very rare directions
 };
 
 class SpotDirections : public testing::TestWithParam<SpotCase> {};
@@ -116,7 +114,7 @@ TEST_P(SpotDirections, FollowTheStatedDensity) {
     const SpotCase &of = GetParam();
     const std::vector<DrawnSpot> drawn = draw_spots(of.spots, draws);
     const double bound =
-        statistics::normal_quantile(0.5e-6 / 8); // a false alarm in a million, either way, of all cases
+        statistics::normal_quantile(0.5e-6 / 8); // one false alarm in a million over all cases, two-sided
     EXPECT_LT(std::abs(solid_angle_deviate(drawn, of.surface, of.radius, 1.0)), bound);
     EXPECT_GT(std::abs(solid_angle_deviate(drawn, of.surface, of.radius, 1.03)), bound) << "3% too dense must show";
     EXPECT_GT(std::abs(solid_angle_deviate(drawn, of.surface, of.radius, 0.97)), bound) << "3% too thin must show";

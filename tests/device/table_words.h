@@ -1,5 +1,4 @@
-// The words of a small scene as the storage buffer would have them: with a table, in which each surface has a material
-// of its own. Used by the tests that render small scenes from there.
+// A small scene in the form of large ones: with a table of materials, one for each surface.
 #pragma once
 
 #include "lib/kernel/scene_features.h"
@@ -10,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-// Where surface i has the index of its material: component i mod 4 of word first_index_word + i / 4.
+// Surface i's material index is component i mod 4 of word first_index_word + i / 4.
 inline std::size_t first_index_word(const pt::Features &features) {
     const std::size_t emitting =
         features.emitting_spheres() + (features[pt::gpu::ID_PLANES_EMIT] ? features[pt::gpu::ID_PLANE_COUNT] : 0);

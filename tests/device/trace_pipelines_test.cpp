@@ -1,5 +1,4 @@
-// Which kernel a scene gets: one of its own, with its numbers as constants, or one that reads any scene of the same
-// kind.
+// Which kernel a scene gets: its own, with numbers as constants, or one for all scenes of its kind.
 #include "lib/kernel/trace_pipelines.h"
 
 #include "tests/device/vulkan_fixture.h"
@@ -16,7 +15,7 @@ namespace {
 
 using pt::vulkan::ComputePipeline;
 
-// One sphere, seen directly: the smallest kernel there is.
+// One sphere, seen directly: the smallest kernel.
 pt::Features features_of_a_sphere(std::uint32_t sampler = PT_SAMPLER_RANDOM) {
     pt::Features features{};
     features[pt::gpu::ID_SPHERE_COUNT] = 1;
@@ -32,7 +31,7 @@ using Words = std::vector<glm::vec4>;
 const Words ball = {{0, 0, -4, 1}, {1, 1, 1, 1}, {0, 0, 0, 0}};
 const Words other_ball = {{0, 0, -5, 1}, {1, 1, 1, 1}, {0, 0, 0, 0}};
 
-// Each kernel is known by its place, as long as it is kept.
+// Kernels are identified by address while kept.
 class TracePipelinesTest : public VulkanFixture {
 protected:
     void use(bool scene_in_constants) {
@@ -98,7 +97,7 @@ TEST_F(TracePipelinesTest, WhoPollsKeepsTheKernelThatThereIs) {
     EXPECT_NE(trace(other_ball, 100.0), any);
 }
 
-// What was used longest ago is built anew. Not told by its place, which may be that of one that went.
+// The least recently used kernel is rebuilt. Not checked by its address, which may be reused.
 TEST_F(TracePipelinesTest, AHandfulIsKept) {
     use(false);
     const auto of_lamps = [&](std::uint32_t lamp_count) {
@@ -112,11 +111,11 @@ TEST_F(TracePipelinesTest, AHandfulIsKept) {
     for (std::uint32_t lamps = 0; lamps < kernels.size(); ++lamps)
         EXPECT_EQ(of_lamps(lamps), kernels[lamps]) << lamps;
     of_lamps(0);
-    of_lamps(100); // in place of the kernel for one
+    of_lamps(100); // replaces the kernel for one
     EXPECT_EQ(of_lamps(0), kernels[0]);
     for (std::uint32_t lamps = 2; lamps < kernels.size(); ++lamps)
         EXPECT_EQ(of_lamps(lamps), kernels[lamps]) << lamps;
-    of_lamps(1); // in place of the one for none
+    of_lamps(1); // replaces the kernel for none
     for (std::uint32_t lamps = 2; lamps < kernels.size(); ++lamps)
         EXPECT_EQ(of_lamps(lamps), kernels[lamps]) << lamps;
 }

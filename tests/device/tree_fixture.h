@@ -1,4 +1,4 @@
-// Tests of trees beside lists: a context that has every sphere in a tree, and one that has none.
+// Two contexts: one has every sphere in a tree, one none.
 #pragma once
 
 #include "tests/support/context_fixture.h"

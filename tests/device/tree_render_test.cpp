@@ -1,4 +1,4 @@
-// A dark ball within a lamp, in a tree, through pt.h. RandomLight and RandomFirstHit have trees beside lists.
+// A dark ball within a lamp, in a tree, through pt.h. RandomLight and RandomFirstHit compare trees with lists.
 #include "tests/device/tree_fixture.h"
 #include "tests/support/render_image.h"
 #include "tests/support/scene_of.h"
@@ -15,7 +15,7 @@ namespace {
 constexpr std::uint32_t picture_width = 32;
 constexpr std::uint32_t picture_height = 24;
 
-// Balls of radius about 0.2 in [-2, 2]^3; below them a floor.
+// Balls of radius about 0.2 in [-2, 2]^3 above a floor.
 struct Balls {
     static constexpr std::uint32_t count = 80;
 
@@ -50,7 +50,7 @@ pt_camera camera() {
 
 using TreeRender = TreeFixture;
 
-// Rays towards the lamp meet both surfaces at equal distances, as float32 has them, one time in some hundred.
+// In float32 one ray in some hundred towards the lamp meets both surfaces at the same distance.
 TEST_F(TreeRender, ADarkBallWithinALampTakesNoLight) {
     Balls balls;
     balls.materials.push_back({{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0, 0});

@@ -1,4 +1,4 @@
-// Random scenes of many spheres, each of some kind that is hard for a tree. Used by the tests of trees.
+// Random scenes of many spheres; each kind is hard for a tree.
 #pragma once
 
 #include "lib/scene/camera.h"
@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-// As a caller of pt.h has them.
+// Converts to pt_sphere.
 inline std::vector<pt_sphere> caller_spheres(const std::vector<pt::Sphere> &spheres) {
     std::vector<pt_sphere> result;
     for (const pt::Sphere &s : spheres)
@@ -27,7 +27,7 @@ class TreeScenes {
 public:
     explicit TreeScenes(std::uint32_t seed) : engine_(seed) {}
 
-    // Of 1 to most spheres, of a kind that goes round.
+    // 1 to `most` spheres; kinds in turn.
     pt::Scene next(std::size_t most) {
         const auto count = static_cast<std::size_t>(std::exp(uniform(0.0, std::log(static_cast<double>(most) + 0.99))));
         kind_ = (kind_ + 1) % kind_count;
@@ -43,7 +43,7 @@ public:
         return scene;
     }
 
-    // Towards the middle of the scene; of some scenes from a sphere.
+    // Looks at the scene's center; one in five from a sphere.
     pt::Camera camera(const pt::Scene &scene) {
         pt::Camera camera{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0.0, 1.0};
         camera.position =
@@ -69,18 +69,18 @@ private:
         const auto material = static_cast<std::uint32_t>(i % 50 == 7 ? 0 : 1 + i % 2);
         pt::Sphere sphere{point(2.0), 0.4 * spacing * uniform(0.3, 1.0), glm::dvec3(0.0), material};
         switch (kind_) {
-        case 1: // one in three at a place of its own, the others within a thousandth
+        case 1: // one in three anywhere, the others within a thousandth
             sphere.center = i % 3 == 0 ? point(2.0) : glm::dvec3(0.5, -0.3, 1.0) + 1e-3 * point(1.0);
             sphere.radius *= i % 3 == 0 ? 1.0 : 1e-3;
             break;
-        case 2: // one in the other, by less than a hundredth
+        case 2: // nested, less than a hundredth apart
             sphere.center = glm::dvec3(0.0);
             sphere.radius = 0.5 + 1.5 * static_cast<double>(i) / static_cast<double>(count);
             break;
         case 3:
             sphere.radius = uniform(0.5, 1.0);
             break;
-        case 4: { // touching, on whole numbers of halves
+        case 4: { // touching, at multiples of one half
             const auto side = static_cast<std::size_t>(std::ceil(std::cbrt(static_cast<double>(count))));
             sphere.center = 0.5 * glm::dvec3(static_cast<double>(i % side), static_cast<double>(i / side % side),
                                              static_cast<double>(i / side / side)) -
@@ -88,7 +88,7 @@ private:
             sphere.radius = 0.25;
             break;
         }
-        case 5: // from the middle
+        case 5: // decades of distance from the center
             sphere.center *= std::pow(10.0, uniform(0.0, 3.0));
             break;
         case 6: // radii over six decades

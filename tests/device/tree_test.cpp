@@ -1,5 +1,4 @@
-// Walks through a tree against tests of every sphere: all bits of films. Run alone with --gtest_filter=Tree*;
-// PT_TEST_TREE_SCENES asks for more scenes than the few of a test run.
+// Walks through a tree against tests of every sphere: all bits of films. PT_TEST_TREE_SCENES: the number of scenes.
 #include "tests/device/kernel_render.h"
 #include "tests/device/tree_scenes.h"
 #include "tests/support/checked_scene_of.h"
@@ -26,9 +25,10 @@ std::size_t most_spheres() {
     return scene_count() > 100 ? 2000 : 600;
 }
 
-constexpr std::uint32_t word_of_sides[6][2] = {{1, 2}, {1, 3}, {2, 0}, {2, 1}, {2, 2}, {2, 3}}; // low x, y, z, high
+constexpr std::uint32_t word_of_sides[6][2] = {{1, 2}, {1, 3}, {2, 0},
+                                               {2, 1}, {2, 2}, {2, 3}}; // low x, y, z, then high
 
-// Nodes of the same tree with other boxes: head and sides, of the low and the high ones, as change makes them.
+// Applies `change` to each node's header and sides, low ones first.
 template <typename Change>
 void change_boxes(std::vector<glm::uvec4> &tree, std::uint32_t node_count, Change &&change) {
     for (std::uint32_t node = 0; node < node_count; ++node) {
@@ -40,10 +40,10 @@ void change_boxes(std::vector<glm::uvec4> &tree, std::uint32_t node_count, Chang
     }
 }
 
-// Every box holds all places of the grid, so that a walk tests every sphere.
+// Boxes cover the whole grid, so a walk tests every sphere.
 void open_boxes(std::vector<glm::uvec4> &tree, std::uint32_t node_count) {
     change_boxes(tree, node_count, [](glm::uvec4 &head, std::uint32_t *const sides[6]) {
-        constexpr std::uint32_t exponents = 23 | 23 << 5 | 23 << 10; // 255 times 2^23 steps, from the lowest place on
+        constexpr std::uint32_t exponents = 23 | 23 << 5 | 23 << 10; // 255 times 2^23 steps from the lowest place
         constexpr std::uint32_t lowest = ~pt::gpu::TREE_REACH + 1;
         head = {lowest, lowest, lowest, (head.w & ~0x7fffU) | exponents};
         for (int i = 0; i < 6; ++i)
@@ -51,7 +51,7 @@ void open_boxes(std::vector<glm::uvec4> &tree, std::uint32_t node_count) {
     });
 }
 
-// Every box lacks a share of its width: 8 of up to 255 on each side.
+// Boxes lose 8 of up to 255 steps on each side.
 void shrink_boxes(std::vector<glm::uvec4> &tree, std::uint32_t node_count) {
     change_boxes(tree, node_count, [](const glm::uvec4 &, std::uint32_t *const sides[6]) {
         for (int i = 0; i < 6; ++i)
@@ -63,20 +63,20 @@ void shrink_boxes(std::vector<glm::uvec4> &tree, std::uint32_t node_count) {
     });
 }
 
-// Whether films of a walk are those of testing every sphere, with boxes as they are and with boxes that are too small.
+// Films of walks against tests of every sphere, with correct boxes and with shrunk ones.
 struct Compared {
     bool same;
     bool shrunk_same;
 };
 
 Compared compare(const pt::PreparedScene &prepared, const pt::Camera &camera) {
-    // Testing every sphere takes loop trips, of which some drivers allow 65,535.
+    // Some drivers allow 65,535 loop trips, which tests of every sphere use up.
     const std::size_t spheres = prepared.tree->sphere_count();
     KernelRender render(pt::gpu_scene(prepared, camera, KernelRender::settings(spheres > 100 ? 2 : 4)));
     render.take(spheres > 400 ? 2 : spheres > 40 ? 4 : 8);
     Probe probe = render.probe_of_tree();
     const FilmWords walked = render.film_by(probe);
-    render.radiance(walked); // no sample is lost
+    render.radiance(walked); // throws if a sample is lost
     shrink_boxes(render.tree(), prepared.tree->node_count());
     const FilmWords shrunk = render.film_by(probe);
     open_boxes(render.tree(), prepared.tree->node_count());
@@ -90,11 +90,10 @@ Compared compare(const pt::Scene &scene, const pt::Camera &camera) {
     return compare(prepared_scene_of({scene.materials, {spheres_of_caller, {}}, scene.planes}, 1), camera);
 }
 
-// Sweeps half of the spheres that are no lamps to others of them. Some begin where another does, and are met at the
-// same distance.
+// Sweeps half of the non-lamps to other spheres; some begin where another does, at equal distances.
 Compared compare_with_capsules(const pt::Scene &scene, const pt::Camera &camera) {
     std::vector<pt_sphere> spheres;
-    std::vector<pt_sphere> capsules; // whose motion is the other end
+    std::vector<pt_sphere> capsules; // motion is the other end
     for (const pt_sphere &sphere : caller_spheres(scene.spheres)) {
         const bool is_swept = sphere.material != 0 && spheres.size() > capsules.size();
         (is_swept ? capsules : spheres).push_back(sphere);
@@ -122,7 +121,6 @@ Compared compare_with_capsules(const pt::Scene &scene, const pt::Camera &camera)
     return compare(prepared_scene_of({scene.materials, {spheres, arrays}, scene.planes}, 1), camera);
 }
 
-// Of spheres, and of capsules.
 TEST(Tree, WalksFindWhatTestingEverySphereFinds) {
     for (const bool with_capsules : {false, true}) {
         TreeScenes scenes(with_capsules ? 2 : 1);
@@ -141,7 +139,7 @@ TEST(Tree, WalksFindWhatTestingEverySphereFinds) {
     }
 }
 
-// A heap of balls that overlap, with a lamp, at the end of a floor.
+// A heap of overlapping balls and a lamp, at the end of a floor.
 pt::Scene heap_on_a_floor(TreeScenes &scenes) {
     pt::Scene scene;
     scene.materials = {{glm::vec3(0.5F), glm::vec3(0.0F), glm::vec3(20.0F), 0.0F},
@@ -159,8 +157,7 @@ pt::Camera far_away(double tan_half_fov) {
     return {{0.1, 0.2, 4e5}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, tan_half_fov, 0.0, 1.0};
 }
 
-// The camera is 10^5 times as far away as the heap is large: in the middle of a narrow view, where nearly all depths
-// are rounded to a few, and at the horizon of a wide one.
+// From 10^5 times the heap's size: a narrow view, where depths round to few values, and the horizon of a wide one.
 TEST(Tree, RaysFromFarAwayFindWhatTestingEverySphereFinds) {
     TreeScenes scenes(9);
     const pt::Scene scene = heap_on_a_floor(scenes);
@@ -168,9 +165,8 @@ TEST(Tree, RaysFromFarAwayFindWhatTestingEverySphereFinds) {
         EXPECT_TRUE(compare(scene, far_away(tan_half_fov)).same) << tan_half_fov;
 }
 
-// Spheres in a new tree and in one of the shape that was made for the same spheres reflected in the origin: its boxes
-// are as good, and its order is about the reverse. Nothing if the trees are the same all the same, or no shape was
-// kept.
+// Compares a new tree with one shaped for the spheres reflected in the origin: equally good boxes, about the reverse
+// order. Empty if the trees are equal or no shape was kept.
 std::optional<bool> is_seen_alike(const pt::Scene &scene, const pt::Camera &camera) {
     const std::vector<pt_sphere> spheres = caller_spheres(scene.spheres);
     std::vector<pt_sphere> reflected = spheres;
@@ -195,7 +191,7 @@ std::optional<bool> is_seen_alike(const pt::Scene &scene, const pt::Camera &came
     const FilmWords film_kept = render_kept.film_by(probe);
     probe.set_scene(render_new.words());
     const FilmWords film_new = render_new.film_by(probe);
-    render_kept.radiance(film_kept); // no sample is lost
+    render_kept.radiance(film_kept); // throws if a sample is lost
     return film_kept == film_new;
 }
 
@@ -214,7 +210,7 @@ TEST(Tree, WalksFindTheSameWhateverItsShape) {
     EXPECT_GE(compared, count / 4) << "hardly any shape was kept";
 }
 
-// Of spheres at equal distances, too, of which there are many here.
+// Many spheres here are at equal distances.
 TEST(Tree, RaysFromFarAwayFindTheSameWhateverItsShape) {
     TreeScenes scenes(12);
     int compared = 0;
@@ -226,7 +222,7 @@ TEST(Tree, RaysFromFarAwayFindTheSameWhateverItsShape) {
     EXPECT_GE(compared, 2);
 }
 
-// More spheres than a driver follows loop trips, all of them tested: what it cuts is told.
+// All spheres are tested, more than the driver allows loop trips; the interruption is reported.
 TEST(Tree, WalksThatADriverCutsAreTold) {
     const std::uint64_t budget = probe_device().limits().loop_trip_budget;
     if (budget > 1'000'000)

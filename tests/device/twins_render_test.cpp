@@ -1,5 +1,4 @@
-// Scenes that contain surfaces twice, exactly or nearly, have the same light as scenes that contain each once. Run
-// alone with --gtest_filter=RenderedTwins*. Random ones are among the scenes of random_light_test.cpp.
+// Surfaces given twice, exactly or nearly, have the light of one. random_light_test.cpp has random ones.
 #include "lib/scene/checked_scene.h"
 #include "tests/device/kernel_render.h"
 #include "tests/invariance/invariance_scene.h"
@@ -24,7 +23,7 @@ constexpr std::uint32_t samples = 64;
 // One false alarm in a million for the file.
 constexpr double comparisons = 15;
 
-// Mean light of images, one for each seed.
+// By seed.
 std::vector<double> means_of(const Batches &batches) {
     std::vector<double> means;
     for (const std::vector<double> &image : batches)
@@ -42,8 +41,8 @@ protected:
         return {moments.mean, std::sqrt(moments.variance / batch_count)};
     }
 
-    // That a scene sends some light, within tolerance, which is what its geometry may differ by. The bound of a
-    // difference of two means of n batches is that of one mean of 2 n - 1.
+    // Compares light within tolerance, by which the geometry may differ. The difference of two means of n batches has
+    // the bound of one mean of 2 n - 1.
     void expect_light(const Estimate &expected, const InvarianceScene &scene, std::uint32_t path_length,
                       double tolerance) {
         const Estimate found = mean_of(scene, path_length, 200);
@@ -80,7 +79,7 @@ InvarianceScene scene_of_named(std::initializer_list<Named> surfaces) {
     return scene;
 }
 
-// The second of two like surfaces, and a third, moved or grown by a share of their size.
+// Displaces or grows copies by a share of their size.
 void shift_twins(InvarianceScene &scene, double share) {
     for (std::size_t i = 1; i < scene.spheres.size(); ++i)
         if (scene.spheres[i].radius == scene.spheres[0].radius)
@@ -93,7 +92,7 @@ TEST_F(RenderedTwins, SendTheirLightOnce) {
     struct Case {
         std::initializer_list<Named> once;
         std::initializer_list<Named> twice;
-        std::uint32_t path_length; // 2 where a floor under the sky reflects to none but lamps
+        std::uint32_t path_length; // 2 where a floor under the sky reflects lamps only
     };
     const Case cases[] = {{{lamp, floor_plane}, {lamp, lamp, floor_plane}, 2},
                           {{lamp, floor_plane}, {lamp, lamp, lamp, floor_plane}, 2},
@@ -106,7 +105,7 @@ TEST_F(RenderedTwins, SendTheirLightOnce) {
             SCOPED_TRACE(share);
             InvarianceScene twice = scene_of_named(repeated);
             shift_twins(twice, share);
-            // A lamp that is moved by a share of its radius sends that share more at most, to where it is nearer.
+            // A lamp displaced by a share of its radius sends at most that share more.
             expect_light(once, twice, path_length, 1e-6 + 2 * share);
         }
     }
@@ -125,7 +124,7 @@ KernelRender render_with_twins(const InvarianceScene &named) {
         pt::gpu_scene({pt::seen_scene(scene.scene, camera), false, false}, scene, camera, KernelRender::settings(2)));
 }
 
-// Negative control: without what is done about twins they send too much, or lose it.
+// Negative control: without the treatment of twins light is doubled or lost.
 TEST_F(RenderedTwins, WouldOtherwiseBeSeenTwiceOrNever) {
     const auto light = [](std::initializer_list<Named> surfaces, std::uint32_t known_sides, std::uint32_t close_lamps) {
         const KernelRender render = render_with_twins(scene_of_named(surfaces));

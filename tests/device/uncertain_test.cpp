@@ -1,4 +1,4 @@
-// Where the error of an image cannot be known, it is called uncertain (pt_error_estimate.uncertain), and why.
+// pt_error_estimate.uncertain: where the error cannot be known, and why.
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/scene_of.h"
@@ -15,8 +15,7 @@ namespace {
 constexpr uint32_t width = 32;
 constexpr uint32_t height = 32;
 
-// A floor that fills the image, under a lamp of this radius, 100 above the camera: it covers radius^2 / 40000 of all
-// directions.
+// A floor fills the image, 100 below a lamp that covers radius^2 / 40000 of all directions.
 class UncertainTest : public ContextFixture {
 protected:
     void set_up(double lamp_radius, uint32_t estimator, uint32_t max_path_length = 2,
@@ -46,7 +45,7 @@ protected:
 
 constexpr uint32_t unmet = PT_UNCERTAIN_UNMET;
 
-// 1024 pixels take 16384 directions with 16 samples: 164 meet a lamp that covers a hundredth, 2,620 with 256.
+// 1024 pixels with 16 samples take 16384 directions: 164 hit a lamp that covers a hundredth; 2,620 with 256.
 TEST_F(UncertainTest, WhileALampIsHardlyMetByChance) {
     for (const uint32_t estimator : {PT_ESTIMATOR_UNIFORM, PT_ESTIMATOR_COSINE, PT_ESTIMATOR_BSDF}) {
         set_up(20.0, estimator);
@@ -57,11 +56,11 @@ TEST_F(UncertainTest, WhileALampIsHardlyMetByChance) {
         set_up(20.0, estimator);
         EXPECT_EQ(after(16) & unmet, 0U) << estimator;
     }
-    set_up(20.0, PT_ESTIMATOR_BSDF, 1); // without directions that could meet it
+    set_up(20.0, PT_ESTIMATOR_BSDF, 1); // no directions that could hit it
     EXPECT_EQ(after(16) & unmet, 0U);
 }
 
-// Of the directions from the floor one in 1,000,000 or so meets its lobe.
+// About one direction in 1,000,000 from the floor hits its lobe.
 TEST_F(UncertainTest, WhileALobeIsHardlyMetByChance) {
     for (const uint32_t estimator : {PT_ESTIMATOR_UNIFORM, PT_ESTIMATOR_COSINE, PT_ESTIMATOR_BSDF}) {
         set_up(50.0, estimator, 2, {0.0, 100.0, 0.0}, 1.0, 1e6F);
@@ -69,10 +68,10 @@ TEST_F(UncertainTest, WhileALobeIsHardlyMetByChance) {
     }
 }
 
-// A lamp in the middle of the view that covers a 20th of a pixel: 16 samples are expected to meet it .8 times, 256 do
-// 13 times. Beside the view it does not count.
+// A lamp covering a 20th of a pixel in view is hit .8 times by 16 samples, 13 times by 256. Beside the view it does not
+// count.
 TEST_F(UncertainTest, WhileSamplesHardlyMeetALampInView) {
-    const double pixel = 2.0 * std::tan(0.5) / height; // at the distance 1
+    const double pixel = 2.0 * std::tan(0.5) / height; // at distance 1
     for (const bool in_view : {true, false}) {
         set_up(10.0 * pixel * std::sqrt(0.05 / 3.14159), PT_ESTIMATOR_MIS, 2, {in_view ? 0.0 : 6.0, -10.0, 0.0}, 20.0);
         EXPECT_EQ(after(16) & unmet, in_view ? unmet : 0U);
@@ -80,7 +79,7 @@ TEST_F(UncertainTest, WhileSamplesHardlyMeetALampInView) {
     }
 }
 
-// Of a lamp that covers 2.5e-9 nothing is met: a black picture whose parts agree, and no sample says that it is right.
+// A lamp covering 2.5e-9 is never hit: a black picture whose parts agree without evidence.
 TEST_F(UncertainTest, NothingIsKnownOfAPictureThatIsBlackByChance) {
     set_up(0.01, PT_ESTIMATOR_BSDF);
     EXPECT_EQ(after(16), unmet);

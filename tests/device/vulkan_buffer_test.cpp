@@ -1,5 +1,4 @@
-// The memory of a device's buffers, numbers on their way there and back, what kernels are bound to, and what is
-// refused.
+// Buffers: memory, transfers, bindings, and refusals.
 #include "lib/vulkan/buffer.h"
 #include "lib/vulkan/compute_pipeline.h"
 #include "lib/vulkan/device.h"
@@ -47,7 +46,7 @@ TEST_F(VulkanTest, CountsWhatTransfersTake) {
     EXPECT_EQ(device().allocated_bytes(), before);
 }
 
-// A streamed buffer holds offsets for dispatches of one submission: each sees the one that its dynamic offset says.
+// A streamed buffer holds offsets for several dispatches of a submission; each sees its own by the dynamic offset.
 TEST_F(VulkanTest, ADynamicOffsetChoosesThePartOfAStreamedBuffer) {
     constexpr pt::vulkan::Binding bindings[] = {{0, vk::DescriptorType::eUniformBufferDynamic}, {1}};
     constexpr std::array keep_the_sum = {1U, 0U};
@@ -57,7 +56,7 @@ TEST_F(VulkanTest, ADynamicOffsetChoosesThePartOfAStreamedBuffer) {
     Buffer values(device(), BufferUse::Storage, 64 * 4, "values");
     const DescriptorSet set = pipeline.bind(std::array<pt::vulkan::BufferRange, 2>{offsets, values});
     const std::uint32_t steps = 1;
-    for (const std::uint32_t round : {0U, 1U}) { // the second writes over what the first has read
+    for (const std::uint32_t round : {0U, 1U}) { // the second overwrites what the first has read
         std::uint32_t expected = 0;
         for (std::uint32_t part = 0; part < 3; ++part) {
             const std::array words = {1000 * round + 10 * part + 1, 0U, 0U, 0U};
@@ -84,7 +83,7 @@ TEST_F(VulkanTest, ABufferLargerThanAnAllocationMayBeIsRefused) {
     EXPECT_EQ(device().allocated_bytes(), before);
 }
 
-#ifndef __SANITIZE_ADDRESS__ // its own memory is beyond any limit
+#ifndef __SANITIZE_ADDRESS__ // its own memory exceeds any limit
 TEST_F(VulkanTest, AnAllocationThatTheDriverRefusesIsAnErrorWithoutTrace) {
     if (device().info().kind != PT_DEVICE_CPU)
         GTEST_SKIP() << "a limit on the process's memory limits CPU devices only";
@@ -109,7 +108,7 @@ TEST_F(VulkanTest, AnAllocationThatTheDriverRefusesIsAnErrorWithoutTrace) {
 }
 #endif
 
-// Both ways of a buffer to the host, on the one device there is.
+// Both transfer paths, on one device.
 class VulkanTransferTest : public VulkanTest, public testing::WithParamInterface<bool> {
 protected:
     Device &device_under_test() {
@@ -126,7 +125,7 @@ INSTANTIATE_TEST_SUITE_P(, VulkanTransferTest, testing::Values(true, false),
 
 TEST_P(VulkanTransferTest, DownloadReturnsWhatWasUploaded) {
     Device &device = device_under_test();
-    // More than two staging buffers hold, and not a multiple of one.
+    // More than two staging buffers, not a multiple of one.
     const std::vector<std::uint32_t> values = counting((33U << 20) / 4 + 3);
     Buffer buffer(device, BufferUse::Storage, values.size() * 4, "test");
     upload(buffer, values);

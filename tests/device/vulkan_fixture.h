@@ -1,5 +1,5 @@
-// Tests on a real device beneath pt.h: an instance and a device. Any message of the validation layer fails the test;
-// PT_TEST_NO_VALIDATION turns the layer off. PT_TEST_DEVICE names a device other than the best.
+// An instance and a device, beneath pt.h. Messages of the validation layer fail the test; PT_TEST_NO_VALIDATION turns
+// it off. PT_TEST_DEVICE names another device than the best.
 #pragma once
 
 #include "lib/vulkan/device.h"
@@ -24,7 +24,7 @@ protected:
         instance_.emplace(log_, validation());
     }
 
-    // The layer reports leaks when the device and the instance are destroyed.
+    // Destroying device and instance makes the layer report leaks.
     void TearDown() override {
         device_.reset();
         instance_.reset();
@@ -49,7 +49,7 @@ protected:
         return *device_;
     }
 
-    // A device in the place of the one before.
+    // Replaces the device.
     pt::vulkan::Device &device_with(const pt::vulkan::DevicePolicy &policy) {
         device_.emplace(*instance_, physical_device(), policy);
         return *device_;

@@ -1,4 +1,4 @@
-// Tests of lib/vulkan/instance.* where Vulkan lacks something: no driver, no layer.
+// lib/vulkan/instance.* without a driver or a layer.
 #include "lib/vulkan/instance.h"
 
 #include "lib/base/error.h"
@@ -15,7 +15,7 @@ namespace {
 
 using pt::vulkan::Instance;
 
-// Sets an environment variable while it lives.
+// Set for the object's lifetime.
 class EnvironmentVariable {
 public:
     EnvironmentVariable(const char *name, const char *value) : name_(name) {

@@ -1,5 +1,4 @@
-// Work that is submitted to a device: waiting for it, and what is left if it fails; and that the validation layer is
-// heard.
+// Submissions: waiting, failures and what remains after them; the validation layer reaches the log.
 #include "lib/vulkan/buffer.h"
 #include "lib/vulkan/device.h"
 #include "tests/device/vulkan_fixture.h"
@@ -49,7 +48,7 @@ TEST_F(VulkanTest, ADeviceThatDoesNotEndASubmissionIsLostForGood) {
                                   .invocations = 0,
                                   .queue_depth = 1});
     const Gate gate(device.handle());
-    Recurrence recurrence(device, 256); // fills no buffer: with no patience at all the first submission is the last
+    Recurrence recurrence(device, 256); // fits into its buffer: without patience the first submission is the last
     const pt::Error loss = error_of([&] { device.submit([&](const auto &commands) { gate.record(commands); }); });
     EXPECT_EQ(loss.code(), PT_ERROR_DEVICE_LOST);
     EXPECT_TRUE(device.lost());
@@ -66,7 +65,7 @@ TEST_F(VulkanTest, ADeviceThatDoesNotEndASubmissionIsLostForGood) {
         EXPECT_EQ(error.code(), PT_ERROR_DEVICE_LOST);
         EXPECT_STREQ(error.what(), loss.what());
     }
-    gate.open(); // this device does end it, and then its buffers may go
+    gate.open(); // this device does end it, so its buffers may go
 }
 
 TEST_F(VulkanTest, ASubmissionIsWaitedForUntilATime) {
@@ -82,7 +81,7 @@ TEST_F(VulkanTest, ASubmissionIsWaitedForUntilATime) {
     EXPECT_GE(device().finish(ticket), 5e-3);
 }
 
-// Nobody knows then how long it took, only that it was no longer than until somebody looked.
+// The duration is then known only up to the moment of looking.
 TEST_F(VulkanTest, ASubmissionMayEndUnseen) {
     const auto seconds_of = [&](double expected, bool seen) {
         const Device::Ticket ticket = device().start([](const auto &) {});
@@ -112,7 +111,7 @@ TEST_F(VulkanTest, GpusAreWaitedForInBoundedTime) {
     EXPECT_TRUE(pt::vulkan::default_policy(info).scene_in_constants);
 }
 
-// The negative control of every test here.
+// Negative control of all tests here.
 TEST_F(VulkanTest, TheLayersMessagesReachTheLog) {
     if (!validation())
         GTEST_SKIP() << "the layer is off";

@@ -1,5 +1,5 @@
-// Samples whose walks through the tree an invocation finishes one by one, against those that it takes step by step
-// (tree_path.glsl): all bits of films, if the driver rounds as the kernel is written.
+// Walks step by step (tree_path.glsl) against whole walks, one sample at a time: all bits of films, if the driver
+// rounds as written.
 #include "tests/device/kernel_render.h"
 #include "tests/device/tree_scenes.h"
 #include "tests/support/checked_scene_of.h"
@@ -22,8 +22,8 @@ pt::PreparedScene all_in_a_tree(const pt::Scene &scene) {
     return prepared_scene_of({scene.materials, {spheres, {}}, scene.planes}, 1);
 }
 
-// Scenes with one lamp, few of which each is sampled, more of them than branches, and many; paths of one vertex, of one
-// direction, and with roulette.
+// One lamp, few that are each sampled, more than branches, and many; paths of one vertex, of one direction, and with
+// roulette.
 TEST(WalkSteps, TakeTheSamplesOfWholeWalks) {
     TreeScenes scenes(23);
     const bool is_exact = probe_device().info().kind == PT_DEVICE_CPU;

@@ -1,4 +1,4 @@
-// Broken in two ways on purpose: it leaves out value 100, and where an argument is 2, writes one place further.
+// Broken on purpose: skips value 100, and writes one place further where the argument is 2.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 

@@ -1,4 +1,4 @@
-// Evaluates the shipped camera_direction, and ray_through_lens.
+// Evaluates camera_direction and ray_through_lens.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 

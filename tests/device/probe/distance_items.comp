@@ -1,5 +1,4 @@
-// Evaluates the shipped distances along a ray to a sphere and to a plane, and whether the sphere blocks shadow rays
-// that end somewhat before and behind the hit.
+// Evaluates distances to a sphere and a plane, and shadow rays that end before and behind the hit.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -8,8 +7,8 @@
 
 #include "items.glsl"
 
-// start: 0 anywhere, 1 on the surface and outside of the sphere, 2 on it and inside. The sphere's centre as seen from
-// the ray's start is the plane's normal too, and its radius the height above the plane.
+// start: 0 anywhere, 1 on the sphere and outside, 2 inside. The center, relative to the ray's start, is the plane's
+// normal too; the radius is its height.
 struct Item { vec4 centre_radius; vec4 direction_start; };
 layout(set = 0, binding = 2) writeonly buffer Output { vec4 results[]; };
 layout(set = 0, binding = 3) readonly buffer Input { Item items[]; };

@@ -1,4 +1,4 @@
-// Adds given samples, per_pixel of them to each pixel, to one part of the film with the shipped functions.
+// Adds per_pixel samples to each pixel of one part of the film.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 

@@ -1,4 +1,4 @@
-// Evaluates the shipped functions that work on integers: hash, fixed point.
+// Evaluates hash and fixed point.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require

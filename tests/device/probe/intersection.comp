@@ -1,4 +1,4 @@
-// Follows rays by the shipped functions to what they meet, and states the vertex there.
+// Intersects rays and states the vertices.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -10,7 +10,7 @@ layout(local_size_x = WORKGROUP_SIZE) in;
 layout(push_constant) uniform Push { uint count; };
 
 struct Ray {
-    vec4 origin;    // w: 0 starts on no surface, 1 on surface 0 outside, -1 on surface 0 inside
+    vec4 origin;    // w: 0 on no surface, 1 on surface 0 outside, -1 inside
     vec4 direction; // unit vector
 };
 
@@ -18,7 +18,7 @@ struct Met {
     vec4 position_distance;
     vec4 normal;
     uint surface;
-    uint blocked; // the same ray as a shadow ray to beyond everything
+    uint blocked; // as a shadow ray to beyond everything
     uint inside;
     uint unused;
 };

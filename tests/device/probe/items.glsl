@@ -1,4 +1,4 @@
-// Items in and out of a probe; tests/device/accuracy/evaluation.h has the host's side. Each probe declares its own structs.
+// A probe's items; tests/device/accuracy/evaluation.h is the host's side. Each probe declares its structs.
 #ifndef ITEMS_GLSL
 #define ITEMS_GLSL
 

@@ -1,4 +1,4 @@
-// Evaluates how the shipped functions of lights.glsl see and sample a lamp from a vertex.
+// Evaluates the view and the samples of a lamp from a vertex.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require

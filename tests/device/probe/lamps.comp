@@ -1,5 +1,4 @@
-// Chooses and samples lamps from one vertex with the shipped functions; the first invocations state how they see each
-// lamp.
+// Chooses and samples lamps from one vertex; the first invocations state how it sees each lamp.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -13,12 +12,12 @@ layout(push_constant) uniform Push { vec4 position; vec4 normal_time; uint surfa
 struct Drawn {
     vec4 direction_distance;
     uint lamp;
-    float density;     // over solid angle, given the lamp: as the sample states it
-    float hit_density; // as it is stated for a direction that happens to hit the lamp
+    float density;     // over solid angle, given the lamp
+    float hit_density; // stated for a direction that happens to hit the lamp
     float probability;
 };
 
-// First one entry for each lamp, of which only density and probability count, then the samples.
+// First an entry for each lamp, with density and probability only, then the samples.
 layout(set = 0, binding = 2) writeonly buffer Output { Drawn drawn[]; };
 
 void main()

@@ -1,4 +1,4 @@
-// Copies every push constant out, so that the host can see where the kernel reads each.
+// Copies every push constant out.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 

@@ -1,4 +1,4 @@
-// Takes each value of a storage buffer along x -> x * multiplier + increment, as many steps as asked for.
+// Iterates x -> x * multiplier + increment on each value of a buffer.
 #version 450
 
 layout(local_size_x = 64) in;

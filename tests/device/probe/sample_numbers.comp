@@ -1,4 +1,4 @@
-// Takes a block of the numbers of a sample's branch with the shipped sampler: one block per invocation, pixel by pixel.
+// Evaluates one block of a branch's numbers per invocation, pixel by pixel.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require

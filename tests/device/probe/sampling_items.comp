@@ -1,4 +1,4 @@
-// Evaluates the shipped functions of sampling.glsl.
+// Evaluates sampling.glsl.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 

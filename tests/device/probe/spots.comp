@@ -1,4 +1,4 @@
-// Chooses and samples spots from one vertex with the shipped functions, and states the density of the directions.
+// Chooses and samples spots from one vertex and states the directions' density.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require

@@ -1,4 +1,4 @@
-// Evaluates the shipped vertex_at.
+// Evaluates vertex_at.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
