@@ -62,8 +62,13 @@ class Image:
     def __len__(self) -> int:
         return len(self.radiance)
 
+    @property
+    def picture_size(self) -> tuple[int, int]:
+        """Width and height of the picture in pixels."""
+        return self.shape[1], self.shape[0]
+
     def __repr__(self) -> str:
-        height, width = self.shape[:2]
+        width, height = self.picture_size
         low, high = self.error_bounds
         return (f"<pt.Image {width}x{height}, {self.stats.mean_sample_count:.4g} samples a pixel, "
                 f"error {self.error:.3g} ({low:.3g} to {high:.3g})>")

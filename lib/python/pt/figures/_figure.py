@@ -248,6 +248,15 @@ class Figure(Image):
         self.legend, self.notes = staged.drawn.legend, staged.drawn.notes
         self._staged, self._stage, self._shares = staged, stage, shares
 
+    @property
+    def picture_size(self) -> tuple[int, int]:
+        """Width and height of the picture in pixels, with the color bar."""
+        height, width = self.shape[:2]
+        options = self._staged.options
+        if not options.colorbar or self.legend is None:
+            return width, height
+        return options.size or (width + _strip_width(raster(self.legend, height, INK), height), height)
+
     def to_srgb8(self, exposure: float | None = None) -> npt.NDArray[np.uint8]:
         """The picture as bytes of sRGB, shape (height, width, 3), or 4 channels with a transparent background.
         exposure: in stops, of the balls; None: the figure's, and if that is None too, automatic."""
@@ -272,10 +281,8 @@ class Figure(Image):
 
     def _strip(self, height: int, background: Doubles | None, ink: str) -> Doubles:
         """The legend on the background, for the right of the picture."""
-        size = self._staged.options.size
-        words = raster(self.legend, height, ink)
-        width = size[0] - self.shape[1] if size else _strip_width(words, height)
-        words = words[:height, :width]
+        width = self.picture_size[0] - self.shape[1]
+        words = raster(self.legend, height, ink)[:height, :width]
         strip = np.zeros((height, width, 4))
         top, left = (height - len(words)) // 2, (width - words.shape[1]) // 2
         strip[top:top + len(words), left:left + words.shape[1]] = words

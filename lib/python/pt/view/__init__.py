@@ -7,6 +7,17 @@
 The command is pt-view, which `pt view` runs.
 """
 
-from pt.view._view import View
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from pt.view._view import View
 
 __all__ = ["View"]
+
+
+def __getattr__(name: str) -> Any:
+    """Imports View when it is first used: it needs aiohttp, which the command's --help does without."""
+    if name != "View":
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from pt.view._view import View
+    return View
