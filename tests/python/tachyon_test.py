@@ -69,6 +69,8 @@ class Sections(unittest.TestCase):
         self.assertAlmostEqual(math.tan(framed.camera.vertical_fov / 2), 0.75, 14)
         focused = parsed(("Zoom 0.5", "Projection Perspective_DoF FocalLength 3 Aperture 0.1 Zoom 0.5"))
         self.assertEqual(focused.notes, ["a.dat:6: PERSPECTIVE_DOF: depth of field is left out"])
+        focused = parsed(("Zoom 0.5", "Projection Perspective_DoF FocalDist 3 Aperture 0 Zoom 0.5"))
+        self.assertEqual(focused.notes, [])
 
     def test_surfaces(self):
         scene = parsed().scene
@@ -105,6 +107,26 @@ class Sections(unittest.TestCase):
             self.assertEqual(found.notes, ["2 x RING, a ring: left out"])
             self.assertEqual(len(found.scene.sphere_arrays[1]), 1)
 
+    def test_fog_is_left_out(self):
+        """As VMD writes it after the background, by default."""
+        fog = "Fog {} Start 0.5 End 10 Density 0.4 Color 1 1 1\nTexDef gold"
+        for kind in ("Linear", "Exp", "Exp2"):
+            found = parsed(("TexDef gold", fog.format(kind)))
+            self.assertEqual(found.notes, ["a.dat:16: FOG: it is left out, far surfaces have their full colors"])
+            self.assertEqual(len(found.scene.sphere_arrays[0]), 2)
+        self.assertEqual(parsed(("TexDef gold", fog.format("Off"))).notes, [])
+
+    def test_a_white_background_stays_white_and_shapes_stay_apart_from_it(self):
+        found = parsed(("Background 0.5 0.25 0.125", "Background 1 1 1"))
+        self.assertEqual(_command.scene_file(found)["film"], {"width": 64, "height": 32, "exposure": 0, "gamma": 1})
+        with pt.Context() as context:
+            image = context.render(found.scene, found.camera, found.settings, 1)
+        self.assertEqual(image.to_srgb8(exposure=0)[0, 0].tolist(), [255, 255, 255])
+        lights = [_lights.Light("", (1, 1, 1), (0, 1, 0), is_directional=True)]
+        for background, count, share in ((1, 2, 1 / 2), (1, 1, 1 / 3), (0.25, 1, 3 / 4), (0, 3, 1)):
+            self.assertAlmostEqual(_lights.dimmed(lights * count, 3 * (background,))[0].color[1], share)
+        self.assertEqual(_lights.dimmed([], (1, 1, 1)), [])
+
     def test_equal_textures_are_one_material(self):
         sphere = "Sphere Center 0 0 0 Rad 1 Texture Ambient 0 Diffuse 1 Specular 0 Opacity 1 Color {} TexFunc 0\n"
         more = "".join(map(sphere.format, ("1 0 0", "0 1 0", "1 0 0")))
@@ -117,14 +139,15 @@ class Sections(unittest.TestCase):
         distance = 100 * math.sqrt(170)  # a hundred times that of the light, which is farthest: sqrt(1 + 13^2)
         self.assertAlmostEqual(sun.center[1], 2 + distance, 9)
         self.assertAlmostEqual(sun.radius, distance / 50, 9)
-        np.testing.assert_allclose(sun.material.emission, [2500, 1250, 625], rtol=1e-12)
+        share = 1 - 0.5 / 2.25  # the background gives 0.5 where both lights give up to 2.25
+        np.testing.assert_allclose(sun.material.emission, share * np.array([2500, 1250, 625]), rtol=1e-12)
         self.assertTrue(sun.material.hidden_from_camera)
         self.assertEqual((lamp.center, lamp.radius), ((2, 2, 6), 0.5))
         self.assertFalse(lamp.material.hidden_from_camera)
-        np.testing.assert_allclose(lamp.material.emission, np.array([0.5, 1, 2]) * 170 / 0.25, rtol=1e-12)
+        np.testing.assert_allclose(lamp.material.emission, share * np.array([0.5, 1, 2]) * 170 / 0.25, rtol=1e-12)
         self.assertEqual(sky.material.emission, (0.5, 0.25, 0.125))
         faded = parsed(("Rad 0.5 Color", "Rad 0.5 Attenuation Constant 1 Linear 0 Quadratic 0.1 Color")).scene.spheres[1]
-        np.testing.assert_allclose(faded.material.emission[0], 0.5 * 170 / 0.25 / 18, rtol=1e-12)
+        np.testing.assert_allclose(faded.material.emission[0], share * 0.5 * 170 / 0.25 / 18, rtol=1e-12)
 
     def test_refusals_name_place_value_and_rule(self):
         for old, new, message in (
@@ -146,6 +169,8 @@ class Sections(unittest.TestCase):
                 ("Sphere Center 0", "PolyCylinder Points 0", "20: POINTS = 0: must be a whole number from 1 to 2^32 - 1"),
                 ("Sphere Center 0", "PolyCylinder Points 2", '20: POINTS = "Rad": must be a finite number'),
                 ("Sphere Center 0 2 7", "FCylinder Base 0 0 0 Apex 1 1 1 Rad 0 gold", "20: RAD = 0: must be above 0"),
+                ("Background", "Fog Thick Start 0 End 10 Density 0.4 Color 1 1 1 Background",
+                 '15: FOG "THICK": must be LINEAR, EXP, EXP2 or OFF'),
                 ("Sphere Center 0", "Ball Center 0", '20: "BALL": must be CAMERA, ')):
             with self.subTest(new), self.assertRaises(ValueError) as caught:
                 parsed((old, new))

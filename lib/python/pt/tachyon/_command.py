@@ -53,7 +53,8 @@ def scene_file(found: TachyonScene) -> dict[str, Any]:
         materials[name] = sphere.material
         spheres.append({"center": sphere.center, "radius": sphere.radius, "material": name})
     return {"camera": found.camera._section(),
-            "film": {"width": found.settings.width, "height": found.settings.height},
+            # Tachyon clamps colors and writes them as they are.
+            "film": {"width": found.settings.width, "height": found.settings.height, "exposure": 0, "gamma": 1},
             "materials": {name: each._section() for name, each in materials.items()},
             "spheres": spheres, "capsules": capsules,
             "planes": [{"normal": plane.normal, "offset": plane.offset, "material": f"texture {plane.material}"}

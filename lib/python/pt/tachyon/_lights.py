@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -15,6 +15,7 @@ FloatArray = npt.NDArray[np.float64]
 DEFAULT_RADIUS = 1 / 50  # of a light without a radius, relative to its distance
 LEAST_RADIUS = 1e-6  # likewise: a smaller lamp is taken to lie on a surface
 SUN_DISTANCE = 100.0  # relative to the extent of the scene
+LEAST_SHARE = 1 / 3  # of lights before a bright background, so that shapes keep a lit side; by taste
 
 
 @dataclass(frozen=True)
@@ -76,6 +77,14 @@ def view_target(centers: FloatArray, radii: FloatArray, planes: list[Plane], pos
         distance = min(ahead, default=1.0)
     target: FloatArray = start + distance * way
     return target
+
+
+def dimmed(lights: list[Light], background: Triple) -> list[Light]:
+    """The lights without what the background gives in their place: it lights surfaces here, and does not in Tachyon."""
+    together = max(map(sum, zip(*(light.color for light in lights))), default=0.0)
+    share = max(1.0 - max(background) / together, LEAST_SHARE) if together else 1.0
+    return [replace(light, color=(share * light.color[0], share * light.color[1], share * light.color[2]))
+            for light in lights]
 
 
 def lamps_of(lights: list[Light], around: Surroundings) -> tuple[list[Sphere], list[str]]:

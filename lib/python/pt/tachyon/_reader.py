@@ -13,7 +13,7 @@ import numpy as np
 from pt._camera import Camera, RenderSettings
 from pt._scene import Material, Plane, Scene, Sphere, SphereArray
 from pt._vectors import Triple
-from pt.tachyon._lights import Light, Surroundings, lamps_of, view_target
+from pt.tachyon._lights import Light, Surroundings, dimmed, lamps_of, view_target
 from pt.tachyon._textures import Textures
 from pt.tachyon._words import Words
 
@@ -22,9 +22,9 @@ OTHERS = {
     "VERTEXARRAY": "a mesh of triangles", "CYLINDER": "a cylinder without ends", "RING": "a ring", "BOX": "a box",
     "QUADRIC": "a quadric surface", "SCAPE": "a landscape", "SCALARVOL": "a volume", "TPOLYFILE": "a file of triangles",
     "MGFFILE": "a file of shapes", "IMAGEDEF": "an image", "SPOTLIGHT": "a spotlight",
-    "SKY_LIGHT": "light from all sides", "BACKGROUND_GRADIENT": "a background of two colors", "FOG": "fog",
+    "SKY_LIGHT": "light from all sides", "BACKGROUND_GRADIENT": "a background of two colors",
     "START_CLIPGROUP": "a cut through shapes", "INCLUDE": "another file"}
-SECTIONS = ("CAMERA", "BACKGROUND", "LIGHT", "DIRECTIONAL_LIGHT", "TEXDEF", "TEXALIAS", "SPHERE", "FCYLINDER",
+SECTIONS = ("CAMERA", "BACKGROUND", "FOG", "LIGHT", "DIRECTIONAL_LIGHT", "TEXDEF", "TEXALIAS", "SPHERE", "FCYLINDER",
             "POLYCYLINDER", "PLANE", "SHADER_MODE", "END_SCENE")
 SKY_RADIUS = 1e6  # relative to the extent: a floor ends less than a pixel below the horizon
 
@@ -48,7 +48,8 @@ class TachyonScene:
 def read(path: str | os.PathLike[str], *, leave_out_others: bool = False) -> TachyonScene:
     """Reads a scene file of Tachyon. Lengths stay as they are; the rest becomes:
 
-    colors                     linear, unchanged; `pt render --gamma 1` shows them as Tachyon does
+    colors                     linear, unchanged; Tachyon shows them with the exposure 0 and the gamma 1, which pt-tachyon
+                               writes into the scene file
     axes, left-handed          z has the other sign
     ZOOM                       half of the height is seen at the tangent 0.5 / ZOOM; with ORTHOGRAPHIC the vertical_extent
                                is 1 / ZOOM
@@ -57,10 +58,12 @@ def read(path: str | os.PathLike[str], *, leave_out_others: bool = False) -> Tac
       without SPECULAR
     FCYLINDER, POLYCYLINDER    capsules, whose ends are round; the flat caps (RING) that VMD puts on them are inside
     BACKGROUND                 a ball around everything that shines in this color, and so also lights the scene; none if
-                               black
+                               black. Lights are dimmed by as much, but not below a third
     a light, which has no      a lamp that lights what the camera looks at as the light would; with a radius RAD it is in
       size                     view, without one hidden from the camera, with a 50th of its distance as its radius.
                                Nearer surfaces get more from it and farther ones less, which Tachyon's lights do not know
+
+    FOG                        left out, with a note
 
     leave_out_others   leaves out everything except these shapes, planes, lights and the camera, and counts it in the
                        notes, instead of refusing the file
@@ -110,7 +113,7 @@ class _Reader:
         target = view_target(np.vstack([centers, ends]), np.tile(radii, 2), self.planes, position,
                              self.camera["VIEWDIR"])
         around = Surroundings(centers, ends, radii, self.planes, np.array(position), target)
-        lamps, warnings = lamps_of(self.lights, around)
+        lamps, warnings = lamps_of(dimmed(self.lights, self.background), around)
         if any(self.background):
             lamps.append(Sphere(target, SKY_RADIUS * around.extent(self.lights), Material(emission=self.background)))
         arrays = []
@@ -157,6 +160,8 @@ class _Reader:
             self.read_camera()
         elif keyword == "BACKGROUND":
             self.background = words.color("BACKGROUND")
+        elif keyword == "FOG":
+            self.fog()
         elif keyword == "SHADER_MODE":  # how Tachyon shades; light is found otherwise here
             while (word := words.keyword("END_SHADER_MODE")) != "END_SHADER_MODE":
                 if word == "AMBIENT_OCCLUSION":
@@ -169,6 +174,19 @@ class _Reader:
         ends = points[1:] or points
         self.capsules += [(*begin, *end, radius) for begin, end in zip(points, ends)]
         self.capsule_materials += [material] * len(ends)
+
+    def fog(self) -> None:
+        """Depth cueing, which VMD has on by default."""
+        words = self.words
+        place, kind = words.place(), words.keyword("the kind of fog")
+        if kind not in ("LINEAR", "EXP", "EXP2", "OFF"):
+            words.refuse(f'FOG "{kind}": must be LINEAR, EXP, EXP2 or OFF')
+        for name in ("START", "END", "DENSITY"):
+            words.named(name)
+        words.expect("COLOR")
+        words.color("COLOR")
+        if kind != "OFF":
+            self.left_out["FOG"] = f"{place}: FOG: it is left out, far surfaces have their full colors"
 
     def ring(self) -> None:
         """A ring is left out if it closes an end of the cylinder before it, as those of VMD do."""
@@ -210,7 +228,9 @@ class _Reader:
             words.refuse("there is a second CAMERA")
         projection = words.keyword("the projection") if words.take_if("PROJECTION") else "PERSPECTIVE"
         if projection == "PERSPECTIVE_DOF":
-            words.named("FOCALLENGTH", positive=True)
+            if not words.take_if("FOCALDIST"):  # VMD's name
+                words.expect("FOCALLENGTH")
+            words.number("the focus", positive=True)
             if words.named("APERTURE") != 0.0:
                 self.left_out[projection] = f"{words.place()}: {projection}: depth of field is left out"
         elif projection not in ("PERSPECTIVE", "ORTHOGRAPHIC"):
