@@ -1,5 +1,4 @@
-// Adaptive films. Each tile has the bits of an even film with its sample count; splits of the work, saved and added
-// films and the number of devices change no count.
+// Adaptive films: each tile has the bits of an even film with its sample count, and nothing but samples changes counts.
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
@@ -19,7 +18,7 @@
 
 namespace {
 
-constexpr uint32_t uneven_width = 75; // neither is a multiple of the tile size
+constexpr uint32_t uneven_width = 75; // no multiple of the tile size
 constexpr uint32_t uneven_height = 44;
 constexpr double uneven_target = 0.015;
 constexpr uint32_t no_limit = 1U << 20;
@@ -86,7 +85,7 @@ TEST_F(AdaptiveTest, EachTileHasTheBitsOfAnEvenFilm) {
         for (uint32_t y = 0; y < uneven_height; ++y) // squares have one count
             for (uint32_t x = 0; x < uneven_width; ++x)
                 EXPECT_EQ(counts[3 * (y * uneven_width + x)], counts[3 * (y / 8 * 8 * uneven_width + x / 8 * 8)]);
-        std::map<uint32_t, std::size_t> pixels; // by sample count
+        std::map<uint32_t, std::size_t> pixels;
         for (std::size_t i = 0; i < counts.size(); i += 3)
             ++pixels[static_cast<uint32_t>(counts[i])];
         EXPECT_GE(pixels.size(), 3U);

@@ -1,4 +1,4 @@
-// The contract of pt_get_accuracy: counts, rows, and an unchanged context.
+// The contract of pt_get_accuracy.
 #include "lib/kernel/accuracy.h"
 #include "tests/device/api_fixture.h"
 
@@ -48,7 +48,6 @@ TEST_F(ApiTest, AccuracyWritesAtMostCountRows) {
     }
 }
 
-// Image, statistics and memory stay the same during a render.
 TEST_F(ApiTest, AccuracyChangesNothing) {
     set_all();
     accumulate(3);

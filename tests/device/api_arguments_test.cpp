@@ -13,7 +13,7 @@ namespace api {
 
 namespace {
 
-// ---- No context -----------------------------------------------------------------------------------------------------
+// ---- No context
 
 TEST(Api, GetDevicesNeedsCount) {
     EXPECT_EQ(pt_get_devices(nullptr, nullptr), PT_ERROR_INVALID_ARGUMENT);
@@ -45,7 +45,7 @@ TEST(Api, GetDevicesWritesAtMostCount) {
     EXPECT_EQ(std::memcmp(&devices[count], &untouched, sizeof untouched), 0);
 }
 
-// Calls pt_create; returns "created", or "result name: message" after checking that no context came out.
+// Returns "created", or "result name: message" after checking that no context came out.
 std::string create_outcome(const pt_create_info *info) {
     pt_context *context = reinterpret_cast<pt_context *>(&context);
     const pt_result result = pt_create(info, &context);
@@ -97,7 +97,7 @@ TEST(Api, EveryFunctionRefusesANullContext) {
     expect_every_call(outcomes_of_every_call(nullptr), "PT_ERROR_INVALID_ARGUMENT: context = NULL: must not be NULL");
 }
 
-// ---- Pointers -------------------------------------------------------------------------------------------------------
+// ---- Pointers
 
 TEST_F(ApiTest, RefusesNullPointers) {
     set_all();

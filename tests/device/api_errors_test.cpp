@@ -45,7 +45,6 @@ std::string all_text_of(const pt_context *context) {
 
 class ErrorsTest : public ApiTest {
 protected:
-    // The call failed, and message and rule name the same field.
     void expect_rule(pt_result result, const char *subject, int64_t index, const char *member, int32_t component) {
         EXPECT_LT(result, PT_OK);
         ASSERT_EQ(pt_get_broken_rule(context(), 0, nullptr), 1U) << message();
@@ -110,7 +109,7 @@ TEST_F(ErrorsTest, NameWhatElseEntersAValue) {
     expect_rule(pt_set_render(context(), &render), "render", -1, "first_row", -1);
     EXPECT_STREQ(rule_of(context(), 0).with, "+ row_count");
     render = valid_render();
-    render.height = 1U << 30; // beyond any device's memory
+    render.height = 1U << 30;
     render.width = 3;
     expect_rule(pt_set_render(context(), &render), "render", -1, "width", -1);
     EXPECT_STREQ(rule_of(context(), 0).with, "* rows");

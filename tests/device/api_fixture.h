@@ -1,4 +1,4 @@
-// A context on a real device, with a scene whose image is known exactly.
+// A context with a scene whose image is known exactly.
 #pragma once
 
 #include "tests/support/context_fixture.h"
@@ -77,7 +77,6 @@ protected:
         return pixels;
     }
 
-    // Reads back: each pixel must have the scene's radiance.
     void expect_image(uint32_t sample_count) {
         EXPECT_EQ(stats().sample_count, sample_count);
         const std::vector<float> pixels = image();

@@ -1,4 +1,4 @@
-// The growth rule of structs for each size: fields unknown to the caller or the library count as zeros.
+// The growth rule of structs: fields unknown to one side count as zeros.
 #include "tests/device/api_fixture.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace api {
 
 namespace {
 
-// The result and the message of a failure.
+// Result and message.
 using Outcome = std::pair<pt_result, std::string>;
 
 // Sizes from the first field to the whole, in steps of 8 bytes so that no pointer is split.
@@ -30,7 +30,7 @@ T with_tail(const T &value, uint32_t size, int byte) {
 }
 
 // Sizes at which an older struct, followed by unrelated bytes, is read differently from the whole struct with zeros
-// there. There should be none.
+// there.
 template <typename T, typename Call>
 std::vector<uint32_t> misread_sizes(const T &value, const Call &call) {
     std::vector<uint32_t> misread;
@@ -59,8 +59,8 @@ Newer<T> newer_than(const T &value) {
     return newer;
 }
 
-// The call must accept a newer struct with zeros in the unknown tail, name each nonzero byte there, and refuse sizes
-// that the struct never had. name: in messages.
+// The call must accept a newer struct with a zero tail, name each nonzero byte there, and refuse sizes that the struct
+// never had.
 template <typename T, typename Call>
 void expect_sizes_heeded(const T &value, const std::string &name, const Call &call) {
     EXPECT_EQ(call(newer_than(value).known), call(value));
@@ -190,8 +190,8 @@ TEST(StructSize, CreateInfo) {
     expect_sizes_heeded(info, "create", call);
 }
 
-// The call must write exactly the caller's size, with the bytes of the whole struct, and refuse sizes that the struct
-// never had. name: in messages.
+// The call must write exactly the caller's size, with the whole struct's bytes, and refuse sizes that the struct never
+// had.
 template <typename T, typename Call>
 void expect_written_sizes_heeded(const T &whole, const std::string &name, const Call &call) {
     for (const uint32_t size : older_sizes<T>()) {

@@ -1,5 +1,4 @@
-// The contract of pt.h on a real device: states, messages, progress, and failed calls that change nothing. Rules of
-// single fields are tested without a device.
+// The contract of pt.h: states, messages, progress, and failed calls that change nothing.
 #include "tests/device/api_fixture.h"
 #include "tests/support/image_target.h"
 
@@ -17,7 +16,6 @@ namespace api {
 namespace {
 
 // ---- States
-// -----------------------------------------------------------------------------------------------------------
 
 TEST_F(ApiTest, AccumulateNeedsEverySetting) {
     const pt_scene scene = valid_scene();
@@ -78,7 +76,7 @@ TEST_F(ApiTest, SampleIndicesEndAt32Bits) {
     pt_accumulate_info info = samples(3);
     EXPECT_EQ(pt_accumulate(context(), &info), PT_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(message().rfind("accumulate.sample_count = 3: ", 0), 0U) << message();
-    accumulate(2); // the last two
+    accumulate(2);
     expect_image(2);
     info.sample_count = 1;
     EXPECT_EQ(pt_accumulate(context(), &info), PT_ERROR_INVALID_ARGUMENT);
@@ -110,7 +108,6 @@ TEST_F(ApiTest, TellsItsDevice) {
 }
 
 // ---- Transactions
-// -------------------------------------------------------------------------------------------------------
 
 TEST_F(ApiTest, FailedCallsChangeNothing) {
     set_all();
@@ -149,18 +146,17 @@ TEST_F(ApiTest, FailedCallsChangeNothing) {
     }
     expect_image(3);
 
-    accumulate(2); // as if nothing had happened
+    accumulate(2);
     expect_image(5);
 }
 
 // ---- Messages
-// -------------------------------------------------------------------------------------------------------------
 
 TEST_F(ApiTest, MessageStaysUntilTheNextFailure) {
     EXPECT_EQ(message(), "");
     EXPECT_EQ(pt_set_scene(context(), nullptr), PT_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(message(), "scene = NULL: must not be NULL");
-    set_all(); // does not fail
+    set_all();
     EXPECT_EQ(message(), "scene = NULL: must not be NULL");
     EXPECT_EQ(pt_set_camera(context(), nullptr), PT_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(message(), "camera = NULL: must not be NULL");
@@ -177,7 +173,6 @@ TEST_F(ApiTest, MessagesBelongToTheirContext) {
 }
 
 // ---- Progress
-// ---------------------------------------------------------------------------------------------------------------
 
 struct Progress {
     std::vector<double> fractions;
@@ -228,7 +223,7 @@ TEST_F(ApiTest, TheErrorIsKnownFrom16Samples) {
     EXPECT_EQ(known.relative_rmse_high, 0.0);
     ASSERT_EQ(pt_accumulate(context(), &info), PT_TARGET_REACHED) << message();
     expect_image(16);
-    info.target_error = 0.0; // none
+    info.target_error = 0.0;
     ASSERT_EQ(pt_accumulate(context(), &info), PT_OK) << message();
     expect_image(116);
 }

@@ -1,4 +1,4 @@
-// Borrowed devices, beneath pt.h: submissions under the caller's lock, waits, and a device that hangs.
+// Borrowed devices beneath pt.h: locks, waits, and a device that hangs.
 #include "lib/base/error.h"
 #include "lib/render/render_device.h"
 #include "lib/vulkan/buffer.h"
@@ -29,7 +29,7 @@ using pt::vulkan::DescriptorSet;
 using pt::vulkan::Device;
 using pt::vulkan::Instance;
 
-// Wraps a device's queue functions and records whether the queue is locked. One device at a time.
+// Records whether the queue is locked. One device at a time.
 class QueueSpy {
 public:
     explicit QueueSpy(const vk::raii::Device &device) {
@@ -82,7 +82,6 @@ protected:
         return pt::vulkan::validated_vulkan(vulkan);
     }
 
-    // Renders, reads back and destroys.
     void render(bool with_lock) const {
         const CallerVulkan handles = this->handles(with_lock);
         Instance instance(pt::Log{}, handles.instance);
@@ -116,7 +115,7 @@ TEST_F(BorrowedDeviceTest, EverySubmissionHoldsTheQueue) {
     EXPECT_EQ(QueueSpy::counts.waits_for_all, 0);
 }
 
-// Negative control: without the caller's functions the spy sees unlocked submissions.
+// Negative control.
 TEST_F(BorrowedDeviceTest, WithoutALockNoSubmissionHoldsTheQueue) {
     render(false);
     EXPECT_GE(QueueSpy::counts.submissions, 2);
@@ -141,7 +140,7 @@ TEST_F(BorrowedDeviceTest, ASubmissionThatLosesTheDeviceLetsGoOfTheQueue) {
 }
 
 #ifndef __SANITIZE_ADDRESS__ // what stays behind is a deliberate leak
-// A submission that was given up is still running: neither what it uses nor the caller's device may be destroyed.
+// A submission that was given up is still running: neither what it uses nor the device may be destroyed.
 TEST_F(BorrowedDeviceTest, ADeviceThatHangsKeepsWhatItsWorkUses) {
     const CallerVulkan handles = this->handles(false);
     std::optional<Gate> gate(caller_->device());

@@ -1,5 +1,4 @@
-// A program's own Vulkan, made without the library: instance with the validation layer, device and queue.
-// PT_TEST_DEVICE and PT_TEST_NO_VALIDATION as in context_fixture.h.
+// A program's own Vulkan, with the validation layer. PT_TEST_DEVICE and PT_TEST_NO_VALIDATION as in context_fixture.h.
 #pragma once
 
 #include "lib/vulkan/device_choice.h"
@@ -18,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-// The validation layer's messages. Thread-safe.
+// Thread-safe.
 class LayerMessages {
 public:
     std::vector<std::string> take() {
@@ -138,7 +137,7 @@ private:
     vk::raii::Queue queue_;
 };
 
-// Tests with their own Vulkan fail on any message of the layer; at destruction it reports what is left.
+// Any message of the layer fails the test; at destruction it reports leaks.
 class CallerVulkanFixture : public testing::Test {
 protected:
     void SetUp() override { caller_.emplace(messages_); }

@@ -1,5 +1,4 @@
-// Capsules: intersections against double, light against a path tracer in double, and capsules that are spheres.
-// PT_TEST_MANY renders 100 random scenes.
+// Capsules: intersections and light against double; PT_TEST_MANY renders 100 random scenes.
 #include "lib/tree/tree_choice.h"
 #include "tests/support/light_in_double.h"
 
@@ -22,7 +21,6 @@ namespace {
 
 using namespace light_in_double;
 
-// A scene and a camera.
 struct Case {
     std::string name;
     Given given;
@@ -89,8 +87,7 @@ protected:
         return read(quantity);
     }
 
-    // Pixels whose depth or object differs from a search in double along the central ray, which steps by the distance
-    // to the nearest capsule.
+    // Pixels whose depth or object differs from sphere tracing in double along the central ray.
     std::size_t wrong_pixels(const Given &seen, const Given &truth) {
         const std::vector<float> depths = first_hits(seen, PT_QUANTITY_DEPTH);
         std::vector<std::uint32_t> objects(std::size_t{picture.x} * picture.y);
@@ -114,8 +111,8 @@ protected:
             }
             const bool meets = nearest.distance < 1e-9;
             met += meets ? 1 : 0;
-            // float32 is off by 8 2^-24 at a distance of 8, and by 2^-23 of the huge radius; at grazing angles the
-            // depth by the root.
+            // float32 errs by 8 2^-24 at a distance of 8, and by 2^-23 of the huge radius; at grazing angles by the
+            // root.
             const bool is_near = std::abs(depths[3 * i] - depth) < 2e-4 * depth;
             const bool is_object = objects[i] == seen.spheres.size() + nearest.index;
             wrong += meets != std::isfinite(depths[3 * i]) || (meets && !(is_near && is_object)) ? 1 : 0;
@@ -149,7 +146,6 @@ TEST_F(Capsules, HaveTheLightOfAPathTracerInDouble) {
     }
 }
 
-// Mean absolute difference relative to the light.
 double difference(const std::vector<float> &a, const std::vector<float> &b) {
     double differences = 0.0;
     double light = 0.0;
@@ -160,14 +156,14 @@ double difference(const std::vector<float> &a, const std::vector<float> &b) {
     return differences / light;
 }
 
-// Coinciding ends make a sphere: to the bit beside other capsules; without capsules, up to the compiler's rounding in
-// another kernel. Hits depend on rounding within 2^-22 of the silhouettes of 100 balls, for fewer than 1e-4 of the
-// rays; one ball more or less changes a hundredth.
+// Coinciding ends make a sphere: to the bit beside other capsules; otherwise up to rounding in another kernel. Hits
+// depend on rounding within 2^-22 of the silhouettes of 100 balls, for fewer than 1e-4 of the rays; a ball changes a
+// hundredth.
 TEST_F(Capsules, AreSpheresWhereTheirEndsCoincide) {
     for (const bool all : {false, true}) {
         Given given = all ? random_scene(4, 200, 100, 8.0) : random_scene(1, 6, 3, 8.0);
         if (all)
-            given.camera.shutter_close = 0.0; // compilers may round motion differently in another kernel
+            given.camera.shutter_close = 0.0; // other kernels may round motion differently
         Given spheres = given;
         spheres.capsules.clear();
         for (std::size_t i = 0; i < given.capsules.size(); ++i) {
@@ -203,11 +199,11 @@ TEST_F(Capsules, AreMetWhereTheirDistanceIsZero) {
     Given given = random_scene(11, 40, 0, 8.0);
     given.planes.clear();
     given.spheres.resize(1);
-    given.capsules.push_back({{0, 0, 0}, {0.28, 0, 0.96}, 0.3, 0});         // along the view
-    given.capsules.push_back({{0, 0, 0}, {0.28, 0, 0.96}, 0.15, 0});        // nested
-    given.capsules.push_back({{-1, 1, 0}, {-1 + 1e-9, 1, 0}, 0.25, 0});     // nearly a ball
-    given.capsules.push_back({{-900, -1.5, -3}, {900, -1.4, -3}, 0.2, 0});  // long
-    given.capsules.push_back({{0, -1030, -20}, {90, -1030, -20}, 1000, 0}); // huge
+    given.capsules.push_back({{0, 0, 0}, {0.28, 0, 0.96}, 0.3, 0});
+    given.capsules.push_back({{0, 0, 0}, {0.28, 0, 0.96}, 0.15, 0});
+    given.capsules.push_back({{-1, 1, 0}, {-1 + 1e-9, 1, 0}, 0.25, 0});
+    given.capsules.push_back({{-900, -1.5, -3}, {900, -1.4, -3}, 0.2, 0});
+    given.capsules.push_back({{0, -1030, -20}, {90, -1030, -20}, 1000, 0});
     EXPECT_EQ(wrong_pixels(given, given), 0U);
     Given thicker = given;
     for (Given::Capsule &rod : thicker.capsules)

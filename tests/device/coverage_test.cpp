@@ -1,5 +1,5 @@
-// Coverage, through pt.h. Where every surface emits 1 and reflects nothing, the mean radiance is the share of samples
-// that hit; sums are exact, so coverage has the same bits.
+// Coverage. Where every surface emits 1 and reflects nothing, the mean radiance is the share of samples that hit, and
+// sums are exact: coverage has the same bits.
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
@@ -30,7 +30,7 @@ struct Shining {
     pt_camera camera = CourseworkScene::camera();
 };
 
-// Balls in front of a plane whose horizon is in view.
+// The horizon of the plane is in view.
 Shining some(std::uint32_t count, double motion) {
     Shining scene;
     std::mt19937 random(11);
@@ -103,7 +103,7 @@ TEST_F(Coverage, IsThatOfTheSamplesThemselves) {
     }
 }
 
-// More samples than a table of points holds, in many submissions.
+// More samples than a table of points holds.
 TEST_F(Coverage, OfManySamplesIsTakenInParts) {
     const Context hurried = create_context([](pt_create_info &info) { info.submit_milliseconds = 1; });
     ASSERT_TRUE(hurried);
@@ -117,7 +117,6 @@ TEST_F(Coverage, OfManySamplesIsTakenInParts) {
         }
     }
 
-    // Pieces of the image.
     constexpr std::uint32_t width = 400;
     constexpr std::uint32_t height = 300;
     set(hurried.get(), some(5, 1.0), render_of(width, height, 1));

@@ -1,4 +1,4 @@
-// The device's estimate of an image's error against the host's, in double.
+// Error estimates on the device against the host's, in double.
 #include "lib/base/error.h"
 #include "lib/film/error_estimate.h"
 #include "lib/film/quotient.h"
@@ -20,7 +20,6 @@ namespace {
 
 constexpr std::uint32_t part_samples = 32;
 
-// Smooth light, noise, black, edges, and single bright samples.
 class Films {
 public:
     // rejected: samples left out in the first pixel's newer part.
@@ -110,7 +109,6 @@ protected:
         return {estimator.result(), estimator.rejected()};
     }
 
-    // Within the rounding of about ten operations in float32.
     static void expect_close(const pt::Interval &found, const pt::Interval &expected, const std::string &which) {
         const auto expect = [&](double value, double exact) {
             EXPECT_LE(std::abs(value - exact), 4e-6 * exact) << which << ": " << value << ", not " << exact;
@@ -154,7 +152,6 @@ TEST_F(EstimateTest, LostSamplesAreAnError) {
     EXPECT_STREQ(error.what(), "the driver lost samples of 1 pixels");
 }
 
-// All tiles together, and each alone.
 TEST_F(EstimateTest, OfTilesIsThatOfTheHost) {
     Films films;
     double largest = 0.0;
@@ -199,7 +196,7 @@ TEST_F(EstimateTest, SamplesThatATileLostAreAnError) {
     EXPECT_NO_THROW(reader.read({1.0, samples, squares}, [](const auto &) {}));
 }
 
-// The same on the host: a sample missing in any pixel, and one too many.
+// A sample missing in any pixel, and one too many.
 TEST_F(EstimateTest, SamplesThatAPixelLostAreAnErrorOnTheHost) {
     Films films;
     pt::PixelSums sums = films.film(45, 21);

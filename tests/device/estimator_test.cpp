@@ -13,14 +13,13 @@
 
 namespace {
 
-// One false alarm in a million for the file, shared by its comparisons.
+// One false alarm in a million for the file.
 constexpr double false_alarms = 1e-6;
 constexpr double comparisons = 1000;
 double allowed(std::size_t batch_count) {
     return student_bound(false_alarms / comparisons, batch_count);
 }
 
-// Owns the scene's lists.
 struct ListedScene {
     std::vector<pt_material> materials;
     std::vector<pt_sphere> spheres;
@@ -39,7 +38,7 @@ pt_material lamp(float radiance) {
 
 constexpr pt_plane floor_plane{{0, 1, 0}, 1, 0, 0};
 
-// A lamp large enough to be hit by chance, over a floor with a diffuse and a glossy ball: finite variance for all.
+// Hit by chance often enough for a finite variance with all.
 ListedScene large_lamp() {
     const pt_material glossy{{0.3F, 0.3F, 0.3F}, {0.5F, 0.5F, 0.5F}, {0, 0, 0}, 10, 0};
     return {{diffuse(0.8F), lamp(5), diffuse(0.6F), glossy},
@@ -53,7 +52,7 @@ constexpr uint32_t mean_batches = 32;
 constexpr uint32_t mean_samples = 48;
 
 struct Means {
-    Estimate whole;       // the whole image
+    Estimate whole;
     Estimate glossy_part; // its right half below the horizon, with the glossy ball
 };
 
@@ -67,7 +66,6 @@ Means means_of(const Batches &batches) {
     return {estimate_over(batches, all), estimate_over(batches, part)};
 }
 
-// In standard errors of two independent estimates.
 double difference(const Estimate &a, const Estimate &b) {
     return (a.mean - b.mean) / std::hypot(a.standard_error, b.standard_error);
 }

@@ -1,4 +1,4 @@
-// Makes every call on a context that returns a result, once.
+// Makes every call on a context once.
 #pragma once
 
 #include "tests/device/api_fixture.h"

@@ -66,7 +66,6 @@ inline long double exact_standard_error(pt::WideSum sum_a, std::uint32_t a, pt::
         std::swap(larger, smaller);
     const pt::WideSum high = larger.first - smaller.first - (larger.second < smaller.second ? 1 : 0);
     const std::uint64_t low = larger.second - smaller.second;
-    // The leading 64 of 160 bits suffice.
     const long double numerator =
         high >> 64 != 0 ? std::ldexp(static_cast<long double>(high), 64) : static_cast<long double>(high << 64 | low);
     const long double sum = static_cast<long double>(a) + b;

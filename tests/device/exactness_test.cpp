@@ -1,4 +1,4 @@
-// The same samples give the same bits, in any split over calls and submissions.
+// The same samples give the same bits, in any split.
 #include "lib/film/error_estimate.h"
 #include "tests/device/coursework_gpu_scene.h"
 #include "tests/device/probe.h"
@@ -18,7 +18,7 @@
 
 namespace {
 
-constexpr uint32_t width = 200; // not a multiple of the workgroup size
+constexpr uint32_t width = 200; // no multiple of the workgroup size
 constexpr uint32_t height = 75;
 
 using Image = std::vector<float>;
@@ -38,7 +38,7 @@ protected:
         return image;
     }
 
-    // 8 x 8 pixels; each sample is exactly the radiance.
+    // Each sample is exactly the radiance.
     Image image_inside_a_lamp(float radiance, uint32_t samples) {
         const pt_material material{{0, 0, 0}, {0, 0, 0}, {radiance, radiance, radiance}, 0, 0};
         const pt_sphere sphere{{0, 0, 0}, 50, {0, 0, 0}, 0, 0};
@@ -54,11 +54,10 @@ TEST_F(ExactnessTest, SplittingOverCallsKeepsTheBits) {
     EXPECT_NE(image_of({7, 19, 37}), at_once) << "a missing sample must show";
 }
 
-// A dispatch gathers a limited number of samples, and the table of points has limited room. Calls that reach or exceed
-// these limits must give the bits of many small calls.
+// The samples of a dispatch and the table of points are limited. Calls beyond these limits must give the bits of many
+// small calls.
 class GatheringTest : public ExactnessTest {
 protected:
-    // Submissions of a second have room for all samples.
     Context create_fixtures_context() override {
         return create_context([](pt_create_info &info) { info.submit_milliseconds = 1000; });
     }
@@ -93,7 +92,7 @@ protected:
         return static_cast<uint32_t>(most);
     }
 
-    // One call in one submission against pieces, none of which fills a dispatch.
+    // One submission against pieces, none of which fills a dispatch.
     void expect_same_in_pieces(const Paths &paths, uint32_t sample_count) {
         const uint64_t submissions = stats().submit_count;
         const Image at_once = small_image_of(paths, {sample_count});
@@ -125,7 +124,6 @@ TEST_F(GatheringTest, OfPointsFromATableKeepsTheBits) {
         expect_same_in_pieces(paths, 512 + sample_count);
 }
 
-// PollingTest and AdaptiveTest check that the stopping sample does not depend on the split.
 TEST_F(ExactnessTest, TheTargetErrorIsReachedAtTheFirstCheckThatSaysSo) {
     constexpr uint32_t most = 4096;
     constexpr double target = 0.07;
@@ -138,11 +136,9 @@ TEST_F(ExactnessTest, TheTargetErrorIsReachedAtTheFirstCheckThatSaysSo) {
     EXPECT_LT(reached.sample_count, most);
     EXPECT_LE(error().relative_rmse_high, target);
 
-    // Reached already.
     ASSERT_EQ(pt_accumulate(context(), &until_target), PT_TARGET_REACHED);
     EXPECT_EQ(stats().sample_count, reached.sample_count);
 
-    // One check earlier it was not reached.
     set_up_coursework(context(), 3);
     uint64_t before = pt::next_check(0);
     while (pt::next_check(before) < reached.sample_count)
@@ -151,7 +147,7 @@ TEST_F(ExactnessTest, TheTargetErrorIsReachedAtTheFirstCheckThatSaysSo) {
     EXPECT_GT(error().relative_rmse_high, target);
 }
 
-// All samples are taken if the target is out of reach, or reached with the last one.
+// All samples are taken if the target is out of reach, or reached with the last.
 TEST_F(ExactnessTest, SamplesMayRunOutBeforeTheTargetErrorIsReached) {
     set_up_coursework(context(), 3);
     for (const double target : {1e-9, 1e9}) {
@@ -162,8 +158,7 @@ TEST_F(ExactnessTest, SamplesMayRunOutBeforeTheTargetErrorIsReached) {
 }
 
 // Standard errors of n samples are |A - B| sqrt(a b) / n. A is the image of the first a, the largest power of two below
-// n, B that of the others; each rendered alone. Calls end before, at, after and across the counts at which parts are
-// folded.
+// n, and B the image of the others. Calls end before, at, after and across the counts at which parts are folded.
 TEST_F(ExactnessTest, StandardErrorsAreThoseOfTheFilmsParts) {
     const auto standard_errors = [&] {
         Image errors(width * height * 3);
@@ -181,9 +176,7 @@ TEST_F(ExactnessTest, StandardErrorsAreThoseOfTheFilmsParts) {
         readback(image);
         return image;
     };
-    // Standard errors of n samples are |A - B| sqrt(a b) / n. A is the image of the first a, the largest power of two
-    // below n, and B the image of the others. Calls end before, at, after and across the counts at which parts are
-    // folded.
+    // Largest deviation over its bound by rounding: of both images, and of the standard error to float32.
     const auto deviation = [&](const Image &found, const Image &older, const Image &newer, double a, double b) {
         double worst = 0.0;
         for (std::size_t i = 0; i < found.size(); ++i) {
@@ -211,8 +204,8 @@ TEST_F(ExactnessTest, StandardErrorsAreThoseOfTheFilmsParts) {
     }
 }
 
-// A sphere around the camera emits 0.1, so each sample and each mean is exactly float32(0.1). The loops exceed 65,535
-// trips, after which a known driver stops kernels; the sample count, checked at readback, shows that none is lost.
+// Every sample is float32(0.1), and so is every mean. The loops exceed 65,535 trips, after which a known driver stops
+// kernels.
 TEST_F(ExactnessTest, NoSampleIsLostInLongRuns) {
     const Image image = image_inside_a_lamp(0.1F, 1U << 20);
     EXPECT_EQ(image, Image(image.size(), 0.1F));

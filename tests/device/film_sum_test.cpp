@@ -1,4 +1,4 @@
-// Films of several devices summed on one of them, against sums on the host.
+// Films of several devices summed on one.
 #include "lib/kernel/film_sum.h"
 #include "lib/kernel/shader_source.h"
 #include "tests/device/film_words.h"
@@ -13,7 +13,7 @@
 
 namespace {
 
-// Large enough for several pieces, the last one smaller.
+// enough for several pieces
 constexpr std::uint32_t sum_width = 307;
 constexpr std::uint32_t sum_height = 331;
 
@@ -25,7 +25,7 @@ protected:
         VulkanFixture::TearDown();
     }
 
-    // Random sums on a device of its own, with nonzero most significant words and carries into them.
+    // Random sums on a device of its own.
     void add_film(std::uint32_t max_strip_pixels) {
         devices_.emplace_back(instance(), physical_device(), pt::vulkan::gpu_like_policy());
         films_.emplace_back(devices_.back(), sum_width, sum_height, max_strip_pixels);
@@ -83,7 +83,7 @@ private:
     std::mt19937 generator_{2026};
 };
 
-// Some rows and pixels, whatever the target held.
+// Some rows and pixels; the target is not empty.
 TEST_F(FilmSumTest, IsThatOfTheHost) {
     add_films();
     const pt::vulkan::ComputePipeline add = pipeline();

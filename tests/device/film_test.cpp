@@ -1,4 +1,4 @@
-// The device's fixed-point sums against wider integers on the host.
+// Sums on the device against wider integers.
 #include "lib/kernel/device_film.h"
 
 #include "film_sums.spv.h"
@@ -36,7 +36,6 @@ bool acceptable(const glm::vec4 &sample) {
     return good;
 }
 
-// The whole range, with powers of two, zeros, denormals and unacceptable values.
 std::vector<glm::vec4> awkward_samples() {
     std::mt19937 generator(1);
     std::uniform_real_distribution<float> exponent(-60.0F, 28.0F);
@@ -59,7 +58,6 @@ std::vector<glm::vec4> awkward_samples() {
         for (int channel = 0; channel < 3; ++channel)
             sample[channel] =
                 kind(generator) == 0 ? special[generator() % std::size(special)] : std::exp2(exponent(generator));
-    // The brightest possible pixel fills the most significant words.
     std::fill_n(samples.begin(), per_pixel, glm::vec4(0x1.fffffep27F));
     return samples;
 }
@@ -100,8 +98,8 @@ TEST(Film, DeviceSumsAreExact) {
     }
 }
 
-// The most samples per invocation with full windows: the brightest sample fills the first; half units of a window,
-// rounded up or down, fill the others.
+// The most samples per invocation with full windows: the brightest sample fills the first, half units of a window the
+// others.
 TEST(Film, WindowsHoldTheMostSamplesThatAnInvocationGathers) {
     struct {
         std::uint32_t per_pixel, count, film_part;
@@ -131,7 +129,6 @@ protected:
         std::fesetround(FE_TONEAREST);
     }
 
-    // The red sum's words for equal samples.
     std::vector<std::uint32_t> sum(float value, std::uint32_t sample_count) {
         using pt::vulkan::Buffer;
         using pt::vulkan::BufferUse;
@@ -175,7 +172,6 @@ TEST_F(FilmRoundedToZero, WindowsHoldTheMostSamplesThatAnInvocationGathers) {
     }
 }
 
-// One pixel in one part of the film; red in units.
 struct Part {
     std::uint32_t red;
     std::uint32_t accepted;
@@ -212,7 +208,6 @@ TEST(Film, LostSamplesAreAnError) {
               PT_ERROR_INTERNAL);
 }
 
-// Carries pass through all words; parts stay apart until folded.
 TEST(Film, SumsAddAndFold) {
     const auto whole = [](std::uint32_t word) {
         pt::PixelSums sums = one_pixel({0, 1, 2}, {0, 3, 4});
@@ -245,7 +240,7 @@ TEST(Film, SumsThatNoSamplesHaveAreSeen) {
 
 using FilmStrips = VulkanFixture;
 
-// Plane i holds 100 i + p at pixel p of a film in strips; pieces with any ends are read.
+// Plane i holds 100 i + p at pixel p of a film in strips.
 TEST_F(FilmStrips, AreReadAsOne) {
     constexpr std::uint32_t film_pixels = 16;
     pt::DeviceFilm film(device(), 4, 4, 6);
@@ -270,7 +265,6 @@ TEST_F(FilmStrips, AreReadAsOne) {
         }
 }
 
-// In pieces that meet anywhere, and at once.
 TEST_F(FilmStrips, AreReplacedAsOne) {
     pt::DeviceFilm film(device(), 4, 4, 6);
     const auto filled = [](std::uint32_t first, std::uint32_t count, std::uint32_t offset) {

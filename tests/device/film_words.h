@@ -1,4 +1,4 @@
-// Converts the film's words, as kernels leave them, to sums.
+// The film's words, as kernels leave them, as sums.
 #pragma once
 
 #include "lib/film/pixel_sums.h"
@@ -19,7 +19,6 @@ inline pt::PixelSums sums_of(std::span<const std::uint32_t> words, std::size_t p
     return sums;
 }
 
-// Replaces the sums of the film's first pixels.
 inline void fill(pt::vulkan::Device &device, pt::DeviceFilm &film, const pt::PixelSums &sums) {
     pt::DeviceFilm::NewSums filled(device, film);
     filled.write(0, sums);

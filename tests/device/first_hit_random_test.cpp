@@ -1,5 +1,5 @@
-// First hits of camera rays in random scenes of 1 to 2,000 spheres, in trees and lists, against long double: depth,
-// normal, albedo and object. PT_TEST_MANY: 600 scenes; PT_TEST_FIRST_SCENE: the first.
+// First hits of camera rays in random scenes, in trees and lists, against long double. PT_TEST_MANY: 600 scenes;
+// PT_TEST_FIRST_SCENE: the first.
 #include "lib/kernel/gpu_scene.h"
 #include "tests/device/first_hit_scenes.h"
 #include "tests/device/tree_fixture.h"
@@ -25,7 +25,6 @@ namespace {
 
 using namespace first_hits;
 
-// A scene and a crop of columns x rows.
 struct Shot : Given {
     std::string name;
     pt_render render{};
@@ -43,12 +42,11 @@ struct Pixels {
     bool operator==(const Pixels &) const = default;
 };
 
-// Pixels compared, those that float32 decides, and those that show a sphere.
 struct Counts {
     std::uint32_t pixels = 0;
     std::uint32_t certain = 0;
     std::uint32_t spheres = 0;
-    std::uint32_t means = 0; // decided pixels among every eighth, whose means are compared
+    std::uint32_t means = 0; // of every eighth that float32 decides
 };
 
 glm::dvec3 albedo_of(const Given &given, std::uint32_t object) {

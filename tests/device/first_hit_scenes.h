@@ -19,7 +19,6 @@ struct Given {
     pt_scene scene() const { return scene_of(materials, spheres, planes); }
 };
 
-// A glossy one, one that reflects more red than it receives, and a lamp.
 inline std::vector<pt_material> some_materials() {
     return {{{0.8F, 0.4F, 0.2F}, {0.1F, 0.2F, 0.3F}, {0, 0, 0}, 7, 0},
             {{0.9F, 0.1F, 0}, {0.3F, 0, 0}, {0, 0, 0}, 0, 0}, // above 1 in red

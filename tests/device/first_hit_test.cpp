@@ -1,5 +1,4 @@
-// First hits of camera rays, through pt.h: what they depend on, and that reading them leaves samples alone.
-// RandomFirstHit compares them with long double.
+// First hits of camera rays, through pt.h. RandomFirstHit compares them with long double.
 #include "lib/film/pixel_format.h"
 #include "tests/device/first_hit_scenes.h"
 #include "tests/support/context_calls.h"
@@ -55,13 +54,12 @@ protected:
     }
 };
 
-// A pixel's bits do not depend on the rectangle, the rows, the length of submissions or the number of devices; other
-// formats hold the same numbers.
+// A pixel's bits do not depend on rectangle, rows, submissions, devices or format.
 TEST_F(FirstHit, RectanglesRowsAndDevicesAgree) {
     const Given given = many(true);
     set(context(), given, picture());
     const Context hurried = create_context([](pt_create_info &info) { info.submit_milliseconds = 1; });
-    ASSERT_TRUE(hurried); // pieces of some hundred pixels
+    ASSERT_TRUE(hurried); // of some hundred pixels
     set(hurried.get(), given, picture());
     const Context shared = create_context([](pt_create_info &) {},
                                           [](auto *info, auto **made) { return create_shared(2, *info, made, true); });
@@ -119,7 +117,7 @@ TEST_F(FirstHit, RectanglesRowsAndDevicesAgree) {
                                    std::span(all_objects).subspan(std::size_t{9} * picture_width, 7 * picture_width)));
 }
 
-// First hits need and take no sample; samples around them keep their bits.
+// First hits take no sample; samples around them keep their bits.
 TEST_F(FirstHit, IsNothingToSamples) {
     for (const Given &given : {coursework(), many(true)}) {
         const Context without = create_context();
@@ -142,7 +140,6 @@ TEST_F(FirstHit, IsNothingToSamples) {
     }
 }
 
-// A new camera, scene or size takes effect at once, with the same kernel or another.
 TEST_F(FirstHit, FollowsTheSetters) {
     Given given = coursework();
     set(context(), given, picture());
@@ -174,7 +171,7 @@ TEST_F(FirstHit, TwinsHaveTheNumberOfTheFirst) {
     }
 }
 
-// Spheres in columns are numbered after structs and keep their colors, within a thousandth in a tree.
+// Columns are numbered after structs and keep their colors, within a thousandth in a tree.
 TEST_F(FirstHit, ColumnsHaveNumbersAndColors) {
     Given given;
     given.materials = {{{0.8F, 0.8F, 0.8F}, {0, 0, 0}, {0, 0, 0}, 0, 0}};

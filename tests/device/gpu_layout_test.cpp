@@ -1,5 +1,4 @@
-// Host and kernel agree on push constants and on the scene buffer's contents. Exact pictures elsewhere check each
-// word's place.
+// Host and kernel agree on push constants and the scene buffer. Exact pictures check each word's place.
 #include "lib/kernel/gpu_scene.h"
 #include "lib/scene/seen_scene.h"
 #include "push_layout.spv.h"
@@ -35,7 +34,7 @@ pt::Camera camera_at(glm::dvec3 position) {
     return {position, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0.25, 0.75};
 }
 
-// A plane, a moving ball and a lamp. Order in the buffer: lamp, other spheres, planes.
+// Order in the buffer: lamp, other spheres, planes.
 pt::Scene small_scene() {
     pt::Scene scene;
     scene.materials = {{{0.5F, 0.25F, 0}, {0, 0, 0}, {0, 0, 0}, 0},
@@ -60,8 +59,8 @@ TEST(GpuLayout, WhatTheSceneDoesNotUseIsNotInTheBuffer) {
     EXPECT_EQ(gpu_scene.words.size(), 9U);
 }
 
-// A floor sphere seen from 2 above becomes a curved plane, ahead of flat ones. So does a lamp 2048 times as large as
-// its distance, which then is no lamp any more.
+// A floor sphere becomes a curved plane, ahead of flat ones. So does a lamp 2048 times as large as its distance, which
+// then is no lamp any more.
 TEST(GpuLayout, HugeSpheresArePlanesWithACurvature) {
     pt::Scene scene = small_scene();
     scene.spheres.push_back({{0, -1026, 1}, 1024, {0, 0, 0}, 0});
@@ -86,7 +85,6 @@ TEST(GpuLayout, HugeSpheresArePlanesWithACurvature) {
     EXPECT_EQ(words[24], glm::vec4(0));
 }
 
-// Spheres not huge against distance and motion keep center and radius.
 TEST(GpuLayout, OtherSpheresKeepTheirCentre) {
     const pt::Material diffuse{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0};
     const pt::Material lamp{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0};

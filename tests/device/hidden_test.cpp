@@ -64,11 +64,9 @@ pt_sphere ball(double x, double y, double z, double radius, std::uint32_t materi
     return {{x, y, z}, radius, {0, 0, 0}, material, 0};
 }
 
-// ---- Light that is 1 wherever one looks
-// -------------------------------------------------------------------------------
+// ---- Light that is 1 everywhere
 
-// Every surface emits 1, and the scene is closed: a vertex that reflects half has exactly 1.5. Light that leaks or is
-// lost shows.
+// Every surface emits 1 in a closed scene, so a vertex that reflects half has exactly 1.5.
 constexpr std::uint32_t shining = 0;
 
 Hiding closed(const std::string &name) {
@@ -95,7 +93,7 @@ std::vector<Hiding> closed_scenes() {
     between_planes.spheres = {ball(0, 0, -9, 1, shining), ball(1.5, 0, -9, 0.75, shining)};
     between_planes.planes = {{{0, 0, 1}, 6, shining + hidden, 0}, {{0, 0, 1}, 12, shining + hidden, 0}};
 
-    // Spheres stored as curved planes: the camera is above one globe, which holds the ball, and inside another.
+    // Curved planes: the camera is above one globe, which holds the ball, and inside another.
     Hiding &globes = add("globes");
     globes.spheres = {ball(0, 0, -9, 1, shining), ball(0, 0, -1e7 - 5, 1e7, shining + hidden),
                       ball(0, 0, -1e7 + 3, 1e7, shining + hidden)};
@@ -132,7 +130,6 @@ std::vector<Hiding> closed_scenes() {
 // Two roundings of each of five operations, as in the analytic furnace.
 constexpr double few_roundings = 8.0 * 0x1p-24;
 
-// Largest relative error among pixels with coverage.
 double largest_error(const std::vector<float> &image, const std::vector<float> &coverage, double radiance) {
     double largest = 0.0;
     for (std::size_t i = 0; i < image.size(); ++i)
@@ -141,7 +138,7 @@ double largest_error(const std::vector<float> &image, const std::vector<float> &
     return largest / radiance;
 }
 
-// Cosine or lobe sampling, alternating by scene because kernels take long to build.
+// Estimators alternate by scene, because kernels take long to build.
 TEST_F(HiddenFromCamera, ClosedScenesNeitherLeakNorLoseLight) {
     std::uint32_t estimator = PT_ESTIMATOR_COSINE;
     for (const Hiding &given : closed_scenes()) {
@@ -153,14 +150,13 @@ TEST_F(HiddenFromCamera, ClosedScenesNeitherLeakNorLoseLight) {
         const std::vector<float> covered = coverage();
         EXPECT_LE(largest_error(image, covered, 1.5), few_roundings);
         EXPECT_GT(largest_error(image, covered, 1.545), few_roundings);
-        // Something is visible, and the shells are not.
         EXPECT_TRUE(std::ranges::any_of(covered, [](float share) { return share == 1.0F; }));
         const bool has_a_sky = given.name == "a shell that cuts a floor and a ball";
         EXPECT_NE(has_a_sky, std::ranges::any_of(covered, [](float share) { return share == 0.0F; }));
     }
 }
 
-// Lamp sampling makes samples differ. One false alarm in a million for all scenes.
+// One false alarm in a million for all scenes.
 TEST_F(HiddenFromCamera, LampsInClosedScenesAreCountedOnce) {
     constexpr std::uint32_t batch_count = 12;
     for (const Hiding &given : closed_scenes()) {
@@ -182,7 +178,6 @@ TEST_F(HiddenFromCamera, LampsInClosedScenesAreCountedOnce) {
 }
 
 // ---- Light that does not arrive
-// ---------------------------------------------------------------------------------------
 
 constexpr std::uint32_t white = 0;
 constexpr std::uint32_t lamp = 1;
@@ -194,7 +189,6 @@ Hiding with_lamps(const std::string &name) {
              pt_material{{0, 0, 0}, {0, 0, 0}, {5, 5, 5}, 0, 0}, pt_material{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0, 0}}};
 }
 
-// Black hidden surfaces block the lamp exactly, though the camera looks through them.
 TEST_F(HiddenFromCamera, BlackSurfacesKeepLightOut) {
     Hiding shell = with_lamps("a shell");
     shell.spheres = {ball(0, 0, -9, 1, white), ball(0, 0, -9, 1.5, black + hidden), ball(3, 5, -5, 2, lamp)};
@@ -226,10 +220,8 @@ TEST_F(HiddenFromCamera, BlackSurfacesKeepLightOut) {
     }
 }
 
-// ---- Everything else as it was
-// ----------------------------------------------------------------------------------------
+// ---- Everything else
 
-// Hiding a lamp changes its own pixels only.
 TEST_F(HiddenFromCamera, ALampLightsAsIfItWereSeen) {
     Hiding seen = with_lamps("in view");
     seen.spheres = {ball(0, -0.5, -9, 1, white), ball(1.5, 1.5, -8, 0.5, lamp), ball(-2, 1, -7, 0.25, lamp)};

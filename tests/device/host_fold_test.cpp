@@ -1,4 +1,4 @@
-// Folds of the film's parts on the host: pixels, sums, and undoing.
+// Folds of the film's parts on the host.
 #include "lib/kernel/host_fold.h"
 
 #include "tests/device/film_words.h"
@@ -103,7 +103,6 @@ TEST_F(HostFold, LeavesRareWordsToKernels) {
     }
 }
 
-// The receiving part may hold anything.
 TEST_F(HostFold, TakesInWhereRareWordsAre) {
     before_.plane(0, 3)[100] = 7;
     fill(device(), *film_, before_);

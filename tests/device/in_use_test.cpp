@@ -1,4 +1,4 @@
-// Calls on a context that is already in a call: from callbacks and from another thread.
+// Calls on a context that is in a call: from callbacks and from another thread.
 #include "lib/api/in_use.h"
 #include "tests/device/api_fixture.h"
 #include "tests/device/every_call.h"
@@ -29,7 +29,6 @@ protected:
         expect_every_call(outcomes, "PT_ERROR_INVALID_STATE: " + message);
     }
 
-    // Accumulates a sample; the first progress callback runs the action.
     void accumulate_and(const std::function<void()> &action, pt_result expected = PT_OK) {
         struct Once {
             const std::function<void()> &action;
@@ -112,7 +111,7 @@ TEST_F(InUseTest, TheMessageIsThatOfTheLastCallThatFailed) {
     std::thread([&] { EXPECT_EQ(message(), "thrown by a callback"); }).join();
 }
 
-// A forked child lacks the driver's threads; a call that reached the driver would wait forever.
+// A child lacks the driver's threads; a call that reached the driver would wait forever.
 TEST_F(InUseTest, AChildOfForkIsRefused) {
     set_all();
     const std::string not_ours = "this context belongs to the process that this one was forked from";

@@ -1,5 +1,5 @@
-// Rays against one sphere on the device, from huge ones stored as curved planes to rays that start a few ulp from a
-// surface, against long double.
+// Rays against one sphere, from huge ones stored as curved planes to rays that start a few ulp from the surface,
+// against long double.
 #include "intersection.spv.h"
 #include "lib/kernel/gpu_scene.h"
 #include "tests/device/probe.h"
@@ -41,8 +41,8 @@ struct Ball {
 
 enum class Held { AsTheSceneNeeds, ByItsCenter };
 
-// The device's hits. Rays may start on either side of the sphere, wherever the camera is. A ball that moves by a 32nd
-// of its radius is stored by its center; it stands still at the rays' time.
+// Rays may start on either side, wherever the camera is. A ball that moves by a 32nd of its radius is stored by its
+// center; it stands still at the rays' time.
 std::vector<Met> follow(const Ball &ball, const std::vector<Ray> &rays, Held held = Held::AsTheSceneNeeds) {
     pt::Scene scene;
     scene.materials = {{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0}};
@@ -150,7 +150,6 @@ public:
         std::normal_distribution<double> normal;
         return glm::normalize(glm::dvec3(normal(engine_), normal(engine_), normal(engine_)));
     }
-    // Origins within a cube of half side `reach` about the camera; slopes over three decades.
     std::vector<Ray> around_camera(double reach, std::size_t count) {
         std::vector<Ray> rays(count);
         for (Ray &ray : rays) {
@@ -167,7 +166,7 @@ private:
     std::mt19937 engine_;
 };
 
-// The camera is 1.5 above or below a sphere, tilted so that no component is exact.
+// Tilted, so that no component is exact.
 Ball under_the_camera(double radius, double height) {
     return {-(radius + height) * glm::normalize(glm::dvec3(0.1, 1.0, -0.2)), radius};
 }
@@ -181,7 +180,6 @@ void expect_within_bounds(const Worst &worst) {
 
 constexpr std::size_t ray_count = 20000;
 
-// A floor from above and a dome from within, radii over seven decades.
 TEST(Intersection, HugeSpheresAreMetWithinTheRoundingOfTheScene) {
     RandomRays random(1);
     const std::vector<Ray> rays = random.around_camera(10.0, ray_count);
@@ -220,8 +218,8 @@ TEST(Intersection, CurvedPlanesAreMetFromFarAway) {
     expect_within_bounds(worst);
 }
 
-// Leaving rays: outside they never hit again; inside they hit the far wall, whatever the rounding of their origin. A
-// chord t = 2 s / k turns the slope's 8 eps into 16 eps R = 8 eps t / s, which the bound allows.
+// Leaving rays never hit again outside, and hit the far wall inside, even with a rounded origin. A chord t = 2 s / k
+// turns the slope's 8 eps into 16 eps R = 8 eps t / s, which the bound allows.
 TEST(Intersection, RaysThatLeaveAHugeSphereMeetItAgainFromInsideOnly) {
     for (const double radius : {1e3, 1e6, 1e9}) {
         RandomRays random(3);
@@ -259,9 +257,8 @@ bool met_by_sign(const Ball &ball, const Ray &ray) {
     return b + half_chord > 0.0F;
 }
 
-// Rays that start up to 64 ulp from a sphere, but not on it. None leaks through; none that leads away outside is
-// stopped. Within 3 eps r of the surface float32 cannot tell the side; inward rays still hit, at once or at the far
-// side.
+// Rays that start up to 64 ulp from a sphere. None leaks through; none that leads away outside is stopped. Within 3 eps
+// r float32 cannot tell the side; inward rays still hit, at once or at the far side.
 TEST(Intersection, NothingLeaksThroughASphereNearItsSurface) {
     RandomRays random(4);
     const Ball ball{{0, 0, 0}, 3.0};

@@ -1,4 +1,4 @@
-// The contract of pt_prepare, and of kernels that the caller keeps between contexts.
+// pt_prepare, and kernels that the caller keeps.
 #include "tests/device/api_fixture.h"
 #include "tests/support/context_calls.h"
 #include "tests/support/coursework_scene.h"
@@ -20,7 +20,6 @@ namespace {
 
 using Kept = std::vector<std::byte>;
 
-// Keeps kernels in memory and records calls and log lines.
 struct Keeper {
     std::map<std::string, Kept> kept;
     std::vector<std::string> loads; // keys
@@ -69,7 +68,6 @@ protected:
         });
     }
 
-    // Renders and reads back.
     std::vector<float> rendered(pt_context *context, std::uint32_t count) {
         const pt_accumulate_info info = samples(count);
         EXPECT_EQ(pt_accumulate(context, &info), PT_OK) << pt_last_error(context);

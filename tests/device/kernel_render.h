@@ -40,7 +40,6 @@ public:
         frame_.sample_count = frame_.share = most_samples;
     }
 
-    // Sets the number of samples.
     void take(std::uint32_t samples) { frame_.sample_count = samples; }
 
     static pt::RenderSettings settings(std::uint32_t max_path_length) {
@@ -51,19 +50,19 @@ public:
     const std::vector<glm::vec4> &words() const { return scene_.words; }
     Constants constants() const { return pt::specialization_constants(scene_.features); }
 
-    // The film for a scene in the given source (gpu::SCENE_IN_...).
+    // source: gpu::SCENE_IN_...
     FilmWords film(std::uint32_t source, const std::vector<glm::vec4> &words) const {
         return film_of_kernel(constants(), source, words);
     }
 
-    // With the test's specialization constants.
+    // The same with other specialization constants.
     FilmWords film_of_kernel(const Constants &constants, std::uint32_t source,
                              const std::vector<glm::vec4> &words) const {
         Probe probe = probe_of_kernel(constants, source, words);
         return film_by(probe);
     }
 
-    // With a kernel specialised by the driver; ten times slower to build.
+    // The same with a kernel specialised by the driver; ten times slower to build.
     FilmWords film_by_driver(std::uint32_t source) const {
         const auto values = with_scene_source(constants(), source, words());
         Probe probe(pt::embedded_code().pathtrace, sizeof frame_, values);
@@ -106,7 +105,7 @@ public:
     // The tree's words, mutable; empty without a tree.
     std::vector<glm::uvec4> &tree() { return tree_; }
 
-    // The film's image. Throws if samples are lost.
+    // Throws if samples are lost.
     std::vector<float> radiance(const FilmWords &film) const {
         const pt::PixelSums sums = sums_of(film, width * height);
         for (std::size_t pixel = 0; pixel < sums.pixel_count(); ++pixel)

@@ -1,4 +1,4 @@
-// The kernel as Renderer runs it, on a device with unusual policies.
+// The kernel as Renderer runs it, with unusual policies.
 #include "lib/kernel/device_film.h"
 #include "lib/kernel/kernel.h"
 #include "lib/kernel/trace_pipelines.h"
@@ -21,7 +21,7 @@ constexpr std::uint32_t kernel_height = 21;
 
 class KernelTest : public VulkanFixture {
 protected:
-    // Films after slices of these sample counts, by one kernel, because building it takes longest.
+    // One kernel for all counts, because building it takes longest.
     std::vector<pt::PixelSums> film_sums(std::uint32_t invocations, const std::vector<std::uint32_t> &sample_counts) {
         pt::vulkan::Device &device = device_with({.patience = std::chrono::hours{1},
                                                   .share_memory = true,
@@ -46,7 +46,7 @@ protected:
     }
 };
 
-// For images small for the device, invocations share a pixel and add to the film concurrently.
+// For small images several invocations share a pixel.
 TEST_F(KernelTest, InvocationsThatShareAPixelGiveTheBitsOfOne) {
     const std::vector<std::uint32_t> sample_counts{1, 5, 36, 37, 200};
     const std::vector<pt::PixelSums> shared = film_sums(1U << 18, sample_counts);

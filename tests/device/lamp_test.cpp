@@ -1,5 +1,4 @@
-// Lamps chosen and sampled from a vertex on the device: frequencies against the stated densities, and these against
-// geometry in double.
+// Lamps sampled on the device: frequencies against the stated densities, and these against geometry in double.
 #include "lamps.spv.h"
 #include "shaders/specialization.h"
 #include "tests/device/probe.h"
@@ -21,7 +20,7 @@ struct Lamp {
     float radiance;
 };
 
-// One sample of the probe; one for each lamp comes first.
+// First one for each lamp, then the samples.
 struct Drawn {
     glm::vec3 direction;
     float distance;
@@ -62,19 +61,17 @@ std::vector<Drawn> draw(const std::vector<Lamp> &lamps, const Viewpoint &from, s
 
 // Emission over ten decades.
 const std::vector<Lamp> uneven_lamps = {
-    {{0.5F, 3.0F, -1.0F}, 1.0F, 2.0F},       // overhead
-    {{4.0F, -0.3F, 2.0F}, 0.8F, 30.0F},      // its center below the horizon
-    {{-300.0F, 500.0F, 200.0F}, 0.5F, 1e6F}, // far and tiny, r / d = 8e-4
-    {{-0.6F, 0.55F, 0.5F}, 0.9F, 0.01F},     // its surface 0.05 away
-    {{0.0F, -5.0F, 0.0F}, 2.0F, 1e8F},       // wholly below the horizon
-    {{-3.0F, 1.0F, 4.0F}, 0.02F, 5000.0F},   // small
-    {{1.0F, 0.2F, -0.5F}, 0.1F, 1e-4F},      // dim
+    {{0.5F, 3.0F, -1.0F}, 1.0F, 2.0F},       {{4.0F, -0.3F, 2.0F}, 0.8F, 30.0F}, // its center below the horizon
+    {{-300.0F, 500.0F, 200.0F}, 0.5F, 1e6F},                                     // far and tiny, r / d = 8e-4
+    {{-0.6F, 0.55F, 0.5F}, 0.9F, 0.01F},                                         // its surface 0.05 away
+    {{0.0F, -5.0F, 0.0F}, 2.0F, 1e8F},                                           // wholly below the horizon
+    {{-3.0F, 1.0F, 4.0F}, 0.02F, 5000.0F},   {{1.0F, 0.2F, -0.5F}, 0.1F, 1e-4F},
 };
 constexpr std::size_t below_horizon = 4;
 // Probabilities off by 3% add 2^19 * 0.03^2 = 472 to a chi-square with a standard deviation below 4.
 constexpr std::uint32_t draws_of_lamps = 1U << 19;
 
-// One false alarm in a million for this file's chi-squares.
+// One false alarm in a million for the file.
 const double lamp_bound = statistics::normal_quantile(1e-6 / 2);
 
 void expect_stated_probabilities(const std::vector<Lamp> &lamps) {
@@ -96,7 +93,7 @@ void expect_stated_probabilities(const std::vector<Lamp> &lamps) {
     EXPECT_GT(statistics::chi_square_deviate(observed, wrong), lamp_bound) << "probabilities wrong by 3% must show";
 }
 
-// Many lamps, and few enough for the kernel to keep their views.
+// The second has few enough for the kernel to keep their views.
 TEST(LampChoice, FollowsTheStatedProbability) {
     expect_stated_probabilities(uneven_lamps);
     std::vector<Lamp> few(uneven_lamps.begin(), uneven_lamps.begin() + 4);
@@ -122,7 +119,6 @@ TEST(LampChoice, HasTheDocumentedProbability) {
     }
 }
 
-// Lamps whose top is above the horizon by their radius down to nothing.
 TEST(LampChoice, IsPossibleExactlyForLampsAboveTheHorizon) {
     std::vector<Lamp> lamps;
     std::vector<bool> above;
@@ -152,7 +148,6 @@ TEST(LampChoice, LeavesOutLampsThatContainTheVertexOrAreIt) {
     }
 }
 
-// Without a possible lamp every density is 0, and nothing is NaN.
 TEST(LampChoice, StatesZeroWhereNoLampCanBeSampled) {
     const std::vector<Lamp> lamps = {{{0.0F, -3.0F, 0.0F}, 1.0F, 5.0F}, {{0.0F, 0.0F, 0.0F}, 9.0F, 5.0F}};
     for (const Drawn &sample : draw(lamps, {}, 12, 256)) {

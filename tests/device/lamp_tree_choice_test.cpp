@@ -1,4 +1,4 @@
-// The device's choices from the lamp tree against their stated probabilities.
+// Choices from the lamp tree against their stated probabilities.
 #include "tests/device/lamp_tree_probe.h"
 #include "tests/device/lamp_tree_reference.h"
 #include "tests/support/lamp_scenes.h"

@@ -1,4 +1,4 @@
-// Lamps chosen by the tree on the device, from vertices all over a scene.
+// Lamps chosen by the tree from vertices all over a scene.
 #pragma once
 
 #include "lamps.spv.h"
@@ -65,7 +65,6 @@ private:
     Probe probe_;
 };
 
-// On the ground, in the air, all lamps ahead or behind, far away, and beside a lamp.
 inline std::vector<TreeVertex> tree_vertices(const pt::GpuScene &scene) {
     const glm::vec3 lamp(scene.words[scene.features[pt::gpu::ID_LAMP_COUNT] / 2]);
     const float radius = scene.words[scene.features[pt::gpu::ID_LAMP_COUNT] / 2].w;

@@ -16,7 +16,7 @@
 
 inline constexpr double uniform_share = 0.1;
 
-// The probabilities by gpu_layout.h's words and the choices of shaders/README.md.
+// By gpu_layout.h's words and the choices of shaders/README.md.
 class TreeReference {
 public:
     explicit TreeReference(const pt::GpuScene &scene) : features_(scene.features), words_(scene.words) {
@@ -114,7 +114,7 @@ private:
     std::uint32_t top_ = 0;
 };
 
-// Weights by shaders/README.md, from the lamps themselves.
+// By shaders/README.md, from the lamps themselves.
 inline std::vector<double> lamp_weights(const pt::GpuScene &scene, const TreeVertex &vertex) {
     std::vector<double> weights;
     const pt::SceneBlocks blocks(scene.features);

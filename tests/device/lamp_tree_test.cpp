@@ -1,4 +1,4 @@
-// The device's stated probabilities of lamps in a tree, against double, and how sharp they are.
+// Stated probabilities of lamps in a tree against double, and their sharpness.
 #include "tests/device/lamp_tree_probe.h"
 #include "tests/device/lamp_tree_reference.h"
 #include "tests/support/lamp_scenes.h"
@@ -57,7 +57,6 @@ double median(std::vector<double> values) {
     return values[values.size() / 2];
 }
 
-// On the ground, and amid the lamps with the horizon in all directions.
 TEST(LampTreeProbabilities, AreSharp) {
     for (const double motion : {0.0, 3.0}) {
         const pt::GpuScene scene = lamp_scenes::gpu_scene(lamp_scenes::in_a_box(10000, 8, motion));

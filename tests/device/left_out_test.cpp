@@ -1,5 +1,5 @@
-// Code that the kernel omits for a scene changes no picture: insides with the camera outside all spheres, planes as
-// obstacles with no lamp behind, planes as lamps where none emits, sides of vertices, ends of shadow rays.
+// Code that the kernel omits for a scene changes no picture: insides, planes as obstacles or lamps, sides of vertices,
+// ends of shadow rays.
 #include "tests/device/kernel_render.h"
 #include "tests/invariance/invariance_scene.h"
 
@@ -23,7 +23,6 @@ Image image_with(const KernelRender &render, const KernelRender::Constants &cons
     return render.radiance(render.film_of_kernel(constants, gpu::SCENE_IN_UNIFORM, render.words()));
 }
 
-// With one feature constant inverted.
 Image image_with_other(const KernelRender &render, std::uint32_t id) {
     KernelRender::Constants constants = render.constants();
     constants[id] = 1 - constants[id];
@@ -44,7 +43,7 @@ std::size_t differing_values(const Image &a, const Image &b) {
 // each of some 20 rays against 9 surfaces. More than 6 such samples, of 3 values each, have a probability of 1e-6.
 constexpr std::size_t decided_by_rounding = 18;
 
-// Overlapping balls, one moving, a floor and a wall; all lamps inside.
+// All lamps are inside.
 InvarianceScene room() {
     InvarianceScene scene = InvarianceScene::coursework();
     scene.spheres[3].center[0] = 1.0;
@@ -57,8 +56,8 @@ struct Case {
     const char *name;
     InvarianceScene scene;
     std::uint32_t id;
-    std::uint32_t constant; // in the scene
-    bool shows;             // whether inverting it changes the picture
+    std::uint32_t constant;
+    bool shows; // whether inverting it changes the picture
 };
 
 // The last cases are negative controls: omitted code that the scene needs.

@@ -1,4 +1,4 @@
-// Images through a lens: random scenes against a path tracer in double, and exact cases.
+// Images through a lens against a path tracer in double, and exact cases.
 #include "tests/support/light_in_double.h"
 
 #include <pt/film.h>
@@ -48,7 +48,7 @@ std::vector<Case> cases() {
 
 using Lens = LightInDouble;
 
-// The first scene by every sampler; the others, which need kernels of their own, by the default and one other.
+// The others need kernels of their own, so they take two samplers each.
 TEST_F(Lens, ShowsWhatAPathTracerInDoubleDoes) {
     const std::vector<Case> all = cases();
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -89,14 +89,14 @@ TEST_F(Lens, IsAsWideAndFocusedAsStated) {
 }
 
 TEST_F(Lens, HasTheSameBitsOfSplitsAndScale) {
-    for (const std::size_t i : {1, 2, 3}) { // a narrow view, the cut lens, a tree
+    for (const std::size_t i : {1, 2, 3}) {
         SCOPED_TRACE(cases()[i].name);
         expect_the_same_bits_of_splits_and_scale(cases()[i].given);
     }
 }
 
-// First hits are those of the pinhole at the lens's center; a lens without diameter is a pinhole to the bit, whatever
-// its focus.
+// First hits come from the pinhole at the lens's center; a lens without diameter is a pinhole to the bit, with any
+// focus.
 TEST_F(Lens, WithoutADiameterIsAPinhole) {
     Given lens = random_balls(1, 7, 8.0);
     Given pinhole = lens;
@@ -117,9 +117,8 @@ TEST_F(Lens, WithoutADiameterIsAPinhole) {
         };
         read(pinhole, first_hits);
         read(lens, through_lens);
-        // Two kernels; the driver may round each differently.
         for (std::size_t i = 0; i < first_hits.size(); ++i) {
-            const bool is_equal = through_lens[i] == first_hits[i]; // so are infinite depths
+            const bool is_equal = through_lens[i] == first_hits[i]; // infinite depths too
             EXPECT_TRUE(is_equal || std::abs(through_lens[i] - first_hits[i]) <= 1e-6 * std::max(1.0F, first_hits[i]))
                 << quantity << ": " << through_lens[i] << " and " << first_hits[i];
         }

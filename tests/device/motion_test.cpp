@@ -1,5 +1,4 @@
-// Moving huge spheres, through pt.h, against frozen times and rest; the shutter's interval. tests/analytic/ has a
-// moving ball and lamp.
+// Moving huge spheres against frozen times and rest; the shutter. tests/analytic/ has a moving ball and lamp.
 #include "tests/support/batch_fixture.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/scene_of.h"
@@ -13,7 +12,7 @@
 
 namespace {
 
-// One false alarm in a million for the file, shared by its comparisons.
+// One false alarm in a million for the file.
 constexpr double motion_comparisons = 200;
 double allowed_deviation(std::size_t batch_count) {
     return student_bound(1e-6 / motion_comparisons, batch_count);
@@ -21,7 +20,6 @@ double allowed_deviation(std::size_t batch_count) {
 
 class Motion : public BatchFixture {
 protected:
-    // An emitting sphere over a floor.
     void set_up_sphere(const pt_sphere &sphere, double shutter_open = 0, double shutter_close = 1) {
         const pt_material materials[] = {{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0, 0},
                                          {{0.8F, 0.8F, 0.8F}, {0, 0, 0}, {0, 0, 0}, 0, 0}};
@@ -44,9 +42,9 @@ protected:
 
 constexpr uint32_t lamp_batches = 16;
 
-// ---- A huge ball on the move ---------------------------------------------------------------------------------------
+// ---- Huge moving balls
 
-// The floor is a moving ball whose top is at height -1.
+// The top is at height -1.
 struct FloorBall {
     double radius;
     double motion[3];
@@ -73,7 +71,6 @@ protected:
         set_up(scene, camera);
     }
 
-    // Of the whole image.
     Estimate light(uint32_t batch_count, uint32_t samples) {
         const Batches batches = render_batches(render_of(8, 8, 2), batch_count, samples);
         std::vector<std::size_t> pixels(batches.front().size());
@@ -82,7 +79,6 @@ protected:
     }
 };
 
-// Tiny motion has the light of rest.
 TEST_F(HugeMotion, InTheLimitOfNoneIsRest) {
     for (const double radius : {1e4, 1e7, 1e8, 1e12})
         for (const double length : {1e-9, 1e-6}) {
@@ -182,7 +178,7 @@ TEST_F(HugeMotion, IsRefusedInNarrowParallelViews) {
     }
 }
 
-// ---- The shutter ---------------------------------------------------------------------------------------------------
+// ---- The shutter
 
 // All numbers are exact in binary, so the bits are equal.
 TEST_F(Motion, ShutterIsTheSameAsRebasedMotion) {

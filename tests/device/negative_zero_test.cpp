@@ -1,4 +1,4 @@
-// A scene's -0 is zero: no sample counts as negative because of it.
+// -0 in a scene is zero, not negative light.
 #include "tests/device/kernel_render.h"
 #include "tests/invariance/invariance_scene.h"
 #include "tests/support/context_calls.h"
@@ -17,7 +17,6 @@ using Image = std::vector<float>;
 constexpr std::uint32_t zero_width = 16;
 constexpr std::uint32_t zero_height = 12;
 
-// A room with a lamp without blue; every zero of its materials has the sign.
 InvarianceScene scene_with_zeros(float zero) {
     InvarianceScene scene = InvarianceScene::coursework();
     scene.materials[1].emission[2] = 0;
@@ -42,7 +41,7 @@ protected:
     }
 };
 
-// One vertex shows the emission alone; three include lamps.
+// One vertex shows emission alone; three include lamps.
 TEST_F(NegativeZero, OfMaterialsIsZero) {
     for (const std::uint32_t max_path_length : {1U, 3U})
         EXPECT_EQ(image_of(scene_with_zeros(-0.0F), max_path_length), image_of(scene_with_zeros(0.0F), max_path_length))

@@ -1,4 +1,4 @@
-// Opacity: shares of rays in closed form, light against a path tracer in double, and bits that must not change.
+// Opacity: shares in closed form, light against a path tracer in double, and bits that must not change.
 #include "tests/support/light_in_double.h"
 
 #include <pt/stats.h>
@@ -21,7 +21,7 @@ using namespace light_in_double;
 
 class Opacity : public LightInDouble {
 protected:
-    // The share of a sky's light (radiance 3, 4, 5) that passes black capsules.
+    // The share of a sky (radiance 3, 4, 5) that passes black capsules.
     double share_passed(const std::vector<Given::Capsule> &capsules) {
         Given given = black(capsules);
         given.spheres = {{{0, 0, 0}, 100.0, {0, 0, 0}, 2, 0}};
@@ -56,7 +56,6 @@ Given::Capsule ball_at(const glm::dvec3 &center, double radius, float opacity) {
     return {{center.x, center.y, center.z}, {center.x, center.y, center.z}, radius, 1, opacity};
 }
 
-// Rods and balls of any opacity about the origin, above a floor; and a lamp.
 Given cloud(std::uint32_t count) {
     std::mt19937 engine(5);
     const auto uniform = [&](double low, double high) {
@@ -92,8 +91,7 @@ TEST_F(Opacity, IsTheShareOfRaysThatMeet) {
     EXPECT_NEAR(passed(0.0F, 0.0F), 1.0, 1e-6);
 }
 
-// Concentric spheres, and spheres apart by whole grid steps along an axis, are independent: two of opacity .5 pass a
-// fourth.
+// Concentric spheres, and spheres whole grid steps apart along an axis, are independent.
 TEST_F(Opacity, OfTwoSpheresIsIndependent) {
     const auto passed = [&](const glm::dvec3 &second, double radius, double extent) {
         return share_passed(
@@ -135,7 +133,6 @@ TEST_F(Opacity, HasTheLightOfAPathTracerInDouble) {
     EXPECT_GT(largest_error(denser, exact, PT_SAMPLER_SOBOL), most_errors);
 }
 
-// Order of the spheres (another tree), scale, short submissions, two devices.
 TEST_F(Opacity, LeavesNoBitToChance) {
     const Given given = cloud(60);
     const std::vector<float> whole = image(given, 16);

@@ -1,5 +1,4 @@
-// Contexts on the caller's own Vulkan, through pt.h. Messages of the caller's validation layer, leaks included, fail
-// the test.
+// Contexts on the caller's own Vulkan. Messages of its validation layer, leaks included, fail the test.
 #include "tests/device/caller_vulkan.h"
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
@@ -33,7 +32,6 @@ std::vector<float> render(pt_context *context, std::uint64_t seed, std::uint32_t
     return image;
 }
 
-// A counting mutex for pt_vulkan.lock_queue.
 struct QueueMutex {
     std::mutex mutex;
     std::uint64_t locks = 0;
@@ -85,7 +83,6 @@ protected:
     }
     static std::string refusal(const pt_vulkan &vulkan) { return refusal(info_of(vulkan)); }
 
-    // The caller's device and queue still work.
     void expect_usable() const {
         const vk::raii::Device &device = caller().device();
         const vk::raii::CommandPool pool = device.createCommandPool({.queueFamilyIndex = caller().family()});
@@ -182,7 +179,7 @@ TEST_F(OwnVulkanTest, PreparingIsOneSubmission) {
     EXPECT_EQ(mutex.locks, before + 1);
 }
 
-// A GPU estimates errors in the submissions of samples; only an error without samples needs one of its own.
+// A GPU estimates errors in the submissions of samples.
 TEST_F(OwnVulkanTest, LooksAtATargetAreNoSubmissions) {
     QueueMutex mutex;
     pt_vulkan vulkan = caller().handles();
@@ -252,7 +249,7 @@ TEST_F(OwnVulkanTest, ExcludesWhatIsTheLibrarysOwn) {
                              "vulkan, whose instance has its "
                              "own layers\n"
                              "create.device = \"all\": must be NULL with vulkan, which has one");
-    info.struct_size = offsetof(pt_create_info, vulkan); // so there is none
+    info.struct_size = offsetof(pt_create_info, vulkan); // excludes the field
     info.flags = 0;
     info.device = std::getenv("PT_TEST_DEVICE");
     pt_context *created = nullptr;

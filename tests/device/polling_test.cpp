@@ -77,7 +77,6 @@ protected:
 
     static Pixels image_of(pt_context *on) { return values_of(on, std::size_t{polled_width} * polled_height); }
 
-    // By pt_accumulate on the fixture's context.
     Pixels accumulated(uint32_t count) {
         set_up(context());
         accumulate(count);
@@ -101,7 +100,6 @@ TEST_F(PollingTest, AnyPatternOfPollsGivesTheBitsOfACallThatWaits) {
     }
 }
 
-// Cancels right after the start or some polls later, again and again, with waiting calls between.
 TEST_F(PollingTest, CancellingKeepsWholeSamplesAndTheContextGoesOn) {
     for (const Use &use : {Use{1, 1, false}, Use{1, 1, true}, Use{3, 1, true}}) {
         const Context on = context_for(use);
@@ -135,7 +133,6 @@ TEST_F(PollingTest, CancellingKeepsWholeSamplesAndTheContextGoesOn) {
     }
 }
 
-// Cancels running samples, then moves the camera: nothing of them is in the image.
 TEST_F(PollingTest, AfterACancellationTheCameraMayMove) {
     const Pixels expected = accumulated(3);
     const Context on = context_for({1, 1, true});
@@ -153,8 +150,8 @@ TEST_F(PollingTest, AfterACancellationTheCameraMayMove) {
     EXPECT_EQ(image_of(on.get()), expected);
 }
 
-// Also with repeated cancellations, which finish the sample that some tiles have begun: the error is checked at the
-// same counts, and never while slices run.
+// Also with repeated cancellations, which finish the sample that some tiles have begun. The error is checked at the
+// same counts, never while slices run.
 TEST_F(PollingTest, ATargetIsReachedAtTheSameCount) {
     constexpr uint32_t most = 4096;
     constexpr double target = 0.1;

@@ -16,7 +16,7 @@ void on_message(void * /*user*/, int32_t level, const char *line) {
         ADD_FAILURE() << "the Vulkan layer says: " << line;
 }
 
-// Instance and device of the program, chosen as pt_create does.
+// Chosen as pt_create does.
 struct SharedDevice {
     pt::Log log{&on_message, nullptr};
     pt::vulkan::Instance instance{log, std::getenv("PT_TEST_NO_VALIDATION") == nullptr};

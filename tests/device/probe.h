@@ -1,4 +1,4 @@
-// Runs small kernels that call the shipped shader functions.
+// Runs small kernels that call shader functions.
 #pragma once
 
 #include "lib/kernel/point_sequence.h"
@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-// One device for all probes of a program, with the validation layer unless PT_TEST_NO_VALIDATION is set.
+// Shared by all probes, with the validation layer unless PT_TEST_NO_VALIDATION is set.
 pt::vulkan::Device &probe_device();
 
 // ID_POINT_BLOCKS of probes: the 16 KiB that every device offers.

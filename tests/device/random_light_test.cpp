@@ -1,6 +1,5 @@
-// Random scenes against a path tracer in double: trees, parallel rays, hidden surfaces, nested balls, motion, spots,
-// twins, all estimators and samplers. PT_TEST_SCENES: the number of scenes; by default each kind once in a tree and
-// once in a list.
+// Random scenes against a path tracer in double. PT_TEST_SCENES: the number of scenes; by default each kind once in a
+// tree and once in a list.
 #include "tests/support/batch_fixture.h"
 #include "tests/support/light_in_double.h"
 #include "tests/support/shared_context.h"
@@ -59,7 +58,7 @@ public:
         Given &given = picture.given;
         set_materials(given, picture.kind);
         add_balls(given, picture.kind);
-        if (chance(picture.kind == hidden ? 1.0 : 0.4)) // a sky
+        if (chance(picture.kind == hidden ? 1.0 : 0.4))
             given.spheres.push_back({{0, 0, 0}, uniform(15, 30), {0, 0, 0}, perhaps_hidden(picture.kind, lamp), 0});
         given.planes[0].material = perhaps_hidden(picture.kind, 1);
         if (picture.kind == hidden) // between the camera and the balls, or through them
@@ -95,7 +94,6 @@ private:
         }
     }
 
-    // Overlapping balls with at least one lamp.
     void add_balls(Given &given, Kind kind) {
         for (std::uint32_t i = 0; i < 8; ++i) {
             const std::uint32_t material = i == 0 || chance(0.15) ? lamp : chance(0.4) ? glossy : whole(2);
@@ -112,7 +110,7 @@ private:
             given.spheres[0] = {{uniform(-1, 1), -1.25, uniform(1, 2.5)}, 0.2, {0, 0, 0}, lamp, 0};
             given.spheres[1] = {{uniform(-1.5, 1.5), -0.8, uniform(0, 1)}, 0.7, {0, 0, 0}, glossy, 0};
         }
-        if (kind == nested) { // a dark ball in a lamp, a lamp in a shell, and a ball around all
+        if (kind == nested) {
             pt_sphere dark = given.spheres[0];
             dark.radius *= chance(0.5) ? 1.0 - 1e-5 : 0.5;
             dark.material = 0;
@@ -121,7 +119,7 @@ private:
         }
     }
 
-    // Copies, slightly displaced, of other materials, which do not count.
+    // Materials of later copies do not count.
     void add_twins(Given &given, double apart) {
         const std::size_t count = given.spheres.size();
         for (std::size_t i = 0; i < count; ++i) {
@@ -180,8 +178,8 @@ protected:
         return deviation(picture.has_tree ? with_tree_.get() : context(), given, exact, picture.render);
     }
 
-    // The sum of the images' deviations in standard errors; each has the variance of Student's t with 11 degrees of
-    // freedom, if their noise is all. Clamped, so that an image without noise does not dominate.
+    // The sum of deviations in standard errors, each with the variance of Student's t with 11 degrees of freedom.
+    // Clamped, so that an image without noise does not dominate.
     static double pooled(const std::vector<double> &deviations) {
         double sum = 0.0;
         for (const double deviation : deviations)

@@ -1,4 +1,4 @@
-// Random sums and edge cases of films, for kernels that read films.
+// Random sums and edge cases of films.
 #pragma once
 
 #include "lib/film/pixel_sums.h"
@@ -9,7 +9,6 @@
 #include <random>
 #include <vector>
 
-// One part of a pixel.
 struct ResolvedPart {
     pt::WideSum sums[3];
     std::uint32_t accepted;
@@ -19,7 +18,7 @@ struct ResolvedPixel {
     ResolvedPart parts[2];
 };
 
-// All lengths of sums and counts are equally likely; includes the largest, the smallest, and ties.
+// All lengths of sums and counts are equally likely.
 class RandomSums {
 public:
     std::uint32_t count(std::uint32_t most) {

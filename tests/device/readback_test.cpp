@@ -1,4 +1,4 @@
-// Rectangles and formats of pt_readback have the whole image's bits, from host or device.
+// Rectangles and formats of pt_readback have the whole image's bits.
 #include "lib/film/pixel_format.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
@@ -31,7 +31,6 @@ protected:
         render_image(context, coursework.scene(), CourseworkScene::camera(), settings, 17);
     }
 
-    // Each path of a readback: on the host, on the device, and on the host with shared work.
     template <typename Test>
     void on_each_path(const Test &test) {
         for (const auto &[devices, like_gpus] : {std::tuple(1U, false), {1U, true}, {2U, true}}) {
@@ -94,7 +93,6 @@ TEST_F(ReadbackTest, RectanglesAndFormatsArePartsOfTheImage) {
     });
 }
 
-// With the caller's or the context's memory, and after images of other sizes.
 TEST_F(ReadbackTest, MappedImagesHaveTheSameBytes) {
     on_each_path([](pt_context *context) {
         for (const std::uint32_t quantity : {PT_QUANTITY_RADIANCE, PT_QUANTITY_STANDARD_ERROR, PT_QUANTITY_DEPTH})

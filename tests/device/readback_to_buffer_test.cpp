@@ -1,4 +1,4 @@
-// Images in buffers of the caller's device: the bits of pt_readback, at the right time, and nothing beside them.
+// Images in the caller's buffers: the bits of pt_readback, in time, and nothing beside them.
 #include "lib/film/pixel_format.h"
 #include "tests/device/caller_vulkan.h"
 #include "tests/device/gate.h"
@@ -24,7 +24,7 @@ constexpr std::uint32_t guard_word = 0xa5a5a5a5;
 
 using BufferContents = std::vector<std::byte>;
 
-// A buffer for kernels, mapped for the host.
+// Mapped for the host.
 class CallersBuffer {
 public:
     CallersBuffer(const CallersOwnVulkan &caller, vk::BufferUsageFlags usage) :
@@ -86,7 +86,6 @@ protected:
 
     pt_context *context() const { return context_.get(); }
 
-    // The whole image, without gaps.
     pt_buffer_image target() const {
         pt_buffer_image image{};
         image.struct_size = sizeof image;
@@ -99,7 +98,7 @@ protected:
         return std::bit_cast<std::uint64_t>(static_cast<VkSemaphore>(*semaphore));
     }
 
-    // The buffer's contents after writing the image over guard words.
+    // After writing the image over guard words.
     BufferContents expected(const pt_buffer_image &image) const {
         const std::uint64_t row =
             std::uint64_t{image.width == 0 ? lent_width : image.width} * pt::pixel_bytes(image.format);
@@ -144,7 +143,6 @@ protected:
                                                .pSignalSemaphores = &signal});
     }
 
-    // Copies the buffer on the device after the semaphore, and waits.
     void copy_to(const CallersBuffer &copy, vk::Semaphore semaphore) {
         submit(
             [&](const vk::raii::CommandBuffer &commands) {
@@ -245,7 +243,6 @@ TEST_F(ReadbackToBufferTest, SemaphoresOrderItOnTheDevice) {
     }
 }
 
-// While the call's work is running, the context may be used, changed and destroyed.
 TEST_F(ReadbackToBufferTest, TheContextGoesOnMeanwhile) {
     use_context(true);
     const BufferContents before = expected(target());

@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-// recurrence.comp: iterates step() from values[i] + offset.
+// Iterates step() from values[i] + offset.
 class Recurrence {
 public:
     static constexpr std::uint32_t multiplier = 1664525;

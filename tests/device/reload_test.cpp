@@ -1,4 +1,4 @@
-// The contract of pt_reload_shaders: kernels are replaced on success only, and all samples are of one kernel.
+// pt_reload_shaders: kernels are replaced on success only, and all samples are of one kernel.
 #include "lib/render/renderer.h"
 #include "lib/scene/scene.h"
 #include "tests/device/api_fixture.h"
@@ -51,7 +51,7 @@ protected:
 
     static uint32_t sample_count_of(pt_context *on) { return stats_of(on).sample_count; }
 
-    // The context has `count` samples of the uniform scene, times a factor.
+    // factor: of the scene's radiance.
     static void expect_samples(pt_context *on, uint32_t count, float factor) {
         EXPECT_EQ(sample_count_of(on), count);
         std::vector<float> pixels(width * height * 3, -1.0F);

@@ -40,7 +40,6 @@ protected:
         return sums;
     }
 
-    // Takes `samples` in tiles that have `before`.
     static void take(pt::RenderDevice &device, std::span<const std::uint32_t> tiles, const pt::SampleRange &before,
                      const pt::SampleRange &samples) {
         device.start({tiles, before, samples, true});

@@ -1,5 +1,5 @@
-// Means and standard errors of exact sums, from device and host, against exact integers and long double. PT_TEST_SUMS:
-// the number of random sums.
+// Means and standard errors from device and host, against exact integers and long double. PT_TEST_SUMS: the number of
+// random sums.
 #include "lib/film/pixel_format.h"
 #include "lib/film/quotient.h"
 #include "lib/kernel/buffer_writer.h"
@@ -125,7 +125,6 @@ TEST_F(Resolve, BitsAreThoseOfTheExactQuotient) {
     }
 }
 
-// Every float16, both sides of the midpoints between them, and numbers beyond both ends.
 TEST_F(Resolve, FormatsAreThoseOfTheHost) {
     device_with(pt::vulkan::gpu_like_policy());
     std::vector<float> numbers = {65536.0F, 1e9F, 0x1p-40F};
@@ -161,7 +160,7 @@ TEST_F(Resolve, FormatsAreThoseOfTheHost) {
         }
 }
 
-// Into a buffer, by strips of the film and pieces of the buffer: the host's bytes at any offset, and nothing else.
+// By strips of the film and pieces of the buffer, at any offset.
 TEST_F(Resolve, BuffersHoldTheImageAndNothingElse) {
     device_with(pt::vulkan::gpu_like_policy());
     RandomSums random;
@@ -222,7 +221,7 @@ TEST_F(Resolve, SamplesLostOnTheWayToABufferAreAnError) {
     writer.write(of_one, {buffer.handle(), 0, width * 12, {}});
 }
 
-// In the first of several pieces while the next is running; the device stays usable.
+// The loss is in the first of several pieces while the next is running; the device stays usable.
 TEST_F(Resolve, LostSamplesAreAnError) {
     device_with(pt::vulkan::gpu_like_policy());
     constexpr std::uint32_t high = 1200;

@@ -1,4 +1,4 @@
-// The sampler's numbers from the device, and statistics against uniform ones.
+// The sampler's numbers from the device, and their statistics.
 #pragma once
 
 #include "lib/kernel/point_sequence.h"
@@ -18,7 +18,6 @@
 
 namespace sample_numbers {
 
-// Push constants of the probe.
 struct Request {
     glm::uvec2 seed{1, 2};
     std::uint32_t first_pixel = 0;
@@ -35,7 +34,7 @@ struct Request {
 // Numbers times 2^24, pixel by pixel.
 using Blocks = std::vector<glm::uvec4>;
 
-inline constexpr double scale = 16777216.0; // 2^24
+inline constexpr double scale = 16777216.0;
 
 inline Blocks as_integers(const std::vector<glm::vec4> &numbers) {
     Blocks blocks;
@@ -73,7 +72,7 @@ inline Blocks take_from(const Table &table, std::uint32_t sampler, const Request
     constants[pt::gpu::ID_SAMPLER] = sampler;
     constants[pt::gpu::ID_TABLE_BLOCKS] = sampler == PT_SAMPLER_RANDOM ? 0 : table_blocks;
     constants[pt::gpu::ID_BRANCH_COUNT] = branches;
-    constants[pt::gpu::ID_MAX_PATH_LENGTH] = most_blocks; // one block per vertex without a lamp
+    constants[pt::gpu::ID_MAX_PATH_LENGTH] = most_blocks;
     constants[pt::gpu::ID_POINT_BLOCKS] = probe_point_blocks;
     Probe probe(sample_numbers_spirv(), sizeof request, constants);
     probe.set_points(table);
@@ -89,7 +88,6 @@ inline Blocks take(std::uint32_t sampler, const Request &request) {
 // One false alarm in a million over at most 72 chi-squares.
 inline const double bound = statistics::normal_quantile(1e-6 / 72);
 
-// Chi-square deviate against uniform numbers.
 inline double uniform_deviate(const std::vector<std::uint32_t> &numbers) {
     constexpr std::uint32_t cells = 256;
     std::vector<double> observed(cells);
@@ -99,7 +97,6 @@ inline double uniform_deviate(const std::vector<std::uint32_t> &numbers) {
                                           std::vector<double>(cells, static_cast<double>(numbers.size()) / cells));
 }
 
-// Chi-square deviate of pairs against uniform points of the square.
 inline double pair_deviate(const std::vector<std::uint32_t> &x, const std::vector<std::uint32_t> &y) {
     constexpr std::uint32_t side_bits = 6;
     constexpr std::uint32_t cells = 1U << (2 * side_bits);
@@ -109,7 +106,6 @@ inline double pair_deviate(const std::vector<std::uint32_t> &x, const std::vecto
     return statistics::chi_square_deviate(observed, std::vector<double>(cells, static_cast<double>(x.size()) / cells));
 }
 
-// One component of every stride-th block.
 inline std::vector<std::uint32_t> component(const Blocks &blocks, int which, std::size_t first = 0,
                                             std::size_t stride = 1) {
     std::vector<std::uint32_t> numbers;

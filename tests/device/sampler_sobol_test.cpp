@@ -52,7 +52,6 @@ std::vector<std::vector<std::uint32_t>> scrambles_of_blocks(int component_index)
     return blocks;
 }
 
-// Chi-square deviate of triples against uniform points of the cube.
 double triple_deviate(const std::vector<std::uint32_t> &x, const std::vector<std::uint32_t> &y,
                       const std::vector<std::uint32_t> &z) {
     constexpr std::uint32_t cells = 16 * 16 * 16;

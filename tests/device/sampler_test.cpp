@@ -1,4 +1,4 @@
-// The device's numbers of samples: range, uniformity, and each sampler's promises about pixels.
+// Range and uniformity of the device's numbers, and each sampler's promises.
 #include "tests/device/sample_numbers.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,6 @@ namespace {
 
 class Sampler : public testing::TestWithParam<std::uint32_t> {};
 
-// as_integers() checks each number.
 TEST_P(Sampler, StaysBelowOneAtTheLargestIndices) {
     Request request;
     request.pixel_count = 64;
@@ -49,16 +48,13 @@ TEST_P(Sampler, IsUniformOverPixels) {
     const Blocks blocks = take(GetParam(), request);
     EXPECT_LT(uniform_deviate(component(blocks, 0)), bound);
     EXPECT_LT(uniform_deviate(component(blocks, 3)), bound);
-    // Neighbouring dimensions and pixels.
     EXPECT_LT(pair_deviate(component(blocks, 0), component(blocks, 1)), bound);
     EXPECT_LT(pair_deviate(component(blocks, 1), component(blocks, 3)), bound);
     EXPECT_LT(pair_deviate(component(blocks, 2, 0, 2), component(blocks, 2, 1, 2)), bound);
-    // Dimensions of neighbouring blocks.
     request.block = 1;
     EXPECT_LT(pair_deviate(component(blocks, 3), component(take(GetParam(), request), 0)), bound);
 }
 
-// Blocks beyond the table are random with any sampler.
 TEST_P(Sampler, IsRandomBeyondTheTable) {
     Request request;
     request.block = table_blocks;
@@ -68,12 +64,10 @@ TEST_P(Sampler, IsRandomBeyondTheTable) {
     const Blocks blocks = take(GetParam(), request);
     EXPECT_EQ(blocks, take(PT_SAMPLER_RANDOM, request));
     EXPECT_LT(uniform_deviate(component(blocks, 1)), bound);
-    // Successive samples, and neighbouring pixels.
     EXPECT_LT(pair_deviate(component(blocks, 0, 0, 2), component(blocks, 0, 1, 2)), bound);
     const Blocks one(blocks.begin(), blocks.begin() + request.sample_count);
     const Blocks other(blocks.begin() + request.sample_count, blocks.end());
     EXPECT_LT(pair_deviate(component(one, 2), component(other, 2)), bound);
-    // The last block of the table is not random.
     --request.block;
     request.sample_count = 256;
     EXPECT_EQ(take(GetParam(), request) == take(PT_SAMPLER_RANDOM, request), GetParam() == PT_SAMPLER_RANDOM);
@@ -163,7 +157,7 @@ bool is_shifted_in_pixels(const Table &table, const Blocks &blocks, std::uint32_
     return true;
 }
 
-// Such shifts keep Sobol's nets in every pixel.
+// Shifts of this kind keep Sobol's nets in every pixel.
 TEST(SamplerShifts, AreOneInEachPixelAndDimension) {
     Request request;
     request.pixel_count = 256;

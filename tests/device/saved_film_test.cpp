@@ -1,4 +1,4 @@
-// Films saved and added have the bits of uninterrupted renders; refusals change nothing.
+// Films saved and added have the bits of uninterrupted renders.
 #include "lib/base/digest.h"
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
@@ -80,7 +80,6 @@ protected:
         return bytes;
     }
 
-    // Replaces the checksum.
     static void seal(Bytes &film) {
         const std::size_t checked = film.size() - sizeof(uint64_t);
         const uint64_t checksum = pt::checksum(std::as_bytes(std::span(film).first(checked)));
@@ -135,7 +134,6 @@ TEST_F(SavedFilm, PartsAddUpToTheWholeInAnyOrder) {
     }
 }
 
-// A film without a context.
 TEST_F(SavedFilm, AsAValueShowsWhatTheContextShows) {
     const Bytes film = part(0, 100);
     const auto value = sum_of({film});
@@ -245,7 +243,7 @@ TEST_F(SavedFilm, StrangersAreRefusedAndNothingChanges) {
         std::copy(to.begin(), to.end(), place);
         return film;
     };
-    // As by another scene: the value's first letter changes, the checksum fits.
+    // As by another scene, with a valid checksum.
     const auto with_another = [](Bytes film, const std::string &name) {
         const std::string start = "\n" + name + ' ';
         const auto value = std::search(film.begin(), film.end(), start.begin(), start.end()) +

@@ -1,5 +1,4 @@
-// The path tracer gives the same bits from constants, uniform or storage buffers, or a storage buffer read through the
-// uniform binding, and whether it compares floats or integers.
+// The path tracer gives the same bits from constants, uniform or storage buffers.
 #include "tests/device/kernel_render.h"
 #include "tests/device/table_words.h"
 #include "tests/invariance/invariance_scene.h"
@@ -23,7 +22,6 @@ constexpr std::uint32_t source_width = KernelRender::width;
 constexpr std::uint32_t source_height = KernelRender::height;
 constexpr std::uint32_t sample_count = KernelRender::most_samples;
 
-// Compares the film of given words in a given place with the scene's own film.
 struct Comparison {
     const KernelRender &render;
     const FilmWords film;
@@ -42,7 +40,6 @@ struct Comparison {
         return holds(gpu::SCENE_IN_STORAGE, table_words(render.features(), render.words()));
     }
 
-    // The same scene with one more specialization constant set.
     bool holds_in_storage_with(std::uint32_t constant) const {
         KernelRender::Constants constants = render.constants();
         constants[constant] = 1;
@@ -51,7 +48,7 @@ struct Comparison {
     }
 };
 
-// A floor, a ball and lamps: few surfaces, because kernels take long to build.
+// Few surfaces, because kernels take long to build.
 InvarianceScene scene_with_lamps(int lamp_count) {
     InvarianceScene scene = InvarianceScene::coursework();
     scene.planes.resize(1);
@@ -87,7 +84,7 @@ TEST_F(SceneSource, KeepsTheBitsOfADiffuseSceneWithManyLamps) {
     EXPECT_TRUE(same.holds(gpu::SCENE_IN_UNIFORM, render.words()));
     EXPECT_TRUE(same.holds_in_storage());
 
-    // Negative control: one number off by its last bit.
+    // Negative control: the last bit of a number.
     std::vector<glm::vec4> words = render.words();
     float &radius = words[render.features()[gpu::ID_LAMP_COUNT]].w; // of the first ball
     radius = std::nextafter(radius, std::numeric_limits<float>::infinity());
@@ -159,7 +156,6 @@ TEST_F(SceneSource, KeepsTheBitsOfSurfacesOfOneMaterial) {
     EXPECT_TRUE(same.holds_in_storage());
 }
 
-// Inside a single emitting glossy ball everything is constant.
 TEST_F(SceneSource, KeepsTheBitsOfASingleSurface) {
     InvarianceScene scene = InvarianceScene::coursework();
     scene.planes.clear();
@@ -173,8 +169,7 @@ TEST_F(SceneSource, KeepsTheBitsOfASingleSurface) {
     EXPECT_TRUE(Comparison(render).holds(gpu::SCENE_IN_UNIFORM, render.words()));
 }
 
-// Through pt.h: a context's second scene of the same features may read a buffer; in its own context it may have
-// constants.
+// A context's second scene of the same features may read a buffer; in its own context it may have constants.
 class SceneSourceTest : public ContextFixture {
 protected:
     static std::vector<float> image_of(pt_context *on, const InvarianceScene &source) {

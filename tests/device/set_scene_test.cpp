@@ -1,4 +1,4 @@
-// pt_set_scene: progress, cancellation, and successive scenes that keep a tree's shape, against new contexts.
+// Progress and cancellation of pt_set_scene, and successive scenes of one tree shape, against new contexts.
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/scene_of.h"
@@ -19,7 +19,6 @@ namespace {
 constexpr std::uint32_t picture_width = 16;
 constexpr std::uint32_t picture_height = 12;
 
-// Balls in [-1, 1]^3 in columns, and a lamp above.
 struct Cloud {
     std::vector<pt_material> materials = {{{0.8F, 0.7F, 0.6F}, {0, 0, 0}, {0, 0, 0}, 0, 0},
                                           {{0, 0, 0}, {0, 0, 0}, {30, 30, 30}, 0, 0}};
@@ -46,7 +45,6 @@ struct Cloud {
         return scene;
     }
 
-    // By up to a tenth of the radius.
     void move() {
         std::mt19937 engine(37);
         for (float &coordinate : centers)
@@ -54,7 +52,7 @@ struct Cloud {
     }
 };
 
-constexpr std::uint32_t many = 30'000; // enough for some calls of progress
+constexpr std::uint32_t many = 30'000;
 
 class SetSceneTest : public ContextFixture {
 protected:
@@ -112,7 +110,6 @@ TEST_F(SetSceneTest, TellsHowFarItIs) {
     EXPECT_EQ(told.shares, std::vector<double>{1.0});
 }
 
-// A refused scene never reports the end.
 TEST_F(SetSceneTest, TellsNoEndOfWhatItRefuses) {
     Cloud cloud(many);
     cloud.centers.back() = INFINITY;

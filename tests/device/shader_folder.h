@@ -23,7 +23,7 @@ public:
         write(name, text.replace(place, old_part.size(), new_part));
     }
 
-    // Inserts a line that does not compile; returns the place as the compiler names it.
+    // Returns the place as the compiler names it.
     std::string break_after_line(const std::string &name, int line) const {
         std::string text = read(name);
         std::size_t place = 0;

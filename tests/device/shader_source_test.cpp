@@ -1,4 +1,4 @@
-// Kernels compiled at run time equal the embedded words; messages about files that do not compile. Without a device.
+// Run-time compilation gives the embedded words; messages about broken files.
 #include "lib/kernel/shader_source.h"
 
 #include "lib/base/error.h"
@@ -127,7 +127,6 @@ TEST_F(ShaderSourceTest, AnEndlessIncludeIsRefused) {
     EXPECT_EQ(count_of("includes itself", complaint()), 1U);
 }
 
-// Beside the including file first, then in the kernels' folder.
 TEST_F(ShaderSourceTest, IncludedFilesAreFoundInTwoPlaces) {
     std::filesystem::create_directory(shaders.file("parts"));
     std::filesystem::rename(shaders.file("path.glsl"), shaders.file("parts/path.glsl"));

@@ -1,4 +1,4 @@
-// Sharing a context's work between devices, or rendering in pieces, changes no bit.
+// Several devices, or pieces, change no bit.
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
@@ -51,7 +51,7 @@ protected:
     }
 };
 
-// Submissions of 1 ms hold a sample of some tiles; of 50 ms, many samples. GPUs' films are summed on the first.
+// Submissions of 1 ms hold a sample of some tiles, of 50 ms many samples.
 TEST_F(SharingTest, SeveralDevicesGiveTheBitsOfOne) {
     const Context alone = context_on(1, 50);
     set_up(alone.get());
@@ -127,7 +127,7 @@ TEST_F(SharingTest, RowsAreThoseOfTheWholeImage) {
     EXPECT_NE(image_of(context(), 7), Image(whole.begin(), whole.begin() + std::ptrdiff_t{shared_width} * 7 * 3));
 }
 
-// Large enough for two bands of rows; and a rectangle across both.
+// Two bands of rows, and a rectangle across both.
 TEST_F(SharingTest, LargeFilmsMeetInBands) {
     constexpr uint32_t width = 1060;
     constexpr uint32_t height = 500;

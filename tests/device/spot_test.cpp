@@ -1,5 +1,4 @@
-// Spots sampled from a vertex on the device: the mean of 1 / density over directions that end in a region is its solid
-// angle.
+// Spots on the device: the mean of 1 / density over directions that end in a region is its solid angle.
 #include "shaders/specialization.h"
 #include "spots.spv.h"
 #include "tests/device/probe.h"
@@ -42,7 +41,7 @@ struct SpotOf {
     float glossiness;
 };
 
-// From a wall that faces the scene.
+// The vertex is on a wall that faces the scene.
 std::vector<DrawnSpot> draw_spots(const std::vector<SpotOf> &spots, std::uint32_t count) {
     struct {
         glm::vec4 position, normal;
@@ -82,7 +81,7 @@ glm::dvec3 middle_of(const std::vector<DrawnSpot> &drawn, std::uint32_t surface)
     return glm::normalize(sum);
 }
 
-// Deviate of the mean of 1 / (density density_error) over a cone within the surface from the cone's solid angle.
+// Deviate of the mean of 1 / (density density_error) over a cone within the surface.
 double solid_angle_deviate(const std::vector<DrawnSpot> &drawn, std::uint32_t surface, double radius,
                            double density_error) {
     const glm::dvec3 middle = middle_of(drawn, surface);

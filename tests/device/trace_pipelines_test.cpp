@@ -1,4 +1,4 @@
-// Which kernel a scene gets: its own, with numbers as constants, or one for all scenes of its kind.
+// Which kernel a scene gets: its own, or one for all scenes of its kind.
 #include "lib/kernel/trace_pipelines.h"
 
 #include "tests/device/vulkan_fixture.h"
@@ -15,7 +15,7 @@ namespace {
 
 using pt::vulkan::ComputePipeline;
 
-// One sphere, seen directly: the smallest kernel.
+// The smallest kernel.
 pt::Features features_of_a_sphere(std::uint32_t sampler = PT_SAMPLER_RANDOM) {
     pt::Features features{};
     features[pt::gpu::ID_SPHERE_COUNT] = 1;
@@ -123,11 +123,11 @@ TEST_F(TracePipelinesTest, AHandfulIsKept) {
 TEST_F(TracePipelinesTest, ASceneOfManyWordsReadsABuffer) {
     use(true);
     pt::Features features = features_of_a_sphere();
-    features[pt::gpu::ID_SPHERE_COUNT] = 22; // 66 words
+    features[pt::gpu::ID_SPHERE_COUNT] = 22;
     const ComputePipeline *any = &pipelines_->trace(features, Words(66), 0.0);
     EXPECT_EQ(&pipelines_->trace(features, Words(66, glm::vec4(1)), 0.0), any);
     EXPECT_EQ(&pipelines_->trace(features, Words(66), 100.0), any);
-    features[pt::gpu::ID_SPHERE_COUNT] = 21; // 63 words
+    features[pt::gpu::ID_SPHERE_COUNT] = 21;
     pipelines_->build_own(pt::TracePipelines::OwnKernels::at_once);
     const ComputePipeline *own = &pipelines_->trace(features, Words(pt::gpu::CONSTANT_SCENE_WORDS - 1), 0.0);
     EXPECT_NE(&pipelines_->trace(features, Words(pt::gpu::CONSTANT_SCENE_WORDS - 1, glm::vec4(1)), 0.0), own);

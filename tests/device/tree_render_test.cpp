@@ -1,4 +1,4 @@
-// A dark ball within a lamp, in a tree, through pt.h. RandomLight and RandomFirstHit compare trees with lists.
+// A dark ball within a lamp, in a tree.
 #include "tests/device/tree_fixture.h"
 #include "tests/support/render_image.h"
 #include "tests/support/scene_of.h"
@@ -15,7 +15,6 @@ namespace {
 constexpr std::uint32_t picture_width = 32;
 constexpr std::uint32_t picture_height = 24;
 
-// Balls of radius about 0.2 in [-2, 2]^3 above a floor.
 struct Balls {
     static constexpr std::uint32_t count = 80;
 
@@ -62,7 +61,7 @@ TEST_F(TreeRender, ADarkBallWithinALampTakesNoLight) {
             const std::vector<float> image = render_image(context(), balls.scene(), camera(), render, 64);
             return std::accumulate(image.begin(), image.end(), 0.0);
         };
-        const double alone = light_with(30, 31, 1); // a lamp within the lamp
+        const double alone = light_with(30, 31, 1);
         EXPECT_NEAR(light_with(30, 31, 2) / alone, 1.0, 1e-5) << distance;
         EXPECT_NEAR(light_with(31, 30, 2) / alone, 1.0, 1e-5) << distance;
     }

@@ -1,4 +1,4 @@
-// Random scenes of many spheres; each kind is hard for a tree.
+// Random scenes of many spheres, each kind hard for a tree.
 #pragma once
 
 #include "lib/scene/camera.h"
@@ -14,7 +14,6 @@
 #include <string>
 #include <vector>
 
-// Converts to pt_sphere.
 inline std::vector<pt_sphere> caller_spheres(const std::vector<pt::Sphere> &spheres) {
     std::vector<pt_sphere> result;
     for (const pt::Sphere &s : spheres)
@@ -27,7 +26,7 @@ class TreeScenes {
 public:
     explicit TreeScenes(std::uint32_t seed) : engine_(seed) {}
 
-    // 1 to `most` spheres; kinds in turn.
+    // Kinds in turn.
     pt::Scene next(std::size_t most) {
         const auto count = static_cast<std::size_t>(std::exp(uniform(0.0, std::log(static_cast<double>(most) + 0.99))));
         kind_ = (kind_ + 1) % kind_count;
@@ -43,7 +42,6 @@ public:
         return scene;
     }
 
-    // Looks at the scene's center; one in five from a sphere.
     pt::Camera camera(const pt::Scene &scene) {
         pt::Camera camera{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0.0, 1.0};
         camera.position =

@@ -1,4 +1,4 @@
-// Walks through a tree against tests of every sphere: all bits of films. PT_TEST_TREE_SCENES: the number of scenes.
+// Walks through a tree against tests of every sphere. PT_TEST_TREE_SCENES: the number of scenes.
 #include "tests/device/kernel_render.h"
 #include "tests/device/tree_scenes.h"
 #include "tests/support/checked_scene_of.h"
@@ -28,7 +28,7 @@ std::size_t most_spheres() {
 constexpr std::uint32_t word_of_sides[6][2] = {{1, 2}, {1, 3}, {2, 0},
                                                {2, 1}, {2, 2}, {2, 3}}; // low x, y, z, then high
 
-// Applies `change` to each node's header and sides, low ones first.
+// Low sides first.
 template <typename Change>
 void change_boxes(std::vector<glm::uvec4> &tree, std::uint32_t node_count, Change &&change) {
     for (std::uint32_t node = 0; node < node_count; ++node) {
@@ -51,7 +51,6 @@ void open_boxes(std::vector<glm::uvec4> &tree, std::uint32_t node_count) {
     });
 }
 
-// Boxes lose 8 of up to 255 steps on each side.
 void shrink_boxes(std::vector<glm::uvec4> &tree, std::uint32_t node_count) {
     change_boxes(tree, node_count, [](const glm::uvec4 &, std::uint32_t *const sides[6]) {
         for (int i = 0; i < 6; ++i)
@@ -63,7 +62,6 @@ void shrink_boxes(std::vector<glm::uvec4> &tree, std::uint32_t node_count) {
     });
 }
 
-// Films of walks against tests of every sphere, with correct boxes and with shrunk ones.
 struct Compared {
     bool same;
     bool shrunk_same;
@@ -90,7 +88,7 @@ Compared compare(const pt::Scene &scene, const pt::Camera &camera) {
     return compare(prepared_scene_of({scene.materials, {spheres_of_caller, {}}, scene.planes}, 1), camera);
 }
 
-// Sweeps half of the non-lamps to other spheres; some begin where another does, at equal distances.
+// Sweeps half of the non-lamps to other spheres; some begin where another does.
 Compared compare_with_capsules(const pt::Scene &scene, const pt::Camera &camera) {
     std::vector<pt_sphere> spheres;
     std::vector<pt_sphere> capsules; // motion is the other end
@@ -210,7 +208,6 @@ TEST(Tree, WalksFindTheSameWhateverItsShape) {
     EXPECT_GE(compared, count / 4) << "hardly any shape was kept";
 }
 
-// Many spheres here are at equal distances.
 TEST(Tree, RaysFromFarAwayFindTheSameWhateverItsShape) {
     TreeScenes scenes(12);
     int compared = 0;
@@ -222,7 +219,7 @@ TEST(Tree, RaysFromFarAwayFindTheSameWhateverItsShape) {
     EXPECT_GE(compared, 2);
 }
 
-// All spheres are tested, more than the driver allows loop trips; the interruption is reported.
+// More spheres than the driver allows loop trips: the interruption is reported.
 TEST(Tree, WalksThatADriverCutsAreTold) {
     const std::uint64_t budget = probe_device().limits().loop_trip_budget;
     if (budget > 1'000'000)

@@ -1,4 +1,3 @@
-// Worst errors and their controls; see comparison.h.
 #include "tests/device/accuracy/comparison.h"
 
 #include <gtest/gtest.h>

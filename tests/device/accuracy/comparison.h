@@ -1,4 +1,4 @@
-// Compares a function with its bounds over many inputs and prints its row of the accuracy table.
+// Compares a function with its error bounds and prints its row of the accuracy table.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -15,13 +15,12 @@ using Direction = glm::vec<3, Real>;
 
 constexpr Real half_ulp = 0x1p-24L; // of 1: the largest relative rounding error
 
-// One result of a function.
 class Comparison {
 public:
     // unit: of the errors, for the table.
     Comparison(std::string function, std::string unit) : function_(std::move(function)), unit_(std::move(unit)) {}
 
-    // bound: the largest permitted error, derived for this input.
+    // bound: the largest permitted error.
     void add(Real value, Real exact, Real bound, const std::vector<float> &input);
     void add(const glm::vec3 &value, const Direction &exact, Real bound, const std::vector<float> &input);
 
@@ -47,7 +46,6 @@ private:
 void add_in_ulp(Comparison &comparison, float value, Real exact, Real bound_in_ulp, Real negligible,
                 const std::vector<float> &input);
 
-// The vectors' components, for the table.
 template <typename... Vectors>
 std::vector<float> list(const Vectors &...vectors) {
     std::vector<float> numbers;

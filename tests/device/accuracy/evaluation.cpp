@@ -1,4 +1,3 @@
-// Runs over items with sentinels in the output; see evaluation.h.
 #include "tests/device/accuracy/evaluation.h"
 
 #include <gtest/gtest.h>

@@ -23,7 +23,6 @@ std::vector<Output> evaluate(Probe &probe, const std::vector<Input> &inputs) {
     return outputs;
 }
 
-// Push constants of tests/device/probe/items.glsl.
 struct ItemRange {
     std::uint32_t count;
     std::uint32_t skipped;

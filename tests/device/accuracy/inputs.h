@@ -1,4 +1,4 @@
-// Random and extreme inputs for the comparisons, from fixed seeds.
+// Random and extreme inputs from fixed seeds.
 #pragma once
 
 #include "tests/device/accuracy/comparison.h"
@@ -26,7 +26,6 @@ public:
         return static_cast<float>((choice & 0xf00U) == 0 ? extreme : bits) * 0x1p-24F;
     }
 
-    // Uniform in the logarithm.
     double log_uniform(double low, double high) { return low * std::pow(high / low, word() * 0x1p-32); }
 
     // A unit vector rounded to float; one in eight is an axis, or 2^-k away from one.
@@ -53,7 +52,6 @@ private:
     std::mt19937 generator_;
 };
 
-// Deviation of a nominal unit vector's length from 1.
 inline Real length_error(const glm::vec3 &vector) {
     return std::abs(glm::length(Direction(vector)) - 1);
 }

@@ -1,4 +1,4 @@
-// Distances to spheres and planes against long double: near, far, grazing, from inside and from the surface.
+// Distances to spheres and planes against long double.
 #include "distance_items.spv.h"
 #include "shaders/specialization.h"
 #include "tests/device/accuracy/direction.h"
@@ -21,7 +21,7 @@ constexpr float leaving_inside = 2.0F;
 
 struct Item {
     glm::vec3 centre; // relative to the ray's start; also the plane's normal
-    float radius;     // also the height above the plane
+    float radius;     // the plane's height below it
     glm::vec3 direction;
     float start;
 };
@@ -33,7 +33,7 @@ struct Result {
 
 constexpr float no_hit = 3.0e38F;
 
-// A ray passing a sphere at a distance, with impact parameter `impact` radii from its center.
+// impact: in radii.
 Item passing_ray(Inputs &inputs, double distance, double radius, double impact, float start) {
     const glm::dvec3 direction(inputs.direction());
     const glm::dvec3 across =
@@ -119,7 +119,6 @@ Exact exact_plane(const Item &item) {
     return {distance > 0, distance, std::abs(distance) * (rate_bound / (std::abs(rate) - rate_bound) + 5 * half_ulp)};
 }
 
-// Whether the device agrees on hit or miss, where that is decided.
 bool agrees(const Exact &exact, float found) {
     return exact.met < 0 || (found != no_hit) == (exact.met == 1);
 }
@@ -158,7 +157,6 @@ bool blocks_rightly(const Exact &exact, const Result &found, const Item &item) {
     return exact.met != 0 || found.blocks_behind == 0.0F;
 }
 
-// Compares a kernel's distances with the exact ones, in rows named after `name`.
 Wrong compare_all(const std::vector<Item> &all, std::uint32_t inside, const std::string &name) {
     Comparison sphere("sphere_distance" + name, "of the centre");
     Comparison leaving("sphere_distance" + name + ", leaving", "of the radius");

@@ -1,4 +1,4 @@
-// Sampling a lamp in lights.glsl against long double: from angles of 1e-7 to touching.
+// Sampling a lamp in lights.glsl against long double.
 #include "lamp_items.spv.h"
 #include "shaders/specialization.h"
 #include "tests/device/accuracy/direction.h"
@@ -13,7 +13,7 @@ namespace accuracy::lights {
 
 namespace {
 
-constexpr std::uint32_t lamp_count = 512; // their geometry and emission fill a probe's scene
+constexpr std::uint32_t lamp_count = 512; // fill a probe's scene
 
 struct Lamp {
     glm::vec3 centre;
@@ -22,7 +22,7 @@ struct Lamp {
 };
 
 struct Item {
-    glm::vec3 position; // of the vertex
+    glm::vec3 position;
     std::uint32_t lamp;
     glm::vec4 normal;
     glm::vec4 numbers;

@@ -44,7 +44,6 @@ TEST(AccuracyMaths, ErrorsAreInUlpOfTheExactValue) {
     EXPECT_EQ(pt::error_in_ulp(std::numeric_limits<float>::quiet_NaN(), 1.0), infinity);
 }
 
-// The arguments span the function's range exactly.
 TEST(AccuracyMaths, ArgumentsCoverTheRange) {
     for (const pt::ElementaryFunction &function : pt::elementary_functions()) {
         const std::vector<float> arguments = pt::accuracy_arguments(function);
@@ -55,7 +54,7 @@ TEST(AccuracyMaths, ArgumentsCoverTheRange) {
     }
 }
 
-// Negative control: one value of 16384, wrong by little more than the bound, is found.
+// Negative control: a value wrong by little more than the bound.
 TEST(AccuracyMaths, ASingleErrorIsSeen) {
     for (const pt::ElementaryFunction &function : pt::elementary_functions()) {
         const std::vector<float> arguments = pt::accuracy_arguments(function);

@@ -1,4 +1,4 @@
-// The functions of phong.glsl against long double.
+// phong.glsl against long double.
 #include "phong_items.spv.h"
 #include "shaders/specialization.h"
 #include "tests/device/accuracy/direction.h"
@@ -34,7 +34,6 @@ glm::vec3 mirrored(const glm::vec3 &incoming, const glm::vec3 &normal) {
     return {glm::normalize(glm::reflect(glm::dvec3(incoming), n))};
 }
 
-// A direction at an angle from another.
 glm::vec3 beside(Inputs &inputs, const glm::vec3 &direction, double angle) {
     const glm::dvec3 axis(direction);
     const glm::dvec3 across = glm::normalize(glm::cross(axis, glm::dvec3(inputs.direction()) + glm::dvec3(0, 0, 0.01)));
@@ -75,7 +74,6 @@ Probe phong_probe() {
     return {phong_items_spirv(), sizeof(ItemRange), constants};
 }
 
-// An exact value and its float32 error bound.
 struct Bounded {
     Real exact;
     Real bound;

@@ -1,4 +1,4 @@
-// The directions and weights of sampling.glsl against long double.
+// sampling.glsl against long double.
 #include "sampling_items.spv.h"
 #include "tests/device/accuracy/direction.h"
 #include "tests/device/accuracy/evaluation.h"

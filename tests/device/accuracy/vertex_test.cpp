@@ -1,4 +1,4 @@
-// Distance of the points of vertex_at from their surfaces, for wrong distances along the ray.
+// Points of vertex_at for wrong distances along the ray.
 #include "shaders/specialization.h"
 #include "tests/device/accuracy/direction.h"
 #include "tests/device/accuracy/evaluation.h"

@@ -1,4 +1,4 @@
-// Chooses and samples lamps from one vertex; the first invocations state how it sees each lamp.
+// Samples lamps from one vertex; the first invocations state how it sees each.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
