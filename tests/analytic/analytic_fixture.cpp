@@ -1,4 +1,3 @@
-// See analytic_fixture.h.
 #include "tests/analytic/analytic_fixture.h"
 
 #include "tests/support/shared_context.h"

@@ -1,4 +1,4 @@
-// Renders the scenes of the tests against exact values.
+// Renders scenes for comparison with exact values.
 #pragma once
 
 #include "tests/support/batch_fixture.h"
@@ -10,7 +10,7 @@
 
 namespace analytic {
 
-// Radiance of the pixels, R, G, B, row by row from the top.
+// R, G, B, row by row from the top.
 struct Image {
     std::uint32_t width;
     std::uint32_t height;
@@ -19,8 +19,8 @@ struct Image {
     double red(std::uint32_t x, std::uint32_t y) const { return radiance[3 * (std::size_t{y} * width + x)]; }
 };
 
-// With PT_TEST_TREE in the environment contexts put spheres into a tree however few there are. Walks through it take
-// longer, so fewer samples are taken: where they are without it so many, one. A power of two.
+// PT_TEST_TREE puts all spheres into trees. Walks take longer, so this many samples (a power of two) are replaced by
+// one.
 bool always_tree();
 inline std::uint32_t samples_for_one() {
     return always_tree() ? 8 : 1;
@@ -30,7 +30,7 @@ class AnalyticFixture : public BatchFixture {
 protected:
     Context create_fixtures_context() override;
 
-    // That the last scene had a tree, where all are to have one.
+    // Checks that a tree was used, if required.
     void TearDown() override;
 
     Image image_of(const pt_scene &scene, const pt_camera &camera, const pt_render &render, std::uint32_t sample_count);

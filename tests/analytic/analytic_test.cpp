@@ -1,5 +1,5 @@
-// Pixels of scenes whose radiance is known exactly (tests/data/analytic/README.md), each judged by its known standard
-// deviation of a sample and by the noise of batches. Run one alone with --gtest_filter=*contact*.
+// Pixels with exactly known radiance (tests/data/analytic/README.md), judged by the known deviation of a sample and by
+// the noise of batches.
 #include "tests/analytic/analytic_fixture.h"
 #include "tests/analytic/crop.h"
 #include "tests/analytic/scenes.h"
@@ -18,8 +18,7 @@ using namespace analytic;
 
 constexpr std::uint32_t batch_count = 16;
 
-// Samples of a batch: as many as the time allows, a power of two, for which the Sobol points are best. Every surface
-// costs.
+// As many as the time allows; a power of two, best for Sobol points.
 std::uint32_t samples_for(const Crop &crop, const cli::SceneFile &scene) {
     const double paths = (1U << 21) / samples_for_one();
     const double surfaces = static_cast<double>(scene.spheres.size() + scene.planes.size());
@@ -32,7 +31,7 @@ struct Measurement {
     Estimate radiance;
 };
 
-// By both judges, as multiples of the exact value.
+// By both judges, relative to the exact value.
 struct Bounds {
     Bounds(const Measurement &measured, const Exact &exact) :
         tabulated(error_bound(exact.relative_std, measured.sample_count)),
@@ -48,7 +47,7 @@ bool measurement_agrees(const Measurement &measured, const Exact &exact) {
            difference <= batch_bound(measured.radiance, exact, batch_count);
 }
 
-// Whether an error of 3% is twice what noise may be: then it must be seen.
+// Whether noise is small enough for an error of 3% to be detected.
 bool resolves(const Measurement &measured, const Exact &exact) {
     const Bounds bounds(measured, exact);
     return exact.radiance > 0.0 && 0.03 > 2.0 * std::min(bounds.tabulated, bounds.of_batches);
@@ -56,7 +55,7 @@ bool resolves(const Measurement &measured, const Exact &exact) {
 
 class PixelFixture : public AnalyticFixture {
 protected:
-    // Of all rows, or of one piece of them, which has the same bits.
+    // A piece of the rows has the same bits.
     Batches render(const cli::SceneFile &scene, const Crop &crop, std::uint32_t samples, std::uint32_t first_row = 0,
                    std::uint32_t row_count = 0) {
         set_up(scene.scene(), cropped(scene.camera, scene.render.height, crop.height));
@@ -75,7 +74,7 @@ protected:
 
 class Analytic : public PixelFixture, public testing::WithParamInterface<Expectation> {
 protected:
-    // That the judges reject values that are 3% off and, where lamps are 3% brighter, the pixel itself.
+    // Both judges reject values 3% off, and the pixel with lamps 3% brighter.
     void expect_to_see_errors(cli::SceneFile scene, const Pixel &pixel, const Measurement &measured) {
         for (const double factor : {0.97, 1.03}) {
             const Exact wrong{pixel.exact.radiance * factor, pixel.exact.relative_std};
@@ -96,7 +95,7 @@ TEST_P(Analytic, PixelsAreExact) {
         EXPECT_TRUE(exact) << pixel.x << ", " << pixel.y << ": " << measured.radiance.mean << " +- "
                            << measured.radiance.standard_error << ", expected " << pixel.exact.radiance;
         if (exact && !sees_errors && resolves(measured, pixel.exact)) {
-            sees_errors = true; // once for a scene: it takes another render
+            sees_errors = true; // once per scene: it takes another render
             expect_to_see_errors(scene, pixel, measured);
         }
     }
@@ -108,9 +107,8 @@ std::string test_name(std::string name) {
     return "Scene" + name;
 }
 
-// Whole images, not crops: that a pixel lies where it should. Scenes of which the mirror images differ. With so few
-// samples the first judge stands alone: where none of them finds the light of a dim pixel, the measured noise is
-// none.
+// Pixels of whole images lie where they should, in scenes unlike their mirror images. Few samples leave the first judge
+// alone: the measured noise is 0 where none finds a dim pixel's light.
 class WholeImage : public PixelFixture, public testing::WithParamInterface<std::string> {};
 
 TEST_P(WholeImage, PixelsAreInTheirPlaces) {
@@ -119,7 +117,7 @@ TEST_P(WholeImage, PixelsAreInTheirPlaces) {
     const std::uint32_t paths = (1U << 22) / samples_for_one();
     const std::uint32_t samples = paths / (whole.width * whole.height * batch_count) + 1;
     const Batches batches = render(scene, whole, samples);
-    int misplaced = 0; // negative control: of each pixel, the ones on the other sides of both axes
+    int misplaced = 0; // negative control: pixels mirrored in both axes
     for (const Expectation &expectation : read_expectations())
         for (const Pixel &pixel : expectation.pixels) {
             if (expectation.scene != GetParam())

@@ -1,4 +1,4 @@
-// Scenes without noise: every sample of every pixel has the same value. Run alone with --gtest_filter=ExactLight*.
+// Scenes without noise: all samples have the same value.
 #include "tests/analytic/analytic_fixture.h"
 #include "tests/analytic/scenes.h"
 #include "tests/support/scene_of.h"
@@ -22,7 +22,7 @@ protected:
     }
 };
 
-// The largest relative error of a pixel in units of 2^-24, half of a unit in the last place of float32 or more.
+// In units of 2^-24, half a unit in the last place or more.
 double largest_error(const Image &image, double exact) {
     double largest = 0.0;
     for (const float value : image.radiance)
@@ -30,10 +30,10 @@ double largest_error(const Image &image, double exact) {
     return std::ldexp(largest, 24);
 }
 
-// The camera lies on the sphere, at its height 0 to the last bit, and looks inwards: each ray meets the far side.
+// The camera is exactly on the sphere and looks inwards.
 TEST_F(ExactLight, FromASphereItselfItsFarSideIsSeen) {
     for (const float emission : {0.0F, 0.5F}) {
-        // Behind it another lamp shows what passes through: a lamp and a black sphere are held differently.
+        // Another lamp behind it shows leaks; lamps and black spheres are stored differently.
         const pt_material materials[] = {{{0, 0, 0}, {0, 0, 0}, {emission, emission, emission}, 0, 0},
                                          {{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0, 0}};
         const pt_sphere spheres[] = {{{0, 0, -1}, 1, {0, 0, 0}, 0, 0}, {{0, 0, -1}, 50, {0, 0, 0}, 1, 0}};
@@ -54,9 +54,8 @@ TEST_F(ExactLight, InsideALampIsItsEmission) {
     EXPECT_GT(largest_error(render(scene, 1, PT_ESTIMATOR_BEST), 0.1F * 1.03), 0.0);
 }
 
-// A white ball in a black lamp: every path ends on the lamp, whose emission is 1, after one reflection of weight 1. The
-// weight is the quotient of albedo / pi * cos and cos / pi, of four rounded operations, and times the emission that is
-// five, each off by up to 2^-24.
+// A white ball in a black lamp: every path ends on the lamp (emission 1) after one reflection of weight (albedo / pi *
+// cos) / (cos / pi): with the emission five operations, each off by up to 2^-24.
 TEST_F(ExactLight, FurnaceIsWhite) {
     const cli::SceneFile scene = read_scene("09-furnace");
     for (const std::uint32_t estimator : {PT_ESTIMATOR_COSINE, PT_ESTIMATOR_BSDF, PT_ESTIMATOR_MIS})

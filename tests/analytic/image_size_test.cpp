@@ -1,5 +1,4 @@
-// Images of many shapes: each pixel shows the right share of an emitting sphere. Run alone with
-// --gtest_filter=ImageSize*.
+// Images of many shapes: each pixel shows its share of an emitting sphere.
 #include "tests/analytic/analytic_fixture.h"
 #include "tests/analytic/judge.h"
 #include "tests/analytic/sphere_coverage.h"
@@ -27,7 +26,7 @@ class ImageSize : public AnalyticFixture, public testing::WithParamInterface<Sha
 
 const SphereCoverage sphere_coverage(1, 0.5, -5);
 
-// What the middle of the sphere at (1, 0.5, -4), seen from (0, 0, 1), shows.
+// The sphere at (1, 0.5, -4), seen from (0, 0, 1).
 Image render_sphere(const Shape &shape, double radius, const auto &image_of) {
     const pt_material material{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0, 0};
     const pt_sphere sphere{{1, 0.5, -4}, radius, {0, 0, 0}, 0, 0};
@@ -39,7 +38,7 @@ Image render_sphere(const Shape &shape, double radius, const auto &image_of) {
     return image_of(scene, camera);
 }
 
-// A power of two, for which the Sobol points are best.
+// A power of two, best for Sobol points.
 std::uint32_t samples_for(const Shape &shape) {
     return std::bit_floor(std::clamp((1U << 22) / (shape.width * shape.height), 256U, 1U << 18));
 }
@@ -48,15 +47,14 @@ double share_of(const Shape &shape, std::uint32_t x, std::uint32_t y) {
     const double size = shape.window_height / shape.height;
     const double left = (x - 0.5 * shape.width) * size;
     const double top = (0.5 * shape.height - y) * size;
-    // Outside a pixel's surroundings no line of it need be looked at.
+    // Skips pixels away from the sphere.
     const auto [first, last] = sphere_coverage.chord(top - 0.5 * size);
     if (left > 0.5 || left + size < -0.1 || (first == last && std::abs(top) > 0.5 + size))
         return 0.0;
     return sphere_coverage.share(left, left + size, top - size, top);
 }
 
-// How many pixels disagree. A pixel that is wholly covered, or not at all, is that in every sample. The quadrature
-// decides it to 1e-4.
+// Number of disagreeing pixels. Full and empty pixels are exact; the quadrature decides to 1e-4.
 std::uint32_t compare(const Image &image, const Shape &shape) {
     std::uint32_t found = 0;
     for (std::uint32_t y = 0; y < shape.height; ++y)
@@ -78,12 +76,11 @@ TEST_P(ImageSize, EveryPixelCoversItsShare) {
     };
     const Image image = render_sphere(shape, 1.0, render);
     EXPECT_EQ(compare(image, shape), 0U);
-    // Negative control: a sphere 3% larger, of 6% more area.
+    // Negative control: a sphere 3% larger, 6% more area.
     EXPECT_GT(compare(render_sphere(shape, 1.03, render), shape), 0U);
 }
 
-// The sphere lies within the window: its area, which has a closed form of its own, is all there is, however it is cut
-// into pixels.
+// The window contains the sphere, so shares add up to its area in closed form.
 TEST(ImageSizeClosedForm, SharesAddUpToTheArea) {
     EXPECT_NEAR(sphere_coverage.area(), 0.1342652736, 1e-9);
     const Shape shape{61, 37, 1.0};
@@ -94,8 +91,8 @@ TEST(ImageSizeClosedForm, SharesAddUpToTheArea) {
     EXPECT_NEAR(sum, sphere_coverage.area(), 1e-6);
 }
 
-// One pixel; a workgroup, one less and one more; rows and columns of the greatest length; primes. In rows and columns
-// of 16384 the pixels are small, so that many of them see the sphere.
+// One pixel; a workgroup, one less and one more; the greatest lengths; primes. Small windows let many pixels of 16384
+// see the sphere.
 INSTANTIATE_TEST_SUITE_P(Shapes, ImageSize,
                          testing::Values(Shape{1, 1, 1.0}, Shape{63, 1, 0.02}, Shape{64, 1, 0.02}, Shape{65, 1, 0.02},
                                          Shape{16384, 1, 2.0 / 16384}, Shape{1, 16384, 1.0}, Shape{61, 37, 1.0},

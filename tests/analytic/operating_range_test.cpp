@@ -1,6 +1,5 @@
-// How far images agree with exact values: scales, distances, lamps, lobes and brightness up to where they stop. It
-// never fails, takes minutes, and prints a table. Run it with
-//     pt_analytic_tests --gtest_also_run_disabled_tests --gtest_filter=*OperatingRange*
+// Prints how far images agree with exact values, by scale, distance, lamps, lobes and brightness. Never fails; takes
+// minutes. Run pt_analytic_tests --gtest_also_run_disabled_tests --gtest_filter=*OperatingRange*
 #include "tests/analytic/analytic_fixture.h"
 #include "tests/analytic/crop.h"
 #include "tests/analytic/scenes.h"
@@ -25,8 +24,7 @@ constexpr std::uint32_t range_batch_count = 16;
 
 class DISABLED_OperatingRange : public AnalyticFixture {
 protected:
-    // Whether the value of a quantity gives the radiance that it should, within the noise of batches, and that below
-    // 1%.
+    // Prints whether the radiance is as expected within noise, and noise below 1%.
     void measure(double value, const cli::SceneFile &scene, const pt_camera &camera, const Crop &crop, double expected,
                  std::uint32_t samples) {
         const pt_scene library_scene = scene.scene();
@@ -54,13 +52,12 @@ protected:
                     found.mean, error, bound, verdict, rejected ? ", samples rejected" : "");
     }
 
-    // Of a tabulated pixel.
+    // For a tabulated pixel.
     void measure(double value, const cli::SceneFile &scene, std::uint32_t x, std::uint32_t y, double expected) {
         const Crop crop = crop_around(scene.render.width, scene.render.height, x, y);
         measure(value, scene, cropped(scene.camera, scene.render.height, crop.height), crop, expected, 1024);
     }
 
-    // Mean over the picture, of many samples.
     double light_of(const cli::SceneFile &scene) {
         set_up(scene.scene(), scene.camera);
         double sum = 0.0;
@@ -94,11 +91,11 @@ TEST_F(DISABLED_OperatingRange, Scale) {
     }
 }
 
-// How a scene is looked at: along an axis, in a direction none of whose components is a round number, and with motion.
+// Along an axis, obliquely without round numbers, and in motion.
 struct Look {
     const char *name;
     glm::dvec3 direction;
-    double motion; // of what is looked at, in radii or so
+    double motion; // of the subject, in about radii
 };
 
 const std::vector<Look> looks = {{"along an axis", {0, 0, -1}, 0.0},
@@ -110,8 +107,8 @@ void store(const glm::dvec3 &from, double (&to)[3]) {
         to[i] = from[i];
 }
 
-// What a sphere of radius 1 at a distance covers of an image plane at distance 1 while it moves across the view, by six
-// Gauss nodes in time, of which three count twice by symmetry.
+// Area on the image plane at distance 1 of a unit sphere that moves across the view, by six Gauss nodes in time, three
+// by symmetry.
 double area_in_motion(double distance, double way) {
     constexpr std::array<std::array<double, 2>, 3> nodes{{{0.2386191860831969, 0.4679139345726910},
                                                           {0.6612093864662645, 0.3607615730481386},
@@ -122,8 +119,7 @@ double area_in_motion(double distance, double way) {
     return sum;
 }
 
-// In the middle a sphere of radius 1 fills pi / (d^2 - 1) of the image plane at distance 1, here of a square of
-// 16 / (d^2 - 1).
+// A central unit sphere fills pi / (d^2 - 1) of the image plane, in a square of 16 / (d^2 - 1).
 TEST_F(DISABLED_OperatingRange, DistanceOfASphere) {
     for (const Look &look : looks) {
         std::printf("\ndistance from a sphere's surface / radius, %s\n", look.name);
@@ -139,7 +135,7 @@ TEST_F(DISABLED_OperatingRange, DistanceOfASphere) {
             store({0, 0, 0}, scene.camera.position);
             store(look.direction, scene.camera.target);
             scene.camera.vertical_fov = 2.0 * std::atan(2.0 / std::sqrt(gap * (2.0 + gap)));
-            // Far off the area is that of a disc, which keeps its size, and its formula would cancel.
+            // From afar the formula cancels; the area is a disc's.
             const double still = gap * (2.0 + gap);
             const double area = way > 0.0 && gap < 1e3 ? area_in_motion(1 + gap, way) : std::numbers::pi / still;
             measure(gap, scene, scene.camera, {1, 1, 0, 0}, area * still / 16.0, 65536);
@@ -150,12 +146,12 @@ TEST_F(DISABLED_OperatingRange, DistanceOfASphere) {
 constexpr double floor_side = 0.1;
 constexpr double lamp_height = 3.1; // above the floor y = -1
 
-// The mean over a square of that side about (0, 0) on a floor of albedo 0.8 under a lamp of radius 1 and emission 10 at
-// (3, 2.1, 0): by two Gauss nodes in each direction, which errs by less than 1e-7 of it.
+// Mean over a square of this side about (0, 0) on a floor of albedo 0.8 under a lamp of radius 1, emission 10 at (3,
+// 2.1, 0): by two Gauss nodes per direction, to 1e-7.
 double floor_under_lamp() {
     double sum = 0.0;
     const double node = 0.5 * floor_side / std::sqrt(3.0);
-    for (const double x : {-node, node}) // the nodes in z are as far from the lamp as each other
+    for (const double x : {-node, node}) // nodes in z are equally far from the lamp
         sum += 0.8 * 10 * lamp_height / std::pow(std::hypot(3 - x, node, lamp_height), 3);
     return sum / 2;
 }
@@ -163,7 +159,7 @@ double floor_under_lamp() {
 TEST_F(DISABLED_OperatingRange, DistanceOfALitFloor) {
     std::printf("\ndistance of a floor / distance of its lamp, from above\n");
     for (int exponent = 0; exponent <= 8; ++exponent) {
-        const double distance = std::numbers::pi / 3.0 * std::pow(10.0, exponent); // nothing is a round number
+        const double distance = std::numbers::pi / 3.0 * std::pow(10.0, exponent); // no round numbers
         cli::SceneFile scene = read_scene("01-above");
         scene.spheres[0] = {{3, lamp_height - 1, 0}, 1, {0, 0, 0}, scene.spheres[0].material, 0};
         scene.camera = {sizeof(pt_camera), 0, {0, distance - 1, 0}, {0, -1, 0}, {0, 0, 1}, 0, 0, 0, 0, 0, 0};
@@ -172,7 +168,7 @@ TEST_F(DISABLED_OperatingRange, DistanceOfALitFloor) {
     }
 }
 
-// The light of a lamp of radius 1e-4 and emission 1e14 in 1000 goes with emission * radius^2.
+// Light goes with emission * radius^2; 1e14 at radius 1e-4.
 TEST_F(DISABLED_OperatingRange, SizeOfALamp) {
     std::printf("\nradius / distance of a lamp\n");
     for (int exponent = -15; exponent <= 2; ++exponent) {
@@ -187,7 +183,7 @@ TEST_F(DISABLED_OperatingRange, SizeOfALamp) {
     }
 }
 
-// By how much it moves along itself changes nothing that shows; to move by 1 it needs a radius of 32 and more.
+// Motion along itself changes nothing visible; motion by 1 needs a radius of at least 32.
 TEST_F(DISABLED_OperatingRange, SizeOfAFloorBall) {
     for (const double motion : {0.0, 1e-9, 1.0}) {
         std::printf("\nradius of a sphere that is the floor, motion %g\n", motion);
@@ -197,14 +193,14 @@ TEST_F(DISABLED_OperatingRange, SizeOfAFloorBall) {
             ball.radius = std::pow(10.0, exponent);
             ball.center[1] = -1.0 - ball.radius;
             ball.motion[0] = motion;
-            // The plane's value, and the first term in the curvature from the tabulated radius of 1e5. A way m along
-            // itself takes the floor down by m^2 / (6 R) on average.
+            // The plane's value and the first term in the curvature, from the tabulated radius 1e5. Motion m along
+            // itself lowers the floor by m^2 / (6 R) on average.
             measure(ball.radius, scene, 128, 127, 0.12151634857013521 + 0.0640719 / ball.radius);
         }
     }
 }
 
-// A world of a lamp, a ball and its shadow; from afar it is the same wherever from.
+// A lamp, a ball and its shadow; from afar the light is constant.
 TEST_F(DISABLED_OperatingRange, DistanceOfAWorld) {
     for (const Look &look : looks) {
         std::printf("\ndistance of a lit world of size 3, %s\n", look.name);
@@ -227,14 +223,14 @@ TEST_F(DISABLED_OperatingRange, DistanceOfAWorld) {
             store(look.direction, scene.camera.target);
             scene.camera.vertical_fov = 2.0 * std::atan(1.7 / distance);
             scene.render.max_path_length = 4;
-            if (exponent == 4) // from where perspective is less than a thousandth
+            if (exponent == 4) // perspective is below a thousandth from here
                 expected = light_of(scene);
             measure(distance, scene, scene.camera, {1, 1, 0, 0}, expected, 65536);
         }
     }
 }
 
-// From n = 3000 on the lobe clears the horizon and its albedo is the cosine.
+// From n = 3000 on the lobe clears the horizon, so its albedo is the cosine.
 TEST_F(DISABLED_OperatingRange, GlossinessUnderADome) {
     std::printf("\nglossiness under a uniform dome\n");
     for (const double glossiness : {1e-30, 1e-12, 1e-7, 3e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10}) {

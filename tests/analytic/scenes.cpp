@@ -1,4 +1,3 @@
-// Reads the data of the analytic tests; see scenes.h.
 #include "tests/analytic/scenes.h"
 
 #include "cli/scene/scene_file.h"
@@ -21,8 +20,7 @@ std::vector<std::string> fields(const std::string &line) {
     return found;
 }
 
-// The file has the floor and the materials of the lamps; the lamps are a grid of 64 x 64 whose emission goes from 1 to
-// 7.
+// The file has the floor and the lamps' materials; the lamps are a grid of 64 x 64 with emission 1 to 7.
 void add_lamp_grid(cli::SceneFile &scene) {
     for (std::uint32_t i = 0; i < 64; ++i)
         for (std::uint32_t j = 0; j < 64; ++j)
@@ -37,7 +35,7 @@ std::vector<Expectation> read_expectations() {
         throw std::runtime_error("cannot open " + folder + "expected.csv");
     std::vector<Expectation> expectations;
     std::string line;
-    std::getline(file, line); // names of the columns
+    std::getline(file, line); // column names
     while (std::getline(file, line)) {
         const std::vector<std::string> field = fields(line);
         if (expectations.empty() || expectations.back().scene != field.at(0))

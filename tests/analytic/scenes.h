@@ -1,4 +1,4 @@
-// The scenes of tests/data/analytic and the exact values of their pixels. Used by the tests against exact values.
+// The scenes of tests/data/analytic and exact pixels.
 #pragma once
 
 #include "cli/scene/scene_file.h"
@@ -17,13 +17,12 @@ struct Pixel {
     Exact exact;
 };
 
-// The lines of expected.csv about one scene.
+// One scene's lines of expected.csv.
 struct Expectation {
     std::string scene;
     std::vector<Pixel> pixels;
 };
 
-// For GoogleTest's messages.
 inline void PrintTo(const Expectation &expectation, std::ostream *stream) {
     *stream << expectation.scene;
 }
@@ -32,7 +31,6 @@ std::vector<Expectation> read_expectations();
 
 cli::SceneFile read_scene(const std::string &name);
 
-// All lamps brighter by a factor.
 void brighten(cli::SceneFile &scene, float factor);
 
 } // namespace analytic

@@ -1,4 +1,4 @@
-// The share of each pixel that a sphere covers, exactly. Used by the tests of image sizes and of the operating range.
+// The exact share of each pixel that a sphere covers.
 #pragma once
 
 #include <algorithm>
@@ -9,21 +9,19 @@
 
 namespace analytic {
 
-// A sphere of radius 1 as a camera at the origin that looks along -z sees it on the image plane z = -1: where the angle
-// to the centre c is at most the sphere's angular radius a, for the point (x, y)
-//     (c_x x + c_y y - c_z)^2 >= cos^2 a |c|^2 (x^2 + y^2 + 1) = (|c|^2 - 1) (x^2 + y^2 + 1).
-// In front of the camera that is an ellipse.
+// A unit sphere at c, seen from the origin along -z on the plane z = -1: (x, y) is covered if (c_x x + c_y y - c_z)^2
+// >= (|c|^2 - 1) (x^2 + y^2 + 1), an ellipse in front of the camera.
 class SphereCoverage {
 public:
     SphereCoverage(double x, double y, double z) : x_(x), y_(y), z_(z), tangent_(x * x + y * y + z * z - 1.0) {}
 
-    // Area of the ellipse. As |det M| pi / |det M'|^(3/2) of the conic's matrix M and its part M' in x and y.
+    // |det M| pi / |det M'|^(3/2), for the conic's matrix M and its part M' in x and y.
     double area() const {
         const double minor = tangent_ * (z_ * z_ - 1.0);
         return std::numbers::pi * tangent_ * tangent_ / std::pow(minor, 1.5);
     }
 
-    // The part of the line of height y that is covered, of which both ends are the same if there is none.
+    // The covered part of the line at height y; equal ends if none.
     std::pair<double, double> chord(double y) const {
         const double p = y_ * y - z_; // (c_x x + p)^2 - tangent (x^2 + y^2 + 1) = 0
         const double a = x_ * x_ - tangent_;
@@ -36,8 +34,7 @@ public:
         return std::minmax((-half_b - root) / a, (-half_b + root) / a);
     }
 
-    // Of the rectangle with these corners, by the midpoint rule over lines: off by about 3e-5 where the ellipse begins
-    // or ends within it, else by less.
+    // Midpoint rule over lines: errs by 3e-5 where the ellipse begins or ends within the rectangle, else less.
     double share(double left, double right, double bottom, double top) const {
         constexpr int lines = 1024;
         double sum = 0.0;
@@ -52,7 +49,7 @@ private:
     double x_;
     double y_;
     double z_;
-    double tangent_; // squared distance of the points where rays touch the sphere
+    double tangent_; // squared length of tangents from the origin
 };
 
 } // namespace analytic

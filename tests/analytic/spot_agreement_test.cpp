@@ -1,5 +1,4 @@
-// Rays through spots (shaders/spots.glsl) change only the noise: in scenes with all kinds of spots, the image converges
-// to that of an estimator that does not use them. Run alone with --gtest_filter=SpotAgreement*.
+// Rays through spots (shaders/spots.glsl) change only the noise: images converge to an estimator without them.
 #include "tests/analytic/analytic_fixture.h"
 #include "tests/support/batch_fixture.h"
 #include "tests/support/scene_of.h"
@@ -20,7 +19,7 @@ using namespace analytic;
 
 constexpr std::uint32_t spot_batch_count = 24;
 
-// A lamp low over a floor, in a room of a wall and a ceiling that are far away; a camera looks along the wall.
+// A low lamp over a floor; wall and ceiling are far.
 struct SpotScene {
     const char *name;
     pt_material floor;
@@ -58,7 +57,7 @@ protected:
         set_up(scene_of(materials, spheres, planes), camera);
     }
 
-    // Those that do not show the lamp, whose edge is most of the noise of the others.
+    // The lamp's edge would dominate the noise.
     std::vector<std::size_t> pixels_without_lamp() {
         const Batches emission = render_batches(render_of(32, 16, 1), 1, 256);
         std::vector<std::size_t> pixels;
@@ -77,11 +76,10 @@ protected:
     }
 };
 
-// Five standard errors, as multiples of the normal distribution: one false alarm in two million per comparison.
+// Five standard errors: one false alarm in two million per comparison.
 const double spot_bound = student_bound(std::erfc(5.0 / std::sqrt(2.0)), spot_batch_count);
 
-// Where light comes over one vertex more than spots find, and with PT_TEST_MANY set over three. The images differ by
-// chance by 0.3%, so that a difference of 3% is told.
+// Longer paths than spots sample; PT_TEST_MANY adds three vertices. Noise is 0.3%, so 3% is detected.
 TEST_P(SpotAgreement, WithDirectionsByChance) {
     for (const std::uint32_t length : {3U, 5U}) {
         if (length > 3 && !std::getenv("PT_TEST_MANY"))

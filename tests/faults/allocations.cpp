@@ -1,4 +1,4 @@
-// The global operator new of the fault tests; see allocations.h.
+// Global operator new with fault injection; see allocations.h.
 #include "tests/faults/allocations.h"
 
 #include <algorithm>
@@ -11,16 +11,16 @@
 namespace {
 
 thread_local bool in_library = false;
-std::size_t allocation_count = 0; // of the library, which is used by one thread
+std::size_t allocation_count = 0; // of the library, on one thread
 std::size_t failing_number = 0;
 bool failing_goes_on = false;
 bool failed = false;
 bool threw = false;
-std::atomic<long> live{0}; // what the library made, a thread of the driver may free
+std::atomic<long> live{0}; // a driver's thread may free the library's memory
 std::atomic<long> live_bytes{0};
 long most_bytes = 0;
 
-// Stands before each allocation; keeps its alignment.
+// Precedes each allocation; keeps its alignment.
 struct alignas(std::max_align_t) Header {
     std::size_t size;
     bool of_library;

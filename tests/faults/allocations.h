@@ -1,12 +1,11 @@
-// Host memory that runs out on demand: replaces the global operator new, so that a chosen allocation of the library
-// fails.
+// Replaces the global operator new, so that a chosen allocation of the library fails.
 #pragma once
 
 #include <cstddef>
 
 namespace faults {
 
-// While it lives, allocations of this thread are the library's.
+// Counts this thread's allocations as the library's, in its scope.
 class InLibrary {
 public:
     InLibrary();
@@ -15,7 +14,7 @@ public:
     InLibrary &operator=(const InLibrary &) = delete;
 };
 
-// While it lives, they are not: the library is in Vulkan, or in a callback.
+// Excludes them, in Vulkan and callbacks.
 class OutOfLibrary {
 public:
     OutOfLibrary();
@@ -27,17 +26,16 @@ private:
     bool was_in_library_;
 };
 
-// The library's allocation with a number, counted from 1, fails; with goes_on all after it, too. 0: none fails.
+// number: counted from 1; 0: none. goes_on: all later ones fail too.
 void fail_allocation(std::size_t number, bool goes_on);
 
-// Whether it was reached, and whether by an allocation that throws: the others are made by those who can do without.
+// Whether it was reached, and whether it throws; callers of the others can do without.
 bool allocation_failed();
 bool allocation_threw();
 
-// Allocations of the library that are not freed.
 long live_allocations();
 
-// The bytes of what the library has made and not freed, from where on the most is noted that there are; and that.
+// Starts measuring the library's peak memory; returns its current bytes.
 long begin_most_bytes();
 long most_live_bytes();
 

@@ -1,4 +1,4 @@
-// The clock by which the linker replaces the library's (--wrap); see clock.h.
+// Replaces the library's clock at link time (--wrap).
 #include "tests/faults/clock.h"
 
 extern "C" std::chrono::steady_clock::time_point __wrap__ZNSt6chrono3_V212steady_clock3nowEv();

@@ -1,5 +1,5 @@
-// The library's clock in the fault tests. It advances only when the tests say so: no submission is overdue because the
-// machine is slow, slices are always cut in the same way, and waiting seconds for a device that hangs takes no time.
+// The library's clock in fault tests advances on request only: no submission is overdue on a slow machine, slices are
+// reproducible, and waiting for a hung device takes no time.
 #pragma once
 
 #include <chrono>

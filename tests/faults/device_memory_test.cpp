@@ -1,4 +1,4 @@
-// Too little device memory, as the device itself states: drivers may promise more.
+// Too little device memory, as the device states; drivers may promise more.
 #include "tests/faults/vulkan_calls.h"
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
@@ -20,7 +20,6 @@ class DeviceMemoryTest : public testing::Test {
 protected:
     void TearDown() override { faults::limit_memory(UINT64_MAX); }
 
-    // On a device with so much memory.
     static Context context_with(uint64_t memory_bytes) {
         faults::limit_memory(memory_bytes);
         pt_context *context = nullptr;
@@ -28,7 +27,7 @@ protected:
         return Context(context);
     }
 
-    // The sample with an index alone.
+    // Takes this sample alone.
     static void take(const Context &context, uint32_t index) {
         pt_render render = render_of(width, height, 2);
         render.first_sample = index;
@@ -43,7 +42,7 @@ protected:
     static uint64_t bytes_in_use(const Context &context) { return stats_of(context.get()).device_bytes; }
 };
 
-// The sums of the film are needed twice, for as long as it takes to add another.
+// Adding a film needs its sums twice for a while.
 TEST_F(DeviceMemoryTest, AFilmIsAddedWhereItsSumsFitInTwice) {
     const Context roomy = context_with(UINT64_MAX);
     take(roomy, 1);

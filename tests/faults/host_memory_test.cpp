@@ -1,5 +1,4 @@
-// Host memory that runs out at every place where the library allocates: the call fails as pt.h says, changes nothing,
-// and leaks nothing.
+// Every allocation of the library fails once: the call fails as pt.h says, changes nothing, and leaks nothing.
 #include "tests/faults/allocations.h"
 #include "tests/faults/sweep.h"
 
@@ -14,7 +13,7 @@ using namespace faults;
 
 class FailingAllocation : public Injection {
 public:
-    // goes_on: those after it fail too.
+    // goes_on: later ones fail too.
     FailingAllocation(std::size_t number, bool goes_on, std::size_t &failures) :
         number_(number),
         goes_on_(goes_on),
@@ -29,7 +28,7 @@ public:
         if (!failed)
             return false;
         ++failures_;
-        // Where none throws, those who asked can do without; and pt_destroy returns nothing.
+        // Allocations that do not throw are optional; pt_destroy returns nothing.
         if (threw && step != "pt_destroy") {
             EXPECT_EQ(pt_result_name(result), std::string("PT_ERROR_OUT_OF_HOST_MEMORY"))
                 << step << ", allocation " << number_ << ": " << message;
@@ -41,7 +40,7 @@ public:
 private:
     std::size_t number_;
     bool goes_on_;
-    std::size_t &failures_; // that were met
+    std::size_t &failures_; // that were reached
 };
 
 void fail_every_allocation(const Setting &setting, bool goes_on) {

@@ -1,4 +1,3 @@
-// Which objects are kept, and how they are found again; see kept_objects.h.
 #include "tests/faults/kept_objects.h"
 
 #include <algorithm>

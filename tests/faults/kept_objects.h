@@ -1,5 +1,5 @@
-// Vulkan's instance, devices and pipelines, kept from life to life: the library creates and destroys them as usual, but
-// the driver, which takes a quarter of a second for that, makes each only once.
+// Reuses Vulkan's instance, devices and pipelines: the library creates and destroys them, the driver, which takes a
+// quarter of a second, makes each once.
 #pragma once
 
 #include <vulkan/vulkan_core.h>
@@ -8,13 +8,13 @@ namespace faults {
 
 VkResult kept_instance(PFN_vkCreateInstance create, const VkInstanceCreateInfo *info, VkInstance *instance);
 
-// One that is not in use.
+// One that is unused.
 VkResult kept_device(PFN_vkCreateDevice create, VkPhysicalDevice physical_device, const VkDeviceCreateInfo *info,
                      VkDevice *device);
 void put_back(VkDevice device);
 void put_all_back();
 
-// Pipelines are the same if their device, code and constants are.
+// Equal device, code and constants make equal pipelines.
 void note_code(VkShaderModule module, const VkShaderModuleCreateInfo *info);
 VkResult kept_pipeline(PFN_vkCreateComputePipelines create, VkDevice device, const VkComputePipelineCreateInfo *info,
                        VkPipeline *pipeline);

@@ -1,4 +1,3 @@
-// The calls of a life, and what they must do; see life.h.
 #include "tests/faults/life.h"
 
 #include "tests/faults/allocations.h"
@@ -24,9 +23,9 @@ namespace {
 
 constexpr uint32_t width = 24;
 constexpr uint32_t height = 20;
-constexpr uint32_t other_film_end = 12; // of its samples: some of them are in either part of the film
+constexpr uint32_t other_film_end = 12; // in both parts of the film
 
-// A lamp, a glossy ball that moves, and a floor: long paths, so that a millisecond does not suffice for all pixels.
+// A lamp, a moving glossy ball and a floor: paths too long for all pixels in a millisecond.
 struct Scene {
     std::array<pt_material, 3> materials = {{{{0, 0, 0}, {0, 0, 0}, {8, 4, 2}, 0, 0},
                                              {{0.2F, 0.5F, 0.8F}, {0.8F, 0.8F, 0.8F}, {0, 0, 0}, 40, 0},
@@ -55,7 +54,7 @@ int32_t go_on(void * /*user*/, double /*fraction*/) {
     return 0;
 }
 
-// Samples that are under way between calls. After a failure of one of these none are, or calls that follow are refused.
+// Polls to the end. A failure leaves no samples running, else later calls would be refused.
 pt_result start_and_poll(pt_context *context, const pt_accumulate_info *info) {
     pt_accumulate_info to_start = *info;
     to_start.progress = nullptr;
@@ -154,7 +153,7 @@ void Life::tell() {
 
     look("pt_prepare", [&] { return pt_prepare(context_); });
 
-    // In submissions of some tiles; then up to where the error is estimated, and past it.
+    // By some tiles, then to the error's check, and past it.
     accumulate_to("pt_accumulate", 2, 0.0);
     readback("pt_readback, radiance", PT_QUANTITY_RADIANCE);
     readback("pt_readback, standard error", PT_QUANTITY_STANDARD_ERROR);
@@ -176,7 +175,7 @@ void Life::tell() {
 
     save_film("pt_save_film");
 
-    // All setters again, which discard samples. A film is added to a sample that is there.
+    // The setters again discard samples; a film is added to one sample.
     call("pt_set_scene, again", set_scene);
     accumulate_to("", 1, 0.0);
     add_film("pt_add_film");
@@ -194,13 +193,13 @@ pt_result Life::run(const Function &function) {
     return function();
 }
 
-// A call without which the life goes on.
+// A call that the life can do without.
 void Life::look(const std::string &step, const Function &function) {
     if (left_.contains(step))
         call(step, function);
 }
 
-// Makes a call, and makes it again if it was made to fail.
+// Repeats the call if a fault made it fail.
 void Life::call(const std::string &step, const Function &function) {
     const State before = state();
     call(step, function, [&] {
@@ -231,15 +230,15 @@ void Life::call(const std::string &step, const Function &function, const std::fu
     EXPECT_GE(run(function), PT_OK) << step << ": " << pt_last_error(context_);
 }
 
-// A call that fails keeps the whole samples that it has taken, which may be all. Of several devices none may be left,
-// if memory does not suffice to complete what each has begun.
+// A failed call keeps its whole samples, perhaps all. Several devices may keep none if memory does not suffice to
+// complete begun samples.
 void Life::accumulate_to(const std::string &step, uint32_t sample_count, double target_error, Accumulate accumulate) {
     pt_accumulate_info info{};
     info.struct_size = sizeof info;
     info.sample_count = sample_count - state().sample_count;
     info.progress = &go_on;
     info.target_error = target_error;
-    info.sampling = PT_SAMPLING_UNIFORM; // expected images are those of even samples
+    info.sampling = PT_SAMPLING_UNIFORM; // expected images are even
     const uint32_t before = state().sample_count;
     call(
         step, [&] { return info.sample_count == 0 ? PT_OK : accumulate(context_, &info); },
@@ -270,14 +269,13 @@ void Life::map_image(const std::string &step) {
     uint64_t size_bytes = 0;
     look(step, [&] { return pt_map_image(context_, &source, &data, &size_bytes); });
     if (!data)
-        return; // it was not wanted
+        return; // the step was skipped
     const auto *const pixels = static_cast<const float *>(data);
     EXPECT_EQ(Image(pixels, pixels + size_bytes / sizeof(float)), expected_.radiance.at(state().sample_count)) << step;
 }
 
-// All pixels, and the same again, whatever failed before.
 void Life::read_of_scene(const std::string &step, uint32_t quantity) {
-    constexpr uint32_t unwritten = PT_NO_OBJECT - 1; // not a number, as a float
+    constexpr uint32_t unwritten = PT_NO_OBJECT - 1; // NaN as a float
     const bool is_whole = quantity == PT_QUANTITY_OBJECT;
     std::vector<uint32_t> words(std::size_t{width} * rows_ * (is_whole ? 1 : 3), unwritten);
     pt_image target{};
@@ -327,7 +325,7 @@ void Life::destroy() {
         met_.insert("pt_destroy");
 }
 
-// Every call says so from then on.
+// Every later call says so.
 void Life::expect_lost() {
     const std::string message = pt_last_error(context_);
     const pt_camera the_camera = camera();
@@ -351,7 +349,6 @@ Life::State Life::state() {
     return {stats.sample_count, stats.rejected_samples};
 }
 
-// That the films hold what they should of the samples.
 void Life::expect_image(const std::string &step, uint32_t sample_count) {
     if (!context_ || sample_count == 0)
         return;

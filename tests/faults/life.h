@@ -1,5 +1,4 @@
-// The life of a context, call by call. Each call may fail once: then the contract of pt.h for failures is checked, and
-// the call is made again. Used by the tests of host memory and of Vulkan calls.
+// The life of a context, call by call. Each call may fail once; then pt.h's contract is checked and the call repeated.
 #pragma once
 
 #include <pt/pt.h>
@@ -13,27 +12,26 @@
 
 namespace faults {
 
-// How the library is to use the device.
 struct Setting {
     bool gpu;                     // see pose_as_gpu
-    uint32_t device_count;        // to share the work, all of them the one device there is
-    uint32_t submit_milliseconds; // of which a submission takes one by the clock
+    uint32_t device_count;        // the one device, several times
+    uint32_t submit_milliseconds; // a submission takes one by the clock
 };
 
 using Image = std::vector<float>;
 using Film = std::vector<char>;
 
-// Images of the life's scene by sample count, from a life in which nothing happens, and films.
+// Images by sample count, and films, from an undisturbed life.
 struct ExpectedImages {
     std::map<uint32_t, Image> radiance;
     std::map<uint32_t, Image> standard_error;
     Film film;       // of all samples
-    Film other_film; // of those that follow the first
+    Film other_film; // of the samples after the first
 };
 
 ExpectedImages undisturbed_images();
 
-// What may happen to a call.
+// A possible fault.
 class Injection {
 public:
     virtual ~Injection() = default;
@@ -41,7 +39,7 @@ public:
     // Before the first attempt at a call.
     virtual void arm() = 0;
 
-    // After it. Judges its result; false if nothing has happened to it.
+    // After it: checks the result; false if no fault happened.
     virtual bool disarm(const std::string &step, pt_result result, const std::string &message) = 0;
 };
 
@@ -49,8 +47,7 @@ using Steps = std::set<std::string>;
 
 class Life {
 public:
-    // injected: the calls that something may happen to. The life is no longer than they take, and looks at nothing
-    // else.
+    // injected: the calls with faults. The life skips what they do not need.
     Life(const Setting &setting, const ExpectedImages &expected, const Steps &injected);
     ~Life();
     Life(const Life &) = delete;
@@ -58,11 +55,11 @@ public:
 
     static Steps all_steps();
 
-    // From pt_get_devices to pt_destroy. It ends before its time if the device is lost.
+    // From pt_get_devices to pt_destroy, or until the device is lost.
     void live(Injection &injection);
 
     const Steps &attempted() const { return attempted_; }
-    const Steps &met() const { return met_; } // those to which something has happened
+    const Steps &met() const { return met_; } // calls that had a fault
     bool lost() const { return lost_; }
 
 private:
@@ -94,12 +91,12 @@ private:
     const Setting setting_;
     const ExpectedImages &expected_;
     Injection *injection_ = nullptr;
-    Steps left_; // of those to be injected
+    Steps left_; // calls still to be injected
     Steps attempted_;
     Steps met_;
     bool lost_ = false;
     pt_context *context_ = nullptr;
-    uint32_t rows_ = 0; // of the image, from the top
+    uint32_t rows_ = 0; // from the top
 };
 
 } // namespace faults

@@ -1,4 +1,4 @@
-// pt_start builds everything, so that pt_poll builds nothing, as the pipelines that Vulkan is asked for show.
+// pt_start builds all pipelines; pt_poll builds none.
 #include "tests/faults/clock.h"
 #include "tests/faults/vulkan_calls.h"
 #include "tests/support/image_target.h"
@@ -29,14 +29,14 @@ struct Way {
     bool by_tile;
 };
 
-// Short submissions cut passes of an image that they cannot take in, and clear it in pieces.
+// Short submissions cut passes over the image, and clear it in pieces.
 constexpr Way ways[] = {{false, 1, 50, 0, false},   {false, 2, 1, 0, false}, {false, 1, 50, 0.05, false},
                         {false, 1, 50, 0, true},    {true, 1, 50, 0, false}, {true, 1, 1, 0, false},
                         {true, 2, 50, 0.05, false}, {true, 1, 50, 0, true}};
 
 constexpr uint32_t polled_size = 48;
 
-// A floor, a ball on it and a ball within that, which all but coincide, a lamp.
+// A floor, a ball and one within that nearly coincide, and a lamp.
 struct PolledScene {
     std::array<pt_material, 2> materials = {
         {{{0.5F, 0.5F, 0.5F}, {0.2F, 0.2F, 0.2F}, {0, 0, 0}, 20, 0}, {{0, 0, 0}, {0, 0, 0}, {9, 9, 9}, 0, 0}}};
@@ -48,7 +48,7 @@ struct PolledScene {
     pt_scene scene() const { return scene_of(materials, spheres, planes); }
 };
 
-// Above the floor, on it and below, in the ball and on it.
+// Above, on and below the floor; in and on the ball.
 constexpr double places[][3] = {{0, 1, 0}, {0, 0, 0}, {0, -1, 0}, {0, 1, -4.5}, {0, 1, -3}, {0, 1.5, 0}};
 
 long pipelines() {
@@ -57,7 +57,7 @@ long pipelines() {
     return found == live.end() ? 0 : found->second;
 }
 
-// Moves the camera from place to place, with samples under way at each for seconds by the library's clock.
+// Moves the camera with samples running, for seconds at each place by the library's clock.
 void expect_nothing_built_by_polls(const Way &way) {
     pose_as_gpu(way.gpu);
     pt_create_info info{};

@@ -1,4 +1,4 @@
-// What pt_set_scene takes of the host's memory where spheres are many, beside the caller's arrays, and what it keeps.
+// Host memory of pt_set_scene for many spheres, beside the caller's arrays.
 #include "tests/faults/allocations.h"
 #include "tests/support/scene_of.h"
 
@@ -15,7 +15,7 @@ using namespace faults;
 
 constexpr std::uint32_t sphere_count = 200'000;
 
-// In [0, 1]^3 by columns of floats. Refers to this object.
+// In [0, 1]^3, in columns of floats. Points into this object.
 struct ManySpheres {
     std::vector<pt_material> materials = {{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0, 0},
                                           {{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0, 0}};
@@ -45,10 +45,10 @@ struct ManySpheres {
     }
 };
 
-// Bytes a sphere.
+// Bytes per sphere, beyond the initial ones.
 struct Taken {
-    double meanwhile; // at the most, beside what was there before
-    double after;     // beside the same
+    double meanwhile; // peak
+    double after;
 };
 
 Taken taken_by(pt_context *context, const pt_scene &scene) {
@@ -70,7 +70,7 @@ protected:
 
     pt_context *context() const { return context_; }
 
-    // Of a scene without one before, and of the same with the shape of that one.
+    // First without an earlier scene, then with its shape.
     void expect_at_most(ManySpheres &spheres, double meanwhile, double after) {
         const Taken anew = taken_by(context(), spheres.scene());
         EXPECT_LE(anew.meanwhile, meanwhile);
@@ -84,7 +84,7 @@ private:
     pt_context *context_ = nullptr;
 };
 
-// Words of the device, which are 48 bytes at the most, and the sphere of each place.
+// Device words, at most 48 bytes, and the sphere of each place.
 TEST_F(SceneMemoryTest, Is64BytesASphere) {
     ManySpheres spheres;
     expect_at_most(spheres, 64, 48 + 4);

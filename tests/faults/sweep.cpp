@@ -1,4 +1,3 @@
-// Rounds of lives; see sweep.h.
 #include "tests/faults/sweep.h"
 
 #include "tests/faults/allocations.h"
@@ -10,8 +9,7 @@ namespace faults {
 
 namespace {
 
-// The thread keeps the message of its last call that failed without a context. One that is longer than all others, made
-// beforehand, leaves that memory as it is.
+// The thread keeps its last message without a context. A longer one made first keeps that memory unchanged.
 void keep_a_long_message() {
     const std::string no_device(1000, '?');
     pt_create_info create{};
@@ -38,7 +36,7 @@ void sweep(const Setting &setting, const ExpectedImages &expected, const Steps &
         const std::unique_ptr<Injection> injection = injection_at(number);
         Steps met;
         Steps left = wanted;
-        while (!left.empty()) { // a life ends early where its device is lost
+        while (!left.empty()) { // a lost device ends a life early
             const long allocations_before = live_allocations();
             Life life(setting, expected, left);
             life.live(*injection);

@@ -1,4 +1,4 @@
-// Lives in which a fault happens at the first possible place, then at the second, and so on until there is none.
+// Lives with a fault at the first possible place, then at the second, until there is no more.
 #pragma once
 
 #include "tests/faults/life.h"
@@ -9,11 +9,11 @@
 
 namespace faults {
 
-// What is to happen at the place with a number in each call, counted from 1.
+// The fault at a place of each call, numbered from 1.
 using InjectionAt = std::function<std::unique_ptr<Injection>(std::size_t number)>;
 
-// Lives one round for each number: in a round something happens to each of the steps where it did in the round
-// before. After each life all Vulkan objects are gone, and all memory.
+// One round of lives per place. The fault is injected in the same steps as in the previous round. After each life all
+// Vulkan objects and memory are gone.
 void sweep(const Setting &setting, const ExpectedImages &expected, const Steps &steps, const InjectionAt &injection_at);
 
 } // namespace faults

@@ -1,5 +1,4 @@
-// Host memory and Vulkan calls that fail while tiles are given different numbers of samples: the call that is made
-// again ends with the bytes of one that nothing disturbed.
+// Memory and Vulkan faults during adaptive sampling: the repeated call ends with undisturbed bytes.
 #include "tests/faults/allocations.h"
 #include "tests/faults/vulkan_calls.h"
 #include "tests/support/context_calls.h"
@@ -24,7 +23,7 @@ using FilmBytes = std::vector<char>;
 constexpr uint32_t uneven_width = 40;
 constexpr uint32_t uneven_height = 24;
 
-// Without the layer, whose own calls and memory would count.
+// Without the layer, whose calls and memory would count.
 Context context_of(uint32_t device_count) {
     pt_create_info info{};
     info.struct_size = sizeof info;
@@ -47,7 +46,7 @@ pt_result take_to_target(pt_context *context) {
     return pt_accumulate(context, &info);
 }
 
-// Every place at first, then every eighth: what repeats itself from round to round is met several times all the same.
+// Every place at first, then about every eighth: rounds repeat most places.
 std::size_t place_after(std::size_t place) {
     return place + 1 + place / 8;
 }
@@ -67,10 +66,10 @@ protected:
     void TearDown() override {
         context_.reset();
         heal_devices();
-        forget_objects(); // of a device that was lost
+        forget_objects(); // of a lost device
     }
 
-    // A picture whose call is disturbed, and made again if that made it fail.
+    // Repeats a failed call.
     void expect_bytes_after(pt_result disturbed) {
         if (disturbed == PT_ERROR_DEVICE_LOST) {
             context_.reset();
@@ -115,7 +114,7 @@ TEST_P(UnevenTargetTest, AnyVulkanCallMayFail) {
     std::size_t failures = 0;
     bool reached = true;
     for (std::size_t place = 1; reached && !HasFatalFailure(); place = place_after(place)) {
-        for (std::size_t error = 0; error < 2; ++error) { // of memory; the others lose the device, and with it the film
+        for (std::size_t error = 0; error < 2; ++error) { // of memory; others lose the device and its film
             SCOPED_TRACE("call " + std::to_string(place) + ", error " + std::to_string(error));
             begin_picture(context());
             fail_call(place, error);

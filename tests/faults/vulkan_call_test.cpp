@@ -1,5 +1,5 @@
-// Vulkan calls that fail, every one of them: the call of pt.h fails as it says, changes nothing but that a lost
-// device stays lost, and leaks nothing.
+// Every Vulkan call fails once: the pt.h call fails as it says, changes nothing (a lost device stays lost), and leaks
+// nothing.
 #include "tests/faults/sweep.h"
 #include "tests/faults/vulkan_calls.h"
 
@@ -15,16 +15,15 @@ namespace {
 
 using namespace faults;
 
-// What a call of pt.h returns for a fault in Vulkan.
 pt_result expected_result(const CallFault &fault) {
-    // Of work that cannot be waited for, nobody knows what became; work that does not end is lost with its device.
+    // Work that cannot be waited for is unknown; work that does not end is lost with its device.
     if (fault.function == "vkWaitForFences" && fault.result == VK_TIMEOUT) // the next look will tell
         return PT_OK;
     if (fault.function == "vkWaitForFences" || fault.function == "vkResetFences")
         return PT_ERROR_DEVICE_LOST;
     if (fault.function == "vkGetFenceStatus") // the wait for it will tell
         return fault.result == VK_ERROR_DEVICE_LOST ? PT_ERROR_DEVICE_LOST : PT_OK;
-    if (fault.function == "vkGetPipelineCacheData") // nothing depends on what is kept
+    if (fault.function == "vkGetPipelineCacheData") // the cache is optional
         return PT_OK;
     switch (fault.result) {
     case VK_ERROR_OUT_OF_HOST_MEMORY:
@@ -53,7 +52,7 @@ pt_result expected_result(const CallFault &fault) {
     }
 }
 
-// Where a fault was met.
+// A fault that was reached.
 struct Place {
     std::string step;
     std::size_t number;
@@ -75,7 +74,7 @@ public:
         if (fault.function.empty())
             return false;
         places_.push_back({step, number_, fault});
-        // Where a heap is full, a device's next type of memory may do. The CPU has but one.
+        // Another type of memory may do for a full heap; the CPU has one.
         const bool another_memory =
             fault.function == "vkAllocateMemory" && fault.result == VK_ERROR_OUT_OF_DEVICE_MEMORY && result == PT_OK;
         if (step != "pt_destroy" && !another_memory) {
@@ -92,8 +91,8 @@ private:
     std::vector<Place> &places_;
 };
 
-// Every call fails once, with its first error; then each function with its other errors, at the first place where it is
-// called, and submissions, where a device may be lost, at all places.
+// Every call fails once with its first error; then each function with its other errors at its first place, and
+// submissions, which may lose a device, at all places.
 void fail_every_call(const Setting &setting) {
     const ExpectedImages expected = undisturbed_images();
     std::vector<Place> places;
@@ -111,8 +110,8 @@ void fail_every_call(const Setting &setting) {
             Life life(setting, expected, {place.step});
             life.live(injection);
             heal_devices();
-            // A device that hangs is left, and with it what it works with. How often work is looked at depends on how
-            // long it really takes, so the calls may be fewer than before, and none fail.
+            // A hung device stays, with what it uses. Real time decides how often work is looked at, so there may be
+            // fewer calls, and no failure.
             const bool hangs = places.size() > met_before && places.back().fault.function == "vkQueueSubmit" &&
                                places.back().fault.result == VK_TIMEOUT;
             EXPECT_EQ(live_objects().contains("vkCreateDevice"), hangs);

@@ -1,4 +1,3 @@
-// A hook for each Vulkan function; see vulkan_calls.h.
 #include "tests/faults/vulkan_calls.h"
 
 #include "tests/faults/allocations.h"
@@ -57,10 +56,10 @@ std::size_t failing_error = 0;
 CallFault fault;
 bool posing = false;
 std::uint64_t largest_heap = UINT64_MAX;
-std::set<const void *> lost;                       // devices and queues
-std::set<VkFence> hanging;                         // fences that are not seen to be signalled
-std::map<VkQueue, VkDevice> devices_of_queues;     // by their queues
-std::multiset<std::pair<const void *, Call>> live; // objects and what made them
+std::set<const void *> lost; // devices and queues
+std::set<VkFence> hanging;   // fences never seen as signalled
+std::map<VkQueue, VkDevice> devices_of_queues;
+std::multiset<std::pair<const void *, Call>> live; // objects and their makers
 PFN_vkDeviceWaitIdle wait_idle = nullptr;
 PFN_vkGetDeviceProcAddr get_device_function = nullptr;
 
@@ -75,23 +74,23 @@ VkDevice device_of(const std::tuple<A...> &arguments) {
         return VK_NULL_HANDLE;
 }
 
-// What the call returns instead of being made; nothing if it is to be made.
+// The result to return without a call; empty to make it.
 std::optional<VkResult> result_by_plan(Call call) {
     const std::vector<VkResult> &errors = function(call).errors;
     if (errors.empty() || ++call_count != failing_number)
         return std::nullopt;
-    const bool may_hang = posing || errors.back() != VK_TIMEOUT; // a CPU is waited for without an end
+    const bool may_hang = posing || errors.back() != VK_TIMEOUT; // waiting for a CPU has no limit
     const std::size_t error_count = errors.size() - (may_hang ? 0 : 1);
     fault = {function(call).name, errors[failing_error % error_count], error_count};
     return fault.result;
 }
 
-// What a submission takes by the library's clock, and what passes with a look at one that hangs.
+// Durations by the library's clock: a submission, and a look at a hung one.
 constexpr std::chrono::milliseconds submission_time{1};
 constexpr std::chrono::milliseconds look_time{100};
 constexpr std::chrono::microseconds polling_time{300};
 
-// A device that was lost stays lost, and a submission that hangs goes on to hang, as time passes.
+// Lost devices stay lost, hung submissions stay hung, as time passes.
 template <Call call, typename... A>
 std::optional<VkResult> result_by_state(const std::tuple<A...> &arguments) {
     constexpr bool is_wait = call == Call::WaitForFences || call == Call::GetFenceStatus;
@@ -149,7 +148,7 @@ void note_effect(const std::tuple<A...> &arguments) {
     if constexpr (call == Call::WaitForFences)
         pass_time(submission_time);
     if constexpr (call == Call::GetFenceStatus)
-        pass_time(polling_time); // so that nobody looks twice before it waits
+        pass_time(polling_time); // so that nobody looks twice before waiting
     if constexpr (call == Call::GetDeviceQueue)
         devices_of_queues[*std::get<3>(arguments)] = std::get<0>(arguments);
     if constexpr (call == Call::GetPhysicalDeviceProperties)
@@ -163,7 +162,7 @@ void note_effect(const std::tuple<A...> &arguments) {
             heap.size = std::min<VkDeviceSize>(heap.size, largest_heap);
 }
 
-// Makes a call, as far as it is not for what is kept.
+// Calls Vulkan, unless the object is kept.
 template <Call call, typename Real, typename... A>
 auto made(Real real, A... values) {
     [[maybe_unused]] const std::tuple<A...> arguments(values...);
@@ -205,7 +204,7 @@ struct Hook<call, Result(VKAPI_PTR *)(A...)> {
                     hanging.insert(std::get<3>(arguments));
             } else if (planned) {
                 if (planned == VK_ERROR_DEVICE_LOST && device_of(arguments)) {
-                    wait_idle(device_of(arguments)); // a lost device works no more
+                    wait_idle(device_of(arguments)); // a lost device does no work
                     lost.insert(device_of(arguments));
                 }
                 return *planned;
@@ -215,12 +214,12 @@ struct Hook<call, Result(VKAPI_PTR *)(A...)> {
             const VkResult result = made<call>(real, values...);
             if (result == VK_SUCCESS)
                 note_effect<call>(arguments);
-            if (planned == VK_TIMEOUT) // what it uses may go with the call that fails; a GPU's driver copes with that
+            if (planned == VK_TIMEOUT) // a GPU's driver copes with freed resources; this one must wait
                 wait_idle(device_of(arguments));
             return result;
         } else {
             if constexpr (effects[static_cast<std::size_t>(call)] != Effect::None)
-                note_effect<call>(arguments); // before another thread can make an object of the same handle
+                note_effect<call>(arguments); // before another thread can get the same handle
             made<call>(real, values...);
             if constexpr (effects[static_cast<std::size_t>(call)] == Effect::None)
                 note_effect<call>(arguments);
@@ -246,7 +245,7 @@ const std::unordered_map<std::string_view, Entry> &entries() {
     return entries;
 }
 
-// Stands for the functions without a hook: a fault in them would not be tried.
+// Called for functions without a hook, whose faults would go untested.
 [[noreturn]] void unknown_function() {
     std::fputs("the library called a Vulkan function that tests/faults/vulkan_functions.h does not list\n", stderr);
     std::abort();

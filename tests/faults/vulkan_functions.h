@@ -1,5 +1,4 @@
-// The Vulkan functions that the library calls, what they do to objects, and the errors that they may return (Vulkan
-// 1.3.239, "Return Codes" of each).
+// The library's Vulkan functions, their effect on objects, and their errors (Vulkan 1.3.239, "Return Codes").
 #pragma once
 
 // X(name without vk, effect on objects, errors...)

@@ -1,5 +1,5 @@
-// Which tiles take more samples, and a film on its way to a target error, however it is interrupted: on films whose
-// errors are known, without a device. With n samples, a tile of variance v has the squared error v / n.
+// The adaptive rule and plan on films with known errors, without a device. A tile of variance v with n samples has the
+// squared error v / n.
 #include "lib/film/adaptive_rule.h"
 #include "lib/film/error_estimate.h"
 #include "lib/film/tile_samples.h"
@@ -25,7 +25,7 @@ using pt::TileStep;
 constexpr TileGrid model_grid{320, 160}; // 800 whole tiles
 constexpr double pixels_of_tile = 64.0;
 
-// Variances of a pixel that spread over as many decades as those of pictures do.
+// Spread over decades, as in pictures.
 std::vector<double> spread_variances(std::uint32_t seed) {
     std::mt19937 generator(seed);
     std::normal_distribution<double> exponent(0.0, 1.6);
@@ -62,7 +62,6 @@ struct Sampled {
     int looks = 0;
 };
 
-// Until the target is reached.
 Sampled sampled_until(const std::vector<double> &variances, double target) {
     Sampled film{first_samples(), {}, 0};
     for (;;) {
@@ -96,10 +95,9 @@ TEST(AdaptiveRule, LevelsDouble) {
     EXPECT_TRUE(pt::is_level(std::uint64_t{1} << 31));
 }
 
-// Samples in proportion to the root of v take (mean of root v)^2 / (mean of v) of those of an even film; counts that
-// are powers of two are off by up to half a level to either side, which costs 4% as a rule, and the last round falls
-// short of its end by no more than a factor 2^(1/2). Stopping at equal errors, the usual rule, gains nothing, and is
-// told apart.
+// Samples in proportion to sqrt(v) need (mean of sqrt(v))^2 / mean(v) of an even film's. Counts are powers of two, off
+// by up to half a level, which costs 4% on average; the last round misses its end by at most a factor 2^(1/2). Negative
+// control: stopping at equal errors gains nothing.
 TEST(AdaptiveRule, GoesWhereSamplesGainMost) {
     for (const std::uint32_t seed : {1U, 2U, 3U}) {
         const std::vector<double> variances = spread_variances(seed);
@@ -137,7 +135,7 @@ TEST(AdaptiveRule, DoesNotOvershootTheTarget) {
     }
 }
 
-// Tiles that show nothing, since no sample met their light, are not left at 16 samples.
+// No sample may have hit their light yet.
 TEST(AdaptiveRule, BlackTilesGetHalfOfTheMean) {
     std::vector<double> variances(model_grid.count(), 0.0);
     std::fill_n(variances.begin(), variances.size() / 2, 1.0);
@@ -148,7 +146,7 @@ TEST(AdaptiveRule, BlackTilesGetHalfOfTheMean) {
     EXPECT_GT(film.samples.least(), 16U);
 }
 
-// Without any tile that shows an error, all take more; what is unknown counts as nothing.
+// Without any known error all tiles take more.
 TEST(AdaptiveRule, WhatIsUnknownIsSampledEvenly) {
     const TileSamples samples = first_samples();
     for (const double square : {0.0, static_cast<double>(INFINITY)}) {
@@ -159,7 +157,7 @@ TEST(AdaptiveRule, WhatIsUnknownIsSampledEvenly) {
     }
 }
 
-// Where light may be unseen, those with the fewest samples take more, whatever they show.
+// Where light may be unseen, tiles with the fewest samples take more.
 TEST(AdaptiveRule, WhereLightIsUnseenTheFloorRises) {
     TileSamples samples = first_samples();
     const std::vector<std::uint32_t> few{1, 2, 3};
@@ -176,7 +174,7 @@ TEST(AdaptiveRule, WhereLightIsUnseenTheFloorRises) {
     }
 }
 
-// Nor do others take more where all that tiles show is good enough: no bound finds what samples have not met.
+// Bounds do not help to find unseen light.
 TEST(AdaptiveRule, WhatIsUnseenMovesNoBound) {
     const TileSamples samples = first_samples();
     std::vector<double> squares(model_grid.count(), 1e-6);
@@ -190,7 +188,7 @@ TEST(AdaptiveRule, WhatIsUnseenMovesNoBound) {
     EXPECT_GT(pt::round_after(before, samples, squares, gains, 1.1, true).number, before.number);
 }
 
-// mean(v) mean(1) / mean(root v)^2 of two kinds of tiles, half of each: 2 (1 + r) / (1 + root r)^2 for their ratio r.
+// Half of the tiles each: mean(v) mean(1) / mean(sqrt(v))^2 = 2 (1 + r) / (1 + sqrt(r))^2 for their ratio r.
 TEST(AdaptiveRule, TilesThatAreAlikeStayTogether) {
     std::vector<double> gains(1000, 1.0);
     EXPECT_FALSE(pt::are_worth_telling_apart(gains));
@@ -223,8 +221,8 @@ struct ModelFilm {
     bool has_target_error = false;
 };
 
-// The square error of a tile: its variance by its samples, but for a factor of its own for each number of samples, as
-// the difference of two parts of a film scatters. spread: how far tiles differ, as the logarithm of a factor.
+// Squared errors v / n, times a random factor for each n, like the difference of a film's parts. spread: standard
+// deviation of log(v).
 class ModelErrors {
 public:
     ModelErrors(std::uint32_t seed, double spread) : seed_(seed) {
@@ -257,8 +255,7 @@ private:
     std::vector<double> variances_;
 };
 
-// Samples that may be taken until the film has the error, or none may be. stop_after: tiles, of which the last comes
-// no further than half of its way; then it ends.
+// Takes samples until the target or `most`. stop_after: tiles; the last one gets at most half of its step.
 void sample_plan(ModelFilm &film, const ModelErrors &errors, std::uint64_t most, std::uint64_t stop_after) {
     const AdaptivePlan plan(
         goal_error, most, [&] { return errors.error_of(film); }, [&] { return errors.squares_of(film); });
@@ -292,8 +289,7 @@ ModelFilm sampled_at_once(const ModelErrors &errors, std::uint64_t most) {
     return film;
 }
 
-// In calls that end after some tiles, or at some samples, and at last without either. as_few: those that some pixels
-// lack of the most that others have, now and then.
+// Calls end after some tiles, at some samples, or neither. Some just complete pixels with fewer samples than the most.
 ModelFilm sampled_in_calls(const ModelErrors &errors, std::uint64_t most, std::mt19937 &generator) {
     ModelFilm film;
     for (int call = 0; call < 12; ++call) {
@@ -305,8 +301,7 @@ ModelFilm sampled_in_calls(const ModelErrors &errors, std::uint64_t most, std::m
     return film;
 }
 
-// Tiles that are as different as in pictures, that are alike, and limits at a level, between levels, and beyond the
-// target.
+// Spreads as in pictures and none; limits at a level, between levels, and beyond the target.
 TEST(AdaptivePlan, CallsThatEndAnywhereComeToTheSameSamples) {
     std::mt19937 generator(1);
     int with_target_error = 0;
@@ -330,7 +325,7 @@ TEST(AdaptivePlan, CallsThatEndAnywhereComeToTheSameSamples) {
     EXPECT_GT(apart, 20);
 }
 
-// The last tiles of a round lift the image over its target before those that want more in it have it.
+// The last tiles of a round reach the target before tiles that still lack samples of it.
 TEST(AdaptivePlan, ARoundThatIsUnderWayIsNotTheEnd) {
     ModelFilm film{TileSamples(plan_grid, pt::SampleSet({0, 16})), {20, 0}, {}, false};
     film.samples.add(std::vector<std::uint32_t>{5}, {16, 24});

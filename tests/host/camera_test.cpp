@@ -15,7 +15,7 @@ namespace {
 constexpr double camera_nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double camera_infinity = std::numeric_limits<double>::infinity();
 
-// At (0, 0, 1), looking along -z.
+// Looks along -z.
 pt_camera valid_camera() {
     pt_camera camera{};
     camera.struct_size = sizeof camera;
@@ -118,7 +118,7 @@ TEST(Camera, TakesWhatIsSet) {
     EXPECT_EQ(camera.shutter_close, 0.25);
 }
 
-// The last bits of the angle stand for those in which libraries of systems differ.
+// The angle's last bits differ between systems' libraries.
 TEST(Camera, IsTheSameWhereTangentsAreNearlySo) {
     pt_camera source = valid_camera();
     source.vertical_fov = 0.7;
@@ -129,7 +129,7 @@ TEST(Camera, IsTheSameWhereTangentsAreNearlySo) {
     EXPECT_NE(digest_of(pt::validated_camera(source)), digest);
 }
 
-// Half the aperture is the radius; without a focus that of the target counts. Films do not tell pinholes by a focus.
+// The lens radius is half the aperture; the focus defaults to the target. Pinholes ignore the focus.
 TEST(Camera, MayHaveALens) {
     pt_camera source = valid_camera();
     const std::string pinhole = digest_of(pt::validated_camera(source));
@@ -162,11 +162,11 @@ TEST(Camera, AcceptsExtremes) {
     EXPECT_EQ(camera_outcome(camera), "accepted");
 }
 
-// The axes that float32 gets to see are right to its precision even where up is almost parallel to the view.
+// Float32 axes keep their precision with `up` almost parallel to the view.
 TEST(Camera, AxesAreOrthonormalToFloatPrecision) {
     const double views[][3] = {{1, 2, 3}, {-1, 1e-9, 0}, {1e-17, 3e-18, -2e-18}, {1e17, -1e18, 7e16}};
     for (const auto &view : views) {
-        // From comfortable to a little more than the tolerance, 2^-26.
+        // Down to a little above the tolerance, 2^-26.
         for (const double tilt : {1.0, 1e-3, 1e-6, 0x1p-25}) {
             SCOPED_TRACE(testing::Message() << view[0] << ' ' << view[1] << ' ' << view[2] << " tilt " << tilt);
             const double length = std::hypot(view[0], view[1], view[2]);
@@ -183,9 +183,9 @@ TEST(Camera, AxesAreOrthonormalToFloatPrecision) {
             EXPECT_NEAR(glm::dot(camera.right, camera.up), 0.0, 0x1p-24);
             EXPECT_NEAR(glm::dot(camera.right, camera.forward), 0.0, 0x1p-24);
             EXPECT_NEAR(glm::dot(camera.up, camera.forward), 0.0, 0x1p-24);
-            // up itself was rounded by the test: 2^-53 / tilt.
+            // the test rounds `up` by 2^-53 / tilt
             EXPECT_NEAR(glm::dot(camera.up, aside), 1.0, 0x1p-24);
-            // Right-handed: right x up points backwards.
+            // right-handed
             EXPECT_NEAR(glm::dot(glm::cross(camera.right, camera.up), camera.forward), -1.0, 0x1p-24);
         }
     }

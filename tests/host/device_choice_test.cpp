@@ -1,4 +1,4 @@
-// The choice among invented devices, their queue families and types of memory.
+// Choices among invented devices, queue families and memory types.
 #include "lib/vulkan/caller_vulkan.h"
 #include "lib/vulkan/device_choice.h"
 #include "lib/vulkan/memory_type.h"
@@ -105,7 +105,7 @@ TEST(DeviceChoiceTest, SeveralAreAListOrAllOfTheBestKind) {
     EXPECT_EQ(pt::vulkan::choose_devices(workstation, "6,1"), (Indices{6, 1}));
     EXPECT_EQ(pt::vulkan::choose_devices(workstation, "3,16161616-16161616-1616161616161616"), (Indices{3, 6}));
     EXPECT_EQ(pt::vulkan::choose_devices(workstation, "llvm"), (Indices{1}));
-    // What is no list of numbers is a name, commas and all.
+    // Anything but a list of numbers is a name, commas included.
     const std::vector<pt_device_info> with_comma = {invented(PT_DEVICE_CPU, "llvmpipe (LLVM 15, 256 bits)", 0x11)};
     EXPECT_EQ(pt::vulkan::choose_devices(with_comma, "15, 256"), (Indices{0}));
     for (const std::string wrong : {"5,7", "5,4", "5,", ",", "5,vega"})
@@ -113,7 +113,7 @@ TEST(DeviceChoiceTest, SeveralAreAListOrAllOfTheBestKind) {
             << wrong;
 }
 
-// By its index, its UUID, or as a driver lists it again.
+// By index, by UUID, or listed twice by the driver.
 TEST(DeviceChoiceTest, NoDeviceIsChosenTwice) {
     std::vector<pt_device_info> devices = workstation;
     devices.push_back(devices[5]);
@@ -123,7 +123,7 @@ TEST(DeviceChoiceTest, NoDeviceIsChosenTwice) {
         EXPECT_TRUE(names(error, "create.device = \"" + twice + "\": must not name a device twice")) << error.what();
     }
     EXPECT_EQ(pt::vulkan::choose_devices(devices, "all"), (std::vector<std::size_t>{5, 6}));
-    // Drivers that know no UUIDs.
+    // Drivers without UUIDs.
     const std::vector<pt_device_info> nameless = {invented(PT_DEVICE_CPU, "a"), invented(PT_DEVICE_CPU, "b")};
     EXPECT_EQ(error_of([&] { pt::vulkan::choose_devices(nameless, "1,1"); }).code(), PT_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(pt::vulkan::choose_devices(nameless, "0,1"), (std::vector<std::size_t>{0, 1}));
@@ -160,7 +160,7 @@ TEST(CallerVulkan, APhysicalDeviceMustBeSuitable) {
 using Property = vk::MemoryPropertyFlagBits;
 using Types = std::vector<std::uint32_t>;
 
-// A GPU's own memory, the host's, and a window onto the GPU's that the host sees.
+// The GPU's memory, the host's, and a host-visible window onto the GPU's.
 vk::PhysicalDeviceMemoryProperties gpu_memory() {
     vk::PhysicalDeviceMemoryProperties memory;
     memory.memoryTypeCount = 3;

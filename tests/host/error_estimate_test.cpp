@@ -1,4 +1,4 @@
-// Arithmetic of the error estimate on small images whose result is known.
+// The error estimate on small images with known results.
 #include "lib/film/error_estimate.h"
 
 #include "tests/support/image_tiles.h"
@@ -13,7 +13,7 @@
 
 namespace {
 
-// So many samples that light unseen by them counts for nothing.
+// enough for unseen light to count as nothing
 constexpr std::uint64_t sample_count = std::uint64_t{1} << 40;
 
 pt::ImageValues pixels_of(const std::vector<float> &radiance, const std::vector<float> &standard_error) {
@@ -31,12 +31,12 @@ pt::ErrorEstimate estimate(std::uint32_t width, const std::vector<float> &radian
     return estimator.result();
 }
 
-// What is added to a root of squares that as much as so many equal pixels make up (error_estimate.cpp).
+// The margin added to a root of squares as concentrated as this number of equal pixels (error_estimate.cpp).
 double raised(double root, double pixel_count) {
     return root * (1.0 + 0.6 / std::sqrt(pixel_count));
 }
 
-// 3^2 and 4^2 in two of six values; the pixels' squares, 9 and 16, make up the sum like 25^2 / (9^2 + 16^2) equal ones.
+// 3^2 and 4^2 in two of six values; the pixels' squares are as concentrated as 25^2 / (9^2 + 16^2) equal ones.
 TEST(ErrorEstimate, IsTheRootOfTheMeanOfSquares) {
     const pt::ErrorEstimate found = estimate(2, {10, 10, 10, 10, 10, 10}, {3, 0, 0, 4, 0, 0});
     const double pixel_count = 625.0 / 337.0;
@@ -65,14 +65,14 @@ TEST(ErrorEstimate, IsUncertainWhereLampsMayBeMissed) {
     EXPECT_EQ(missed.rmse.estimate, met.rmse.estimate);
     EXPECT_DOUBLE_EQ(missed.rmse.high, 2.0 * met.rmse.high);
     EXPECT_DOUBLE_EQ(missed.relative_rmse.low, 0.5 * met.relative_rmse.low);
-    // A picture that is black so far tells nothing.
+    // A black picture tells nothing.
     const std::vector<float> black(errors.size(), 0.0F);
     EXPECT_EQ(estimate(32, black, black).relative_rmse.high, 0.0);
     EXPECT_TRUE(std::isinf(estimate(32, black, black, PT_SAMPLER_RANDOM, true).relative_rmse.high));
 }
 
-// Pixels on black ground that one half of the samples met, or both. Where most were met once, each counts by the black
-// about it; where both halves met as many as one, by the 2 ln 3 times that a pixel is expected to be met.
+// Bright pixels on black, hit in one half of the samples or in both. If most were hit once, each counts by the black
+// around it; otherwise by the expected number of hits, 2 ln 3.
 TEST(ErrorEstimate, TellsLampsFromRareSamples) {
     constexpr std::size_t side = 64;
     const auto relative_square = [](std::size_t met_once, std::size_t met_again) {
@@ -87,7 +87,7 @@ TEST(ErrorEstimate, TellsLampsFromRareSamples) {
         const pt::ErrorEstimate found = estimate(side, radiance, errors);
         const double count = static_cast<double>(met_once);
         const double square = found.relative_rmse.estimate / raised(1.0, count);
-        return square * square * side * side / count; // of one of those met once
+        return square * square * side * side / count; // per pixel hit once
     };
     const auto expected = [](double met_once, double met_again) {
         const double meetings = 2.0 * std::log(1.0 + 2.0 * (met_again + 0.5) / (met_once + 1.0));
@@ -98,7 +98,7 @@ TEST(ErrorEstimate, TellsLampsFromRareSamples) {
     EXPECT_GT(expected(40, 0), 300.0);
 }
 
-// Not where lamps are found by chance: there each that was met once counts by what is about it, here 0.
+// With lamps found by chance, pixels hit once count by their surroundings, here 0.
 TEST(ErrorEstimate, OfLampsFoundByChanceAsksNotWhatWasMetAgain) {
     std::vector<float> radiance(3 * 32 * 32, 0.0F);
     std::vector<float> errors(radiance.size(), 0.0F);
@@ -115,7 +115,7 @@ TEST(ErrorEstimate, OfLampsFoundByChanceAsksNotWhatWasMetAgain) {
     }
 }
 
-// One bright column on black ground, after 16 samples: the columns beside it may have unseen parts of its light.
+// One bright column on black after 16 samples: its neighbours may have unseen light.
 TEST(ErrorEstimate, CountsLightThatMayBeUnseen) {
     std::vector<float> radiance(3 * 32 * 32, 0.0F);
     std::vector<float> errors(radiance.size(), 0.0F);
@@ -129,10 +129,10 @@ TEST(ErrorEstimate, CountsLightThatMayBeUnseen) {
     const pt::ErrorEstimate found = estimator.result();
     const double seen = 1.0 / (159.0 * 159.0 + 0.01);
     constexpr double b = 10.0 / 0.1;
-    constexpr double unseen = 0.055 * b * b / (4.0 * (3.0 + 0.81 * b + 0.9 * 1000.0)); // in each of two columns
+    constexpr double unseen = 0.055 * b * b / (4.0 * (3.0 + 0.81 * b + 0.9 * 1000.0)); // per column, of two
     EXPECT_DOUBLE_EQ(found.relative_rmse.estimate, raised(std::sqrt((seen + 2.0 * unseen) / 32.0), 32.0));
     EXPECT_EQ(found.uncertain, unsigned{PT_UNCERTAIN_UNSEEN});
-    EXPECT_EQ(estimate(32, radiance, errors).uncertain, 0U); // with many samples more
+    EXPECT_EQ(estimate(32, radiance, errors).uncertain, 0U); // with many more samples
 }
 
 TEST(ErrorEstimate, OfPlainHaltonIsStatedAFifthLarger) {
@@ -169,9 +169,8 @@ TEST(ErrorEstimate, IsHiddenByMoreThanOneLeftOutSampleInAMillion) {
     EXPECT_TRUE(pt::hides_error((1 << 10) + 1, std::uint64_t{1} << 30));
 }
 
-// Two tiles of 8 x 8 pixels with the squares 64 * 3 * 1 and 64 * 3 * 4: their mean is 2.5 a value; their deviations
-// from it are 64 * 3 * 1.5, whose root sum of squares is 1.5 sqrt(2) / 5 of the sum. The pixels are worth
-// (64 * 5)^2 / (64 * 17) equal ones.
+// Two tiles with squares 64 * 3 * 1 and 64 * 3 * 4: mean 2.5 per value, deviations 64 * 3 * 1.5, whose root sum of
+// squares is 1.5 sqrt(2) / 5 of the sum. The pixels equal (64 * 5)^2 / (64 * 17) equal ones.
 TEST(ErrorEstimate, BoundsComeFromTheSpreadOverTiles) {
     std::vector<float> errors;
     for (int pixel = 0; pixel < 8 * 16; ++pixel)

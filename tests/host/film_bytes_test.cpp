@@ -1,4 +1,4 @@
-// The bytes of films: films of earlier versions stay readable, and anything else is refused.
+// Films of earlier versions stay readable; anything else is refused.
 #include "lib/film/film_bytes.h"
 
 #include "lib/base/digest.h"
@@ -18,8 +18,7 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
-// Written by another program (by the description in FORMAT.md): two tiles, of which the first has samples in both
-// parts.
+// Written by another program from FORMAT.md: two tiles; the first has samples in both parts.
 Bytes golden_film() {
     std::ifstream file(PT_TEST_DATA_DIR "/film/version-1.ptfilm", std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
@@ -47,8 +46,8 @@ const pt::FilmHeader golden_header{{{"scene", "00112233445566778899aabbccddeeff"
                                      }()},
                                     {{3, 1, 2, 2}, pt::SampleSet({8, 10})}}};
 
-// The golden film's sums by its rule: with i the pixel, c the channel and s a number of each part, of n samples n - r
-// were accepted, r = (i + s) mod 2, and their sum is (n - r) ((c + 1) 10^25 + 10^18 i + 977 s).
+// The golden film's sums: for pixel i, channel c and a number s of each part, r = (i + s) mod 2 of n samples were
+// rejected; the sum is (n - r) ((c + 1) 10^25 + 10^18 i + 977 s).
 void set_part(pt::PixelSums &sums, std::uint32_t part, std::uint32_t samples, std::uint32_t s) {
     __extension__ using Wide = unsigned __int128;
     constexpr Wide ten_to_18 = 1'000'000'000'000'000'000U;
@@ -89,7 +88,7 @@ TEST(FilmBytes, Version1StaysReadable) {
     }
 }
 
-// In pieces that begin anywhere.
+// Pieces begin anywhere.
 TEST(FilmBytes, AreWrittenAsTheyWereRead) {
     const Bytes golden = golden_film();
     const pt::FilmReader film(golden);
@@ -118,7 +117,7 @@ TEST(FilmBytes, EveryBitCounts) {
     const pt::FilmReader unharmed(golden);
 }
 
-// Bytes with a checksum that fits.
+// Appends zero sums and a valid checksum.
 Bytes sealed(const std::string &header, std::size_t sum_bytes) {
     const auto text = std::as_bytes(std::span(header));
     Bytes bytes(text.begin(), text.end());
@@ -129,7 +128,7 @@ Bytes sealed(const std::string &header, std::size_t sum_bytes) {
     return bytes;
 }
 
-// A header after the line that names the planes, which follows the first.
+// Inserts the line of planes after the first.
 std::string with_planes(std::string header) {
     const std::string first = "pt film 1\n";
     return header.starts_with(first)
@@ -138,7 +137,7 @@ std::string with_planes(std::string header) {
 }
 
 TEST(FilmBytes, HeadersHaveOneForm) {
-    constexpr std::size_t pixel_bytes = 56; // of one part
+    constexpr std::size_t pixel_bytes = 56; // in one part
     const struct {
         const char *header;
         const char *message;

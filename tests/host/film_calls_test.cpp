@@ -1,4 +1,4 @@
-// The C calls of films without a context: what they write, and what they refuse with which message.
+// The C calls of films without a context: results and messages.
 #include "tests/support/film_maker.h"
 
 #include <pt/errors.h>
@@ -22,8 +22,7 @@ struct CloseFilm {
 };
 using OpenedFilm = std::unique_ptr<pt_film, CloseFilm>;
 
-// Columns 1 to 5 and rows 2 to 4 of an image of 9 x 7: the left three columns have the samples [0, 3), the others [0,
-// 20).
+// Columns 1 to 5, rows 2 to 4 of 9 x 7: the left three columns have the samples [0, 3), the others [0, 20).
 film_maker::Samples two_tiles() {
     film_maker::Samples samples;
     for (std::uint32_t y = 2; y < 5; ++y)
@@ -58,7 +57,6 @@ pt_image image_in(std::vector<float> &pixels, std::uint32_t quantity) {
     return image;
 }
 
-// That the call failed so, and left this message.
 void expect_refusal(pt_result result, pt_result expected, const std::string &message) {
     EXPECT_EQ(result, expected);
     EXPECT_EQ(pt_last_error(nullptr), message);
@@ -129,7 +127,7 @@ std::int32_t append(void *user, const void *data, std::uint64_t size) {
     return bytes.size() > 2'000'000 ? 1 : 0;
 }
 
-// Of a film that its parts have cut, of more than a megabyte; ended in the midst of one of more than two.
+// Films of more than one megabyte; cancelled within one of more than two.
 TEST(FilmCalls, HandOnTheBytes) {
     for (const std::uint32_t width : {20'000U, 40'000U}) {
         film_maker::Samples samples;
@@ -157,7 +155,7 @@ TEST(FilmCalls, HandOnTheBytes) {
                    "take = NULL: must not be NULL");
 }
 
-// A corner that no film has is black, and what is read does not depend on the rectangle it is read in.
+// Missing pixels are black; values do not depend on the rectangle.
 TEST(FilmCalls, ReadImages) {
     film_maker::Samples samples = two_tiles();
     samples.erase({2, 1});

@@ -1,5 +1,4 @@
-// Films as values: sums of films of any tiles in any order have the bytes of a film that was put together sample by
-// sample, and what does not belong changes nothing.
+// Sums of films, with any tiles in any order, have the bytes of films made sample by sample; refusals change nothing.
 #include "lib/film/film.h"
 
 #include "tests/support/expected_error.h"
@@ -26,7 +25,7 @@ Bytes bytes_of(const pt::Film &film) {
     return bytes;
 }
 
-// Rectangles of the image, cut at multiples of its arguments: 8x8 as for adaptive sampling, or one for all of it.
+// Tiles of the image: 8x8 as in adaptive sampling, or the whole.
 std::vector<pt::Rectangle> grid(std::uint32_t width, std::uint32_t height) {
     std::vector<pt::Rectangle> tiles;
     for (std::uint32_t y = 0; y < image_height; y += height)
@@ -45,20 +44,20 @@ Bytes film_by_sample(const Samples &samples) {
     return film_maker::film_of(film_maker::identity(image_width, image_height), film_maker::tiles_of(samples), samples);
 }
 
-// A part and what its pixels have, in tiles of some grid: one set of samples for all of them or one for each.
+// Some tiles, with one set of samples for all or one for each.
 struct Part {
     Samples samples;
     Bytes bytes;
 };
 
-// Indices from `first` on, of which each tile takes some.
+// Each tile takes some indices from `first` on.
 Part random_part(std::mt19937 &random, std::uint32_t first) {
     const std::pair<std::uint32_t, std::uint32_t> grids[] = {
         {image_width, image_height}, {8, 8}, {image_width, 4}, {5, 3}};
     const auto [width, height] = grids[random() % std::size(grids)];
     std::vector<pt::Rectangle> tiles = grid(width, height);
     if (tiles.size() > 1 && random() % 3 == 0)
-        tiles.erase(tiles.begin() + static_cast<std::ptrdiff_t>(random() % tiles.size())); // pixels that are missing
+        tiles.erase(tiles.begin() + static_cast<std::ptrdiff_t>(random() % tiles.size())); // missing pixels
     const bool is_uniform = random() % 2 == 0;
     Part part;
     std::set<std::uint32_t> indices;
@@ -75,7 +74,7 @@ Part random_part(std::mt19937 &random, std::uint32_t first) {
     return part;
 }
 
-// Some rounds add parts of equal tiles, others cut each other's.
+// Some rounds add equal tiles, others overlapping ones.
 TEST(Film, SumsHaveTheBytesOfTheirSamplesInAnyOrder) {
     std::mt19937 random(1);
     for (int round = 0; round < 40; ++round) {
@@ -113,7 +112,7 @@ TEST(Film, KnowsItsSamplesBySquaresThatNoTileCuts) {
     give(samples, {9, 3, 2, 1}, {7});
     const pt::Film cut(film_by_sample(samples));
     EXPECT_EQ(error_of([&] { (void)cut.samples_by_tile(); }).code(), PT_ERROR_INCOMPATIBLE);
-    samples.erase({2, 2}); // a square of which a part has none
+    samples.erase({2, 2}); // leaves a square partly empty
     Samples without = samples;
     for (auto &[pixel, indices] : without)
         indices.erase(7);
@@ -130,7 +129,7 @@ TEST(Film, MeansAndErrorsAreRoundedOnce) {
                   for (std::uint32_t i = 0; i < image_width; ++i)
                       for (std::uint32_t channel = 0; channel < 3; ++channel) {
                           const film_maker::Pixel pixel{y, i};
-                          long double sum = 0.0L; // of twelve numbers below 2^84: exact to 64 bits, the float has 24
+                          long double sum = 0.0L; // twelve numbers below 2^84 are exact to 64 bits; a float has 24
                           int accepted = 0;
                           for (std::uint32_t index = 0; index < 12; ++index)
                               if (!film_maker::is_rejected(pixel, index)) {
@@ -167,7 +166,7 @@ TEST(Film, WhatDoesNotBelongChangesNothing) {
     Samples others;
     give(others, {0, 0, image_width, image_height}, {3, 4});
     EXPECT_EQ(refusal(seed, others), "film.seed = 7: must be 18446744073709551615, as in the film that it is added to");
-    give(others, {8, 8, 4, 4}, {1}); // cuts the tiles, too
+    give(others, {8, 8, 4, 4}, {1}); // splits the tiles too
     EXPECT_EQ(refusal(same, others), "film.samples = [1, 2), [3, 5) in the 4x4 pixels from (8, 8): [1, 2) are in the "
                                      "film already that it is added to");
 }
@@ -199,7 +198,7 @@ TEST(Film, WhatNoPictureHasIsRefused) {
               "film.seed = nothing: must be from 0 to 18446744073709551615");
     Bytes unharmed = film_maker::film_of(good, grid(8, 8), samples);
     const pt::Film film(unharmed);
-    unharmed[unharmed.size() - 100] ^= std::byte{1}; // a pixel's count, with a checksum that fits
+    unharmed[unharmed.size() - 100] ^= std::byte{1}; // a pixel's count, with a valid checksum
     seal(unharmed);
     EXPECT_EQ(error_of([&] { const pt::Film damaged(unharmed); }).what(),
               std::string("film: sums that its samples cannot have"));

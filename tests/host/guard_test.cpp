@@ -1,5 +1,4 @@
-// The end of exceptions that have no message; names of results; the log. tests/faults/ tests what other exceptions
-// become.
+// Exceptions without a message, names of results, the log. tests/faults/ covers other exceptions.
 #include "lib/api/guard.h"
 #include "lib/base/log.h"
 

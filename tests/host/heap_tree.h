@@ -1,4 +1,4 @@
-// Trees over heaps of balls, and what is in their words. Used by the tests of trees.
+// Trees over heaps of balls, and their words decoded.
 #pragma once
 
 #include "lib/tree/sphere_tree.h"
@@ -40,7 +40,7 @@ inline pt::Camera camera_at(const glm::dvec3 &position, double open = 0.0, doubl
     return {position, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, open, close};
 }
 
-// What the buffer has of a place.
+// A sphere as stored.
 struct Held {
     glm::ivec3 centre;
     glm::dvec3 way; // in steps
@@ -68,7 +68,7 @@ inline void expect_holds(const pt::GridBox &box, const Held &sphere) {
     }
 }
 
-// Goes down from a node with the boxes on the way to it. Tells how many spheres it has met.
+// Checks each child against the boxes above; returns the number of spheres below.
 inline std::size_t expect_boxes_hold(const pt::SphereTree &tree, std::uint32_t node, std::vector<pt::GridBox> &boxes) {
     const std::span<const glm::uvec4> words(tree.words());
     const pt::TreeNodeView view(words.subspan(std::size_t{node} * pt::gpu::TREE_NODE_WORDS));
@@ -88,7 +88,6 @@ inline std::size_t expect_boxes_hold(const pt::SphereTree &tree, std::uint32_t n
     return met;
 }
 
-// All spheres of a tree are in the boxes above them, and there are so many.
 inline void expect_all_held(const pt::SphereTree &tree, std::size_t count) {
     std::vector<pt::GridBox> boxes;
     EXPECT_EQ(expect_boxes_hold(tree, 0, boxes), count);

@@ -1,4 +1,4 @@
-// Surfaces that the camera does not see: where they confine paths, and what the kernel is told about them.
+// Hidden surfaces: where they confine paths, and the kernel's features.
 #include "lib/kernel/gpu_scene.h"
 #include "lib/kernel/kernel_surfaces.h"
 #include "lib/kernel/scene_features.h"
@@ -22,12 +22,12 @@ pt::MovingBall ball(double x, double radius, double way = 0.0) {
 TEST(LiesApart, OfBallsIsBesideOrWithin) {
     EXPECT_TRUE(lies_apart(ball(0, 1), ball(3, 1)));
     EXPECT_FALSE(lies_apart(ball(0, 1), ball(1.5, 1)));
-    EXPECT_TRUE(lies_apart(ball(0, 1), ball(0.5, 2)));  // the surface is a shell around the ball
-    EXPECT_FALSE(lies_apart(ball(0, 2), ball(0.5, 1))); // is in it
+    EXPECT_TRUE(lies_apart(ball(0, 1), ball(0.5, 2)));  // a shell around the ball
+    EXPECT_FALSE(lies_apart(ball(0, 2), ball(0.5, 1))); // inside it
     EXPECT_FALSE(lies_apart(ball(0, 1), ball(1.5, 2))); // cuts it
     EXPECT_FALSE(lies_apart(ball(0, 1), ball(2, 1)));   // touches it
     EXPECT_TRUE(lies_apart(ball(0, 1), ball(2.001, 1)));
-    EXPECT_FALSE(lies_apart(ball(0, 1), ball(2.00001, 1))); // for float32
+    EXPECT_FALSE(lies_apart(ball(0, 1), ball(2.00001, 1))); // too close for float32
 }
 
 TEST(LiesApart, OfBallsThatMoveIsSoAllTheTime) {
@@ -96,7 +96,7 @@ TEST(HiddenSurfaces, LyingApartLeaveTheKernelAsItIs) {
 }
 
 TEST(HiddenSurfaces, WithPathsOnBothSidesAreMetFromBoth) {
-    // The camera looks into a shell, out of one, through a plane.
+    // Views into a shell, out of one, and through a plane.
     const pt::Features into = features_of(scene_of({sphere(-5, 1, Dark), sphere(-5, 2, HiddenDark)}));
     EXPECT_TRUE(into[pt::gpu::ID_INSIDE]);
     EXPECT_FALSE(into[pt::gpu::ID_KNOWN_SIDES]);
@@ -117,7 +117,7 @@ TEST(HiddenSurfaces, WithPathsOnBothSidesAreMetFromBoth) {
     EXPECT_FALSE(in_a_room(HiddenDark)[pt::gpu::ID_KNOWN_SIDES]);
 }
 
-// A capsule is all of its balls at once, while of balls that move each is at its time.
+// A capsule is everywhere at once; a moving ball is not.
 TEST(HiddenSurfaces, ThatAreCapsulesAreMetAllAlong) {
     const auto with = [](double z, bool is_swept) {
         const pt::Sphere hidden{{0, 0, z}, 1, {0, 0, 6}, HiddenDark, is_swept ? pt::Kind::capsule : pt::Kind::ball};
@@ -156,7 +156,7 @@ TEST(HiddenSurfaces, AreNotInTheTree) {
     ASSERT_EQ(prepared.scene.indices.size(), 10U);
     for (std::uint32_t i = 0; i < 10; ++i)
         EXPECT_EQ(prepared.scene.indices[i], 10 * i + 3);
-    EXPECT_FALSE(prepared_scene_of(checked_scene_of(scene), 91).tree); // seen ones are counted
+    EXPECT_FALSE(prepared_scene_of(checked_scene_of(scene), 91).tree); // seen ones count
 }
 
 } // namespace

@@ -1,4 +1,3 @@
-// The rules of an image in the caller's memory.
 #include "lib/render/image.h"
 
 #include "tests/host/refusals.h"
@@ -54,7 +53,7 @@ TEST(Image, IsTightByDefault) {
     EXPECT_EQ(layout_of(objects).row_bytes, width * 4);
 }
 
-// The last row needs no gap, and a single one may have any.
+// The last row needs no gap; a single row may have any.
 TEST(Image, MayHaveGapsBetweenRows) {
     pt_image source = valid_image();
     source.row_bytes = 64;
@@ -146,7 +145,7 @@ TEST(BufferImage, IsWhatItSays) {
     EXPECT_EQ(image.signal_semaphore, 6U);
 }
 
-// With the largest offset sums would wrap around.
+// The largest offset makes sums overflow.
 TEST(BufferImage, BrokenRulesAreNamed) {
     expect_refusals<pt_buffer_image>(
         valid_buffer(), buffer_outcome,

@@ -1,5 +1,4 @@
-// Trees that keep the shape of another: their words are those of a tree of this shape, they differ from a new tree only
-// in the order of spheres, and none is made if a new tree is needed.
+// Trees that keep another's shape: their words, and when a new tree is made instead.
 #include "tests/host/heap_tree.h"
 
 #include "lib/kernel/prepared_scene.h"
@@ -22,9 +21,9 @@ namespace {
 using namespace heap_tree;
 using Spheres = std::vector<pt_sphere>;
 
-constexpr std::size_t ball_count = 2000; // in [-1, 1]^3, so that their spacing is 0.16
+constexpr std::size_t ball_count = 2000; // in [-1, 1]^3, a spacing of 0.16
 
-// Moved by so many times a normal number along each axis.
+// By normal deviates of this size.
 Spheres moved(Spheres spheres, double by) {
     std::mt19937 engine(29);
     std::normal_distribution<double> normal;
@@ -46,7 +45,7 @@ std::string digest_of(const pt::SphereTree &tree) {
     return digest.text();
 }
 
-// All but where spheres and nodes are.
+// All but the order of spheres and nodes.
 void expect_alike(const pt::SphereTree &tree, const pt::SphereTree &other) {
     EXPECT_EQ(tree.sphere_count(), other.sphere_count());
     EXPECT_EQ(tree.moves(), other.moves());
@@ -78,7 +77,7 @@ TEST(KeptShape, HoldsSpheresThatHaveMoved) {
     }
 }
 
-// Forth and back: nothing is left of what was between.
+// There and back.
 TEST(KeptShape, HasTheWordsOfTheTreeThatItWasMadeFor) {
     const Spheres spheres = heap(ball_count, 0.01);
     const pt::SphereTree tree = tree_of(spheres);
@@ -94,7 +93,7 @@ TEST(KeptShape, HasTheWordsOfTheTreeThatItWasMadeFor) {
     EXPECT_EQ(back->words(), tree.words());
 }
 
-// Radii, motion, materials and colors are what they are now; the shape is what was before.
+// Everything but the shape is current.
 TEST(KeptShape, IsOfAllThatIsNotPlacesToo) {
     const Spheres spheres = heap(ball_count, 0.0);
     const pt::SphereTree tree = tree_of(spheres);
@@ -146,7 +145,7 @@ TEST(KeptShape, IsNotForOtherSpheres) {
     EXPECT_FALSE(kept(without_one, fewer)) << "as many, but others";
 }
 
-// Of twins a new tree has one.
+// A new tree merges twins.
 TEST(KeptShape, IsNotForTwins) {
     const Spheres spheres = heap(ball_count, 0.0);
     const pt::SphereTree tree = tree_of(spheres);
@@ -158,14 +157,13 @@ TEST(KeptShape, IsNotForTwins) {
     EXPECT_EQ(of_twins.sphere_count(), ball_count - 1);
     EXPECT_FALSE(kept(of_twins, spheres));
     EXPECT_FALSE(kept(of_twins, with_twins));
-    // At equal distances nothing but their places would tell them apart.
+    // no twins any more, but at equal distances only their places decide
     with_twins[1500].motion[0] = 0.5;
     EXPECT_EQ(tree_of(with_twins).sphere_count(), ball_count);
     EXPECT_FALSE(kept(tree, with_twins));
 }
 
-// Surfaces of boxes grow as spheres go astray: a shape is kept up to a quarter more than when it was made, in one step
-// or in several.
+// The boxes' surface may grow by a quarter, in one step or several.
 TEST(KeptShape, IsGivenUpWhereANewTreeWouldBeMuchBetter) {
     const Spheres spheres = heap(ball_count, 0.0);
     const pt::SphereTree tree = tree_of(spheres);
@@ -190,7 +188,7 @@ TEST(KeptShape, IsGivenUpWhereANewTreeWouldBeMuchBetter) {
     EXPECT_LT(steps, 30);
 }
 
-// Where one sphere goes far away, the boxes beside become small shares of the whole.
+// One far sphere makes the other boxes small shares of the whole.
 TEST(KeptShape, IsGivenUpWhereTheWholeIsAnother) {
     const Spheres spheres = heap(ball_count, 0.0);
     const pt::SphereTree tree = tree_of(spheres);
@@ -206,7 +204,7 @@ TEST(KeptShape, IsGivenUpWhereTheWholeIsAnother) {
     EXPECT_TRUE(kept(tree, scaled)) << "all is as it was";
 }
 
-// A prepared scene takes the shape of the one before, and is the same scene in films.
+// A prepared scene takes the previous shape, and is the same scene in films.
 TEST(KeptShape, IsTakenFromTheSceneBefore) {
     const std::vector<pt::Material> materials(2, pt::Material{glm::vec3(0.5F), glm::vec3(0), glm::vec3(0), 0});
     const auto prepared = [&](const Spheres &spheres, const pt::PreparedScene *before) {
@@ -229,7 +227,7 @@ TEST(KeptShape, IsTakenFromTheSceneBefore) {
     EXPECT_FALSE(prepared(few, &with_shape).tree);
     EXPECT_EQ(prepared(later, std::make_unique<pt::PreparedScene>(prepared(few, nullptr)).get()).tree->words(),
               anew.tree->words());
-    // Each number of each sphere matters.
+    // Each number of a sphere matters.
     const std::function<void(pt_sphere &)> changes[] = {
         [](pt_sphere &sphere) { sphere.center[2] += 1e-6; }, [](pt_sphere &sphere) { sphere.radius *= 1.0001; },
         [](pt_sphere &sphere) { sphere.motion[0] = 1e-6; }, [](pt_sphere &sphere) { sphere.material = 1; }};

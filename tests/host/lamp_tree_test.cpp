@@ -1,4 +1,4 @@
-// The tree of lamps as the host makes it: its shape, the order of lamps in it, and what its words say.
+// The lamp tree from the host: shape, order, words.
 #include "lib/kernel/lamp_tree_words.h"
 #include "lib/kernel/scene_blocks.h"
 #include "lib/scene/lamp_tree.h"
@@ -47,7 +47,7 @@ TEST(LampTreeShape, HasASlotForEachLampAndMostAreTaken) {
 TEST(LampTreeOrder, HasEveryLampOnceAndNeighboursTogether) {
     pt::Scene scene;
     scene.materials.push_back({glm::vec3(0.5F), glm::vec3(0), glm::vec3(0), 0});
-    for (int i = 0; i < 256; ++i) { // sixteen heaps of four by four, dealt in turn, and dark balls between them
+    for (int i = 0; i < 256; ++i) { // sixteen clusters of four by four, interleaved, with dark balls between
         const int heap = i % 16;
         const glm::dvec3 middle(100 * (heap % 4), 0, 100 * (heap / 4));
         lamp_scenes::add_lamp(scene, middle + glm::dvec3(i / 16 % 4, 0, i / 64), 0.25, 1);
@@ -69,7 +69,7 @@ struct HeldNode {
     glm::vec3 open, way;
     float power, spread;
 
-    glm::vec3 at(float time) const { return open + time * way; } // in float32, as the kernel has it
+    glm::vec3 at(float time) const { return open + time * way; } // float32, like the kernel
 };
 
 HeldNode held_node(const pt::GpuScene &scene, std::uint64_t group, int place) {
@@ -84,7 +84,7 @@ HeldNode held_node(const pt::GpuScene &scene, std::uint64_t group, int place) {
     return node;
 }
 
-// Of the words that say which lamp a slot has.
+// The first word of the slots' lamps.
 std::uint64_t first_slot_word(const pt::GpuScene &scene) {
     return pt::SceneBlocks(scene.features).lamp_tree +
            gpu::lamp_tree_group_words(scene.features[gpu::ID_MOTION]) *
@@ -97,7 +97,6 @@ std::uint32_t lamp_of_slot(const pt::GpuScene &scene, std::uint64_t slot) {
     return std::bit_cast<std::uint32_t>(bits) - gpu::MATERIAL_INDEX_BITS;
 }
 
-// Every node's ball holds its lamps as the kernel sees them at any time, and its power is theirs.
 TEST(LampTreeWords, NodesHoldTheirLamps) {
     for (const auto &[name, scene] : lamp_scenes::all()) {
         pt::Camera camera = lamp_scenes::camera();
@@ -151,7 +150,6 @@ TEST(LampTreeWords, PowersAddUpAndTheWeakestCounts) {
     EXPECT_EQ(taken, 200U);
 }
 
-// One more lamp than without; neither motion nor places nor powers change the features, and so no kernel.
 TEST(LampTreeFeature, DependsOnTheNumberOfLampsAlone) {
     const auto features = [](const pt::Scene &scene, std::uint32_t estimator = PT_ESTIMATOR_MIS) {
         return lamp_scenes::gpu_scene(scene, lamp_scenes::camera(), estimator).features;
@@ -172,7 +170,6 @@ TEST(LampTreeFeature, DependsOnTheNumberOfLampsAlone) {
     EXPECT_EQ(features(lamp_scenes::in_a_box(200, 1)), features(lamp_scenes::in_clusters(200)));
 }
 
-// Two lamps that the camera takes for one: the tree is of those that are left.
 TEST(LampTreeWords, LeaveOutTwins) {
     pt::Scene scene = lamp_scenes::in_a_box(40, 4);
     scene.spheres[7] = scene.spheres[31];

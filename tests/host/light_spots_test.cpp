@@ -1,4 +1,4 @@
-// Which surfaces are spots: planes that a lamp is close to, and surfaces that mirror one.
+// Which surfaces are spots: planes close to a lamp, and surfaces that mirror one.
 #include "lib/kernel/gpu_scene.h"
 #include "lib/kernel/light_spots.h"
 
@@ -15,7 +15,7 @@ constexpr std::uint32_t lamp_material = 0;
 constexpr std::uint32_t matt_material = 1;
 constexpr std::uint32_t polished_material = 2;
 
-// A lamp of radius 0.1 above a floor, a ceiling 10 above that, and a ball.
+// A lamp of radius 0.1 above a floor, a ceiling 10 above, and a ball.
 struct SpotRoom {
     double lamp_height = 0.5;
     float floor_diffuse = 0.5F;
@@ -82,7 +82,7 @@ TEST(LightSpots, AreNoneWhereTheyWouldBeMany) {
     EXPECT_EQ(spots_of(room), 0U);
 }
 
-// What the kernel reads: lamp, surface, reflectance and glossiness of each; and a camera elsewhere changes none of it.
+// Lamp, surface, reflectance, glossiness; independent of the camera.
 TEST(LightSpots, AreTheLastWordsOfTheScene) {
     const SpotRoom room{.ball_specular = 0.5F};
     const pt::GpuScene scene = scene_of_room(room);

@@ -1,4 +1,4 @@
-// Tests of when a scene gets its own kernel.
+// When a scene gets its own kernel.
 #include "lib/kernel/own_kernel_clock.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ TEST(OwnKernelClockTest, WaitsTwiceAsLongAfterEachThatWasBuiltInVain) {
     EXPECT_TRUE(clock.is_time(1.01)) << "one has paid";
 }
 
-// A camera that stops for any time, for a thousand seconds in all: what is built in vain is bounded.
+// A camera that stops again and again, for a thousand seconds in all.
 TEST(OwnKernelClockTest, WhatIsBuiltInVainIsAShareOfTheTime) {
     for (const double stop : {0.5, 1.1, 2.3, 5.0, 9.0, 31.0, 33.0}) {
         pt::OwnKernelClock clock;

@@ -1,4 +1,4 @@
-// Pixels as bytes: float16 numbers against exact ones, for each of them and for what lies between.
+// Float16 conversion against exact values, for every number and the midpoints between.
 #include "lib/film/pixel_format.h"
 #include "tests/support/half_edges.h"
 

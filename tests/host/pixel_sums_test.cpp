@@ -1,4 +1,4 @@
-// The values that the host finds in sums, mostly in double, are those that the kernels find in whole numbers.
+// The host's values, mostly in double, equal the kernels', in integers.
 #include "lib/film/pixel_sums.h"
 
 #include "shaders/quotient.h"
@@ -22,7 +22,7 @@ namespace {
 
 using Planes = std::array<std::array<std::uint32_t, pt::gpu::FILM_WORDS>, pt::gpu::FILM_PARTS>;
 
-// Samples of the two parts of nearly all pixels, the unit of their radiance, and the bits of their sums.
+// Samples of both parts in nearly all pixels, the radiance unit, and the bits of sums.
 struct Usual {
     std::uint32_t a;
     std::uint32_t b;
@@ -30,8 +30,8 @@ struct Usual {
     int most_bits;
 };
 
-// Sums of which some have few bits, so that their quotients often lie in the middle of two floats, some are none, and
-// some have equal or close means in both parts.
+// Some sums have few bits, so that quotients often lie midway between floats; some are 0; some have close or equal
+// means in both parts.
 class RandomSums {
 public:
     explicit RandomSums(const Usual &usual) : usual_(usual) {}
@@ -49,7 +49,7 @@ public:
 private:
     pt::WideSum sum() {
         const int bits = static_cast<int>(number() % static_cast<std::uint64_t>(usual_.most_bits + 1));
-        const int few = number() % 2 == 0 ? 26 : 128; // of these the leading ones stay
+        const int few = number() % 2 == 0 ? 26 : 128; // leading bits kept
         const pt::WideSum any = (pt::WideSum{number()} << 64 | number()) >> (128 - std::max(bits, 1));
         const int cut = std::max(bits - few, 0);
         return bits == 0 ? 0 : any >> cut << cut;
@@ -59,7 +59,7 @@ private:
     std::mt19937_64 random_{11};
 };
 
-// Now and then one with other samples.
+// Some pixels have other sample counts.
 std::vector<Planes> random_pixels(std::size_t count, const Usual &usual) {
     RandomSums random(usual);
     std::vector<Planes> pixels(count);
@@ -98,7 +98,7 @@ pt::WideSum sum_of(const Planes &pixel, std::uint32_t part, std::uint32_t channe
     return sum;
 }
 
-// Of words of all ones and of zeros, which carries pass through and begin at, and others.
+// Words of ones and zeros pass and start carries.
 TEST(PixelSums, AddAsNumbersOfAllWords) {
     constexpr std::size_t count = 600; // more than are added at a time
     std::mt19937 random(1);
@@ -177,8 +177,7 @@ void expect_those_of_kernels(const Usual &usual) {
         }
 }
 
-// Weights of one word and of two, and beyond products of 128 bits; subnormal numbers, those above all floats, and long
-// sums.
+// Weights of one and two words, products beyond 128 bits, subnormals, overflow, long sums.
 TEST(PixelSums, HaveTheValuesOfKernels) {
     for (const Usual &usual : {Usual{8, 8, 0, 84},
                                {32, 8, 0, 84},

@@ -1,5 +1,5 @@
-// Points of quasi-random sequences: radical inverses against exact values, Sobol points against the net properties that
-// define them, and their scrambling against 64-bit arithmetic; and the table of points that the kernel reads.
+// Radical inverses against exact values, Sobol points against their net properties, scrambling against 64-bit
+// arithmetic, and the kernel's table of points.
 #include "lib/kernel/point_sequence.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ namespace {
 
 using Coordinates = std::vector<std::uint32_t>; // multiples of 2^-32
 
-// Whether each interval [i, i + 1) / 2^digits holds equally many of the points; there are at least as many points.
+// Whether each interval [i, i + 1) / 2^digits holds equally many points.
 bool fills_intervals(const Coordinates &points, std::uint32_t digits) {
     std::vector<std::uint32_t> hits(std::size_t{1} << digits);
     for (const std::uint32_t point : points)
@@ -27,7 +27,7 @@ bool fills_intervals(const Coordinates &points, std::uint32_t digits) {
     return std::ranges::all_of(hits, [&](std::uint32_t count) { return count == points.size() >> digits; });
 }
 
-// Whether each box of 2^-digits_x by 2^-digits_y holds exactly one of 2^(digits_x + digits_y) points.
+// Whether each box of 2^-digits_x by 2^-digits_y holds one of 2^(digits_x + digits_y) points.
 bool fills_boxes(const Coordinates &x, const Coordinates &y, std::uint32_t digits_x, std::uint32_t digits_y) {
     std::vector<std::uint32_t> hits(x.size());
     for (std::size_t i = 0; i < x.size(); ++i)
@@ -35,7 +35,7 @@ bool fills_boxes(const Coordinates &x, const Coordinates &y, std::uint32_t digit
     return std::ranges::all_of(hits, [](std::uint32_t count) { return count == 1; });
 }
 
-// How many of their first digits are alike: 32 if all are.
+// Number of equal leading digits, up to 32.
 int common_digits(std::uint32_t a, std::uint32_t b) {
     return std::countl_zero(a ^ b);
 }
@@ -44,7 +44,7 @@ struct ExactInverse {
     std::uint64_t index;
     std::uint64_t base;
     double value;
-    std::uint64_t floor_of_2_to_32; // times the value, exactly
+    std::uint64_t floor_of_2_to_32; // of 2^32 times the value, exactly
 };
 
 // tests/data/radical_inverse.csv: exact rational arithmetic, indices up to 2^32 - 1.
@@ -63,7 +63,7 @@ std::vector<ExactInverse> exact_inverses() {
     return table;
 }
 
-// The dimension whose base is a prime: how many primes are smaller.
+// The number of primes below the base.
 std::uint32_t dimension_of_base(std::uint64_t base) {
     std::uint32_t smaller = 0;
     for (std::uint64_t candidate = 2; candidate < base; ++candidate) {
@@ -86,7 +86,7 @@ TEST(RadicalInverse, IsExact) {
     }
 }
 
-// The largest base of all, which the file does not have.
+// The largest base is not in the file.
 TEST(RadicalInverse, OfTheLastDimensionMatchesItsDigits) {
     ASSERT_EQ(dimension_of_base(311), pt::sequence_dimensions - 1);
     for (const std::uint32_t index : {0U, 1U, 310U, 311U, 96720U, 4294967295U}) {
@@ -96,7 +96,7 @@ TEST(RadicalInverse, OfTheLastDimensionMatchesItsDigits) {
             place /= 311.0L;
             value += place * static_cast<long double>(rest % 311);
         }
-        // 64 bits of mantissa leave errors near 2^-62, so the floor can be off only within 2^-30 of a whole number.
+        // 64 bits of mantissa err by about 2^-62, so the floor is off only within 2^-30 of an integer.
         const long double scaled = value * 4294967296.0L;
         EXPECT_NEAR(static_cast<double>(scaled), pt::radical_inverse(index, pt::sequence_dimensions - 1) + 0.5, 0.501)
             << "index " << index;
@@ -114,7 +114,7 @@ constexpr std::uint32_t net_digits = 10;
 constexpr std::uint32_t net_size = 1U << net_digits;
 constexpr std::uint32_t net_starts[] = {0, net_size, 77 * net_size, 0x80000000U, 0xffffffffU - net_size + 1};
 
-// A (0,1)-sequence in base 2: every aligned block of 2^k points hits each of 2^k intervals once.
+// A (0,1)-sequence in base 2: an aligned block of 2^k points hits each of 2^k intervals once.
 TEST(Sobol, EveryDimensionIsAZeroOneSequence) {
     for (std::uint32_t dimension = 0; dimension < pt::sequence_dimensions; ++dimension)
         for (const std::uint32_t start : net_starts)
@@ -123,7 +123,7 @@ TEST(Sobol, EveryDimensionIsAZeroOneSequence) {
                     << "dimension " << dimension << ", 2^" << digits << " points from " << start;
 }
 
-// A (0,2)-sequence in base 2: every aligned block of 2^m points has one in every elementary box of volume 2^-m.
+// A (0,2)-sequence in base 2: an aligned block of 2^m points hits each elementary box of volume 2^-m once.
 TEST(Sobol, TheFirstTwoDimensionsAreAZeroTwoSequence) {
     for (const std::uint32_t start : net_starts) {
         const Coordinates x = sobol_coordinates(start, net_size, 0);
@@ -133,7 +133,7 @@ TEST(Sobol, TheFirstTwoDimensionsAreAZeroTwoSequence) {
     }
 }
 
-// No two dimensions are alike: a wrong row of direction numbers could repeat another and still be a (0,1)-sequence.
+// A wrong row of direction numbers could repeat another and still be a (0,1)-sequence.
 TEST(Sobol, DimensionsDiffer) {
     std::vector<Coordinates> all;
     for (std::uint32_t dimension = 0; dimension < pt::sequence_dimensions; ++dimension)
@@ -142,7 +142,6 @@ TEST(Sobol, DimensionsDiffer) {
     EXPECT_EQ(std::ranges::adjacent_find(all), all.end());
 }
 
-// The checks above must be able to fail.
 TEST(Sobol, NegativeControls) {
     const Coordinates unaligned = sobol_coordinates(1, net_size / 2, 5); // 512 points across a boundary
     EXPECT_TRUE(fills_intervals(sobol_coordinates(0, net_size / 2, 5), net_digits - 1));
@@ -164,7 +163,7 @@ std::uint32_t reversed(std::uint32_t word) {
     return result;
 }
 
-// The hash of Vegdahl (2021) on a word with its bits reversed, and the bits put in order again, in 64 bits.
+// Vegdahl's hash (2021) on the reversed word, in 64 bits.
 std::uint32_t scrambled_in_64_bits(std::uint32_t coordinate, std::uint32_t seed) {
     constexpr std::uint64_t modulus = std::uint64_t{1} << 32;
     std::uint64_t v = reversed(coordinate);
@@ -197,7 +196,7 @@ using Indices = std::vector<std::uint32_t>;
 
 constexpr std::uint64_t table_seed = 7;
 
-// Blocks of all sizes, in all dimensions that there are.
+// Blocks of all sizes over all dimensions.
 pt::PointLayout all_dimensions() {
     pt::PointLayout layout{{}, 0, 1};
     for (std::uint32_t left = pt::sequence_dimensions; left > 0; left -= layout.block_dimensions.back())
@@ -206,7 +205,7 @@ pt::PointLayout all_dimensions() {
     return layout;
 }
 
-// One coordinate of a block, of every row.
+// One coordinate of a block in every row.
 Coordinates column(const Table &table, const pt::PointLayout &layout, std::uint32_t block, std::uint32_t component) {
     Coordinates coordinates;
     for (std::size_t row = 0; row < table.size(); row += layout.row_blocks())
@@ -214,7 +213,7 @@ Coordinates column(const Table &table, const pt::PointLayout &layout, std::uint3
     return coordinates;
 }
 
-// All dimensions of the rows of a layout with one branch, one after the other.
+// All dimensions of a layout with one branch.
 std::vector<Coordinates> dimensions_of(const Table &table, const pt::PointLayout &layout) {
     std::vector<Coordinates> dimensions;
     for (std::uint32_t block = 0; block < layout.block_count(); ++block)
@@ -223,8 +222,7 @@ std::vector<Coordinates> dimensions_of(const Table &table, const pt::PointLayout
     return dimensions;
 }
 
-// Whether coordinates are those of points of Sobol in a dimension, each digit flipped or not by those before it: any
-// two have as many first digits in common as the points have.
+// Whether these are nested scrambles of Sobol points: any two share as many leading digits as the points.
 bool is_scrambled_sobol(const Coordinates &coordinates, const Indices &indices, std::uint32_t dimension) {
     for (std::size_t i = 0; i < indices.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
@@ -254,7 +252,7 @@ TEST(PointTable, RowsAreThePoints) {
     }
 }
 
-// A permutation, so that no two numbers of a sample share a dimension.
+// A permutation, so that a sample's numbers never share a dimension.
 TEST(PointTable, TimeIsTheFifthDimensionOfSobol) {
     const pt::PointLayout layout{{3, 2, 2, 2}, 2, 1};
     const std::vector<Coordinates> dimensions =
@@ -292,8 +290,8 @@ TEST(PointTable, BranchesArePointsOfTheirOwnInTheDimensionsThatTheyDoNotShare) {
     }
 }
 
-// With four branches sample 2^30 + i has the points 2^32 + 4 i + b, which Sobol's 32 bits repeat: scrambled in
-// another way, no coordinate of a branch is that of sample i.
+// With four branches sample 2^30 + i has points 2^32 + 4 i + b, which Sobol's 32 bits repeat; another scramble keeps
+// every coordinate of a branch different from sample i's.
 TEST(PointTable, OfSobolRepeatsNoPoint) {
     const pt::PointLayout layout{{3, 2, 4, 4}, 2, 4};
     const auto row_of = [&](std::uint32_t index) {

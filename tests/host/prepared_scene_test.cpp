@@ -1,4 +1,4 @@
-// What a prepared scene keeps of its scene's digest.
+// A prepared scene's digest.
 #include "lib/kernel/prepared_scene.h"
 
 #include "lib/scene/scene.h"
@@ -16,7 +16,7 @@ pt::Scene small_scene() {
             {{{0, 1, 0}, 0.25, 0}}};
 }
 
-// A scene that changes behind its back shows when the digest is computed.
+// A change behind its back shows when the digest is computed.
 TEST(PreparedScene, ComputesTheDigestOnceWhereItIsAskedFor) {
     pt::PreparedScene prepared(small_scene());
     prepared.scene.spheres[0].radius = 2.0;
@@ -53,7 +53,7 @@ TEST(SceneDigest, DependsOnEveryNumber) {
     }
 }
 
-// Only what the surfaces are made of is seen, and not how the materials are listed.
+// Only the surfaces' materials matter, not their list.
 TEST(SceneDigest, DoesNotDependOnTheListOfMaterials) {
     const std::string digest = pt::digest_of(small_scene());
     pt::Scene unused = small_scene();

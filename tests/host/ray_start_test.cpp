@@ -1,4 +1,4 @@
-// Where camera rays start in narrow views, and parallel ones.
+// Where camera rays start in narrow and parallel views.
 #include "lib/kernel/prepared_scene.h"
 #include "lib/kernel/ray_start.h"
 #include "lib/scene/checked_scene.h"
@@ -49,7 +49,7 @@ pt::Sphere ball_from_camera(const glm::dvec3 &place, double radius, const glm::d
     return {camera_position + place, radius, motion, 0};
 }
 
-// Through the pinhole if a pixel's side is above 2^-14 of its distance: fov = 64 * 2^-14.
+// The limit is a pixel's side of 2^-14 of its distance: fov = 64 * 2^-14.
 TEST(RayStart, IsThePinholeInWideViews) {
     EXPECT_EQ(start_of({ball_from_camera(1e6 * oblique, 1)}, {}, looking_along(oblique, 4.0e-3)), 0.0);
     EXPECT_GT(start_of({ball_from_camera(1e6 * oblique, 1)}, {}, looking_along(oblique, 3.8e-3)), 0.9e6);
@@ -57,7 +57,7 @@ TEST(RayStart, IsThePinholeInWideViews) {
 
 constexpr double narrow = 1e-5;
 
-// As far before the surface as the view is wide there: its half diagonal is 7.07e-6 of the distance.
+// The start is before the surface by the view's half diagonal there, 7.07e-6 of the distance.
 TEST(RayStart, IsJustBeforeTheFirstSurfaceInView) {
     const pt::Camera camera = looking_along(oblique, narrow);
     const double width = std::tan(0.5 * narrow) * std::sqrt(2.0);
@@ -68,7 +68,7 @@ TEST(RayStart, IsJustBeforeTheFirstSurfaceInView) {
     EXPECT_NEAR(start_of({}, {{{0, 1, 0}, -1e6 - 2, 0}}, camera), 1e6 / 0.6 * (1 - width), 20) << "a ceiling";
 }
 
-// At the narrowest view that there is, of balls down to a quarter of its width.
+// The narrowest view, and balls down to a quarter of its width.
 TEST(RayStart, IsOutsideOfTinyFarBalls) {
     const pt::Camera camera = looking_along(oblique, 1e-8);
     for (int i = 0; i < 200; ++i) {
@@ -107,7 +107,7 @@ TEST(RayStart, IsInsideOfWhatHoldsTheCamera) {
     EXPECT_EQ(start_of({}, {{{0, 1, 0}, -2, 0}}, camera), 0.0) << "the camera is on the plane";
 }
 
-// Five eighths of a view's diagonal are 1.25 of its half: of a square of side 2, that is 1.25 sqrt(2).
+// Five eighths of the diagonal are 1.25 of its half: for side 2, 1.25 sqrt(2).
 TEST(RayStart, OfParallelRaysIsFiveEighthsOfTheDiagonalBeforeTheFirstSurface) {
     const pt::Camera camera = parallel_along(oblique, 2.0);
     const double before = 1.25 * std::sqrt(2.0);
@@ -120,7 +120,7 @@ TEST(RayStart, OfParallelRaysIsFiveEighthsOfTheDiagonalBeforeTheFirstSurface) {
     EXPECT_NEAR(start_of({towards}, {}, camera), 1e4 - 103 - before, 1e-9);
 }
 
-// Otherwise vertices would tell the sides of all surfaces, which those that coincide in part confuse.
+// Otherwise vertices would track the sides of all surfaces, which partly coinciding ones confuse.
 TEST(RayStart, OfParallelRaysIsOnOneSideOfALongCapsuleAcrossTheView) {
     pt::Camera camera = parallel_along(oblique, 2.0);
     pt::Sphere capsule{camera_position - 500.0 * camera.right, 0.25, 1000.0 * camera.right, 0, pt::Kind::capsule};
@@ -139,8 +139,8 @@ TEST(RayStart, OfParallelRaysIsAtThePositionWhereNothingIsInView) {
     EXPECT_EQ(start_of({}, {{{0, 1, 0}, -1.5, 0}}, camera), 0.0) << "a plane divides the view";
 }
 
-// No ray of the view may meet a surface before it starts: random ones against random spheres, which may move, and
-// planes, by the textbook's formulas. Views are those of pinholes and lenses, and parallel.
+// Random rays of pinholes, lenses and parallel views against spheres, moving ones too, and planes by textbook formulas:
+// none may hit before it starts.
 TEST(RayStart, NothingInViewIsBeforeIt) {
     std::mt19937 engine(5);
     const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(engine); };
@@ -171,7 +171,7 @@ TEST(RayStart, NothingInViewIsBeforeIt) {
             const double x = in_view();
             const double y = in_view();
             const glm::dvec3 through = camera.forward + camera.tan_half_fov * (x * camera.right + y * camera.up);
-            glm::dvec3 from = 0.5 * extent * (x * camera.right + y * camera.up); // where the ray starts
+            glm::dvec3 from = 0.5 * extent * (x * camera.right + y * camera.up); // the ray's origin
             glm::dvec3 ray = is_parallel ? camera.forward : glm::normalize(through);
             if (camera.has_lens()) {
                 const double angle = uniform(-4, 4);
@@ -200,9 +200,8 @@ TEST(RayStart, NothingInViewIsBeforeIt) {
     EXPECT_GT(near_misses[1], 1000) << "the bound is of use";
 }
 
-// Spheres of a tree are looked at one by one, whether the camera is among them or not, and with room before each at
-// which float32 tells its side: where those of a list that are larger by as much, or smaller around the camera, let
-// rays start.
+// Each sphere of a tree has a margin within which float32 decides sides. Lists with spheres larger by it, or smaller
+// around the camera, give the same start.
 TEST(RayStart, OfATreeIsThatOfItsSpheres) {
     std::mt19937 engine(7);
     const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(engine); };

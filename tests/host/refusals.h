@@ -1,4 +1,4 @@
-// Structs that break rules, and the whole message about each. Used by the tests of rules.
+// Broken rules with their whole messages.
 #pragma once
 
 #include "lib/base/error.h"
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-// The message of the error that a call throws, or "accepted".
+// The thrown message, or "accepted".
 template <typename Call>
 std::string outcome_of(pt_result code, const Call &call) {
     try {

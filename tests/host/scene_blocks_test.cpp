@@ -1,4 +1,4 @@
-// How long the scene buffer is, and which scenes share materials in it.
+// The scene buffer's length, and which scenes share materials.
 #include "lib/kernel/gpu_scene.h"
 #include "lib/kernel/scene_blocks.h"
 
@@ -9,7 +9,7 @@
 
 namespace {
 
-// A lamp and balls in a row, of materials in turn that are all alike.
+// A lamp, and balls of equal materials in turn.
 pt::GpuScene row_of_balls(std::uint32_t count, std::uint32_t materials) {
     pt::Scene scene;
     scene.materials.assign(materials, {glm::vec3(0.5F), glm::vec3(0), glm::vec3(0), 0});
@@ -21,7 +21,7 @@ pt::GpuScene row_of_balls(std::uint32_t count, std::uint32_t materials) {
     return pt::gpu_scene(pt::PreparedScene(scene), camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4});
 }
 
-// 341 surfaces of three words each fill the uniform buffer to the last word but one.
+// 341 surfaces of three words fill the uniform buffer but for one word.
 TEST(SceneBlocks, ShareMaterialsInScenesTooLargeForTheUniformBuffer) {
     const pt::GpuScene small = row_of_balls(341, 1);
     EXPECT_TRUE(small.features.scene_in_uniform());
@@ -35,7 +35,7 @@ TEST(SceneBlocks, ShareMaterialsInScenesTooLargeForTheUniformBuffer) {
     EXPECT_EQ(row_of_balls(342, 100).words.size(), 342U + 1 + 86 + 101);
 }
 
-// The words of as many surfaces as a scene may have are more than a 32-bit number.
+// The words of the most surfaces exceed 32 bits.
 TEST(SceneBlocks, HoldTheLargestScenes) {
     constexpr std::uint32_t most_surfaces = (1U << 30) - 1;
     pt::Features features{};

@@ -1,4 +1,4 @@
-// What the kernel may leave out of a scene, by geometry: insides of spheres, planes between surfaces and lamps.
+// Features by geometry: insides of spheres, planes between surfaces and lamps.
 #include "lib/kernel/gpu_scene.h"
 #include "lib/kernel/scene_features.h"
 #include "tests/support/checked_scene_of.h"
@@ -17,7 +17,7 @@ constexpr std::uint32_t dark = 0;
 constexpr std::uint32_t shining = 1;
 
 const glm::dvec3 eye = {1, 2, 3};
-const glm::dvec3 nowhere = {0, 0, 0}; // the motion of a sphere at rest
+const glm::dvec3 nowhere = {0, 0, 0}; // at rest
 
 struct Shutter {
     double open;
@@ -37,7 +37,7 @@ pt::Features features_of(const std::vector<pt::Sphere> &spheres, const std::vect
         .features;
 }
 
-// Centres are as seen from the camera.
+// center: relative to the camera.
 pt::Sphere ball_at(const glm::dvec3 &centre, double radius, const glm::dvec3 &motion = nowhere,
                    std::uint32_t material = dark) {
     return {eye + centre, radius, motion, material};
@@ -51,7 +51,7 @@ bool inside(const std::vector<pt::Sphere> &spheres, const Shutter &shutter = {0,
     return features_of(spheres, {}, shutter)[pt::gpu::ID_INSIDE];
 }
 
-// A sky about a tree does not matter to the tree's spheres.
+// A sky around the tree does not count.
 TEST(FeatureTreeInside, IsWhetherTheCameraIsInASphereOfTheTree) {
     pt::Scene scene;
     scene.materials = {{glm::vec3(0.5F), glm::vec3(0), glm::vec3(0), 0}, {glm::vec3(0), glm::vec3(0), glm::vec3(1), 0}};
@@ -84,11 +84,11 @@ TEST(FeatureInside, IsWhetherTheCameraIsInASphere) {
     EXPECT_TRUE(inside({ball_at({0, 0, -5}, 6), ball_at({0, 5, 0}, 4)})) << "in the first alone";
 }
 
-// A sphere at rest that the camera touches is held as a plane with a curvature, whose sides need no such feature; one
-// that moves is not. From there, float32 cannot tell outside from inside.
+// A resting sphere that the camera touches becomes a curved plane, which needs no such feature; a moving one stays a
+// ball, whose side float32 cannot tell there.
 TEST(FeatureInside, IsTrueWhereFloat32CannotTell) {
     constexpr double radius = 2;
-    const auto touches = [](double distance) { // at half time; at others the sphere is farther off
+    const auto touches = [](double distance) { // at half time; farther off at others
         return inside({ball_at({-8, distance, 0}, radius, {16, 0, 0})});
     };
     EXPECT_TRUE(touches(radius * (1 - 0x1p-20)));
@@ -104,7 +104,7 @@ TEST(FeatureInside, IsTrueWhereFloat32CannotTell) {
         }
 }
 
-// The centre goes from -8 to 8 in x, at a height above the camera: it passes over the camera at half time.
+// The center passes over the camera at half time, at a height.
 TEST(FeatureInside, IsAtAnyTimeOfTheShutter) {
     const auto passing = [](double height, const Shutter &shutter) {
         return inside({ball_at({-8, height, 0}, 1, {16, 0, 0})}, shutter);
@@ -121,13 +121,13 @@ TEST(FeatureInside, IsAtAnyTimeOfTheShutter) {
     EXPECT_FALSE(features_of({ball_at({-8, 0, 0}, 1, {16, 0, 0})}, {}, {0.5, 0.5})[pt::gpu::ID_MOTION]);
 }
 
-// A plane below the camera, given with its normal up or down: heights are as seen from the camera.
+// height: relative to the camera.
 pt::Plane floor_at(double height, bool upwards = true) {
     const double side = upwards ? 1 : -1;
     return {{0, side, 0}, -side * (eye.y + height), dark};
 }
 
-// Lamps are sampled and found by their index; what else emits is a plane, or a sphere that is held as one.
+// Lamps are found by index; other emitters are planes, or spheres stored as planes.
 TEST(FeaturePlanesEmit, IsWhetherAnythingButALampEmits) {
     pt::Plane glowing = floor_at(-5);
     glowing.material = shining;
@@ -168,7 +168,7 @@ TEST(FeaturePlanesBlock, IsByAnyPlaneAndAnyLamp) {
     const pt::Plane tilted = {{0.6, 0, 0.8}, 7 - glm::dot(glm::dvec3(0.6, 0, 0.8), eye), dark}; // 7 from the camera
     const pt::Sphere near = lamp_at({0, 1, -5}, 1);        // 3 from the tilted plane
     const pt::Sphere far = lamp_at({-6, 1, -8}, 1);        // 3 beyond it
-    const pt::Sphere across = lamp_at({-4.2, 1, -5.6}, 1); // its centre is on it
+    const pt::Sphere across = lamp_at({-4.2, 1, -5.6}, 1); // its center is on it
     const pt::Sphere high = lamp_at({0, 6, -5}, 1);
     EXPECT_FALSE(planes_block({near}, {tilted, floor_at(-4), floor_at(4)}));
     EXPECT_TRUE(planes_block({far}, {tilted, floor_at(-4), floor_at(4)}));
@@ -178,7 +178,7 @@ TEST(FeaturePlanesBlock, IsByAnyPlaneAndAnyLamp) {
     EXPECT_FALSE(planes_block({high, near}, {floor_at(-4), tilted}));
 }
 
-// From above a floor to below it, at which it arrives at half time.
+// Crosses the floor at half time.
 TEST(FeaturePlanesBlock, IsAtAnyTimeOfTheShutter) {
     const auto falling = [](const Shutter &shutter) {
         return planes_block({lamp_at({0, 3, -5}, 1, {0, -12, 0})}, {floor_at(-4)}, shutter);
@@ -201,7 +201,7 @@ TEST(FeaturePlanesBlock, NeedsPlanesAndLamps) {
     EXPECT_FALSE(planes_block({}, {}));
 }
 
-// It may bulge towards the camera and come between two points of the region that its tangent plane cuts out.
+// A curved plane may bulge between two points on one side of its tangent plane.
 TEST(FeaturePlanesBlock, IsTrueWithACurvedPlane) {
     const pt::Sphere huge = ball_at({0, -1004, 0}, 1000);
     const pt::Features features = features_of({huge, lamp_at({0, 3, -5}, 1)}, {});
@@ -223,7 +223,7 @@ TEST(FeatureSky, IsALampThatHoldsTheCamera) {
     EXPECT_EQ(counts({lamp_at({0, 3, 0}, 4, {0, 2, 0})}, {0, 0.4}), (Counts{0, 1}));
 }
 
-// With floors at heights below the camera.
+// heights: of floors below the camera.
 bool known_sides(const std::vector<pt::Sphere> &spheres, const std::vector<double> &heights) {
     std::vector<pt::Plane> planes;
     for (const double height : heights)

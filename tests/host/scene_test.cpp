@@ -1,4 +1,4 @@
-// The rules of a scene: one broken scene per rule, and the whole message about it.
+// One broken scene per rule, with the whole message.
 #include "lib/scene/checked_scene.h"
 
 #include "tests/host/refusals.h"
@@ -20,7 +20,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr float nan_float = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity_float = std::numeric_limits<float>::infinity();
 
-// A valid scene that a test spoils.
+// A valid scene for tests to break.
 struct Draft {
     std::vector<pt_material> materials = std::vector<pt_material>(
         5, pt_material{{0.5F, 0.5F, 0.5F}, {0.25F, 0.25F, 0.25F}, {0.0F, 1.0F, 2.0F}, 10.0F, 0});
@@ -110,7 +110,7 @@ TEST(Scene, BrokenRulesOfPlanesAreNamed) {
          {[](Draft &d) { d.planes[1].reserved = 1; }, "planes[1].reserved = 1: must be 0"}});
 }
 
-// Surfaces that are too many are not there: the arrays must not be read.
+// Arrays that are too long must not be read.
 TEST(Scene, BrokenRulesOfArraysAreNamed) {
     expect_refusals<Draft>(Draft(), scene_outcome,
                            {{[](Draft &d) { d.spoil = [](pt_scene &s) { s.spheres = nullptr; }; },
@@ -188,7 +188,7 @@ pt::Plane normalized(const pt_plane &plane) {
 TEST(Scene, NormalizesPlanesOfAnyScale) {
     const double denormal = std::numeric_limits<double>::denorm_min();
     const double largest = std::numeric_limits<double>::max();
-    // A square, a sum of squares, a product and a rounded square root: with a division, 4 roundings of 2^-53.
+    // Square, sum, root and division: 4 roundings of 2^-53.
     const double tolerance = 4 * 0x1p-53;
     for (const double scale : {1.0, 3.0, 1e300, 1e-300, 0x1p-1040, denormal, largest / 2}) {
         SCOPED_TRACE(scale);

@@ -1,4 +1,4 @@
-// Slices on simulated devices: all work is done exactly once, near the target time, within the limits, growing slowly.
+// Slices on simulated devices: all work once, near the target time, within the limits, growing slowly.
 #include "lib/render/schedule.h"
 
 #include "lib/render/tile_tasks.h"
@@ -20,24 +20,24 @@
 
 namespace {
 
-constexpr double overhead = 1e-4; // seconds of every submission
+constexpr double overhead = 1e-4; // seconds per submission
 constexpr double paths_of_tile = pt::gpu::WORKGROUP_SIZE;
 
-// Seconds that a slice takes when paths have been followed before it.
+// Seconds for `paths`, after paths_before.
 using Device = std::function<double(double paths_before, double paths)>;
 
 Device constant_device(double paths_per_second) {
     return [=](double, double paths) { return overhead + paths / paths_per_second; };
 }
 
-// Its speed falls to a tenth on the way.
+// Slows down to a tenth.
 Device throttled_device(double paths_per_second, double paths_until_then) {
     return [=](double before, double paths) {
         return overhead + paths / (before < paths_until_then ? paths_per_second : 0.1 * paths_per_second);
     };
 }
 
-// Times scatter within a factor of 1.5, evenly in their logarithm.
+// Times scatter by factors up to 1.5, log-uniformly.
 Device noisy_device(double paths_per_second) {
     return [=, generator = std::mt19937(1)](double, double paths) mutable {
         const double exponent = std::ldexp(static_cast<double>(generator()), -31) - 1.0; // in [-1, 1)
@@ -54,7 +54,7 @@ struct Step {
     double paths() const { return pt::paths_of(tile_count, samples.count()); }
 };
 
-// Runs a schedule as Accumulation does, cancelled by nobody.
+// Runs a schedule as Accumulation does.
 std::vector<Step> simulate(std::uint32_t tile_count, std::uint64_t samples, const pt::ScheduleLimits &limits,
                            const Device &device) {
     std::vector<std::uint32_t> all(tile_count);
@@ -75,7 +75,7 @@ std::vector<Step> simulate(std::uint32_t tile_count, std::uint64_t samples, cons
     return steps;
 }
 
-// What is wrong with the steps as a way to do the work, or "nothing".
+// The first fault of the steps, or "nothing".
 std::string fault(const std::vector<Step> &steps, std::uint32_t tile_count, std::uint64_t samples,
                   const pt::ScheduleLimits &limits) {
     std::uint64_t samples_done = 0;
@@ -114,17 +114,17 @@ struct DeviceCase {
     std::uint32_t tile_count;
     std::uint64_t samples;
     Device device;
-    // Share of the slices after warm-up, cut short by no limit, that must be within a factor of 2 of the target.
+    // Share of full slices after warm-up that must be within a factor of 2 of the target.
     double on_target;
 };
 
-// Doubling from 2^14 paths to the largest slice of the cases takes less than 20 slices.
+// Doubling from 2^14 paths to the largest slice takes fewer than 20 slices.
 constexpr std::size_t warm_up = 20;
 
 double share_on_target(const std::vector<Step> &steps, const pt::ScheduleLimits &limits) {
     int judged = 0;
     int good = 0;
-    for (std::size_t i = warm_up; i + 1 < steps.size(); ++i) { // the last one is what is left
+    for (std::size_t i = warm_up; i + 1 < steps.size(); ++i) { // the last is the rest
         ++judged;
         good += steps[i].seconds <= 2.0 * limits.target_seconds && steps[i].seconds >= 0.5 * limits.target_seconds;
     }
@@ -141,8 +141,8 @@ TEST(Schedule, DoesAllWorkOnceNearTheTarget) {
                                 // Only the slice in which the speed falls is too long.
                                 {"speed falls to a tenth", full_hd, 400, throttled_device(1e8, 2e8), 0.99},
                                 {"speed falls below a sample", full_hd, 100, throttled_device(1e8, 5e7), 0.99},
-                                // The time of a slice is off by its own noise and by that of the slice that sized it: a
-                                // factor of 2 is passed with the probability (1 - ln 2 / (2 ln 1.5))^2 = 0.02.
+                                // A slice's time has its own noise and its predecessor's: beyond a factor of 2 with
+                                // probability (1 - ln 2 / (2 ln 1.5))^2 = 0.02.
                                 {"a noisy clock", 25 * 10, 200000, noisy_device(1e8), 0.95}};
     for (const DeviceCase &each : cases) {
         SCOPED_TRACE(each.name);
@@ -153,7 +153,7 @@ TEST(Schedule, DoesAllWorkOnceNearTheTarget) {
     }
 }
 
-// Not even a tile is done in the target time: then it is one tile.
+// A slice is at least a tile.
 TEST(Schedule, VerySlowDevicesGetOneTileAtATime) {
     const std::vector<Step> steps = simulate(16, 30, usual_limits(), constant_device(1000.0));
     EXPECT_EQ(fault(steps, 16, 30, usual_limits()), "nothing");
@@ -161,7 +161,7 @@ TEST(Schedule, VerySlowDevicesGetOneTileAtATime) {
         ASSERT_EQ(steps[i].tile_count, 1U);
 }
 
-// Faster than the largest slice allowed: then it is the largest slice. Drivers stop kernels after so many loop trips.
+// Drivers limit the loop trips of a kernel.
 TEST(Schedule, VeryFastDevicesGetTheLargestSlice) {
     for (const std::uint32_t most : {3U, 1024U}) {
         pt::ScheduleLimits limits = usual_limits();
@@ -180,7 +180,7 @@ TEST(Schedule, HoldsTheLargestSampleCount) {
     EXPECT_EQ(fault(simulate(1, most, limits, constant_device(1e15)), 1, most, limits), "nothing");
 }
 
-// Slices of some of the tiles are about equal: no small one at the end.
+// Slices of some tiles are about equal, without a small rest.
 TEST(Schedule, SlicesAreLargerThanHalfOfTheBudget) {
     const pt::Schedule schedule(usual_limits());
     EXPECT_EQ(schedule.tiles(257, 1), 129U); // a tile more than the budget
@@ -191,7 +191,7 @@ TEST(Schedule, SlicesAreLargerThanHalfOfTheBudget) {
     EXPECT_EQ(schedule.tiles(64, 4), 64U);
 }
 
-// It grows at most twofold, shrinks to a tile at most, and passes over impossible times.
+// At most doubled, at least a tile; impossible times are ignored.
 TEST(Schedule, LearnsFromASliceOfFullSizeAtOnce) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
@@ -215,7 +215,7 @@ TEST(Schedule, LearnsFromASliceOfFullSizeAtOnce) {
     EXPECT_EQ(pt::Schedule({0.05, 0.25, 1}).budget(), 64.0);
 }
 
-// A slice of one tile is all overhead; it must not be taken for the speed of the device, which would be 78 times lower.
+// A slice of one tile is all overhead, and must not count as the device's speed, 78 times as high.
 TEST(Schedule, SmallSlicesChangeLittle) {
     pt::ScheduleLimits limits = usual_limits();
     limits.first_slice_paths = 5e6;
@@ -232,7 +232,7 @@ TEST(Schedule, WhatWasExpectedTeachesNothing) {
     EXPECT_EQ(schedule.budget(), 16384.0);
 }
 
-// Negative controls: the judges see each fault.
+// Negative controls.
 TEST(ScheduleJudge, SeesFaults) {
     pt::ScheduleLimits limits = usual_limits();
     limits.max_samples = 4;
@@ -252,7 +252,6 @@ TEST(ScheduleJudge, SeesFaults) {
     EXPECT_EQ(judged({{0, 16, {0, 1}, 0}, {0, 16, {1, 4}, 0}}), "growth beyond twofold in slice 1");
 }
 
-// A schedule that never learns misses the target.
 TEST(ScheduleJudge, SeesSlicesOffTarget) {
     for (const double seconds : {0.11, 0.02})
         EXPECT_EQ(share_on_target(std::vector<Step>(100, Step{0, 16, {0, 1}, seconds}), usual_limits()), 0.0);

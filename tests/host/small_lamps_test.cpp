@@ -1,5 +1,4 @@
-// How small lamps are spread over pixels, what they add to an error that no sample shows, and how much of all
-// directions the smallest lamp covers.
+// Small lamps: their pixels, the error that no sample shows, and the smallest share of directions.
 #include "lib/render/missed_lamps.h"
 #include "lib/render/small_lamps.h"
 #include "lib/scene/camera.h"
@@ -26,7 +25,7 @@ constexpr std::uint32_t dark = 0;
 constexpr std::uint32_t lamp = 1;
 constexpr std::uint32_t hidden = 2;
 
-// Level and at rest, with a view of 90 degrees: with 200 rows a pixel at the depth 100 is as wide as 1.
+// A view of 90 degrees: with 200 rows a pixel at depth 100 has side 1.
 constexpr pt::Camera camera{.position = {1.0, 2.0, 3.0},
                             .right = {1, 0, 0},
                             .up = {0, 1, 0},
@@ -45,7 +44,6 @@ pt_sphere sphere_at(double x, double y, double depth, double radius, std::uint32
     return {{1.0 + x, 2.0 + y, 3.0 - depth}, radius, {}, material, 0};
 }
 
-// Of a list, or of a tree.
 std::vector<pt::LampPiece> pieces_of(const std::vector<pt_sphere> &spheres, const std::vector<pt_plane> &planes = {},
                                      const pt::Camera &seen_by = camera, bool has_tree = false,
                                      std::span<const pt_sphere_array> arrays = {}) {
@@ -67,7 +65,7 @@ double share_of(const std::vector<pt::LampPiece> &pieces, std::uint32_t x, std::
 
 constexpr double radius = 0.25;
 constexpr double size = std::numbers::pi * radius * radius;
-constexpr double thin = 2e-4; // of 256 lines: the error of each is at most the square of its height
+constexpr double thin = 2e-4; // 256 lines err by at most the square of their height each
 
 TEST(SmallLamps, AreSpreadOverPixels) {
     for (const pt::Camera &seen_by : {camera, parallel_camera()})
@@ -93,8 +91,8 @@ TEST(SmallLamps, AreSpreadOverPixels) {
     EXPECT_NEAR(share_of(at_the_edge, 399, 0), 0.5 * size, thin);
 }
 
-// In focus as through a pinhole, elsewhere over the disc that the lens makes of a point, in squares of many pixels:
-// here with the radius 30 |100 / 75 - 1| = 10, that is 314 pixels.
+// A pinhole's size in focus; elsewhere the lens's disc, in squares of pixels: radius 30 |100 / 75 - 1| = 10, or 314
+// pixels.
 TEST(SmallLamps, AreSpreadByALens) {
     const std::vector<pt_sphere> lamps{sphere_at(0.5, 0.5, 100, radius, lamp)};
     pt::Camera lens = camera;
@@ -138,7 +136,7 @@ TEST(SmallLamps, AreThoseThatTheCameraSees) {
     EXPECT_EQ(count_of({seen, sphere_at(10, 10, 99, 0.4, hidden)}), alone) << "behind one that is not seen";
     EXPECT_EQ(count_of({seen, sphere_at(0, 0, 0, 50, dark)}), 0U) << "beyond a ball about the camera";
     EXPECT_EQ(count_of({seen, sphere_at(0, 0, 0, 500, dark)}), alone) << "in a ball about both";
-    const pt_plane wall{{0.0, 0.0, 1.0}, 47.0, dark, 0}; // at the depth 50
+    const pt_plane wall{{0.0, 0.0, 1.0}, 47.0, dark, 0}; // at depth 50
     EXPECT_EQ(count_of({seen}, {wall}), 0U) << "behind a plane";
     pt_sphere moving = seen;
     moving.motion[0] = 1.0;
@@ -147,7 +145,7 @@ TEST(SmallLamps, AreThoseThatTheCameraSees) {
     EXPECT_TRUE(pieces_of({moving}, {}, open).empty());
 }
 
-// The camera and a lamp that only the other end of a capsule holds.
+// Camera and lamp are inside the capsule's far end only.
 TEST(SmallLamps, AreSeenFromWithinACapsule) {
     const pt_sphere first = sphere_at(0, 0, -10, 50, dark);
     const pt_sphere last = sphere_at(0, 0, 120, 50, dark);
@@ -165,7 +163,7 @@ TEST(SmallLamps, AreSeenFromWithinACapsule) {
     EXPECT_TRUE(pieces_of({sphere_at(0.5, 0.5, 100, radius, lamp), first}).empty());
 }
 
-// The variance of a lamp that a sample meets with the probability p: E^2 p (1 - p).
+// Variance of a lamp that a sample hits with probability p: E^2 p (1 - p).
 TEST(SmallLamps, AddWhatSamplesShouldHaveMet) {
     const std::vector<pt::LampPiece> pieces{{3, 4, 0.125, 0.25, glm::dvec3(8, 0, 16)},
                                             {5, 6, 0.25, 0.5, glm::dvec3(4)}};
@@ -174,7 +172,7 @@ TEST(SmallLamps, AddWhatSamplesShouldHaveMet) {
                                  [=](const auto &piece) { return piece.x == 3 ? first : second; });
     };
     const double variance = 0.125 * 0.875;
-    const pt::UnmetSquares found = with(16, 16); // of the second lamp they should have met 8
+    const pt::UnmetSquares found = with(16, 16); // of the second lamp 8 hits were expected
     EXPECT_DOUBLE_EQ(found.square, variance * (64.0 + 256.0) / 16.0);
     EXPECT_DOUBLE_EQ(found.relative_square, variance * (64.0 / 1.01 + 256.0 / 4.01) / 16.0);
     EXPECT_EQ(with(32, 16).square, 0.0);
@@ -183,7 +181,7 @@ TEST(SmallLamps, AddWhatSamplesShouldHaveMet) {
     EXPECT_DOUBLE_EQ(with(32, 1, false).square, with(32, 1).square) << "in a part of a cell";
 }
 
-// The variance of how many points of a grid of cells, one at random in each, lie in a disc of a few cells.
+// Variance of the number of points in a disc of a few cells, with one random point per cell.
 TEST(SmallLamps, PointsOneToACellMeetADiscAsOftenAsStated) {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> number(0.0, 1.0);
@@ -209,7 +207,7 @@ TEST(SmallLamps, PointsOneToACellMeetADiscAsOftenAsStated) {
     }
 }
 
-// How much of all directions the smallest lamp covers, against the area of a cap of the unit sphere.
+// Against the area of a spherical cap.
 double smallest_share(const std::vector<pt::Sphere> &spheres) {
     const pt::Material black{glm::vec3(0), glm::vec3(0), glm::vec3(0), 0.0F};
     const pt::Material bright{glm::vec3(0), glm::vec3(0), glm::vec3(0, 0, 5), 0.0F};
@@ -232,7 +230,7 @@ TEST(LampShare, IsThatOfTheSmallestLampThatMatters) {
     const std::vector<pt::Sphere> spheres{ball_at(2, 1, lamp), ball_at(9, 1, dark), ball_at(4, 1, lamp),
                                           ball_at(1, 50, lamp)};
     EXPECT_DOUBLE_EQ(smallest_share(spheres), smallest);
-    // One that covers 1/400 as much gives less than a hundredth of the light.
+    // 1/400 of the size gives less than a hundredth of the light.
     std::vector<pt::Sphere> with_a_speck = spheres;
     with_a_speck.push_back(ball_at(80, 1, lamp));
     EXPECT_DOUBLE_EQ(smallest_share(with_a_speck), smallest);

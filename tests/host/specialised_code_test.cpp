@@ -1,4 +1,4 @@
-// What remains of SPIR-V once its specialization constants are known.
+// SPIR-V after specialization.
 #include "lib/kernel/specialised_code.h"
 
 #include "lib/kernel/scene_features.h"
@@ -17,7 +17,7 @@ namespace {
 
 using Code = std::vector<std::uint32_t>;
 
-// Opcodes of SPIR-V.
+// SPIR-V opcodes.
 constexpr std::uint32_t last_about_others = 16; // names, entry points and modes
 constexpr std::uint32_t op_spec_constant_op = 52;
 constexpr std::uint32_t op_function = 54;
@@ -43,7 +43,7 @@ std::vector<Code> instructions_of(const Code &code) {
     return instructions;
 }
 
-// Where the first instruction with an opcode is.
+// The first instruction with this opcode.
 std::uint32_t &first_of(Code &code, std::uint32_t opcode) {
     std::size_t i = 5;
     while ((code[i] & 0xffffU) != opcode)
@@ -66,8 +66,8 @@ TEST(SpecialisedCodeTest, LeavesToTheDriverWhatItDoesNotKnow) {
     EXPECT_TRUE(is_left([](Code &code) { code[5] &= 0xffffU; })) << "an instruction of no words";
 }
 
-// What is called, branched to and decorated has to be there, values that meet come from blocks that branch to where
-// they do, and results are decorated as the kernel's: what may not be contracted stays so.
+// Calls, branches and decorations have their targets, phis come from their predecessors, and results keep the kernel's
+// decorations, such as NoContraction.
 void expect_whole(const Code &code, const Code &kernel) {
     const std::vector<Code> instructions = instructions_of(code);
     std::set<std::uint32_t> there;

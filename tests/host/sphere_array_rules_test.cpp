@@ -1,4 +1,4 @@
-// The rules of spheres that are given by columns: one broken array each, and the whole message about it.
+// One broken array per rule, with the whole message.
 #include "tests/host/particles.h"
 #include "tests/host/refusals.h"
 #include "tests/support/expected_error.h"
@@ -20,7 +20,6 @@ constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 
 const auto outcome = [](const Particles &particles) { return particles.outcome(); };
 
-// Spoils the array's struct.
 #define SPOILT(change) [](Particles &p) { p.spoil = [](pt_sphere_array &a) { change; }; }
 
 TEST(SphereArrays, BrokenRulesOfColumnsAreNamed) {
@@ -96,16 +95,16 @@ TEST(SphereArrays, BrokenRulesOfValuesAreNamed) {
               p.spoil = [](pt_sphere_array &a) { a.material = {}; };
           },
           "sphere_arrays[0].material = 0: must be < material_count (0)"},
-         {[](Particles &p) { // one for all is told once
+         {[](Particles &p) { // a common value is reported once
               p.radius = {-1};
               p.spoil = [](pt_sphere_array &a) { a.radius.stride_bytes = 0; };
           },
           "sphere_arrays[0].radius[0] = -1: must be > 0"}});
 }
 
-const void *const not_there = reinterpret_cast<const void *>(std::uintptr_t{64}); // reading it ends the process
+const void *const not_there = reinterpret_cast<const void *>(std::uintptr_t{64}); // reading it would crash
 
-// Of spheres that are too many none is read.
+// Arrays that are too long are not read.
 TEST(SphereArrays, BrokenRulesOfCountsAreNamed) {
     expect_refusals<Particles>(
         {}, outcome,
@@ -155,7 +154,7 @@ TEST(SphereArrays, AreNamedByTheirIndex) {
     EXPECT_EQ(rule.component, 0);
 }
 
-// Two columns of a million wrong values: eight are told of, and the others only counted.
+// Eight of two million violations are reported, the others counted.
 TEST(SphereArrays, CountMostOfManyViolations) {
     Particles particles;
     particles.count = 1000000;

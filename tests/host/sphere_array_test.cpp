@@ -1,6 +1,4 @@
-// Spheres given by columns equal those given by structs, whatever the columns' types and strides. How many they may be,
-// structs of columns that are shorter or longer than this library's, and colors: materials of their own, shared where
-// they are equal.
+// Spheres in columns equal structs, with any types and strides. Also counts, older and newer structs, and colors.
 #include "lib/scene/checked_scene.h"
 #include "lib/scene/scene.h"
 #include "lib/scene/sphere_source.h"
@@ -27,7 +25,7 @@ namespace sphere_arrays {
 
 namespace {
 
-// A column in memory of its own that ends with its last element, at a distance from each other and at any address.
+// Elements at a stride and offset, in an allocation that ends with the last one.
 class ColumnCopy {
 public:
     template <typename Number>
@@ -110,7 +108,7 @@ TEST(SphereArrays, HaveOneValueForAllOrDefaults) {
     }
 }
 
-// As many as there can be, all in one place: only counted and checked here, since they would take 4 GiB.
+// Checked only: they would take 4 GiB.
 TEST(SphereArrays, MayHaveTwoToTheTwentySixthSpheres) {
     Particles particles;
     particles.count = 1U << 26;
@@ -136,7 +134,7 @@ TEST(SphereArrays, OfNoneNeedNoColumns) {
     EXPECT_TRUE(particles.validated().spheres.empty());
 }
 
-// Arrays of another header, with more or fewer bytes each, one after the other. What it has of this one's is given.
+// The arrays with another struct size.
 std::vector<unsigned char> resized(std::span<const pt_sphere_array> arrays, std::uint32_t size) {
     std::vector<unsigned char> bytes(arrays.size() * size);
     for (std::size_t i = 0; i < arrays.size(); ++i) {
@@ -189,7 +187,7 @@ TEST(SphereArrays, OfOtherSizesAreRefused) {
 TEST(SphereArrays, ColorsMultiplyTheDiffuse) {
     const Particles particles;
     const pt::Scene scene = particles.validated();
-    // The first sphere has its material's own color, and that of the second reflects nothing, whatever its color.
+    // The first has its material's color; the second reflects nothing in any color.
     ASSERT_EQ(scene.materials.size(), 5U);
     EXPECT_EQ(scene.spheres[0].material, 0U);
     EXPECT_EQ(scene.spheres[1].material, 2U);
@@ -236,7 +234,7 @@ TEST(SphereArrays, EqualColorsShareAMaterial) {
         array.color = {bytes.data(), 3, PT_TYPE_SRGB8};
     };
     const pt::Scene scene = particles.validated();
-    // 12^3 colors of two materials, of which white is there already; all of them turn up.
+    // 12^3 colors of two materials; white exists already.
     EXPECT_EQ(scene.materials.size(), 2 * 12 * 12 * 12U);
     for (std::uint32_t i = 0; i < count; ++i) {
         const pt::Material &material = scene.materials[scene.spheres[i].material];
@@ -275,7 +273,7 @@ TEST(SphereArrays, ColorsMayBeOfAnyType) {
     EXPECT_EQ(particles.outcome(), "accepted");
 }
 
-// IEC 61966-2-1, whose power is correct to a few roundings of doubles: one of float is 2^29 times as large.
+// IEC 61966-2-1. The power errs by a few roundings of double; one of float is 2^29 times as large.
 TEST(Srgb, IsDecodedAsTheStandardSays) {
     for (int byte = 0; byte < 256; ++byte) {
         const double encoded = byte / 255.0;

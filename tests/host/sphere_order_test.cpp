@@ -1,5 +1,4 @@
-// The shape of a tree: every sphere has one place, links are in order, and no input makes the tree deeper than the
-// kernel's stack.
+// The shape of a tree: one place per sphere, ordered links, and a depth within the kernel's stack for any input.
 #include "lib/tree/sphere_order.h"
 #include "shaders/gpu_layout.h"
 
@@ -28,7 +27,7 @@ std::vector<pt::TreeItem> items_of(std::uint32_t count, const std::function<Ball
     return items;
 }
 
-// By numbers, of which there are no twins.
+// Without twins.
 const pt::SphereOrder by_number = [](std::uint32_t a, std::uint32_t b) { return a <=> b; };
 
 pt::TreeShape shape_of(std::vector<pt::TreeItem> items, const pt::SphereOrder &order) {
@@ -36,7 +35,7 @@ pt::TreeShape shape_of(std::vector<pt::TreeItem> items, const pt::SphereOrder &o
     return pt::tree_shape(std::move(items), order, nobody);
 }
 
-// Links consecutive in order of the nodes, each node but the root a child of one before it, and depth as is told.
+// Links follow the order of nodes, parents come first, depths are right.
 void expect_well_linked(const pt::TreeShape &shape) {
     std::vector<std::uint32_t> depths(shape.nodes.size(), 0);
     std::vector<bool> placed(shape.spheres.size());
@@ -119,8 +118,7 @@ TEST(SphereOrder, GivesEachSphereOnePlaceInATreeThatTheStackHolds) {
         }
 }
 
-// Of three kinds of spheres at each of a few points, in turns: the first of each kind stays, also where the tree is
-// deep.
+// Three kinds of spheres at each point, in turn: the first of each stays, also in deep trees.
 TEST(SphereOrder, LeavesTheFirstOfTwins) {
     constexpr std::uint32_t different = 3 * 50;
     const auto ball = [](std::uint32_t i) {
@@ -134,7 +132,6 @@ TEST(SphereOrder, LeavesTheFirstOfTwins) {
     expect_well_linked(shape);
 }
 
-// Shares that were told, up to the one at which to stop.
 struct Told {
     std::vector<double> shares;
     double stop_at = 2.0;
@@ -146,7 +143,7 @@ struct Told {
     }
 };
 
-// All of the work is told, and no more, whatever the spheres: the stage is half of a whole.
+// Progress covers the stage, half of the whole, exactly.
 TEST(SphereOrder, TellsHowFarItIs) {
     for (const Kind &kind : kinds()) {
         SCOPED_TRACE(kind.name);
@@ -155,7 +152,7 @@ TEST(SphereOrder, TellsHowFarItIs) {
         progress.enter(0.5, 2.0 * many);
         pt::tree_shape(items_of(many, kind.ball), by_number, progress);
         EXPECT_GT(told.shares.size(), 5U);
-        progress.add(0.0, std::size_t{1} << 30); // whereupon it tells
+        progress.add(0.0, std::size_t{1} << 30); // forces a report
         EXPECT_EQ(told.shares.back(), 0.25);
         EXPECT_TRUE(std::ranges::is_sorted(told.shares));
     }

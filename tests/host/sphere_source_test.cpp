@@ -1,4 +1,4 @@
-// Spheres of structs and of columns, read in their order.
+// Spheres of structs and columns in order.
 #include "lib/scene/scene.h"
 #include "lib/scene/sphere_source.h"
 #include "tests/host/particles.h"
@@ -14,7 +14,7 @@ namespace sphere_arrays {
 
 namespace {
 
-// Structs and arrays of all sizes in one scene, empty ones among them, read in every way.
+// Arrays of all sizes, empty ones too, read in every way.
 TEST(SphereSource, ReadsInOrderAcrossArrays) {
     std::vector<float> center(3 * 2000);
     std::vector<float> color(3 * 2000);
@@ -62,7 +62,7 @@ TEST(SphereSource, ReadsInOrderAcrossArrays) {
     const std::vector<std::uint32_t> starts(source.array_starts().begin(), source.array_starts().end());
     EXPECT_EQ(starts, (std::vector<std::uint32_t>{5, 5, 6, 306, 306, 306, 1006, 1008}));
 
-    // In any order and in that of the scene, so that runs go on from each array to the next one.
+    // In any order, and in scene order so that runs cross arrays.
     std::vector<std::uint32_t> indices;
     for (std::uint32_t i = 0; i < source.size(); ++i)
         indices.push_back(i % 3 == 0 ? i * 401 % 1008 : 1007 - i);
@@ -77,7 +77,7 @@ TEST(SphereSource, ReadsInOrderAcrossArrays) {
     EXPECT_EQ(read, indices.size());
 }
 
-// By columns, one value for all, and none, which is the first; those of empty arrays are nobody's.
+// Columns, a common value, and none (the first material); empty arrays use nothing.
 TEST(SphereSource, KnowsWhichMaterialsAreUsed) {
     const std::vector<float> center(3 * 4);
     const std::vector<std::uint32_t> materials = {7, 5, 7, 5};

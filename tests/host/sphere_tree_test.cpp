@@ -1,5 +1,4 @@
-// The tree buffer: boxes hold what is below them at all times, lamps and twins are in the scene's order, and facts
-// about a camera err on the safe side.
+// The tree buffer: boxes, lamps, twins, and conservative facts about cameras.
 #include "tests/host/heap_tree.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +21,7 @@ TEST(SphereTree, BoxesHoldTheirSpheresAtAllTimes) {
     }
 }
 
-// Coordinates within reach but for the rounding of radii and ways to floats: half of 2^-23 of up to 2^30 steps each.
+// Radii and ways rounded to float err by half of 2^-23 of up to 2^30 steps each.
 TEST(SphereTree, StaysWithinReach) {
     for (const double scale : {1e-18, 1.0, 1e17})
         for (const double motion : {0.0, 1.0}) {
@@ -45,7 +44,7 @@ TEST(SphereTree, StaysWithinReach) {
         }
 }
 
-// Balls so small that double precision hardly tells where they are: steps are no larger for it.
+// Balls near the precision of double do not enlarge the steps.
 TEST(SphereTree, HasStepsThatSuitBallsAllInOnePoint) {
     std::vector<pt_sphere> spheres;
     for (int i = 0; i < 40; ++i)
@@ -68,8 +67,7 @@ TEST(SphereTree, NumbersLampsInTheScenesOrder) {
     }
 }
 
-// Twins among balls that float32 takes for them: that move to and fro along the same way, or are a step of the grid
-// apart.
+// Twins in float32: moving to and fro along one path, or a grid step apart.
 TEST(SphereTree, KeepsTheFirstOfTwins) {
     std::vector<pt_sphere> spheres = heap(100, 0.0);
     spheres[0].center[0] = 100; // 2^-22 of it is 2^7 steps
@@ -129,7 +127,7 @@ pt::SphereTree tree_with(const pt_sphere_array &capsules, const std::vector<pt_s
     return {pt::SphereSource(spheres, {&capsules, 1}), left_out, two_materials, nobody};
 }
 
-// A capsule from x = 30 to 90, about a lamp at 60.
+// From x = 30 to 90, around a lamp at 60.
 TEST(SphereTree, KnowsLampsInCapsules) {
     std::vector<pt_sphere> spheres = heap(40, 0.0);
     for (pt_sphere &sphere : spheres)
@@ -145,7 +143,7 @@ TEST(SphereTree, KnowsLampsInCapsules) {
     }
 }
 
-// A kernel that reads the motion of spheres in the list reads that of the tree; of capsules it does not.
+// Outlying spheres' motion adds ways to the tree; capsules' does not.
 TEST(SphereTree, HasWaysIfWhatIsLeftOutMoves) {
     const auto has_ways = [](const pt::SphereTree &tree) {
         const pt::gpu::TreeFrame frame = tree.frame(camera_at(glm::dvec3(0.0)));
@@ -172,8 +170,7 @@ TEST(SphereTree, HasWaysIfWhatIsLeftOutMoves) {
     EXPECT_TRUE(has_ways(tree_with(one, spheres, {0, 100})));
 }
 
-// 16 bytes and 4 of material, and with all four children there is a node of 48 for three spheres; with some empty, for
-// two.
+// 16 bytes and 4 of material, and a node of 48 bytes per three spheres with four children, per two with some empty.
 TEST(SphereTree, TakesNoMoreThan48BytesASphere) {
     std::vector<pt_sphere> spheres = heap(100'000, 0.0);
     for (pt_sphere &sphere : spheres)
@@ -192,12 +189,11 @@ TEST(SphereTree, TakesNoMoreThan48BytesASphere) {
     const pt::SphereTree colored(pt::SphereSource({}, {&array, 1}), {}, two_materials, nobody);
     EXPECT_EQ(colored.words().size() * sizeof(glm::uvec4), plain + 4 * spheres.size());
     const pt::gpu::TreeFrame frame = colored.frame(camera_at(glm::dvec3(0.0)));
-    // The root of 1/2 times 1023 is 723.4.
+    // sqrt(1/2) * 1023 = 723.4
     EXPECT_EQ(colored.sphere_words()[frame.first_color + 777].z, 723U | 723U << 10 | 723U << 20);
 }
 
-// (p - camera) step + shift, evaluated in double, is off by no more than the rounding of shift to a float; of a camera
-// far away shift is about the distance.
+// (p - camera) step + shift errs by the rounding of shift, which is about the distance of a far camera.
 TEST(SphereTree, FramesPutSpheresWhereTheyAre) {
     const std::vector<pt_sphere> spheres = heap(100, 0.0);
     const pt::SphereTree tree = tree_of(spheres);

@@ -1,4 +1,4 @@
-// The errors of tiles, bit for bit: by the definitions in shaders/pixel_error.h, with sums in the order of the values.
+// Errors of tiles by shaders/pixel_error.h, bit for bit, with sums in the order of values.
 #include "lib/film/tile_errors.h"
 #include "shaders/pixel_error.h"
 
@@ -26,7 +26,7 @@ struct Value {
     double lesser;
 };
 
-// A tile of random values, with fireflies, edges and black pixels.
+// With fireflies, edges and black pixels.
 class Tile {
 public:
     Tile(const Size &size, unsigned seed) : values_{.width = size.width, .height = size.height, .sample_count = 64.0} {
@@ -49,7 +49,7 @@ public:
         return {static_cast<double>(mean), static_cast<double>(standard_error), static_cast<double>(lesser)};
     }
 
-    // Of a channel, from the first place to before the last.
+    // Right and bottom are exclusive.
     std::vector<double> means(std::size_t channel, std::size_t left, std::size_t top, std::size_t right,
                               std::size_t bottom) const {
         std::vector<double> means;
@@ -59,7 +59,7 @@ public:
         return means;
     }
 
-    // Of the pixel and those that touch it, ascending.
+    // The pixel and its neighbours, ascending.
     std::vector<double> means_about(std::size_t channel, std::size_t x, std::size_t y) const {
         std::vector<double> found =
             means(channel, std::max<std::size_t>(x, 1) - 1, std::max<std::size_t>(y, 1) - 1, x + 2, y + 2);
@@ -193,7 +193,7 @@ TEST(TileErrors, AreSumsOverPixels) {
     }
 }
 
-// The integral over p from 0 to 1 / N of 0.055 / (2 sqrt(p)) times p / N / (a^2 + p^2), in steps of s = sqrt(p).
+// Integral over p from 0 to 1 / N of 0.055 / (2 sqrt(p)) p / N / (a^2 + p^2), in steps of s = sqrt(p).
 TEST(TileErrors, UnseenLightIsTheExpectationOverCorners) {
     constexpr double samples = 64.0;
     for (const double b : {1.01, 2.0, 10.0, 100.0, 1e4, 1e6}) {

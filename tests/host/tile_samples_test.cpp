@@ -1,5 +1,4 @@
-// Which samples sets and tiles hold, against sets of single numbers, and which tiles take: in any order and cut in any
-// way, everything that they lack and nothing twice.
+// Samples of sets and tiles, against sets of numbers; tasks take each missing sample once, in any order and split.
 #include "lib/film/sample_set.h"
 #include "lib/film/tile_samples.h"
 #include "lib/render/tile_tasks.h"
@@ -65,7 +64,6 @@ TEST(SampleSet, IsTheSetOfItsIndices) {
     }
 }
 
-// As range by range.
 TEST(SampleSet, SetsAreAddedToSets) {
     std::mt19937 random(2);
     for (int round = 0; round < 1000; ++round) {
@@ -102,7 +100,7 @@ TEST(SampleSet, ReachesToTheLastIndex) {
     EXPECT_EQ(pt::text_of(set), "[0, 7), [8, 4294967296)");
 }
 
-constexpr TileGrid small_grid{21, 10}; // three tiles beside each other, two one below the other
+constexpr TileGrid small_grid{21, 10}; // three columns, two rows
 
 TEST(TileGrid, EdgesHaveSmallerTiles) {
     EXPECT_EQ(small_grid.columns(), 3U);
@@ -119,7 +117,7 @@ TEST(TileGrid, EdgesHaveSmallerTiles) {
     EXPECT_EQ(pixels, 210U);
 }
 
-// Ranges are added to random tiles; at times all tiles come to hold the same.
+// At times all tiles hold the same.
 TEST(TileSamples, AreThoseThatWereAddedToEach) {
     std::mt19937 generator(18);
     TileSamples samples(small_grid);
@@ -162,8 +160,7 @@ TEST(TileSamples, RowsOfTilesAreAFilmOfTheirOwn) {
     EXPECT_EQ(lower.total(), 16U * 16U);
 }
 
-// Tiles with samples of their own reach goals of their own, and others stay as they are. A task never leaves some of
-// its tiles behind the others for more than a sample.
+// Tiles reach their own goals, others stay. Within a task tiles differ by at most one sample.
 TEST(TileTasks, BringTilesToTheirGoals) {
     std::mt19937 random(1);
     for (int round = 0; round < 200; ++round) {

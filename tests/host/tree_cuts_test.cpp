@@ -1,5 +1,4 @@
-// How parts of a tree are divided: for few spheres by the best of all cuts, for many nearly so; and a sample of them is
-// as good as all.
+// Cuts of a tree's parts: the best for few spheres, nearly so for many, and samples as good as all.
 #include "lib/tree/cuts.h"
 
 #include <gtest/gtest.h>
@@ -19,8 +18,8 @@ namespace {
 
 using Items = std::vector<pt::TreeItem>;
 
-// Sides of balls below 4 are rounded by 2^-23 at most, so the side of a box is off by 2^-22, and half its surface by
-// 2^-21 times the sum of its sides, which is below 15 here; the few roundings of that sum are less.
+// Sides below 4 are rounded by 2^-23, a box's side by 2^-22, half its surface by 2^-21 times the sum of sides, below
+// 15; rounding of the sum is less.
 constexpr double surface_error = 15 * 0x1p-21;
 
 pt::Part part_of(Items &items) {
@@ -53,7 +52,7 @@ double cost_of(std::span<const pt::TreeItem> first, std::span<const pt::TreeItem
     return surface_of(first) * nodes(first.size()) + surface_of(second) * nodes(second.size());
 }
 
-// Of all cuts between different coordinates of centres, along the axes from the first to the last.
+// Over all cuts between different coordinates along these axes.
 double least_cost(Items items, std::size_t first_axis = 0, std::size_t last_axis = 2) {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t axis = first_axis; axis <= last_axis; ++axis) {
@@ -76,7 +75,7 @@ void expect_boxes(const pt::Part &part) {
     }
 }
 
-// Balls of different sizes; on whole places, so that many have equal coordinates, and not.
+// Of various sizes, on integers with equal coordinates, and not.
 TEST(TreeCuts, OfFewSpheresAreTheBest) {
     std::mt19937 engine(3);
     std::uniform_real_distribution<float> share(0.0F, 1.0F);
@@ -96,7 +95,7 @@ TEST(TreeCuts, OfFewSpheresAreTheBest) {
         const pt::Halves halves = pt::swept_halves(part);
         expect_boxes(halves.first);
         expect_boxes(halves.second);
-        // Four nodes at the most, in the cut that is taken and in the one that is best.
+        // Four nodes at most, in the chosen cut and in the best.
         const double most_error = 2 * 4 * surface_error;
         const double least = least_cost(before);
         EXPECT_NEAR(cost_of(halves.first.items, halves.second.items), least, most_error) << round;
@@ -107,8 +106,8 @@ TEST(TreeCuts, OfFewSpheresAreTheBest) {
     }
 }
 
-// Even clouds that are longest along one axis. There is a cut within half of one of 8 bins of the best one, x = 1/2,
-// and costs are about as x^2 + (1 - x)^2: a 60th more, and chance adds to it.
+// Uniform clouds, longest along one axis. Some cut is within half of one of 8 bins of the best, x = 1/2; costs go about
+// as x^2 + (1 - x)^2: a 60th more, plus chance.
 TEST(TreeCuts, OfManySpheresAreAboutTheBest) {
     std::mt19937 engine(5);
     std::uniform_real_distribution<float> share(0.0F, 1.0F);
@@ -128,8 +127,7 @@ TEST(TreeCuts, OfManySpheresAreAboutTheBest) {
         }
 }
 
-// Two heaps with a wide gap between them, in an order in which every so many belong to one of them: a sample at equal
-// distances would know of one heap alone.
+// Two heaps with a wide gap, interleaved periodically: equidistant samples would see one heap only.
 TEST(TreeCuts, OfSamplesHeedNoPattern) {
     const std::uint32_t count = 4 * pt::sampled_from;
     const std::uint32_t run = count / pt::sample_size;

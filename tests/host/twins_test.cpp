@@ -32,7 +32,7 @@ pt::DistinctScene without_twins(const pt::Scene &scene) {
     return pt::without_twins(pt::seen_scene(scene, camera()));
 }
 
-// The radii of the spheres that are left.
+// Radii of the spheres that are left.
 std::vector<double> distinct(const std::vector<Sphere> &spheres) {
     std::vector<double> radii;
     for (const pt::SeenSphere &sphere : without_twins(scene_of(spheres, {})).seen.spheres)
@@ -40,7 +40,7 @@ std::vector<double> distinct(const std::vector<Sphere> &spheres) {
     return radii;
 }
 
-// The materials of the planes that are left; planes are given with unit normals.
+// Materials of the planes that are left, with unit normals.
 std::vector<std::uint32_t> distinct_planes(const std::vector<Plane> &planes) {
     std::vector<std::uint32_t> materials;
     for (const pt::CurvedPlane &plane : without_twins(scene_of({}, planes)).seen.planes)
@@ -48,7 +48,7 @@ std::vector<std::uint32_t> distinct_planes(const std::vector<Plane> &planes) {
     return materials;
 }
 
-// Places are as seen from the camera.
+// place: relative to the camera.
 Sphere ball(const glm::dvec3 &place, double radius, const glm::dvec3 &motion = {0, 0, 0}) {
     return {viewpoint + place, radius, motion, plain};
 }
@@ -79,7 +79,7 @@ TEST(Twins, AreSpheresThatDifferByAMillionthOfTheirSize) {
         }
 }
 
-// Seen from afar float32 cannot tell a little more apart, but never balls that touch from one ball.
+// From afar float32 merges more, but never touching balls.
 TEST(Twins, AreSpheresWhoseCentresFloat32HoldsAlike) {
     EXPECT_EQ(distinct({ball({0, 0, -1e3}, 1), ball({4e-4, 0, -1e3}, 1)}).size(), 1U);
     EXPECT_EQ(distinct({ball({0, 0, -1e2}, 1), ball({4e-4, 0, -1e2}, 1)}).size(), 2U);
@@ -95,7 +95,7 @@ TEST(Twins, MoveTogether) {
     EXPECT_EQ(distinct({moving, ball({0, 0, -5}, 1, {0, 2 + 1e-7, 0})}).size(), 1U);
 }
 
-// What counts of huge spheres is the surface where the camera sees it.
+// For huge spheres the surface near the camera counts.
 TEST(Twins, OfHugeSpheresAreLikePlanes) {
     constexpr double radius = 1e9;
     const Sphere floor = ball({0, -1 - radius, 0}, radius);
@@ -119,7 +119,7 @@ TEST(Twins, OfPlanesTheFirstStands) {
     EXPECT_EQ(distinct_planes({floor, plane({0.3, 1 + 3e-5, 0.2}, 1.5, 1)}), (Materials{0, 1}));
 }
 
-// A lattice has many spheres with one coordinate alike, and none is another's twin.
+// Many share one coordinate; none is another's twin.
 TEST(Twins, AreNoneOnALattice) {
     std::vector<Sphere> lattice;
     for (int i = 0; i < 32 * 32 * 32; ++i)
@@ -159,7 +159,6 @@ TEST(CloseLamps, AreLessThanAQuarterOfTheirRadiiApart) {
     }
 }
 
-// Wherever along it.
 TEST(CloseLamps, MayBeInCapsules) {
     const auto close = [](double aside, double radius, bool is_swept) {
         const Sphere lamp{viewpoint + glm::dvec3(aside, 3, -5), 1, {0, 0, 0}, glowing};

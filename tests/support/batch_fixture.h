@@ -1,5 +1,4 @@
-// Renders a scene in batches of independent samples, so that a mean comes with its standard error, whatever the
-// sampler. Used by the tests that compare means.
+// Renders batches of independent samples, so that a mean has a standard error with any sampler.
 #pragma once
 
 #include "tests/support/context_fixture.h"
@@ -9,16 +8,15 @@
 #include <span>
 #include <vector>
 
-// A mean and its standard error.
 struct Estimate {
     double mean;
     double standard_error;
 };
 
-// The red channel of the image of each batch.
+// The red channel, by batch.
 using Batches = std::vector<std::vector<double>>;
 
-// The mean over a set of pixels, estimated from the batches.
+// Mean over pixels.
 inline Estimate estimate_over(const Batches &batches, std::span<const std::size_t> pixels) {
     std::vector<double> values;
     for (const std::vector<double> &image : batches) {
@@ -35,17 +33,16 @@ inline Estimate estimate_of_pixel(const Batches &batches, std::size_t pixel) {
     return estimate_over(batches, std::span(&pixel, 1));
 }
 
-// How many standard errors a mean of batches may be off in either direction, at a probability of a false alarm: the
-// quantile of Student's t, by D. L. Wallace's approximation (Ann. Math. Statist. 30, 1959), within 0.02 of it for 8
-// degrees and more.
+// Bound on a mean's deviation in standard errors, two-sided: the quantile of Student's t by D. L. Wallace's
+// approximation (Ann. Math. Statist. 30, 1959), within 0.02 for 8 degrees of freedom and more.
 inline double student_bound(double false_alarm, std::size_t batch_count) {
     const double degrees = static_cast<double>(batch_count) - 1.0;
     const double z = statistics::normal_quantile(0.5 * false_alarm) * (8.0 * degrees + 3.0) / (8.0 * degrees + 1.0);
     return std::sqrt(degrees * std::expm1(z * z / degrees));
 }
 
-// The number of standard errors between an estimate and the expected value. The rounding of float32 counts as an error
-// of 1e-6: a path's radiance is rounded at most some dozens of times by 2^-24, and those errors average out in part.
+// Deviation in standard errors. A rounding error of 1e-6 is included: some dozens of roundings by 2^-24 per path, which
+// partly average out.
 inline double deviation(const Estimate &estimate, double expected) {
     const double rounding = 1e-6 * std::abs(expected);
     return (estimate.mean - expected) / std::hypot(estimate.standard_error, rounding);
@@ -58,8 +55,8 @@ protected:
         ASSERT_EQ(pt_set_camera(context(), &camera), PT_OK) << pt_last_error(context());
     }
 
-    // Renders batches of the current scene, each with its own seed. Plain Halton does not use the seed: its batches are
-    // successive parts of the sequence, whose errors partly cancel, so the standard error is an upper bound.
+    // Each batch has its own seed. Plain Halton ignores seeds: its batches are successive parts of the sequence whose
+    // errors partly cancel, so the standard error is an upper bound.
     Batches render_batches(pt_render render, uint32_t batch_count, uint32_t samples) {
         Batches batches;
         for (uint32_t batch = 0; batch < batch_count; ++batch) {

@@ -1,4 +1,4 @@
-// Checks a scene, and prepares it, with nobody told of the progress.
+// Checks and prepares a scene, without progress.
 #pragma once
 
 #include "lib/kernel/prepared_scene.h"

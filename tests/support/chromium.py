@@ -1,4 +1,4 @@
-"""A page in headless Chromium, steered by its DevTools protocol (chromedevtools.github.io/devtools-protocol) over aiohttp."""
+"""A page in headless Chromium over its DevTools protocol (chromedevtools.github.io/devtools-protocol)."""
 
 import asyncio
 import base64
@@ -13,7 +13,7 @@ PROGRAM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil
 
 
 class Chromium:
-    """One page. Errors in it and what it cannot load are in `complaints`."""
+    """`complaints` collects errors and failed loads."""
 
     def __init__(self, width=1400, height=860):
         self.folder = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
@@ -69,14 +69,14 @@ class Chromium:
         self.until(f"location.href === {json.dumps(address)} && document.readyState === 'complete'")
 
     def value(self, expression):
-        """What JavaScript says, also after a promise."""
+        """Evaluates JavaScript and awaits promises."""
         said = self.call("Runtime.evaluate", expression=expression, awaitPromise=True, returnByValue=True)
         if "exceptionDetails" in said:
             raise RuntimeError(said["exceptionDetails"].get("exception", {}).get("description", expression))
         return said["result"].get("value")
 
     def until(self, expression, seconds=60):
-        """Waits until JavaScript says something that is true there, and returns it."""
+        """Waits for a true value of a JavaScript expression and returns it."""
         end = time.monotonic() + seconds
         while not self.value(f"!!({expression})"):
             if time.monotonic() > end:

@@ -1,4 +1,4 @@
-// Sequences of calls of pt.h that many tests make. A call that fails fails the test.
+// Common sequences of pt.h calls. A failing call fails the test.
 #pragma once
 
 #include "tests/support/coursework_scene.h"
@@ -37,7 +37,7 @@ inline std::vector<char> film_of(pt_context *of) {
     return film;
 }
 
-// Reads an image of so many pixels, three values for each.
+// Three values per pixel.
 inline std::vector<float> values_of(pt_context *from, std::size_t pixel_count,
                                     std::uint32_t quantity = PT_QUANTITY_RADIANCE) {
     std::vector<float> values(3 * pixel_count, -7.0F);

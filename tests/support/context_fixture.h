@@ -1,6 +1,5 @@
-// Tests on a real device through pt.h. The validation layer is on: a warning from it or from the library fails the
-// test. Environment variables: PT_TEST_DEVICE chooses the device like pt_create_info.device; if PT_TEST_NO_VALIDATION
-// is set, contexts are made without the layer, for leak checks.
+// Tests on a real device through pt.h. Warnings of the library or the validation layer fail them. PT_TEST_DEVICE: as
+// pt_create_info.device. PT_TEST_NO_VALIDATION: without the layer, for leak checks.
 #pragma once
 
 #include "tests/support/image_target.h"
@@ -46,7 +45,7 @@ protected:
 
     virtual Context create_fixtures_context() { return create_context(); }
 
-    // The layer reports leaks when a context is destroyed, so destroy it before looking at messages.
+    // The layer reports leaks when the context is destroyed.
     void TearDown() override {
         context_.reset();
         for (const std::string &line : complaints_)
@@ -57,7 +56,7 @@ protected:
 
     using Create = std::function<pt_result(const pt_create_info *, pt_context **)>;
 
-    // Makes another context from the fixture's settings, changed by adjust. Destroy it before the test ends.
+    // A context with the fixture's settings, changed by `adjust`. Destroy it before the test ends.
     Context create_context(
         const std::function<void(pt_create_info &)> &adjust = [](pt_create_info &) {},
         const Create &create = &pt_create) {
@@ -78,7 +77,6 @@ protected:
         ASSERT_EQ(pt_accumulate(context(), &info), PT_OK) << pt_last_error(context());
     }
 
-    // Fills image, which has the image's size.
     void readback(std::vector<float> &image) {
         const pt_image target = image_target(image);
         ASSERT_EQ(pt_readback(context(), &target), PT_OK) << pt_last_error(context());
@@ -87,7 +85,7 @@ protected:
     pt_stats stats() { return stats_of(context()); }
     pt_error_estimate error() { return error_of(context()); }
 
-    // Whether a few samples take several submissions, as on CPUs; on GPUs they may take one.
+    // Whether a few samples take several submissions, as on CPUs.
     static bool is_on_cpu(pt_context *on) {
         pt_device_info info{};
         EXPECT_EQ(pt_get_context_device(on, &info), PT_OK) << pt_last_error(on);

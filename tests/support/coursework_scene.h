@@ -1,5 +1,4 @@
-// The coursework scene through pt.h: two lamps, two balls, a floor and three walls, glossy or diffuse. Used by the
-// tests that render.
+// The coursework scene: two lamps, two balls, a floor and three walls, glossy or diffuse.
 #pragma once
 
 #include "tests/support/scene_of.h"
@@ -32,7 +31,7 @@ struct CourseworkScene {
         {{-1, 0, 0}, 10, 6, 0},
     }};
 
-    // The variant whose materials have no specular lobe.
+    // Removes all specular lobes.
     void make_diffuse() {
         for (pt_material &material : materials)
             material.specular[0] = material.specular[1] = material.specular[2] = material.glossiness = 0;
@@ -40,7 +39,7 @@ struct CourseworkScene {
 
     pt_scene scene() const { return scene_of(materials, spheres, planes); }
 
-    // From (0, 0, 1) towards the origin; the image plane is as far away as it is high.
+    // At (0, 0, 1), towards the origin; the image plane's distance is its height.
     static pt_camera camera() {
         pt_camera camera{};
         camera.struct_size = sizeof camera;

@@ -1,6 +1,5 @@
-// A plain path tracer in double for the radiance of pixels. It tests every surface, samples one lamp and the reflection
-// at each vertex, combines the two by the balance heuristic, and shares no code with the library. Used by tests of
-// whole images.
+// A plain path tracer in double that shares no code with the library. It tests every surface, samples one lamp and the
+// reflection at each vertex, and combines them by the balance heuristic.
 #pragma once
 
 #include <pt/pt.h>
@@ -18,7 +17,7 @@
 class DoublePathTracer {
 public:
     struct Estimate {
-        double mean = 0.0;     // of the radiance's components
+        double mean = 0.0;     // over the components
         double variance = 0.0; // of the mean
     };
 
@@ -35,7 +34,7 @@ public:
                 lamps_.push_back(i);
     }
 
-    // The radiance of a rectangle of pixels, from this number of samples in each.
+    // samples: per pixel.
     Estimate of_rectangle(const pt_render &render, glm::uvec2 first, glm::uvec2 size, std::uint32_t samples) {
         double sum = 0.0;
         double squares = 0.0;
@@ -61,10 +60,10 @@ private:
         double distance = std::numeric_limits<double>::infinity();
         glm::dvec3 normal{0.0};
         std::uint32_t material = 0;
-        std::uint32_t surface = 0; // index, spheres first, then planes
+        std::uint32_t surface = 0; // spheres first, then planes
     };
 
-    // A vertex that reflects: f = kd / pi + ks (n + 2) / (2 pi) max(0, cos)^n, with the cosine to the mirror direction.
+    // f = kd / pi + ks (n + 2) / (2 pi) max(0, cos)^n, with the cosine to the mirror direction.
     struct Reflection {
         glm::dvec3 normal, mirror, diffuse, specular;
         double exponent;
@@ -90,8 +89,7 @@ private:
     double share() { return std::generate_canonical<double, 53>(engine_); }
 
     double path(const pt_render &render, glm::dvec2 place) {
-        const double time =
-            camera_.shutter_open + share() * (camera_.shutter_close - camera_.shutter_open); // at random
+        const double time = camera_.shutter_open + share() * (camera_.shutter_close - camera_.shutter_open);
         const bool is_parallel = camera_.projection == PT_PROJECTION_ORTHOGRAPHIC;
         const double image_height = is_parallel ? camera_.vertical_extent : 2.0 * std::tan(0.5 * camera_.vertical_fov);
         const glm::dvec3 across = image_height / render.height *
@@ -108,7 +106,7 @@ private:
         }
         glm::dvec3 radiance(0.0);
         glm::dvec3 weight(1.0);
-        double density = 0.0; // of the direction, if lamps are sampled as well
+        double density = 0.0; // of the direction, if lamps are sampled too
         for (std::uint32_t vertex = 0; vertex < render.max_path_length; ++vertex) {
             const Hit hit = first_hit(origin, direction, time, vertex == 0);
             if (std::isinf(hit.distance))
@@ -136,7 +134,7 @@ private:
         return vector(sphere.center) + time * vector(sphere.motion);
     }
 
-    // 1 - cos of the half angle that a sphere subtends; 0 from inside the sphere, where it is not sampled.
+    // 1 - cos(half angle of the sphere); 0 from inside, where it is not sampled.
     double cap(const pt_sphere &sphere, const glm::dvec3 &from, double time) const {
         const glm::dvec3 to = centre_at(sphere, time) - from;
         const double squared_sine = sphere.radius * sphere.radius / glm::dot(to, to);
@@ -165,7 +163,7 @@ private:
         return color(scene_.materials[lamp.material].emission) * reflection.value_times_cosine(to) / density;
     }
 
-    // A random direction about an axis. height: 1 - cos of its angle to the axis.
+    // height: 1 - cos of the angle to the axis.
     glm::dvec3 around(const glm::dvec3 &axis, double height) {
         const glm::dvec3 other = std::abs(axis.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
         const glm::dvec3 x = glm::normalize(glm::cross(axis, other));
@@ -228,13 +226,13 @@ private:
                                                  std::size_t{row} * column.stride_bytes);
     }
 
-    // Whether a ray does, at random.
+    // Whether a ray meets it, at random.
     bool meets(const pt_column &opacity, std::uint32_t row) {
         return opacity.data == nullptr || share() < *at<float>(opacity, row);
     }
 
-    // The side, between the planes through both ends, and the balls there: a ray enters the union of the three at the
-    // least distance at which it enters one of them, and leaves it at the greatest.
+    // The side between its end planes, and both balls: a ray enters their union at the least distance of the three, and
+    // leaves at the greatest.
     static void meet_capsule(Hit &nearest, const glm::dvec3 &origin, const glm::dvec3 &direction,
                              const pt_sphere_array &array, std::uint32_t row) {
         const double *const a = at<double>(array.center, row);

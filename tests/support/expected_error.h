@@ -1,4 +1,4 @@
-// Catches what a call throws, for tests that expect an error. Used by the tests of lib/vulkan/.
+// Returns the error that a call throws.
 #pragma once
 
 #include "lib/base/error.h"
@@ -7,7 +7,6 @@
 
 #include <string>
 
-// The error that a function throws.
 template <typename Function>
 pt::Error error_of(Function &&function) {
     try {

@@ -1,11 +1,11 @@
-"""What OpenEXR files of the program hold."""
+"""Reads the program's OpenEXR files."""
 
 import struct
 import zlib
 
 
 def parse_exr_header(data):
-    """Name -> (type, bytes) of an OpenEXR file, and the header's size."""
+    """name -> (type, bytes), and the header's size."""
     assert data[:4] == b"\x76\x2f\x31\x01"
     attributes, position = {}, 8
     while data[position] != 0:
@@ -24,7 +24,7 @@ def read_exr_attributes(path):
 
 
 def read_exr_blocks(path):
-    """The compressed pixels, without the header and the table of where they are."""
+    """The compressed pixels."""
     with open(path, "rb") as file:
         data = file.read()
     table = parse_exr_header(data)[1]
@@ -33,8 +33,7 @@ def read_exr_blocks(path):
 
 
 def read_exr_channels(path):
-    """Name of a channel -> rows of its numbers, of an OpenEXR file of scan lines that ZIP compresses ("OpenEXR File
-    Layout"): what is written here."""
+    """channel -> rows of numbers, for ZIP-compressed scan lines ("OpenEXR File Layout")."""
     with open(path, "rb") as file:
         data = file.read()
     attributes, position = parse_exr_header(data)

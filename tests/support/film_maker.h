@@ -1,4 +1,4 @@
-// Makes films of invented samples, sample by sample: sums of films are compared with them.
+// Films of invented samples, made sample by sample.
 #pragma once
 
 #include "lib/base/digest.h"
@@ -18,7 +18,7 @@ namespace film_maker {
 
 using Bytes = std::vector<std::byte>;
 using Pixel = std::pair<std::uint32_t, std::uint32_t>;    // row and column
-using Samples = std::map<Pixel, std::set<std::uint32_t>>; // indices of the samples of each pixel
+using Samples = std::map<Pixel, std::set<std::uint32_t>>; // indices by pixel
 
 inline pt::FilmIdentity identity(std::uint32_t width, std::uint32_t height) {
     return {{"scene", "00112233445566778899aabbccddeeff"},
@@ -49,20 +49,20 @@ inline std::uint64_t mixed(std::uint64_t number) {
     return number ^ (number >> 31);
 }
 
-// One sample in 16 is rejected.
+// One in 16.
 inline bool is_rejected(const Pixel &pixel, std::uint32_t index) {
     return mixed(pixel.first * 7919U + pixel.second * 104729U + index) % 16 == 0;
 }
 
 __extension__ using Wide = unsigned __int128;
 
-// One channel of a sample, in units of 2^-60; the value is below 2^24.
+// In units of 2^-60; below 2^24.
 inline Wide value_of(const Pixel &pixel, std::uint32_t index, std::uint32_t channel) {
     const std::uint64_t key = ((std::uint64_t{pixel.first} << 20 | pixel.second) << 34) ^ (std::uint64_t{index} << 2);
     return Wide{mixed(key | channel)} << (mixed(key + 3) % 20);
 }
 
-// Sets the sums of one pixel, at place `at` of its tile.
+// at: the pixel's place in its tile.
 inline void set_pixel(pt::PixelSums &sums, std::size_t at, const Pixel &pixel, const std::set<std::uint32_t> &indices,
                       std::uint64_t split) {
     Wide totals[2][3] = {};
@@ -82,7 +82,7 @@ inline void set_pixel(pt::PixelSums &sums, std::size_t at, const Pixel &pixel, c
     }
 }
 
-// A film of these tiles; all pixels of a tile must have the same samples.
+// All pixels of a tile must have the same samples.
 inline Bytes film_of(const pt::FilmIdentity &identity, const std::vector<pt::Rectangle> &tiles,
                      const Samples &samples) {
     pt::FilmHeader header{identity, {}};
@@ -105,8 +105,7 @@ inline Bytes film_of(const pt::FilmIdentity &identity, const std::vector<pt::Rec
     return bytes;
 }
 
-// The tiles that a film of these samples must have, found pixel by pixel: runs in rows, and equal runs in successive
-// rows.
+// A film's tiles, found pixel by pixel: runs in rows, then equal runs in successive rows.
 inline std::vector<pt::Rectangle> tiles_of(const Samples &samples) {
     std::vector<pt::Rectangle> tiles;
     const auto at = [&](std::int64_t row, std::int64_t column) -> const std::set<std::uint32_t> * {

@@ -1,5 +1,4 @@
-// What rays in a scene of pt.h meet first, by independent formulas in long double, and how far float32 may be off. Used
-// by the tests of what camera rays meet first.
+// First hits of rays in pt.h scenes by independent formulas in long double, with float32's error.
 #pragma once
 
 #include "lib/scene/seen_scene.h"
@@ -30,47 +29,42 @@ inline Vector vector_of(const double (&v)[3]) {
 struct Ray {
     Vector direction; // unit
     Real time;
-    Vector start;        // from where float32 computes it, relative to where the ray starts
-    Vector origin{0.0L}; // where the ray starts, relative to the camera
-    Vector spread{0.0L}; // for each component of origin, the sizes of its two terms
+    Vector start;        // its origin plus the start of float32's distances
+    Vector origin{0.0L}; // relative to the camera
+    Vector spread{0.0L}; // sizes of the two terms of each component of origin
 };
 
-// Where a ray meets a surface, and by how much float32 may differ.
+// A hit and its tolerances in float32.
 struct Meeting {
     Real distance = nowhere;
     Real tolerance = 0.0L;        // of distance
-    bool is_uncertain = false;    // the ray nearly touches the surface, or nearly misses it
-    Vector normal{0.0L};          // on the side of the camera
+    bool is_uncertain = false;    // nearly touching or missing
+    Vector normal{0.0L};          // facing the camera
     Real normal_tolerance = 0.0L; // of each component
     std::uint32_t object = PT_NO_OBJECT;
 };
 
-// Let u be the rounding. A direction is off by 4 u across itself (two products and two sums for each component, and a
-// normalisation, of which only what differs between components counts), and its length by 4 u.
+// Let u be the rounding. A direction errs by 4 u across itself (two products and sums per component; normalisation
+// scales all alike) and by 4 u in length.
 //
-// A sphere by its centre c, as seen from the camera, and its radius r: the centre is rounded by u |c|, and c - b d errs
-// by 4 u |c| for d, and by 3 u |c| for its own operations, so the distance l of the centre from the ray is off by 8 u
-// |c|; so is b, the distance along the ray to the point nearest to the centre. The half chord h = sqrt(r^2 - l^2) is
-// off by (8 u |c| l + 2 u r^2) / h. With l < r that is (8 u |c| + 2 u r) / cosine for the cosine h / r at the surface.
-// Twice that is allowed. The square under the root is off by r (16 u |c| + 4 u r) at most, or l - r by 8 u |c| + 2 u r:
-// within twice that of touching, it may be missed or met.
+// Sphere with center c relative to the camera, radius r: c errs by u |c|; c - b d by 4 u |c| for d and 3 u |c| for its
+// operations; so the ray's distance l from the center, and b, by 8 u |c|. The half chord h = sqrt(r^2 - l^2) errs by (8
+// u |c| l + 2 u r^2) / h, with l < r by (8 u |c| + 2 u r) / cosine, cosine = h / r. Twice that is allowed. The root's
+// argument errs by r (16 u |c| + 4 u r), or l - r by 8 u |c| + 2 u r: within twice this of touching, hit or miss is
+// undecided.
 //
-// If a sphere is so large, compared with its height h above where rays start, that it is held as a plane with a
-// curvature k, nothing of the size of r is rounded: the distance 2 h / q with q = s + sqrt(s^2 - 2 k h) for the slope s
-// errs by u for h and by what q errs, which is 4 u for s and (4 u s + 4 u) / cosine for the root, the cosine at the
-// surface, and q is no less than that cosine: 16 u / cosine^2 of the distance is allowed, and 8 u for all else; within
-// 64 u of touching, as s^2 against 2 k h, it may be missed or met. The far wall from within, q / k, likewise. A plane
-// is the same with k = 0.
+// A sphere stored as a plane of curvature k, at height h: nothing of size r is rounded. The distance 2 h / q, q = s +
+// sqrt(s^2 - 2 k h) for the slope s, errs by u for h and by q's error: 4 u for s, (4 u s + 4 u) / cosine for the root,
+// and q is no less than the cosine. 16 u / cosine^2 of the distance is allowed, and 8 u for the rest; within 64 u of
+// touching (s^2 against 2 k h) it is undecided. The same holds for the far wall q / k; a plane has k = 0.
 //
-// Parallel rays start all over a disc, by origin = a right - b up, whose components are off by 5 u of the sizes of both
-// terms: the rounding of the scale, of the place, of the vector, and of a product, and that of the sum. A centre is
-// relative to it by one more subtraction: 8 u of the length o of these sizes is allowed beside 8 u |c|, and as much
-// again. A height there, n . origin + offset, is off by 9 u of the sum of |n| times these sizes, o too, for n, origin
-// and its own operations, and by 2 u of the offset, which is no more than that and h: 16 u o / cosine is allowed.
+// Parallel rays start at origin = a right - b up, with errors of 5 u of both terms' sizes (scale, place, vector,
+// product, sum). A center relative to it takes one more subtraction: 8 u o for the length o of these sizes is allowed
+// beside 8 u |c|, and as much again. A height n . origin + offset errs by 9 u of |n| times these sizes, and by 2 u of
+// the offset: 16 u o / cosine is allowed.
 //
-// In narrow views of what is far away rays start ahead of the camera, and |c| and distances count from there. A tree's
-// grid may move a centre by up to astray; which side of the surface the camera is on is then uncertain within that,
-// too.
+// In narrow views rays start ahead of the camera, and |c| and distances count from there. A tree's grid displaces
+// centers by up to `astray`, within which the camera's side is undecided too.
 inline Meeting meet_sphere(const pt_sphere &sphere, const Vector &camera, const Ray &ray, Real time, bool is_flat,
                            Real astray) {
     const Vector centre = vector_of(sphere.center) + time * vector_of(sphere.motion) - camera - ray.origin;
@@ -90,8 +84,7 @@ inline Meeting meet_sphere(const pt_sphere &sphere, const Vector &camera, const 
     meeting.is_uncertain = height > 0.0L && r - l < touching;
     meeting.is_uncertain = meeting.is_uncertain || std::abs(height) < astray;
     const Real half_chord = std::sqrt((r - l) * (r + l));
-    // The product of the roots is the power of the camera with respect to the sphere: by it, the nearer root has no
-    // cancellation.
+    // The roots' product is the camera's power: the nearer root without cancellation.
     meeting.distance = height > 0.0L ? height * (glm::length(centre) + r) / (along + half_chord) : along + half_chord;
     const Vector from_centre = meeting.distance * ray.direction - centre;
     const Vector outward = glm::normalize(from_centre);
@@ -101,7 +94,7 @@ inline Meeting meet_sphere(const pt_sphere &sphere, const Vector &camera, const 
     meeting.tolerance = is_flat ? way * rounding * (8.0L + 16.0L / (cosine * cosine))
                                 : rounding * (16.0L * reach + (16.0L * reach + 4.0L * r) / cosine) + astray / cosine;
     meeting.normal = height > 0.0L ? outward : -outward;
-    // If a point is off by so much, its normal is off by that over r, and by eight roundings of its own.
+    // The point's error over r, and eight roundings.
     meeting.normal_tolerance = (meeting.tolerance + 16.0L * rounding * across) / r + 8.0L * rounding;
     return meeting;
 }
@@ -132,7 +125,7 @@ struct View {
     std::uint32_t width, height;
     Real shutter_open, shutter_close;
     Real start_distance = 0.0L;
-    Real tree_step = 0.0L; // of the grid that holds the spheres; 0: no tree
+    Real tree_step = 0.0L; // of the spheres' grid; 0: no tree
 
     View(const pt_camera &camera, const pt_render &render) :
         position(vector_of(camera.position)),
@@ -149,7 +142,7 @@ struct View {
             focal_pixels = render.height / (2.0L * std::tan(static_cast<Real>(camera.vertical_fov) / 2.0L));
     }
 
-    // The ray through the place (x, y) in a pixel, at a share of the shutter's time.
+    // share: of the shutter's time.
     Ray ray(std::uint32_t column, std::uint32_t row, Real x, Real y, Real share) const {
         const Real to_right = column + x - width / 2.0L;
         const Real downwards = row + y - height / 2.0L;
@@ -163,9 +156,8 @@ struct View {
     }
 };
 
-// Whether the kernel holds a sphere as a plane. This is the library's own rule, since it decides which of two forms is
-// rounded. It depends on where rays start; lamps have another rule, and are held by their centres up to a radius of
-// 65536 times their height.
+// The library's own rule, because it decides which of two forms is rounded. It depends on where rays start. Lamps keep
+// their centers up to a radius of 65536 times their height.
 inline bool is_held_as_plane(const pt_sphere &sphere, const pt_material &material, const View &view) {
     const auto vector = [](const double(&v)[3]) { return glm::dvec3(v[0], v[1], v[2]); };
     pt::Camera start{};
@@ -181,7 +173,7 @@ inline bool is_seen(const pt_scene &scene, std::uint32_t material) {
     return scene.materials[material].flags != PT_MATERIAL_HIDDEN_FROM_CAMERA;
 }
 
-// The first surface that a ray meets; nothing if float32 may meet another one, or none.
+// The first surface; empty if float32 may find another or none.
 inline std::optional<Meeting> first_met(const pt_scene &scene, const View &view, const Ray &ray) {
     std::vector<Meeting> met;
     for (std::uint32_t i = 0; i < scene.sphere_count; ++i) {

@@ -1,4 +1,4 @@
-// All non-negative float16 numbers, and the midpoints between neighbours, as floats, which hold both exactly.
+// All non-negative float16 numbers and the midpoints between them, exact as floats.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 constexpr std::uint32_t half_infinity = 0x7c00;
 
-// The exact value of the bits; for infinity, the number that would follow the largest one.
+// For infinity, the number after the largest.
 inline float float_of_half(std::uint32_t bits) {
     const std::uint32_t exponent = bits >> 10;
     const std::uint32_t fraction = bits & 0x3ff;

@@ -1,4 +1,4 @@
-// Makes a pt_image for floats, without gaps unless asked for. Used by the tests that read images.
+// A pt_image for floats, by default without gaps.
 #pragma once
 
 #include <pt/pt.h>

@@ -1,4 +1,4 @@
-// Gives an error estimator the tiles of an image whose pixels a test has made up.
+// Feeds the tiles of an invented image to an error estimator.
 #pragma once
 
 #include "lib/film/error_estimate.h"
@@ -14,10 +14,9 @@ namespace pt {
 struct ImageValues {
     std::vector<float> mean;
     std::vector<float> standard_error;
-    std::vector<float> lesser; // the lesser of the means of the film's two parts
+    std::vector<float> lesser; // the lesser mean of the film's two parts
 };
 
-// Adds the tiles of an image with sample_count samples in every pixel.
 inline void add_tiles(ErrorEstimator &estimator, std::size_t width, const ImageValues &image,
                       std::uint64_t sample_count) {
     const TileGrid grid{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(image.mean.size() / 3 / width)};

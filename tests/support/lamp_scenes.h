@@ -1,5 +1,4 @@
-// Scenes of many lamps among which it is hard to choose, and facts about their lamps in double. Used by the tests of
-// the tree of lamps.
+// Scenes with many lamps that are hard to choose among, and their facts in double.
 #pragma once
 
 #include "lib/kernel/gpu_scene.h"
@@ -34,7 +33,7 @@ inline void add_lamp(pt::Scene &scene, const glm::dvec3 &centre, double radius, 
     scene.spheres.push_back({centre, radius, motion, static_cast<std::uint32_t>(scene.materials.size() - 1)});
 }
 
-// Lamps in a box above the ground, with powers over some decades.
+// Powers span some decades.
 inline pt::Scene in_a_box(std::uint32_t count, double decades, double motion = 0.0) {
     std::mt19937 generator(7);
     std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -48,7 +47,7 @@ inline pt::Scene in_a_box(std::uint32_t count, double decades, double motion = 0
     return scene;
 }
 
-// Lamps in tight clusters, some of which a horizon cuts.
+// Some clusters are cut by a horizon.
 inline pt::Scene in_clusters(std::uint32_t count) {
     std::mt19937 generator(8);
     std::normal_distribution<double> normal;
@@ -62,7 +61,7 @@ inline pt::Scene in_clusters(std::uint32_t count) {
     return scene;
 }
 
-// Balls in balls: lamps of different sizes about the same centres.
+// Lamps of different sizes around the same centers.
 inline pt::Scene nested(std::uint32_t count) {
     pt::Scene scene;
     for (std::uint32_t i = 0; i < count; ++i)
@@ -70,7 +69,7 @@ inline pt::Scene nested(std::uint32_t count) {
     return scene;
 }
 
-// A lamp among others that have 10^-8 of its power.
+// The others have 10^-8 of its power.
 inline pt::Scene with_a_strong_one(std::uint32_t count) {
     pt::Scene scene = in_a_box(count, 1);
     scene.materials[count / 3].emission = glm::vec3(1e9F);

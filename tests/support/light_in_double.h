@@ -1,5 +1,4 @@
-// Compares images of random scenes with those of an independent path tracer in double, block of pixels by block. Used
-// by tests of whole images.
+// Compares blocks of pixels with a path tracer in double.
 #pragma once
 
 #include "tests/support/context_fixture.h"
@@ -22,8 +21,7 @@ inline constexpr glm::uvec2 picture(24, 16);
 inline constexpr glm::uvec2 block(8, 8);
 inline constexpr std::uint32_t image_count = 12;
 inline constexpr std::uint32_t samples_of_image = 32;
-// The chance that any of 72 blocks is off by more, in standard errors estimated from 12 images, is 1/330. Seeds are
-// fixed.
+// In standard errors from 12 images; one of 72 blocks exceeds it by chance once in 330. Seeds are fixed.
 inline constexpr double most_errors = 6.5;
 
 struct Given {
@@ -67,10 +65,10 @@ struct Given {
         return array;
     }
 
-    mutable pt_sphere_array array_{}; // what scene() points to
+    mutable pt_sphere_array array_{}; // scene() points to it
 };
 
-// The same in units of length that are smaller by this factor.
+// In smaller units of length.
 inline Given scaled(Given given, double by) {
     const auto scale = [by](double(&vector)[3]) {
         for (double &component : vector)
@@ -107,8 +105,8 @@ inline pt_camera camera_at(const glm::dvec3 &position, const glm::dvec3 &target,
     return camera;
 }
 
-// Rods and balls about the origin, every third ball moving, a lamp above, a floor, from so far away; the view is 4 high
-// at the origin. With many there is a tree.
+// Rods and balls about the origin, every third ball moving, a lamp above, a floor; the view is 4 high at the origin.
+// Many make a tree.
 inline Given random_scene(std::uint32_t seed, std::uint32_t rods, std::uint32_t balls, double distance) {
     std::mt19937 engine(seed);
     const auto uniform = [&](double low, double high) {
@@ -172,7 +170,7 @@ inline double mean_of_block(const std::vector<float> &image, glm::uvec2 first) {
     return sum / (3.0 * block.x * block.y);
 }
 
-// Deviations in standard errors, which are estimated from the images.
+// In standard errors estimated from the images.
 struct Deviation {
     double of_image = 0.0;
     double largest = 0.0; // largest magnitude among blocks
@@ -180,7 +178,7 @@ struct Deviation {
 
 class LightInDouble : public ContextFixture {
 protected:
-    // Images differ in their seeds and, since one sampler's points do not depend on the seed, in their samples.
+    // Each image has other seeds and, because one sampler ignores seeds, other samples.
     static Deviation deviation(pt_context *context, const Given &given, const Blocks &exact, pt_render render) {
         std::vector<std::vector<float>> images;
         for (render.seed = 1; render.seed <= image_count; ++render.seed) {
@@ -213,8 +211,7 @@ protected:
         return render_image(context(), given.scene(), given.camera, picture_of(PT_SAMPLER_SOBOL), samples);
     }
 
-    // Short submissions, and two devices, cut the samples otherwise; and the unit of length does not matter. Negative
-    // control: a sample fewer.
+    // Also two devices, and another unit of length. Negative control: a sample fewer.
     void expect_the_same_bits_of_splits_and_scale(const Given &given) {
         const Context hurried = create_context([](pt_create_info &info) { info.submit_milliseconds = 1; });
         const Context shared = create_context(

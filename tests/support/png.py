@@ -1,11 +1,11 @@
-"""What the tests in Python read of PNG files (ISO 15948): enough for what is written here. Checksums are compared."""
+"""Reads the program's PNG files (ISO 15948), with checksums."""
 
 import struct
 import zlib
 
 
 def png_chunks(data):
-    """Name and contents of each."""
+    """(name, contents) of each chunk."""
     assert data[:8] == b"\x89PNG\r\n\x1a\n"
     position = 8
     while position < len(data):
@@ -16,8 +16,7 @@ def png_chunks(data):
 
 
 def parse_png(data):
-    """Width, height and rows of numbers of an RGB or RGBA image of 8 bits; enough of PNG (ISO 15948) for what is
-    written here."""
+    """Width, height and rows of numbers of an 8-bit RGB or RGBA image."""
     pixels = b""
     for kind, body in png_chunks(data):
         if kind == "IHDR":

@@ -1,8 +1,8 @@
-"""Runs a test, and again if the leak check at the end of a program broke down, which says nothing about the program.
-
-Arguments: the command. GCC 12's LeakSanitizer stops all threads to look for leaks, and once in some hundreds of runs it
-faults while it does ("Tracer caught signal 11"); the program, which had done all its work, then ends with exit code 1.
-What fails otherwise fails here, and so does a check that breaks down three times in a row.
+"""Runs a command, and again if LeakSanitizer itself crashed at the end. GCC 12's faults once in some hundreds of runs
+while
+it stops threads ("Tracer caught signal 11"), after the program has done its work. Other failures, or three crashes in a
+row,
+fail.
 """
 
 import subprocess

@@ -1,4 +1,4 @@
-"""Reads scene files in Python."""
+"""Reads scene files."""
 
 import json
 import pathlib
@@ -8,6 +8,6 @@ FOLDER = pathlib.Path(__file__).resolve().parents[2] / "cli/scenes"
 
 
 def read_scene(path):
-    """The JSON of a scene file whose comments have lines of their own, as those of cli/scenes have."""
+    """Parses JSON with comments on lines of their own, as in cli/scenes."""
     text = pathlib.Path(path).read_text(encoding="utf-8")
     return json.loads(re.sub(r"^\s*//.*$", "", text, flags=re.MULTILINE))

@@ -1,11 +1,11 @@
-// Makes a pt_scene and a pt_render from their parts, and fills in the sizes. Used by the tests that describe scenes.
+// Makes pt_scene and pt_render from parts.
 #pragma once
 
 #include <pt/pt.h>
 
 #include <span>
 
-// The result refers to the arrays, which must outlive it.
+// Points to the arrays, which must outlive it.
 inline pt_scene scene_of(std::span<const pt_material> materials, std::span<const pt_sphere> spheres,
                          std::span<const pt_plane> planes) {
     pt_scene scene{};
@@ -19,7 +19,7 @@ inline pt_scene scene_of(std::span<const pt_material> materials, std::span<const
     return scene;
 }
 
-// Everything else has its default.
+// All else is default.
 inline pt_render render_of(uint32_t width, uint32_t height, uint32_t max_path_length) {
     pt_render render{};
     render.struct_size = sizeof render;

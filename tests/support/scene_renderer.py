@@ -1,7 +1,5 @@
-"""Renders scene files with libpt from Python, which PT_LIBRARY names where the system does not find it.
-
-The structs and functions of the package in lib/python, without its objects: so that what is measured is the library, of
-which several can be loaded."""
+"""Renders scene files with libpt (PT_LIBRARY, or the system's), through the package's structs and functions but not its
+objects: several libraries can be loaded and measured."""
 
 import array
 import ctypes
@@ -26,7 +24,7 @@ def vector(values):
 
 
 class Renderer:
-    """A pt_context of the library that PT_LIBRARY names now."""
+    """A pt_context of the library that PT_LIBRARY names."""
 
     def __init__(self, **create_info):
         self.library = load_library(library_path())
@@ -41,7 +39,7 @@ class Renderer:
         self.context = ctypes.c_void_p()
 
     def call(self, function, *arguments):
-        """The result of a function on the context, or its error."""
+        """Calls a function on the context; returns its result or raises its error."""
         return checked(self.library, getattr(self.library, function)(self.context, *arguments), self.context)
 
     def device(self):
@@ -73,7 +71,7 @@ class Renderer:
         self.call("pt_readback", structs.pt_image(data=ctypes.addressof(values), size_bytes=ctypes.sizeof(values)))
 
     def image(self):
-        """R, G, B of each pixel, row by row from the top, as Python reads them: in double precision."""
+        """R, G, B of each pixel, row by row from the top."""
         pixels = array.array("f", bytes(4 * self.value_count))
         self.readback((ctypes.c_float * self.value_count).from_buffer(pixels))
         return pixels
@@ -90,7 +88,7 @@ class Renderer:
 
 
 class SceneRenderer(Renderer):
-    """Of the JSON of a scene file, which has a camera."""
+    """Takes the JSON of a scene file with a camera."""
 
     def __init__(self, scene, **create_info):
         super().__init__(**create_info)
@@ -102,7 +100,7 @@ class SceneRenderer(Renderer):
                         shutter_open=shutter_open, shutter_close=shutter_close)
 
     def set_json(self, scene):
-        """Takes materials, spheres and planes of a scene file's JSON."""
+        """Takes materials, spheres and planes of a scene file."""
         names = list(scene["materials"])
         self.set_scene(
             [structs.pt_material(color(m.get("diffuse", 0)), color(m.get("specular", 0)),

@@ -1,4 +1,4 @@
-// pt_create with settings that only tests have.
+// pt_create with settings for tests.
 #pragma once
 
 #include "lib/api/context.h"
@@ -7,8 +7,7 @@
 #include <memory>
 #include <optional>
 
-// Makes a context on several devices: each is used devices_of_each times, since there may be only one. like_gpus: uses
-// CPUs as if they were GPUs.
+// Uses each device devices_of_each times. like_gpus: treats CPUs as GPUs.
 inline pt_result create_shared(uint32_t devices_of_each, const pt_create_info &info, pt_context **context,
                                bool like_gpus = false, std::optional<uint32_t> adaptive_from = std::nullopt) {
     return pt::guard(pt::thread_last_error, [&] {
@@ -20,7 +19,7 @@ inline pt_result create_shared(uint32_t devices_of_each, const pt_create_info &i
     });
 }
 
-// Makes a context that has a tree from so many spheres on.
+// Trees from this number of spheres on.
 inline pt_result create_with_tree_from(uint32_t spheres, const pt_create_info *info, pt_context **context) {
     return pt::guard(pt::thread_last_error, [&] {
         pt::CreateSettings settings = pt::validated_create(*info);
