@@ -1,7 +1,5 @@
-"""The symbols that libpt gives to programs, and its soname. Called by CTest as
-exported_symbols_test.py LIBRARY ARCHIVE HEADERS LIST C_COMPILER, where HEADERS is a folder.
-
-The list is the contract: a symbol that is missing breaks programs; a new one is a promise that must be kept."""
+"""libpt's exported symbols and soname. Called as exported_symbols_test.py LIBRARY ARCHIVE HEADERS LIST C_COMPILER
+(HEADERS is a folder). The list is the contract: a missing symbol breaks programs; a new one is a promise."""
 
 import pathlib
 import re
@@ -17,7 +15,7 @@ def output(*command):
 
 
 def symbols_of(path, *options):
-    """Names that nm lists as defined and global."""
+    """Defined global names, by nm."""
     lines = output("nm", "--defined-only", "--format=posix", *options, path).splitlines()
     return {line.split()[0] for line in lines if len(line.split()) > 2}
 
@@ -45,7 +43,7 @@ def complaints(library, archive, headers, listed):
 
 
 def build(folder, compiler, source, soname):
-    """A library, an archive and a folder of headers like pt's, of the functions in source, each with a header."""
+    """A library, an archive and headers like pt's for the functions in source."""
     (folder / "f.c").write_text(source)
     for old in folder.glob("*.h"):
         old.unlink()
@@ -59,7 +57,7 @@ def build(folder, compiler, source, soname):
 
 
 def check_the_check(compiler):
-    """What is added, missing or named otherwise is found."""
+    """Negative control: symbols added, missing or renamed."""
     one, two = "int pt_one(void) { return 1; }\n", "int pt_two(void) { return 2; }\n"
     everywhere = ("headers", "shared library", "static library")
     with tempfile.TemporaryDirectory() as name:

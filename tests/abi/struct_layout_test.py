@@ -1,9 +1,7 @@
-"""Sizes and offsets of the structs in the headers of a folder, against a table. Called by CTest as
-struct_layout_test.py HEADERS TABLE ROOT C_COMPILER; with only the first and the last argument it prints the table.
-
-A struct may grow at its tail, which adds lines to the table and changes the struct's size; any other difference breaks
-programs that were compiled before. What ROOT/lib/python/generate.py writes must be there, and the structs of the Python
-package have the layout of the table too."""
+"""Sizes and offsets of the headers' structs against a table. Called as struct_layout_test.py HEADERS TABLE ROOT
+C_COMPILER; with only the first and the last argument it prints the table. Structs may grow at the tail only; other
+changes break compiled programs. The output of ROOT/lib/python/generate.py must be current, and the Python package's
+structs must have the table's layout."""
 
 import ctypes
 import importlib.util
@@ -15,7 +13,7 @@ import tempfile
 
 
 def loaded_file(path):
-    """A Python file as a module by itself: the package around it needs NumPy, and the library."""
+    """Loads a file as a module alone: its package needs NumPy and the library."""
     spec = importlib.util.spec_from_file_location(path.stem, path)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
@@ -31,7 +29,7 @@ def struct_bodies(headers):
 
 
 def structs_of(headers):
-    """Name and member names of each struct that the headers define."""
+    """Names of the headers' structs and their members."""
     return [(name, [member for member, _ in generate.members_of(body)]) for name, body in struct_bodies(headers)]
 
 
@@ -48,7 +46,7 @@ def program_for(structs, includes):
 
 
 def layout_of(headers, compiler):
-    """The table that headers, text by name, have, line by line, as the compiler lays their structs out."""
+    """The table of the compiler's layouts; headers: text by name."""
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         (folder / "pt").mkdir()
@@ -65,7 +63,7 @@ def ctypes_structs(module):
 
 
 def python_layout(structs):
-    """The same table of ctypes structs."""
+    """The same for ctypes structs."""
     lines = []
     for name, struct in structs.items():
         lines.append(f"{name} {ctypes.sizeof(struct)}")
@@ -80,7 +78,7 @@ def differences(found, table):
 
 
 def check_the_check(headers, table, compiler):
-    """What programs would notice is found: a member at the tail, in the middle, of another type, renamed, gone."""
+    """Negative control: members at the tail, in the middle, of another type, renamed, gone."""
     for old, new, wanted in (
         ("uint32_t row_count;", "uint32_t row_count; uint64_t more;", "+ pt_render.more 48 8"),
         ("double offset;", "double before; double offset;", "+ pt_plane.offset 32 8"),
@@ -97,7 +95,7 @@ def check_the_check(headers, table, compiler):
 
 
 def check_the_package_check(headers):
-    """What a header gains or changes is another line of the package: a member, its type, an enumerator, its number."""
+    """Changed headers change the generated package: members, types, enumerators, numbers."""
     written = generate.files_of(headers)
     for old, new, wanted in (
         ("uint32_t row_count;", "uint32_t row_count; uint64_t more;", '("row_count", c_uint32), ("more", c_uint64)]'),

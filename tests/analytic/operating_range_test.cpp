@@ -52,7 +52,6 @@ protected:
                     found.mean, error, bound, verdict, rejected ? ", samples rejected" : "");
     }
 
-    // For a tabulated pixel.
     void measure(double value, const cli::SceneFile &scene, std::uint32_t x, std::uint32_t y, double expected) {
         const Crop crop = crop_around(scene.render.width, scene.render.height, x, y);
         measure(value, scene, cropped(scene.camera, scene.render.height, crop.height), crop, expected, 1024);

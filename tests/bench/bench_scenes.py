@@ -1,4 +1,4 @@
-"""The scenes of the benchmark, and how each is measured."""
+"""The benchmark's scenes, and how each is measured."""
 
 import hashlib
 import json
@@ -11,11 +11,10 @@ from scene_file import FOLDER, read_scene  # noqa: E402
 
 SIZE = (128, 64)
 SAMPLES = [16, 64, 256]
-FEWER_SAMPLES = {"thousand-spheres": [4, 16, 64]}  # where a sample takes long
+FEWER_SAMPLES = {"thousand-spheres": [4, 16, 64]}  # slow samples
 REFERENCES = ROOT / "tests/reference/bench"
 
-# The estimator that checks a reference, so that lamps are found in another way: by chance where they are large, else by
-# sampling them alone.
+# Another estimator checks each reference: large lamps are found by chance, others by sampling lamps alone.
 CHECKS = {
     "coursework": "bsdf",
     "coursework-motion": "bsdf",
@@ -44,7 +43,7 @@ def load_scene(name):
 
 
 def digest(scene):
-    """Of what a scene's light depends on, so that a reference of another scene is noticed."""
+    """Digest of all that affects the light, to notice a reference of another scene."""
     text = json.dumps({key: value for key, value in scene.items() if key != "film"}, sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
@@ -54,5 +53,5 @@ def sample_counts(name):
 
 
 def read_reference_table(folder=REFERENCES):
-    """What is known of each reference, by scene."""
+    """Facts about each reference, by scene."""
     return json.loads((pathlib.Path(folder) / "references.json").read_text(encoding="utf-8"))

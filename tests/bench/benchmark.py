@@ -1,23 +1,20 @@
-"""Renders the scenes of the benchmark with pt's default, with every other sampler and estimator, and with Mitsuba where
-it can express the scene; prints one table, and draws one plot of error against time.
+"""Renders the benchmark's scenes with pt's default, every other sampler and estimator, and Mitsuba where it can express
+the scene. Prints a table, first where the default is behind, and draws error against time.
 
     PT_LIBRARY=build/lib/libpt.so python3 tests/bench/benchmark.py --mitsuba mitsuba/bin/python --json benchmark.json
 
-The plot is benchmark.png, and needs matplotlib. What is behind is printed first. Mitsuba is any Python that can import
-it:
+The plot, benchmark.png, needs matplotlib. --mitsuba names a Python that can import it:
 
     python3 -m venv mitsuba && mitsuba/bin/pip install mitsuba
 
-Variant llvm_ad_rgb runs on the CPU and needs LLVM's shared library (Debian: libllvm19; with libllvm15 Mitsuba 3.9.1 ends
-with "Cannot select: fminimum" on processors with AVX-512), which DRJIT_LIBLLVM_PATH names; cuda_ad_rgb runs on a GPU.
+Variant llvm_ad_rgb runs on the CPU and needs LLVM's shared library, named by DRJIT_LIBLLVM_PATH (Debian: libllvm19;
+with libllvm15 Mitsuba 3.9.1 ends with "Cannot select: fminimum" on processors with AVX-512); cuda_ad_rgb runs on a GPU.
 
-Every round measures all scenes, and in each all options in turn. Costs are CPU seconds of all threads, on a GPU wall
-seconds, of sampling alone, medians over the rounds; errors are relMSE, the mean of (x - r)^2 / (r^2 + 0.01) over pixels
-and channels, against references whose own error is far below them (references.py), means over the rounds. A scene has
-two targets: the errors that the default has at its two largest numbers of samples, 64 and 256 if no others are given. A
-ratio is the cost at which an option reaches a target over the default's: above 1 the default is ahead. Between two
-numbers of samples a cost lies on a line, all axes logarithmic; "~" marks what lies beyond them, found with the slope
--1.
+Every round measures all scenes and options in turn. Costs: median CPU seconds (GPU: wall seconds) of sampling. Errors:
+mean relMSE, the mean of (x - r)^2 / (r^2 + 0.01) over pixels and channels, against references (references.py). A
+scene's two targets are the default's errors at its two largest sample counts, usually 64 and 256. A ratio is an
+option's cost of the target over the default's. Costs are interpolated linearly between sample counts, in logarithms;
+"~" marks extrapolation with the slope -1.
 """
 
 import argparse
@@ -33,7 +30,7 @@ from benchmark_figures import DEFAULT, ESTIMATORS, SAMPLERS, print_report, scene
 from mitsuba_scene import obstacle
 
 ERROR_AND_TIME = [sys.executable, "-B", str(pathlib.Path(__file__).with_name("error_and_time.py"))]
-MITSUBA_FACTOR = 4  # its numbers of samples go so much further, to reach the same errors
+MITSUBA_FACTOR = 4  # its sample counts are this much larger, for the same errors
 
 
 def parse_arguments():
@@ -54,7 +51,7 @@ def parse_arguments():
 
 
 def bench(command, folder):
-    """What a program that writes its figures as error_and_time.py does has measured."""
+    """The figures of a program that writes them like error_and_time.py."""
     path = os.path.join(folder, "bench.json")
     subprocess.run([*command, "--json", path], check=True)
     with open(path, encoding="utf-8") as file:

@@ -1,4 +1,4 @@
-"""The results of the benchmark: points, costs, ratios, and the report for people."""
+"""The benchmark's results: points, costs, ratios, and the report."""
 
 import statistics
 
@@ -9,7 +9,7 @@ DEFAULT = ("sobol", "mis")
 SAMPLERS = ("sobol", "random", "halton", "halton-cp")  # with the default estimator
 ESTIMATORS = ("uniform", "cosine", "bsdf", "light")  # with the default sampler
 OPTIONS = (*SAMPLERS[1:], *ESTIMATORS, "Mitsuba")
-COARSE = 0.01  # of the smallest error that is measured: what a reference's own error may be
+COARSE = 0.01  # the largest error of a reference, over the smallest error measured
 
 
 def points_of(cells, unit):
@@ -58,7 +58,7 @@ def ratio_text(figures):
 
 
 def behind(report):
-    """A line on each option that reaches a target for less than the default, the furthest ahead first."""
+    """A line for each option that is ahead of the default, the furthest first."""
     found = []
     for name, scene in report["scenes"].items():
         for option, figures in scene["options"].items():
@@ -71,7 +71,7 @@ def behind(report):
 
 
 def coarse_references(report):
-    """Lines about the references whose own error is not far enough below what is measured against them."""
+    """Lines about references whose own error is too large."""
     lines = []
     for name, scene in report["scenes"].items():
         least = min(point["rel_mse"] for figures in scene["options"].values() for point in figures["points"])

@@ -1,16 +1,16 @@
-"""The benchmark's plot: a panel per scene, error against cost."""
+"""The benchmark's plot: error against cost, a panel per scene."""
 
 import math
 
 import matplotlib
 
-matplotlib.use("Agg")  # no window, no display needed
+matplotlib.use("Agg")  # needs no display
 import matplotlib.pyplot as plt  # noqa: E402
 import matplotlib.ticker  # noqa: E402
 
 COLUMNS = 4
-MOST = 100  # times the default's largest error, above which a panel is cut off
-# Okabe and Ito's palette (Wong 2011, "Color blindness"). Samplers are drawn through, estimators are broken lines.
+MOST = 100  # times the default's largest error; panels end there
+# Okabe and Ito's palette (Wong 2011, "Color blindness"). Samplers have solid lines, estimators broken ones.
 STYLES = {
     "random": ("#56B4E9", "-"),
     "halton": ("#0072B2", "-"),

@@ -1,5 +1,5 @@
-"""Tests of the benchmark: its arithmetic, that its scenes and references belong together, and that it runs. No times
-are judged. PT_LIBRARY names the library."""
+"""The benchmark: arithmetic, matching scenes and references, and a run. No times are judged. PT_LIBRARY names the
+library."""
 
 import contextlib
 import io
@@ -88,7 +88,7 @@ class References(unittest.TestCase):
 
 class RealDevice(unittest.TestCase):
     def run_script(self, name, *arguments):
-        """What it leaves in a folder that the argument FOLDER stands for, by name, and what it prints."""
+        """Files that it leaves in FOLDER, by name, and its output."""
         with tempfile.TemporaryDirectory() as folder:
             done = subprocess.run([sys.executable, "-B", FOLDER / name, *(each.replace("FOLDER", folder)
                                                                          for each in arguments)],

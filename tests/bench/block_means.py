@@ -1,14 +1,14 @@
-"""Compares images by the means of their blocks, with the noise that several independent runs show."""
+"""Compares images by means of blocks, with the noise between independent runs."""
 
 import math
 import statistics
 
 BLOCK = 16  # pixels
-ROUNDING = 1e-5  # of a mean where images have no noise, relative: Mitsuba adds a pixel's samples as floats
+ROUNDING = 1e-5  # of a mean without noise, relative: Mitsuba sums a pixel's samples as floats
 
 
 def block_means(pixels, width, height):
-    """Of R, G, B of each pixel, row by row: the mean of each channel over each block, block by block."""
+    """From R, G, B row by row: each channel's mean over each block."""
     means = []
     for top in range(0, height, BLOCK):
         for left in range(0, width, BLOCK):
@@ -19,17 +19,17 @@ def block_means(pixels, width, height):
 
 
 def whole_means(blocks):
-    """Means of blocks of one size -> of each channel over the image."""
+    """Means of blocks of one size -> channel means of the image."""
     return [statistics.fmean(blocks[channel::3]) for channel in range(3)]
 
 
 def mean_and_error(runs):
-    """Runs of equally many values -> for each value its mean, and the standard error of that."""
+    """Runs -> (mean, standard error) of each value."""
     return [(statistics.fmean(values), statistics.stdev(values) / math.sqrt(len(values))) for values in zip(*runs)]
 
 
 def compare(runs, expected_runs):
-    """How far the means of the runs are from those of others, in standard errors, and how finely that can be told."""
+    """Largest deviation of the runs' means in standard errors, and the relative resolution."""
     largest_z, relative = 0, []
     for (mean, error), (expected, expected_error) in zip(mean_and_error(runs), mean_and_error(expected_runs)):
         noise = math.hypot(error, expected_error, ROUNDING * expected)

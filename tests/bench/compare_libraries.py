@@ -1,15 +1,14 @@
-"""Compares what two builds of libpt pay for the same error in the scenes of cli/scenes.
+"""Compares the costs of equal error of two builds of libpt, in the scenes of cli/scenes.
 
     python3 tests/bench/compare_libraries.py --library old=OLD/libpt.so --library new=build/lib/libpt.so
 
-Each library renders pictures of 8, 32 and 128 samples with several seeds, in turn. Its error is that of its own pictures:
-their variance over the seeds, over r^2 + 0.01 with the mean r of all pictures of all libraries, averaged over pixels and
-channels, which is the relMSE against a perfect reference if the pictures are right in the mean. Its cost is the median of
-the process's CPU seconds for a picture.
+The libraries render pictures of 8, 32 and 128 samples with several seeds, in turn. Error: the variance over seeds,
+divided by r^2 + 0.01 with the mean r of all pictures, averaged over pixels and channels; it equals relMSE against a
+perfect reference if the pictures are unbiased. Cost: median CPU seconds of a picture.
 
-time, error     of a library over those of the first, at 32 samples
-gain            CPU seconds of the first library at 32 samples, over those that a library takes for the same error, found
-                from its three numbers of samples. Above 1 a library is ahead
+time, error     relative to the first library, at 32 samples
+gain            the first library's CPU seconds at 32 samples over this library's for the same error, interpolated;
+                above 1 it is ahead
 z               difference of the means of all pictures of 128 samples, in standard errors
 """
 
@@ -55,7 +54,7 @@ def render(renderer, options, length, samples, seed):
 
 
 def figures_of(pictures, pooled):
-    """Of one number of samples: the median of its costs, and the error."""
+    """Median cost and error at one sample count."""
     variances = (statistics.variance(values) for values in zip(*(image for _, image in pictures)))
     errors = [variance / (r * r + 0.01) for variance, r in zip(variances, pooled)]
     return statistics.median(cost for cost, _ in pictures), statistics.fmean(errors)

@@ -1,13 +1,11 @@
-"""What an error costs, from errors measured at a few numbers of samples."""
+"""The cost of an error, from errors at a few sample counts."""
 
 import math
 
 
 def cost_of_error(points, error):
-    """The cost from which on the error is no larger than this, and whether it lies within what was measured.
-
-    points: sample count -> (cost, error). Between two counts both lie on a line, all axes logarithmic; beyond them the
-    line goes on with the slope -1.
+    """The cost at which the error is reached, and whether that is within the measured range. points: sample count ->
+    (cost, error). Between two counts cost and error lie on a line, both logarithmic; beyond them its slope is -1.
     """
     line = [(math.log(cost), math.log(value)) for cost, value in (points[spp] for spp in sorted(points))]
     wanted = math.log(error)

@@ -1,11 +1,11 @@
-"""Error against CPU seconds of images as they are, filtered, and as `pt` shows denoised ones, which lie between; and of
-Mitsuba's by the same filter. Prints a table and draws a plot.
+"""Error against CPU seconds of raw, filtered and combined (as `pt` shows them) images, and of Mitsuba's by the same
+filter. Prints a table and draws a plot.
 
     PT_LIBRARY=build/lib/libpt.so python3 tests/bench/denoise_bench.py --mitsuba mitsuba/bin/python --json denoise.json
 
-Scenes, references, size, Mitsuba and relMSE are those of benchmark.py. It takes Open Image Denoise, in Python too (pip
-install pyoidn), and matplotlib. Albedo and normals are by pt, also for Mitsuba's images. Costs are CPU seconds of all
-threads for sampling and filtering, medians over the rounds; errors are means over them.
+Scenes, references, size, Mitsuba and relMSE: see benchmark.py. Needs Open Image Denoise (also in Python: pip install
+pyoidn) and matplotlib. Albedo and normals are pt's, also for Mitsuba. Costs: median CPU seconds of sampling and
+filtering; errors: means over the rounds.
 """
 
 import argparse
@@ -33,7 +33,7 @@ COLUMNS = {"default": "raw", "filtered": "filtered", "combined": "combined", "Mi
 
 
 def timed(function, *arguments, **more):
-    """The result, and the CPU seconds that it took."""
+    """The result and its CPU seconds."""
     start = time.process_time()
     result = function(*arguments, **more)
     return result, time.process_time() - start
@@ -50,7 +50,7 @@ def pixels(renderer, quantity=0):
 
 
 def pt_round(name, seed, add):
-    """Measures pt, by add(option, count, seconds, image), and returns the guides."""
+    """Measures pt by add(option, count, seconds, image); returns the guides."""
     scene = load_scene(name)
     with SceneRenderer(scene) as renderer:
         def sample(count, seed):
@@ -58,7 +58,7 @@ def pt_round(name, seed, add):
             _, seconds = timed(renderer.accumulate, count)
             return pixels(renderer), seconds
 
-        for _ in range(2):  # with kernels that are ready
+        for _ in range(2):  # kernels are ready then
             image, _ = sample(1, seed)
             renderer.call("pt_prepare")
         guides = pixels(renderer, ALBEDO), pixels(renderer, NORMAL)
@@ -103,7 +103,7 @@ def measure(options, name):
 
 
 def print_scenes(scenes):
-    """relMSE and its cost, at 16 and 64 samples."""
+    """relMSE and cost at 16 and 64 samples."""
     rows = [["scene", "samples", *COLUMNS.values()]]
     for name, scene in scenes.items():
         for i in 1, 2:

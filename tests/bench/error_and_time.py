@@ -1,15 +1,14 @@
-"""Measures the error and the time of samplers and estimators: a table for people, and JSON.
+"""Measures error and time of samplers and estimators: a table, and JSON.
 
     PT_LIBRARY=build/lib/libpt.so python3 tests/bench/error_and_time.py cli/scenes/coursework.json --size 64x32 \\
         --samplers random,sobol --spp 4,16 --rounds 1 --json bench.json
 
-Every sampler, estimator and number of samples is rendered in every round, in turn, so that a disturbed
-machine is so for all alike. Round k has the seed + k.
+Every round renders every sampler, estimator and sample count in turn, with the seed + its number.
 
-seconds, cpu s  of the sampling alone, the clock's and those of all threads, medians of the rounds; kernels are built before
-mse, rel_mse    mean of (x - r)^2 and of (x - r)^2 / (r^2 + 0.01) against the reference r, means of the rounds
-slope           of log MSE against log N since the count above; -1 for independent samples. halton has the same points in
-                every pixel, whatever the seed: its rounds differ little
+seconds, cpu s  median wall and CPU seconds of sampling alone; kernels are built before
+mse, rel_mse    mean of (x - r)^2 and of (x - r)^2 / (r^2 + 0.01) against the reference r, over the rounds
+slope           of log MSE against log N since the previous count; -1 for independent samples. Rounds of halton differ
+                little, because its points do not depend on pixel and seed
 """
 
 import argparse
@@ -23,16 +22,16 @@ import time
 
 import numpy as np
 from bench_scenes import read_scene
-from scene_renderer import ESTIMATORS, SAMPLERS, SceneRenderer  # which finds pt
+from scene_renderer import ESTIMATORS, SAMPLERS, SceneRenderer  # finds pt
 from table import print_table
 from pt import DeviceKind
 
-REFERENCE_FACTOR = 64  # the reference's error is then an eighth of the smallest measured, if its square falls as 1 / N
+REFERENCE_FACTOR = 64  # the reference's error is then an eighth of the smallest measured, if squares fall as 1 / N
 NOISE_MARGIN = 3
 
 
 def names(known):
-    """Of --samplers and --estimators: names with commas, each once."""
+    """Parses --samplers and --estimators: names with commas, each once."""
     def read(text):
         chosen = list(dict.fromkeys(text.split(",")))
         for name in chosen:
@@ -88,7 +87,7 @@ def image_error(image, reference):
 
 class Bench:
     def __init__(self, options):
-        # As the program does: Mesa's cache does not tell widths apart, so that it is left out of the matter.
+        # The program does the same. Mesa's cache ignores vector widths, so it is off.
         if "avx512vl" in pathlib.Path("/proc/cpuinfo").read_text(encoding="ascii", errors="replace"):
             os.environ.setdefault("LP_NATIVE_VECTOR_WIDTH", "512")
         os.environ.setdefault("MESA_SHADER_CACHE_DISABLE", "true")
@@ -107,8 +106,7 @@ class Bench:
         return np.array(self.renderer.image(), np.float64).reshape(*self.size[::-1], 3)
 
     def reference(self):
-        """The image to compare with, and what is told of it; of one that is rendered its own error too, from how its
-        halves differ."""
+        """The reference and facts about it; for a rendered one its error, from the difference of its halves."""
         if self.options.reference:
             image = read_exr(self.options.reference)
             if image.shape[1::-1] != tuple(self.size):
@@ -126,8 +124,8 @@ class Bench:
         return whole, {"spp": samples, "seed": self.options.seed, "mse": mse, "rel_mse": rel_mse}
 
     def measure(self, sampler, estimator, samples, seed, reference):
-        """One run: seconds of the clock and of all threads, MSE and relMSE."""
-        for warm_up in True, False:  # the second set_render discards the samples of the first run
+        """One run: wall and CPU seconds, MSE, relMSE."""
+        for warm_up in True, False:  # the second set_render discards the first run's samples
             self.set_render(SAMPLERS[sampler], ESTIMATORS[estimator], seed)
             if warm_up:
                 self.renderer.call("pt_prepare")
@@ -139,7 +137,7 @@ class Bench:
 
 
 def cells_of(runs, near):
-    """Rows of the table, from the runs of each sampler, estimator, and number of samples."""
+    """Table rows from the runs of each sampler, estimator and sample count."""
     cells, before = [], None
     for (sampler, estimator, samples), of_rounds in runs.items():
         columns = list(zip(*of_rounds))

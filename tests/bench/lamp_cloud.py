@@ -1,18 +1,18 @@
-"""Clouds of small lamps over a floor with some balls, by columns of numbers, of any count from a seed."""
+"""Clouds of small lamps over a floor with balls, in columns, by count and seed."""
 
 import array
 import random
 
 SEED = 5
 LOW, HIGH = (-8, 0.8, -16), (8, 6, -2)  # of the cloud
-BRIGHTNESSES = 41  # materials, whose emission spans four powers of ten
-POWER = 60  # emission of a lamp of radius 0.3 that sends as much light as all of them together
+BRIGHTNESSES = 41  # materials; emission spans four powers of ten
+POWER = 60  # emission of one lamp of radius 0.3 with the light of all
 MATT, DARK = {"diffuse": [0.7, 0.6, 0.5]}, {"diffuse": [0.4, 0.5, 0.6]}
 
 
 class LampCloud:
-    """Columns as SphereCloud has them. All spheres have the same surface together, whatever their count; without
-    shining, all but the first are dark, so that rays meet the same spheres, and paths need not choose among lamps."""
+    """Columns as in SphereCloud. The total surface does not depend on the count. Without `shining` all but the first
+    are dark: rays meet the same spheres without a choice among lamps."""
 
     def __init__(self, count, shining=True):
         rng = random.Random(SEED)
@@ -27,7 +27,7 @@ class LampCloud:
                                            for number in brightness))
 
     def surroundings(self):
-        """A scene as scene files have it, without the cloud."""
+        """A scene-file scene without the cloud."""
         materials = {"matt": MATT, "dark": DARK}
         materials |= {f"lamp {number}": {"emission": emission} for number, emission in enumerate(self.emissions)}
         balls = [{"center": [-4 + 1.2 * i, -0.4, -7 - i % 3], "radius": 0.6, "material": "dark"} for i in range(8)]

@@ -1,18 +1,17 @@
-"""Measures how long calls of libpt take, as a program that embeds it sees them: from the call to its return.
+"""Measures the duration of libpt's calls in milliseconds.
 
     python3 tests/bench/latency.py --library new=build/lib/libpt.so
     python3 tests/bench/latency.py --library old=OLD/libpt.so --library new=build/lib/libpt.so --sizes 1024x512
 
-Several libraries are measured in one process, in turn, so that a disturbed machine is so for all alike. Milliseconds,
-medians over the rounds, of the coursework scene; a camera is moved before every picture that begins anew.
+Libraries are measured in one process, in turn; figures are medians over the rounds, for the coursework scene. The
+camera moves before every new picture.
 
-64 samples      pt_accumulate, on a film that has samples
-readback        pt_readback of the radiance into memory that has been written before
-map             pt_map_image of the same, and a look at the last pixel
-camera + 1      pt_set_camera and pt_accumulate of one
+64 samples      pt_accumulate on a film with samples
+readback        pt_readback of the radiance into memory written before
+map             pt_map_image of the same, and a read of the last pixel
+camera + 1      pt_set_camera and pt_accumulate of one sample
 picture of N    pt_set_camera, pt_accumulate of N samples, and pt_readback
-to ERROR        pt_set_camera and pt_accumulate with a target error; the samples that it took; and N samples without a
-                target, which is what it would take to know that number beforehand
+to ERROR        pt_set_camera and pt_accumulate with a target error; its samples; and the same number without a target
 """
 
 import argparse
@@ -94,11 +93,11 @@ def measure_size(contexts, arguments, path_length):
 
 
 def measure_errors(contexts, arguments):
-    """Rounds are few where libraries are slow."""
+    """Few rounds, because libraries may be slow."""
     for error in filter(None, arguments.errors.split(",")):
         for _ in range(min(arguments.rounds, 3)):
             for context in contexts:
-                context.accumulate(256)  # a GPU that had nothing to do runs slowly at first
+                context.accumulate(256)  # an idle GPU runs slowly at first
                 context.measure(f"to {error}", context.move_camera, lambda: context.accumulate(1 << 16, float(error)))
                 samples = context.renderer.stats().sample_count
                 context.times[f"to {error}, samples"] = [samples]

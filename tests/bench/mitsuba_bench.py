@@ -1,5 +1,5 @@
-"""Does for Mitsuba what error_and_time.py does for pt: renders a scene with several numbers of samples, and writes the seconds
-and the error of each. benchmark.py says how to install Mitsuba."""
+"""error_and_time.py for Mitsuba: renders a scene with several sample counts; writes seconds and errors. benchmark.py
+says how to install Mitsuba."""
 
 import argparse
 import json

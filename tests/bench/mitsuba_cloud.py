@@ -15,8 +15,8 @@ from sphere_cloud import COLORS, MATERIALS, SphereCloud, surroundings
 
 
 class MitsubaCloud(MitsubaScene):
-    """The spheres of one color are a shape of ellipsoids: 10,000 spheres one by one render at an eighth of the speed.
-    With 100,000 the pictures of ellipsoids are too bright, those of spheres are not."""
+    """Spheres of one color are one shape of ellipsoids: 10,000 separate spheres render at an eighth of the speed. With
+    100,000 ellipsoids, unlike spheres, pictures are too bright."""
 
     def __init__(self, variant, cloud, size, lengths):
         self.cloud = cloud
@@ -46,7 +46,7 @@ def main():
     options = parser.parse_args()
     size, lengths = tuple(map(int, options.size.split("x"))), list(map(int, options.path_lengths.split(",")))
     answers, scene = os.fdopen(os.dup(1), "w"), None
-    os.dup2(2, 1)  # what Mitsuba prints is no answer
+    os.dup2(2, 1)  # Mitsuba's output is no answer
     for line in sys.stdin:
         asked = json.loads(line)
         if "count" in asked:

@@ -1,11 +1,11 @@
-"""Scene files in Mitsuba 3. Planes are rectangles of half size 300, pt's material is phong_bsdf.py."""
+"""Scene files in Mitsuba 3. Planes are rectangles of half size 300; pt's material is phong_bsdf.py."""
 
 import math
 import resource
 import time
 
 SAMPLERS = ("multijitter", "independent")
-HALF_SIZE = 300  # of the rectangles that stand for planes
+HALF_SIZE = 300  # of rectangles for planes
 SMALLEST_LAMP = 1e-6  # (radius / distance)^2; at 7e-6 its light is 0.5% too bright, at 7e-8 64%
 
 
@@ -46,10 +46,10 @@ def emitter(material):
 
 
 class MitsubaScene:
-    """A scene, and renderings of it: paths without roulette, pixels as boxes."""
+    """A scene and its renderings: paths without roulette, box pixels."""
 
     def __init__(self, variant, scene, size=None, lengths=None):
-        """size: width and height, lengths: path lengths to render with, where they are not the scene's."""
+        """size: width and height; lengths: path lengths, if not the scene's."""
         import mitsuba
         mitsuba.set_variant(variant)
         import drjit
@@ -65,7 +65,7 @@ class MitsubaScene:
                             for length in lengths or [scene["render"]["max_path_length"]]}
 
     def describe(self, scene):
-        """Surfaces there have one side: a ball that holds the camera is turned inside out, a plane faces the camera."""
+        """Mitsuba's surfaces have one side: a ball around the camera is inverted, planes face the camera."""
         position, shapes = scene["camera"]["position"], {}
         for i, sphere in enumerate(scene["spheres"]):
             material = scene["materials"][sphere["material"]]
@@ -78,7 +78,7 @@ class MitsubaScene:
         return {"type": "scene", **shapes}
 
     def frame(self, plane, position):
-        """normal . x + offset = 0; the rectangle's centre is the point nearest to the origin."""
+        """normal . x + offset = 0; the rectangle's center is nearest to the origin."""
         length = math.hypot(*plane["normal"])
         normal, offset = [n / length for n in plane["normal"]], plane["offset"] / length
         if sum(n * x for n, x in zip(normal, position)) + offset < 0:
@@ -98,7 +98,7 @@ class MitsubaScene:
                          "component_format": "float32", "rfilter": {"type": "box"}}}
 
     def render(self, length, sampler, spp, seed):
-        """Seconds of wall time, CPU seconds of all threads, and the image."""
+        """Wall seconds, CPU seconds, image."""
         start, before = time.perf_counter(), resource.getrusage(resource.RUSAGE_SELF)
         image = self.np.array(self.mi.render(self.scene, sensor=self.sensors[sampler],
                                              integrator=self.integrators[length], seed=seed, spp=spp))

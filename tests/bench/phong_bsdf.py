@@ -46,7 +46,7 @@ class Phong(mi.BSDF):
         return self.value_and_density(si, wo)[1]
 
     def sample(self, ctx, si, sample1, sample2, active=True):
-        """One of the two lobes, chosen by their albedos; the density is that of both."""
+        """Chooses a lobe by albedo; the density includes both."""
         cosine = dr.power(sample2.x, 1 / (self.glossiness + 1))
         sine = dr.safe_sqrt(1 - cosine * cosine)
         sin_phi, cos_phi = dr.sincos(dr.two_pi * sample2.y)

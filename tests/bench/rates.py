@@ -2,13 +2,13 @@
 
     python3 tests/bench/rates.py --pt build/bin/pt --json rates.json
 
-Runs the program on scenes of cli/scenes. Every round runs all cases in turn, so that a disturbed machine is so for all
-alike; figures are medians over the rounds.
+Runs the program on scenes of cli/scenes. Every round runs all cases in turn; figures are medians.
 
-samples/s       from the difference of two runs with different sample counts, so that start-up falls out; per wall
-                second (of sampling) and per CPU second (of all threads; left out on a GPU, where it means nothing)
-first, cold     seconds to create the context and take the first sample with an empty folder for compiled kernels
-first, warm     the same when the kernel has been compiled by an earlier process
+samples/s       from the difference of two sample counts, without start-up; per wall second of sampling and per CPU
+second
+                (not on a GPU)
+first, cold     seconds to create the context and take the first sample without compiled kernels
+first, warm     the same with kernels compiled by an earlier process
 start to PNG    wall seconds of the whole process for 16 samples, warm
 """
 
@@ -41,7 +41,7 @@ def parse_arguments():
 
 
 class Program:
-    """Runs pt in an environment whose caches of compiled kernels are in a folder of this script's."""
+    """Runs pt with kernel caches in a folder of this script."""
 
     def __init__(self, options, folder):
         self.options, self.folder = options, folder
@@ -70,7 +70,7 @@ class Program:
 
 
 def choose_sample_count(program, case):
-    """As many as take the wished time, found with runs of growing length."""
+    """Samples that take the wanted time, by runs of growing length."""
     few = program.render(case, FEW)["sampling"]
     many = 4 * FEW
     while True:

@@ -1,19 +1,18 @@
-"""Makes the references of the benchmark, in two steps.
+"""Makes the benchmark's references, in two steps.
 
     PT_LIBRARY=build/lib/libpt.so python3 tests/bench/references.py render made      # where a GPU is
     DRJIT_LIBLLVM_PATH=libLLVM.so.19.1 mitsuba/bin/python tests/bench/references.py check made
 
-`render` needs nothing but Python and libpt. It writes NAME.pfm, the mean of 16 images of different seeds by `mis` and
-`sobol`, and NAME.json, with the image's own squared error (relMSE as in error_and_time.py, from how the 16 differ) and block
-means of 64 images by another estimator with random numbers. The rule is that its own error is at most a hundredth of
-the smallest that is measured against it. The benchmark measures at up to 256 samples; an error that falls as 1/N, the
-slowest, is at 16 x 16,384 samples a thousandth of that. benchmark.py says where the rule is broken.
+`render` needs only Python and libpt. It writes NAME.pfm, the mean of 16 images of different seeds by `mis` and `sobol`,
+and NAME.json with its own relMSE (from the differences of the 16) and block means of 64 images by another estimator
+with random numbers. The own error must be at most a hundredth of the smallest error measured against it; benchmark.py
+reports where it is not. The benchmark takes up to 256 samples, so 16 x 16,384 make it a thousandth even if errors fall
+as 1/N.
 
-`check` needs Mitsuba (benchmark.py says how to install it). It compares the reference with the other estimator, by
-means of blocks of 16x16 pixels: no channel may be more than 6 standard errors off. Where Mitsuba can express the scene,
-the mean of 16 images of its may be so far off or half a percent. (Its blocks would need far more samples: light that
-few paths find is missing from all 16 of a block, so that these agree on too little.) Then it writes NAME.exr and
-references.json into tests/reference/bench, or --output.
+`check` needs Mitsuba (see benchmark.py). It compares the reference with the other estimator by means of blocks of 16x16
+pixels: no channel may differ by more than 6 standard errors. Mitsuba's mean of 16 images, where it can express the
+scene, may differ by as much or by half a percent. (Its blocks would need far more samples, because rare light is
+missing from all 16.) Then it writes NAME.exr and references.json into tests/reference/bench, or --output.
 """
 
 import argparse
@@ -27,11 +26,11 @@ import sys
 from bench_scenes import CHECKS, NAMES, REFERENCES, SIZE, digest, load_scene
 from block_means import block_means, compare, mean_and_error, whole_means
 
-SEEDS = range(9001, 9017)  # not those of the benchmark's rounds
+SEEDS = range(9001, 9017)  # not the benchmark's seeds
 CHECK_SEEDS = range(9101, 9165)
 MITSUBA_SEEDS = range(9201, 9217)
 MOST_Z = 6
-MOST_DEVIATION = 0.005  # of Mitsuba's mean: it rounds the solid angles of small lamps
+MOST_DEVIATION = 0.005  # of Mitsuba's mean: it rounds solid angles of small lamps
 WIDTH, HEIGHT = SIZE
 
 
@@ -61,7 +60,7 @@ def write_pfm(path, pixels):
         pixels.byteswap()
     with open(path, "wb") as file:
         file.write(b"PF\n%d %d\n-1.0\n" % SIZE)
-        for row in reversed(range(HEIGHT)):  # the bottom one comes first
+        for row in reversed(range(HEIGHT)):  # bottom row first
             file.write(pixels[row * WIDTH * 3:(row + 1) * WIDTH * 3].tobytes())
 
 
@@ -112,7 +111,7 @@ def write_exr(options, name, facts):
 
 
 def check(options, name):
-    """What the table says of a reference."""
+    """The table's facts about a reference."""
     import mitsuba
     from mitsuba_scene import obstacle
     mitsuba.set_variant(options.variant)

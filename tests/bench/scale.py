@@ -1,4 +1,4 @@
-"""Measures what scenes of many spheres cost: clouds of 10 to a million of them over a floor with one lamp, or of lamps.
+"""Measures the cost of scenes with 10 to a million spheres over a floor: a cloud with one lamp, or a cloud of lamps.
 
     python3 tests/bench/scale.py --library pt=build/lib/libpt.so
     DRJIT_LIBLLVM_PATH=libLLVM.so.19.1 python3 tests/bench/scale.py --library old=OLD/libpt.so \\
@@ -6,26 +6,23 @@
 
     python3 tests/bench/scale.py --library pt=build/lib/libpt.so --cloud lamps --counts 1,10,100,1e3,1e4
 
-Lamps are over a floor with eight balls, and their brightness spans four powers of ten. "dark-lamps" are balls of the same
-places and sizes, but for one: what the rays cost. The difference is what the choice among lamps costs.
-
-Libraries take the spheres by columns (pt_scene.sphere_arrays); Mitsuba is any Python that can import it
-(benchmark.py says how to install it). All are measured in turn in every round, so that a disturbed machine is so for
-all alike; figures are medians over the rounds.
+Lamps have eight balls below them; their brightness spans four powers of ten. "dark-lamps" has balls in their places, so
+the difference is the cost of choosing lamps. Libraries take columns (pt_scene.sphere_arrays); benchmark.py says how to
+install Mitsuba. Every round measures all in turn; figures are medians.
 
 scene           seconds of pt_set_scene; of building Mitsuba's scene
-bytes           device memory a sphere: pt_stats.device_bytes, less those of the scene without the cloud
-first           seconds from the scene to its first picture of one sample in memory, at the first path length; kernels
-                are compiled then, as the driver's cache on disk is off (Mitsuba has a cache of its own)
-M/s, M/CPU s    millions of samples a second, and a second of all threads' time, left out on a GPU; a sample is a camera
-                ray, and beyond path length 2 its first vertex is left by 1 to 4 paths in pt, by 1 in Mitsuba
+bytes           device memory per sphere: pt_stats.device_bytes with and without the cloud
+first           seconds from the scene to a picture of one sample at the first path length, including compilation (the
+                driver's disk cache is off; Mitsuba has its own)
+M/s, M/CPU s    million samples per wall and per CPU second (not on a GPU). From path length 3 on a sample follows 1 to
+4
+                paths from its first vertex in pt, one in Mitsuba
 
-With --error-samples a second table compares costs at equal error, at the first path length: relMSE, the mean of
-(x - r)^2 / (r^2 + 0.01) over pixels and channels, at so many samples, or 4 times as many in Mitsuba, against a
-reference r by the first library of 64 times as many and another seed, whose own error is left in. The ratio is that of
-cost x relMSE, over the first library's: what a program pays for that library's error, as errors fall as 1 / cost. "off
-by" is the difference of the means of a program's pictures and the reference, and by how many standard errors; where it
-is above 1% the pictures are not the same, and no ratio is stated.
+With --error-samples a second table compares costs at equal error, at the first path length: relMSE, the mean of (x -
+r)^2 / (r^2 + 0.01), at this many samples (4 times as many in Mitsuba), against a reference r by the first library of 64
+times as many samples and another seed, whose own error is included. Ratio: cost x relMSE over the first library's, as
+errors fall as 1 / cost. "off by": difference of the mean from the reference's, relative and in standard errors; above
+1% no ratio is stated.
 """
 
 import argparse
@@ -54,7 +51,7 @@ from pt import DeviceKind  # noqa: E402
 CLOUDS = {"spheres": SphereCloud, "lamps": LampCloud, "dark-lamps": lambda count: LampCloud(count, shining=False)}
 FLOAT32, UINT32 = 1, 3  # PT_TYPE_*
 MOST_SAMPLES = 1 << 14
-MITSUBA_FACTOR = 4  # its numbers of samples for errors go so much further
+MITSUBA_FACTOR = 4  # its sample counts for errors are this much larger
 REFERENCE_FACTOR, REFERENCE_SEED = 64, 1000
 ALIKE = 0.01  # pictures whose means differ by more are not compared
 
@@ -89,7 +86,7 @@ def cpu_seconds():
 
 
 class Library:
-    """A context with a cloud, and what that took."""
+    """A context with a cloud, and their costs."""
 
     def __init__(self, name, path, cloud, options):
         os.environ["PT_LIBRARY"] = path
@@ -173,8 +170,8 @@ class Mitsuba:
 
 
 def choose_samples(program, length, options):
-    """A power of four, as Mitsuba's sampler rounds up other numbers, that takes a quarter of the wished time or more;
-    compiles too."""
+    """A power of four (Mitsuba's sampler rounds up to these) that takes at least a quarter of the wanted time; compiles
+    too."""
     samples = 4
     program.render(length, samples)
     while samples < MOST_SAMPLES and program.render(length, samples)[0] < options.seconds / 4:
@@ -183,7 +180,7 @@ def choose_samples(program, length, options):
 
 
 def measure_rates(programs, options):
-    """(program, path length) -> samples a wall second and a CPU second."""
+    """(program, path length) -> samples per wall second and per CPU second."""
     rates, samples_of_picture = {}, options.width * options.height
     for length in options.lengths:
         samples = [choose_samples(program, length, options) for program in programs]
@@ -202,7 +199,7 @@ def relative_error(image, reference):
 
 
 def difference_of_means(image, reference):
-    """As a share of the reference's mean, and in standard errors, by the differences of the pixels."""
+    """Difference of means, relative to the reference and in standard errors by the pixels' differences."""
     pixels = [sum(image[i:i + 3]) - sum(reference[i:i + 3]) for i in range(0, len(image), 3)]
     mean = statistics.fmean(pixels)
     error = statistics.pstdev(pixels, mean) / math.sqrt(len(pixels))
@@ -210,7 +207,7 @@ def difference_of_means(image, reference):
 
 
 def measure_errors(programs, options):
-    """Program -> samples, cost, relMSE, ratio of cost x relMSE, difference of means."""
+    """program -> samples, cost, relMSE, ratio of cost x relMSE, difference of means."""
     length, figures = options.lengths[0], {}
     count = REFERENCE_FACTOR * options.error_samples
     reference = programs[0].render(length, count, REFERENCE_SEED)[2]

@@ -1,5 +1,5 @@
-"""Tests of scale.py: its arithmetic and clouds, and that it runs with lists and trees of spheres and lamps. No times are
-judged. Arguments: those of unittest; PT_LIBRARY names the library."""
+"""scale.py: arithmetic, clouds, and runs with lists and trees of spheres and lamps. No times are judged. Arguments:
+unittest's; PT_LIBRARY names the library."""
 
 import json
 import math
@@ -55,7 +55,7 @@ class Clouds(unittest.TestCase):
 
 class RealDevice(unittest.TestCase):
     def run_scale(self, *arguments):
-        """Its report, and what it prints."""
+        """Its report and output."""
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "scale.json"
             done = subprocess.run([sys.executable, "-B", FOLDER / "scale.py", "--library", f"one={LIBRARY}", "--size",

@@ -1,25 +1,25 @@
-"""Clouds of random spheres over a floor with one lamp, by columns of numbers, of any count from a seed."""
+"""Clouds of random spheres over a floor with one lamp, in columns, by count and seed."""
 
 import array
 import random
 
 SEED = 5
-EXTENT = (8.0, 4.0, 4.0)  # of the cloud, which fills the picture
+EXTENT = (8.0, 4.0, 4.0)  # of the cloud; fills the picture
 MATERIALS = {"lamp": {"emission": [60, 54, 45]}, "floor": {"diffuse": 0.6}, "white": {"diffuse": 0.6},
              "red": {"diffuse": [0.8, 0.3, 0.2]}, "blue": {"diffuse": [0.2, 0.5, 0.8]}}
 COLORS = ("white", "red", "blue")  # of the spheres, in turn
 
 
 def surroundings():
-    """A scene as scene files have it, without the cloud."""
+    """A scene-file scene without the cloud."""
     return {"materials": MATERIALS, "spheres": [{"center": [2, 6.5, 6], "radius": 0.6, "material": "lamp"}],
             "planes": [{"normal": [0, 1, 0], "offset": 0, "material": "floor"}],
             "camera": {"position": [0, 2, 6.5], "look_at": [0, 2, 0], "vertical_fov": 40}}
 
 
 class SphereCloud:
-    """Columns: centers x, y, z and radii as float, materials as indices into MATERIALS. Neighbours overlap at times;
-    the share of the space that is filled is the same for all counts."""
+    """Columns: centers x, y, z and radii as float, materials as indices into MATERIALS. Some neighbours overlap; the
+    filled share of space does not depend on the count."""
 
     def __init__(self, count):
         uniform = random.Random(SEED).uniform

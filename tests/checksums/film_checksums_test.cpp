@@ -1,5 +1,5 @@
-// Films of the shipped scenes against checksums in tests/data/film_checksums.txt, which only changes of radiance may
-// change: on a CPU, on a CPU used like a GPU, and on two devices with short submissions.
+// Films of the shipped scenes against tests/data/film_checksums.txt, which only changes of radiance may change: on a
+// CPU, on a CPU used like a GPU, and on two devices with short submissions.
 #include "cli/scene/scene_file.h"
 #include "lib/base/digest.h"
 #include "tests/support/context_calls.h"
@@ -22,7 +22,7 @@
 
 namespace {
 
-constexpr std::uint32_t width = 27; // no multiples of a tile's
+constexpr std::uint32_t width = 27; // no multiples of the tile size
 constexpr std::uint32_t height = 20;
 constexpr std::uint32_t tile_count = 4 * 3;
 constexpr std::uint32_t most_of_tile = 13;
@@ -38,7 +38,7 @@ std::string checksum_of(const std::vector<Number> &numbers) {
     return hexadecimal(pt::checksum(std::as_bytes(std::span(numbers))));
 }
 
-// Of what follows the identity, which names the kernels: tiles, samples and sums, without the checksum behind them.
+// Tiles, samples and sums, without the identity, which names the kernels, and the checksum.
 std::string checksum_of_sums(const std::vector<char> &film) {
     const std::size_t first = std::string_view(film.data(), film.size()).find("\ntile ");
     return hexadecimal(pt::checksum(std::as_bytes(std::span(film).first(film.size() - 8).subspan(first))));
@@ -59,14 +59,14 @@ protected:
         ASSERT_EQ(pt_accumulate(on, &info), PT_OK) << pt_last_error(on);
     }
 
-    // Of an even film its sums, the picture and its standard errors, and the sums after tiles have taken more. Expects
-    // the same bits of rows that are rendered alone, and of a film that is saved and goes on.
+    // Even film (sums, picture, standard errors), then sums with more samples in some tiles. Rows rendered alone, and a
+    // saved and continued film, must have the same bits.
     static std::string checksums(pt_context *on, const cli::SceneFile &file, std::uint32_t sampler) {
         const pt_scene scene = file.scene();
         pt_render render = render_of(width, height, std::min(file.render.max_path_length, 4U));
         render.sampler = sampler;
         set_picture(on, scene, file.camera, render);
-        take(on, 5); // before, over and behind moves of the parts' split
+        take(on, 5); // before, across and after moves of the parts' split
         take(on, 20);
         const std::vector<char> begun = film_of(on);
         take(on, 15);
@@ -108,7 +108,7 @@ protected:
     }
 };
 
-// Lines of a device's bits: "device NAME", then those of scenes.
+// Lines "device NAME", then its scenes.
 std::vector<std::string> lines_of(const std::string &device) {
     std::ifstream file(PT_TEST_DATA_DIR "/film_checksums.txt");
     std::vector<std::string> lines;
@@ -121,7 +121,7 @@ std::vector<std::string> lines_of(const std::string &device) {
     return lines;
 }
 
-// A scene in one way, with one sampler, such that each way meets each sampler; in all ways with PT_TEST_MANY.
+// Each scene in one way with one sampler, so that each way meets each sampler; PT_TEST_MANY: all ways.
 TEST_F(FilmChecksums, AreThoseOfBefore) {
     constexpr const char *samplers[] = {"random", "halton", "halton-cp", "sobol"};
     std::vector<std::filesystem::path> scenes;

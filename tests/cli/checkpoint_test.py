@@ -1,6 +1,6 @@
-"""Tests of checkpoints: a rendering that is killed at any moment and resumed, on whatever machine, ends with the same bytes, and damaged
-ones and those of other pictures are refused.
-PT_TEST_KILLS says how often one rendering is killed (default: 4). Arguments: see command_line.py."""
+"""Checkpoints: a rendering that is killed at any moment and resumed on any machine ends with the same bytes; damaged
+and foreign checkpoints are refused. PT_TEST_KILLS: how often one rendering is killed (default: 4). Arguments: see
+command_line.py."""
 
 import json
 import os
@@ -13,8 +13,8 @@ import time
 from command_line import COURSEWORK, PATIENCE, PT, SCENES, CommandLineTest, default_signals, main
 
 KILLS = int(os.environ.get("PT_TEST_KILLS", "4"))
-MOST_DELAY = 0.7  # seconds until a kill, from the start or from the run's first checkpoint
-SAMPLES_A_KILL = 2000  # some tenths of a second, so that few renderings end before they are killed
+MOST_DELAY = 0.7  # seconds until a kill, from the start or the run's first checkpoint
+SAMPLES_A_KILL = 2000  # some tenths of a second: few renderings end before their kill
 
 
 class KeptRender(CommandLineTest):
@@ -24,7 +24,7 @@ class KeptRender(CommandLineTest):
         return ["render", COURSEWORK, "--spp", str(spp), "--size", size, "-o", "a.png", "--film", "a.ptfilm", "-q"]
 
     def whole(self, *options):
-        """Image and film of a rendering that nothing has ended, which are removed."""
+        """Image and film of an undisturbed rendering; removes the files."""
         self.expect(0, *options)
         found = [self.contents(name) for name in ("a.png", "a.ptfilm")]
         for name in "a.png", "a.ptfilm":
@@ -32,7 +32,7 @@ class KeptRender(CommandLineTest):
         return found
 
     def samples_kept(self, name):
-        """0 if there is no checkpoint; one that there is has to be whole."""
+        """0 without a checkpoint; an existing one must be whole."""
         if not os.path.exists(self.path(name)):
             return 0
         self.expect(0, "merge", name, "--stats", "-", "-q")
@@ -41,11 +41,11 @@ class KeptRender(CommandLineTest):
 
 class KilledRender(KeptRender):
     def identity(self, name):
-        """Changes whenever the file is replaced."""
+        """Changes when the file is replaced."""
         return os.stat(self.path(name)).st_ino if os.path.exists(self.path(name)) else None
 
     def test_killed_at_any_moment(self):
-        """Every other run has written a checkpoint before, and so gets on."""
+        """Every other run is killed after its first checkpoint, and so progresses."""
         name = "der Prüf punkt é.ptfilm"
         options = self.options(SAMPLES_A_KILL * KILLS)
         expected = self.whole(*options)
@@ -60,14 +60,14 @@ class KilledRender(KeptRender):
             time.sleep(moments.uniform(0.0, MOST_DELAY if kills % 2 == 0 else 0.3))
             process.kill()
             process.communicate(timeout=PATIENCE)
-            if process.returncode == 0:  # it was ready before
+            if process.returncode == 0:  # ended before the kill
                 self.assertEqual([self.contents(file) for file in ("a.png", "a.ptfilm")], expected)
                 os.remove(self.path(name))
                 kept = 0
                 continue
             kills += 1
             now = self.samples_kept(name)
-            self.assertGreaterEqual(now, kept)  # nothing that was kept is lost
+            self.assertGreaterEqual(now, kept)  # nothing kept is lost
             steps += now > kept
             kept = now
         print(f"{kills} kills, {steps} of which left a checkpoint of more samples than the one before", flush=True)
@@ -83,7 +83,7 @@ class KilledRender(KeptRender):
         self.assertIn('"fraction"', process.stderr.readline())
         process.send_signal(signal.SIGTERM)
         errors = process.communicate(timeout=PATIENCE)[1]
-        self.assertIn(process.returncode, (0, 143), errors)  # 0: it was ready before
+        self.assertIn(process.returncode, (0, 143), errors)  # 0: ended before the signal
         self.assertEqual("--resume goes on from c.ptfilm" in errors, process.returncode == 143)
         self.assertGreater(self.samples_kept("c.ptfilm"), 0)
         self.expect(0, *options, "--checkpoint", "c.ptfilm", "--resume")
@@ -109,8 +109,8 @@ class KilledRender(KeptRender):
 
 
 class Surroundings(KeptRender):
-    """What costs the checkpoint, or nothing: never the picture."""
-    made = []  # image and film without disturbance, which are rendered once
+    """Errors cost at most the checkpoint, never the picture."""
+    made = []  # undisturbed image and film, rendered once
 
     def setUp(self):
         super().setUp()
@@ -155,7 +155,7 @@ class Surroundings(KeptRender):
 class Resume(CommandLineTest):
     program = PT
     small = ("render", COURSEWORK, "--size", "16x8", "-q")
-    made = {}  # images and the checkpoint, which are rendered once
+    made = {}  # images and the checkpoint, rendered once
 
     def setUp(self):
         super().setUp()
@@ -182,11 +182,11 @@ class Resume(CommandLineTest):
     def test_it_goes_on_to_the_same_bytes(self):
         self.resume(0)
         self.assertEqual(self.contents("a.png"), self.contents("whole.png"))
-        self.resume(0)  # nothing is left to be done
+        self.resume(0)  # nothing is left to do
         self.assertEqual(self.contents("a.png"), self.contents("whole.png"))
 
     def test_a_crop_goes_on_too(self):
-        """Whole rows are kept, so other columns of them may be shown; other rows are another film."""
+        """Whole rows are kept, so other columns may be shown; other rows are another film."""
         crop = ["--checkpoint", "crop.ptfilm", "--crop"]
         self.expect(0, *self.small, "-o", "half.png", "--spp", "12", *crop, "2,3,5,4")
         for part in "2,3,5,4", "0,3,16,4":
@@ -214,7 +214,7 @@ class Resume(CommandLineTest):
         self.assertEqual(self.contents("c.ptfilm"), self.checkpoint)
 
     def test_damaged_ones_are_refused(self):
-        """FilmBytes and the fuzzer damage what is packed in them by thousands."""
+        """FilmBytes and the fuzzer damage unpacked films by thousands."""
         flipped = bytearray(self.checkpoint)
         flipped[len(flipped) // 2] ^= 4
         for damaged in self.checkpoint[:100], self.checkpoint[:-1], flipped:

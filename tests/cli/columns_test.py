@@ -1,4 +1,4 @@
-"""Tests of scenes whose spheres are columns of NPY files. Arguments: see command_line.py."""
+"""Spheres in columns of NPY files. Arguments: see command_line.py."""
 
 import json
 import os
@@ -84,7 +84,7 @@ class RealDevice(ColumnsTest):
         return read_exr_channels(self.path("a.exr"))
 
     def test_columns_are_the_spheres_that_they_list(self):
-        """The same image as by single spheres, whatever the types of the files; a color is the linear value of sRGB."""
+        """The image of single spheres, with any types; colors are sRGB, decoded."""
         def linear(byte):
             share = byte / 255
             return share / 12.92 if share <= 0.04045 else ((share + 0.055) / 1.055) ** 2.4
@@ -106,7 +106,8 @@ class RealDevice(ColumnsTest):
                 for name, lines in expected.items():
                     for line, other in zip(lines, found[name]):
                         for a, b in zip(line, other):
-                            # The library decodes to float32, here to double: an ulp of a color is one of the light.
+                            # The library decodes to float32, this test to double: an ulp of a color is one of the
+                            # light.
                             self.assertLessEqual(abs(a - b), 2**-20 * abs(a))
 
     def test_columns_are_the_capsules_that_they_list(self):
@@ -135,7 +136,7 @@ class RealDevice(ColumnsTest):
         self.expect(3, "render", "s.json", "-o", "a.png", error='capsules[1]: "end" is missing')
 
     def test_columns_are_the_opacities_that_they_list(self):
-        """Beside lamps, which are opaque."""
+        """Lamps beside them are opaque."""
         opacities = [0.5, 1, 0.25]
         self.scene(*[{"center": CENTERS[3 * i:3 * i + 3], "radius": RADII[i], "material": "a", "opacity": opacities[i]}
                      for i in range(3)])

@@ -1,8 +1,6 @@
-"""What the tests of the program share: running it in an empty folder, and reading what it leaves there.
-
-A test is a script with the arguments PT PT_WITH_FAKE_LIBRARY SCENES [unittest arguments]. Most cases run the program on
-a stand-in for the library (fake_library.cpp), which needs no device, fails on demand and takes as long as it is told
-to. Classes named RealDevice run the program itself.
+"""Runs the program in an empty folder and reads its files. Scripts take the arguments PT PT_WITH_FAKE_LIBRARY SCENES
+[unittest arguments]. Most cases run against fake_library.cpp, which needs no device and fails on demand; classes named
+RealDevice run the program itself.
 """
 
 import os
@@ -19,10 +17,10 @@ from exr import read_exr_attributes, read_exr_blocks, read_exr_channels  # noqa:
 from png import parse_png, png_chunks, read_png  # noqa: E402, F401
 
 PT, FAKE_PT, SCENES = sys.argv[1:4]
-COURSEWORK = os.path.join(SCENES, "coursework-diffuse.json")  # about which there is nothing to warn
+COURSEWORK = os.path.join(SCENES, "coursework-diffuse.json")  # gives no warnings
 
-# Seconds after which a program is taken to hang. No test passes or fails by the clock: what is waited for is an event
-# that comes soon on any machine, or never.
+# Seconds after which a program counts as hung. No test passes or fails by the clock: awaited events come soon on any
+# machine, or never.
 PATIENCE = 600
 
 RESULT = {"INVALID_ARGUMENT": -1, "INVALID_SCENE": -2, "INVALID_STATE": -3, "UNSUPPORTED": -4, "NO_DEVICE": -5,
@@ -31,7 +29,7 @@ RESULT = {"INVALID_ARGUMENT": -1, "INVALID_SCENE": -2, "INVALID_STATE": -3, "UNS
 
 
 def npy(type_code, shape, numbers, version=1):
-    """An NPY file, as numpy.save writes it."""
+    """An NPY file as by numpy.save."""
     head = f"{{'descr': '{type_code}', 'fortran_order': False, 'shape': {shape}, }}\n".encode()
     size = struct.pack("<H" if version == 1 else "<I", len(head))
     letter = {"<f4": "f", "<f8": "d", "|u1": "B"}[type_code]
@@ -39,7 +37,7 @@ def npy(type_code, shape, numbers, version=1):
 
 
 def default_signals():
-    """A job in the background of a shell inherits an ignored SIGINT, which the program then respects."""
+    """A shell's background jobs inherit an ignored SIGINT, which the program respects."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, signal.SIG_DFL)
 
@@ -69,12 +67,12 @@ class CommandLineTest(unittest.TestCase):
         names = {name: str(value) for name, value in environment.items()}
         process = subprocess.Popen([self.program, *arguments], cwd=self.folder, env={**os.environ, **names}, text=True,
                                    errors="replace", stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=before)
-        for undo in (process.stdout.close, process.stderr.close, process.wait, process.kill):  # the last comes first
+        for undo in (process.stdout.close, process.stderr.close, process.wait, process.kill):  # run in reverse order
             self.addCleanup(undo)
         return process
 
     def piped(self, *arguments, **options):
-        """The finished process, with other streams than those of run_pt."""
+        """Like run_pt, with the given streams."""
         return subprocess.run([self.program, *arguments], cwd=self.folder,
                               **{"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **options})
 
@@ -86,7 +84,7 @@ class CommandLineTest(unittest.TestCase):
         return process.returncode
 
     def expect(self, code, *arguments, error=None, **environment):
-        """Runs the program; every line on stderr of a failure must begin with its name, and `error` be in there."""
+        """Runs the program. Every line of a failure must begin with its name; `error` must be among them."""
         self.assertEqual(self.run_pt(*arguments, **environment), code, self.errors)
         if code != 0:
             self.assertNotEqual(self.errors, "")

@@ -1,7 +1,4 @@
-"""Tests of the program as its users meet it: exit codes, messages, files left behind.
-
-Arguments: see command_line.py.
-"""
+"""The program as users meet it: exit codes, messages, files. Arguments: see command_line.py."""
 
 import glob
 import json
@@ -59,7 +56,7 @@ class Usage(CommandLineTest):
         self.assertEqual(self.files(), [])
 
     def test_failing_allocations_end_the_program(self):
-        # Each run fails at another one of those that parsing takes, and says so, or does without it.
+        # Every run fails at another allocation of the parsing, and reports it or does without.
         codes = []
         for number in range(1, 3000, 61):
             codes.append(self.run_pt("render", COURSEWORK, "-o", "a.png", "--gamma", "0", FAKE_PT_ALLOCATION=number))
@@ -131,7 +128,7 @@ class Outputs(CommandLineTest):
             self.assertEqual(attributes[name], ("string", text.encode()), name)
         self.assertEqual(attributes["pt.maxPathLength"], ("int", struct.pack("<i", 2)))
         self.assertTrue(attributes["software"][1].startswith(b"pt "))
-        # Channels are stored in the order of their names; type 2 is 32-bit float.
+        # Channels are ordered by name; type 2 is 32-bit float.
         channels = attributes["channels"][1]
         self.assertEqual([channels.index(name + b"\0\2\0\0\0") for name in (b"B", b"G", b"R")], [0, 18, 36])
 
@@ -151,7 +148,7 @@ class Outputs(CommandLineTest):
                                            [0, 255, 255, 188, 255, 255, 255, 255, 255]]))
         self.assertEqual(pixels("--gamma", "1")[2][0], [0, 0, 255, 128, 0, 255, 255, 0, 255])
         self.assertEqual(pixels("--gamma", "1", "--exposure", "-2")[2][0], [0, 0, 128, 32, 0, 128, 64, 0, 128])
-        # Luminance of (0, 0, 2) is 0.1444: blue becomes 2 / 1.1444, clipped; of (0.5, 0, 2) 0.2507: 0.5 / 1.2507.
+        # Luminance of (0, 0, 2) is 0.1444: blue is 2 / 1.1444, clipped; of (0.5, 0, 2) 0.2507: 0.5 / 1.2507.
         self.assertEqual(pixels("--gamma", "1", "--tonemap", "reinhard")[2][0][:6], [0, 0, 255, 102, 0, 255])
 
     def test_the_exposure_that_is_shown_gives_the_same_picture(self):
@@ -256,7 +253,7 @@ class RealDevice(CommandLineTest):
 
 class Warnings(CommandLineTest):
     def warnings(self, *options, scene="s.json", **environment):
-        """What --stats says, with -q and without; and that stderr says it once, or not with -q."""
+        """Warnings of --stats, with and without -q; stderr has each once, or none with -q."""
         arguments = ["render", scene, "-o", "a.png", "--size", "8x4", "--stats", "stats.json", *options]
         self.expect(0, *arguments, **environment)
         told = json.loads(self.read("stats.json"))["warnings"]

@@ -1,19 +1,16 @@
-"""Tests of `pt compare`: figures, limits and their exit code, what cannot be compared.
-
-Arguments: see command_line.py.
-"""
+"""`pt compare`: figures, limits, exit codes, refusals. Arguments: see command_line.py."""
 
 import json
 
 from command_line import COURSEWORK, PT, CommandLineTest, main
 
 SIZE = ("--size", "5x3", "--spp", "1")
-BRIGHTER = {"FAKE_PT_FAIL": "split:1"}  # the stand-in's blue is 3 in place of 2
+BRIGHTER = {"FAKE_PT_FAIL": "split:1"}  # the stand-in's blue is 3 instead of 2
 MSE, RELATIVE_MSE = 1 / 3, 1 / (4 + 0.01) / 3
 
 
 class Compare(CommandLineTest):
-    made = {}  # images, which are rendered once
+    made = {}  # images, rendered once
 
     def setUp(self):
         super().setUp()
@@ -103,7 +100,7 @@ class RealDevice(CommandLineTest):
     program = PT
 
     def test_what_is_not_finite_exceeds_every_limit(self):
-        # Of fewer than 9 samples, the second part is empty and the standard error infinite.
+        # Fewer than 9 samples leave the second part empty, so the standard error is infinite.
         self.expect(0, "render", COURSEWORK, *SIZE, "-o", "e.exr", "--layers", "standard-error")
         compare = ("compare", "e.exr", "e.exr", "--layer", "standard_error")
         self.expect(0, *compare)

@@ -1,5 +1,5 @@
-"""The steps of shaders/COURSEWORK.md: each difference applies to the kernel of the step before, and its picture is that of other
-renderers, within the noise. Arguments: see command_line.py."""
+"""The steps of shaders/COURSEWORK.md: each diff applies to the kernel before, and its picture matches other renderers
+within the noise. Arguments: see command_line.py."""
 
 import os
 import shutil
@@ -11,18 +11,18 @@ from command_line import PT, SCENES, CommandLineTest, main, read_exr_channels
 
 ROOT = os.path.join(SCENES, "..", "..")
 REFERENCES = os.path.join(ROOT, "tests", "reference")
-# Of each step: its name, scene and path length, and the converged image.
+# Name, scene, path length, converged image.
 STEPS = (("1-light", "coursework", 1, "coursework_L1"), ("2-directions", "coursework-diffuse", 2, "coursework-diffuse_L2"),
          ("3-paths", "coursework-diffuse", 6, "coursework-diffuse_L6"), ("4-gloss", "coursework", 6, "coursework_L6"),
          ("5-points", "coursework", 6, "coursework_L6"), ("6-lamps", "coursework", 6, "coursework_L6"),
          ("7-motion", "coursework-motion", 2, None))
-MOST_DEVIATION = 4.5  # standard deviations of a mean; of the 21 here one is beyond it once in 7,000 times
-MOST_OF_BLOCKS = 1.6  # the root mean square of 96 deviations, which is 1 with a standard deviation of 0.07 if they are normal
+MOST_DEVIATION = 4.5  # standard deviations of a mean; exceeded by one of the 21 here once in 7,000 times
+MOST_OF_BLOCKS = 1.6  # root mean square of 96 deviations: 1 with a standard deviation of 0.07 if they are normal
 SIDE = 16  # of a block, pixels
 
 
 def pixels_of(path):
-    """Of 128 x 64 pixels; larger ones are averaged, which a box filter does too."""
+    """128 x 64 pixels; larger images are averaged, like a box filter."""
     channels = read_exr_channels(path)
     image = numpy.stack([numpy.array(channels[name]) for name in "RGB"], axis=2)
     side = len(image) // 64
@@ -30,8 +30,8 @@ def pixels_of(path):
 
 
 def deviations(image, reference):
-    """How far the means of the channels are apart, in standard deviations, as the differences of pixels show them: the most, and
-    the root mean square over blocks of pixels."""
+    """Differences of channel means in standard deviations, estimated from pixels: the largest, and the root mean square
+    over blocks."""
     def of_pixels(difference):
         deviation = difference.std(axis=-2) / numpy.sqrt(difference.shape[-2])
         return difference.mean(axis=-2) / numpy.maximum(deviation, 1e-9)
@@ -70,7 +70,7 @@ class Coursework(CommandLineTest):
                 verdicts = [line.split()[0] for line in done.stdout.splitlines()
                             if "hemisphere, uniform" in line or "by cosine: cosine" in line]
                 self.assertEqual(verdicts, ["pass"] * 7)
-        shorter = pixels_of(os.path.join(REFERENCES, "coursework-diffuse_L2.exr"))  # the check can fail
+        shorter = pixels_of(os.path.join(REFERENCES, "coursework-diffuse_L2.exr"))  # negative control
         all_of_it, blocks = deviations(images["3-paths"], shorter)
         self.assertGreater(all_of_it, MOST_DEVIATION)
         self.assertGreater(blocks, MOST_OF_BLOCKS)

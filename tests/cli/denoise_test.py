@@ -1,7 +1,5 @@
-"""Tests of `pt render --denoise` and `pt denoise`, by a library that stands in for Open Image Denoise (OPEN_IMAGE_DENOISE in the
-environment). That its bits are those of the Python package is tested there, that errors are true where the library is.
-
-Arguments: see command_line.py.
+"""`pt render --denoise` and `pt denoise` with a stand-in for Open Image Denoise (OPEN_IMAGE_DENOISE in the
+environment). Python's tests compare its bits, the library's tests its errors. Arguments: see command_line.py.
 """
 
 import json
@@ -41,7 +39,7 @@ class Denoise(DenoiseTest):
         self.assertEqual(self.files(), [])
 
     def test_a_signal_leaves_the_last_round(self):
-        for submission in "5", "20":  # of 32, in the first half and in the second
+        for submission in "5", "20":  # of 32, in either half
             self.render("-o", "a.png", DENOISE, "--spp", "8", code=130, FAKE_PT_SIGNAL=f"2:{submission}",
                         error="stopped by SIGINT after 0 of 8 samples per pixel; nothing was written")
         self.assertEqual(self.files(), [])

@@ -1,4 +1,4 @@
-// Tests of cli/base/environment: which variables widen_vectors() adds, given others.
+// The variables that widen_vectors() adds.
 #include "cli/base/environment.h"
 #include "cli/base/exit_code.h"
 #include "tests/cli/temporary_folder.h"
@@ -36,7 +36,6 @@ protected:
             setenv(name.c_str(), value.c_str(), 1);
     }
 
-    // What is added to these.
     static Variables added(const Variables &variables) {
         set(variables);
         cli::widen_vectors();

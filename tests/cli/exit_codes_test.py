@@ -1,5 +1,5 @@
-"""Tests that every row of the table of exit codes in cli/README.md is true: for each code, command lines that end with
-it, and the files that they leave. Arguments: see command_line.py."""
+"""Every row of the exit codes in cli/README.md: command lines that end with the code, and their files. Arguments: see
+command_line.py."""
 
 import os
 import re
@@ -18,8 +18,7 @@ def fails(name, result):
     return {"FAKE_PT_FAIL": f"{name}:{RESULT[result]}", "FAKE_PT_MESSAGE": "the reason"}
 
 
-# Code, command line, environment of the stand-in for the library, the beginning of what is said, and files that are
-# left.
+# Code, command line, the stand-in's environment, start of the message, files left.
 CASES = [
     *((code, RENDER, fails(function, result), "pt: the reason", []) for function, result, code in (
         ("create", "UNSUPPORTED", 4), ("create", "INVALID_ARGUMENT", 2), ("create", "OUT_OF_HOST_MEMORY", 1),
@@ -63,7 +62,7 @@ class ExitCodes(CommandLineTest):
     def setUp(self):
         super().setUp()
         self.write("broken.json", "{")
-        self.program = PT  # films that can be added, and pictures that differ
+        self.program = PT  # films that can be added, and different pictures
         small = ["--size", "4x2", "--spp", "4"]
         for name, first in ("first", "0"), ("second", "4"):
             self.expect(0, "render", COURSEWORK, *small, "--first-sample", first, "--film", f"{name}.ptfilm")

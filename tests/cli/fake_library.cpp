@@ -1,10 +1,11 @@
-// A stand-in for libpt that needs no device and fails on demand, for tests of the command line: of exit codes, and of
-// the outputs that are left. Linked into the program pt_with_fake_library, which the tests in Python run.
-// FAKE_PT_FAIL=function:result makes that function fail; FAKE_PT_SAMPLE_MS is the least length of one sample;
-// FAKE_PT_SIGNAL=number:submission sends the program a signal in that submission, counted from 1 over all calls, four
-// to a sample; FAKE_PT_FAIL=name:1 gives the device a name that is not UTF-8; FAKE_PT_SCENE_SIGNAL=number sends it one
-// during pt_set_scene; FAKE_PT_LOG=function makes a function send a line to the log. FAKE_PT_MESSAGE is the message of
-// failures. FAKE_PT_ALLOCATION=number makes the program's allocation of that number fail, counted from main's start.
+// A stand-in for libpt without a device that fails on demand (pt_with_fake_library). Environment:
+// FAKE_PT_FAIL=function:result fails the function; name:1 makes the device's name invalid UTF-8.
+// FAKE_PT_MESSAGE: the message of failures.
+// FAKE_PT_SAMPLE_MS: the least duration of a sample.
+// FAKE_PT_SIGNAL=number:submission sends a signal in that submission, counted from 1, four per sample.
+// FAKE_PT_SCENE_SIGNAL=number sends one during pt_set_scene.
+// FAKE_PT_LOG=function logs a line in the function.
+// FAKE_PT_ALLOCATION=number fails the program's allocation, counted from main's start.
 #include <pt/accuracy.h>
 #include <pt/devices.h>
 #include <pt/errors.h>
@@ -71,7 +72,7 @@ pt_device_info fake_device() {
     return device;
 }
 
-// As if somebody sent it meanwhile.
+// As if sent by somebody else.
 void raise_wanted_signal() {
     static std::uint64_t submission_count = 0;
     const std::string wanted = setting("FAKE_PT_SIGNAL");
@@ -85,7 +86,7 @@ double fake_error(std::uint32_t sample_count) {
     return sample_count < 16 ? std::numeric_limits<double>::infinity() : 1.0 / sample_count;
 }
 
-// Whether it is the allocation that is to fail. Main begins with a terminate handler of its own.
+// Counts from main, which begins with a terminate handler of its own.
 bool is_failing_allocation() {
     static const std::terminate_handler before_main = std::get_terminate();
     static const char *const wanted = std::getenv("FAKE_PT_ALLOCATION");
@@ -176,7 +177,7 @@ pt_result pt_set_render(pt_context *context, const pt_render *render) {
     context->sample_count = 0;
     context->call_count = 0;
     context->has_too_many_rows = false;
-    const std::string max_rows = setting("FAKE_PT_MAX_ROWS"); // more do not fit into the device
+    const std::string max_rows = setting("FAKE_PT_MAX_ROWS"); // the device's limit
     if (!max_rows.empty() && rows_of(*render) > std::stoul(max_rows)) {
         context->has_too_many_rows = true;
         return PT_ERROR_UNSUPPORTED;
@@ -215,9 +216,9 @@ pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *info) {
     return PT_OK;
 }
 
-// Red grows to the right from 0 to 1, green downwards; blue is 2 everywhere, brighter than a display, and depends on
-// the calls that took the samples with FAKE_PT_FAIL=split:1.
-// Pixels are their places in the picture: objects are counted row by row.
+// Red grows from 0 to 1 to the right, green downwards; blue is 2, brighter than a display, and with
+// FAKE_PT_FAIL=split:1 depends on the calls that took the samples. Quantities are places in the picture; objects are
+// counted row by row.
 pt_result pt_readback(pt_context *context, const pt_image *image) {
     const pt_render &render = context->render;
     auto *object = static_cast<std::uint32_t *>(image->data);
@@ -254,11 +255,11 @@ pt_result pt_get_stats(pt_context *context, pt_stats *stats) {
 pt_result pt_get_error_estimate(pt_context *context, pt_error_estimate *error) {
     const double high = fake_error(context->sample_count);
     const double low = std::isinf(high) ? 0.0 : 0.25 * high;
-    *error = {sizeof *error, 0, high, 2.0 * low, 2.0 * high, 0.5 * high, low, high}; // half as much is relative
+    *error = {sizeof *error, 0, high, 2.0 * low, 2.0 * high, 0.5 * high, low, high}; // relative errors are half
     return call(context, "error");
 }
 
-// A film is its number of samples.
+// A film is its sample count.
 pt_result pt_save_film(pt_context *context, void *data, std::uint64_t *size_bytes) {
     *size_bytes = sizeof context->sample_count;
     if (data != nullptr)
@@ -273,7 +274,7 @@ pt_result pt_add_film(pt_context *context, const void *data, std::uint64_t size_
     return call(context, "add_film");
 }
 
-// One function, far better than its bound; worse than it with FAKE_PT_FAIL=accuracy_bound:1.
+// One function, far better than its bound; worse with FAKE_PT_FAIL=accuracy_bound:1.
 pt_result pt_get_accuracy(pt_context *context, pt_function_accuracy *rows, std::uint32_t *count) {
     if (rows != nullptr && *count > 0) {
         pt_function_accuracy row{};

@@ -1,4 +1,4 @@
-// Tests of cli/base/file: files that are written whole or not at all, and what killed programs leave.
+// cli/base/file: files are written whole or not at all, and leftovers of killed programs.
 #include "cli/base/file.h"
 #include "tests/cli/refusal_of.h"
 #include "tests/cli/temporary_folder.h"
@@ -20,7 +20,7 @@ std::span<const std::byte> bytes(std::string_view text) {
     return std::as_bytes(std::span(text));
 }
 
-// The message, or nothing if the file can be written.
+// The message, or nothing.
 std::string write_refusal(const std::string &path) {
     const Refusal refused = refusal_of([&] { AtomicFile::check_writable(path); });
     EXPECT_TRUE(refused.message.empty() || refused.code == cli::ExitCode::file);
@@ -65,7 +65,7 @@ TEST(AtomicFile, KeepsPermissionsAndLinks) {
     EXPECT_EQ(status.st_mode & 0777, 0640U);
 }
 
-// The table of proc_sys_fs(5), protected_symlinks. Root's links are made over to another user.
+// The table of protected_symlinks in proc_sys_fs(5). Root's links are given to another user.
 TEST(AtomicFile, FollowsNoOneElsesLinksWhereEverybodyMayWrite) {
     if (geteuid() != 0)
         GTEST_SKIP() << "only root can make links that belong to others";

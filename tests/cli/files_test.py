@@ -1,7 +1,5 @@
-"""Tests of the files that the program reads and writes: standard streams, and outputs that would overwrite what is
-needed.
-
-Arguments: see command_line.py.
+"""Files that are read and written: standard streams, and outputs that would overwrite inputs. Arguments: see
+command_line.py.
 """
 
 import json
@@ -58,7 +56,7 @@ class StandardStreams(CommandLineTest):
 
 
 class SameFiles(CommandLineTest):
-    """What would be overwritten is refused before there is a device, which is not to be had."""
+    """Overwriting is refused before a device is created, which would fail."""
 
     def refuse(self, error, *arguments, command="render"):
         before = {name: self.contents(name) for name in self.files()}
@@ -115,7 +113,7 @@ class SameFiles(CommandLineTest):
                         *arguments, "a.png", "--stats", "shaders/pathtrace.comp", *watch)
             self.refuse("-o ./shaders/a.png: is in the folder of --shader-dir shaders, whose files are read",
                         *arguments, "./shaders/a.png", *watch)
-        self.expect(0, "render", *arguments, "shaders/folder/a.png")  # which is no shader
+        self.expect(0, "render", *arguments, "shaders/folder/a.png")  # no shader
 
     def test_distinct_files_are_distinct(self):
         os.mkdir(self.path("a"))
@@ -136,7 +134,7 @@ class SameFiles(CommandLineTest):
 
 @unittest.skipUnless(os.geteuid() == 0, "needs root, for a second user")
 class LinksOfOthers(CommandLineTest):
-    """Nobody's links in a folder like /tmp lead root to no file, whichever output it is."""
+    """Others' links in folders like /tmp lead root to no file, for any output."""
     RULE = "is another user's, in a folder where everybody may write; only your own links"
 
     def test_they_are_refused_before_anything_is_rendered(self):
@@ -152,7 +150,7 @@ class LinksOfOthers(CommandLineTest):
                               ("t.png", ("tonemap", "r.exr"))):
             with self.subTest(name=name):
                 self.write("of root", "kept")
-                target = "../of root" if "--checkpoint" not in command else "../new"  # one that is there is kept anyway
+                target = "../of root" if "--checkpoint" not in command else "../new"  # existing files are kept anyway
                 subprocess.run(["ln", "-s", target, name], cwd=self.path("open"), check=True, user=65534)
                 self.expect(6, *command, f"open/{name}", error=f"cannot write open/{name}: the link open/{name} {self.RULE}")
                 self.assertEqual((self.read("of root"), self.files()),

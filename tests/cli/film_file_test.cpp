@@ -1,5 +1,4 @@
-// Tests of film files (cli/film/film.h), beside those of the program (checkpoint_test.py): unpacked films, and an
-// absurd size.
+// Film files (cli/film/film.h): unpacked ones and an absurd size. checkpoint_test.py has the program's.
 #include "cli/film/film.h"
 
 #include "tests/cli/refusal_of.h"
@@ -15,7 +14,7 @@ TEST(FilmFile, IsReadUnpacked) {
     EXPECT_EQ(cli::read_film_file(folder.file("a")), std::vector(1000, std::byte{'x'}));
 }
 
-// A frame says its own size: no memory is taken for what it cannot hold.
+// The frame claims a size that it cannot hold; no memory is taken for it.
 TEST(FilmFile, AnAbsurdSizeIsRefused) {
     const TemporaryFolder folder;
     std::string frame("\x28\xb5\x2f\xfd\xc0\x00", 6); // RFC 8878, 3.1.1.1: eight bytes of content size follow

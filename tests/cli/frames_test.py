@@ -1,7 +1,4 @@
-"""Tests of `pt render --frames`: files of frames, what a stop leaves, and pictures that are those of single scenes.
-
-Arguments: see command_line.py.
-"""
+"""`pt render --frames`: files, stops, and pictures equal to single scenes. Arguments: see command_line.py."""
 
 import json
 import os
@@ -44,7 +41,7 @@ class Frames(FramesTest):
         self.expect(0, *arguments, "--skip-existing")
         self.assertEqual((self.read("0.png"), self.read("3.png")), ("kept", "kept"))
         self.assertEqual((self.pixels("1.png")[:2], json.loads(self.read("2.json"))["seed"]), ((16, 8), 7))
-        self.expect(0, *arguments, "--skip-existing", FAKE_PT_FAIL="create:-5")  # which needs no device
+        self.expect(0, *arguments, "--skip-existing", FAKE_PT_FAIL="create:-5")  # needs no device
         self.expect(4, *arguments, error="none", FAKE_PT_FAIL="create:-5", FAKE_PT_MESSAGE="none")
 
     def test_each_frame_has_its_film(self):
@@ -64,7 +61,7 @@ class Frames(FramesTest):
         self.assertEqual(self.files(), ["0.png", "s.json"])
 
     def test_a_stop_leaves_whole_frames(self):
-        submission = 2 * 16 * 4 + 5  # four to a sample, in the third frame
+        submission = 2 * 16 * 4 + 5  # four per sample, in the third frame
         self.expect(130, "render", "s.json", "--frames", "4-9", "-o", "#.png", "-q",
                     error="pt: stopped by SIGINT in frame 6", FAKE_PT_SIGNAL=f"{int(signal.SIGINT)}:{submission}")
         self.assertEqual(self.files(), ["4.png", "5.png", "s.json"])

@@ -1,4 +1,4 @@
-// Tests of cli/image/image_file, of PNG and the module behind it: OpenImageIO itself reads back what was written.
+// cli/image/image_file and its module: OpenImageIO reads back what was written.
 
 #include "cli/image/image_file.h"
 #include "tests/cli/refusal_of.h"
@@ -91,13 +91,13 @@ TEST(ImageFile, ALayerIsReadByItsName) {
     EXPECT_EQ(image.layer("error"), std::vector<float>(error.begin(), error.end()));
     EXPECT_EQ(image.layer("N"), image.layer("error"));
     EXPECT_EQ(image.layer("id"),
-              (std::vector<float>{0.0F, 0.0F, 0.0F, 1.0F, 1.0F, 1.0F})); // of whole numbers the share
+              (std::vector<float>{0.0F, 0.0F, 0.0F, 1.0F, 1.0F, 1.0F})); // whole numbers become shares
     EXPECT_EQ(image.layer("count"), (std::vector<float>{16.0F, 16.0F, 16.0F, 32.0F, 32.0F, 32.0F}));
 }
 
 TEST(ImageFile, PngKeepsNamesInUtf8) {
     const TemporaryFolder folder;
-    const std::string name = "sc\xc3\xa8ne.json"; // as which libpng reads international text chunks
+    const std::string name = "sc\xc3\xa8ne.json"; // libpng reads international text chunks as UTF-8
     const cli::ImageAttribute named{"pt.scene", name};
     const std::array<std::uint8_t, 3> bytes{1, 2, 3};
     ImageWriter().write(target(folder.file("a.png")),
@@ -119,7 +119,7 @@ TEST(ImageFile, PngTellsItsColorSpace) {
     EXPECT_NE(file.find(gamma), std::string::npos);
 }
 
-// Several megabytes of noise, which is not compressed: libpng hands it over in many parts.
+// Several megabytes of noise: libpng writes many parts.
 TEST(ImageFile, PngKeepsALargePicture) {
     const TemporaryFolder folder;
     std::vector<std::uint8_t> bytes(std::size_t{1000} * 700 * 3);
@@ -129,7 +129,7 @@ TEST(ImageFile, PngKeepsALargePicture) {
     EXPECT_EQ(read_pixels<std::uint8_t>(folder.file("a.png"), OIIO::TypeDesc::UINT8), bytes);
 }
 
-// OpenImageIO writes them, with 8 and 16 bits, and reads them to the same numbers.
+// Written by OpenImageIO, with 8 and 16 bits.
 TEST(ImageFile, PngOfOtherProgramsIsRead) {
     const TemporaryFolder folder;
     const std::string path = folder.file("a.png");
@@ -159,7 +159,7 @@ TEST(ImageFile, JpegIsClose) {
     const auto read = read_pixels<std::uint8_t>(folder.file("a.jpeg"), OIIO::TypeDesc::UINT8);
     ASSERT_EQ(read.size(), bytes.size());
     for (const std::uint8_t value : read)
-        EXPECT_NEAR(value, 100, 1); // one color: only the rounding of its coefficient is lost
+        EXPECT_NEAR(value, 100, 1); // one color: only a coefficient's rounding is lost
 }
 
 TEST(ImageFile, JpegHasMetadataInItsDescription) {

@@ -1,4 +1,4 @@
-// Tests of cli/render/image_render: how samples are divided into steps.
+// cli/render/image_render: steps of samples.
 #include "cli/render/image_render.h"
 
 #include <gtest/gtest.h>

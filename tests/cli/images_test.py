@@ -1,7 +1,4 @@
-"""Tests of the images that `pt render` and `pt tonemap` write: crops, standard output, metadata.
-
-Arguments: see command_line.py.
-"""
+"""Images of `pt render` and `pt tonemap`: crops, standard output, metadata. Arguments: see command_line.py."""
 
 import json
 import os
@@ -15,18 +12,18 @@ from command_line import (COURSEWORK, PT, RESULT, CommandLineTest, main, parse_p
 
 WIDTH, HEIGHT = 9, 7
 SIZE = ("--size", f"{WIDTH}x{HEIGHT}")
-CROP = (2, 3, 5, 4)  # x, y, width and height
+CROP = (2, 3, 5, 4)  # x, y, width, height
 CROP_TEXT = ",".join(map(str, CROP))
 
 
 def cut(image, rectangle):
-    """The part of the rows of a picture, three numbers to a pixel."""
+    """A rectangle of rows with three numbers per pixel."""
     x, y, width, height = rectangle
     return [row[3 * x:3 * (x + width)] for row in image[y:y + height]]
 
 
 def texts_of(data):
-    """Keyword -> text of a PNG."""
+    """keyword -> text of a PNG."""
     return dict(body.decode("latin-1").split("\0") for kind, body in png_chunks(data) if kind == "tEXt")
 
 
@@ -137,7 +134,7 @@ class Exr(ImagesTest):
 
 class EqualRuns(CommandLineTest):
     def images(self, folder, **environment):
-        """What they are with this environment, rendered in a folder of that name for once."""
+        """Renders once in a folder of this name, with this environment."""
         os.mkdir(self.path(folder))
         paths = [f"{folder}/a.{kind}" for kind in ("png", "jpg", "exr")]
         outputs = [word for path in paths for word in ("-o", path)]
@@ -146,7 +143,7 @@ class EqualRuns(CommandLineTest):
         return [self.contents(path) for path in paths]
 
     def test_images_do_not_tell_when_they_were_rendered(self):
-        # More than a second apart, the unit of dates; the stand-in takes a millisecond a sample, then two.
+        # Dates count seconds; the stand-in takes one, then two milliseconds per sample.
         first = self.images("first", FAKE_PT_SAMPLE_MS=1)
         time.sleep(1.1)
         self.assertEqual(self.images("second", FAKE_PT_SAMPLE_MS=2, TZ="Pacific/Auckland"), first)
@@ -186,7 +183,7 @@ class Tonemap(ImagesTest):
                 self.assertEqual(self.scan_of("b.jpg"), self.scan_of("a.jpg"))
 
     def scan_of(self, name):
-        """A JPEG from its quantisation tables on: without metadata."""
+        """A JPEG from its quantisation tables on, without metadata."""
         data = self.contents(name)
         return data[data.index(b"\xff\xdb"):]
 
@@ -234,7 +231,7 @@ class RealDevice(ImagesTest):
         self.render("-o", "crop.png", "--exposure", "-3", "--spp", "17", "--crop", CROP_TEXT)
         whole, crop = (read_png(self.path(name))[2] for name in ("whole.png", "crop.png"))
         self.assertEqual(crop, cut(whole, CROP))
-        self.assertNotEqual(crop, cut(whole, (1, 3, 5, 4)))  # they differ from place to place
+        self.assertNotEqual(crop, cut(whole, (1, 3, 5, 4)))  # crops differ by place
 
 
 if __name__ == "__main__":

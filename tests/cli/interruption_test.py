@@ -1,6 +1,4 @@
-"""Tests of signals while the program renders, and of the files left behind; exit_codes_test has those of each signal.
-
-Arguments: see command_line.py.
+"""Signals while rendering, and the files left; exit_codes_test has each signal's code. Arguments: see command_line.py.
 """
 
 import fcntl
@@ -16,12 +14,12 @@ from command_line import COURSEWORK, PATIENCE, CommandLineTest, default_signals,
 
 class Interruption(CommandLineTest):
     def interrupt(self, submission, *options, **environment):
-        """SIGINT comes in that submission of the stand-in, which needs four to a sample. Returns the exit code."""
+        """SIGINT comes in this submission of the stand-in, four per sample. Returns the exit code."""
         return self.run_pt("render", COURSEWORK, "-o", "a.png", "--spp", "200", "--size", "2x2", *options,
                            FAKE_PT_SIGNAL=f"{int(signal.SIGINT)}:{submission}", **environment)
 
     def test_a_terminal_that_goes_away(self):
-        """It sends SIGHUP to its foreground process group; from then on whatever is written to it fails."""
+        """It sends SIGHUP to its foreground process group; later writes to it fail."""
         try:
             ours, theirs = pty.openpty()
         except OSError as error:  # a chroot without /dev/pts
@@ -62,7 +60,7 @@ class Interruption(CommandLineTest):
     def test_a_scene_that_is_being_taken_over(self):
         self.write("a.png", "old")
         code = self.run_pt("render", COURSEWORK, "-o", "a.png", "--spp", "200", FAKE_PT_FAIL="set_camera:-10",
-                           FAKE_PT_SCENE_SIGNAL=int(signal.SIGTERM))  # it goes no farther
+                           FAKE_PT_SCENE_SIGNAL=int(signal.SIGTERM))  # fails if it goes on
         self.assertEqual(code, 143)
         self.assertEqual(self.errors, "pt: stopped by SIGTERM after 0 of 200 samples per pixel; nothing was written\n")
         self.assertEqual(self.read("a.png"), "old")

@@ -1,4 +1,4 @@
-// Tests of cli/base/kernel_folder: kernels as drivers have compiled them, kept in files.
+// cli/base/kernel_folder: compiled kernels in files.
 #include "cli/base/kernel_folder.h"
 
 #include "tests/cli/temporary_folder.h"
@@ -44,7 +44,7 @@ TEST(KernelFolder, KeysLeadNowhereElse) {
     EXPECT_EQ(temporary.count(), 2);
 }
 
-// The files are made older by hand: a file system's clock may be too coarse to tell them apart.
+// Sets file times: a file system's clock may be too coarse.
 TEST(KernelFolder, WhatWasUsedLongestAgoMakesPlace) {
     const TemporaryFolder temporary;
     const KernelFolder folder(temporary.file("kernels"));
@@ -68,7 +68,7 @@ TEST(KernelFolder, HasABoundOfItsSize) {
     const auto path = [&](std::size_t number) { return temporary.file("kernels/" + kernel_key(number)); };
     keep(folder, kernel_key(1), "x");
     keep(folder, kernel_key(2), "x");
-    std::filesystem::resize_file(path(1), KernelFolder::most_bytes); // which takes no room on the disk
+    std::filesystem::resize_file(path(1), KernelFolder::most_bytes); // takes no room on disk
     const auto now = std::filesystem::file_time_type::clock::now();
     std::filesystem::last_write_time(path(1), now - std::chrono::hours(1));
     std::filesystem::last_write_time(path(2), now - std::chrono::hours(2));

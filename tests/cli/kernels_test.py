@@ -1,7 +1,4 @@
-"""Tests of the kernels that the program keeps from run to run.
-
-Arguments: see command_line.py.
-"""
+"""Kernels kept from run to run. Arguments: see command_line.py."""
 
 import os
 import re
@@ -12,7 +9,7 @@ from command_line import COURSEWORK, PT, CommandLineTest, main
 class RealDeviceKernels(CommandLineTest):
     program = PT
 
-    # Mesa tells of a cache of its own that cannot be.
+    # Mesa's own cache would give messages.
     def render(self, name="a.png", **environment):
         self.expect(0, "render", COURSEWORK, "-o", name, "--size", "32x16", "--spp", "2", "-q",
                     MESA_SHADER_CACHE_DISABLE="true", **environment)

@@ -1,7 +1,4 @@
-"""Tests of the layers that `pt render --layers` adds to an .exr, and of --alpha.
-
-Arguments: see command_line.py.
-"""
+"""`pt render --layers` and --alpha. Arguments: see command_line.py."""
 
 import math
 import struct
@@ -20,7 +17,7 @@ def as_float(number):
 
 
 def row_exr(channels):
-    """An .exr of one row, not compressed ("OpenEXR File Layout"); channels: the values of each, sorted by name."""
+    """An uncompressed .exr of one row ("OpenEXR File Layout"); channels: values sorted by name."""
     width = len(channels["R"])
     window = struct.pack("<4i", 0, 0, width - 1, 0)
     listed = b"".join(name.encode() + struct.pack("<x4i", 2, 0, 1, 1) for name in channels) + b"\0"
@@ -42,7 +39,7 @@ class LayersTest(CommandLineTest):
 
 class Layers(LayersTest):
     def test_each_is_where_it_belongs(self):
-        # The stand-in for the library has each pixel's place as its numbers.
+        # The stand-in's numbers are each pixel's place.
         for crop, pieces in (((0, 0, WIDTH, HEIGHT), ()), ((2, 3, 5, 33), ("--piece-rows", "10"))):
             with self.subTest(crop=crop):
                 self.render("-o", "a.exr", "--layers", ALL, "--crop", ",".join(map(str, crop)), *pieces)
@@ -82,7 +79,7 @@ class Layers(LayersTest):
 
 
 class Alpha(LayersTest):
-    # The stand-in for the library covers each pixel by the share of the width that is left of it.
+    # The stand-in's coverage grows from 0 to 1 across the width.
     SHARES = [as_float(column / (WIDTH - 1)) for column in range(WIDTH)]
 
     def test_an_exr_has_it_beside_the_colors(self):
@@ -148,7 +145,7 @@ class RealDeviceLayers(LayersTest):
         self.assertEqual({pixel["sample_count"] for pixel in pixels}, {2.0})
         self.assertTrue({pixel["id"] for pixel in pixels} <= set(range(8)))  # four spheres and four planes
         self.assertGreater(len({pixel["id"] for pixel in pixels}), 5)
-        # The camera looks from (0, 0, 1) at the wall z = -18.5; before it stand the others.
+        # The camera looks from (0, 0, 1) at the wall z = -18.5, behind all else.
         for pixel in pixels:
             self.assertLessEqual(pixel["Z"], 19.5 + 1e-5)
             if pixel["id"] == 5:
@@ -156,7 +153,7 @@ class RealDeviceLayers(LayersTest):
             self.assertLessEqual(math.hypot(*(pixel[f"N.{axis}"] for axis in "XYZ")), 1 + 1e-6)
 
     def test_alpha_is_that_of_the_samples(self):
-        # A ball of radiance 1 that reflects nothing: its mean is the share of the samples that meet it.
+        # A ball of radiance 1 without reflection: the mean is the share of samples that hit.
         self.write("ball.json", """{"materials": {"white": {"emission": 1}},
                                     "spheres": [{"center": [0, 0, -4], "radius": 1, "material": "white"}]}""")
         self.expect(0, "render", "ball.json", *SIZE, "-o", "a.exr", "-o", "a.png", "--alpha", "--exposure", "0")

@@ -1,6 +1,5 @@
-"""Tests that cli/README.md says what the program does: its examples run, its tables have every command, option, key and
-exit code, and the ranges that it names are those that are enforced. The first scene of README.md runs, too. Arguments:
-see command_line.py."""
+"""cli/README.md says what the program does: its examples run, its tables have all commands, options, keys and exit
+codes, and its ranges are enforced. README.md's first scene runs too. Arguments: see command_line.py."""
 
 import json
 import os
@@ -15,17 +14,17 @@ with open(os.path.join(os.path.dirname(SCENES), "README.md"), encoding="utf-8") 
 
 SECTIONS = {"camera": "{%s}", "film": "{%s}", "render": "{%s}", "materials": '{"a": {%s}}',
             "spheres": "[{%s}]", "capsules": "[{%s}]", "planes": "[{%s}]"}
-# What a section has to have beside the key that is looked at.
+# Required keys beside the one tested.
 REQUIRED = {"camera": {"position": [0, 0, 1], "look_at": [0, 0, 0]},
             "spheres": {"center": [0, 0, -5], "radius": 1, "material": "red"},
             "capsules": {"center": [0, 0, -5], "end": [1, 0, -5], "radius": 1, "material": "red"},
             "planes": {"normal": [0, 1, 0], "offset": 0, "material": "red"}}
-# Keys that cannot stand together: examples are tried without the ones and without the others.
+# Exclusive keys: examples are tried without either.
 EITHER = {"camera": (["vertical_fov", "aperture", "focus"], ["projection", "vertical_extent"])}
 
 
 def rows_after(heading):
-    """The cells of the first table below a heading, without its own headings."""
+    """The cells of the first table below a heading, without its head."""
     table = re.search(rf"{re.escape(heading)}.*?\n\|[-| ]+\|\n((?:\|[^\n]*\n)+)", MANUAL, re.DOTALL)[1]
     return [[cell.strip() for cell in line.strip("|").split("|")] for line in table.splitlines()]
 
@@ -39,26 +38,26 @@ def section_rows(section):
 
 
 def number_of(text):
-    """Of "1e18", "-64" or "2^64 - 1"."""
+    """Parses "1e18", "-64" or "2^64 - 1"."""
     base, _, minus = text.replace("2^64", str(2**64)).partition(" - ")
     number = float(base) if re.search(r"[.e]", base) else int(base)
     return number - int(minus or 0)
 
 
 def range_of(cell):
-    """The least and the largest number of "from 0.1 to 10"; None if the cell names none of this kind."""
+    """(0.1, 10) for "from 0.1 to 10"; None without such a range."""
     found = re.search(r"from (-?[\d.e^-]+) to (-?[\d.e^-]+(?: - 1)?)(?:,|$)", cell)
     return found and (number_of(found[1]), number_of(found[2]))
 
 
 def beyond(least, largest):
-    """Numbers just outside of a range: whole ones next to it where its ends are."""
+    """Just outside a range; next to it for integers."""
     step = 1 if isinstance(least, int) and isinstance(largest, int) else abs(largest) * 1e-3
     return least - step, largest + step
 
 
 def scene_with(section, values):
-    """A scene file whose section has these values, by key, and no more than it has to have beside them."""
+    """A scene file whose section has these values by key, and required ones."""
     members = json.dumps({**REQUIRED.get(section, {}), **values})
     others = "" if section == "materials" else ', "materials": {"red": {"diffuse": 0.5}}'
     return '{"%s": %s%s}' % (section, SECTIONS[section] % members[1:-1], others)
@@ -101,9 +100,9 @@ class RealDevice(CommandLineTest):
         for command in commands:
             smaller = ["--size", "96x48"] if command[1] == "render" and "--size" not in command else []
             words = command[1:command.index(">")] if ">" in command else command[1:]
-            if command[1] == "denoise":  # by what stands in for the library
+            if command[1] == "denoise":  # with the library's stand-in
                 words += ["--denoise", os.environ["OPEN_IMAGE_DENOISE"]]
-            if "--watch" not in command:  # which does not end by itself
+            if "--watch" not in command:  # does not end by itself
                 self.expect(0, *words, *smaller)
         for name in "picture.png", "picture.exr", "figures.json", "darker.jpg":
             self.assertIn(name, self.files())
@@ -122,7 +121,7 @@ class RealDevice(CommandLineTest):
         self.assertRegex(self.output, r"^wrote ball.png: 48x24, .*\nexposure .* \(auto\)\nerror .*; target reached")
 
     def test_the_tour_of_the_readme(self):
-        """The commands run as they stand there, in a smaller size, and each row shows what its last command makes."""
+        """The commands run as written, in a smaller size; each row shows the output of its last command."""
         root = os.path.join(SCENES, "..", "..")
         with open(os.path.join(root, "README.md"), encoding="utf-8") as file:
             tour = file.read().split("\n## A tour in five steps\n")[1].split("\n## ")[0]
@@ -144,7 +143,7 @@ class RealDevice(CommandLineTest):
 
     def render_scene(self, code, section, values):
         self.write("s.json", scene_with(section, values))
-        # An option that gives the same as the file takes its place.
+        # An option would replace the key that must be refused.
         self.expect(code, "render", "s.json", *(self.small if code == 0 else ("-o", "a.png", "--size", "4x2", "-q")))
 
     def test_examples_of_keys(self):
@@ -175,7 +174,7 @@ class RealDevice(CommandLineTest):
             for number in beyond(*ends):
                 self.expect(2, "render", "scene.json", "-o", "a.png", f"{option}={number}", error=option)
         self.assertEqual(len(ranges), 10)
-        ranges["--spp"] = (1, 1)  # the most would take a while
+        ranges["--spp"] = (1, 1)  # the largest would take long
         for end in 0, 1:
             options = [f"{option}={ends[end]}" for option, ends in ranges.items()]
             self.expect(0, "render", "scene.json", "-o", "a.png", "--size", "4x2", *options)

@@ -1,5 +1,5 @@
-"""Tests of `pt merge`: parts that were rendered apart add up to the bits of the whole, and films that do not belong are
-refused with a reason. Arguments: see command_line.py."""
+"""`pt merge`: parts add up to the bits of the whole; others are refused with a reason. Arguments: see command_line.py.
+"""
 
 import json
 import os
@@ -14,7 +14,7 @@ class Merge(CommandLineTest):
     program = PT
     small = ("render", COURSEWORK, "--size", "24x13", "-q")
 
-    made = {}  # the bytes of the parts, which are rendered once
+    made = {}  # the parts' bytes, rendered once
 
     def setUp(self):
         super().setUp()
@@ -45,9 +45,9 @@ class Merge(CommandLineTest):
         for key in "width", "height", "spp", "seed", "max_path_length", "rejected_samples":
             self.assertEqual(found[key], rendered[key], key)
         for key in "rmse", "rmse_low", "rmse_high", "relative_rmse", "relative_rmse_low", "relative_rmse_high":
-            self.assertAlmostEqual(found[key], rendered[key], delta=1e-5 * rendered[key])  # sums of floats on GPUs
+            self.assertAlmostEqual(found[key], rendered[key], delta=1e-5 * rendered[key])  # GPUs sum floats
         self.assertEqual(found["uncertain"], rendered["uncertain"])
-        self.assertEqual((found["sampler"], found["estimator"]), ("sobol", "mis"))  # what "best" stands for
+        self.assertEqual((found["sampler"], found["estimator"]), ("sobol", "mis"))  # "best" resolved
 
     def test_what_is_wrong_is_told_of_all_parts_and_nothing_is_written(self):
         self.write("cut.ptfilm", self.contents(self.parts[3])[:-20])

@@ -1,4 +1,4 @@
-// Tests of cli/base/names.
+// cli/base/names.
 #include "cli/base/enumerations.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,4 @@
-"""`pt NAME` runs `pt-NAME` from the PATH, and nothing that is there by accident.
-
-Arguments: see command_line.py.
-"""
+"""`pt NAME` runs `pt-NAME` from the PATH, and nothing else. Arguments: see command_line.py."""
 
 import os
 import subprocess
@@ -39,7 +36,7 @@ class OtherProgram(CommandLineTest):
 
     def test_the_first_folder_that_has_it_counts(self):
         self.put("first", "pt-hello", mode=0o644)  # not executable
-        os.mkdir(self.path("empty", "pt-hello"))  # no file
+        os.mkdir(self.path("empty", "pt-hello"))  # not a file
         program = self.put("second", "pt-hello")
         folders = [self.path(each) for each in ("missing", "first", "empty", "second")]
         self.assertEqual(self.run_with(":".join(folders), "hello").stdout, program + "\n")

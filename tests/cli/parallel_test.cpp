@@ -1,4 +1,4 @@
-// Tests of tasks in parallel (cli/base/tasks.h): each is run exactly once.
+// cli/base/tasks.h runs each task once.
 #include "cli/base/tasks.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,4 @@
-"""Tests of images that are rendered in pieces of rows, of samples taken in steps or shared by several devices.
-
-Arguments: see command_line.py.
-"""
+"""Images in pieces of rows, samples in steps or on several devices. Arguments: see command_line.py."""
 
 import json
 import resource
@@ -23,7 +20,7 @@ class Pieces(CommandLineTest):
         for rows, count in ((1, 33), (10, 4), (32, 2)):
             with self.subTest(rows=rows):
                 self.assertEqual(self.pixels("--piece-rows", str(rows)), whole)
-                # 3 floats for each of 40x33 pixels; the stand-in says 4096 bytes for itself.
+                # 3 floats for each of 40x33 pixels; the stand-in claims 4096 bytes.
                 self.assertIn(f"{count} pieces of up to {rows} rows: 4.0 KiB on the device, 15.5 KiB for the image",
                               self.errors)
         self.assertEqual(self.pixels("--piece-rows", "34"), whole)
@@ -41,13 +38,13 @@ class Pieces(CommandLineTest):
         self.assertEqual((stats["height"], stats["spp"], stats["rejected_samples"]), (33, 2, 4 * 3))
 
     def test_what_is_left_of_an_interruption_is_black(self):
-        submission = 4 * 4 + 6  # four to a sample, of which a piece has four: in the second of three pieces
+        submission = 4 * 4 + 6  # four per sample, a piece has four samples: in the second of three
         code = self.run_pt("render", COURSEWORK, *SIZE, "--spp", "4", "--progress", "json", "-o", "a.png",
                            "--piece-rows", "11", FAKE_PT_SAMPLE_MS=120,
                            FAKE_PT_SIGNAL=f"{int(signal.SIGINT)}:{submission}")
         self.assertEqual(code, 130)
         shares = [json.loads(line)["fraction"] for line in self.errors.splitlines() if line.startswith("{")]
-        self.assertGreaterEqual(len(shares), 22 // 4)  # a line every tenth of a second, a submission in 30 ms or more
+        self.assertGreaterEqual(len(shares), 22 // 4)  # a line every tenth of a second, a submission per 30 ms or more
         self.assertEqual(shares, sorted(shares))
         self.assertIn("stopped by SIGINT after 1 of 4 samples per pixel in 22 of 33 rows; the others are black",
                       self.errors)
@@ -63,14 +60,14 @@ class Steps(CommandLineTest):
             self.assertEqual(json.loads(self.read("s.json"))["spp"], int(count))
             return read_png(self.path("a.png"))
 
-        split = {"FAKE_PT_FAIL": "split:1"}  # the picture tells in how many calls it was made
+        split = {"FAKE_PT_FAIL": "split:1"}  # the picture shows the number of calls
         self.assertEqual(picture("16", **split), picture("1", **split))
         self.assertNotEqual(picture("17", **split), picture("16", **split))
         self.assertEqual(picture("17"), picture("16"))
 
 
 class HostMemory(CommandLineTest):
-    """Within an address space of 2 GiB, whatever the machine has."""
+    """Limits the address space to 2 GiB."""
 
     def run_in_little_memory(self, *arguments):
         def little_memory():
@@ -87,7 +84,7 @@ class HostMemory(CommandLineTest):
     def test_an_image_that_is_too_large_is_refused_before_it_is_rendered(self):
         if self.run_in_little_memory("--version").returncode != 0:
             self.skipTest("sanitizers need terabytes of addresses")
-        # 12 bytes for each of 2^28 pixels.
+        # 12 bytes for each of 2^28 pixels
         large = ("--size", "16384x16384", "--spp", "1")
         self.assertEqual(self.refusal(2, "render", COURSEWORK, "-o", "a.exr", *large),
                          "pt: --size 16384x16384: the image takes 3.0 GiB of memory, more than the 2.0 GiB that this "
@@ -122,7 +119,7 @@ class RealDevice(CommandLineTest):
 
         whole, pieces = stats(), stats("--piece-rows", "8")
         self.assertLess(pieces["device_bytes"], whole["device_bytes"])
-        # A piece's error comes from fewer pixels, for which more is added; at a cut pixels have fewer neighbours.
+        # A piece has fewer pixels, so a larger margin, and fewer neighbours at cuts.
         for key in ("rmse", "relative_rmse"):
             self.assertAlmostEqual(pieces[key], whole[key], delta=0.25 * whole[key])
 

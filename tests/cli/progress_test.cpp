@@ -1,4 +1,4 @@
-// Tests of cli/base/progress.
+// cli/base/progress.
 #include "cli/base/progress.h"
 
 #include <nlohmann/json.hpp>
@@ -19,7 +19,7 @@ using std::chrono::milliseconds;
 
 const Progress::Clock::time_point start{};
 
-// What is printed when the callback comes every 10 ms for 2 s.
+// Prints with a callback every 10 ms for 2 s.
 std::string output_of(ProgressStyle style, std::size_t columns = 80) {
     std::ostringstream output;
     {
@@ -48,12 +48,11 @@ TEST(Progress, JsonLines) {
 TEST(Progress, TerminalLine) {
     const std::string output = output_of(ProgressStyle::line);
     EXPECT_LE(std::count(output.begin(), output.end(), '\r'), 22); // ten a second and the last erasure
-    EXPECT_EQ(output.find('\n'), std::string::npos);               // one line, written over
+    EXPECT_EQ(output.find('\n'), std::string::npos);               // one line, overwritten
     EXPECT_NE(output.find(" 50.5 %  ETA 0:00:01  50/100 spp  50.0 Msamples/s\r"), std::string::npos) << output;
-    EXPECT_TRUE(output.ends_with("\r\x1b[K")); // and left empty
+    EXPECT_TRUE(output.ends_with("\r\x1b[K")); // finally empty
 }
 
-// The last column stays free.
 TEST(Progress, TerminalLineFitsAnyWidth) {
     const auto line_of = [](std::size_t columns) {
         const std::string output = output_of(ProgressStyle::line, columns);
@@ -110,7 +109,7 @@ TEST(Progress, StyleFollowsTheTerminal) {
     EXPECT_EQ(cli::progress_style("json", true, true), ProgressStyle::none); // -q
 }
 
-// A scene is mostly there before anybody looks.
+// A scene may be ready before a line is due.
 TEST(Progress, OfTheSceneIsALineThatGoesAway) {
     const auto output_after = [](ProgressStyle style, int milliseconds_in_all) {
         std::ostringstream output;
@@ -127,7 +126,7 @@ TEST(Progress, OfTheSceneIsALineThatGoesAway) {
     EXPECT_EQ(output_after(ProgressStyle::none, 1000), "");
 }
 
-// A line of so many samples after a second.
+// The line after this time and number of samples.
 std::string line_after(Progress::Clock::duration time, double samples, const std::function<void(Progress &)> &prepare) {
     std::ostringstream output;
     Progress progress(output, ProgressStyle::line, 1'000'000, 100, start, [] { return std::size_t{80}; });
@@ -144,7 +143,7 @@ TEST(Progress, TheErrorIsShownOnceItIsKnown) {
               " 50.0 %  ETA 0:00:01  50/100 spp  50.0 Msamples/s");
 }
 
-// Two fifths of the samples were there: what is left is a fifth in a second.
+// Two fifths existed before: a fifth was done in one second.
 TEST(Progress, SamplesOfAnotherRunTookNoTime) {
     EXPECT_EQ(line_after(milliseconds(1000), 60.0, [](Progress &progress) { progress.begin_at(40); }),
               " 60.0 %  ETA 0:00:02  60/100 spp  20.0 Msamples/s");

@@ -1,7 +1,4 @@
-"""Tests of the progress that the program prints, to files and to terminals.
-
-Arguments: see command_line.py.
-"""
+"""Progress in files and terminals. Arguments: see command_line.py."""
 
 import fcntl
 import json
@@ -40,13 +37,13 @@ class ProgressOutput(CommandLineTest):
             while block := os.read(ours, 4096):
                 output += block
         except OSError:
-            pass  # Linux reports the closed terminal so
+            pass  # Linux reports a closed terminal like this
         os.close(ours)
         self.assertEqual(process.wait(timeout=PATIENCE), 0)
         return output
 
     def test_terminal(self):
-        output = self.terminal_output()  # which does not know its size
+        output = self.terminal_output()  # of unknown size
         self.assertRegex(output, rb"100\.0 %  ETA 0:00:00  3/3 spp  \d+\.\d Msamples/s\r")
         self.assertTrue(output.endswith(b"\r\x1b[K"), output)
 

@@ -1,4 +1,4 @@
-// The failure with which a call is refused. Used by the tests of what is read and written.
+// Catches the failure of a refused call.
 #pragma once
 
 #include "cli/base/exit_code.h"

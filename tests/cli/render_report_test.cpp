@@ -1,4 +1,4 @@
-// Tests of cli/render/render_report.
+// cli/render/render_report.
 #include "cli/base/devices.h"
 #include "cli/render/render_report.h"
 
@@ -10,7 +10,6 @@
 
 namespace {
 
-// Of all pixels.
 void set_sample_count(pt_stats &stats, std::uint32_t count) {
     stats.sample_count = stats.max_sample_count = count;
     stats.mean_sample_count = count;
@@ -52,7 +51,7 @@ TEST(RenderReport, ErrorText) {
     report.target_error = 0.0043; // between the estimate and its upper bound
     EXPECT_EQ(cli::error_text(report), "error 0.42% (0.4% to 0.44%); target not reached: 0.44% is above 0.43% after 32 "
                                        "samples, raise --spp");
-    report.requested_sample_count = 64; // a signal came: more were allowed
+    report.requested_sample_count = 64; // stopped by a signal, because more were allowed
     EXPECT_TRUE(cli::error_text(report).ends_with("0.44% is above 0.43% after 32 samples"));
 }
 

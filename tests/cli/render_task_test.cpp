@@ -1,5 +1,4 @@
-// Tests of cli/render/render_task: the precedence of command line, scene file and defaults, and which of them is
-// blamed.
+// cli/render/render_task: precedence of command line, scene file and defaults, and which is blamed.
 #include "cli/render/render_task.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +18,6 @@ constexpr const char *full_scene = R"({
   "film": { "width": 10, "height": 20, "exposure": -3, "tonemap": "agx", "gamma": 2.2 },
   "render": { "max_path_length": 3, "spp": 5, "seed": 7, "sampler": "random", "estimator": "uniform" } })";
 
-// As the command line gives it.
 cli::SceneOverride option(const char *name, cli::JsonPath path, nlohmann::json value) {
     return {std::move(path), std::move(value), name, ExitCode::usage, true};
 }
@@ -108,7 +106,7 @@ TEST(RenderTask, WhatTheLibraryRefusesIsNamedAsItWasGiven) {
     EXPECT_EQ(explained(size_only, {size, length}, full_scene),
               std::pair(ExitCode::usage, std::string("--size: width = 0: must be >= 1\n"
                                                      "s.json:3: render.max_path_length = 2000: must be <= 1024")));
-    // Neither gave it.
+    // neither gave it
     EXPECT_EQ(explained({}, {{"render", none, "width", none, "* rows", "512 * 1", "too many"}}, "{}"),
               std::pair(ExitCode::usage, std::string("--size: width * rows = 512 * 1: too many")));
 }

@@ -1,4 +1,4 @@
-// Tests of cli/scene/scene_file, with json_items, scene_reader and the table of keys behind it.
+// cli/scene/scene_file, with json_items, scene_reader and the table of keys.
 #include "cli/scene/scene_file.h"
 
 #include "tests/cli/refusal_of.h"
@@ -15,7 +15,7 @@ namespace {
 using cli::parse_scene;
 using cli::SceneFile;
 
-// The message without the file's name, or "" if the text is accepted.
+// The message without the file's name; "" if accepted.
 std::string refusal(const std::string &text) {
     const Refusal refused = refusal_of([&] { parse_scene(text, "s.json"); });
     if (refused.message.empty())
@@ -44,7 +44,7 @@ constexpr const char *small = R"({
               "estimator": "uniform" }
 })";
 
-// All spheres are in an array as soon as one has a color, so that they keep their order.
+// One colored sphere moves all into an array, which keeps the order.
 TEST(SceneFile, SpheresMayHaveColors) {
     const auto sphere = [](const std::string &rest) {
         return R"({"center": [1, 2, 3], "radius": 1, "material": "a")" + rest + "}";
@@ -109,7 +109,7 @@ TEST(SceneFile, ReadsCameraAndSettings) {
     EXPECT_EQ(scene.camera.shutter_open, 0.25);
     EXPECT_EQ(scene.camera.shutter_close, 0.5);
     EXPECT_EQ(scene.render.width, 320U);
-    EXPECT_EQ(scene.render.height, 200U); // 2e2 is a whole number
+    EXPECT_EQ(scene.render.height, 200U); // 2e2 is an integer
     EXPECT_EQ(scene.display.exposure, -1.5);
     EXPECT_EQ(scene.display.curve, cli::ToneCurve::agx);
     EXPECT_EQ(scene.display.gamma, 2.2);
@@ -176,7 +176,7 @@ TEST(SceneFile, SyntaxErrorsHaveLineAndColumn) {
 }
 
 TEST(SceneFile, DeepNestingIsNotDangerous) {
-    constexpr std::size_t depth = 100'000; // a hundred bytes of stack for each would be more than there are
+    constexpr std::size_t depth = 100'000; // a hundred bytes of stack per level would overflow
     const std::string open(depth, '[');
     const std::string close(depth, ']');
     EXPECT_EQ(refusal("{\"spheres\":[" + open + close + "]}"), "1: spheres[0]: must be an object, is an array");
@@ -203,7 +203,7 @@ TEST(SceneFile, WrongTypesAreNamed) {
     EXPECT_EQ(refusal(R"({"materials":{"a/b":{"diffuse":[1,2]}}})"),
               "1: materials[\"a/b\"].diffuse: must be a number or an array of 3 numbers, has 2");
     EXPECT_EQ(refusal(R"({"materials":{"a":{"glossiness":"0123456789012345678901234567890123456789"}}})"),
-              "1: materials.a.glossiness: must be a number, is a string"); // too long to be shown
+              "1: materials.a.glossiness: must be a number, is a string"); // too long to show
 }
 
 TEST(SceneFile, MissingMembersAreNamed) {
@@ -256,7 +256,7 @@ TEST(SceneFile, NumbersHaveLimits) {
     EXPECT_NE(refusal(R"({"render":{"seed":-1}})"), "");
 }
 
-// Zeros that pt.h would take as "default" do not mean that in a file.
+// Zero is pt.h's "default", but not in a file.
 TEST(SceneFile, ZerosAreNotDefaults) {
     const auto camera = [](const std::string &member) {
         return refusal(R"({"camera":{"position":[0,0,0],"look_at":[0,0,1],)" + member + "}}");
@@ -279,7 +279,7 @@ TEST(SceneFile, ExplainsWhatTheLibraryRefuses) {
     const SceneFile scene = parse_scene(small, "s.json");
     const auto explained = [&](const BrokenRule &rule) { return scene.explain(rule); };
     EXPECT_EQ(explained({"spheres", 3, "radius", none, "", "-1", "must be > 0"}),
-              "s.json:3: spheres[3].radius = -1: must be > 0"); // of which there are two
+              "s.json:3: spheres[3].radius = -1: must be > 0"); // there are two
     EXPECT_EQ(explained({"spheres", 1, "radius", none, "", "-1", "x"}), "s.json:4: spheres[1].radius = -1: x");
     EXPECT_EQ(explained({"materials", 2, "emission", 1, "", "-1", "x"}),
               "s.json:7: materials.a.emission[1] = -1: x"); // a grey
@@ -295,7 +295,7 @@ TEST(SceneFile, ExplainsWhatTheLibraryRefuses) {
     EXPECT_EQ(explained({"accumulate", none, "sample_count", none, "", "0", "y"}), "s.json:11: render.spp = 0: y");
     EXPECT_EQ(explained({"render", none, "estimator", none, "", "9", "x"}), "s.json:12: render.estimator = 9: x");
     EXPECT_EQ(explained({"materials", 99, "x", none, "", "0", "y"}), "s.json:6: materials[99].x = 0: y");
-    // None of the file's: an option's, or as the library calls it.
+    // Not from the file: an option, or a name of the library.
     EXPECT_EQ(explained({"create", none, "device", none, "", "7", "y"}), "--device = 7: y");
     EXPECT_EQ(explained({"scene", none, "", none, "", "NULL", "y"}), "s.json: scene = NULL: y");
 }
@@ -327,7 +327,7 @@ TEST(SceneFile, AByteOrderMarkOfUtf8DoesNoHarm) {
     EXPECT_TRUE(refusal("\xef\xbb\xbf{,").starts_with("1:2: syntax error")) << refusal("\xef\xbb\xbf{,");
 }
 
-// Time and memory must grow with the file and not with its square: a square would be 10^10 steps here, minutes.
+// A quadratic reader would take 10^10 steps, minutes.
 TEST(SceneFile, ManyItemsAreReadInLinearTime) {
     std::string text = "{\"materials\":{";
     constexpr int count = 30'000;

@@ -1,4 +1,4 @@
-// Tests of cli/scene/scene_override: values that replace those of the scene, and animations.
+// cli/scene/scene_override: replaced values and animations.
 #include "cli/render/render_options.h"
 #include "cli/scene/scene_file.h"
 #include "cli/scene/scene_override.h"
@@ -41,7 +41,7 @@ TEST(SceneOverride, TakesThePlaceOfAValue) {
     EXPECT_EQ(changed({"spheres[0].center[1]=-8e1"}).spheres[0].center[2], 3.0);
     EXPECT_EQ(changed({"materials.a.diffuse=1"}).materials[0].diffuse[2], 1.0F);
     EXPECT_EQ(changed({"camera.position=[3,0,0]"}).camera.position[0], 3.0);
-    EXPECT_EQ(changed({"spheres[0].radius=1", "spheres[0].radius=2"}).spheres[0].radius, 2.0); // the last
+    EXPECT_EQ(changed({"spheres[0].radius=1", "spheres[0].radius=2"}).spheres[0].radius, 2.0); // the last wins
     const char *replaced = R"(spheres[0]={"center": [0,0,0], "radius": 3, "material": "b"})";
     EXPECT_EQ(changed({replaced, "spheres[0].radius=4"}).spheres[0].radius, 4.0);
     EXPECT_EQ(changed({replaced}).spheres[0].material, 1U);
@@ -49,7 +49,7 @@ TEST(SceneOverride, TakesThePlaceOfAValue) {
 
 TEST(SceneOverride, AddsMembers) {
     EXPECT_DOUBLE_EQ(changed({"camera.vertical_fov=90"}).camera.vertical_fov, std::numbers::pi / 2.0);
-    EXPECT_EQ(changed({"film.width=64", "film.height=32"}).render.height, 32U); // in a section that is not there
+    EXPECT_EQ(changed({"film.width=64", "film.height=32"}).render.height, 32U); // in a missing section
     EXPECT_EQ(changed({"spheres[1].motion=[1,0,0]"}).spheres[1].motion[0], 1.0);
     const SceneFile scene = changed({"materials.new.emission=5", "spheres[0].material=new"});
     EXPECT_EQ(scene.materials.at(3).emission[0], 5.0F);
@@ -85,7 +85,7 @@ TEST(SceneOverride, WhatDoesNotFitIsRefused) {
     expect("spheres[0].radius.x=1", "the scene has no spheres[0].radius.x");
     expect("camra.up=1", "unknown key \"camra\", did you mean \"camera\"?");
     expect("spheres.a=1", "must be an array, is an object");
-    expect("spheres[0].radius=[1", "spheres[0].radius: must be a number, is \"[1\""); // which is no JSON
+    expect("spheres[0].radius=[1", "spheres[0].radius: must be a number, is \"[1\""); // not JSON
     expect("camera.up=[0,0]", "camera.up: must be an array of 3 numbers, has 2");
 }
 
@@ -110,7 +110,7 @@ using cli::parse_scene;
 
 using Numbers = std::vector<double>;
 
-// A scene whose camera, sphere and lamp move.
+// Camera, sphere and lamp move.
 constexpr const char *moving = R"({
   "camera": { "position": [0, 0, 9], "look_at": [0, 0, 0] },
   "materials": { "the lamp": { "emission": 1 } },
@@ -146,11 +146,11 @@ TEST(Animation, SpheresMoveWithinAFrame) {
         return parse_scene(moving, "s.json", cli::overrides_of_frame(scene, frame)).spheres.at(0);
     };
     EXPECT_EQ(list(sphere(9).center), (Numbers{0, 0, 0}));
-    EXPECT_EQ(list(sphere(9).motion), (Numbers{0, 0, 0})); // not that of the file
+    EXPECT_EQ(list(sphere(9).motion), (Numbers{0, 0, 0})); // not the file's
     EXPECT_EQ(list(sphere(11).center), (Numbers{1, 0, 0}));
     EXPECT_EQ(list(sphere(11).motion), (Numbers{1, 0, 0}));
     EXPECT_EQ(list(sphere(12).center), (Numbers{2, 0, 0}));
-    EXPECT_EQ(list(sphere(12).motion), (Numbers{0, 3, 0})); // round the corner
+    EXPECT_EQ(list(sphere(12).motion), (Numbers{0, 3, 0})); // around the corner
     EXPECT_EQ(list(sphere(14).motion), (Numbers{0, 0, 0}));
 }
 
@@ -202,7 +202,7 @@ TEST(FrameRange, NumbersNames) {
     EXPECT_EQ(cli::numbered_name("f-####.png", 7), "f-0007.png");
     EXPECT_EQ(cli::numbered_name("f-##.png", 12345), "f-12345.png");
     EXPECT_EQ(cli::numbered_name("#", 0), "0");
-    EXPECT_EQ(cli::numbered_name("#1/###", 12), "#1/012"); // the last of them
+    EXPECT_EQ(cli::numbered_name("#1/###", 12), "#1/012"); // the last run of #
     EXPECT_EQ(cli::numbered_name("a.png", 1), std::nullopt);
 }
 

@@ -1,6 +1,5 @@
-"""Tests that every scene of cli/scenes says what it is for, has all that a picture needs, and renders, without an
-unexpected warning.
-Arguments: see command_line.py."""
+"""Every scene of cli/scenes says its purpose, is complete, and renders without unexpected warnings. Arguments: see
+command_line.py."""
 
 import json
 import os
@@ -9,7 +8,7 @@ import pathlib
 from command_line import PT, SCENES, CommandLineTest, main
 from scene_file import read_scene
 
-# Their balls reflect more than they receive, as those of the coursework did.
+# Their balls reflect more than they receive, as in the original coursework.
 WARNED_OF = ["coursework-motion.json", "coursework.json"]
 FILES = sorted(name for name in os.listdir(SCENES) if name.endswith(".json"))
 

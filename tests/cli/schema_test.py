@@ -1,8 +1,4 @@
-"""Tests of `pt schema` against the scenes here, and against what the program reads and refuses: scenes are changed in
-every place, and program and schema must agree.
-
-Arguments: see command_line.py.
-"""
+"""`pt schema` and the program agree on the scenes here, changed in every place. Arguments: see command_line.py."""
 
 import copy
 import json
@@ -27,13 +23,13 @@ SCENE = {
 OTHERS = (None, "zzzz", -1, 0, 0.5, 65, 1e-19, 5e9, 2e18, [], [0, 0, 0], [1, 2, -3], {"zzzz": 1})
 OTHERS_IN_ARRAYS = ("a", -1, 0, 2e18, [])
 
-# What no schema can tell, for it looks at one value at a time.
+# Beyond schemas, which see one value at a time.
 BEYOND_SCHEMAS = ("unknown material", "must be a later frame", "as many numbers as the one before",
                   "must be that of a key")
 
 
 def places(value, path=()):
-    """Of all values within."""
+    """Paths of all values inside."""
     members = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
     for key, member in members:
         yield (*path, key)
@@ -114,7 +110,7 @@ class Schema(CommandLineTest):
                 spheres = {"center": "a.npy", "radius": "r.npy", "material": "r", key: value}
                 scene = {"materials": {"r": {}}, "spheres": [spheres]}
                 is_valid = self.validator.is_valid(scene)
-                # The stand-in for the library accepts everything.
+                # The stand-in accepts everything.
                 refused = self.refused_by(self.fake, scene, "--size", "4x2")
                 refused = refused or (not is_valid and self.refused_by(PT, scene))
                 self.assertEqual(refused, not is_valid, spheres)
@@ -127,11 +123,11 @@ class Schema(CommandLineTest):
             spheres = scene.get("spheres")
             if isinstance(spheres, list) and any(isinstance(each, dict) and isinstance(each.get("center"), str)
                                                  for each in spheres):
-                continue  # the name of a file, see above
+                continue  # a file's name, see above
             is_valid = self.validator.is_valid(scene)
             refused = self.refused_by(self.fake, scene, "--size", "4x2")
             kind = "valid" if is_valid else "reader"
-            # The stand-in for the library accepts everything: the rules of the library need a device.
+            # The stand-in accepts everything; the library's rules need a device.
             if not refused and not is_valid:
                 refused = self.refused_by(PT, scene)
                 kind = "library"

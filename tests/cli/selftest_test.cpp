@@ -1,5 +1,5 @@
-// Tests of cli/selftest: right images pass and wrong ones fail, and the report says so. selftest_test.py tests on a
-// device whether the scenes are right.
+// cli/selftest: right images pass, wrong ones fail, and the report says so. selftest_test.py tests the scenes on a
+// device.
 #include "cli/selftest/selftest.h"
 
 #include <gtest/gtest.h>
@@ -64,7 +64,7 @@ TEST(SelftestScene, WithoutNoiseEveryPixelCounts) {
     EXPECT_EQ(scene_count, 2);
 }
 
-// The closed form against the integral over time that it stands for, by the midpoint rule.
+// Closed form against the integral over time, by the midpoint rule.
 TEST(SelftestScene, RecedingLampByQuadrature) {
     const SelftestScene scene = cli::selftest_scenes().back();
     ASSERT_EQ(scene.name, "receding lamp");

@@ -1,4 +1,4 @@
-"""Tests of `pt selftest` as its users meet it. Arguments: see command_line.py."""
+"""`pt selftest` as users meet it. Arguments: see command_line.py."""
 
 import json
 import os
@@ -8,7 +8,7 @@ from command_line import PT, RESULT, SCENES, CommandLineTest, main
 
 
 class Selftest(CommandLineTest):
-    """The stand-in's image is no answer to any scene; all else of it can be right or wrong."""
+    """The stand-in's image fails every scene; all else can be right or wrong."""
 
     def checks(self, **environment):
         self.assertEqual(self.run_pt("selftest", "--json", "s.json", **environment), 1, self.errors)
@@ -55,7 +55,7 @@ class RealDevice(CommandLineTest):
         self.assertIn(f"\npassed: all {len(report['checks'])} checks\n", self.output)
 
     def failed_directions(self, *faults):
-        """Names of the checks of directions that fail with edited shaders."""
+        """Failed checks of directions with edited shaders."""
         shutil.rmtree(self.path("shaders"), ignore_errors=True)
         shutil.copytree(os.path.join(SCENES, "..", "..", "shaders"), self.path("shaders"))
         for name, old, new in faults:
@@ -71,7 +71,7 @@ class RealDevice(CommandLineTest):
     def test_directions(self):
         kinds = "Phong lobe, n = 20", "hemisphere, by cosine", "hemisphere, uniform"
         self.assertEqual(self.failed_directions(), [])
-        # Densities that are a little others, and an azimuth that leaves out a twentieth of the circle.
+        # Slightly wrong densities, and an azimuth without a twentieth of the circle.
         self.assertEqual(self.failed_directions(
             ("sampling.glsl", "return SphericalAngles(1.0", "u.x = 0.98 * u.x + 0.01;\n    return SphericalAngles(1.0"),
             ("sampling.glsl", "vec2(sqrt(1.0 - u), sqrt(u))", "vec2(sqrt(1.0 - 0.99 * u), sqrt(0.99 * u))"),

@@ -1,4 +1,4 @@
-"""Tests of `pt render --shader-dir`, with and without --watch. Arguments: see command_line.py."""
+"""`pt render --shader-dir`, with and without --watch. Arguments: see command_line.py."""
 
 import glob
 import json
@@ -12,7 +12,7 @@ from watching import WatchTest, scene_text
 SHADERS = os.path.join(SCENES, "..", "..", "shaders")
 LIBRARIES = os.path.join(os.path.dirname(os.path.dirname(PT)), "lib")
 MODULE = os.path.join(LIBRARIES, "pt", "libpt-glsl.so")
-SRGB = {0.25: 137, 0.5: 188, 1.0: 255}  # of IEC 61966-2-1, in 8 bits
+SRGB = {0.25: 137, 0.5: 188, 1.0: 255}  # IEC 61966-2-1, 8 bits
 
 
 class ShaderDir(WatchTest):
@@ -29,7 +29,7 @@ class ShaderDir(WatchTest):
         return text.replace(old, new)
 
     def brighter(self, factor):
-        """The kernel with every sample multiplied by it."""
+        """The kernel with samples multiplied by `factor`."""
         with open(os.path.join(SHADERS, "pathtrace.comp"), encoding="utf-8") as file:
             return file.read().replace("* held.film_scale", f"* ({factor} * held.film_scale)")
 
@@ -50,7 +50,7 @@ class ShaderDir(WatchTest):
         pt.line_with("wrote a.png")
         self.expect_picture(1.0)
 
-        # An included file that does not compile, and a remark in it once it does.
+        # An included file that does not compile, and then a warning in it.
         film = self.read("shaders/film.glsl")
         self.save("shaders/film.glsl", self.edited("film.glsl", "FilmPixel empty_film_pixel()\n",
                                                    "FilmPixel empty_film_pixel(\n"))
@@ -63,7 +63,7 @@ class ShaderDir(WatchTest):
         pt.line_with("wrote a.png")
         self.expect_picture(1.0)
 
-        # With a file gone, and the whole folder, and all of it back.
+        # Without a file, without the folder, and restored.
         os.remove(self.path("shaders/phong.glsl"))
         pt.line_with("shaders/phong.glsl: No such file or directory")
         os.rename(self.path("shaders"), self.path("aside"))
@@ -106,7 +106,7 @@ class ShaderDir(WatchTest):
         self.assertEqual(pt.end(), 0)
 
     def test_a_binding_outside_the_layout_is_refused(self):
-        self.write("shaders/phong.glsl", "\ufeff" + self.read("shaders/phong.glsl"))  # a byte order mark goes unnoticed
+        self.write("shaders/phong.glsl", "\ufeff" + self.read("shaders/phong.glsl"))  # byte order marks are ignored
         self.expect(0, "render", "s.json", "-o", "a.png", "--shader-dir", "shaders")
         kernel = self.edited("pathtrace.comp", "layout(local_size_x", "layout(set = 0, binding = 9) buffer Mine "
                              "{ vec4 mine[]; };\nlayout(local_size_x").replace("* held.film_scale", "* (held.film_scale + mine[0].x)")
@@ -127,7 +127,7 @@ class ShaderDir(WatchTest):
 
 
 class MaterialsPage(CommandLineTest):
-    """The worked example of shaders/MATERIALS.md, as it stands there."""
+    """The example of shaders/MATERIALS.md, verbatim."""
 
     program = PT
 
@@ -150,8 +150,8 @@ class MaterialsPage(CommandLineTest):
                  "spheres": [{"center": [0, 0, 0], "radius": 1000, "material": "sky"}],
                  "planes": [{"normal": [0, 1, 0], "offset": 0, "material": "floor"}]}))
             self.assertEqual(self.values("--spp", "1"), [[SRGB[radiance]] * 9] * 2)
-            # By other directions within 4 standard errors: of a sample's 0.9 of the value, and .8 of a step of 8 bits for
-            # each of the percents that are left of it.
+            # Within 4 standard errors with other directions: 0.9 of the value per sample, and .8 of an 8-bit step for
+            # each remaining percent.
             for row in self.values("--spp", "65536", "--estimator", "uniform"):
                 for value in row:
                     self.assertLessEqual(abs(value - SRGB[radiance]), 2)

@@ -1,4 +1,4 @@
-// Tests of cli/render/source_watch: which files a picture is made from, and when they count as changed.
+// cli/render/source_watch: a picture's files, and when they count as changed.
 #include "cli/render/source_watch.h"
 #include "tests/cli/temporary_folder.h"
 
@@ -16,7 +16,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds long_enough = std::chrono::minutes{10}; // for what comes at once, or never
+constexpr milliseconds long_enough = std::chrono::minutes{10}; // for events that come at once or never
 
 TEST(SourceFiles, AreTheSceneAndTheShaders) {
     const TemporaryFolder folder;
@@ -42,7 +42,7 @@ protected:
 
     SourceWatch watch() const { return {folder.file("scene"), folder.file("shaders")}; }
 
-    // Waits for a change, which takes several calls.
+    // A change takes several calls.
     static void expect_change(SourceWatch &watch, const std::vector<std::string> &names) {
         const auto end = std::chrono::steady_clock::now() + long_enough;
         while (!watch.changed(long_enough))
@@ -52,8 +52,8 @@ protected:
         EXPECT_FALSE(watch.changed(milliseconds{0}));
     }
 
-    // Each call takes a tenth of a second or a look at the files: a look comes with the third one at the latest, and
-    // what it finds has settled with the next.
+    // A call takes a tenth of a second or a look at the files: the third looks at the latest, the next one sees files
+    // settled.
     static void expect_nothing(SourceWatch &watch) {
         for (int call = 0; call < 6; ++call)
             EXPECT_FALSE(watch.changed(milliseconds{100}));
@@ -72,7 +72,7 @@ TEST_F(SourceWatchTest, PassesOverWhatIsNoChange) {
     expect_change(sources, {folder.file("scene")});
 }
 
-// Between two looks the files are as before: nothing is told. begin() takes a change for known.
+// A change undone between two looks is not reported; begin() accepts changes.
 TEST_F(SourceWatchTest, ComparesWithTheBeginning) {
     SourceWatch sources = watch();
     folder.write("scene", "2");

@@ -1,5 +1,4 @@
-"""Tests of what ends a rendering (samples, time, target error, signals), with the exit code of each, of what is said about
-the error of an image, and of previews.
+"""Ends of a rendering (samples, time, target error, signals) with exit codes, messages about the error, and previews.
 Arguments: see command_line.py."""
 
 import json
@@ -9,7 +8,7 @@ import subprocess
 
 from command_line import COURSEWORK, PATIENCE, PT, CommandLineTest, main, read_exr_channels, read_png
 
-# Samples of 20 ms would take hours, and the first look at the error comes after 16 of them.
+# With samples of 20 ms it would take hours; the first check of the error comes after 16.
 ENDLESS = ("--spp", "1000000", "--time", "0.5")
 SLOW = {"FAKE_PT_SAMPLE_MS": 20}
 
@@ -17,9 +16,9 @@ SLOW = {"FAKE_PT_SAMPLE_MS": 20}
 class ExitCodes(CommandLineTest):
     def test_every_combination(self):
         kept = ("--checkpoint", "c.ptfilm")
-        not_kept = ("--checkpoint", "none/c.ptfilm")  # a folder that is not there
+        not_kept = ("--checkpoint", "none/c.ptfilm")  # a missing folder
         table = [
-            # options, code, what ended it: 1/16 is the error of the stand-in after 16 samples
+            # options, code, cause of the end: the stand-in's error is 1/16 after 16 samples
             (("--spp", "20"), 0, "samples"),
             (("--spp", "20", *kept), 0, "samples"),
             (("--spp", "20", *not_kept), 0, "samples"),
@@ -59,7 +58,7 @@ class ExitCodes(CommandLineTest):
                 self.assertEqual("; --resume goes on from c.ptfilm" in self.errors, options[0] == "--checkpoint")
 
     def test_a_signal_that_comes_twice_at_once_is_one(self):
-        """timeout(1) sends it to the process and to its group."""
+        """timeout(1) signals the process and its group."""
         process = self.start("render", COURSEWORK, "-o", "a.png", "--spp", "1000000", "--size", "2x2", "--progress",
                              "json", "--checkpoint", "c.ptfilm", FAKE_PT_SAMPLE_MS=200)
         while json.loads(process.stderr.readline())["samples_per_pixel"] == 0:
@@ -71,7 +70,7 @@ class ExitCodes(CommandLineTest):
         self.assertEqual(self.files(), ["a.png", "c.ptfilm"])
 
     def test_another_signal_later_ends_it_at_once(self):
-        """A sample of an hour stands for a driver that hangs."""
+        """A sample of an hour stands for a hung driver."""
         process = self.start("render", COURSEWORK, "-o", "a.png", "--spp", "2", "--size", "2x2", "--progress", "json",
                              FAKE_PT_SAMPLE_MS=3_600_000)
         while process.poll() is None:
@@ -105,13 +104,13 @@ class ExitCodes(CommandLineTest):
     def test_every_piece_has_its_share_of_the_time(self):
         self.expect(0, "render", COURSEWORK, "-o", "a.png", "--size", "2x4", "--piece-rows", "1", "--time", "0.4",
                     "--stats", "s.json", "--spp", "1000000", FAKE_PT_SAMPLE_MS=1)
-        self.assertGreater(json.loads(self.read("s.json"))["spp"], 0)  # the least of the pieces
+        self.assertGreater(json.loads(self.read("s.json"))["spp"], 0)  # the fewest of the pieces
         self.assertEqual(self.errors.count("black"), 0)
 
 
 class Previews(CommandLineTest):
     def test_pictures_so_far_are_written_and_it_goes_on(self):
-        """When SIGUSR1 asks for one, or by itself."""
+        """By SIGUSR1 or by time."""
         for options in (), ("--preview-every", "0.05"):
             process = self.start("render", COURSEWORK, "-o", "a.png", "--spp", "1000000", "--size", "2x2", "--progress",
                                  "json", *options, FAKE_PT_SAMPLE_MS=20)
@@ -148,8 +147,8 @@ KEYS = [name + end for name in ("rmse", "relative_rmse") for end in ("", "_low",
 
 
 class TargetError(CommandLineTest):
-    """The stand-in's image of N samples has the relative error 0.5 / N with bounds of half and twice that, unknown below 16;
-    the other error is twice as large."""
+    """The stand-in's relative error is 0.5 / N with bounds of half and twice that, unknown below 16; the other error is
+    twice as large."""
 
     def render(self, *options, code=0):
         arguments = ["render", COURSEWORK, "-o", "a.png", "--size", "4x3", "--stats", "s.json"]
@@ -219,7 +218,7 @@ class RealDeviceError(CommandLineTest):
         self.assertTrue(0 < stats["relative_rmse_low"] < stats["relative_rmse"] < stats["relative_rmse_high"] <= 0.1)
         self.assertTrue(0 < stats["rmse_low"] < stats["rmse"] < stats["rmse_high"])
 
-        # The pixels are those of as many samples in one call, and one look at the error earlier was too early.
+        # The pixels of one call with as many samples; one check earlier was too early.
         self.expect(0, *arguments, "-o", "b.exr", "--spp", str(stats["spp"]))
         self.assertEqual(read_exr_channels(self.path("a.exr")), read_exr_channels(self.path("b.exr")))
         self.assertEqual(json.loads(self.read("s.json"))["rmse"], stats["rmse"])

@@ -1,4 +1,4 @@
-// An empty folder that lives as long as a test. Used by the tests that write files.
+// An empty folder for the object's lifetime.
 #pragma once
 
 #include <filesystem>
@@ -29,7 +29,7 @@ public:
         return text.str();
     }
 
-    // Hidden files count: temporary files are hidden.
+    // Includes hidden files, such as temporary ones.
     std::ptrdiff_t count() const {
         return std::distance(std::filesystem::directory_iterator(path_), std::filesystem::directory_iterator());
     }

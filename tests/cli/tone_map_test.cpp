@@ -1,4 +1,4 @@
-// Tests of cli/image/tone_map: exposure, curves, encoding and rounding.
+// cli/image/tone_map: exposure, curves, encoding and rounding.
 #include "cli/image/tone_map.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ using cli::ToneMap;
 constexpr ToneCurve all_curves[] = {ToneCurve::none, ToneCurve::reinhard, ToneCurve::aces, ToneCurve::agx,
                                     ToneCurve::neutral};
 
-// A handful of operations in double on numbers near 1, one of them a power: 1e-12 is thousands of roundings.
+// A few operations near 1, one of them a power: 1e-12 is thousands of roundings.
 constexpr double rounding = 1e-12;
 
 void expect_color(const Color &color, const Color &expected, double tolerance) {
@@ -51,12 +51,12 @@ TEST(ToneMap, SrgbAnchors) {
     EXPECT_NEAR(cli::encode_srgb(0.001), 0.01292, rounding);
 }
 
-// The standard rounds the break point to 7 decimals, so the pieces may miss each other by the slope times half of one.
+// The standard rounds the break point to 7 decimals: the pieces differ by up to the slope times half a unit.
 TEST(ToneMap, SrgbPiecesMeet) {
     constexpr double break_point = 0.0031308;
     const double above = cli::encode_srgb(std::nextafter(break_point, 1.0));
     EXPECT_NEAR(above, cli::encode_srgb(break_point), 12.92 * 0.5e-7);
-    EXPECT_NE(above, cli::encode_srgb(break_point)); // it is piecewise: a plain power would have no gap
+    EXPECT_NE(above, cli::encode_srgb(break_point)); // negative control: a plain power has no gap
 }
 
 TEST(ToneMap, CurvesNeverFall) {
@@ -66,7 +66,7 @@ TEST(ToneMap, CurvesNeverFall) {
             return apply_curve(curve, {x, x, x})[1];
         })) << cli::tone_curves.name(curve);
     }
-    EXPECT_FALSE(is_nondecreasing([](double x) { return x - 2e-3 * std::sin(1e3 * x); })); // the check can fail
+    EXPECT_FALSE(is_nondecreasing([](double x) { return x - 2e-3 * std::sin(1e3 * x); })); // negative control
 }
 
 TEST(ToneMap, CurvesStayInTheDisplayAndKeepBlack) {
@@ -99,13 +99,13 @@ TEST(ToneMap, AgxAnchors) {
                  {0.21446743070720334, 0.21453266862054834, 0.21453672826813272}, rounding);
     expect_color(apply_curve(ToneCurve::agx, {1.0, 0.2, 0.05}),
                  {0.6533598827094625, 0.2536195947288043, 0.107880509867948}, rounding);
-    // Sobotka's sigmoid has its pivot at middle grey, with half the signal; the polynomial's root mean square error
-    // against it is published: sqrt(3.67e-6) = 0.0019.
+    // Sobotka's sigmoid pivots at middle grey with half the signal; the polynomial's published root mean square error
+    // is sqrt(3.67e-6) = 0.0019.
     EXPECT_NEAR(std::pow(apply_curve(ToneCurve::agx, {0.18, 0.18, 0.18})[1], 1.0 / 2.2), 0.5, 3 * 0.0019);
 }
 
 TEST(ToneMap, NeutralAnchors) {
-    // Below the compression only the 4 % of the Fresnel reflection are taken off, and near black a share of them.
+    // Below the compression it subtracts the 4 % of Fresnel reflection, near black a share of them.
     expect_color(apply_curve(ToneCurve::neutral, {0.5, 0.3, 0.2}), {0.46, 0.26, 0.16}, rounding);
     expect_color(apply_curve(ToneCurve::neutral, {0.05, 0.05, 0.05}), {0.015625, 0.015625, 0.015625}, rounding);
     expect_color(apply_curve(ToneCurve::neutral, {1.0, 1.0, 1.0}),
@@ -151,15 +151,15 @@ TEST(Exposure, TheAverageOfLogarithmsBecomesMiddleGrey) {
     EXPECT_EQ(automatic_exposure(grey({0x1p-20F * 0.09F, 0x1p-20F * 0.36F})), 20.0) << "moves with the picture";
 }
 
-// A hundredth of the pixels is a lamp 2^20 times as bright as the rest: the level, by the lamp alone, is 2^20 / 100^4,
-// about 0.01 of the rest.
+// A hundredth of the pixels is 2^20 times as bright: by the lamp alone the level is 2^20 / 100^4, about 0.01 of the
+// rest.
 TEST(Exposure, HardlyDependsOnLamps) {
     std::vector<float> radiance = grey({0x1p20F * 0.18F});
     radiance.resize(3 * 100, 0.18F);
     EXPECT_NEAR(automatic_exposure(radiance), -20.0 / 100.0, 0.01);
 }
 
-// Half of the picture is a tail of 2^-40: it counts 128 * 2^-40 / level, next to nothing.
+// Half of the picture is a tail of 2^-40, which counts 128 * 2^-40 / level.
 TEST(Exposure, WhatLooksBlackDoesNotCount) {
     EXPECT_EQ(automatic_exposure(grey({0.18F, 0x1p-40F, 0.18F, 0x1p-60F})), 0.0);
 }

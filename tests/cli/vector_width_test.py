@@ -1,7 +1,4 @@
-"""Tests of the width of vectors that the program asks of Mesa's llvmpipe, on machines that have wide ones.
-
-Arguments: see command_line.py.
-"""
+"""Vector widths requested of Mesa's llvmpipe, on machines with wide vectors. Arguments: see command_line.py."""
 
 import json
 import os
@@ -37,7 +34,7 @@ class RealDeviceWidth(CommandLineTest):
             self.skipTest("there is no llvmpipe")
 
     def render(self, name, **environment):
-        """The device's name, in which llvmpipe tells its width."""
+        """The device's name, which contains llvmpipe's width."""
         self.expect(0, "render", COURSEWORK, "-o", name, "--size", "64x32", "--spp", "4", "--max-path-length", "6",
                     "--device", self.device, XDG_CACHE_HOME=self.path("cache"), **environment)
         return read_exr_attributes(self.path(name))["pt.device"][1].decode()
@@ -47,7 +44,7 @@ class RealDeviceWidth(CommandLineTest):
         self.assertTrue(os.listdir(self.path("cache/pt/shaders-512")))
 
     def test_a_checkpoint_goes_on_wherever_caches_can_be(self):
-        """Cron, services and other users have other folders for caches, or none."""
+        """Cron, services and other users have other cache folders, or none."""
         self.write("file", "")
         picture = ("render", COURSEWORK, "--size", "16x8", "--device", self.device, "--checkpoint", "c.ptfilm", "--spp")
         self.expect(0, *picture, "8", "-o", "a.png", XDG_CACHE_HOME=self.path("cache"))
@@ -59,7 +56,7 @@ class RealDeviceWidth(CommandLineTest):
                     "LP_NATIVE_VECTOR_WIDTH, or begin anew")
 
     def test_the_picture_is_the_same(self):
-        for width in 256, 512:  # without a cache, which would hold code for the other width
+        for width in 256, 512:  # a cache would hold code for the other width
             name = self.render(f"{width}.exr", LP_NATIVE_VECTOR_WIDTH=width, MESA_SHADER_CACHE_DISABLE="true")
             self.assertIn(f"{width} bits", name)
         self.assertEqual(read_exr_blocks(self.path("256.exr")), read_exr_blocks(self.path("512.exr")))

@@ -1,4 +1,4 @@
-// Tests of cli/render/warnings: each rule, on both sides of its bound.
+// cli/render/warnings: each rule, on both sides of its bound.
 #include "cli/render/warnings.h"
 
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ const Texts unlit{"s.json: no surface emits light: the picture is black"};
 
 TEST(Warnings, NoLight) {
     EXPECT_EQ(warnings_of("", ""), unlit);
-    EXPECT_EQ(warnings_of(scene_of(sphere(9, 1, "grey"))), unlit); // the lamps' materials are not used
+    EXPECT_EQ(warnings_of(scene_of(sphere(9, 1, "grey"))), unlit); // the lamps' materials are unused
     EXPECT_EQ(warnings_of(scene_of(sphere(9, 1, "blue lamp"))), Texts());
     EXPECT_EQ(warnings_of(scene_of("", lamp_plane(3))), Texts());
 }
@@ -51,7 +51,7 @@ TEST(Warnings, MaterialsThatGiveOffMoreThanTheyReceive) {
             R"(}, "c": {"diffuse": 2}}, "planes": [{"normal": [0, 1, 0], "offset": 1,
                            "material": "a b"}], "spheres": [{"center": [0, 5, 0], "radius": 1, "material": "lamp"}])");
     };
-    EXPECT_EQ(with("0.1"), Texts()); // 0.1 + 0.9 in float32; nothing is made of c
+    EXPECT_EQ(with("0.1"), Texts()); // 0.1 + 0.9 in float32; c is unused
     EXPECT_EQ(with("[0.9, 0, 0.7]"), Texts());
     EXPECT_EQ(with("0.101"),
               Texts{"s.json: materials[\"a b\"]: diffuse + specular = 1: more light is reflected than received"});

@@ -1,4 +1,4 @@
-"""Tests of `pt render --watch` with scenes that change. Arguments: see command_line.py."""
+"""`pt render --watch` with changing scenes. Arguments: see command_line.py."""
 
 import json
 import os
@@ -26,7 +26,7 @@ class Scenes(WatchTest):
         self.assertEqual(self.width(), 4)
         self.save("s.json", scene_text(5))
         pt.line_with("wrote a.png: 5x2")
-        self.save("s.json", scene_text(6))  # the file that the last save brought is watched too
+        self.save("s.json", scene_text(6))  # the replaced file is watched too
         pt.line_with("wrote a.png: 6x2")
         self.write("other.json", scene_text(9))
         os.utime(self.path("s.json"))
@@ -120,7 +120,7 @@ class Scenes(WatchTest):
         self.assertNotIn("a.png", self.files())
         self.write("s.json", scene_text(4))
         pt.line_with('"fraction"')
-        self.assertEqual(pt.end(), 130)  # with what there is
+        self.assertEqual(pt.end(), 130)  # with the current picture
         self.assertEqual(pt.count("pt: stopped by SIGINT"), 1)
         self.assertEqual(pt.count("wrote"), int("a.png" in self.files()))
 

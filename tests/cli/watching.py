@@ -1,4 +1,4 @@
-"""Helpers of the tests of `pt render --watch`: a program that keeps running, and its output meanwhile."""
+"""Helpers for `pt render --watch`."""
 
 import json
 import os
@@ -9,21 +9,21 @@ from command_line import PATIENCE, CommandLineTest, default_signals
 
 
 def scene_text(width, emission=1.0):
-    """A ball around the camera: every pixel is its emission, exactly."""
+    """A ball around the camera: every pixel has exactly its emission."""
     return json.dumps({"film": {"width": width, "height": 2, "exposure": 0}, "render": {"spp": 1, "max_path_length": 1},
                        "materials": {"light": {"emission": emission}},
                        "spheres": [{"center": [0, 0, 0], "radius": 9, "material": "light"}]})
 
 
 class Watching:
-    """A running program, whose lines are read when they are waited for; those of both streams from one pipe, in their order."""
+    """A running program; both streams come through one pipe, in order."""
 
     def __init__(self, process):
         self.process = process
         self.seen = []
 
     def line_with(self, text):
-        """The next line that contains it; those before it are passed over."""
+        """The next line with this text; skips others."""
         for line in self.process.stdout:
             self.seen.append(line)
             if text in line:
@@ -31,13 +31,13 @@ class Watching:
         raise AssertionError(f"{text} does not come after\n{''.join(self.seen)}")
 
     def end(self, number=signal.SIGINT):
-        """Sends a signal, and returns the exit code."""
+        """Sends a signal and returns the exit code."""
         self.process.send_signal(number)
         self.seen += self.process.stdout
         return self.process.wait(timeout=PATIENCE)
 
     def count(self, text):
-        """Lines so far that contain it."""
+        """Lines so far with this text."""
         return sum(text in line for line in self.seen)
 
 
@@ -47,11 +47,11 @@ class WatchTest(CommandLineTest):
         process = subprocess.Popen([self.program, "render", "s.json", "--watch", "-o", "a.png", *arguments],
                                    cwd=self.folder, env={**os.environ, **names}, text=True, preexec_fn=default_signals,
                                    stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-        for undo in (process.stdout.close, process.wait, process.kill):  # the last is called first
+        for undo in (process.stdout.close, process.wait, process.kill):  # run in reverse order
             self.addCleanup(undo)
         return Watching(process)
 
     def save(self, name, text):
-        """As editors do: a new file takes the old one's name."""
+        """As editors do: a new file replaces the old one."""
         self.write(name + "~", text)
         os.replace(self.path(name + "~"), self.path(name))

@@ -1,7 +1,6 @@
-"""Programs of other people, built from the installed library by what its users have: pkg-config, CMake, Python,
-Debian's packages. Called by CTest as consumers_test.py STEP with the paths below; the step `install` comes before the others.
-
-The installed files are moved before they are used, and no program finds the build folder."""
+"""Users' programs, built from the installed library with pkg-config, CMake, Python and Debian's packages. Called as
+consumers_test.py STEP with the paths below; `install` comes first. The installation is moved before use, and no program
+finds the build folder."""
 
 import argparse
 import json
@@ -22,7 +21,7 @@ class Failed(Exception):
 
 
 def run(*command, expect=0, cwd=None, **environment):
-    """The standard output of a command that has to exit with a given status."""
+    """Standard output of a command, which must exit with `expect`."""
     done = subprocess.run([str(word) for word in command], cwd=cwd, env={**os.environ, **environment},
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     if done.returncode != expect:
@@ -36,13 +35,13 @@ def require(holds, message):
 
 
 def check_enclosure(*command, **environment):
-    """A program that has found exact radiances, and that finds an error where another radiance is expected."""
+    """Succeeds with exact radiances, and fails with another expectation."""
     run(*command, **environment)
     run(*command, "2.5", expect=1, **environment)
 
 
 def files_with(tree, *texts):
-    """The files below a folder that have one of the texts in them."""
+    """Files below a folder that contain one of the texts."""
     found = []
     for path in sorted(tree.rglob("*")):
         if path.is_file() and not path.is_symlink():
@@ -52,7 +51,7 @@ def files_with(tree, *texts):
 
 
 def needed(program):
-    """The names of the shared libraries that a program was linked with."""
+    """Shared libraries that a program is linked with."""
     return [line.split("[")[1].rstrip("]") for line in run("readelf", "--dynamic", program).splitlines()
             if "(NEEDED)" in line]
 
@@ -84,7 +83,7 @@ class Steps:
         first = self.work / "installed"
         run(self.options.cmake, "--install", self.options.build, "--prefix", first)
         require(files_with(first, first) == [], f"the prefix is in installed files: {files_with(first, first)}")
-        trace = first / "trace"  # what has the prefix in it is found
+        trace = first / "trace"  # negative control
         trace.write_text(f"prefix={first}")
         require(files_with(first, first) == [f"{trace}: {first}"], "a file that names the prefix went unnoticed")
         trace.unlink()
@@ -96,7 +95,7 @@ class Steps:
                     require(f"{place}/" not in text, f"{path} names {place}")
 
     def check_manual(self, share):
-        """Manual pages of all commands, and the completion of bash, each where it is looked for, below a folder share/."""
+        """Manual pages of all commands, and bash's completion, at their places below share/."""
         text = (share / "man/man1/pt.1").read_text()
         commands = re.findall(r"^  (\w+) ", text.split("Commands:\n")[1].split("\n\n")[0], re.MULTILINE)
         require("render" in commands, f"pt.1 refers to {commands}")
@@ -106,7 +105,7 @@ class Steps:
         self.check_completion(share / "bash-completion/completions/pt")
 
     def check_completion(self, script):
-        """As bash asks for it: a function that reads the words so far and fills a variable."""
+        """As bash calls it: a function that reads the words and fills a variable."""
         for words, expected in ((["pt", "re"], "render"), (["pt", "render", "--check"], "--checkpoint --checkpoint-every"),
                                 (["pt", "render", "sc"], "")):
             ask = f'source "$1"; shift; COMP_WORDS=("$@"); COMP_CWORD={len(words) - 1}; _pt; echo "${{COMPREPLY[*]}}"'
@@ -114,7 +113,7 @@ class Steps:
             require(said == expected, f"completion of {words} is {said}")
 
     def c99(self):
-        """pkg-config, with the shared and with the static library; the example in C, and the README's program."""
+        """pkg-config with both libraries; the C example and README.md's program."""
         folder = self.folder("c99")
         strict = [self.options.c_compiler, "-std=c99", "-pedantic-errors", "-Wall", "-Wextra", "-Werror"]
         enclosure = HERE / "c99" / "enclosure.c"
@@ -142,7 +141,7 @@ class Steps:
             require((pathlib.Path(shaders) / "pathtrace.comp").is_file(), f"there are no shaders in {shaders}")
 
     def package(self):
-        """find_package in C++ with both libraries, and in C alone with the static one."""
+        """find_package in C++ with both libraries, in C with the static one."""
         folder = self.folder("package")
         for project in "package", "package_c":
             build = folder / project
@@ -159,7 +158,7 @@ class Steps:
         check_enclosure(folder / "package_c/enclosure_static")
 
     def configure_subproject(self, build, *settings):
-        """Folders of the sources with files that are compiled with optimisation, and without: two sets."""
+        """Folders with files compiled with optimisation, and without."""
         run(self.options.cmake, "-S", HERE / "subproject", "-B", build, "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON",
             f"-DPT_DIRECTORY={SOURCE}", f"-DCMAKE_C_COMPILER={self.options.c_compiler}",
             f"-DCMAKE_CXX_COMPILER={self.options.cxx_compiler}", "-G", "Ninja", *settings)
@@ -172,9 +171,9 @@ class Steps:
         return fast, slow
 
     def subproject(self):
-        """add_subdirectory. Objects that the library's own build would have alike are taken from there (reuse.py)."""
+        """add_subdirectory. Equal objects are taken from the library's own build (reuse.py)."""
         folder = self.folder("subproject")
-        # The library is optimised where the project leaves that open, and only then; never the project.
+        # Only the library is optimised, and only where the project leaves that open.
         for number, (settings, expected) in enumerate((
                 ([], ({"lib"}, {"tests"})),
                 (["-DCMAKE_BUILD_TYPE=Debug"], (set(), {"lib", "tests"})),
@@ -201,7 +200,7 @@ class Steps:
         require(installed == ["enclosure_static"], f"the project's installation has {installed}")
 
     def python(self):
-        """The package with the library, and the example in Python, whose image has the bits of the example in C."""
+        """The package with the library; the Python example has the bits of the C example."""
         folder = self.folder("python")
         library = {"PT_LIBRARY": str(self.library / "libpt.so.0.3"), "PYTHONPATH": str(SOURCE / "lib" / "python")}
         run(sys.executable, "-B", EXAMPLES / "smallest.py", cwd=folder, **library)
@@ -213,7 +212,7 @@ class Steps:
         require((folder / "smallest.pfm").read_bytes() == image, "smallest.c and smallest.py differ")
 
     def check_program(self, program, folder, *options, **environment):
-        """The program finds its library, and the module that encodes EXR and JPEG."""
+        """The program finds its library and the module for EXR and JPEG."""
         scene = SOURCE / "cli" / "scenes" / "coursework.json"
         outputs = [folder / name for name in ("x.exr", "x.jpg", "x.png")]
         written = [word for output in outputs for word in ("-o", output)]
@@ -222,7 +221,7 @@ class Steps:
             require(output.read_bytes().startswith(magic), f"{output} is of another format")
 
     def check_program_without_module(self, program, folder, **environment):
-        """It writes and reads PNG; what needs the module is refused before the rendering, and says what to install."""
+        """Without the module it writes and reads PNG; others are refused before rendering, with what to install."""
         scene = SOURCE / "cli" / "scenes" / "coursework.json"
         small = [scene, "--size", "16x8", "--spp", "1"]
         run(program, "render", *small, "-o", folder / "only.png", **environment)
@@ -245,7 +244,7 @@ class Steps:
         self.check_program_without_module(folder / "without" / "bin" / "pt", folder)
 
     def without_openimageio(self):
-        """The program can be configured without it, which is said, and has no module to build and to pack."""
+        """CMake says so, and neither builds nor packs the module."""
         build = self.folder("without_openimageio")
         said = run(self.options.cmake, "-G", "Ninja", "-S", SOURCE, "-B", build, "-DPT_BUILD_TESTS=OFF",
                    "-DCMAKE_DISABLE_FIND_PACKAGE_PkgConfig=ON", f"-DCMAKE_C_COMPILER={self.options.c_compiler}",
@@ -261,11 +260,11 @@ class Steps:
         return run("dpkg-deb", "--field", package, name).strip().split(", ")
 
     def debian(self):
-        """The packages have what they should, say what they need, and work from where they are unpacked."""
+        """Contents, dependencies, and use of the unpacked packages."""
         folder = self.folder("debian")
         run(self.options.cpack, "-G", "DEB", "-B", folder, cwd=self.options.build)
         packages = {path.name.split("_")[0]: path for path in folder.glob("*.deb")}
-        compiler = "libpt0.3-glsl"  # where its libraries were there when it was built
+        compiler = "libpt0.3-glsl"  # if its libraries existed when it was built
         expected = ["libpt-dev", "libpt0.3", *([compiler] if compiler in packages else []), "pt", "pt-image-formats"]
         require(sorted(packages) == expected, f"the packages are {sorted(packages)}")
         exact = f"libpt0.3 (= {self.options.version})"

@@ -1,6 +1,6 @@
-"""A compiler's launcher: takes an object of the library from another build, if there it was compiled from the same sources
-by the same command, and compiles whatever else there is. Arguments: a file with the other build's commands (`ninja -t
-compdb`), the other build, this build's folder of pt, and the compiler's words."""
+"""A compiler launcher that takes an object from another build if it has the same sources and command, and compiles
+otherwise. Arguments: a file with the other build's commands (`ninja -t compdb`), the other build, this build's folder
+of pt, and the compiler's words."""
 
 import json
 import pathlib
@@ -13,13 +13,13 @@ words = sys.argv[4:]
 
 
 def plain(text, build, output):
-    """What decides about an object: builds differ in their folders, their launchers, and in what they warn of."""
+    """The words that decide an object: builds differ in folders, launchers and warnings."""
     text = text.replace(output, "OUT").replace(str(build), "BUILD").replace("\\", "").replace('"', "").replace("'", "")
     return sorted(word for word in text.split() if not word.startswith("-W") and not word.endswith("ccache"))
 
 
 def same_sources(source):
-    """Of those that were generated: all shaders, and the file that takes several together."""
+    """The same generated sources: all shaders, and the unity file."""
     generated = [path.relative_to(own) for path in (own / "lib/shaders").glob("*.h")]
     return generated and all(
         (other / name).exists() and (other / name).read_text().replace(str(other), str(own)) == (own / name).read_text()

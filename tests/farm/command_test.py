@@ -1,5 +1,5 @@
-"""pt-farm: what it writes, exit codes, messages, frames, signals and checkpoints. Argument: the program pt,
-whose pictures its own must equal. Skipped where distributed is not installed."""
+"""pt-farm: outputs, exit codes, messages, frames, signals and checkpoints. Argument: the program pt, whose pictures
+must be equal. Skipped without distributed."""
 
 import contextlib
 import io
@@ -23,7 +23,7 @@ from pt import farm
 from pt.farm import _command
 from pt.farm._job import read_job
 
-if __name__ == "__main__":  # and not in processes of workers, which begin with this file too
+if __name__ == "__main__":  # not in worker processes, which import this file too
     os.environ["PT_PROGRAM"] = os.path.abspath(sys.argv.pop(1))
 PT = os.environ["PT_PROGRAM"]
 SCENE = {"camera": {"position": [0, 1, 5], "look_at": [0, 0.8, 0]}, "film": {"width": 96, "height": 60},
@@ -42,7 +42,7 @@ class Command(unittest.TestCase):
             json.dump(SCENE, file)
 
     def refused(self, *words):
-        """The exit code of a command that ends before any worker starts, and what it says."""
+        """Exit code and output of a command that ends before any worker starts."""
         said, words = io.StringIO(), ["pt-farm", "render", "scene.json", *words]
         before, sys.argv = sys.argv, words
         try:
@@ -100,7 +100,7 @@ class Command(unittest.TestCase):
         self.same("a.exr", "c.exr")
 
     def test_workers_without_the_program(self):
-        """Are told, and others render."""
+        """Workers without the program are reported, and others render."""
         programs = {"with": PT, "without": "/none/pt"}
         nannies = {name: {"cls": distributed.Nanny, "options": {"nthreads": 1, "env": {"PT_PROGRAM": path}}}
                    for name, path in programs.items()}
@@ -116,7 +116,7 @@ class Command(unittest.TestCase):
         self.assertTrue((found.film.readback(pt.Quantity.SAMPLE_COUNT) == 4096).all())
 
     def test_files_of_a_scene_go_with_it(self):
-        """Those in its folder under their names, others under new ones."""
+        """Files in the scene's folder keep their names, others get new ones."""
         os.makedirs("in/sub")
         for name in ("in/a.npy", "in/sub/b.npy", "c.npy", "in/d.npy"):
             with open(name, "w") as file:
@@ -131,7 +131,7 @@ class Command(unittest.TestCase):
                                                         outside: b"c.npy", "d.npy": b"in/d.npy", "s.json": b""})
         self.assertEqual(job.files["s.json"], scene.replace(b"../c.npy", outside.encode()))
     def test_what_workers_refuse(self):
-        """In the program's words, with its code."""
+        """The program's message and code."""
         said = self.farm("-o", "a.exr", "--set", "spheres[1].radius=-1", "--local-workers", "1", "-q", code=2)
         self.assertRegex(said, r"InvalidArgumentError: --set spheres\[1\].radius=-1: spheres.* must be > 0")
 
@@ -154,7 +154,7 @@ class Command(unittest.TestCase):
         self.assertEqual([os.stat(f"f-0{frame}.exr").st_mtime_ns for frame in (0, 2)], [times[0], times[2]])
 
     def test_interrupted_and_going_on(self):
-        """By Ctrl-C, which the workers see too."""
+        """Ctrl-C reaches the workers too."""
         words = ["--checkpoint", "k.ptfilm", "--local-workers", "2", "--part-seconds", "0.1"]
         program = subprocess.Popen([sys.executable, "-m", "pt.farm._command", "render", "scene.json", "-o", "a.exr",
                                     "--spp", str(ENDLESS), *words],
@@ -181,7 +181,7 @@ class Command(unittest.TestCase):
 
 
     def test_options_reach_the_farm(self):
-        """As farm.Options, whose checkpoint_every films_test sees at work."""
+        """The options reach farm.Options; films_test tests checkpoint_every."""
         class Reached(Exception):
             pass
 

@@ -1,6 +1,5 @@
-"""Parts as plain files and a denoised picture, by the commands of lib/python/FARM.md, verbatim except for the scene's size:
-they give the picture of one process. Arguments: the program pt, FARM.md, and a library that stands in for Open Image
-Denoise. GNU parallel and Dask are tried where they are installed."""
+"""The commands of lib/python/FARM.md, verbatim except for the scene's size, give the picture of one process. Arguments:
+the program pt, FARM.md, and a stand-in for Open Image Denoise. GNU parallel and Dask are optional."""
 
 import importlib.util
 import os
@@ -16,7 +15,7 @@ SCENE = pathlib.Path(__file__).resolve().parents[2] / "cli/scenes/coursework-dif
 
 
 def commands(start):
-    """The lines of the manual that start so, with what belongs to them."""
+    """The manual's lines with this start, continuations joined."""
     lines = pathlib.Path(MANUAL).read_text().replace("\\\n", " ").splitlines()
     return [line.replace("scene.json", f"{SCENE} --size 16x8") for line in lines if line.startswith(start)]
 
@@ -37,7 +36,7 @@ class Files(unittest.TestCase):
         self.assertEqual(done.returncode, 0, f"{words}\n{done.stdout}")
 
     def parts(self, line):
-        """Runs a line of the manual, and then the one that adds what it wrote."""
+        """Runs a line of the manual, then the one that adds its films."""
         self.run_line(line)
         self.assertEqual(len(os.listdir(self.folder)), 16)
         self.run_line(command("pt merge").replace("picture.png", "sum.exr"))

@@ -1,6 +1,5 @@
-"""pt.farm: whatever happens to workers and coordinator, the film has the bytes of one process.
-
-Each case compares whole films with those of a Context of this process. Skipped where distributed is not installed."""
+"""pt.farm: with any faults of workers and coordinator the film has the bytes of one process. Each case compares films
+with a Context of this process. Skipped without distributed."""
 
 import dataclasses
 import os
@@ -31,7 +30,7 @@ from pt.farm._part import Part
 from pt.farm._sum import Sum, write_film
 from pictures import CAMERA, GLOSSY, SCENE
 
-SETTINGS = pt.RenderSettings(136, 100)  # tiles that are cut at both edges
+SETTINGS = pt.RenderSettings(136, 100)  # tiles cut at both edges
 JOB = farm.Job(SCENE, CAMERA, SETTINGS)
 SAMPLES, ERROR = 256, 0.006
 QUICK = farm.Options(part_seconds=0.1, patience=0.5)
@@ -41,11 +40,11 @@ render_part = _task.render_part
 
 def slow(name, part, codecs):
     time.sleep(0.08)
-    return _task.render_part(name, part, codecs)  # of the worker's process, where nothing takes its place
+    return _task.render_part(name, part, codecs)  # the unpatched function of the worker's process
 
 
 def waiting(path):
-    """For a file; but a worker that is named so fails, always and at once."""
+    """Waits for a file; a worker named "failing" fails at once."""
     def task(name, part, codecs):
         if distributed.get_worker().name == "failing":
             return _task.Outcome(error="this disk is full", may_help_elsewhere=True)
@@ -56,15 +55,15 @@ def waiting(path):
 
 
 class Unreadable:
-    """What the coordinator cannot unpickle."""
+    """The coordinator cannot unpickle it."""
 
     def __reduce__(self):
         return int, ("no number",)
 
 
 def faulty(name, part, codecs):
-    """Every other of a worker's first films is not what was asked for; of three in a row it would be sent away. The two
-    workers begin at different faults, so that all come about however few parts there are."""
+    """Every other of a worker's first films is faulty; three in a row would exclude it. Workers start at different
+    faults, so that few parts suffice for all."""
     worker = distributed.get_worker()
     worker.films = getattr(worker, "films", 0) + 1
     time.sleep(0.03)
@@ -99,7 +98,7 @@ def with_values(**values):
     return lambda name, part, film: dataclasses.replace(film, **values)
 
 
-FAULTS = {  # by what is told of them
+FAULTS = {  # by message
     "LookupError: a mistake of this task": raising,
     "a part's bytes are damaged": lambda name, part, film: dataclasses.replace(film, data=film.data[:len(film.data) // 2]),
     "its checksum does not fit": changed,
@@ -139,7 +138,7 @@ class Farm(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.whole = whole(SAMPLES)
-        cls.shared = cls.enterClassContext(local_cluster(2))  # by the tests that leave its workers as they were
+        cls.shared = cls.enterClassContext(local_cluster(2))  # by tests that leave the workers unchanged
 
     def farm(self, samples=SAMPLES, cluster=None, task=slow, job=JOB, **arguments):
         arguments.setdefault("options", QUICK)
@@ -156,22 +155,22 @@ class Farm(unittest.TestCase):
             self.cluster.workers[name].process.pid
 
     def harm(self, workers, stopped=None, killed=None):
-        """A progress function and tasks: when all workers have been given parts, at which they wait, some are harmed;
-        then the others go on, and a stopped one too once they have been given its parts."""
+        """A progress function and tasks. When all workers have parts, at which they wait, some are harmed; the others
+        go on, and a stopped one too once they have been given its parts."""
         go = os.path.join(self.enterContext(tempfile.TemporaryDirectory()), "go")
         calls, held = [], []
 
         def progress(seen, film):
             if len(calls) < 2 and seen.workers + (seen.failed >= MOST_FAILURES) == workers:
                 calls.append(seen)
-                if len(calls) == 2:  # one after they were found fit: now they have parts
+                if len(calls) == 2:  # the second after all are fit: now they have parts
                     if stopped is not None:
                         held.append(self.process_of(stopped))
                         os.kill(held[0], signal.SIGSTOP)
                     if killed is not None:
                         address = self.cluster.workers[killed].worker_address
                         os.kill(self.process_of(killed), signal.SIGKILL)
-                        while address in self.cluster.scheduler.workers:  # lest its parts are late before they are lost
+                        while address in self.cluster.scheduler.workers:  # else its parts are late before they are lost
                             time.sleep(0.01)
                         time.sleep(LOOK_SECONDS)
                     open(go, "w").close()
@@ -190,7 +189,8 @@ class Farm(unittest.TestCase):
         self.assertEqual(found.film, self.whole)
 
     def test_faulty_outcomes(self):
-        """None enters the sum, and each is told. Parts stay small on a busy machine too, so that there are some for each."""
+        """None enters the sum, and each is reported. Short parts on a busy machine too, so that each worker gets some.
+        """
         options = dataclasses.replace(QUICK, part_seconds=0.004, most_tries=50)
         with mock.patch.object(_coordinator, "least_seconds", lambda workers, adding_seconds: 0.05):
             found = self.farm(2 * SAMPLES, task=faulty, options=options)
@@ -200,7 +200,7 @@ class Farm(unittest.TestCase):
         self.assertEqual(found.film, whole(2 * SAMPLES))
 
     def test_mixed_devices(self):
-        """Mesa compiles for vectors of two widths, which are two models to it."""
+        """Mesa compiles for two vector widths, which count as two models."""
         nannies = {width: {"cls": distributed.Nanny,
                            "options": {"nthreads": 1, "env": {"LP_NATIVE_VECTOR_WIDTH": width}}}
                    for width in ("128", "256")}
@@ -222,12 +222,12 @@ class Farm(unittest.TestCase):
             mixed.film + alone.film
         self.assertTrue((mixed.film.readback(pt.Quantity.SAMPLE_COUNT) == samples).all())
         one, both = whole(samples).readback(), mixed.film.readback()
-        # The same samples, though a rounding may decide which surface a path meets.
+        # The same samples, but rounding may decide which surface a path meets.
         self.assertLess(abs(both - one).mean(), 1e-3 * one.mean())
 
     def test_target_error(self):
         one = whole(4096, ERROR)
-        self.assertGreater(len(one.tiles), 1)  # or nothing is told
+        self.assertGreater(len(one.tiles), 1)  # or nothing is compared
         options = dataclasses.replace(QUICK, patience=60.0)
         found = self.farm(4096, target_error=ERROR, task=render_part, options=options)
         self.assertEqual(found.progress.ended_by, "error")
@@ -251,7 +251,7 @@ class Farm(unittest.TestCase):
             self.assertEqual(pt.Film.load(path), self.whole)
             seen = []
             self.farm(options=options, progress=lambda now, film: seen.append((now.samples, now.samples_wanted)))
-            self.assertEqual(set(seen), {(SAMPLES, SAMPLES)})  # also while it goes on from all samples
+            self.assertEqual(set(seen), {(SAMPLES, SAMPLES)})  # also when all samples were there at the start
 
     def test_goes_on_from_tiles_that_are_ahead(self):
         with tempfile.TemporaryDirectory() as folder, pt.Context() as context:
@@ -270,7 +270,7 @@ class Farm(unittest.TestCase):
         self.assertEqual((more.progress.samples, more.progress.samples_wanted), (SAMPLES, SAMPLES))
 
     def test_the_scheduler_dies(self):
-        """What came back is kept, and another cluster goes on from it."""
+        """Returned parts are kept, and another cluster continues from them."""
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "kept.ptfilm")
             options = dataclasses.replace(QUICK, checkpoint=path)
@@ -284,7 +284,7 @@ class Farm(unittest.TestCase):
             self.assertEqual(self.farm(samples, options=options, task=render_part).film, whole(samples))
 
     def test_a_full_disk(self):
-        """Is told once; the rendering goes on, and checkpoints do when there is room again."""
+        """Reported once; the rendering continues, and checkpoints resume when there is room."""
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "kept.ptfilm")
 
@@ -305,17 +305,17 @@ class Farm(unittest.TestCase):
             self.assertEqual(pt.Film.load(path), self.whole)
 
     def assert_accounts(self, seen):
-        """Of a rendering in which nothing failed: every part was rendered once, and none was lost on the way."""
+        """Nothing failed: every part was rendered once, and none was lost."""
         self.assertEqual(seen.forgotten, 0, seen.messages)
         self.assertEqual((seen.repeated, seen.dropped, seen.lost, seen.failed), (0, 0, 0, 0))
         self.assertEqual(seen.issued, seen.parts)
 
     def test_accounts_of_parts(self):
-        """Those of an error are looked at in test_target_error. A coordinator that drops a part says so, though its
-        film is whole in the end."""
+        """test_target_error has errors. A coordinator that drops a part reports it, though its film is complete in the
+        end."""
         options, wanted = dataclasses.replace(QUICK, patience=60.0), set()
         found = self.farm(task=render_part, options=options, progress=lambda now, film: wanted.add(now.samples_wanted))
-        self.assertEqual(wanted, {SAMPLES})  # also in the rounds before the last
+        self.assertEqual(wanted, {SAMPLES})  # also in earlier rounds
         self.assertGreater(found.progress.parts, 4)
         self.assert_accounts(found.progress)
         dropped = []
@@ -344,7 +344,7 @@ class Farm(unittest.TestCase):
 
 
 def coordinator(path):
-    """Until it is killed: a checkpoint at every batch."""
+    """Runs until killed, with a checkpoint at every batch."""
     _task.render_part = slow
     with local_cluster(2) as cluster, Client(cluster) as client:
         farm.render(client, JOB, SAMPLES, options=farm.Options(part_seconds=0.1, checkpoint=path, checkpoint_every=0.0))

@@ -1,5 +1,4 @@
-// The fuzzer's bytes as a sequence of values. After the last byte every value is 0, so a prefix of an input is an
-// input. Used by everything that makes scenes from bytes.
+// The fuzzer's bytes as values. After the last byte all values are 0, so a prefix of an input is an input.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +28,7 @@ public:
     // In [0, count) for count <= 256.
     std::uint32_t below(std::uint32_t count) { return raw<std::uint8_t>() % count; }
 
-    // 0 of the bytes means no.
+    // Byte 0 means no.
     bool one_in(std::uint32_t count) { return below(count) == count - 1; }
 
     template <typename T, std::size_t Count>

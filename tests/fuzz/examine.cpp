@@ -1,4 +1,3 @@
-// The common part of both variants; see examine.h.
 #include "tests/fuzz/examine.h"
 
 #include <algorithm>

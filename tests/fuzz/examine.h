@@ -1,5 +1,5 @@
-// Checks what must hold for every input, in two variants: examine_numbers.cpp (host, no device) and examine_image.cpp
-// (rendered). A program links one of them. A check that fails ends the process.
+// Checks for every input, in two variants, of which a program links one: examine_numbers.cpp (host) and
+// examine_image.cpp (rendered). A failed check ends the process.
 #pragma once
 
 #include "tests/fuzz/input.h"
@@ -10,15 +10,15 @@
 
 namespace fuzz {
 
-// The input, and with it neighbours of it that the bytes choose.
+// The input and neighbours chosen by the bytes.
 void examine_neighbourhood(const Input &input, std::span<const std::uint8_t> bytes);
 
-// -- of the flavour --
+// -- by variant --
 
 // An input and its neighbours.
 void examine(std::span<const Input> family);
 
-// How many neighbours are worth their time.
+// The useful number of neighbours.
 extern const std::uint32_t neighbour_count;
 
 } // namespace fuzz

@@ -1,5 +1,4 @@
-// On a device: what the library accepts renders to finite images of which no sample is left out, the same however the
-// samples are split over calls. See examine.h.
+// On a device: accepted input renders to finite images without left-out samples, the same in any split. See examine.h.
 #include "tests/fuzz/examine.h"
 
 #include "lib/base/error.h"
@@ -20,7 +19,7 @@ namespace fuzz {
 
 namespace {
 
-// Whether the samples exist, and the image needs no seconds, by its ray-surface tests to within a small factor.
+// Whether the samples exist and rendering takes less than seconds, by the number of ray-surface tests.
 bool can_be_rendered(const Input &input) {
     constexpr double most_tests = 4e6;
     const pt_render &render = input.render;
@@ -38,10 +37,9 @@ bool conserves_energy(const pt_material &material) {
     return true;
 }
 
-// With materials that conserve energy a sample has at most the expectation K * L, for K the path length and L the
-// brightest emission, so that by Markov's inequality it exceeds the limit of 2^20 L with a probability of at most K /
-// 2^20. Plain Halton points are no random numbers: the first is 0 in all dimensions, and under estimators that do not
-// follow the lobe a sharp one is met just there.
+// With energy-conserving materials a sample's expectation is at most K L (path length, brightest emission), so by
+// Markov's inequality it exceeds the limit 2^20 L with probability at most K / 2^20. Plain Halton is not random: its
+// first point is 0 in all dimensions, which hits sharp lobes under estimators that do not follow them.
 bool may_lose_samples(const Input &input) {
     const bool follows_lobe = input.render.estimator == PT_ESTIMATOR_BEST ||
                               input.render.estimator == PT_ESTIMATOR_BSDF || input.render.estimator == PT_ESTIMATOR_MIS;
@@ -90,8 +88,8 @@ void examine_one(const Input &input) {
             "the bits do not depend on how samples are split over calls");
 }
 
-// What the kernel is built for; nothing if the input is refused. A scene that has a
-// surface many times over gets the kernel of one, and a neighbour in which one of them has moved the kernel of two.
+// The kernel's features; empty if refused. Repeated surfaces merge, so a neighbour in which one has moved may need
+// another kernel.
 std::optional<pt::Features> features(const Input &input) {
     try {
         return pt::gpu_scene(pt::PreparedScene(pt::owned_scene(checked_scene_of(input.scene()))),
@@ -104,8 +102,8 @@ std::optional<pt::Features> features(const Input &input) {
 
 } // namespace
 
-// A kernel takes a thousand times as long to build as such an image, so those that need another one are left to other
-// inputs. The first image is made by a kernel for this scene alone, the others by one for all scenes with its features.
+// A kernel takes a thousand times as long as such an image, so neighbours that need another are skipped. The first
+// image has a kernel of its own, the others one for all scenes of its features.
 const std::uint32_t neighbour_count = 255;
 
 void examine(std::span<const Input> family) {

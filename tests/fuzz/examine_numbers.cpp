@@ -1,5 +1,5 @@
-// Without a device: what the library accepts is what pt.h promises and becomes finite numbers for the kernel; what it
-// refuses has a code and a message. See examine.h.
+// Without a device: accepted input keeps pt.h's promises and becomes finite numbers for the kernel; refusals have a
+// code and a message. See examine.h.
 #include "tests/fuzz/examine.h"
 
 #include "lib/base/error.h"
@@ -35,7 +35,7 @@ void require_refusal(const pt::Error &error) {
             "the message of what is refused names a field, its value and a rule");
 }
 
-// Nothing if it is refused.
+// Empty if refused.
 template <typename Validate>
 auto accepted(Validate validate) -> std::optional<decltype(validate())> {
     try {
@@ -63,7 +63,7 @@ bool is_color(const glm::vec3 &color) {
     return in_range(color.r) && in_range(color.g) && in_range(color.b);
 }
 
-// Squares, their sum, the root and the quotient round once each, at 2^-53 of the value or less.
+// Squares, sum, root and quotient round once each, by 2^-53.
 bool is_unit(const glm::dvec3 &v) {
     return std::abs(glm::length(v) - 1.0) <= 8 * 0x1p-53;
 }
@@ -87,8 +87,8 @@ void require_scene(const pt::Scene &scene) {
 }
 
 void require_camera(const pt::Camera &camera) {
-    // The least angle between up and the viewing direction leaves errors of 5 * 2^-53 / 2^-26 (camera.cpp), and twice
-    // that between two vectors.
+    // The least angle between up and the view leaves errors of 5 * 2^-53 / 2^-26 (camera.cpp), twice that between two
+    // vectors.
     constexpr double rounding = 10 * 0x1p-27;
     require(are_lengths(camera.position), "the camera's position is made of lengths");
     require(is_unit(camera.forward) && is_unit(camera.right) && std::abs(glm::length(camera.up) - 1.0) <= rounding,
@@ -97,7 +97,7 @@ void require_camera(const pt::Camera &camera) {
                 std::abs(glm::dot(camera.forward, camera.up)) <= rounding &&
                 std::abs(glm::dot(camera.right, camera.up)) <= rounding,
             "the camera's axes are perpendicular");
-    const double least_tangent = (1.0 - 0x1p-40) * std::tan(0.5e-8); // 40 bits of it are kept
+    const double least_tangent = (1.0 - 0x1p-40) * std::tan(0.5e-8); // 40 bits are kept
     require((camera.is_orthographic() || camera.tan_half_fov >= least_tangent) && std::isfinite(camera.tan_half_fov),
             "the field of view lies in [1e-8, pi)");
     require(camera.shutter_open >= 0.0 && camera.shutter_open <= camera.shutter_close && camera.shutter_close <= 1.0,
@@ -125,14 +125,14 @@ void require_features(const pt::Features &features, const pt::Scene &scene) {
     require(features[pt::gpu::ID_GLOSS] || !(pt::feature_bits(features) & PT_FEATURE_GLOSS),
             "gloss is said where it is");
     require(pt::branch_count(features) >= 1, "a path leaves its first vertex");
-    // What the point table's size and the schedule are computed from.
+    // Inputs of the point table's size and the schedule.
     require(pt::point_layout(features).block_count() <= pt::sequence_dimensions, "a block has a dimension of its own");
     require(pt::loop_trips_per_sample(features) < (std::uint64_t{1} << 62),
             "the loop trips of a sample can be counted");
 }
 
-// The kernel squares all that is a length and adds three squares: up to 3e18 from the pinhole, which may be 6e18 behind
-// the start of rays. Only the peak of a lobe, k_s (n + 2) / (2 pi), is larger than lengths and colors may be.
+// The kernel adds three squares of lengths: up to 3e18 from the pinhole, which may be 6e18 behind the rays' start. Only
+// a lobe's peak, k_s (n + 2) / (2 pi), exceeds the bounds of lengths and colors.
 constexpr float largest_length = 9.0001e18F;
 constexpr float largest_peak = 1.6e26F;
 
@@ -141,8 +141,8 @@ bool is_within(const glm::vec4 &word, float largest) {
     return size.x <= largest && size.y <= largest && size.z <= largest && size.w <= largest;
 }
 
-// Of the tree of lamps: lengths, but for powers, of which a lamp has at most twice the size of the scene, and spreads,
-// which are squares of lengths (lamp_tree_words.cpp).
+// The lamp tree has lengths, powers (per lamp at most twice the scene's size) and spreads, which are squares
+// (lamp_tree_words.cpp).
 float largest_in_lamp_tree(std::uint64_t word, const pt::Features &features) {
     const std::uint64_t group_words = pt::gpu::lamp_tree_group_words(features[pt::gpu::ID_MOTION]);
     if (word >= group_words * pt::LampTreeShape(features[pt::gpu::ID_LAMP_COUNT]).all_groups())
@@ -152,7 +152,7 @@ float largest_in_lamp_tree(std::uint64_t word, const pt::Features &features) {
     return word % group_words == 4 ? largest_length * largest_length : largest_length;
 }
 
-// Of large scenes, whose surfaces share the materials of a table.
+// Large scenes share materials in a table.
 void require_indices(std::span<const glm::vec4> indices, const pt::Features &features) {
     for (std::uint32_t i = 0; i < features.surface_count(); ++i) {
         const float bits = indices[i / 4][static_cast<int>(i % 4)];
@@ -192,7 +192,7 @@ void require_words(const std::vector<glm::vec4> &words, const pt::Features &feat
     const auto planes = std::span(words).subspan(features[pt::gpu::ID_SPHERE_COUNT], features[pt::gpu::ID_PLANE_COUNT]);
     require(std::ranges::all_of(planes,
                                 [](const glm::vec4 &plane) {
-                                    // A unit vector, each component rounded to float32.
+                                    // A unit vector, rounded to float32.
                                     return std::abs(glm::length(glm::dvec3(plane)) - 1.0) <= 2 * 0x1p-24;
                                 }),
             "the kernel's normals are unit vectors");

@@ -1,5 +1,5 @@
-// Films added to a context, which afterwards has either its earlier film or sums with which it can go on. The fuzzer's
-// bytes follow the lines of the context's identity, which differ from device to device.
+// Films added to a context, which keeps its film or gets sums that it can continue. The fuzzer's bytes follow the
+// identity's lines, which depend on the device.
 #include "tests/fuzz/film_input.h"
 #include "tests/fuzz/on_device.h"
 #include "tests/support/scene_of.h"
@@ -35,7 +35,7 @@ void clear() {
     fuzz::require_done(pt_set_render(fuzz::context(), &render));
 }
 
-// The film of the context's own samples, after the first call.
+// The context's own film, after the first call.
 const Bytes &own_film() {
     static const Bytes own = [] {
         const pt_material material[] = {{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {1, 1, 1}, 0, 0}};
@@ -53,7 +53,7 @@ const Bytes &own_film() {
     return own;
 }
 
-// The lines of a film before its tile.
+// The lines before the tile.
 std::span<const std::byte> identity_of(const Bytes &film) {
     const std::string_view text(reinterpret_cast<const char *>(film.data()), film.size());
     return std::span(film).first(text.find("\ntile ") + 1);

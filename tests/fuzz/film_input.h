@@ -1,4 +1,4 @@
-// Films from a fuzzer's bytes. Used by the targets of films.
+// Films from the fuzzer's bytes.
 #pragma once
 
 #include "lib/base/digest.h"
@@ -11,8 +11,7 @@
 
 namespace fuzz {
 
-// What follows the first byte, which says whether its checksum is made to fit: hardly any other change of a film would
-// get past it.
+// The first byte says whether to write a valid checksum, without which hardly any change is accepted.
 inline std::vector<std::byte> film_input(std::span<const std::byte> before, std::span<const std::byte> bytes) {
     std::vector<std::byte> film(before.begin(), before.end());
     if (bytes.empty())

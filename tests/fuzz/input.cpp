@@ -1,4 +1,3 @@
-// Scenes from bytes; see input.h.
 #include "tests/fuzz/input.h"
 
 #include "tests/fuzz/numbers.h"
@@ -12,7 +11,7 @@ namespace fuzz {
 namespace {
 
 constexpr std::uint32_t most_surfaces_read = 12;
-constexpr std::uint32_t most_copies = 128; // of the surfaces, so that some scenes are larger than a uniform buffer
+constexpr std::uint32_t most_copies = 128; // enough for scenes larger than a uniform buffer
 
 template <std::size_t Count>
 void read_lengths(Numbers &numbers, double (&lengths)[Count]) {
@@ -20,7 +19,7 @@ void read_lengths(Numbers &numbers, double (&lengths)[Count]) {
         length = numbers.length();
 }
 
-// As a rule such a material reflects no more than it receives.
+// Usually conserves energy.
 pt_material material(Numbers &numbers, ByteReader &bytes) {
     pt_material material{};
     const bool emits = bytes.one_in(4);
@@ -99,7 +98,7 @@ void read_render(Numbers &numbers, ByteReader &bytes, pt_render &render) {
     render.reserved = numbers.count(1);
 }
 
-// What the structs say of themselves.
+// Wrong pointers and counts.
 void read_claims(ByteReader &bytes, Input &input) {
     input.claims.has_materials = !bytes.one_in(32);
     input.claims.has_spheres = !bytes.one_in(32);
@@ -119,7 +118,7 @@ void read_claims(ByteReader &bytes, Input &input) {
     input.tail_byte = bytes.one_in(8) ? 1 : 0;
 }
 
-// Wrong strides are no larger than a struct, so that what is read lies in the structs, or are refused.
+// Wrong strides are at most a struct's size, so that reads stay in the structs, or they are refused.
 void read_columns(ByteReader &bytes, Input &input) {
     static constexpr std::uint32_t right_types[] = {PT_TYPE_FLOAT64, PT_TYPE_FLOAT64, PT_TYPE_FLOAT64, PT_TYPE_UINT32,
                                                     PT_TYPE_SRGB8};
@@ -167,7 +166,7 @@ pt_sphere_array columns_of(const Input &input, std::size_t first, std::size_t co
     return array;
 }
 
-// The arrays, one after the other in memory of just their size.
+// The arrays in memory of exactly their size.
 void write_arrays(const Input &input, std::span<const pt_sphere_array> arrays) {
     const std::size_t size = std::clamp<std::size_t>(input.columns.struct_size, sizeof(std::uint32_t), 65536);
     input.array_bytes.assign(arrays.size() * size, input.tail_byte);
@@ -270,7 +269,7 @@ void change_one_number(Input &input, ByteReader &bytes) {
 }
 
 void SizedStruct::copy(const void *value, std::size_t known_size, std::uint32_t size, std::uint8_t tail_byte) {
-    // The size itself is always read, and what is beyond 64 KiB is refused unread.
+    // The size itself is always read; more than 64 KiB is refused unread.
     constexpr std::size_t largest = 65536;
     const std::size_t length = std::clamp<std::size_t>(size, sizeof(std::uint32_t), largest);
     bytes_ = std::make_unique<std::uint8_t[]>(length);

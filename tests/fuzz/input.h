@@ -1,4 +1,4 @@
-// The input of one run of the library. Made by the targets from bytes or a scene file, checked by examine.h.
+// The input of one run, from bytes or a scene file.
 #pragma once
 
 #include "tests/fuzz/byte_reader.h"
@@ -21,8 +21,7 @@ struct Input {
     pt_render render{};
     std::uint32_t sample_count = 1;
 
-    // Where given: what pt_scene says instead of the truth. It never promises more than is there, unless what it says
-    // is refused by itself.
+    // False claims of pt_scene. They never promise more than exists, unless they are refused by themselves.
     struct SceneClaims {
         bool has_materials = true;
         bool has_spheres = true;
@@ -31,32 +30,31 @@ struct Input {
         std::uint32_t fewer_materials = 0;
     } claims;
 
-    // The last of the spheres may be given by two arrays of columns, which read the structs' members where they are.
+    // The last spheres may be given by two arrays of columns, which point into the structs.
     struct Columns {
-        std::uint32_t count = 0;        // spheres in both
-        bool has_colors = false;        // sRGB bytes, those of the centres
-        std::uint32_t claimed = none;   // the column of both that is said to be what claim says
-        pt_column claim{};              // data: NULL, or else where the column is; read within the structs or refused
+        std::uint32_t count = 0;      // spheres in both
+        bool has_colors = false;      // sRGB, from the centers' bytes
+        std::uint32_t claimed = none; // the column of both arrays that `claim` replaces
+        pt_column claim{}; // data: NULL, or replaced by the column's place; read within the structs or refused
         std::uint32_t more_spheres = 0; // 2^27 or more
         std::uint32_t struct_size = sizeof(pt_sphere_array);
 
         static constexpr std::uint32_t none = 5;
     } columns;
-    mutable std::vector<std::uint8_t> array_bytes; // the arrays that scene() has made
+    mutable std::vector<std::uint8_t> array_bytes; // made by scene()
     std::array<std::uint32_t, 3> struct_sizes{sizeof(pt_scene), sizeof(pt_camera), sizeof(pt_render)};
-    std::uint8_t tail_byte = 0; // what follows the structs whose size is too large
+    std::uint8_t tail_byte = 0; // follows structs whose size is too large
 
     pt_scene scene() const; // points into this object
 };
 
-// Any bytes give an input.
+// Any bytes are valid.
 Input decoded_input(ByteReader bytes);
 
-// Changes one number into another that obeys the rules as far as they concern that number alone; what the kernel must
-// contain for the scene stays the same as a rule.
+// Changes a number within its own rule; usually keeps the kernel's features.
 void change_one_number(Input &input, ByteReader &bytes);
 
-// A struct of a given size in memory of just that size, so that AddressSanitizer notices who reads beyond it.
+// A struct in memory of exactly the given size, so that AddressSanitizer detects reads beyond.
 class SizedStruct {
 public:
     template <typename T>

@@ -1,5 +1,4 @@
-// NPY files from bytes: accepted files have all of their numbers, and others are refused with a message that names the
-// file.
+// NPY files from bytes: accepted ones have all numbers, others a message with the file's name.
 #include "tests/fuzz/mutation.h"
 #include "tests/fuzz/require.h"
 

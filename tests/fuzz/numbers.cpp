@@ -1,4 +1,3 @@
-// Numbers for scenes; see numbers.h.
 #include "tests/fuzz/numbers.h"
 
 #include <algorithm>

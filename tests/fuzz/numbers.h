@@ -1,5 +1,5 @@
-// Numbers for scenes, drawn from the fuzzer's bytes: ordinary ones, ones of any magnitude, and those at the ends of the
-// ranges in pt.h. A wild source also gives numbers that break the rules.
+// Numbers for scenes from the fuzzer's bytes: ordinary ones, any magnitude, and the ends of pt.h's ranges. A wild
+// source also breaks rules.
 #pragma once
 
 #include "tests/fuzz/byte_reader.h"
@@ -12,9 +12,9 @@ class Numbers {
 public:
     Numbers(ByteReader &bytes, bool wild) : bytes_(bytes), wild_(wild) {}
 
-    double length();                        // 0 or of a magnitude in [1e-18, 1e18]
+    double length();                        // 0 or a magnitude in [1e-18, 1e18]
     double positive_length();               // in [1e-18, 1e18]
-    double component();                     // of a vector that may be longer or shorter than any length: finite
+    double component();                     // of a vector of any length: finite
     double share();                         // in [0, 1]
     double field_of_view();                 // in [1e-8, pi)
     float color();                          // in [0, 1e18]
@@ -23,8 +23,8 @@ public:
 
 private:
     double ordinary();
-    double any_magnitude(); // in [1e-18, 1e18] or the negative of it
-    double boundary();      // a length that is an end of a range, of the rules or of float32
+    double any_magnitude(); // of any sign, in [1e-18, 1e18]
+    double boundary();      // an end of a range, by the rules or float32
     bool breaks_rule() { return wild_ && bytes_.one_in(16); }
     double anything();
 

@@ -1,5 +1,5 @@
-// What targets do on a device, with one context for all inputs. A call that has no reason to fail must not. The
-// environment is that of tests/support/context_fixture.h.
+// One context for all inputs; calls without a reason to fail must succeed. Environment: see
+// tests/support/context_fixture.h.
 #pragma once
 
 #include "tests/fuzz/require.h"
@@ -26,7 +26,7 @@ inline void complain(void *, std::int32_t level, const char *line) {
     require(level == PT_LOG_INFO, line);
 }
 
-// Kernels are built only where the scene needs another one.
+// Kernels are built only when features change.
 inline pt_context *context() {
     static const std::unique_ptr<pt_context, DestroyContext> created = [] {
         pt_create_info info{};

@@ -1,7 +1,5 @@
-// Runs a target without libFuzzer, for any compiler:
-//     replay CORPUS_FOLDER COUNT
-// runs every file of the corpus and then COUNT mutations of them, the same each time. An input that ends the process is
-// kept as ./failed-input.
+// Runs a target with any compiler, without libFuzzer: replay CORPUS_FOLDER COUNT runs the corpus and COUNT reproducible
+// mutations. A fatal input is saved as ./failed-input.
 #include "tests/fuzz/mutation.h"
 
 #include <algorithm>
@@ -26,7 +24,7 @@ constexpr std::size_t max_size = 4096;
 
 std::mt19937 mutation_random; // the default seed
 
-// What the signal handler saves.
+// read by the signal handler
 const Bytes *present_input = nullptr;
 
 extern "C" void save_present_input(int signal) {
@@ -71,7 +69,7 @@ Bytes mutated(const std::vector<Bytes> &corpus) {
 
 } // namespace
 
-// A byte made another one, left out, or put in.
+// Replaces, deletes or inserts a byte.
 std::size_t LLVMFuzzerMutate(std::uint8_t *data, std::size_t size, std::size_t max_size) {
     const std::size_t place = mutation_random() % (size + 1);
     const auto byte = static_cast<std::uint8_t>(mutation_random());

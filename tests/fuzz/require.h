@@ -1,4 +1,4 @@
-// Ends the process if a condition does not hold. Used by all targets.
+// Ends the process if a condition fails.
 #pragma once
 
 #include <cstdio>

@@ -1,4 +1,4 @@
-/* pt.h is C: this program is compiled as strict C99, and renders an image. Exit status 0 if all went well. */
+/* pt.h in strict C99: renders an image. Exit status 0 on success. */
 #include <pt/accuracy.h>
 #include <pt/pt.h>
 
@@ -17,7 +17,7 @@ static int32_t count_calls(void *user, double fraction) {
     return fraction < 0.0 || fraction > 1.0;
 }
 
-/* A sphere around the camera that shines in red. */
+/* A sphere around the camera emits red. */
 static int render(pt_context *context, float *pixels, uint64_t size_bytes) {
     const pt_material material = {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, {2.0f, 0.0f, 0.0f}, 0.0f, 0};
     const pt_sphere sphere = {{0.0, 0.0, 0.0}, 5.0, {0.0, 0.0, 0.0}, 0, 0};
@@ -63,7 +63,7 @@ static int render(pt_context *context, float *pixels, uint64_t size_bytes) {
     return 0;
 }
 
-/* The device keeps the bounds that every device is to keep. */
+/* The device keeps the bounds of every device. */
 static int check_accuracy(pt_context *context) {
     pt_function_accuracy rows[32];
     uint32_t count = 32;

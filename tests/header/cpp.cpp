@@ -1,5 +1,5 @@
-// The headers as C++, and their binary interface: numbers and types that programs were compiled with must never change.
-// Sizes and offsets are in tests/abi/struct_layout.txt.
+// The headers in C++: numbers and types of the binary interface must never change. tests/abi/struct_layout.txt has
+// sizes and offsets.
 #include <pt/accuracy.h>
 #include <pt/async.h>
 #include <pt/denoise.h>
@@ -42,7 +42,7 @@ static_assert(PT_TYPE_FLOAT32 == 1 && PT_TYPE_FLOAT64 == 2 && PT_TYPE_UINT32 == 
 static_assert(PT_LOG_ERROR == 1 && PT_LOG_WARNING == 2 && PT_LOG_INFO == 3);
 static_assert(PT_CREATE_VALIDATION == 1);
 
-// The functions have C linkage and these types.
+// C linkage and types.
 static_assert(std::is_same_v<decltype(&pt_version), uint32_t (*)()>);
 static_assert(std::is_same_v<decltype(&pt_result_name), const char *(*)(pt_result)>);
 static_assert(std::is_same_v<decltype(&pt_next_check), uint32_t (*)(uint32_t)>);

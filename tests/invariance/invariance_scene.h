@@ -1,4 +1,4 @@
-// Scenes that can be moved about, with a camera that moves along. Used by the tests of what must not change an image.
+// Scenes that can be moved, with their camera.
 #pragma once
 
 #include "tests/support/coursework_scene.h"
@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-// Which scene, and how its spheres are held.
+// The scene, and how spheres are stored.
 enum class InvarianceOf { Coursework, ManyLamps, Tree };
 
 inline std::string name_of(InvarianceOf what) {
@@ -27,7 +27,7 @@ struct InvarianceScene {
 
     pt_scene scene() const { return scene_of(materials, spheres, planes); }
 
-    // Lamps, gloss, planes, and a moving ball. Coordinates are multiples of 1/2, normals are axes.
+    // Lamps, gloss, planes and a moving ball. Coordinates are multiples of 1/2, normals are axes.
     static InvarianceScene coursework() {
         const CourseworkScene source;
         InvarianceScene result{{source.materials.begin(), source.materials.end()},
@@ -41,7 +41,7 @@ struct InvarianceScene {
         return what == InvarianceOf::Coursework ? coursework() : many_lamps();
     }
 
-    // With so many lamps that one is chosen.
+    // Enough lamps that one is chosen.
     static InvarianceScene many_lamps() {
         InvarianceScene result = coursework();
         for (int i = 0; i < 6; ++i)
@@ -62,7 +62,6 @@ struct InvarianceScene {
                 component *= factor;
     }
 
-    // Every length.
     void scale(double factor) {
         for (pt_sphere &sphere : spheres) {
             sphere.radius *= factor;
@@ -90,7 +89,7 @@ struct InvarianceScene {
         }
     }
 
-    // By a 3 x 3 matrix whose rows are orthonormal: a rotation or a reflection.
+    // matrix: orthonormal rows, a rotation or a reflection.
     void turn(const double (&matrix)[3][3]) {
         const auto turned = [&](double(&vector)[3]) {
             double result[3];

@@ -1,4 +1,4 @@
-// Changes of a scene that must keep every bit of its image. Run alone with --gtest_filter=Invariance*.
+// Changes of a scene that keep every bit of its image.
 #include "tests/invariance/invariance_scene.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/render_image.h"
@@ -43,7 +43,7 @@ protected:
     void SetUp() override {
         ContextFixture::SetUp();
         original_ = image_of(scene());
-        // Negative control of all: what is seen of a scene in which one thing differs.
+        // Negative control.
         InvarianceScene changed = scene();
         changed.spheres[2].radius *= 1.03;
         EXPECT_GT(differing_values(image_of(changed), original_), 100U);
@@ -57,8 +57,7 @@ private:
     Image original_;
 };
 
-// Powers of two change no mantissa, and nothing in the kernel knows a length of its own. Such a one, or one to be
-// compared with squares, would show the more the farther it is from all others.
+// Powers of two change no mantissa. A length within the kernel would show the more the farther it is from the scene's.
 TEST_P(Invariance, UnitOfLength) {
     for (const int exponent : {-50, -20, -4, 20, 50}) { // lengths of 2^-52 = 2e-16 to 2^55 = 3e16
         SCOPED_TRACE(exponent);
@@ -68,7 +67,7 @@ TEST_P(Invariance, UnitOfLength) {
     }
 }
 
-// The kernel knows positions relative to the camera, which are made in double. Where the sums are exact, so are they.
+// Positions relative to the camera are computed in double; exact sums stay exact.
 TEST_P(Invariance, Origin) {
     const double ways[][3] = {
         {1048576, -524288, 262144.5}, {1e6, -1e6, 1e6}, {-999999.5, 123456.25, 0.125}, {0, 3, -65536}};
@@ -80,9 +79,8 @@ TEST_P(Invariance, Origin) {
     }
 }
 
-// Where they are rounded, to 2^-34 at 1e6, a float32 made of them can differ by a unit in its last place, 2^-23 of it:
-// rays then end up to 1e-6 of the scene elsewhere. Of 2048 * 16 paths at most a few meet another surface for it, each
-// with some 1e-5 of the light; the rest differ by about 1e-6.
+// Sums rounded to 2^-34 at 1e6 can change a float32 by 2^-23, so rays end up to 1e-6 of the scene elsewhere. A few of
+// 2048 * 16 paths meet another surface, each with about 1e-5 of the light; the rest differ by about 1e-6.
 TEST_P(Invariance, OriginRounded) {
     InvarianceScene original = scene();
     original.turn({{0.36, 0.48, -0.8}, {-0.8, 0.6, 0}, {0.48, 0.64, 0.6}});
@@ -112,11 +110,11 @@ TEST_P(Invariance, OrderOfMaterials) {
     reordered.reverse_materials();
     expect_same_bits(reordered);
     InvarianceScene added = scene();
-    added.materials.push_back(added.materials[0]); // which nothing is made of
+    added.materials.push_back(added.materials[0]); // unused
     expect_same_bits(added);
 }
 
-// Of balls in so great a number that surfaces share materials in the scene's buffer.
+// Enough balls for surfaces to share materials.
 class InvarianceOfLargeScenes : public ContextFixture, public testing::WithParamInterface<bool> {
 protected:
     Context create_fixtures_context() override {
@@ -134,7 +132,7 @@ protected:
         return result;
     }
 
-    // Each surface has a material of its own, equal to what it had.
+    // Each surface gets its own copy of its material.
     static InvarianceScene with_own_materials(const InvarianceScene &shared) {
         InvarianceScene result = shared;
         result.materials.clear();

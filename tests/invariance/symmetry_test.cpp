@@ -1,5 +1,5 @@
-// Changes of a scene that must keep its image but not its noise: the order of surfaces, a mirror, a rotation. The noise
-// is estimated from renders with different seeds. Run alone with --gtest_filter=Symmetry*.
+// Changes that keep the image but not its noise: order of surfaces, mirror, rotation. The noise is estimated from
+// seeds.
 #include "tests/invariance/invariance_scene.h"
 #include "tests/support/batch_fixture.h"
 
@@ -35,8 +35,7 @@ struct Agreement {
     double largest_t;
 };
 
-// Student's t of the difference of two means of batches, with 2 * (16 - 1) degrees of freedom as both have the same
-// noise.
+// Student's t of two means of batches with equal noise: 2 * (16 - 1) degrees of freedom.
 Agreement agreement(const Batches &a, const Batches &b) {
     Agreement result{0.0, 0.0};
     for (std::size_t block = 0; block < blocks; ++block) {
@@ -51,11 +50,11 @@ Agreement agreement(const Batches &a, const Batches &b) {
     return result;
 }
 
-// With k = 30 degrees of freedom t^2 has mean k / (k - 2) = 1.071 and standard deviation 1.6, so its mean over 128
-// independent blocks has standard deviation 0.14: the bound is six of them above the mean.
+// With k = 30 degrees of freedom t^2 has mean k / (k - 2) = 1.071, standard deviation 1.6; over 128 blocks 0.14: six of
+// them above the mean.
 constexpr double expected_mean_square_t = 30.0 / 28.0;
 constexpr double mean_square_t_bound = expected_mean_square_t + 6.0 * 0.14;
-// One false alarm in a million for the blocks of the file's six comparisons.
+// One false alarm in a million over the blocks of six comparisons.
 const double largest_t_bound = student_bound(1e-6 / (6.0 * blocks), 2 * batch_count - 1);
 
 class Symmetry : public BatchFixture, public testing::WithParamInterface<InvarianceOf> {
@@ -69,7 +68,7 @@ protected:
         return render_batches(render, batch_count, batch_samples);
     }
 
-    // Those of the scene as it is, which all tests of it compare with.
+    // Rendered once for all tests.
     const Batches &original() {
         static std::map<InvarianceOf, Batches> rendered;
         Batches &batches = rendered[GetParam()];
@@ -78,7 +77,7 @@ protected:
         return batches;
     }
 
-    // What becomes of the original's image is undone by restore.
+    // restore: undoes the change in the image.
     template <typename Restore>
     void expect_same_image(InvarianceScene changed, const Restore &restore) {
         const Agreement same = agreement(original(), restore(batches_of(changed, 1000)));
@@ -118,7 +117,7 @@ TEST_P(Symmetry, Mirror) {
         << "the scene is symmetric";
 }
 
-// By an angle about an axis that is none of the coordinate ones: of integers, a Pythagorean quadruple.
+// Oblique axis; integers of a Pythagorean quadruple.
 TEST_P(Symmetry, Rotation) {
     InvarianceScene turned = scene();
     turned.turn({{2.0 / 3, -2.0 / 3, 1.0 / 3}, {1.0 / 3, 2.0 / 3, 2.0 / 3}, {-2.0 / 3, -1.0 / 3, 2.0 / 3}});

@@ -1,17 +1,16 @@
-"""Whether includes run one way: a room of the library or the program includes rooms before it alone. Called by CTest as
-arrows_test.py ROOT."""
+"""Includes run one way: rooms of the library or program include only earlier rooms. Called as arrows_test.py ROOT."""
 
 import pathlib
 import re
 import sys
 
-# Rooms in order: each may include itself and those before it.
+# Each may include itself and earlier ones.
 ORDERS = {"cli": ("base", "image", "film", "scene", "render", "merge", "denoise", "tonemap", "compare", "selftest"),
           "lib": ("platform", "base", "scene", "tree", "film", "denoise", "vulkan", "glsl_module", "kernel", "render", "api")}
 
 
 def arrows(part, includes):
-    """Pairs of rooms, of the includes as pairs (room, text of a file), that turn back."""
+    """Pairs of rooms that include backwards; includes: (room, text of a file)."""
     order = ORDERS[part]
     found = set()
     for room, text in includes:

@@ -1,6 +1,5 @@
-"""Tests of what the project's pages say about the project: links lead somewhere, names and numbers are those in the
-code, and the library's page names every function. Also tests that files named in comments exist. Arguments: the
-project's folder."""
+"""The project's pages against the code: links, names, numbers, and every function in the library's page. Files named in
+comments must exist. Arguments: the project's folder."""
 
 import pathlib
 import re
@@ -10,14 +9,14 @@ import unittest
 ROOT = pathlib.Path(sys.argv[1])
 PAGES = [path for folder in (".", "cli", "lib", "shaders", "tests") for path in (ROOT / folder).glob("*.md")]
 PAGES += [*(ROOT / "tests").glob("*/**/*.md"), *(ROOT / "lib").glob("*/*.md")]
-CURRENT = [page for page in PAGES if page.name not in ("CHANGELOG.md", "NOTEBOOK.md")]  # which tell of the past, too
+CURRENT = [page for page in PAGES if page.name not in ("CHANGELOG.md", "NOTEBOOK.md")]  # they cover the past, too
 CODE = re.compile(r"\.(h|c|cpp|glsl|comp|py|json|csv|cmake|sh)$|^CMakeLists\.txt$")
 
-# Words that a page may have, and all of them together but for the changes.
+# Limits of words, in a page and in all pages but the changes.
 MOST_WORDS = {"README.md": 1200, "CONTRIBUTING.md": 1500, "shaders/README.md": 9000, "tests/bench/README.md": 2500}
 MOST_WORDS_IN_ALL = 27_600
 
-# What pages say, and what the code has instead of the numbers: a file and its text, with groups in the same order.
+# Numbers in pages, and the file and text that define them, with groups in the same order.
 NUMBERS = (
     (r"(?:[Ff]rom|scenes of) (\d+) spheres\s+o[nr]\b", "lib/tree/tree_choice.h", r"default_tree_from = (\d+);"),
     (r"[Uu]p to (\d+) (?:spheres )?that reach\s+(\d+) times as far", "lib/tree/tree_choice.cpp",
@@ -37,7 +36,7 @@ NUMBERS = (
 
 
 def anchors(text):
-    """Names that the host of a repository gives to headings: lower case, without punctuation, blanks as hyphens."""
+    """Heading anchors as repository hosts make them: lower case, no punctuation, blanks as hyphens."""
     headings = re.findall(r"^#+ (.*)$", re.sub(r"```.*?```", "", text, flags=re.DOTALL), re.MULTILINE)
     names = re.findall(r'<a name="([^"]+)">', text)
     return {re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-") for heading in headings} | set(names)
@@ -61,7 +60,7 @@ def code_files():
 
 
 def names_of_code(text):
-    """Of a page: identifiers with an underscore that stand alone as code, and names of source files and folders."""
+    """A page's identifiers with an underscore that stand alone as code, and its names of source files and folders."""
     spans = re.findall(r"`([\w./]+)(?:\(\))?`", re.sub(r"```.*?```", "", text, flags=re.DOTALL))
     others = {span for span in spans if re.search(r"/|\.(h|c|cpp|glsl|comp|py|json|md|sh|exr|png)$", span)}
     identifiers = {word for span in spans if span not in others for word in span.split(".") if "_" in word}
@@ -70,13 +69,13 @@ def names_of_code(text):
 
 
 def missing_files(page, names, files):
-    """Those that are at no place from which pages name files."""
+    """Names that exist at no place from which pages name files."""
     folders = [ROOT, page.parent, ROOT / "lib/include", ROOT / "lib/include/pt"]
     return [name for name in names if name not in files and not any((folder / name).exists() for folder in folders)]
 
 
 def commands_without_source(text):
-    """Of Python scripts in a page's shell commands: missing ones, and options that no script beside them has."""
+    """Python scripts in shell commands that are missing, and options that none of them has."""
     wrong = []
     for block in re.findall(r"```sh\n(.*?)```", text, re.DOTALL):
         for line in block.replace("\\\n", " ").splitlines():

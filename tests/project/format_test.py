@@ -1,6 +1,5 @@
-"""Whether the C++ sources are formatted as .clang-format says. Called by CTest as format_test.py CLANG_FORMAT ROOT.
-
-The headers in shaders are GLSL too, which is laid out by hand.
+"""C++ sources are formatted by .clang-format. Called as format_test.py CLANG_FORMAT ROOT. Headers in shaders are GLSL
+too, laid out by hand.
 """
 
 import pathlib
@@ -15,7 +14,7 @@ def complaints(clang_format, *arguments, text=None):
 
 
 def check_the_check(clang_format, root):
-    """One space too many is found."""
+    """Negative control: one space too many."""
     name = f"--assume-filename={root / 'lib' / 'a.cpp'}"
     if complaints(clang_format, name, text="int a();\n") or not complaints(clang_format, name, text="int  a();\n"):
         sys.exit("clang-format does not tell what is formatted from what is not")

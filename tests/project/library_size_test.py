@@ -1,5 +1,5 @@
-"""Tests that the shared library, stripped, stays small: what is installed with every wheel and package. Arguments: the strip
-program, the library."""
+"""The stripped shared library, part of every wheel and package, stays small. Arguments: the strip program, the library.
+"""
 
 import os
 import subprocess

@@ -1,4 +1,4 @@
-"""What cmake/quickstart.sh runs and how it ends, with stand-ins for the programs that it calls. Arguments: the script."""
+"""The commands and exit status of cmake/quickstart.sh, with stand-ins for its programs. Arguments: the script."""
 
 import os
 import re
@@ -11,7 +11,7 @@ import unittest
 
 SCRIPT = pathlib.Path(sys.argv[1])
 
-# Notes its command line, and exits with the status that FAILING has for it.
+# Records its command line; exits with its status in FAILING.
 STAND_IN = """#!/bin/sh
 line="$(basename "$0") $*"
 echo "$line" >> "$NOTES"
@@ -39,7 +39,7 @@ class Quickstart(unittest.TestCase):
         path.chmod(0o755)
 
     def run_script(self, command, failing="", installed=""):
-        """Its exit status; self.lines are the command lines that it ran, self.output what it said."""
+        """Returns the exit status; sets self.lines (commands) and self.output."""
         notes = self.root / "notes"
         notes.write_text("")
         done = subprocess.run(["sh", self.root / "cmake" / "quickstart.sh", command], text=True, capture_output=True,

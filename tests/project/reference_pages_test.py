@@ -1,6 +1,6 @@
-"""Whether the headers document everything, by Doxygen with warnings as errors; and, which Doxygen does not look at, whether
-each value of an enumeration has a comment and each function says which threads may call it. Called by CTest as
-reference_pages_test.py DOXYGEN DOXYFILE HEADERS, where HEADERS is a folder; between its functions, headers is text by name."""
+"""The headers document everything: Doxygen with warnings as errors, a comment for each enumerator, and each function's
+threads. Called as reference_pages_test.py DOXYGEN DOXYFILE HEADERS (a folder); functions take headers as text by name.
+"""
 
 import pathlib
 import re
@@ -10,7 +10,7 @@ import tempfile
 
 
 def doxygen_complaints(doxygen, settings, headers):
-    """What Doxygen says of headers; nothing if it accepts them."""
+    """Doxygen's complaints."""
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name) / "pt"
         folder.mkdir()
@@ -22,21 +22,21 @@ def doxygen_complaints(doxygen, settings, headers):
 
 
 def silent_functions(header):
-    """Functions whose comment says nothing of threads."""
+    """Functions whose comment does not mention threads."""
     functions = re.findall(r"/\*\*((?:(?!\*/).)*)\*/\s*PT_API[^;]*?\b(pt_\w+)\([^;]*\);", header, re.DOTALL)
     return sorted(set(re.findall(r"^PT_API[^;(]*?\b(pt_\w+)\(", header, re.MULTILINE)) -
                   {name for comment, name in functions if "thread" in comment})
 
 
 def silent_values(header):
-    """Values of enumerations without a comment before or behind them."""
+    """Enumerators without a comment before or after them."""
     header = re.sub(r"/\*\*<.*?\*/", "@", header, flags=re.DOTALL)
     values = re.findall(r"(\*/\s*)?\b(PT_\w+) = -?\d+,?\s*(@)?", header)
     return [name for before, name, behind in values if not before and not behind]
 
 
 def check_the_check(doxygen, settings, headers):
-    """Whatever lacks its comment is found, and so is a comment that names what is not there."""
+    """Negative controls: missing comments, and comments about missing things."""
     header = headers["pt.h"]
     for old, new, wanted in (
         ("PT_API uint32_t pt_version(void);", "PT_API uint32_t pt_version(void);\nPT_API int pt_new(int x);", "pt_new"),

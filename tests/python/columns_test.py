@@ -1,4 +1,4 @@
-"""NumPy arrays as columns of spheres: what is read in place, and that all layouts give the bits of the plain one."""
+"""NumPy arrays as columns: read in place, and all layouts have the plain one's bits."""
 
 import unittest
 
@@ -94,7 +94,7 @@ class Columns(unittest.TestCase):
         self.check(("radius",), radii=RADII.tolist(), motion=np.broadcast_to(np.zeros(3), (COUNT, 3)))
 
     def test_motion(self):
-        """From an otherwise equal place: what moves is elsewhere."""
+        """Motion from the same place."""
         array = pt.SphereArray(POSITIONS, RADII, INDICES, motion=np.array((1.0, 0.0, 0.0)), color=COLORS)
         self.assertFalse(np.array_equal(radiance(self.context, scene_of(array)), self.plain))
 
@@ -104,12 +104,12 @@ class Columns(unittest.TestCase):
         linear = np.where(signal <= 0.04045, signal / 12.92, ((signal + 0.055) / 1.055)**2.4)
         images = [radiance(self.context, scene_of(pt.SphereArray(POSITIONS, RADII, 0, color=color)))
                   for color in (srgb, linear)]
-        # Trees hold both to a thousandth, and light is colored by up to six surfaces on its way.
+        # Trees hold both to a thousandth, and up to six surfaces color a path.
         np.testing.assert_allclose(*images, rtol=2e-3 * 6)
         self.assertGreater(np.abs(images[0] - self.plain).max(), 0.01)
 
     def test_nothing_is_copied(self):
-        """Changes of the arrays before the scene is set count, and those after it do not."""
+        """Changes of the arrays count until the scene is set."""
         positions, radii, colors = np.zeros_like(POSITIONS), RADII.astype(float), np.zeros_like(COLORS)
         array = pt.SphereArray(positions, radii, INDICES, color=colors)
         self.assertTrue(np.shares_memory(array.center, positions))

@@ -1,5 +1,5 @@
-"""The commands of the package: --help needs no optional module, and those in the pages are valid. Arguments: the project's
-folder."""
+"""The package's commands: --help needs no optional module, and pages have valid ones. Arguments: the project's folder.
+"""
 
 import pathlib
 import re
@@ -17,7 +17,7 @@ PYPROJECT = tomllib.loads((ROOT / "lib/python/pyproject.toml").read_text())["pro
 
 
 def figure_commands(text):
-    """The arguments of each `pt figure` in a page: a line of a block, or code in a sentence or table."""
+    """Arguments of each `pt figure` in a page."""
     lines = re.findall(r"^pt[ -]figure ([^#\n]*)", text, re.MULTILINE) + re.findall(r"`pt[ -]figure ([^`]*)`", text)
     return [words for line in lines if (words := shlex.split(line)) != ["--help"]]
 

@@ -1,4 +1,4 @@
-"""Contexts and films over their lives: threads, processes, what is closed and what is left behind."""
+"""Lifetimes of contexts and films: threads, processes, closing, leaks."""
 
 import gc
 import os
@@ -60,7 +60,7 @@ class Lives(unittest.TestCase):
         self.assertEqual(len(self.destroyed), 1)
 
     def test_nothing_is_left_of_films(self):
-        """Each of these takes 10 MB: of fifty, some few are there at a time."""
+        """Each film takes 10 MB; of fifty only a few exist at a time."""
         with pt.Context() as context:
             context.render(SCENE, CAMERA, settings(width=300, height=300), 1)
             film = context.film()
@@ -84,7 +84,7 @@ class Processes(unittest.TestCase):
         context.accumulate(1)
         child = os.fork()
         if child == 0:
-            signal.alarm(60)  # a call on the parent's context may never return
+            signal.alarm(60)  # a call on the parent's context may hang
             status = 1
             try:
                 context.stats()
@@ -120,8 +120,7 @@ class Threads(unittest.TestCase):
                 np.testing.assert_array_equal(image, expected)
 
     def test_others_run_during_calls(self):
-        """As this thread gives nothing up by itself, another one runs only if the library is called without the
-        interpreter's lock."""
+        """Another thread runs only if the library is called without the interpreter's lock."""
         interval = sys.getswitchinterval()
         self.addCleanup(sys.setswitchinterval, interval)
         start, ran = threading.Event(), []

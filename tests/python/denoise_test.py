@@ -1,5 +1,5 @@
-"""Denoised images, by a library that stands in for Open Image Denoise, where the module pyoidn has its own. Called as
-denoise_test.py LIBRARY."""
+"""Denoised images, with a stand-in for Open Image Denoise where pyoidn has its own. Called as denoise_test.py LIBRARY.
+"""
 
 import os
 import pathlib

@@ -1,5 +1,5 @@
-"""Images as NumPy sees them, as pictures, and in files: with the bytes of the program. Arguments: the program pt, and a library
-that stands in for Open Image Denoise."""
+"""Images in NumPy, as pictures and in files: the program's bytes. Arguments: the program pt, and a stand-in for Open
+Image Denoise."""
 
 import json
 import pathlib

@@ -1,4 +1,4 @@
-"""Errors as exceptions: a class for each result, the library's message, and the broken rules."""
+"""Exceptions: a class for each result, the library's message, the broken rules."""
 
 import ctypes
 import pathlib
@@ -15,7 +15,7 @@ HEADERS = pathlib.Path(sys.argv.pop(1))
 
 
 class FailingLibrary:
-    """Says of every result what a library would."""
+    """A library that reports every result."""
 
     def __init__(self, rules=0):
         self.rules = rules
@@ -71,7 +71,7 @@ class Functions(unittest.TestCase):
              "pt_take_bytes_fn": "CFunctionType"}
 
     def declared(self):
-        """Results and parameters of the functions in the headers."""
+        """Results and parameters of the headers' functions."""
         text = " ".join(" ".join(path.read_text().split()) for path in sorted(HEADERS.glob("*.h")))
         return {name: (kind.strip(), [] if parameters == "void" else parameters.split(", "))
                 for kind, name, parameters in re.findall(r"PT_API ([\w ]+?[ *]+)(pt_\w+)\(([^)]*)\);", text)}
@@ -83,7 +83,7 @@ class Functions(unittest.TestCase):
             result, parameters = declared[function]
             self.assertEqual(len(types), len(parameters), function)
             for kind, parameter in zip(types, parameters):
-                if "*" in parameter:  # to a struct or a number, unless it is a handle or bytes
+                if "*" in parameter:  # to a struct or a number, unless a handle or bytes
                     struct = re.sub(r"const |\*+\w+$", "", parameter).strip()
                     allowed = {"c_void_p", "c_char_p", "LP_c_void_p", f"LP_{struct}", f"LP_{self.KINDS.get(struct)}"}
                     self.assertIn(kind.__name__, allowed, f"{function}: {parameter}")

@@ -1,5 +1,4 @@
-"""The package's example runs and writes the files that it names; so do the programs in its pages. Arguments: the
-project's folder."""
+"""The package's example and the programs in its pages run and write their files. Arguments: the project's folder."""
 
 import contextlib
 import pathlib
@@ -13,7 +12,7 @@ import pt
 
 ROOT = pathlib.Path(sys.argv.pop(1))
 EXAMPLES = ROOT / "lib/python/examples"
-# What makes the programs in pages small.
+# Makes the pages' programs small.
 SMALLER = (("floor=True)", "floor=True, size=(32, 24), samples=4)"), ("640, 480", "32, 24"), ("1000,", "16,"),
            ("accumulate(64)", "accumulate(4)"))
 

@@ -1,4 +1,4 @@
-"""Films: sums that add to the bits of one rendering, and come back from pickles and files."""
+"""Films: sums equal one rendering's bits, also through pickles and files."""
 
 import pathlib
 import pickle
@@ -12,7 +12,7 @@ import pt
 from pictures import HEIGHT, SCENE, WHITE, WIDTH, ready
 from pt import _zstd
 
-SAMPLES = 24  # of which the error can be told
+SAMPLES = 24  # enough for an error
 
 
 class Films(unittest.TestCase):
@@ -49,7 +49,7 @@ class Films(unittest.TestCase):
         self.assertEqual(sum(copies), self.whole)
 
     def test_streams(self):
-        """In order and whole; an error in it comes out, and nothing is written after it."""
+        """Pieces are in order and complete; an exception passes through and ends the writing."""
         pieces = []
         self.whole.stream(pieces.append)
         self.assertEqual(b"".join(pieces), self.whole.to_bytes())
@@ -78,7 +78,7 @@ class Films(unittest.TestCase):
             self.assertEqual([found.name for found in pathlib.Path(folder).iterdir()], ["kept.ptfilm"])
 
     def test_packed_files(self):
-        """As the program writes them; the module that unpacks them may be missing."""
+        """Written by the program; the unpacking module may be missing."""
         packed = _zstd.MAGIC + b"frame"
         module = mock.Mock(decompress=lambda data: self.whole.to_bytes() if data == packed else b"")
         with mock.patch.dict(sys.modules, {"compression.zstd": None, "zstandard": module}):
@@ -92,7 +92,7 @@ class Films(unittest.TestCase):
         np.testing.assert_array_equal(image.radiance, self.image.radiance)
         np.testing.assert_array_equal(image.standard_error, self.image.standard_error)
         self.assertTrue((image.sample_count == SAMPLES).all())
-        # A GPU finds it in float32.
+        # A GPU uses float32.
         self.assertAlmostEqual(image.error, self.image.error, delta=1e-5 * image.error)
         part = np.zeros((4, 6, 4), np.float16)
         self.whole.readback(out=part, rectangle=(3, 5, 6, 4))
@@ -139,7 +139,7 @@ class Films(unittest.TestCase):
 
 
 class Plans(unittest.TestCase):
-    """One decides, others take the samples of some tiles: the film of one context with a target error."""
+    """One context decides, others take tiles' samples: the film of one context with a target error."""
 
     ERROR, MOST, SHAPE = 0.006, 4096, {"width": 136, "height": 100}
 

@@ -1,5 +1,4 @@
-"""Progress, and exceptions while the library is at work: they stop the call, which raises them and leaves a usable
-context."""
+"""Progress, and exceptions during calls: they stop the call, which raises them, and leave a usable context."""
 
 import signal
 import sys
@@ -10,7 +9,7 @@ import pt
 from pictures import SCENE, WHITE, cloud, ready
 
 ENDLESS = 2**20  # samples: minutes on a CPU
-MANY = 300_000  # spheres, so that their tree takes some hundred milliseconds
+MANY = 300_000  # spheres; their tree takes some hundred milliseconds
 
 
 class Alarm(Exception):
@@ -38,7 +37,7 @@ class Interrupts(unittest.TestCase):
         self.assertIs(sys.unraisablehook, self.hook)
 
     def check_usable(self):
-        """Its samples are those that it has always had, and more can be added."""
+        """Samples are unchanged, and more can be added."""
         ready(self.context)
         self.context.accumulate(8)
         with pt.Context() as fresh:
@@ -93,7 +92,7 @@ class Interrupts(unittest.TestCase):
             self.check_usable()
 
     def test_a_signal_while_samples_are_taken(self):
-        """It comes while the library is at work, without a function for progress to be raised in."""
+        """The signal comes during the call, without a progress function to raise it."""
         for _ in range(3):
             with self.assertRaises(Alarm):
                 signal.setitimer(signal.ITIMER_REAL, 0.02)
@@ -123,7 +122,7 @@ class Interrupts(unittest.TestCase):
             pt.Context(log=fail)
 
     def test_what_others_cannot_raise_goes_its_way(self):
-        """Finalizers raise too, and it is told where it was told before."""
+        """Finalizers' exceptions are reported where they were before."""
         told = []
         sys.unraisablehook, hook = lambda raised: told.append(raised.exc_type), sys.unraisablehook
 

@@ -1,4 +1,4 @@
-"""Small pictures that the tests of the package share."""
+"""Small pictures for the package's tests."""
 
 import numpy as np
 import pt
@@ -37,12 +37,11 @@ def ready(context, scene=SCENE, **fields):
 
 
 def radiance(context, scene, samples=4):
-    """Of a scene, as Context.render finds it."""
     return context.render(scene, CAMERA, settings(), samples).radiance
 
 
 def cloud(count, seed=1):
-    """Positions in front of the camera, colors in [0, 1], both of float32."""
+    """Positions in front of the camera, colors in [0, 1]; float32."""
     random = np.random.default_rng(seed)
     return (random.normal((0, 1, 0), 0.7, (count, 3)).astype(np.float32),
             random.uniform(0.1, 1, (count, 3)).astype(np.float32))

@@ -1,5 +1,5 @@
-"""Scenes that the program reads for the package: the same films as the program's own. Arguments: the program pt, and the
-folder of scenes."""
+"""Scenes read by the program for the package give the program's films. Arguments: the program pt, the folder of scenes.
+"""
 
 import json
 import os
@@ -50,7 +50,7 @@ class Reading(unittest.TestCase):
         return path
 
     def films(self, path):
-        """Of what the package was told, and the program's."""
+        """Films of the package and of the program."""
         program = Program([str(path), "--size", "16x8"])
         self.addCleanup(program.close)
         read = program.scene()

@@ -1,4 +1,4 @@
-"""pt.render, the camera that it fits, images read into the caller's arrays, and target errors."""
+"""pt.render, its fitted camera, images in the caller's arrays, target errors."""
 
 import unittest
 from dataclasses import replace
@@ -56,8 +56,8 @@ class Render(unittest.TestCase):
         self.assertEqual(few.stats.max_sample_count, 20)
 
     def test_the_camera_touches_the_spheres(self):
-        """No sphere sticks out of the view, and one touches its rim: seen from the pinhole, a sphere at x right and z
-        away reaches to the angle atan(x / z) + asin(r / |x, z|)."""
+        """All spheres are in view and one touches its rim: a sphere at x right and z away reaches the angle atan(x / z)
+        + asin(r / |x, z|)."""
         radii = np.linspace(0.05, 0.4, len(POSITIONS))
         for aspect, direction in ((1.5, (0.5, 0.4, 1)), (0.5, (-1, 0.2, 0)), (3.0, (0, -1, 1))):
             camera = pt.Camera.around(POSITIONS, radii, direction=direction, aspect=aspect, margin=1)

@@ -1,4 +1,4 @@
-"""Scenes of Tachyon: every section by exact values, agreement with Tachyon's own pictures, and damaged files."""
+"""Scenes of Tachyon: every section by exact values, Tachyon's own pictures, damaged files."""
 
 import json
 import math
@@ -15,7 +15,7 @@ from pt.tachyon import _command, _lights
 from pt.tachyon._reader import parse, read
 
 DATA = pathlib.Path(sys.argv.pop(1))
-# As VMD has it. z counts the other way there.
+# As written by VMD; z is reversed.
 SCENE = """# as VMD has it
 Begin_Scene
 Resolution 64 32
@@ -44,7 +44,7 @@ End_Scene
 
 
 def parsed(*changes, **options):
-    """SCENE with the first of each pair in place of the second."""
+    """SCENE with replacements."""
     text = SCENE
     for old, new in changes:
         assert old in text, old
@@ -59,7 +59,7 @@ class Sections(unittest.TestCase):
         self.assertEqual(found.camera.position, (1, 2, 3))
         self.assertEqual(found.camera.up, (0, 1, -0.5))
         self.assertAlmostEqual(math.tan(found.camera.vertical_fov / 2), 1, 14)  # half of 1 / ZOOM
-        # The point of the view that is nearest to the middle of the box around both spheres, (1.5, 2, -7).
+        # The point on the view's axis nearest to the center of both spheres' box, (1.5, 2, -7).
         self.assertEqual(found.camera.target, (1, 2, -7))
         self.assertEqual(found.notes, [])
 
@@ -86,7 +86,7 @@ class Sections(unittest.TestCase):
         self.assertEqual(parsed(("Metal", "Plastic")).scene.materials[0].specular, (0.05, 0.05, 0.05))
 
     def test_cylinders_are_capsules(self):
-        """As VMD writes them, with and without caps, and a chain."""
+        """As written by VMD, with and without caps, and a chain."""
         tube = "FCylinder\n  Base 1 2 3\n  Apex 4 5 6.5\n  Rad 0.25\n metal\n"
         caps = ("Ring\nCenter 1 2 3 \nNormal 0.6 0.6 0.5 \nInner 0.0  Outer 0.25 \n metal\n"
                 "Ring\nCenter 4 5 6.5 \nNormal -0.6 -0.6 -0.5 \nInner 0.0  Outer 0.25 \n metal\n")
@@ -108,7 +108,7 @@ class Sections(unittest.TestCase):
             self.assertEqual(len(found.scene.sphere_arrays[1]), 1)
 
     def test_fog_is_left_out(self):
-        """As VMD writes it after the background, by default."""
+        """As written by VMD after the background, by default."""
         fog = "Fog {} Start 0.5 End 10 Density 0.4 Color 1 1 1\nTexDef gold"
         for kind in ("Linear", "Exp", "Exp2"):
             found = parsed(("TexDef gold", fog.format(kind)))
@@ -136,10 +136,10 @@ class Sections(unittest.TestCase):
 
     def test_lights_are_lamps(self):
         sun, lamp, sky = parsed().scene.spheres
-        distance = 100 * math.sqrt(170)  # a hundred times that of the light, which is farthest: sqrt(1 + 13^2)
+        distance = 100 * math.sqrt(170)  # a hundred times the light's, which is farthest: sqrt(1 + 13^2)
         self.assertAlmostEqual(sun.center[1], 2 + distance, 9)
         self.assertAlmostEqual(sun.radius, distance / 50, 9)
-        share = 1 - 0.5 / 2.25  # the background gives 0.5 where both lights give up to 2.25
+        share = 1 - 0.5 / 2.25  # the background gives 0.5, both lights up to 2.25
         np.testing.assert_allclose(sun.material.emission, share * np.array([2500, 1250, 625]), rtol=1e-12)
         self.assertTrue(sun.material.hidden_from_camera)
         self.assertEqual((lamp.center, lamp.radius), ((2, 2, 6), 0.5))
@@ -195,7 +195,7 @@ class Sections(unittest.TestCase):
 
 
 class Lamps(unittest.TestCase):
-    """In a world whose camera at (0, 0, 8) looks at the origin."""
+    """A camera at (0, 0, 8) looks at the origin."""
 
     @staticmethod
     def around(spheres=(), planes=(), way=(0, 0, 0)):
@@ -209,7 +209,7 @@ class Lamps(unittest.TestCase):
 
     @staticmethod
     def irradiance(lamp):
-        """Of a surface at the origin that faces it: over the cone of directions to it, cosine times radiance."""
+        """Irradiance of a facing surface at the origin: cosine times radiance over the lamp's cone."""
         widest = math.asin(lamp.radius / np.linalg.norm(lamp.center))
         angles = (np.arange(20000) + 0.5) * widest / 20000
         return 2 * math.pi * lamp.material.emission[1] * np.sum(np.cos(angles) * np.sin(angles)) * widest / 20000
@@ -226,7 +226,7 @@ class Lamps(unittest.TestCase):
     def test_they_touch_nothing(self):
         light = _lights.Light("", (1, 1, 1), (3, 4, 0))
         self.assertAlmostEqual(self.only_lamp(light, [(3, 4, 2, 1.9)]).radius, 0.05, 12)
-        self.assertAlmostEqual(self.only_lamp(light, [(3, 4, 2, 2.125)]).radius, 0.0625, 12)  # it is inside
+        self.assertAlmostEqual(self.only_lamp(light, [(3, 4, 2, 2.125)]).radius, 0.0625, 12)  # inside it
         along = self.around([(0, 0, 0, 0.5)], way=(4, 4, 0))  # the capsule's axis
         for point, gap in (((3, 1, 0), math.sqrt(2)), ((2, 2, 3), 3), ((-3, 0, 4), 5), ((7, 8, 0), 5), ((1, 1, 0), 0)):
             self.assertAlmostEqual(along.clearance(np.array(point)), abs(gap - 0.5), 12)
@@ -234,7 +234,7 @@ class Lamps(unittest.TestCase):
         plane = pt.Plane((0, 2, 0), -7.9375, 0)
         self.assertAlmostEqual(self.only_lamp(light, [], [plane]).radius, 0.03125 / 2, 12)
         seen = _lights.Light("", (1, 1, 1), (0, 0, 7.875), radius=0.125)
-        self.assertEqual(self.only_lamp(seen).radius, 0.0625)  # half of the way to the camera
+        self.assertEqual(self.only_lamp(seen).radius, 0.0625)  # half the way to the camera
         lamps, warnings = _lights.lamps_of([_lights.Light("a:7", (1, 1, 1), (3, 4, 0))],
                                            self.around(planes=[pt.Plane((0, 1, 0), -4, 0)]))
         self.assertEqual((lamps, warnings), ([], ["a:7: the light lies on a surface, and is left out"]))
@@ -253,8 +253,8 @@ class Lamps(unittest.TestCase):
 
 class Pictures(unittest.TestCase):
     def test_the_first_surfaces_are_those_that_tachyon_shows(self):
-        """Its pictures have 10 (i + 1) in red where ball i is, in green for plane i; it looks through the upper right
-        corners of pixels."""
+        """Its pictures have 10 (i + 1) in red for ball i, in green for plane i; it samples the upper right corners of
+        pixels."""
         for name in ("perspective", "parallel"):
             with self.subTest(name):
                 found = read(DATA / f"{name}.dat")
@@ -266,7 +266,7 @@ class Pictures(unittest.TestCase):
                 self.assertGreater(self.differences(found)[0], 300)
 
     def differences(self, found):
-        """Pixels that show something else, of those that are certain, and whether nearly all are."""
+        """Wrong pixels among certain ones, and whether nearly all are certain."""
         width, height = found.settings.width, found.settings.height
         name = "perspective" if found.camera.vertical_extent is None else "parallel"
         shown = np.frombuffer((DATA / f"{name}.ppm").read_bytes()[-3 * width * height:], np.uint8)

@@ -1,5 +1,4 @@
-"""mypy --strict accepts the package and its example, and knows the types of its results. Arguments: the package's
-folder."""
+"""mypy --strict accepts the package and its example, and infers result types. Arguments: the package's folder."""
 
 import os
 import pathlib
@@ -29,7 +28,7 @@ pt.figure("a.xyz", floor="yes")
 
 class Types(unittest.TestCase):
     def check(self, *arguments):
-        """What mypy says, with one cache for all calls."""
+        """mypy's output, with one cache for all calls."""
         return subprocess.run([sys.executable, "-m", "mypy", "--strict", "--no-error-summary", "--cache-dir",
                                self.folder / "cache", *arguments], text=True, capture_output=True, cwd=self.folder,
                               env={**os.environ, "MYPYPATH": str(PACKAGE)})

@@ -1,6 +1,5 @@
-"""The page of pt view in headless Chromium (Debian's), by hand: it takes a browser and a minute.
-
-python3 tests/python/view_browser_test.py build/bin/pt [FOLDER for screenshots], with PYTHONPATH=lib/python and
+"""The page of pt view in headless Chromium (Debian's), run by hand: needs a browser and a minute. python3
+tests/python/view_browser_test.py build/bin/pt [FOLDER for screenshots], with PYTHONPATH=lib/python and
 PT_LIBRARY=build/lib/libpt.so.0.3"""
 
 import json
@@ -149,7 +148,7 @@ class Browser(unittest.TestCase):
         self.assertEqual(json.loads(facts)["width"], 256)
 
     def test_fingers_orbit_and_zoom(self):
-        """One turns about what is in the middle, two that part go nearer."""
+        """One finger turns about the center of view, two that part move closer."""
         self.open()
         line = "document.getElementById('camera').value"
         self.browser.until(f"{SAMPLES} > 8")
@@ -200,7 +199,7 @@ class Browser(unittest.TestCase):
         self.assertRegex(fault, r"^phong\.glsl:[12]: ")
         self.browser.until("document.querySelector('.cm-lint-marker-error')")
         self.shot("error")
-        self.browser.until(f"{SAMPLES} > {before}")  # the last good kernels go on
+        self.browser.until(f"{SAMPLES} > {before}")  # the last good kernels continue
         self.browser.call("Input.dispatchKeyEvent", type="keyDown", key="z", code="KeyZ", windowsVirtualKeyCode=90, modifiers=2)
         self.browser.until("document.getElementById('edited').textContent === 'not saved'")
         self.browser.call("Input.dispatchKeyEvent", type="keyDown", key="s", code="KeyS", windowsVirtualKeyCode=83, modifiers=2)

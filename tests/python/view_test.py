@@ -1,5 +1,5 @@
-"""The server of pt view, without a browser: who may speak to it, and what it answers. Arguments: the program pt, and whether
-kernels can be compiled while a program runs (0 or 1)."""
+"""The server of pt view, without a browser: access and answers. Arguments: the program pt, and whether kernels can be
+compiled at run time (0 or 1)."""
 
 import asyncio
 import http.client
@@ -35,7 +35,7 @@ def text_of(scene):
 
 
 class Page:
-    """What a page does, one step at a time."""
+    """Acts like a page, one step at a time."""
 
     def __init__(self, view):
         self.address, self.loop, self.state, self.pixels = view.address, asyncio.new_event_loop(), {}, None
@@ -60,7 +60,7 @@ class Page:
         self.run(self.socket.send_str(message if isinstance(message, str) else json.dumps(message)))
 
     def ask(self, message):
-        """The next answer that is no frame."""
+        """The next answer that is not a frame."""
         self.send(message)
         while True:
             answer = self.run(self.socket.receive())
@@ -75,7 +75,7 @@ class Page:
             self.pixels = np.frombuffer(data, np.float32, offset=4 + length).reshape(self.state["height"], self.state["width"], 3)
 
     def frame(self, holds=lambda state: True):
-        """The first frame from now on whose state is like that."""
+        """The next frame with such a state."""
         while True:
             self.send({"next": 0})
             self.take(self.run(self.socket.receive()).data)
@@ -137,7 +137,7 @@ class Views(unittest.TestCase):
                      "package.json", ".", "..", "view.js/", "view.js%00", "...", "x" * 3000):
             self.assertIn(self.request(f"/{self.token}/{name}")[0], (403, 404), name)
         with Page(self.view) as page:
-            self.assertEqual(page.ask({"list": True}), {"files": []})  # nothing is to be edited
+            self.assertEqual(page.ask({"list": True}), {"files": []})  # nothing is editable
             for name in (str(self.scene), "a scene.json", "../x", None, 7, ["a"]):
                 self.assertIn("refused", page.ask({"open": name}))
                 self.assertIn("refused", page.ask({"save": name, "text": "x"}))
@@ -249,15 +249,15 @@ class Views(unittest.TestCase):
                 page.frame(lambda state: state["samples"] > 1)
                 page.send({"playing": False})
                 stopped = page.frame(lambda state: not state["playing"])
-                renderer._thread.join(0.3)  # time enough for samples that must not be taken
+                renderer._thread.join(0.3)  # time for samples that must not be taken
                 self.assertEqual(renderer._count, stopped["samples"])
                 page.send({"playing": True})
                 page.frame(lambda state: state["samples"] > stopped["samples"])
                 with Page(view) as other:  # a second browser sees the same
                     self.assertEqual(other.frame(lambda state: state["samples"])["size"], [24, 16])
-            while renderer._is_watched:  # until the server knows that all have gone
+            while renderer._is_watched:  # until the server knows that all have left
                 pass
-            renderer._thread.join(0.3)  # what was under way
+            renderer._thread.join(0.3)  # work in progress
             count = renderer._count
             renderer._thread.join(0.3)
             self.assertEqual(renderer._count, count)
@@ -329,7 +329,7 @@ class Edits(unittest.TestCase):
         lamps = {**SCENE_FILE["materials"], "lamp": {"emission": [8, 6, 4]}}
         page.send({"save": "s.json", "text": text_of({**SCENE_FILE, "materials": lamps})})
         page.frame(lambda state: not state["faults"] and state["samples"] == 16)
-        np.testing.assert_array_equal(page.pixels, 2 * before)  # a power of two is exact
+        np.testing.assert_array_equal(page.pixels, 2 * before)  # powers of two are exact
 
 
 class Command(unittest.TestCase):

@@ -2,8 +2,8 @@
 
     PT_LIBRARY=build/lib/libpt.so python3 tests/render/adaptive_bias.py SCENE TARGET [SEEDS]   # caustic 0.1 96
 
-SCENE is one of cli/scenes or calibration_scenes.py. Each picture is compared with an even one of the same seed and many
-more samples, which has no bias. The two share their first samples, so that less noise is left.
+SCENE is one of cli/scenes or calibration_scenes.py. Each picture is compared with an unbiased even one of the same seed
+and many more samples; they share their first samples, which reduces noise.
 """
 
 import math

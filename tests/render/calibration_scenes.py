@@ -1,5 +1,5 @@
 """Scenes whose error is hard to state: lamps below a pixel, stars, streets, windows, caustics, chains of glossy balls,
-mostly black pictures, and figures. Used by error_calibration.py beside those of cli/scenes."""
+mostly black pictures, and figures."""
 
 import math
 import random
@@ -139,7 +139,7 @@ def hard_lamps(rng):
 
 
 def scenes():
-    """28 scenes by name, the same each time."""
+    """28 scenes by name, reproducible."""
     rng = random.Random(7)
     planet = [ball((-5, 0, -40), 6, "planet"), ball((80, 40, 20), 5, "sun")]
     return {"street-24": street(rng, 12, 0.15, 60), "street-60": street(rng, 30, 0.05, 600), "windows": windows(rng),

@@ -1,11 +1,11 @@
-"""Prints tables of denoised images: the stated error against the true one, and what is gained.
+"""Prints tables of denoised images: stated against true error, and the gain.
 
     python3 tests/render/denoise_calibration.py [--scenes NAME ...] [--sizes WIDTHxHEIGHT ...]
 
-PT_LIBRARY names the library; it takes NumPy and Open Image Denoise (pip install pyoidn, or LD_LIBRARY_PATH). Scenes are
-those of error_calibration.py. An image is made of two of half of the samples; its true error is the root of the mean, over
-the seeds, of its squared relative error. A square is the product of the differences to two images of other seeds, whose
-own noise it has only once, and so not in its mean. On two cores of a CPU 16 scenes take six minutes.
+PT_LIBRARY names the library; needs NumPy and Open Image Denoise (pip install pyoidn, or LD_LIBRARY_PATH). Scenes: see
+error_calibration.py. An image is made of two halves of the samples; its true error is the root mean over seeds of its
+squared relative error. The square is the product of the differences to two images of other seeds, so that their noise
+cancels in the mean.
 """
 
 import argparse
@@ -23,12 +23,12 @@ from pt import _structs as structs, denoise  # noqa: E402
 COUNTS = [4, 16, 64, 256]
 SEEDS = range(100, 108)
 TRUTH_SEEDS, TRUTH_SAMPLES = (9, 10), 1024
-MORE_TRUTH_SAMPLES = {"two-lamps": 32768}  # of which few meet the light that shadows end in
+MORE_TRUTH_SAMPLES = {"two-lamps": 32768}  # few meet the light at shadows' ends
 ALBEDO, NORMAL = 5, 4  # PT_QUANTITY_*
 
 
 def measure(name, scene, size):
-    """Cases, and by number of samples the mean squares of the errors of both halves together and of the denoised image."""
+    """Cases; and by sample count the mean squared errors of both halves together and of the denoised image."""
     width, height = map(int, size.split("x"))
     length = scene.get("render", {}).get("max_path_length", 6)
     with SceneRenderer(scene) as renderer:

@@ -1,12 +1,12 @@
-"""Prints the tables in shaders/README.md of the error that is stated of an image, as stated / true error.
+"""Prints the tables of shaders/README.md: stated / true error of images.
 
     python3 tests/render/error_calibration.py [--before OLD.so] [--methods ESTIMATOR/SAMPLER ...] [--scenes NAME ...]
                                               [--sizes WIDTHxHEIGHT ...] [--jobs N]
 
-PT_LIBRARY names the library; --before another one to compare with. Scenes are those of cli/scenes and of
-calibration_scenes.py, by default in 64 x 32, 128 x 64, 256 x 128 and 512 x 256 pixels. The true error is the root of the mean, over 24 or, in pictures of at most 8192 pixels, 96 seeds, of the squared relative
-error against an image of many samples of another seed. The stated ones are those of the first six seeds. On a GPU it
-takes minutes.
+PT_LIBRARY names the library; --before another one to compare with. Scenes come from cli/scenes and
+calibration_scenes.py, by default in 64 x 32, 128 x 64, 256 x 128 and 512 x 256 pixels. The true error is the root mean
+squared relative error over 24 seeds (96 for at most 8192 pixels) against an image of many samples of another seed.
+Stated errors come from the first six seeds. A GPU takes minutes.
 """
 
 import argparse
@@ -31,9 +31,9 @@ COUNTS = [16, 64, 256, 1024]
 TRUTH_WORK = 1 << 28  # pixels times samples
 LEAST_TRUTH, MOST_TRUTH = 1 << 15, 1 << 17  # samples
 MANY_SEEDS, FEW_SEEDS, STATED_SEEDS = 96, 24, 6
-SMALL_PICTURE = 1 << 13  # pixels, whose error scatters most from seed to seed
+SMALL_PICTURE = 1 << 13  # pixels; their error scatters most between seeds
 MOST_SAMPLES = 4096
-RELATIVE_BITS = 2 + 4 + 8  # of PT_UNCERTAIN_*, those of relative_rmse
+RELATIVE_BITS = 2 + 4 + 8  # the bits of PT_UNCERTAIN_* about relative_rmse
 
 
 @dataclass
@@ -45,11 +45,11 @@ class Case:
     count: int
     ratio: float  # stated / true
     uncertain: bool
-    holds: bool  # the true one lies within the bounds
+    holds: bool  # the true error is within the bounds
 
 
 class Calibration:
-    """A scene in one size with its limit, as far as many samples tell."""
+    """A scene in one size, with its limit by many samples."""
 
     def __init__(self, name, scene, size):
         self.name = name
@@ -89,7 +89,7 @@ class Calibration:
                            each.relative_rmse_low <= error <= each.relative_rmse_high)
 
     def stopped(self, target):
-        """Error / target of images that were taken until the target was reached; None where it was not."""
+        """Error / target of images taken until the target; None if not reached."""
         for seed in range(200, 200 + STATED_SEEDS):
             self.start(seed)
             result = self.renderer.accumulate(MOST_SAMPLES, target)

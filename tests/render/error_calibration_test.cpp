@@ -1,4 +1,4 @@
-// The error that a rendering states without a reference, against its true error by converged references.
+// Stated errors against true ones by converged references.
 #include "lib/film/error_estimate.h"
 #include "lib/film/sample_set.h"
 #include "tests/render/reference_image.h"
@@ -23,7 +23,7 @@ constexpr uint32_t calibration_height = 128;
 
 using Image = std::vector<float>;
 
-// The root of the mean of (x - r)^2 / (r^2 + 0.01).
+// sqrt(mean((x - r)^2 / (r^2 + 0.01))).
 double relative_rmse(const Image &image, const Image &reference) {
     double sum = 0.0;
     for (std::size_t i = 0; i < image.size(); ++i) {
@@ -41,10 +41,9 @@ struct Judgement {
     bool accepts(double ratio) const { return ratio >= low && ratio <= high; }
 };
 
-// What the stated error over the true one may be in these cases; shaders/README.md, section 11, has a calibration over
-// many. Random samples: both come from tens of thousands of values, of which the brightest few hundred weigh most, so
-// either scatters by some per cent. Sequences: up to 2^p - 1 with 1 <= p <= 2 more in mean square (error_estimate.cpp),
-// hence sqrt(3), and more where the denominators err.
+// Limits of stated / true error; shaders/README.md, section 11, has a calibration. Random samples: of tens of thousands
+// of values the brightest few hundred weigh most, so both scatter by some per cent. Sequences: up to 2^p - 1, 1 <= p <=
+// 2, more in mean square (error_estimate.cpp), hence sqrt(3), and more by errors of denominators.
 constexpr Judgement of_random{0.9, 1.2};
 constexpr Judgement of_sequence{0.8, 2.0};
 
@@ -81,9 +80,9 @@ protected:
     }
 };
 
-// Where lamps are found by chance, rare bright samples are most of the light, and most of the error. Their own mean is
-// what each such pixel must not be divided by: that states less than half of the error with uniform directions. What
-// lies about a pixel says less of its limit, and more is stated: 1.73 times the error at the most here.
+// With lamps found by chance, rare bright samples carry most light and error. Dividing such a pixel by its own mean
+// would state less than half of the error; its surroundings are less close to its limit and state up to 1.73 times the
+// error here.
 constexpr Judgement of_rare{0.9, 2.0};
 
 constexpr CalibrationCase calibration_cases[] = {
@@ -113,27 +112,27 @@ TEST_F(StatedError, IsThatByTheReference) {
             const pt_error_estimate stated = error();
             const double ratio = stated.relative_rmse / relative_rmse(image(), reference);
             EXPECT_TRUE(each.judgement.accepts(ratio)) << stats().sample_count << " samples: " << ratio;
-            // One truth in twenty lies outside of bounds of 95%, but not by much.
+            // One truth in twenty is outside the 95% bounds, but not by much.
             EXPECT_GE(stated.relative_rmse_high, 0.9 * stated.relative_rmse / ratio);
             if (each.estimator == PT_ESTIMATOR_BEST) {
                 EXPECT_LE(stated.relative_rmse_low, 1.1 * stated.relative_rmse / ratio);
             }
-            // Negative control: the judgement sees an error stated too small, whatever it accepts.
+            // Negative control: a stated error that is too small.
             EXPECT_FALSE(each.judgement.accepts(0.9 * each.judgement.low / each.judgement.high * ratio));
         }
     }
 }
 
-// A hundred lamps that each cover a 70th of a pixel: 64 samples of a pixel meet one about once, and many are met twice,
-// which no firefly is. Taken for fireflies they made the stated error more than ten times too large.
+// A hundred lamps each cover a 70th of a pixel: 64 samples meet one about once, and often twice, unlike fireflies, for
+// which the stated error would be more than ten times too large.
 TEST_F(StatedError, OfLampsBelowAPixelIsThatByManySamples) {
     constexpr uint32_t width = 64;
     constexpr uint32_t height = 32;
     const pt_material lamp[] = {{{}, {}, {2000.0F, 2000.0F, 2000.0F}, 0.0F, 0}};
     constexpr double fov = 0.7;
-    const double pixel = 2.0 * std::tan(0.5 * fov) / height; // at the distance 1
+    const double pixel = 2.0 * std::tan(0.5 * fov) / height; // at distance 1
     std::vector<pt_sphere> lamps;
-    for (int i = 7; i < static_cast<int>(width * height); i += 20) { // in the middle of every twentieth pixel
+    for (int i = 7; i < static_cast<int>(width * height); i += 20) { // in every twentieth pixel
         const double x = i % static_cast<int>(width) + 0.5 - 0.5 * width;
         const double y = i / static_cast<int>(width) + 0.5 - 0.5 * height;
         lamps.push_back({{x * pixel, y * pixel, -1.0}, std::sqrt(1.0 / 70.0 / 3.14159) * pixel, {}, 0, 0});
@@ -164,7 +163,7 @@ TEST_F(StatedError, OfLampsBelowAPixelIsThatByManySamples) {
     }
 }
 
-// Films of other samples than the first: a range that begins later, or several with gaps, put together by pt_add_film.
+// Ranges that begin later, or with gaps, joined by pt_add_film.
 struct RangesCase {
     std::vector<pt::SampleRange> ranges;
     uint32_t max_path_length;
@@ -172,8 +171,8 @@ struct RangesCase {
     Judgement judgement;
 };
 
-// So few samples of a range may be in its older part that their error decides the difference: of [1000, 1500) those are
-// the 24 up to 1024. Over six seeds it was 3.05 at the most.
+// A range's older part may have so few samples that their error dominates: of [1000, 1500) the 24 up to 1024. Largest
+// over six seeds: 3.05.
 constexpr Judgement of_late_range{0.8, 3.2};
 
 TEST_F(StatedError, OfRangesIsThatByTheReference) {
@@ -204,7 +203,7 @@ TEST_F(StatedError, OfRangesIsThatByTheReference) {
     }
 }
 
-// The error that an estimate from parts of single samples states: sums of the samples of each part, by the given rule.
+// The error stated from parts made of single samples by a rule.
 template <typename PartOf>
 double error_from_parts(const std::vector<Image> &samples, const PartOf &part_of) {
     const auto count = static_cast<double>(samples.size());
@@ -222,9 +221,8 @@ double error_from_parts(const std::vector<Image> &samples, const PartOf &part_of
     return estimator.result().relative_rmse.estimate;
 }
 
-// Parts put together from single samples, by the rule of the film and by one that is wrong: even and odd samples are
-// the first digit of the first dimension, the place in the pixel, so that each part would see one half of every
-// pixel.
+// The film's rule against a wrong one: even and odd samples are the first digit of the first dimension, so each part
+// would see one half of every pixel.
 TEST_F(StatedError, OfSobolFailsForEvenAndOddSamples) {
     constexpr uint32_t sample_count = 64;
     std::vector<Image> samples;
@@ -240,7 +238,7 @@ TEST_F(StatedError, OfSobolFailsForEvenAndOddSamples) {
     ASSERT_EQ(2 * older, sample_count);
     const double by_film = error_from_parts(samples, [&](uint32_t i) { return i < older ? 0 : 1; });
     const double by_parity = error_from_parts(samples, [](uint32_t i) { return i % 2; });
-    // Roundings of images to float32 are far below 1e-4 of the error.
+    // Rounding to float32 is far below 1e-4 of the error.
     EXPECT_NEAR(by_film, error().relative_rmse, 1e-4 * by_film);
     EXPECT_TRUE(of_sequence.accepts(by_film / truth)) << by_film / truth;
     EXPECT_FALSE(of_sequence.accepts(by_parity / truth)) << by_parity / truth;

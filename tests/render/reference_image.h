@@ -1,4 +1,4 @@
-// Converged images of other renderers.
+// Converged images by other renderers.
 #pragma once
 
 #include <OpenImageIO/imageio.h>

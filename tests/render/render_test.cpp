@@ -1,5 +1,5 @@
-// Renders of the coursework scene against converged references made by other renderers (tests/reference/README.md).
-// The noise of the samples, measured from batches, says how close they must be.
+// The coursework scene against converged references of other renderers (tests/reference/README.md). Tolerances come
+// from the noise between batches.
 #include "tests/render/reference_image.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
@@ -15,7 +15,7 @@ namespace {
 
 constexpr uint32_t width = 256;
 constexpr uint32_t height = 128;
-// Batches differ in their seeds: quasi-random samples of one seed are not independent of each other.
+// Seeds differ: quasi-random samples of one seed are dependent.
 constexpr uint32_t batch_count = 16;
 constexpr uint32_t batch_samples = 16;
 constexpr uint32_t block_size = 8;
@@ -25,7 +25,7 @@ struct Case {
     bool diffuse;
     uint32_t max_path_length;
     double reference_rmse; // as stated with the reference
-    uint32_t sampler;      // random where the reference's samples are: its noise is then spread like ours
+    uint32_t sampler;      // random like the reference's samples, so that both noises are distributed alike
 };
 
 using Image = std::vector<float>;
@@ -58,7 +58,7 @@ double block_mean(const Image &image, uint32_t block) {
     return sum / (block_size * block_size * 3);
 }
 
-// Mean square per pixel and channel of the noise of the mean of the batches.
+// Mean square per value of the noise of the batches' mean.
 double noise_of_mean(const std::vector<Image> &batches) {
     double sum = 0.0;
     std::vector<double> values(batches.size());
@@ -75,8 +75,8 @@ struct Agreement {
     double largest_t;
 };
 
-// Student's t of each block's difference to the reference: the batches give the variance of the block's mean, and the
-// reference's noise, of which only the total is known, is taken to be spread like ours.
+// Student's t per block: the batches give the variance of the mean; the reference's noise, known in total, is
+// distributed like ours.
 Agreement agreement(const std::vector<Image> &batches, const Image &reference, double reference_rmse) {
     const double reference_share = reference_rmse * reference_rmse / noise_of_mean(batches);
     constexpr uint32_t blocks = (width / block_size) * (height / block_size);
@@ -88,7 +88,7 @@ Agreement agreement(const std::vector<Image> &batches, const Image &reference, d
             values[b] = block_mean(batches[b], block);
         const auto [mean, variance] = statistics::moments(values);
         const double expected = block_mean(reference, block);
-        if (variance == 0.0) { // no noise: emission alone, where both are exact but for the reference's float32 sums
+        if (variance == 0.0) { // emission alone: exact but for the reference's float32 sums
             EXPECT_NEAR(mean, expected, 1e-5 * expected) << "block " << block;
             continue;
         }
@@ -102,13 +102,12 @@ Agreement agreement(const std::vector<Image> &batches, const Image &reference, d
     return result;
 }
 
-// With k = 15 degrees of freedom t^2 has mean k / (k - 2) = 1.154 and standard deviation 1.84, so its mean over 512
-// independent blocks has standard deviation 0.081. Sums of 64 pixels are not quite normal and the reference's noise
-// is not quite spread like ours; 0.5 above the mean, 6 standard deviations, leaves room for that and still sees a
-// bias of one standard error per block.
+// With k = 15 degrees of freedom t^2 has mean k / (k - 2) = 1.154, standard deviation 1.84, over 512 blocks 0.081. 0.5
+// above the mean (6 deviations) allows for sums that are not quite normal and noise distributed differently, and
+// detects a bias of one standard error per block.
 constexpr double expected_mean_square_t = 15.0 / 13.0;
 constexpr double mean_square_t_bound = expected_mean_square_t + 0.5;
-// P(|t| > 8.5) = 4e-7 with 15 degrees of freedom: 2e-4 over 512 blocks.
+// P(|t| > 8.5) = 4e-7 with 15 degrees of freedom, 2e-4 over 512 blocks.
 constexpr double largest_t_bound = 8.5;
 
 class RenderTest : public ContextFixture {
@@ -156,7 +155,7 @@ TEST_F(RenderTest, AgreesWithReference) {
         if (each.max_path_length == 1)
             continue;
 
-        // Negative control: the judgement sees a render that is 3% too bright.
+        // Negative control: 3% too bright.
         for (Image &batch : batches)
             for (float &value : batch)
                 value *= 1.03F;

@@ -1,9 +1,7 @@
-// Changes the scene of one context as often as is wanted, and looks at the process's memory:
-//   pt_soak [scenes]        1000 if not said
-// No leak check finds what is kept from scene to scene and freed with the context; leaks of contexts themselves are
-// found by tests/faults/. This must detect a growth of malloc's smallest piece, 32 bytes with its header, in each
-// round: the heap may grow by less than that a round, plus four pages in all for what the driver's threads keep by
-// chance. Growth counts from the end of the first quarter, when caches are filled. Exit code 1: memory grew more.
+// Changes the scene of one context again and again, and measures the process's memory: pt_soak [scenes] (default 1000).
+// Leak checks miss what is freed with the context; tests/faults/ covers contexts themselves. Must detect malloc's
+// smallest piece, 32 bytes, per round: the heap may grow by less than that per round plus four pages for the driver's
+// threads. Growth counts from the first quarter's end, when caches are filled. Exit code 1: memory grew more.
 #include "tests/support/image_target.h"
 #include "tests/support/scene_of.h"
 
@@ -21,7 +19,7 @@
 namespace {
 
 struct Memory {
-    double heap;           // bytes that malloc has given and not got back
+    double heap;           // bytes in use by malloc
     uint64_t device_bytes; // pt_stats.device_bytes
 };
 

@@ -1,5 +1,4 @@
-// Two contexts in two threads at a time, and a call that is stopped from another thread. The preset thread runs this
-// with ThreadSanitizer.
+// Contexts in two threads, and cancellation from another thread. The preset thread adds ThreadSanitizer.
 #include "tests/support/context_calls.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/image_target.h"
@@ -21,11 +20,11 @@ constexpr uint32_t height = 16;
 
 using Image = std::vector<float>;
 
-// What stops a call, and what sees it run.
+// Stops a call and counts its reports.
 struct Progress {
     std::atomic<bool> stop{false};
     std::atomic<int> calls{0};
-    int *unguarded = nullptr; // counts the calls too
+    int *unguarded = nullptr; // counts too, without synchronisation
 
     static int32_t report(void *user, double /*fraction*/) {
         auto *progress = static_cast<Progress *>(user);
@@ -36,7 +35,7 @@ struct Progress {
     }
 };
 
-// A context that is ready to take samples, in short submissions.
+// Ready for samples, in short submissions.
 pt_context *ready_context(uint64_t seed) {
     pt_create_info create{};
     create.struct_size = sizeof create;
@@ -49,7 +48,7 @@ pt_context *ready_context(uint64_t seed) {
     return context;
 }
 
-// A context's life; returns the result of pt_accumulate, and the image if there is room for it.
+// A context's whole life; returns pt_accumulate's result, and the image if wanted.
 pt_result live(uint64_t seed, uint32_t sample_count, Progress &progress, Image *image = nullptr) {
     pt_context *const context = ready_context(seed);
     const pt_accumulate_info info{sizeof info, sample_count, &Progress::report, &progress, 0, 0, 0, nullptr, 0, 0};
@@ -89,7 +88,7 @@ TEST(ThreadsTest, AnotherThreadStopsACall) {
     EXPECT_EQ(result, PT_CANCELLED);
 }
 
-// While it polls, and in a call that waits; and sooner or later than there is something to cancel.
+// During polls and waiting calls; also too early or too late.
 TEST(ThreadsTest, AnyThreadCancels) {
     pt_context *const context = ready_context(0);
     ASSERT_NE(context, nullptr);
@@ -120,7 +119,7 @@ TEST(ThreadsTest, AnyThreadCancels) {
     pt_destroy(context);
 }
 
-// Against the contract, and still without a race: what comes second is refused.
+// Against the contract, still without a race: the second call is refused.
 TEST(ThreadsTest, ASecondThreadIsRefused) {
     pt_context *const context = ready_context(0);
     ASSERT_NE(context, nullptr);
@@ -147,7 +146,7 @@ TEST(ThreadsTest, ASecondThreadIsRefused) {
     pt_destroy(context);
 }
 
-// The negative control: the program's callback races, and the sanitizer has to say so.
+// Negative control: the callback races, and the sanitizer must report it.
 TEST(ThreadsTest, DISABLED_ARaceInACallback) {
     int unguarded = 0;
     Progress progress;

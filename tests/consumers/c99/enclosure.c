@@ -1,5 +1,5 @@
-/* A program of somebody else, in C99: inside a ball that shines, every pixel has the ball's radiance, exactly. Exit
- * status 0 if so. An argument takes the place of the red that is expected, so that the check can be seen to fail. */
+/* A user's program in C99: inside an emitting ball every pixel has exactly its radiance. Exit status 0 if so. An
+ * argument replaces the expected red, as a negative control. */
 #include <pt/pt.h>
 
 #include <stdio.h>

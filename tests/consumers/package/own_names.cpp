@@ -1,5 +1,5 @@
-// A program of somebody else, in C++, with a namespace pt of its own that has names which the library uses inside. Exit
-// status 0 if the library's exceptions and functions are not mixed up with those of the program.
+// A user's C++ program with its own namespace pt, whose names the library uses inside. Exit status 0 if they are not
+// mixed up.
 #include <pt/pt.h>
 
 #include <iostream>
@@ -8,12 +8,12 @@
 
 namespace pt {
 
-// Of the same signature as a function inside the library.
+// The signature of an internal function.
 const char *result_name(pt_result) {
     return "a name of the program's";
 }
 
-// Of the same name as a class inside the library.
+// The name of an internal class.
 class Error : public std::runtime_error {
 public:
     Error(pt_result code, const std::string &message);
