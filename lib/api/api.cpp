@@ -1,5 +1,4 @@
-// The C boundary: null checks, struct sizes, and the end of exceptions. Everything else happens behind it, in
-// Renderer and in the validated_* functions. Called by programs through pt.h.
+// The C boundary: null checks, struct sizes, the end of exceptions. Renderer and the validated_* functions do the rest.
 #include "lib/api/context.h"
 #include "lib/api/guard.h"
 #include "lib/base/error.h"
@@ -28,8 +27,8 @@ namespace pt {
 
 namespace {
 
-// This thread's last call on a context, if it was refused because another call was under way, or because the context
-// belongs to another process. The message is kept here, because the context's own belongs to the call under way.
+// The last refused call of this thread: another call was running, or the context belongs to another process. Kept here,
+// because the context's own error belongs to the running call.
 struct Refusal {
     const pt_context *context = nullptr;
     const char *message = nullptr;
@@ -41,8 +40,7 @@ struct Refusal {
 };
 thread_local Refusal refusal;
 
-// Runs a call that is allowed at any time. Fails if context is NULL. A call that is refused touches nothing of the
-// context.
+// Runs a call that is allowed at any time. A refused call touches nothing of the context.
 template <typename Call>
 pt_result guard_any_time(pt_context *context, Call &&call) noexcept {
     if (!context)
@@ -54,12 +52,12 @@ pt_result guard_any_time(pt_context *context, Call &&call) noexcept {
     refusal.forget(context);
     const pt_result result = guard(context->last_error, [&] { return call(context->renderer); });
     if (result < PT_OK)
-        refusal.forget(context); // a call from a callback may have been refused meanwhile; this failure is newer
+        refusal.forget(context); // newer than a refusal from a callback meanwhile
     context->in_use.release();
     return result;
 }
 
-// The same for all other calls, which are refused while samples are under way (pt/async.h).
+// All other calls, which are refused while samples are running (pt/async.h).
 template <typename Call>
 pt_result guard_context(pt_context *context, Call &&call) noexcept {
     return guard_any_time(context, [&](Renderer &renderer) {
@@ -70,7 +68,6 @@ pt_result guard_context(pt_context *context, Call &&call) noexcept {
     });
 }
 
-// The checked argument of pt_accumulate and pt_start.
 pt_accumulate_info validated_accumulate(const pt_accumulate_info *info, bool may_call_back) {
     const pt_accumulate_info accumulate = copy_in(info, "accumulate");
     Violations violations;
@@ -101,9 +98,8 @@ pt_accumulate_info validated_accumulate(const pt_accumulate_info *info, bool may
     return accumulate;
 }
 
-// A context in use cannot be freed: pt_destroy can only log that. It does so once, since the log function itself may
-// call pt_destroy. Nothing is logged in a forked child, which may hold the context unintentionally, and where a lock of
-// the log may have been held by a thread that the child lacks.
+// A context in use cannot be freed, so pt_destroy only logs; once, because the log function may call pt_destroy. Not in
+// a forked child, which may hold the context unintentionally, and where a vanished thread may have held the log's lock.
 void refuse_to_destroy(pt_context &context, const char *reason) noexcept {
     const bool told = refusal.context == &context || context.in_use.not_of_this_process();
     refusal = {&context, reason};
@@ -113,8 +109,8 @@ void refuse_to_destroy(pt_context &context, const char *reason) noexcept {
         });
 }
 
-// Calls read() with the error that pt_last_error is about; or with NULL and a fixed message, if the calling thread was
-// refused or may not look at the context's error.
+// Calls read() with the error of pt_last_error; or with NULL and a fixed message if this thread was refused or may not
+// see the context's error.
 template <typename Read>
 auto read_last_error(const pt_context *context, Read &&read) noexcept {
     if (!context)
@@ -201,7 +197,7 @@ void pt_destroy(pt_context *context) {
     }
     pt::refusal.forget(context);
     const pt::DefaultRounding rounding;
-    delete context; // while still marked as in use, so that calls from its callbacks are refused
+    delete context; // still marked as in use, so that calls from its callbacks are refused
 }
 
 pt_result pt_get_context_device(pt_context *context, pt_device_info *device) {
@@ -263,7 +259,7 @@ pt_result pt_poll(pt_context *context, uint64_t nanoseconds, double *fraction) {
     });
 }
 
-// May run while another call is under way, so it touches nothing else of the context.
+// May run during another call, so it touches nothing else of the context.
 pt_result pt_cancel(pt_context *context) {
     if (!context)
         return pt::guard(pt::thread_last_error, [] { pt::require_not_null(nullptr, "context"); });
@@ -281,7 +277,7 @@ pt_result pt_cancel(pt_context *context) {
 pt_result pt_readback(pt_context *context, const pt_image *image) {
     return pt::guard_context(context, [&](pt::Renderer &renderer) {
         const pt_image target = pt::copy_in(image, "image");
-        // Before pt_set_render there is no size to check against; the renderer refuses then.
+        // Without pt_set_render there is no size to check; the renderer refuses.
         const bool sized = renderer.width() > 0;
         renderer.readback(
             sized ? pt::validated_image(target, renderer.width(), renderer.row_count(), pt::ImageSource::Context)
@@ -305,7 +301,7 @@ pt_result pt_map_image(pt_context *context, const pt_image *image, void **data, 
 pt_result pt_readback_to_buffer(pt_context *context, const pt_buffer_image *image) {
     return pt::guard_context(context, [&](pt::Renderer &renderer) {
         const pt_buffer_image target = pt::copy_in(image, "image");
-        // Likewise; and without a lent device no field matters.
+        // The same; without a lent device no field matters.
         const bool sized = renderer.is_on_lent_device() && renderer.width() > 0;
         renderer.readback(sized ? pt::validated_image(target, renderer.width(), renderer.row_count())
                                 : pt::BufferImage{});

@@ -1,4 +1,3 @@
-// Checks pt_create_info; see context.h.
 #include "lib/api/context.h"
 
 #include "lib/base/rules.h"

@@ -1,5 +1,4 @@
-// The struct behind a pt_context, and the check of what it is made from. Made by api.cpp, and by tests with settings
-// that no program can ask for.
+// The struct behind a pt_context, and the check of pt_create_info.
 #pragma once
 
 #include "lib/api/guard.h"
@@ -12,16 +11,16 @@ struct pt_context {
     explicit pt_context(const pt::CreateSettings &settings) : renderer(settings) {}
 
     mutable pt::InUse in_use;
-    pt::LastError last_error; // except of calls that in_use refused; outlives the renderer, which may log
+    pt::LastError last_error; // not of calls that in_use refused; outlives the renderer, which may log
     pt::Renderer renderer;
 };
 
 namespace pt {
 
-// The last error of this thread's calls without a context.
+// For calls without a context.
 extern thread_local LastError thread_last_error;
 
-// Throws PT_ERROR_INVALID_ARGUMENT with a line for each rule of pt.h that is broken.
+// Throws PT_ERROR_INVALID_ARGUMENT with a line per broken rule.
 CreateSettings validated_create(const pt_create_info &info);
 
 } // namespace pt

@@ -1,4 +1,4 @@
-// The C boundary of denoising, which takes no context; see api.cpp.
+// The C boundary of denoising; see api.cpp.
 #include <pt/denoise.h>
 
 #include "lib/api/context.h"

@@ -44,7 +44,7 @@ const FilmTile &tile_of(const Film &film, std::uint32_t index) {
     return tiles[index];
 }
 
-// Fills the image as if no pixel had samples.
+// The values of pixels without samples.
 void write_nothing(const Image &image) {
     const auto &[pixels, quantity, format, row_bytes] = image.layout;
     const float value = quantity == PT_QUANTITY_STANDARD_ERROR ? std::numeric_limits<float>::infinity() : 0.0F;
@@ -76,7 +76,7 @@ pt_stats stats_of(const Film &film) {
     return stats;
 }
 
-// Writes the goals of all tiles. Tiles that a step does not name keep the samples that they have.
+// Writes all tiles' goals; tiles without a step keep their samples.
 pt_result write_plan(Film &film, double target_error, std::uint32_t most, std::uint32_t *goals, std::uint32_t &count) {
     const std::size_t tile_count = film.tile_count();
     if (!goals) {
@@ -125,7 +125,7 @@ pt_film_info info_of(const Film &film) {
             .device = facts.device.c_str()};
 }
 
-// Runs a call on the film of a handle: a pt_film, which may be const.
+// Runs a call on a pt_film, which may be const.
 template <typename Handle, typename Call>
 pt_result guard_film(Handle *film, Call &&call) noexcept {
     return guard(thread_last_error, [&] {

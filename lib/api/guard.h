@@ -1,5 +1,4 @@
-// The end of exceptions: turns them into a pt_result, with a message for pt_last_error and the broken rules for
-// pt_get_broken_rule.
+// Turns exceptions into a pt_result, a message for pt_last_error and rules for pt_get_broken_rule.
 #pragma once
 
 #include "lib/base/error.h"
@@ -15,10 +14,10 @@
 
 namespace pt {
 
-// Message of the last call that failed, and the rules that it is about.
+// The last failed call's message and rules.
 class LastError {
 public:
-    // Never throws: if there is no memory for the message, a fixed one replaces it, without rules.
+    // Never throws: without memory a fixed message replaces it, without rules.
     void store(std::string_view message, std::shared_ptr<const Violations> broken_rules = nullptr) noexcept {
         try {
             text_.assign(message);
@@ -32,7 +31,7 @@ public:
 
     const char *c_str() const noexcept { return shown_ ? shown_ : text_.c_str(); }
 
-    // NULL if the message is about no rule.
+    // NULL if the message concerns no rule.
     const Violations *broken_rules() const noexcept { return broken_rules_.get(); }
 
 private:
@@ -41,7 +40,7 @@ private:
     std::shared_ptr<const Violations> broken_rules_;
 };
 
-// The pt_result of the exception that is being handled. Not inline: every call of the C interface ends in it.
+// The pt_result of the current exception. Not inline, because every C call uses it.
 [[gnu::noinline]] inline pt_result failure(LastError &last_error) noexcept {
     const auto failed = [&](pt_result code, std::string_view message) {
         last_error.store(message);
@@ -61,8 +60,8 @@ private:
     }
 }
 
-// Sets the rounding mode that the library computes in, whatever the caller's is. While it lives, this thread rounds to
-// nearest. Threads that are started meanwhile inherit that, such as those with which a driver builds and runs kernels.
+// Rounds to nearest in this scope, with any mode of the caller. Threads started meanwhile inherit it, such as a
+// driver's.
 class DefaultRounding {
 public:
     DefaultRounding() noexcept : callers_(std::fegetround()) { set(FE_TONEAREST); }
@@ -80,9 +79,8 @@ private:
     int callers_;
 };
 
-// Runs the body of a call of the C interface, which returns a pt_result or nothing (for PT_OK), or throws. An exception
-// from a caller's callback ends here too, as PT_ERROR_INTERNAL with its message: it must not reach the caller, who may
-// be written in C. Samples taken before it stay, as if the callback had asked to stop.
+// Runs the body of a C call, which returns a pt_result or nothing (PT_OK), or throws. A callback's exception also ends
+// here, as PT_ERROR_INTERNAL with its message, because callers may be written in C. Samples taken before it stay.
 template <typename Call>
 pt_result guard(LastError &last_error, Call &&call) noexcept {
     const DefaultRounding rounding;

@@ -1,5 +1,5 @@
-// Tells which thread has a call on a context under way, since neither the film nor Vulkan allows two at a time; and
-// which process the context belongs to, since a forked child lacks the driver's threads.
+// Records which thread has a call running on a context, because film and Vulkan allow one; and the process that owns
+// it, because a forked child lacks the driver's threads.
 #pragma once
 
 #include "lib/platform/process.h"
@@ -11,7 +11,7 @@ namespace pt {
 
 class InUse {
 public:
-    // Takes the context for a call of this thread and returns NULL, or returns why that is not possible.
+    // Takes the context for a call of this thread; returns NULL, or the reason why not.
     const char *take() noexcept {
         if (const char *reason = not_of_this_process())
             return reason;
@@ -22,7 +22,6 @@ public:
                                                   : "this context is in use by another thread";
     }
 
-    // Ends the call that took it.
     void release() noexcept { user_.store(std::thread::id(), std::memory_order_release); }
 
     bool by_this_thread() const noexcept {

@@ -9,7 +9,7 @@
 
 namespace pt {
 
-// One state serves for digests of 128 bits and of 64.
+// One state for digests of 128 and 64 bits.
 struct Digest::State {
     XXH3_state_t hash;
 };

@@ -1,4 +1,4 @@
-// Digests of numbers and bytes by XXH3: they detect changes, not forgeries. Used for films and kept kernels.
+// Digests by XXH3: they detect changes, not forgeries.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -12,7 +12,7 @@
 
 namespace pt {
 
-// The digest of a sequence of numbers and texts, which need not be contiguous in memory. -0 counts as 0.
+// Digests a sequence of numbers and texts. -0 counts as 0.
 class Digest {
 public:
     Digest();
@@ -26,7 +26,7 @@ public:
     void add(std::span<const std::uint32_t> words);
     void add(std::string_view text);
 
-    // Adds bytes as they are. If nothing else is added, checksum() is that of all these bytes in a row.
+    // If only bytes are added, checksum() is the XXH3 of all of them in a row.
     void add_bytes(std::span<const std::byte> bytes);
     std::uint64_t checksum() const;
 

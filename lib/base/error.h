@@ -1,5 +1,4 @@
-// The one exception of the library: a pt_result, its message, and the broken rules that the message is about. Thrown
-// everywhere inside, caught by guard.h alone.
+// The library's only exception: a pt_result, its message and the broken rules. Caught by guard.h alone.
 #pragma once
 
 #include <pt/pt.h>
@@ -13,7 +12,7 @@
 
 namespace pt {
 
-// The field that breaks a rule, what it holds and what it must be: the same members as in pt_broken_rule.
+// A field, its value and its rule; the members of pt_broken_rule.
 struct BrokenRule {
     std::string subject;
     std::int64_t index = -1;
@@ -27,25 +26,24 @@ struct BrokenRule {
     std::string text() const;
 };
 
-// The rules that the arguments of one call break: the first in full, and the number of all of them, since a scene of a
-// million spheres may break millions.
+// Rules broken by one call: the first ones in full, and the number of all, because a scene may break millions.
 class Violations {
 public:
     static constexpr std::size_t most_kept = 8;
 
     void add(BrokenRule rule);
 
-    // Whether further rules are only counted: they need not be put into words.
+    // Whether further rules are only counted, without text.
     bool only_count() const { return first_.size() == most_kept; }
     void count_one() { ++count_; }
 
     const std::vector<BrokenRule> &first() const { return first_; }
     std::size_t count() const { return count_; }
 
-    // A line for each rule that is kept, and the number of the others.
+    // A line per kept rule, and the number of the others.
     std::string text() const;
 
-    // Throws Error, about these rules, if there are any.
+    // Throws Error if there are any.
     void throw_if_any(pt_result code) const;
 
 private:
@@ -57,13 +55,13 @@ class Error : public std::runtime_error {
 public:
     Error(pt_result code, const std::string &message);
 
-    // The message is made of the rules.
+    // The rules make the message.
     Error(pt_result code, Violations rules);
     Error(pt_result code, BrokenRule rule);
 
     pt_result code() const { return code_; }
 
-    // NULL if the error is about no rule. Shared, so that keeping them allocates nothing.
+    // NULL if the error concerns no rule. Shared, so that copies allocate nothing.
     const std::shared_ptr<const Violations> &broken_rules() const { return broken_rules_; }
 
 private:
@@ -71,7 +69,7 @@ private:
     std::shared_ptr<const Violations> broken_rules_;
 };
 
-// What pt_result_name returns.
+// As pt_result_name.
 const char *result_name(pt_result result) noexcept;
 
 } // namespace pt

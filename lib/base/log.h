@@ -1,4 +1,4 @@
-// The caller's log function. Held by Renderer and the Vulkan instance, which write to it.
+// The caller's log function.
 #pragma once
 
 #include <pt/pt.h>
@@ -12,8 +12,8 @@ struct Log {
     pt_log_fn function = nullptr;
     void *user = nullptr;
 
-    // Passes on a message line by line. Never throws, whatever the function does: drivers and layers call this, and
-    // no exception may unwind their frames. A line that cannot be delivered is dropped.
+    // Passes a message on line by line. Never throws, because drivers and layers call it and exceptions must not unwind
+    // their frames. Undeliverable lines are dropped.
     void write(int32_t level, const std::string &message) const noexcept {
         if (!function)
             return;
@@ -28,8 +28,7 @@ struct Log {
         }
     }
 
-    // Passes on what message() returns, which is called only if there is a log function. Nothing depends on such a
-    // message: if there is no memory for it, it is dropped.
+    // Calls message() only if there is a log function. The message is dropped without memory for it.
     template <typename Message>
     void info(Message &&message) const noexcept {
         if (!function)

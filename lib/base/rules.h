@@ -1,4 +1,4 @@
-// Rules for the caller's numbers.
+// Rules of the caller's numbers.
 #pragma once
 
 #include "lib/base/error.h"
@@ -35,7 +35,7 @@ std::string number_text(const glm::vec<3, Number> &value) {
     return '(' + number_text(value.x) + ", " + number_text(value.y) + ", " + number_text(value.z) + ')';
 }
 
-// A rule says what a value must be, or nullptr if it is.
+// Returns what a value must be, or nullptr if it is.
 using Rule = const char *(*)(double value);
 
 inline const char *finite_rule(double value) {
@@ -45,9 +45,9 @@ inline const char *finite_rule(double value) {
 constexpr double min_length = 1e-18;
 constexpr double max_length = 1e18;
 
-// Lengths are 0 or have a magnitude in [1e-18, 1e18], so that in float32 their squares are normal numbers and sums of
-// squares are finite: 1e-36 > 2^-126 = 1.18e-38, and 3 * (3e18)^2 = 2.7e37 < 2^128 = 3.4e38 is the largest squared
-// distance of a sphere from the camera, each of whose components adds up three lengths (centre, motion, position).
+// Lengths are 0 or of magnitude [1e-18, 1e18], so that squares are normal in float32 and sums of squares finite: 1e-36
+// > 2^-126 = 1.18e-38; the largest squared distance of a sphere from the camera is 3 * (3e18)^2 = 2.7e37 < 2^128 =
+// 3.4e38 (each component sums center, motion and position).
 constexpr bool is_positive_length(double value) {
     return value >= min_length && value <= max_length;
 }
@@ -70,7 +70,6 @@ inline const char *positive_length_rule(double value) {
     return is_positive_length(value) ? nullptr : "must lie in [1e-18, 1e18]";
 }
 
-// Shares of a whole lie in [0, 1].
 constexpr bool is_share(double value) {
     return value >= 0.0 && value <= 1.0;
 }
@@ -81,8 +80,7 @@ inline const char *share_rule(double value) {
     return is_share(value) ? nullptr : "must lie in [0, 1]";
 }
 
-// A field of a struct; if several fields enter the value, the first one and what the message adds about the others:
-// {"width", "* height"}.
+// A field; or the first of several that make the value, and the message's text about the others: {"width", "* height"}.
 struct Member {
     Member(const char *field, const char *others = "") : name(field), with(others) {} // implicit: a name alone will do
 
@@ -90,7 +88,7 @@ struct Member {
     const char *with;
 };
 
-// A struct whose fields are checked: "camera", or "spheres[3]".
+// The checked struct: "camera" or "spheres[3]".
 class Subject {
 public:
     Subject(Violations &violations, const char *name) : violations_(violations), name_(name) {}
@@ -115,7 +113,7 @@ public:
             refuse(member, number_text(value), broken);
     }
 
-    // Refuses an element of a column that breaks a rule. Of many millions, most are only counted.
+    // Refuses an element of a column. Most of many millions are only counted.
     template <typename Value>
     void refuse_element(const Member &member, std::size_t element, const Value &value, std::string_view rule) const {
         if (violations_.only_count())
@@ -124,7 +122,7 @@ public:
             refuse_component(member, static_cast<std::int32_t>(element), number_text(value), std::string(rule));
     }
 
-    // Checks every component of an array; the message names the component.
+    // Checks every component; the message names it.
     template <typename Value, std::size_t N>
     void check_each(const Member &member, const Value (&values)[N], Rule rule) const {
         for (std::size_t i = 0; i < N; ++i)

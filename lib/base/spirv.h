@@ -1,5 +1,4 @@
-// The words of a SPIR-V module (Khronos, "SPIR-V Specification", version 1.5) and its instructions, one after the
-// other.
+// Words and instructions of a SPIR-V module (Khronos, "SPIR-V Specification", version 1.5).
 #pragma once
 
 #include <cstddef>
@@ -73,10 +72,10 @@ constexpr std::uint32_t first_word(Opcode opcode, std::uint32_t word_count) {
     return word_count << 16U | opcode;
 }
 
-// Thrown for code with anything that this file does not know.
+// Thrown for code that this file does not know.
 struct Unknown {};
 
-// Calls use(instruction, its offset) for each instruction from an offset on, until use returns false.
+// Calls use(instruction, offset) from an offset on, until use returns false.
 template <typename Use>
 void for_each_instruction(Words code, std::size_t offset, Use &&use) {
     while (offset < code.size()) {

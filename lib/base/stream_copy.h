@@ -1,5 +1,4 @@
-// Copies bytes that will not be read soon around the processor's cache, so that the memory of an image is not fetched
-// only to be overwritten.
+// Copies around the processor's cache, for bytes that will not be read soon.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +6,7 @@
 
 namespace pt {
 
-// to: memory for at least as many bytes.
+// to: at least as many bytes.
 void stream_copy(std::span<const std::byte> from, std::byte *to);
 
 } // namespace pt

@@ -1,4 +1,4 @@
-// The growth rule of the structs in pt.h: they begin with struct_size, grow at the tail, and zero means default.
+// The growth rule of pt.h's structs: struct_size first, growth at the tail, zero means default.
 #pragma once
 
 #include "lib/base/error.h"
@@ -11,8 +11,7 @@
 
 namespace pt {
 
-// Structs of this library have tens of bytes. A size above 65536 must be an uninitialised field; believing it would
-// mean reading beyond the struct.
+// Structs have tens of bytes. More than 65536 must be an uninitialised field.
 constexpr bool is_struct_size(std::uint32_t size) {
     return size >= sizeof size && size <= 65536;
 }
@@ -27,8 +26,8 @@ inline BrokenRule wrong_size(const char *name, std::int64_t index, std::uint32_t
     return {.subject = name, .index = index, .member = "struct_size", .value = std::to_string(size), .rule = rule};
 }
 
-// The struct_size of the caller's struct. name: of the struct in messages; index: >= 0 if it is an element of an array.
-// Throws PT_ERROR_INVALID_ARGUMENT.
+// The caller's struct_size. name: in messages; index: >= 0 for an element of an array. Throws
+// PT_ERROR_INVALID_ARGUMENT.
 inline std::uint32_t struct_size_of(const void *user, const char *name, std::int64_t index = -1) {
     require_not_null(user, name);
     std::uint32_t size = 0;
@@ -41,8 +40,7 @@ inline std::uint32_t struct_size_of(const void *user, const char *name, std::int
     return size;
 }
 
-// Throws PT_ERROR_UNSUPPORTED if a struct, from a newer header, asks for something beyond the bytes known to this
-// library.
+// Throws PT_ERROR_UNSUPPORTED if a newer struct has nonzero bytes beyond those known here.
 inline void require_known(const void *user, std::uint32_t size, std::size_t known, const char *name,
                           std::int64_t index) {
     const auto *bytes = static_cast<const unsigned char *>(user);
@@ -54,8 +52,8 @@ inline void require_known(const void *user, std::uint32_t size, std::size_t know
                                        std::to_string(known) + " bytes of the struct"));
 }
 
-// The caller's struct as this library knows it. The rule is that of Linux' copy_struct_from_user: a shorter struct,
-// from an older header, is read as if zeros followed; the unknown part of a longer one must be zero.
+// The caller's struct as known here, by the rule of Linux' copy_struct_from_user: a shorter struct is extended by
+// zeros; the unknown part of a longer one must be zero.
 template <typename T>
 T copy_in(const T *user, const char *name, std::int64_t index = -1) {
     const std::uint32_t size = struct_size_of(user, name, index);
@@ -66,8 +64,7 @@ T copy_in(const T *user, const char *name, std::int64_t index = -1) {
     return copy;
 }
 
-// Writes a result into as much of the caller's struct, of size bytes, as both sides know. The caller's struct_size
-// stays.
+// Writes what both sides know. size: of the caller's struct, whose struct_size stays.
 template <typename T>
 void copy_known(const T &result, T *user, std::uint32_t size) noexcept {
     constexpr std::size_t first = sizeof result.struct_size;

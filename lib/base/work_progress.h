@@ -1,4 +1,4 @@
-// Reports how far a long call is to the caller's pt_progress_fn, which may end the call.
+// Reports a long call's progress to the caller's pt_progress_fn, which may cancel it.
 #pragma once
 
 #include <pt/pt.h>
@@ -8,10 +8,10 @@
 
 namespace pt {
 
-// Thrown when the caller asks to stop. It is caught at the end of the call, which returns PT_CANCELLED.
+// Thrown when the caller cancels; the call returns PT_CANCELLED.
 struct Cancelled {};
 
-// The work is a sequence of stages. Within each, the reported share grows with the work done.
+// The work is a sequence of stages, within which the share grows with the work done.
 class WorkProgress {
 public:
     // Reports to nobody.
@@ -23,7 +23,7 @@ public:
     WorkProgress(const WorkProgress &) = delete;
     WorkProgress &operator=(const WorkProgress &) = delete;
 
-    // Begins a stage, which is this share of what is left of the whole. work: how much it has to do, in any unit.
+    // Begins a stage that is this share of the rest of the whole. work: its amount, in any unit.
     void enter(double share_of_rest, double work) {
         begin_ = end_; // a stage that ended early counts as done
         end_ += share_of_rest * (1.0 - end_);
@@ -31,8 +31,7 @@ public:
         done_ = 0.0;
     }
 
-    // Notes that so much more of the stage's work is done, by looking at so many elements. The number of elements
-    // decides when to report.
+    // Notes work done on this many elements, which decide when to report.
     void add(double work, std::size_t elements) {
         done_ += work;
         untold_ += elements;
@@ -40,10 +39,10 @@ public:
             tell();
     }
 
-    // The same if each element is one unit of work.
+    // One unit of work per element.
     void add(std::size_t elements) { add(static_cast<double>(elements), elements); }
 
-    // Reports 1: all is done except what cannot fail.
+    // Reports 1: only what cannot fail is left.
     void finish() {
         enter(1.0, 1.0);
         done_ = 1.0;
@@ -51,8 +50,7 @@ public:
     }
 
 private:
-    // So many elements take between half a millisecond and several: often enough for people who watch, rarely enough
-    // for slow callbacks.
+    // Between half a millisecond and several: often enough for people, rarely enough for slow callbacks.
     static constexpr std::size_t elements_between_calls = std::size_t{1} << 17;
 
     void tell() {
@@ -67,7 +65,7 @@ private:
     double begin_ = 0.0; // of the stage, as a share of the whole
     double end_ = 0.0;
     double work_ = 1.0; // of the stage
-    double done_ = 0.0; // of it
+    double done_ = 0.0; // of the stage
     std::size_t untold_ = 0;
 };
 

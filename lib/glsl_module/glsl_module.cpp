@@ -1,4 +1,4 @@
-// The module that compiles GLSL to SPIR-V with glslang; glsl_module.h says why it is one.
+// Compiles GLSL to SPIR-V with glslang, as a module (see glsl_module.h).
 #include "lib/glsl_module/glsl_module.h"
 
 #include "lib/platform/file.h"
@@ -30,7 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 using Words = std::vector<std::uint32_t>;
 
-// Reads a whole file, without a byte order mark; throws std::runtime_error with the system's reason.
+// Drops a byte order mark; throws std::runtime_error with the system's reason.
 std::string read_source(const fs::path &path) {
     const auto fail = [&] { throw std::runtime_error(path.string() + ": " + std::generic_category().message(errno)); };
     const platform::FileDescriptor file(platform::open_to_read(path));
@@ -41,7 +41,7 @@ std::string read_source(const fs::path &path) {
     for (std::ptrdiff_t count = 1; count > 0;) {
         count = platform::read_some(file.get(), block);
         if (count < 0)
-            fail(); // for example because it is a directory
+            fail(); // for example a directory
         text.append(block, static_cast<std::size_t>(count));
     }
     constexpr std::string_view byte_order_mark = "\xef\xbb\xbf"; // of UTF-8, which editors may add
@@ -50,8 +50,8 @@ std::string read_source(const fs::path &path) {
     return text;
 }
 
-// Finds and reads the files that the #include lines of a shader name: beside the including file, then in the directory.
-// glslang calls back, and its messages use the paths under which files were found.
+// Finds the files of #include lines: beside the including file, then in the directory. glslang's messages use the paths
+// found.
 class Includer : public glslang::TShader::Includer {
 public:
     Includer(fs::path directory, const fs::path &main_file) :
@@ -74,8 +74,8 @@ public:
         }
     }
 
-    // glslang calls this after includeLocal has found nothing, so the reason is given here; and for #include <name>.
-    // For glslang, an empty name means that there is no file; the text says why.
+    // Called after includeLocal has found nothing, so it gives the reason; and for #include <name>. An empty name means
+    // no file.
     IncludeResult *includeSystem(const char * /*name*/, const char * /*file*/, std::size_t /*depth*/) override {
         const std::string reason = std::exchange(reason_, "");
         return hand_over("",
@@ -92,10 +92,10 @@ public:
     }
 
 private:
-    // A file that includes itself, perhaps by way of others, is fine if it has an include guard: it is then open twice.
+    // A file behind an include guard may include itself, and is then open twice.
     static constexpr std::ptrdiff_t most_open_times = 2;
 
-    // glslang refers to the text until it calls releaseInclude.
+    // glslang refers to the text until releaseInclude.
     static IncludeResult *hand_over(const std::string &name, std::unique_ptr<std::string> text) {
         auto *const result = new IncludeResult(name, text->data(), text->size(), text.get());
         static_cast<void>(text.release()); // the result's user data owns it
@@ -114,29 +114,29 @@ private:
     }
 
     fs::path directory_;
-    std::vector<fs::path> open_files_; // each included by the one before
-    std::string reason_;               // why the last #include line was refused
-    bool is_endless_ = false;          // a file includes itself: no further #include is followed
+    std::vector<fs::path> open_files_; // each included by the previous
+    std::string reason_;               // of the last refused #include
+    bool is_endless_ = false;          // no further #include is followed
 };
 
-// The rules of glslangValidator -V; and going on after an error, so that all errors are reported at once. If glslang
-// stopped within an included file, it would take the next directive for another error.
+// The rules of glslangValidator -V. It continues after errors to report all; stopping within an included file would
+// also make it misread the next directive.
 constexpr auto rules = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules | EShMsgCascadingErrors);
 
-// glslang's log ends with empty lines.
+// Removes the log's empty last lines.
 std::string trimmed(std::string log) {
     log.erase(log.find_last_not_of('\n') + 1);
     return log;
 }
 
-// Never undone: making the tables of built-in functions takes most of the time of the first compilation.
+// Never undone: tables of built-in functions take most of the first compilation's time.
 void start_glslang() {
     static const bool started = glslang::InitializeProcess();
     if (!started)
         throw std::runtime_error("glslang does not start");
 }
 
-// The options are those of the command in PtShaders.cmake, so that the words equal the embedded ones.
+// Options as in PtShaders.cmake, so that the words equal the embedded ones.
 Words spirv_of(const fs::path &path, const fs::path &directory) {
     const std::string name = path.string();
     const std::string text = read_source(path);
@@ -167,7 +167,7 @@ Words spirv_of(const fs::path &path, const fs::path &directory) {
     return words;
 }
 
-// Validates as the build does: drivers do not check the SPIR-V that they are given.
+// The build validates too, because drivers do not.
 void validate(const Words &words, const fs::path &path) {
     std::string log;
     spvtools::SpirvTools tools(SPV_ENV_VULKAN_1_2);

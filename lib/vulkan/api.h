@@ -1,5 +1,4 @@
-// Vulkan-Hpp with this project's settings: RAII handles, exceptions, designated initialisers, the linked loader.
-// Included by lib/vulkan/ and, through its headers, by what builds on it.
+// Vulkan-Hpp with RAII handles, exceptions, designated initialisers and the linked loader.
 #pragma once
 
 #define VULKAN_HPP_NO_CONSTRUCTORS

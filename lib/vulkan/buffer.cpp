@@ -20,11 +20,10 @@ using Usage = vk::BufferUsageFlagBits;
 constexpr vk::MemoryPropertyFlags host_visible = Property::eHostVisible | Property::eHostCoherent;
 constexpr vk::MemoryPropertyFlags host_readable = host_visible | Property::eHostCached;
 
-// Transfers go through a staging buffer of this size at most. Copying so much over a bus takes about a millisecond,
-// many times the cost of a submission, and it occupies little of the host's memory.
+// Largest staging buffer. Copying this much takes about a millisecond, many times the cost of a submission.
 constexpr std::uint64_t max_staging_bytes = 16U << 20;
 
-// A Vulkan buffer and its memory, which stays mapped if it has the properties mapped_if.
+// Stays mapped if its memory has the properties mapped_if.
 struct Allocation {
     Allocation(const Device &device, std::uint64_t bytes, vk::BufferUsageFlags usage,
                std::span<const vk::MemoryPropertyFlags> wanted_best_first,
@@ -92,7 +91,7 @@ struct Buffer::State {
     State(const State &) = delete;
     State &operator=(const State &) = delete;
 
-    // Splits [0, size) into pieces that fit into the staging buffer and calls function(staging, first, length) on each.
+    // Calls function(staging, first, length) for pieces of [0, size) that fit into the staging buffer.
     template <typename Function>
     void staged(std::uint64_t size, Function &&function) {
         const std::uint64_t piece = staging_bytes();
@@ -110,7 +109,7 @@ struct Buffer::State {
     Device &device;
     std::uint64_t bytes;
     Allocation allocation;
-    std::optional<Allocation> staging; // since the first transfer that needed it
+    std::optional<Allocation> staging; // made on first use
 };
 
 Buffer::Buffer(Device &device, BufferUse use, std::uint64_t bytes, const std::string &what) {
@@ -192,7 +191,7 @@ void Buffer::download(std::span<const BufferPiece> pieces) {
 }
 
 void Buffer::write(const vk::raii::CommandBuffer &commands, std::span<const std::byte> data) const {
-    if (!data.empty()) // Vulkan does not allow it; a scene without surfaces has no words
+    if (!data.empty()) // Vulkan forbids 0 bytes; a scene without surfaces has none
         commands.updateBuffer<std::byte>(handle(), 0, data);
 }
 

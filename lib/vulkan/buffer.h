@@ -1,4 +1,4 @@
-// A buffer on the device with its own memory. Used all over lib/kernel/.
+// A buffer on the device with its own memory.
 #pragma once
 
 #include "lib/vulkan/device.h"
@@ -17,16 +17,16 @@ enum class BufferUse {
     Texels,           // kernels read it as texels
     Streamed,         // kernels read it as uniform; the host writes it often, without waiting
     HostWritten,      // kernels read it; the host writes it in place, without waiting
-    HostRead          // written by kernels or copies, and read by the host in place once these have ended
+    HostRead          // kernels or copies write it; the host reads it in place after they have ended
 };
 
-// A part of a buffer, and the memory that its bytes go to.
+// A part of a buffer, and the memory to read it into.
 struct BufferPiece {
     std::span<std::byte> data;
     std::uint64_t offset;
 };
 
-// The most bytes that Vulkan allows in vkCmdUpdateBuffer.
+// Limit of vkCmdUpdateBuffer.
 inline constexpr std::uint64_t max_recorded_bytes = 65'536;
 
 class Buffer {
@@ -40,22 +40,21 @@ public:
     std::uint64_t size() const;
     vk::Buffer handle() const;
 
-    // All of these wait for the device, except uploads to a streamed buffer. Offsets and sizes are multiples of 4 bytes
-    // and lie within the buffer.
+    // These wait for the device, except uploads to a streamed buffer. Offsets and sizes are multiples of 4 bytes within
+    // the buffer.
     void upload(std::span<const std::byte> data, std::uint64_t offset);
     void download(std::span<std::byte> data, std::uint64_t offset);
     void download(std::span<const BufferPiece> pieces);
 
-    // The bytes of a buffer that the host reads, or writes, in place; at NULL if it cannot.
+    // The bytes that the host accesses in place; at NULL if it cannot.
     std::span<std::byte> host_memory() const;
 
-    // Records a command that writes these bytes to its beginning: no more than max_recorded_bytes.
+    // Records a write of up to max_recorded_bytes to the beginning.
     void write(const vk::raii::CommandBuffer &commands, std::span<const std::byte> data) const;
 
-    // Records a command that zeroes bytes. Offset and size as above.
+    // Records zeroing. Offset and size as above.
     void clear(const vk::raii::CommandBuffer &commands, std::uint64_t offset, std::uint64_t bytes) const;
 
-    // Records a copy of pieces of another buffer to this one.
     void copy(const vk::raii::CommandBuffer &commands, const Buffer &other,
               const vk::ArrayProxy<const vk::BufferCopy> &pieces) const {
         commands.copyBuffer(other.handle(), handle(), pieces);

@@ -1,5 +1,4 @@
-// The caller's Vulkan handles, checked: pt_vulkan as the library uses it. Made by api.cpp, used by Instance,
-// Device and Renderer, none of which owns the handles.
+// The caller's Vulkan handles, checked (pt_vulkan). Nobody here owns them.
 #pragma once
 
 #include "lib/vulkan/api.h"
@@ -13,7 +12,7 @@
 
 namespace pt::vulkan {
 
-// Locks a queue for this thread by the caller's functions, if there are any. For std::lock_guard.
+// Locks a queue for this thread by the caller's functions, if any. For std::lock_guard.
 struct QueueLock {
     pt_queue_fn lock_queue = nullptr;
     pt_queue_fn unlock_queue = nullptr;
@@ -38,14 +37,14 @@ struct CallerVulkan {
     QueueLock queue_lock;
 };
 
-// Checks what can be seen without calling Vulkan. Throws PT_ERROR_INVALID_ARGUMENT.
+// Checks without calling Vulkan. Throws PT_ERROR_INVALID_ARGUMENT.
 CallerVulkan validated_vulkan(const pt_vulkan &vulkan);
 
-// Checks the rest: throws PT_ERROR_INVALID_ARGUMENT or PT_ERROR_UNSUPPORTED if the caller's device cannot be used.
-// Returns its physical device; the instance is the caller's, and must outlive it.
+// Checks the rest; throws PT_ERROR_INVALID_ARGUMENT or PT_ERROR_UNSUPPORTED if the device cannot be used. The caller's
+// instance must outlive the result.
 vk::raii::PhysicalDevice validated_physical_device(const vk::raii::Instance &instance, const CallerVulkan &caller);
 
-// The parts of that check which do not depend on the machine.
+// The parts of that check that do not depend on the machine.
 void require_compute(std::span<const vk::QueueFamilyProperties> families, std::uint32_t queue_family);
 void require_suitable(const pt_device_info &physical_device);
 

@@ -23,7 +23,7 @@ vk::raii::DescriptorSetLayout create_set_layout(const Device &device, std::span<
         {.bindingCount = static_cast<std::uint32_t>(described.size()), .pBindings = described.data()});
 }
 
-// Drivers silently accept a kernel that uses bindings which its layout lacks, as an edited kernel may do
+// Drivers silently accept kernels with bindings outside their layout, which edited kernels may have
 // (pt_create_info.shader_dir).
 void require_bindings(std::span<const std::uint32_t> spirv, std::span<const Binding> bindings) {
     spirv::for_each_instruction(spirv, spirv::header_words, [&](spirv::Words instruction, std::size_t) {
@@ -70,7 +70,7 @@ vk::raii::Pipeline create_pipeline(Device &device, const vk::raii::PipelineLayou
         return pipeline;
     } catch (const vk::SystemError &error) {
         const pt_result result = result_of(static_cast<vk::Result>(error.code().value()));
-        // Any failure except lack of memory or a lost device is the kernel's fault.
+        // All but lack of memory or a lost device is the kernel's fault.
         throw Error(result == PT_ERROR_INTERNAL || result == PT_ERROR_NO_DEVICE ? PT_ERROR_SHADER : result,
                     std::string("building a kernel: ") + error.what());
     }

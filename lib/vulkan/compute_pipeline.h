@@ -1,4 +1,4 @@
-// A specialised compute kernel, and the buffers bound to it.
+// A specialised compute kernel and its buffers.
 #pragma once
 
 #include "lib/vulkan/buffer.h"
@@ -12,8 +12,8 @@
 
 namespace pt::vulkan {
 
-// A part of a buffer, for a binding. Its offset is a multiple of Limits::storage_buffer_alignment or, for a texel
-// buffer, of 256 bytes, which suits every device.
+// A part of a buffer for a binding. The offset is a multiple of Limits::storage_buffer_alignment or, for texels, of 256
+// bytes, which suits every device.
 struct BufferRange {
     BufferRange() = default; // none
     BufferRange(const Buffer &whole) : buffer(whole.handle()), bytes(whole.size()) {}
@@ -24,11 +24,11 @@ struct BufferRange {
     std::uint64_t bytes = 0;
 };
 
-// Kernels read texel buffers as words of four integers.
+// Texel buffers hold words of four integers.
 inline constexpr vk::Format texel_format = vk::Format::eR32G32B32A32Uint;
 inline constexpr std::uint64_t texel_bytes = 16;
 
-// Buffers bound to a kernel. They must outlive the last dispatch with it.
+// Buffers bound to a kernel. They must outlive the last dispatch.
 class DescriptorSet {
 public:
     vk::DescriptorSet handle() const { return set_; }
@@ -40,7 +40,7 @@ private:
     vk::DescriptorSet set_; // freed with its pool
 };
 
-// A binding of set 0.
+// In set 0.
 struct Binding {
     std::uint32_t number;
     vk::DescriptorType type = vk::DescriptorType::eStorageBuffer;
@@ -48,16 +48,15 @@ struct Binding {
 
 class ComputePipeline {
 public:
-    // constants[i] are the bits of the specialization constant with id i. Throws PT_ERROR_SHADER if the driver refuses
-    // the kernel.
+    // constants[i]: bits of the specialization constant with id i. Throws PT_ERROR_SHADER if the driver refuses the
+    // kernel.
     ComputePipeline(Device &device, std::span<const std::uint32_t> spirv, std::span<const Binding> bindings,
                     std::uint32_t push_constant_bytes, std::span<const std::uint32_t> constants);
 
     // ranges[i] is for bindings[i].
     DescriptorSet bind(std::span<const BufferRange> ranges) const;
 
-    // Records a dispatch of group_count x rows workgroups. offsets: for each dynamic binding, where it begins in its
-    // buffer, in bytes.
+    // Records group_count x rows workgroups. offsets: of the dynamic bindings, in bytes.
     void dispatch(const vk::raii::CommandBuffer &commands, const DescriptorSet &set,
                   std::span<const std::byte> push_constants, std::uint32_t group_count,
                   std::span<const std::uint32_t> offsets = {}, std::uint32_t rows = 1) const;

@@ -16,29 +16,27 @@ namespace pt::vulkan {
 
 namespace {
 
-// Mesa's llvmpipe counts the trips of all loops of an invocation and leaves the loops after this many (Mesa 22.3.6,
-// LP_MAX_TGSI_LOOP_ITERATIONS). Newer versions do not, but shorter submissions cost them little.
+// Mesa's llvmpipe leaves the loops of an invocation after this many trips (Mesa 22.3.6, LP_MAX_TGSI_LOOP_ITERATIONS).
+// Newer versions do not, but shorter submissions cost them little.
 constexpr std::uint64_t llvmpipe_loop_trips = 65'535;
 
-// A larger range would not help, and it must be a multiple of 256 bytes, the largest alignment of offsets.
+// More would not help. A multiple of 256 bytes, the largest alignment of offsets.
 constexpr std::uint32_t largest_uniform_range = 65'536;
 
-// A large GPU holds 100,000 invocations of such a kernel at a time. With a few times as many, little of it idles while
-// the last ones end.
+// A few times the 100,000 invocations that a large GPU holds, so that little of it idles at the end.
 constexpr std::uint32_t busy_gpu_invocations = 1U << 18;
 
-// Submissions aim at a twentieth of a second; a GPU that has not finished one after so long counts as lost.
+// Submissions aim at a twentieth of a second; a slower GPU than this counts as lost.
 constexpr std::chrono::seconds gpu_patience{10};
 constexpr std::chrono::nanoseconds wait_step = std::chrono::milliseconds{100};
 
-// Longer code waits to be fetched. With unrolled loops, at path length 6, an H200 has 1.02 times the speed with 14
-// spheres, and .95 / .68 / .59 / .48 / .24 times with 20 / 28 / 38 / 46 / 94 spheres.
+// Longer code waits to be fetched: beyond about 16 surfaces unrolled loops slow an H200 down.
 constexpr std::uint32_t gpu_unrolled = 16;
 
 // The best of 8, 16, 32, 4096 and none on an H200.
 constexpr std::uint32_t gpu_walk_trips = 8;
 
-// Many times the 30 microseconds that falling asleep and waking take, and hardly any processor time.
+// Many times the 30 microseconds of falling asleep and waking, and hardly any CPU time.
 constexpr std::chrono::microseconds gpu_polling{300};
 
 Limits limits_of(const vk::raii::PhysicalDevice &device) {
@@ -55,7 +53,7 @@ Limits limits_of(const vk::raii::PhysicalDevice &device) {
             .loop_trip_budget = llvmpipe ? llvmpipe_loop_trips : std::numeric_limits<std::uint64_t>::max()};
 }
 
-// The numbers that identify a device's model in the header of pipeline caches, and the driver's version.
+// Identifies the model in headers of pipeline caches, and the driver's version.
 std::array<std::uint32_t, 7> driver_id_of(const vk::raii::PhysicalDevice &device) {
     const vk::PhysicalDeviceProperties properties = device.getProperties();
     std::array<std::uint32_t, 7> id = {properties.vendorID, properties.deviceID, properties.driverVersion};
@@ -71,13 +69,13 @@ constexpr vk::AccessFlags device_writes = Access::eShaderWrite | Access::eTransf
 constexpr vk::AccessFlags device_accesses =
     device_writes | Access::eShaderRead | Access::eUniformRead | Access::eTransferRead;
 
-// Records a barrier that makes what the device wrote before visible to later accesses.
+// Makes earlier writes of the device visible to later accesses.
 void write_barrier(const vk::raii::CommandBuffer &commands, vk::PipelineStageFlags stages, vk::AccessFlags accesses) {
     const vk::MemoryBarrier barrier{.srcAccessMask = device_writes, .dstAccessMask = accesses};
     commands.pipelineBarrier(device_stages, stages, {}, barrier, {}, {});
 }
 
-// What the slowest devices of each kind manage; for a discrete GPU, a thirtieth of the fastest.
+// The slowest devices of each kind; for a discrete GPU a thirtieth of the fastest.
 double tests_per_second(std::uint32_t kind) {
     switch (kind) {
     case PT_DEVICE_DISCRETE_GPU:
@@ -92,8 +90,8 @@ double tests_per_second(std::uint32_t kind) {
 } // namespace
 
 DevicePolicy default_policy(const pt_device_info &info) {
-    // A loaded CPU may take any time, so patience has no end. CPUs and integrated GPUs share the host's memory; a
-    // discrete GPU reads the host's memory over a bus, and the host reads the GPU's uncached.
+    // A loaded CPU may take any time, so its patience is endless. CPUs and integrated GPUs share the host's memory; a
+    // discrete GPU reads it over a bus, and the host reads the GPU's uncached.
     const bool cpu = info.kind == PT_DEVICE_CPU;
     return {.patience = cpu ? std::chrono::nanoseconds::max() : gpu_patience,
             .share_memory = cpu || info.kind == PT_DEVICE_INTEGRATED_GPU,
@@ -148,9 +146,8 @@ Device::Device(Instance &instance, const vk::raii::PhysicalDevice &physical_devi
 Device::~Device() {
     if (!abandoned_ && comes_to_rest())
         return;
-    // vkDestroyDevice waits for the work under way, however long it takes (seen with NVIDIA's driver 580.159), and
-    // destroying the instance without it crashes. Left alone, both stay until the end of the process, which stops the
-    // work.
+    // vkDestroyDevice waits for running work, however long (NVIDIA's driver 580.159), and destroying the instance first
+    // crashes. Both stay until the process ends.
     pipeline_cache_.abandon();
     for (Submission &submission : submissions_) {
         submission.fence.release();
@@ -178,7 +175,7 @@ bool Device::is_at_rest() const {
     return std::ranges::all_of(submissions_, [&](const Submission &submission) { return ended(submission); });
 }
 
-// Whether a submission has ended, perhaps by the loss of the device.
+// Ended, perhaps by the loss of the device.
 bool Device::ended(const Submission &submission) const {
     try {
         return !submission.pending || submission.end || submission.fence.getStatus() == vk::Result::eSuccess;
@@ -196,7 +193,7 @@ void Device::require_alive() const {
         throw Error(PT_ERROR_DEVICE_LOST, lost_message_);
 }
 
-// Marks the device as lost even if there is no memory for the message that says why.
+// Marks the device as lost even without memory for the message.
 void Device::lose(const std::function<std::string()> &reason) {
     lost_ = true;
     lost_message_ += ": " + reason();
@@ -224,7 +221,7 @@ Device::Ticket Device::start(const Record &record, const Semaphores &semaphores)
                                          .pSignalSemaphores = &semaphores.signal},
                           *free->fence);
         } catch (const vk::DeviceLostError &error) {
-            comes_to_rest(); // waits for earlier submissions: what they use may be destroyed from here on
+            comes_to_rest(); // what earlier submissions use may be destroyed from here on
             lose([&] { return error.what(); });
         }
     });
@@ -234,7 +231,7 @@ Device::Ticket Device::start(const Record &record, const Semaphores &semaphores)
     return static_cast<Ticket>(free - submissions_.begin());
 }
 
-// Overdue submissions are left to finish(), which gives them up.
+// finish() gives up overdue submissions.
 bool Device::is_done(Ticket ticket, Clock::time_point until) {
     Submission &submission = submissions_[ticket];
     while (!lost() && !is_overdue(submission)) {
@@ -294,9 +291,8 @@ bool Device::comes_to_rest() noexcept {
 void Device::record_work(const vk::raii::CommandBuffer &commands, const Record &record) const {
     commands.reset(); // the last recording may have failed half-way
     commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
-    // A submission makes visible what the host wrote before it (Vulkan specification, "Host Write Ordering
-    // Guarantees"), but not what earlier submissions wrote: their fence makes that available but not visible; this
-    // barrier makes it visible.
+    // A submission sees the host's earlier writes (Vulkan specification, "Host Write Ordering Guarantees"). Fences make
+    // earlier submissions' writes available but not visible; this barrier does.
     write_barrier(commands, device_stages, device_accesses);
     record(commands);
     write_barrier(commands, Stage::eHost, Access::eHostRead | Access::eHostWrite);
@@ -307,7 +303,7 @@ std::chrono::nanoseconds Device::wait_time() const {
     return std::min(wait_step, policy_.patience);
 }
 
-// Waits for so long at the most, and returns whether the submission has ended.
+// Waits up to timeout; returns whether the submission has ended.
 bool Device::look_at(Submission &submission, std::chrono::nanoseconds timeout) {
     if (submission.end)
         return true;
@@ -328,14 +324,14 @@ bool Device::look_at(Submission &submission, std::chrono::nanoseconds timeout) {
         }
         return ended;
     } catch (const vk::SystemError &error) {
-        // Whatever the error is, wait for the work, so that what it uses may be destroyed from here on.
+        // With any error, wait for the work: what it uses may be destroyed from here on.
         comes_to_rest();
         lose([&] { return error.what(); });
     }
 }
 
-// Here and in comes_to_rest(), work is given up only if it is overdue and then found unfinished once more: a process
-// that was stopped, or got no processor for long, may find the time over but the work done.
+// Here and in comes_to_rest() work is given up only if it is overdue and then found unfinished once more: after a
+// stopped process resumes, the time may be over but the work done.
 void Device::wait(Submission &submission) {
     for (bool was_overdue = false; !look_at(submission, wait_time()); was_overdue = is_overdue(submission))
         if (was_overdue) {

@@ -73,7 +73,7 @@ bool is_index(const std::string &text) {
     return !text.empty() && text.size() < 32 && text.find_first_not_of("0123456789") == std::string::npos;
 }
 
-// Why a device does not match the words that ask for one; empty if it does. Indices are not handled here.
+// Why a device does not match the request; empty if it does. Ignores indices.
 std::string mismatch(const pt_device_info &device, const std::string &wanted) {
     if (wanted.empty())
         return "";
@@ -115,14 +115,14 @@ std::size_t indexed_device(std::span<const pt_device_info> devices, const std::s
 pt_device_info describe(const vk::raii::PhysicalDevice &device) {
     const vk::PhysicalDeviceProperties basic = device.getProperties();
     pt_device_info info{};
-    const auto kind = static_cast<std::uint32_t>(basic.deviceType); // newer kinds may follow
+    const auto kind = static_cast<std::uint32_t>(basic.deviceType); // newer kinds may exist
     info.kind = kind <= std::uint32_t{PT_DEVICE_CPU} ? kind : std::uint32_t{PT_DEVICE_OTHER};
     copy_text(info.name, basic.deviceName);
     info.memory_bytes = largest_device_heap(device);
     const std::string reason = unsuitable_reason(device, basic.apiVersion);
     copy_text(info.reason, reason);
     info.suitable = reason.empty() ? 1 : 0;
-    if (basic.apiVersion >= VK_API_VERSION_1_2) { // the properties below are part of it
+    if (basic.apiVersion >= VK_API_VERSION_1_2) { // needed for the properties below
         const auto chain = device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceIDProperties,
                                                  vk::PhysicalDeviceDriverProperties>();
         const auto &uuid = chain.get<vk::PhysicalDeviceIDProperties>().deviceUUID;
@@ -154,8 +154,7 @@ std::size_t choose_device(std::span<const pt_device_info> devices, const std::st
 
 namespace {
 
-// The items of a list of indices and UUIDs separated by commas; empty if it is not such a list, since names may have
-// commas.
+// The items of a list of indices and UUIDs; empty for anything else, because names may have commas.
 std::vector<std::string> listed(const std::string &wanted) {
     std::vector<std::string> items;
     for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {
@@ -170,8 +169,8 @@ std::vector<std::string> listed(const std::string &wanted) {
     return items;
 }
 
-// The chosen device, if there is one, that is the same as another one: listed at the same index, or the same hardware
-// listed by a second driver of the same name, with the same UUID.
+// The chosen device that equals another: the same index, or the same UUID (one GPU listed by two drivers of the same
+// name).
 std::optional<std::size_t> same_device_among(std::span<const pt_device_info> devices,
                                              std::span<const std::size_t> chosen, std::size_t other) {
     const std::string uuid = uuid_digits(devices[other]);
@@ -190,7 +189,7 @@ Error named_twice(const std::string &wanted, const std::string &item, const pt_d
                                device.name + "), which is in the list already"}};
 }
 
-// The best suitable device, and the other suitable ones of its kind.
+// The best suitable device and the other suitable ones of its kind.
 std::vector<std::size_t> all_of_the_best_kind(std::span<const pt_device_info> devices) {
     const std::uint32_t kind = devices[choose_device(devices, "")].kind;
     std::vector<std::size_t> chosen;

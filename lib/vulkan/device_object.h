@@ -7,8 +7,8 @@
 
 namespace pt::vulkan {
 
-// Destroys its object in its destructor, unless the device hangs: what work under way uses must not be destroyed
-// (Vulkan specification, "Object Lifetime"), and memory that this work may still write to would be given to others.
+// Destroys its object unless the device hangs: running work's objects must not be destroyed (Vulkan specification,
+// "Object Lifetime"), and memory that it may still write to must not be reused.
 template <typename Object>
 class DeviceObject {
 public:

@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char *validation_layer = "VK_LAYER_KHRONOS_validation";
 
-// The parameters have types of the C header or, with newer versions of Vulkan-Hpp, its own.
+// Parameter types come from the C header or newer Vulkan-Hpp.
 template <typename Severity, typename Types, typename Data>
 VKAPI_ATTR VkBool32 VKAPI_CALL on_message(Severity severity, Types /*types*/, const Data *data, void *user) {
     const bool is_error = static_cast<vk::DebugUtilsMessageSeverityFlagBitsEXT>(severity) >=
@@ -41,8 +41,8 @@ bool contains(const std::vector<Properties> &list, Name name, const char *wanted
     return std::ranges::any_of(list, [&](const Properties &item) { return std::strcmp(item.*name, wanted) == 0; });
 }
 
-// Explains which environment variables decide which drivers the loader finds, and what to do. The library reads the
-// environment nowhere else, and here only to explain it.
+// Names the environment variables that decide which drivers the loader finds, and what to do. The library reads the
+// environment only here, for the message.
 std::string driver_advice(const vk::raii::Context &context) {
     const std::uint32_t version = context.enumerateInstanceVersion();
     std::string advice = " (Vulkan loader " + std::to_string(VK_API_VERSION_MAJOR(version)) + "." +
@@ -62,14 +62,14 @@ PFN_vkGetInstanceProcAddr loader() {
                 "no Vulkan loader: " + platform::module_error() + ": install the GPU's Vulkan driver");
 }
 
-// Lack of memory says nothing about the drivers.
+// Lack of memory is not about drivers.
 void throw_if_out_of_memory(const vk::SystemError &error, const std::string &what_was_being_done) {
     const pt_result result = result_of(static_cast<vk::Result>(error.code().value()));
     if (result == PT_ERROR_OUT_OF_HOST_MEMORY || result == PT_ERROR_OUT_OF_DEVICE_MEMORY)
         throw Error(result, what_was_being_done + ": " + error.what());
 }
 
-// If messages is not NULL, the validation layer is on and reports to it.
+// messages: the validation layer's; NULL without it.
 vk::raii::Instance create_instance(const vk::raii::Context &context,
                                    const vk::DebugUtilsMessengerCreateInfoEXT *messages) {
     std::vector<const char *> layers;
@@ -77,7 +77,7 @@ vk::raii::Instance create_instance(const vk::raii::Context &context,
     vk::InstanceCreateFlags flags;
     if (contains(context.enumerateInstanceExtensionProperties(), &vk::ExtensionProperties::extensionName,
                  VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME)) {
-        // Implementations layered over another interface are listed only for instances that ask for them.
+        // Implementations on top of another interface are listed on request only.
         extensions.push_back(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
         flags |= vk::InstanceCreateFlagBits::eEnumeratePortabilityKHR;
     }
@@ -100,7 +100,7 @@ vk::raii::Instance create_instance(const vk::raii::Context &context,
                            nullptr, *context.getDispatcher());
     try {
         return {context, instance};
-    } catch (const std::bad_alloc &) { // no memory for the table of its functions
+    } catch (const std::bad_alloc &) { // no memory for its function table
         const PFN_vkVoidFunction destroy =
             context.getDispatcher()->vkGetInstanceProcAddr(instance, "vkDestroyInstance");
         reinterpret_cast<PFN_vkDestroyInstance>(destroy)(instance, nullptr);
@@ -108,10 +108,9 @@ vk::raii::Instance create_instance(const vk::raii::Context &context,
     }
 }
 
-// The loader unloads drivers with the last instance, and NVIDIA's driver takes static thread-local storage of the
-// process for good each time it is loaded: after thirty times none is left, and no further instance can be created
-// (driver 580.159). So the driver, if there is one, is kept loaded, which also halves the time that further instances
-// take.
+// The loader unloads drivers with the last instance, and NVIDIA's driver permanently takes static thread-local storage
+// at each load: after thirty times no instance can be created (driver 580.159). Keeping it loaded also halves the time
+// of further instances.
 void keep_nvidia_driver_loaded() noexcept {
     for (const char *name : {"libGLX_nvidia.so.0", "libEGL_nvidia.so.0"}) // one of them is the driver
         platform::keep_loaded(name);
@@ -120,8 +119,7 @@ void keep_nvidia_driver_loaded() noexcept {
 vk::raii::Instance owned_instance(const vk::raii::Context &context, const Log &log, bool validation) {
     const vk::DebugUtilsMessengerCreateInfoEXT messages = messenger_info(log);
     try {
-        // Since it is in the chain of structs, the messenger also reports on the creation and destruction of the
-        // instance.
+        // The chain of structs makes the messenger report creation and destruction of the instance too.
         vk::raii::Instance instance = create_instance(context, validation ? &messages : nullptr);
         keep_nvidia_driver_loaded();
         return instance;

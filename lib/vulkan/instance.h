@@ -1,4 +1,4 @@
-// The Vulkan instance: the library's own, with the validation layer's messages going to the log, or the caller's.
+// The Vulkan instance, the library's own or the caller's.
 #pragma once
 
 #include "lib/base/log.h"
@@ -12,11 +12,10 @@ namespace pt::vulkan {
 
 class Instance {
 public:
-    // Throws PT_ERROR_NO_DEVICE if Vulkan or its drivers are not there, and
-    // PT_ERROR_UNSUPPORTED if validation is asked for and the layer is not installed.
+    // Throws PT_ERROR_NO_DEVICE without Vulkan or drivers, PT_ERROR_UNSUPPORTED without a requested validation layer.
     Instance(const Log &log, bool validation);
 
-    // The caller's, which is left alone.
+    // The caller's; not owned.
     Instance(const Log &log, VkInstance instance);
     Instance(Instance &&) noexcept = default;
     ~Instance() {
@@ -31,15 +30,14 @@ public:
     // At least one; throws PT_ERROR_NO_DEVICE otherwise.
     std::vector<vk::raii::PhysicalDevice> physical_devices() const;
 
-    // From now on the Vulkan instance is never destroyed, whoever made it: it must not be while one of its devices
-    // exists.
+    // The Vulkan instance is never destroyed any more: it must outlive its devices.
     void abandon();
 
 private:
-    std::unique_ptr<const Log> log_; // the layer has its address, also while the Vulkan instance is destroyed
+    std::unique_ptr<const Log> log_; // the layer has its address, also while the instance is destroyed
     vk::raii::Context context_;
     vk::raii::Instance instance_;
-    bool is_owned_; // else it is left alone
+    bool is_owned_; // else not destroyed
     std::optional<vk::raii::DebugUtilsMessengerEXT> messenger_;
 };
 

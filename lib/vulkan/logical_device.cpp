@@ -19,8 +19,7 @@ std::uint32_t compute_family(const vk::raii::PhysicalDevice &device) {
 }
 
 vk::raii::Device create_device(const vk::raii::PhysicalDevice &physical_device, std::uint32_t queue_family) {
-    // The specification demands that this extension be enabled if it exists. What such devices may lack, of images,
-    // events and drawing, nothing here uses.
+    // Must be enabled if present. Nothing here uses what such devices lack (images, events, drawing).
     constexpr const char *portability_subset = "VK_KHR_portability_subset";
     std::vector<const char *> extensions;
     for (const vk::ExtensionProperties &extension : physical_device.enumerateDeviceExtensionProperties())
@@ -38,7 +37,7 @@ vk::raii::Device create_device(const vk::raii::PhysicalDevice &physical_device, 
                                                 nullptr, functions);
     try {
         return {physical_device, device};
-    } catch (const std::bad_alloc &) { // no memory for the table of its functions
+    } catch (const std::bad_alloc &) { // no memory for its function table
         const PFN_vkVoidFunction destroy = functions.vkGetDeviceProcAddr(device, "vkDestroyDevice");
         reinterpret_cast<PFN_vkDestroyDevice>(destroy)(device, nullptr);
         throw;

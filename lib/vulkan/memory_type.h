@@ -1,4 +1,4 @@
-// Chooses which of a device's memory types a buffer gets.
+// Chooses a buffer's memory type.
 #pragma once
 
 #include "lib/base/error.h"
@@ -11,8 +11,8 @@
 
 namespace pt::vulkan {
 
-// Indices of the allowed types (bit i stands for type i) that have one of the wanted sets of properties, in the order
-// of these sets, each type once. Throws PT_ERROR_UNSUPPORTED if there is none.
+// Indices of allowed types (bit i: type i) with one of the wanted sets of properties, best set first, each once. Throws
+// PT_ERROR_UNSUPPORTED if there are none.
 inline std::vector<std::uint32_t> memory_types(const vk::PhysicalDeviceMemoryProperties &memory, std::uint32_t allowed,
                                                std::span<const vk::MemoryPropertyFlags> wanted_best_first) {
     std::vector<std::uint32_t> types;
@@ -27,14 +27,14 @@ inline std::vector<std::uint32_t> memory_types(const vk::PhysicalDeviceMemoryPro
     return types;
 }
 
-// Returns allocate(type) for the first type whose heap has room. If none has, throws what it threw last.
+// Returns allocate(type) for the first type whose heap has room; rethrows the last failure.
 template <typename Allocate>
 auto allocate_where_there_is_room(std::span<const std::uint32_t> types, Allocate &&allocate) {
     for (const std::uint32_t type : types.first(types.size() - 1)) {
         try {
             return allocate(type);
         } catch (const vk::OutOfDeviceMemoryError &) {
-            continue; // its heap is full, but the next type may be in another heap
+            continue; // the next type may be in another heap
         }
     }
     return allocate(types.back());

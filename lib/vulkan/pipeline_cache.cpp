@@ -15,21 +15,20 @@ namespace pt::vulkan {
 
 namespace {
 
-// Far more than the kernels of a context take: anything larger cannot be ours.
+// Far more than a context's kernels.
 constexpr std::uint64_t most_bytes = std::uint64_t{1} << 28;
 
 constexpr std::string_view magic = "ptkernel";
 
-// A header in front of a driver's bytes identifies them: a driver trusts what it reads, so it must never see other
-// bytes.
+// Precedes a driver's bytes and identifies them: drivers trust them, so they must never see others.
 struct KernelSeal {
     char magic[8];
     char key[32];
-    std::uint64_t size_bytes; // of what follows
-    std::uint64_t checksum;   // of what follows
+    std::uint64_t size_bytes; // of the rest
+    std::uint64_t checksum;   // of the rest
 };
 
-// The seal for data under a key of 32 characters.
+// key: 32 characters.
 KernelSeal kernel_seal(const std::string &key, std::span<const std::byte> data) {
     KernelSeal seal{};
     std::ranges::copy(magic, seal.magic);
@@ -39,7 +38,7 @@ KernelSeal kernel_seal(const std::string &key, std::span<const std::byte> data) 
     return seal;
 }
 
-// The bytes after the seal; empty unless they are exactly what was sealed under this key.
+// The bytes after the seal; empty unless they are what was sealed under this key.
 std::span<const std::byte> unsealed_kernels(const std::string &key, std::span<const std::byte> bytes) {
     if (bytes.size() < sizeof(KernelSeal))
         return {};
@@ -80,7 +79,7 @@ void PipelineCache::load(const KernelStore &store, const Log &log) {
     }
 }
 
-// Never throws, since it comes at the end of calls that have done their work: if memory is short, nothing is kept.
+// Never throws, because finished calls end with it; without memory nothing is kept.
 void PipelineCache::save(const Log &log) noexcept {
     if (!store_.store || !std::exchange(has_news_, false))
         return;

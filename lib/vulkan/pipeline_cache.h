@@ -1,5 +1,5 @@
-// A driver's cache of the kernels that it has built on a device, which the caller may keep from process to process.
-// Owned by Device. It only saves time: if anything is wrong with what was kept, kernels are built anew.
+// A driver's cache of built kernels, which the caller may keep between processes. It only saves time: damaged or
+// foreign kernels are rebuilt.
 #pragma once
 
 #include "lib/base/log.h"
@@ -23,22 +23,22 @@ struct KernelStore {
 class PipelineCache {
 public:
     PipelineCache() = default; // none
-    // An empty one. The device must outlive it.
+    // Empty. The device must outlive it.
     explicit PipelineCache(const vk::raii::Device &device);
 
     const vk::raii::PipelineCache &handle() const { return cache_; }
 
-    // Loads what the caller has kept under a key, if it is intact and the driver accepts it; from now on save() hands
-    // over what is new. key: 32 hexadecimal digits.
+    // Loads the caller's kernels under a key, if they are intact and the driver accepts them. key: 32 hexadecimal
+    // digits, also for save().
     void use(const KernelStore &store, std::string key, const Log &log);
 
-    // From now on save() hands over under another key.
+    // Changes save()'s key.
     void set_key(std::string key) noexcept { key_ = std::move(key); }
 
     // Notes that a kernel was built.
     void note_kernel() { has_news_ = true; }
 
-    // Hands the kernels to the caller, if some were built since the last time and the driver's bytes have changed.
+    // Gives new kernels to the caller, if the driver's bytes have changed.
     void save(const Log &log) noexcept;
 
     void abandon() { cache_.release(); }
@@ -50,7 +50,7 @@ private:
     vk::raii::PipelineCache cache_ = nullptr;
     KernelStore store_;
     std::string key_;
-    std::uint64_t kept_checksum_ = 0; // of what the caller has kept
+    std::uint64_t kept_checksum_ = 0; // of the caller's copy
     bool has_news_ = false;
 };
 

@@ -1,4 +1,4 @@
-// Translation of Vulkan's errors into the library's. Used all over lib/vulkan/.
+// Translates Vulkan's errors.
 #pragma once
 
 #include "lib/base/error.h"
@@ -9,13 +9,13 @@
 
 namespace pt::vulkan {
 
-// The pt_result of a VkResult; PT_ERROR_INTERNAL for those not in the table.
+// PT_ERROR_INTERNAL for unlisted ones.
 pt_result result_of(vk::Result result);
 
-// Throws a pt::Error for what Vulkan threw; its message says what was being done.
+// Throws a pt::Error; its message says what was being done.
 [[noreturn]] void throw_translated(const vk::SystemError &error, std::string_view what_was_being_done);
 
-// Runs a function, and translates what Vulkan throws.
+// Runs a function and translates what Vulkan throws.
 template <typename Function>
 decltype(auto) translated(std::string_view what_was_being_done, Function &&function) {
     try {

@@ -1,4 +1,4 @@
-// Submissions that are waited for in the order in which they were started; in the end all of them, whatever fails.
+// Waits for submissions in order; for all of them in the end, with any error.
 #pragma once
 
 #include "lib/vulkan/device.h"
@@ -10,14 +10,14 @@ namespace pt::vulkan {
 
 class SubmissionsUnderWay {
 public:
-    // most: how many will be under way at a time. The device must outlive this object.
+    // most: the largest number running at a time. The device must outlive this object.
     SubmissionsUnderWay(Device &device, std::size_t most) : device_(device) { tickets_.reserve(most); }
     SubmissionsUnderWay(const SubmissionsUnderWay &) = delete;
     SubmissionsUnderWay &operator=(const SubmissionsUnderWay &) = delete;
     ~SubmissionsUnderWay() {
         try {
             finish_all();
-        } catch (...) { // the device is lost; the call that failed reports it
+        } catch (...) { // the device is lost; the failed call reports it
         }
     }
 
