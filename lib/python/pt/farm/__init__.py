@@ -6,7 +6,7 @@
         result = farm.render(client, farm.Job(scene, camera, settings), 1000, target_error=0.01)
     result.film.image().save("picture.png")
 
-The command for scene files is pt-farm. lib/python/FARM.md tells what may die, what is promised, and whom to trust.
+pt-farm renders scene files. lib/python/FARM.md has the promises: failures, bits, trust.
 """
 
 from pt.farm._job import Job

@@ -1,4 +1,4 @@
-"""The command line of pt-farm."""
+"""pt-farm's command line."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def parser() -> argparse.ArgumentParser:
 
 
 def frames_of(arguments: argparse.Namespace) -> list[int | None]:
-    """The frames to render; a single picture is one frame without a number."""
+    """The frames to render; [None] for a single picture without a number."""
     if arguments.frames is None:
         return [None]
     found = re.fullmatch(r"(\d+)(?:-(\d+))?", arguments.frames, re.ASCII)
@@ -79,7 +79,7 @@ def check(arguments: argparse.Namespace) -> None:
 
 
 def check_files(arguments: argparse.Namespace) -> None:
-    """Checks names and formats of outputs before hours are spent."""
+    """Checks names and formats of outputs before rendering."""
     wanted: list[tuple[str, tuple[str, ...]]] = [(name, PICTURES) for name in arguments.output]
     wanted += [(name, ()) for name in (arguments.film, arguments.checkpoint) if name]
     if wrong := misnamed(wanted, arguments.scene):
@@ -92,7 +92,7 @@ def check_files(arguments: argparse.Namespace) -> None:
 
 
 def written(arguments: argparse.Namespace) -> list[str]:
-    """Patterns of the files that are written for a picture, or for each frame."""
+    """Patterns of the output files of each frame."""
     return [*arguments.output, *filter(None, (arguments.film,))]
 
 

@@ -1,5 +1,5 @@
-"""pt-farm: scene files on a Dask cluster. The program `pt` reads and renders them on the workers, and writes the
-pictures on this machine, so that options, messages and files are those of pt."""
+"""pt-farm: scene files on a Dask cluster. The program `pt` reads and renders them on the workers and writes pictures
+here, so options, messages and files are pt's."""
 
 from __future__ import annotations
 
@@ -33,10 +33,9 @@ from pt.farm._sum import write_film
 
 @contextlib.contextmanager
 def cluster(arguments: argparse.Namespace) -> Iterator[Any]:
-    """A client of the cluster."""
     logging.getLogger("distributed").setLevel(logging.ERROR)
     try:
-        dask: Any = importlib.import_module("distributed")  # it has no types, and importing it takes half a second
+        dask: Any = importlib.import_module("distributed")  # has no types; importing takes half a second
     except ImportError as error:
         refuse(f"needs Dask: pip install './lib/python[farm]' ({error})", INTERNAL)
     if arguments.scheduler:
@@ -53,7 +52,7 @@ def cluster(arguments: argparse.Namespace) -> Iterator[Any]:
             yield client
         return
     count = arguments.local_workers or 2
-    # Each worker gets its share of the processors; otherwise every driver would take all of them.
+    # Each worker's driver would otherwise take all processors.
     os.environ.setdefault("LP_NUM_THREADS", str(max((os.cpu_count() or count) // count, 1)))
     with dask.LocalCluster(n_workers=count, threads_per_worker=1, processes=True, dashboard_address=None,
                       host="127.0.0.1") as local, dask.Client(local) as client:
@@ -73,7 +72,7 @@ def write_pictures(film: Film, arguments: argparse.Namespace, facts: dict[str, A
         path = os.path.join(folder, "sum.ptfilm")
         write_film(film, path)
         done = subprocess.run([program(), "merge", path, "-q", *options])
-        if done.returncode:  # pt has said why
+        if done.returncode:  # pt has printed the reason
             if not (arguments.film or arguments.checkpoint):
                 kept = tempfile.mkstemp(prefix="pt-farm-", suffix=".ptfilm")[1]
                 shutil.copyfile(path, kept)
@@ -82,7 +81,7 @@ def write_pictures(film: Film, arguments: argparse.Namespace, facts: dict[str, A
 
 
 def described(job: FileJob, frame: int | None) -> tuple[FileJob, dict[str, Any]]:
-    """A job with its settings, and what pt on this machine says of it. Error: pt refuses it."""
+    """A job with its settings, and pt's facts about it. Error: pt refuses it."""
     job = job if frame is None else replace(job, arguments=(*job.arguments, "--frames", str(frame)))
     reader = Program(job.arguments, job.files, device_of(job))
     reader.close()
@@ -100,7 +99,7 @@ def render_pictures(arguments: argparse.Namespace, others: list[str], signals: S
                       checkpoint=arguments.checkpoint, checkpoint_every=arguments.checkpoint_every,
                       wait_for_workers=arguments.wait)
     for frame in frames[:1]:
-        described(scene, frame)  # so that a refusal comes before workers start
+        described(scene, frame)  # refuses before workers start
     with cluster(arguments) as client:
         for frame in frames:
             job, facts = described(scene, frame)
@@ -109,7 +108,7 @@ def render_pictures(arguments: argparse.Namespace, others: list[str], signals: S
                             sampling=Sampling(facts["sampling"]), options=options,
                             progress=Shown(arguments.quiet, signals))
             if signals.number and frame is not None:
-                break  # an unfinished frame would pass for a whole one
+                break  # an unfinished frame would look finished
             write_pictures(result.film, arguments, facts, frame)
             signals.is_rendering = False
             if len(result.devices) > 1 and not arguments.quiet:

@@ -1,4 +1,4 @@
-"""Hands out parts, adds the films that come back, and writes checkpoints."""
+"""Hands out parts, adds returned films, and writes checkpoints."""
 
 from __future__ import annotations
 
@@ -24,19 +24,18 @@ from pt.farm._speed import least_seconds
 from pt.farm._sum import Sum, read_film, write_film
 from pt.farm._workers import MOST_FETCHED, Member, Try, now, submit
 
-TICK = 0.25  # seconds between looks for late parts: short against patience, and often enough for progress
-SLOTS = 2  # parts that a worker has at a time: it renders one while the other travels or waits for the coordinator
+TICK = 0.25  # seconds between checks for late parts and progress
+SLOTS = 2  # parts per worker: one renders while another travels or waits for the coordinator
 
-# On a CPU, a sample takes as long per tile with 16 tiles as with 1024; 64 tiles are 4 for each of 16 cores. 4096 tiles
-# are 262,144 pixels, each an invocation on a GPU: about as many as the largest GPUs have under way.
+# Tiles that keep a device busy. CPU: 4 for each of 16 cores. GPU: 262,144 pixels, about the largest GPUs' invocations.
 LEAST_TILES = {True: 64, False: 4096}
-LEAD = 0.05  # seconds for the way to a worker and back, and for merging
-LATE = 3.0  # times the expected seconds, from which on a part is late
-LOOK_SHARE = 0.05  # of the time, for computing the error shown, which takes as long as planning a round
+LEAD = 0.05  # seconds for travel and merging
+LATE = 3.0  # times the expected seconds, after which a part is late
+LOOK_SHARE = 0.05  # of the time, for the error shown, which costs as much as planning a round
 
 
 class _Opened(NamedTuple):
-    """A film that came back."""
+    """A returned film."""
 
     film: Film
     size: int  # bytes
@@ -44,7 +43,7 @@ class _Opened(NamedTuple):
 
 
 class Coordinator:
-    """final: number of samples that each pixel will have in the end; 0: not decided yet."""
+    """final: samples per pixel in the end; 0: undecided."""
 
     def __init__(self, client: Any, job: AnyJob, options: Options,
                  show: Callable[[Progress, Film | None], object], final: int) -> None:
@@ -57,9 +56,9 @@ class Coordinator:
         self._final = final
         self._events: queue.Queue[tuple[Any, ...]] = queue.Queue(MOST_FETCHED)
         self._closed = False
-        self._waiting: deque[tuple[int | None, Part]] = deque()  # with its number if it was given out before
-        self._open: set[int] = set()  # numbers of parts that were given out but are not merged yet
-        self._tries: dict[int, list[str]] = {}  # by number of the part: addresses of workers that failed at it
+        self._waiting: deque[tuple[int | None, Part]] = deque()  # with its number if given out before
+        self._open: set[int] = set()  # numbers of parts given out but not merged
+        self._tries: dict[int, list[str]] = {}  # by part: addresses of workers that failed
         self._next_number = 0
         self._progress = Progress()
         self._sum = Sum(read_film(options.checkpoint) if options.checkpoint else None, job.settings.width,
@@ -70,21 +69,21 @@ class Coordinator:
         self._checkpoint_error = ""
         self._look_end = self._look_cost = 0.0
         self._goals: Goals = np.zeros(self._shape, np.uint32)
-        self._has_only = self._sum.film is None  # whether the film had no samples beyond the earlier goals
+        self._has_only = self._sum.film is None  # the film has no samples beyond the earlier goals
         self._cells: Cells | None = None  # of the film when _cells_at parts were merged
         self._cells_at = 0
-        self._asked_at = -1  # number of parts merged when it last asked for more
+        self._asked_at = -1  # parts merged when it last asked for more
         self._ask_end = self._ask_cost = 0.0
         self._stopped = False
 
     # ---- the picture ----
 
     def run(self, goals: Goals, more: Callable[[], Goals | None] = lambda: None) -> bool:
-        """Works until each tile of the film has its number of samples; False if progress() asked to stop. more: called
-        once all parts are given out and some are back; returns what else tiles with nothing under way are to have."""
+        """Works until each tile has its samples; False if progress() stopped it. more: called once all parts are given
+        out and some are back; returns further goals of tiles without running parts."""
         first_sample, has_worked = self._job.settings.first_sample, False
         self._goals = goals
-        while not self._stopped:  # the film itself says when it is complete, not the list of parts
+        while not self._stopped:  # the film decides completeness, not the list of parts
             if self._cells is None or self._cells_at != self._progress.parts:
                 self._cells, self._cells_at = cells_of(self._sum.film, self._shape), self._progress.parts
             missing = missing_parts(self._cells, first_sample, self._goals)
@@ -111,15 +110,15 @@ class Coordinator:
         self._sum.merge()
 
     def _want(self) -> None:
-        """Updates how many samples a pixel will have, as far as that is decided."""
+        """Updates the samples per pixel decided so far."""
         wanted = np.maximum(self._goals, self._final).astype(np.float64)
-        for samples, tiles in self._cells or ():  # a film from a checkpoint may have more
+        for samples, tiles in self._cells or ():  # a checkpoint's film may have more
             wanted.ravel()[tiles] = np.maximum(wanted.ravel()[tiles], sum(map(len, samples)))
         self._progress.samples_wanted = float((wanted * self._pixels).sum() / self._pixels.sum())
 
     def _seconds_to_ask(self) -> float:
-        """Seconds until it is time to ask for more work: shortly before a worker runs out of it, since later more tiles
-        can be decided together. Never twice without a new part, and asking may take at most half of the time."""
+        """Seconds until it should ask for more work: shortly before a worker runs out, because later more tiles can be
+        decided together. Needs a new part each time, and takes at most half of the time."""
         if self._waiting or not self._open or not self._has_only or self._progress.parts == self._asked_at:
             return float("inf")
         idle = min((member.busy_until for member in self._crew if member.can_take(SLOTS)), default=float("inf"))
@@ -137,8 +136,8 @@ class Coordinator:
         self._ask_cost = self._ask_end - start
 
     def _forgot(self, missing: list[Part]) -> None:
-        """Counts parts that are missing although no try of them failed: then the list of parts was wrong, but the film
-        will be right."""
+        """Counts parts that are missing without a failed try: the list of parts was wrong, but the film will be right.
+        """
         work = sum(part.work for part in missing)
         if work:
             self._progress.forgotten += work
@@ -160,7 +159,7 @@ class Coordinator:
         return error
 
     def _glance(self) -> None:
-        """Computes the error for progress, if that takes less than LOOK_SHARE of the time."""
+        """Computes the error for progress within LOOK_SHARE of the time."""
         if now() - self._look_end > self._look_cost / LOOK_SHARE:
             self.look()
 
@@ -171,7 +170,7 @@ class Coordinator:
         return Result(self.film, self._progress)
 
     def close(self) -> None:
-        """Keeps what came back, whatever ended the rendering, and cancels the rest."""
+        """Keeps what came back, with any end of the rendering, and cancels the rest."""
         self._closed = True
         if not self._progress.ended_by:
             self._sum.merge()
@@ -205,7 +204,7 @@ class Coordinator:
                         self._progress.repeated += 1
 
     def _under_way(self, number: int) -> int:
-        """The number of tries of a part that are under way or waiting."""
+        """Tries of a part that are running or waiting."""
         waiting = sum(each == number for each, _ in self._waiting)
         return waiting + sum(each.number == number for member in self._crew for each in member.tries.values())
 
@@ -214,7 +213,7 @@ class Coordinator:
         self._again(address, each, "its worker died")
 
     def _again(self, address: str, each: Try, reason: str) -> None:
-        """Hands a part out again after a try that failed."""
+        """Hands a part out again after a failed try."""
         if each.number not in self._open:
             return
         tries = self._tries.setdefault(each.number, [])
@@ -268,11 +267,11 @@ class Coordinator:
     # ---- what comes back ----
 
     def _met(self, future: Any, outcome: _task.Outcome | None) -> None:
-        """Takes in a worker's answer to its introduction. Called by threads."""
+        """Receives a worker's answer to its introduction. Called by threads."""
         self._tell_of(future, *self._opened(_task.first_part(self._job), outcome, None))
 
     def _tell_of(self, *event: Any) -> None:
-        """Queues an event, waiting while the queue is full, so that films do not pile up here."""
+        """Queues an event; waits while the queue is full, to bound the films in memory."""
         while not self._closed:
             with contextlib.suppress(queue.Full):
                 self._events.put(event, timeout=TICK)
@@ -280,8 +279,7 @@ class Coordinator:
 
     def _opened(self, part: Part, outcome: _task.Outcome | None, identity: Identity | None
                 ) -> tuple[_task.Outcome | None, _Opened | None]:
-        """Opens the film in an outcome. Called by threads, so that films are unpacked in parallel. identity: the one
-        that the film must have."""
+        """Opens an outcome's film. Called by threads, which unpack in parallel. identity: required of the film."""
         if outcome is None or outcome.error:
             return outcome, None
         try:
@@ -319,7 +317,7 @@ class Coordinator:
             return
         member = self._crew.of_part(future)
         if member is None:
-            return  # its worker was thought dead, and the part has been given out again
+            return  # its worker was presumed dead, and the part given out again
         each = member.tries.pop(future.key)
         if outcome is None:
             self._lose(member.address, each)

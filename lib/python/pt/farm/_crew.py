@@ -1,4 +1,4 @@
-"""The workers of a job: they join, are introduced to it, and leave or are refused."""
+"""The workers of a job: they join, get introduced, and leave or are refused."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from pt.farm._options import FarmError, Progress
 from pt.farm._task import Outcome, codecs, introduce
 from pt.farm._workers import Done, Member, Try, addresses, now, submit
 
-MOST_FAILURES = 3  # of a worker in a row, after which it gets no more parts
-LOOK_SECONDS = 0.25  # between asking the scheduler who is there: some kilobytes for a hundred workers
+MOST_FAILURES = 3  # in a row, after which a worker gets no more parts
+LOOK_SECONDS = 0.25  # between queries of the scheduler: some kilobytes for a hundred workers
 
 
 class Crew:
-    """identity: of the films so far. mixed: other devices may join, too."""
+    """identity: of the films so far. mixed: other devices may join."""
 
     def __init__(self, client: Any, packed: bytes, done: Done, progress: Progress, identity: Identity | None, *,
                  mixed: bool, patience: float) -> None:
@@ -36,12 +36,12 @@ class Crew:
 
     @property
     def is_there(self) -> bool:
-        """Whether a worker has been found fit."""
+        """Whether any worker is fit."""
         return any(member.identity for member in self)
 
     def look(self) -> list[tuple[str, Try]]:
-        """Notes which workers have come and gone. Returns the tries of those that left, with their addresses.
-        FarmError: nobody can work."""
+        """Notes arrivals and departures. Returns tries of departed workers with their addresses. FarmError: nobody can
+        work."""
         if now() - self._looked < LOOK_SECONDS:
             return []
         try:
@@ -74,7 +74,7 @@ class Crew:
         return next((member for member in self if future.key in member.tries), None)
 
     def meet(self, member: Member, outcome: Outcome | None, identity: Identity | None) -> None:
-        """Takes in a worker after its introduction. identity: of the film that it sent."""
+        """Accepts a worker after its introduction. identity: of its film."""
         member.introduction = None
         if outcome is None:
             member.is_banned = True  # it has died, and will be gone at the next look

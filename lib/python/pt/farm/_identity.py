@@ -1,5 +1,5 @@
-"""Whose samples a film has: the lines of its header from `scene` to `device` (lib/film/FORMAT.md). Films add up where
-these are equal, so that workers can be told apart before they have done anything."""
+"""A film's identity: the lines of its header from `scene` to `device` (lib/film/FORMAT.md). Films with equal ones add
+up, so unfit workers are recognised before they have done anything."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import importlib
 from dataclasses import dataclass
 
 FIRST, LAST = "scene", "device"
-WORTH_ANOTHER_WORKER = ("estimator_version", "kernel", LAST)  # these depend on workers, not on the picture
+WORTH_ANOTHER_WORKER = ("estimator_version", "kernel", LAST)  # depend on workers, not on the picture
 CHECKSUM_BYTES = 8
 
 
@@ -17,17 +17,17 @@ class Identity:
 
     @property
     def models(self) -> frozenset[str]:
-        """Names of devices, with their drivers."""
+        """Names of devices with their drivers."""
         return frozenset(dict(self.lines)[LAST].split(" and "))
 
     def differences(self, other: Identity, but: tuple[str, ...] = ()) -> list[str]:
-        """Names of lines."""
+        """Names of different lines."""
         mine, its = dict(self.lines), dict(other.lines)
         return [name for name in {**mine, **its} if mine.get(name) != its.get(name) and name not in but]
 
 
 def identity_of(data: bytes) -> Identity:
-    """The identity in a film's bytes. ValueError: they are not a film."""
+    """The identity in a film's bytes. ValueError: not a film."""
     names = dict(line.partition(" ")[::2] for line in _header(data).decode("ascii", "replace").splitlines())
     keys = list(names)
     if FIRST not in names or LAST not in names:
@@ -36,8 +36,8 @@ def identity_of(data: bytes) -> Identity:
 
 
 def with_models(data: bytes, models: frozenset[str]) -> bytes:
-    """A film's bytes with all of these models as the takers of its samples, like a film of a context on several models.
-    Such films add up, and say that they are mixed. ImportError: xxhash is missing."""
+    """A film's bytes with these models as its devices, like a film of a context on several models. These films add up,
+    and state that they are mixed. ImportError: xxhash is missing."""
     xxhash = importlib.import_module("xxhash")
     header = _header(data)
     start = header.index(b"\n" + LAST.encode() + b" ") + 1

@@ -1,4 +1,4 @@
-"""Jobs: everything that a worker has to know, except which part it is to render."""
+"""Jobs: all that a worker needs, except its part."""
 
 from __future__ import annotations
 
@@ -23,9 +23,8 @@ from pt._scene import Scene
 class Job:
     """A picture of Python objects and arrays, rendered by the library on each worker.
 
-    settings   must be for all rows; first_sample is the first sample that is taken
-    device     what each worker renders on, as for pt.Context; None: what PT_DEVICE in its environment says, else its
-               best
+    settings   for all rows; first_sample is the first sample taken
+    device     each worker's, as for pt.Context; None: PT_DEVICE in its environment, else its best
     """
 
     scene: Scene
@@ -39,7 +38,7 @@ class FileJob:
     """A picture of a scene file, read and rendered by the program pt on each worker.
 
     arguments   of `pt render`, the scene first
-    files       the scene and the files that it names, by names relative to a folder of the worker's
+    files       the scene and the files that it names, by names relative to the worker's folder
     settings    size and first sample
     """
 
@@ -62,19 +61,19 @@ def unpacked(data: bytes) -> AnyJob:
 
 
 def name_of(data: bytes) -> str:
-    """A digest by which workers recognise a packed job."""
+    """The digest that identifies a packed job."""
     return hashlib.sha256(data).hexdigest()[:32]
 
 
 def read_job(scene: str, options: list[str], device: str | None) -> FileJob:
-    """A job from a scene file (- for standard input) and options of `pt render`. All files that strings in the scene
-    and values of --set name go with it; those outside the scene's folder get other names. OSError: a file cannot be
-    read."""
+    """A job from a scene file (- for standard input) and options of `pt render`. It includes all files named by strings
+    in the scene and values of --set; those outside the scene's folder get other names. OSError: a file cannot be read.
+    """
     place = pathlib.Path("stdin.json" if scene == "-" else scene)
     text = sys.stdin.buffer.read() if scene == "-" else place.read_bytes()
     files: dict[str, bytes] = {}
 
-    @functools.cache  # a scene repeats the same few strings many times
+    @functools.cache  # scenes repeat few strings often
     def shipped(name: str) -> str:
         path = place.parent / name
         if not os.path.isfile(path):

@@ -1,4 +1,4 @@
-"""A farm's options, its progress and its result."""
+"""A farm's options, progress and result."""
 
 from __future__ import annotations
 
@@ -10,9 +10,8 @@ from pt._files import Path
 
 
 class FarmError(RuntimeError):
-    """The picture cannot be made; the message has what workers reported. Films that came back are in the checkpoint.
-
-    result: the library's result for the worker's error that is to blame; ERROR_INTERNAL if there is none."""
+    """The picture cannot be made; the message has the workers' reports. The checkpoint has the returned films. result:
+    the library's result behind it, or ERROR_INTERNAL."""
 
     def __init__(self, message: str, result: int = enums.Result.ERROR_INTERNAL) -> None:
         super().__init__(message)
@@ -21,17 +20,17 @@ class FarmError(RuntimeError):
 
 @dataclass(frozen=True)
 class Options:
-    """How a farm works; the picture does not depend on it, unless devices are mixed.
+    """How a farm works; changes the picture only if devices are mixed.
 
-    part_seconds       how long a part should take
-    patience           seconds beyond the expected time after which a part is given to another worker, too
-    most_tries         how often a part may fail or lose its worker, in all
-    checkpoint         name of a file, from which rendering goes on if it exists; None: none
+    part_seconds       duration of a part
+    patience           seconds beyond the expected time after which another worker gets the part too
+    most_tries         failures or lost workers per part, in all
+    checkpoint         name of a file, resumed if it exists; None: none
     checkpoint_every   seconds
-    wait_for_workers   seconds without a ready worker after which that is an error
-    mixed              other devices and drivers than those of the first worker may join: the picture is then
-                       statistically, and not bitwise, that of one machine, and its film names all of them. Needs the
-                       module xxhash
+    wait_for_workers   seconds without a ready worker until an error
+    mixed              workers with other devices and drivers may join: the picture then equals one machine's
+    statistically,
+                       not bitwise, and its film names all devices. Needs the module xxhash
     """
 
     part_seconds: float = 5.0
@@ -45,25 +44,25 @@ class Options:
 
 @dataclass
 class Progress:
-    """Counts so far. issued is the number of parts merged, dropped, failed, lost and under way."""
+    """Counts so far. issued is the number of parts merged, dropped, failed, lost and running."""
 
     seconds: float = 0.0
-    samples: float = 0.0  # mean over all pixels, when the film was last examined
-    samples_wanted: float = 0.0  # the mean at the end; with a target error, as far as decided
+    samples: float = 0.0  # mean over all pixels at the last check of the film
+    samples_wanted: float = 0.0  # the final mean; with a target error, as far as decided
     error: float = float("inf")  # relative; error_high is its upper bound, with 95% confidence
     error_high: float = float("inf")
     workers: int = 0
     parts: int = 0  # merged
     issued: int = 0
-    repeated: int = 0  # tries that began because others were late
+    repeated: int = 0  # extra tries of late parts
     dropped: int = 0  # duplicates that came second
-    failed: int = 0  # tries that failed, and were repeated elsewhere
+    failed: int = 0  # tries, repeated elsewhere
     lost: int = 0  # tries whose worker died
-    forgotten: int = 0  # samples of tiles that the coordinator itself lost track of, and had rendered again
+    forgotten: int = 0  # samples of tiles that the coordinator lost track of, and rendered again
     part_bytes: int = 0  # received
     messages: list[str] = field(default_factory=list)  # of workers
     last_result: int = enums.Result.OK  # the library's result for the last error
-    ended_by: str = ""  # "samples", "error", "limit"; "stopped" where progress() returned True
+    ended_by: str = ""  # "samples", "error", "limit"; "stopped" if progress() returned True
 
     def line(self) -> str:
         error = "" if self.error == float("inf") else f", error {self.error:.3%} (to {self.error_high:.3%})"
@@ -81,6 +80,6 @@ class Result:
 
     @property
     def devices(self) -> tuple[str, ...]:
-        """Models and drivers that took the samples. With more than one, the picture is as good as one machine's, but
-        its bits differ."""
+        """Models and drivers that took the samples. With several the picture is as good as one machine's, but its bits
+        differ."""
         return tuple(self.film.info.device.split(" and "))

@@ -1,4 +1,4 @@
-"""Parts of the work: some tiles, with the same samples of each."""
+"""Parts: some tiles with the same samples."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Goals = npt.NDArray[np.uint32]
 
 @dataclass(frozen=True)
 class Part:
-    """The samples from first to end - 1 of some tiles, whose indices count row by row."""
+    """Samples first to end - 1 of some tiles, indexed row by row."""
 
     first: int
     end: int
@@ -24,12 +24,12 @@ class Part:
 
     @property
     def work(self) -> int:
-        """The number of samples times the number of tiles."""
+        """Samples times tiles."""
         return (self.end - self.first) * len(self.tiles)
 
     def split(self, work: int, least_tiles: int) -> tuple[Part, list[Part]]:
-        """A part of about that work, and the rest. It has fewer tiles rather than fewer samples, since tiles make up a
-        film's size, but at least least_tiles, which keep a device busy."""
+        """A part of about that work, and the rest. Prefers fewer tiles, which make up a film's size, to fewer samples,
+        but keeps least_tiles, which keep a device busy."""
         samples = self.end - self.first
         if self.work <= work:
             return self, []
@@ -44,7 +44,7 @@ class Part:
 
 
 def is_film_of(film: Film, part: Part, shape: tuple[int, int]) -> bool:
-    """Whether a film has the samples of a part and no others."""
+    """Whether a film has exactly the samples of a part."""
     indices = np.arange(shape[0] * shape[1], dtype=np.uint32).reshape(shape)
     found = []
     for tile in film.tiles:
@@ -61,7 +61,7 @@ def _tiles_of(tile: FilmTile, indices: Indices) -> Indices:
 
 
 def grid_shape(width: int, height: int) -> tuple[int, int]:
-    """The number of rows and columns of tiles."""
+    """Rows and columns of tiles."""
     return -(-height // TILE_SIDE), -(-width // TILE_SIDE)
 
 
@@ -69,7 +69,7 @@ Cells = list[tuple[tuple[range, ...], Indices]]  # ranges of samples, and the ti
 
 
 def cells_of(film: Film | None, shape: tuple[int, int]) -> Cells:
-    """The samples of a film's tiles; tiles that it lacks have none."""
+    """The samples of a film's tiles; missing tiles have none."""
     found: dict[tuple[range, ...], list[Indices]] = {}
     seen = np.zeros(shape, bool)
     indices = np.arange(seen.size, dtype=np.uint32).reshape(shape)
@@ -83,8 +83,8 @@ def cells_of(film: Film | None, shape: tuple[int, int]) -> Cells:
 
 
 def missing_parts(cells: Cells, first_sample: int, goals: Goals) -> list[Part]:
-    """The parts that a film lacks until each tile has its number of samples from first_sample on. Only the film
-    decides, so one from a checkpoint goes on like any other."""
+    """The parts missing until each tile has its samples from first_sample on. Only the film decides, so checkpoints
+    resume."""
     wanted: dict[tuple[int, int], list[Indices]] = {}
     for samples, tiles in cells:
         tile_goals = goals.ravel()[tiles]
@@ -95,7 +95,7 @@ def missing_parts(cells: Cells, first_sample: int, goals: Goals) -> list[Part]:
 
 
 def has_only(cells: Cells, first_sample: int, goals: Goals) -> bool:
-    """Whether a film has these samples and no others."""
+    """Whether a film has exactly these samples."""
     for samples, tiles in cells:
         present = sum(map(len, samples))
         if (samples and samples != (range(first_sample, first_sample + present),)
@@ -105,7 +105,7 @@ def has_only(cells: Cells, first_sample: int, goals: Goals) -> bool:
 
 
 def further_parts(before: Goals, after: Goals, first_sample: int) -> list[Part]:
-    """The parts that take tiles from one number of samples to a larger one, both counted from first_sample."""
+    """The parts from one number of samples per tile to a larger one, both counted from first_sample."""
     tiles = np.flatnonzero(after.ravel() > before.ravel()).astype(np.uint32)
     wanted: dict[tuple[int, int], list[Indices]] = {}
     steps = np.stack([before.ravel()[tiles], after.ravel()[tiles]])
@@ -120,7 +120,7 @@ def _joined(wanted: dict[tuple[int, int], list[Indices]]) -> list[Part]:
 
 
 def _gaps(samples: tuple[range, ...], first: int, end: int) -> Iterator[tuple[int, int]]:
-    """The ranges of [first, end) that are not in samples."""
+    """The ranges of [first, end) outside samples."""
     for present in samples:
         if present.start > first:
             yield first, min(present.start, end)

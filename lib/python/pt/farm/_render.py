@@ -1,4 +1,4 @@
-"""Renders a picture on the workers of a cluster: decides which samples its tiles get, until it is done."""
+"""Renders a picture on a cluster's workers: decides the samples of tiles."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from pt.farm._job import AnyJob
 from pt.farm._options import FarmError, Options, Progress, Result
 from pt.farm._part import Goals, grid_shape
 
-FIRST_LOOK = 16  # samples a pixel, the fewest for which an error is known
+FIRST_LOOK = 16  # samples per pixel, the fewest with a known error
 
 
 def render(client: Any, job: AnyJob, samples: int, *, target_error: float = 0.0, sampling: Sampling = Sampling.BEST,
@@ -26,14 +26,14 @@ def render(client: Any, job: AnyJob, samples: int, *, target_error: float = 0.0,
     """Renders a picture on the workers of a Dask cluster.
 
     client         a distributed.Client
-    samples        number of samples of each pixel; with a target error, the most
-    target_error   0: none. Otherwise relative, as in Context.accumulate; ends with the same samples in each pixel as
-                   that
-    progress       called some times a second with the counts and the film so far, which it must not change; returning
-                   True ends the rendering
+    samples        per pixel; with a target error the most
+    target_error   0: none. Otherwise relative, as in Context.accumulate, and with the same samples
+    progress       called some times a second with the counts and the film so far, which it must not change; True ends
+    the
+                   rendering
 
-    FarmError: no worker can do it. Whatever dies meanwhile, except this process, changes no bit; if this process dies,
-    a new one goes on from the checkpoint.
+    FarmError: no worker can do it. Deaths of workers change no bit; if this process dies, a new one resumes from the
+    checkpoint.
     """
     if options.mixed:
         try:
@@ -50,7 +50,7 @@ def render(client: Any, job: AnyJob, samples: int, *, target_error: float = 0.0,
 
 
 def _to_samples(coordinator: Coordinator, job: AnyJob, samples: int) -> Result:
-    """Renders a fixed number of samples, in steps, so that the picture so far always has all pixels."""
+    """Renders a fixed number of samples in steps, so that the picture so far always has all pixels."""
     shape = grid_shape(job.settings.width, job.settings.height)
     steps = [np.full(shape, count, np.uint32) for count in _counts_to(samples)]
     ended = True
@@ -70,8 +70,8 @@ def _counts_to(samples: int) -> Iterator[int]:
 
 def _to_error(coordinator: Coordinator, job: AnyJob, samples: int, target_error: float, sampling: Sampling) -> Result:
     def further() -> Goals | None:
-        """What the tiles that have come back take next while others are still under way: only their own samples decide
-        that (lib/film/adaptive_rule.h)."""
+        """The next samples of returned tiles while others are running: a tile's own samples decide them
+        (lib/film/adaptive_rule.h)."""
         result, planned = coordinator.film.plan(target_error, samples)
         return planned if result == Outcome.PENDING else None
 

@@ -1,4 +1,4 @@
-"""Renders parts of a job on a worker's machine."""
+"""Renders parts of a job on a worker."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ from pt.farm._part import Part, grid_shape
 class Renderer(Protocol):
     @property
     def is_cpu(self) -> bool:
-        """Whether the device is a CPU; known after the first film."""
+        """Known after the first film."""
 
     def film(self, part: Part) -> bytes:
-        """The film of a part, as bytes. Error: it could not be rendered."""
+        """A part's film as bytes. Error: it could not be rendered."""
 
     def close(self) -> None:
         """Frees the device."""

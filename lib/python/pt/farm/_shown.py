@@ -14,7 +14,7 @@ SHOWN_EVERY = 1.0  # seconds
 
 
 class Signals:
-    """SIGINT, SIGTERM and SIGHUP end a rendering with the samples so far; a second one, and any outside a rendering,
+    """SIGINT, SIGTERM and SIGHUP end a rendering with the samples so far; a second one, or one outside a rendering,
     ends the process at once."""
 
     def __init__(self) -> None:

@@ -1,23 +1,22 @@
-"""How fast workers are, and how much each is given."""
+"""Speeds of workers, and sizes of their parts."""
 
 from __future__ import annotations
 
-FIRST_GUESS = 2000.0  # samples of tiles a second: a slow core
-LEAST_SECONDS = 0.1  # for a part: the smallest one of 1920x1080 takes a worker 0.03 s
-REMEMBERED = 5.0  # seconds of earlier parts that count: as long as a part should take
-BUSY_SHARE = 0.5  # of a coordinator's time that adding films may take
+FIRST_GUESS = 2000.0  # samples of tiles per second: a slow core
+LEAST_SECONDS = 0.1  # the shortest part; the smallest one of 1920x1080 takes 0.03 s
+REMEMBERED = 5.0  # seconds of earlier parts that count: a part's duration
+BUSY_SHARE = 0.5  # of the coordinator's time, for adding films
 
 
 class Speed:
-    """The speed of one worker, in samples of tiles a second."""
+    """A worker's speed, in samples of tiles per second."""
 
     def __init__(self) -> None:
         self.value = FIRST_GUESS
         self._work = self._seconds = 0.0
 
     def measure(self, work: int, seconds: float) -> None:
-        """Updates the speed, a mean over the last parts weighted by their seconds, since most of a small part's time is
-        overhead."""
+        """Averages the last parts, weighted by seconds, because short parts are mostly overhead."""
         kept = min(REMEMBERED / self._seconds, 1.0) if self._seconds else 0.0
         self._work = kept * self._work + work
         self._seconds = kept * self._seconds + max(seconds, 1e-6)
@@ -27,13 +26,12 @@ class Speed:
         return work / self.value
 
     def share(self, part_seconds: float, least_seconds: float, remaining: int, all_speeds: float) -> int:
-        """How much work to give a worker: part_seconds of it; towards the end, half of what would let all workers end
+        """The work of a worker's next part: part_seconds; towards the end half of the work after which all would end
         together (guided self-scheduling: Polychronopoulos and Kuck 1987), but at least least_seconds."""
         together = 0.5 * remaining / all_speeds
         return max(int(self.value * max(min(part_seconds, together), least_seconds)), 1)
 
 
 def least_seconds(workers: int, adding_seconds: float) -> float:
-    """How long parts must take so that the coordinator, which needs adding_seconds to add each, keeps up with so many
-    workers."""
+    """The shortest parts with which the coordinator keeps up, at adding_seconds each."""
     return max(workers * adding_seconds / BUSY_SHARE, LEAST_SECONDS)

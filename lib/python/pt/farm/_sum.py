@@ -1,4 +1,4 @@
-"""The picture so far, as the exact sum of the parts that came back, and its file."""
+"""The picture so far: the exact sum of returned parts, and its file."""
 
 from __future__ import annotations
 
@@ -16,11 +16,10 @@ from pt.farm._identity import Identity, identity_of, with_models
 from pt.farm._workers import now
 
 PIXEL_BYTES = 112
-# Adding a part to a film costs time for the film's tiles, too, not only for the part's. So parts are first added to
-# each other. With batches of 1/8, 1/16, 1/32 and 1/64 of a film, adding 254 parts of 128 tiles took 0.64, 0.68, 0.69
-# and 0.68 s of a processor; 1/8 took 2.5 films of memory and 1/32 1.5.
+# Adding a part also costs time for the film's tiles, so parts are first added to each other, up to this share of a
+# film. 1/8 to 1/64 take about equal time; 1/32 takes less memory than 1/8.
 BATCH_SHARE = 1 / 32
-SHOW_SHARE = 0.02  # of the time, for adding early so that the picture so far is recent
+SHOW_SHARE = 0.02  # of the time, for early additions that keep the picture recent
 
 
 class Sum:
@@ -35,10 +34,10 @@ class Sum:
         self._bytes = self._freed = 0
         self._most_bytes = int(BATCH_SHARE * PIXEL_BYTES * width * height)
         self._merged, self._cost = now(), 0.0
-        self.seconds = 0.0  # total time of merging
+        self.seconds = 0.0  # of merging, in all
 
     def add(self, part: Film, size: int, models: frozenset[str]) -> None:
-        """Adds a part. size: of its bytes. models: of the device that took its samples."""
+        """size: bytes. models: the part's device."""
         if self._mixed and not models <= self._models:
             self.merge()
             self._models |= models
@@ -55,7 +54,7 @@ class Sum:
         return self._bytes >= self._most_bytes or now() - self._merged > self._cost / SHOW_SHARE
 
     def merge(self) -> None:
-        """Adds the waiting parts to the film, after adding them to each other, since sums of few tiles are short."""
+        """Adds waiting parts to each other first, because sums of few tiles are cheap."""
         if not self._parts:
             return
         start, sums = now(), deque(self._parts)
@@ -78,15 +77,14 @@ class Sum:
 
 
 def _give_back() -> None:
-    """Returns the memory of freed parts to the system: glibc keeps some for each thread, in total more than a film
-    takes."""
+    """Returns freed memory to the system: glibc keeps some per thread, together more than a film."""
     with contextlib.suppress(AttributeError, OSError):  # not glibc
         ctypes.CDLL(None).malloc_trim(0)
 
 
 def write_film(film: Film, path: Path) -> None:
-    """Writes the film's bytes, packed by zstd like the program's if there is a module for it; `pt merge` and `pt render
-    --resume` read both."""
+    """Writes the film, packed by zstd like the program's if a module is installed; `pt merge` and `pt render --resume`
+    read both."""
     packer = _zstd.packer(film.size)
     if packer is None:
         film.save(path)
@@ -100,7 +98,7 @@ def write_film(film: Film, path: Path) -> None:
 
 
 def read_film(path: Path) -> Film | None:
-    """Reads a film from a file; None if there is no file yet."""
+    """Reads a film; None without a file."""
     if not pathlib.Path(path).exists():
         return None
     try:

@@ -1,4 +1,4 @@
-"""The functions that run on workers."""
+"""Functions that run on workers."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ PERMANENT = (InvalidSceneError, InvalidArgumentError, IncompatibleError)
 
 @dataclass(frozen=True)
 class Outcome:
-    """The outcome of a task: its film, packed, or an error."""
+    """A task's film, packed, or its error."""
 
     data: bytes = b""
     seconds: float = 0.0
@@ -35,8 +35,7 @@ class Outcome:
 
 
 def fault_of(value: object, seconds: float) -> str:
-    """What is wrong with a value that should be the Outcome of a task given out so many seconds ago: a worker may send
-    anything. Empty if nothing is."""
+    """The fault of a task's value, because a worker may send anything; "" if none. seconds: since it was given out."""
     if not isinstance(value, Outcome):
         return f"a value of type {type(value).__name__}"
     for name, kind in (("data", bytes), ("seconds", float), ("is_cpu", bool), ("error", str),
@@ -62,7 +61,7 @@ class _Ready:
     has_failed: bool = False
 
 
-_lock = threading.Lock()  # one call at a time, since a worker has one renderer however many threads it has
+_lock = threading.Lock()  # a worker has one renderer for all of its threads
 _ready: _Ready | None = None
 
 
@@ -73,7 +72,7 @@ def _failed(error: Exception) -> Outcome:
 
 
 def introduce(data: bytes, codecs: frozenset[str]) -> Outcome:
-    """Makes a worker ready for a packed job, replacing the one before. Returns the film of its first part."""
+    """Prepares a worker for a packed job, replacing the last one. Returns its first part's film."""
     global _ready
     with _lock:
         try:
@@ -89,12 +88,12 @@ def introduce(data: bytes, codecs: frozenset[str]) -> Outcome:
 
 
 def render_part(name: str, part: Part, codecs: frozenset[str]) -> Outcome:
-    """The film of a part of the job called name. codecs: those of the coordinator."""
+    """The film of a part of the named job. codecs: the coordinator's."""
     with _lock:
         try:
             if _ready is None or _ready.name != name:
                 raise RuntimeError("this worker has another job")
-            if _ready.has_failed:  # only a new context or process can get a lost device back
+            if _ready.has_failed:  # a lost device needs a new context or process
                 _ready.renderer.close()
                 _ready.renderer, _ready.has_failed = renderer_of(_ready.job), False
             start = time.monotonic()
@@ -107,7 +106,7 @@ def render_part(name: str, part: Part, codecs: frozenset[str]) -> Outcome:
 
 
 def codecs() -> frozenset[str]:
-    """The packers of this machine, besides Python's own zlib."""
+    """This machine's packers, besides zlib."""
     return frozenset({"zstd"} if _zstd.module() else ())
 
 
@@ -117,7 +116,7 @@ def pack(data: bytes, theirs: frozenset[str]) -> bytes:
 
 
 def unpack(data: bytes) -> bytes:
-    """The contents of packed bytes. ValueError: they are damaged."""
+    """ValueError: the bytes are damaged."""
     try:
         return bytes(_zstd.module().decompress(data)) if data.startswith(_zstd.MAGIC) else zlib.decompress(data)
     except Exception as error:

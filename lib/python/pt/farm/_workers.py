@@ -1,4 +1,4 @@
-"""The workers of a Dask cluster, as a coordinator sees them."""
+"""A Dask cluster's workers, as seen by the coordinator."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from pt.farm._part import Part
 from pt.farm._speed import Speed
 from pt.farm._task import Outcome, fault_of
 
-FETCH_SECONDS = 60.0  # for a film, of 35 MB if it has all of 1920x1080
-MOST_FETCHED = 16  # results that are on their way or waiting: more would only fill the memory
+FETCH_SECONDS = 60.0  # for a film, up to 35 MB at 1920x1080
+MOST_FETCHED = 16  # results travelling or waiting, to bound memory
 
 _fetching = threading.BoundedSemaphore(MOST_FETCHED)
 
@@ -25,9 +25,9 @@ Done = Callable[[Any, "Outcome | None"], None]  # future, and its outcome; None:
 
 @dataclass
 class Try:
-    """A part that a worker has been given."""
+    """A part given to a worker."""
 
-    number: int  # the part's; a duplicate has the same
+    number: int  # the part's; duplicates share it
     part: Part
     future: Any
     issued: float
@@ -40,18 +40,18 @@ class Member:
 
     address: str
     joined: float
-    identity: Identity | None = None  # the identity of its films, once it is ready
+    identity: Identity | None = None  # of its films, once it is ready
     is_cpu: bool = False
     speed: Speed = field(default_factory=Speed)
-    tries: dict[Any, Try] = field(default_factory=dict)  # by key of the future
+    tries: dict[Any, Try] = field(default_factory=dict)  # by the future's key
     introduction: Any = None
     failures: int = 0  # in a row
-    is_late: bool = False  # it gets nothing until it has given something back
+    is_late: bool = False  # gets nothing until it returns something
     is_banned: bool = False
 
     @property
     def busy_until(self) -> float:
-        """The time until which the worker should be busy, by its speed."""
+        """Expected end of its work."""
         return max((each.issued + each.expected for each in self.tries.values()), default=0.0)
 
     @property
@@ -63,19 +63,18 @@ class Member:
 
 
 def addresses(client: Any) -> set[str]:
-    """The addresses of all workers, without what else the scheduler knows of each. OSError: the scheduler is gone."""
+    """Addresses of all workers. OSError: the scheduler is gone."""
     if client.status not in ("running", "connecting"):
         raise OSError("the connection to the scheduler has ended")
     return set(client.nthreads())
 
 
 def submit(client: Any, address: str, done: Done, function: Callable[..., Any], *arguments: Any) -> Any:
-    """Runs a function on one particular worker and fetches the result from the worker itself. done is called by
-    threads."""
+    """Runs a function on one worker and fetches the result directly from it. Threads call done."""
     start = now()
     future = client.submit(function, *arguments, workers=[address], allow_other_workers=False, pure=False, retries=0)
 
-    # A thread for each result: its worker may have been stopped since, so that fetching it would take for ever.
+    # A thread per result: fetching from a stopped worker would never end.
     def fetch(ended: Any) -> None:
         threading.Thread(target=fetch_one, args=(ended, now() - start), daemon=True).start()
 
@@ -88,13 +87,13 @@ def submit(client: Any, address: str, done: Done, function: Callable[..., Any], 
 
 
 async def _gathered(client: Any, future: Any) -> object:
-    """Dask fetches five at a time, so that some stopped workers would hold up all others for ever."""
+    """Dask fetches five at a time, so a few stopped workers would block all others."""
     results = await asyncio.wait_for(client.gather([future], direct=True, asynchronous=True), FETCH_SECONDS)
     return results[0]
 
 
 def _fetched(client: Any, future: Any, seconds: float) -> Outcome | None:
-    """The outcome of a task. Whatever a living worker did wrong becomes an outcome that counts against it."""
+    """A task's outcome. Any fault of a living worker becomes an outcome that counts against it."""
     if future.status not in ("finished", "error"):
         return None
     try:
