@@ -1,15 +1,15 @@
-"""Writes what follows from the headers: their structs and enumerations in Python (pt/_structs.py, pt/_enums.py), the
-numbers that kernels know (shaders/enumerations.h), and the program's names of values (cli/base/enumerations.h).
+"""Generates from the headers: structs and enumerations in Python (pt/_structs.py, pt/_enums.py), the kernels' numbers
+(shaders/enumerations.h), and the program's names of values (cli/base/enumerations.h).
 
 python3 lib/python/generate.py [HEADERS [ROOT]]; by default those of this tree. The files are committed, because the
-package is installed without the headers and without a build; a test asserts that they are what this script writes."""
+package is installed without headers and build; a test compares them."""
 
 import pathlib
 import re
 import sys
 import textwrap
 
-# For each enumeration: the prefix of its names, its Python class, the base of that, and its docstring.
+# Prefix, Python class, its base and docstring.
 ENUMERATIONS = (
     ("PT_QUANTITY_", "Quantity", "IntEnum", "What is read of an image."),
     ("PT_FORMAT_", "Format", "IntEnum", "What a pixel is; A is 1."),
@@ -31,8 +31,7 @@ ENUMERATIONS = (
                                  "first four."),
 )
 
-# Of enumerations that the program names: its table of them, and what stands between the words of a name. And those that
-# kernels know.
+# Enumerations that the program names (its table, and the separator of words), and those that kernels know.
 OF_PROGRAM = {"PT_SAMPLER_": ("samplers", "-"), "PT_SAMPLING_": ("samplings", "-"), "PT_ESTIMATOR_": ("estimators", "-"),
               "PT_PROJECTION_": ("projections", "-"), "PT_FEATURE_": ("features", "_"),
               "PT_UNCERTAIN_": ("uncertainties", "_")}
@@ -60,7 +59,7 @@ def python_type(declared, known):
 
 
 def members_of(body):
-    """Names and types of a struct's members, which are declared one a line."""
+    """Names and types of a struct's members, declared one per line."""
     for declaration in filter(None, (" ".join(part.split()) for part in body.split(";"))):
         kind, name, array = re.fullmatch(r"(.*?)(\w+)((?:\[\d+\])*)", declaration).groups()
         yield name, kind.strip() + array
@@ -91,7 +90,7 @@ def structs_text(headers):
 
 
 def first_words(comment):
-    """The part of a comment before the first break in its sentence."""
+    """The comment up to the first break in its sentence."""
     return re.split(r"[:;.](?:\s|$)", " ".join(comment.replace("*", " ").split()))[0]
 
 
@@ -141,7 +140,7 @@ def program_text(headers):
 
 
 def files_of(headers):
-    """The text of each file, by its path; headers: their texts by name."""
+    """path -> text of each file; headers: text by name."""
     ordered = [headers["pt.h"], *(text for name, text in sorted(headers.items()) if name not in ("pt.h", "vulkan.h"))]
     return {"lib/python/pt/_structs.py": structs_text(ordered), "lib/python/pt/_enums.py": enums_text(ordered),
             "shaders/enumerations.h": kernel_text(ordered), "cli/base/enumerations.h": program_text(ordered)}

@@ -1,6 +1,6 @@
 #!python
-"""The command pt of a wheel: becomes the package's program, without importing the package, and NumPy with it. Finds pt-figure
-and others beside itself, also where they are not in the PATH."""
+"""A wheel's command pt: becomes the package's program without importing the package and NumPy. Finds pt-figure and
+others beside itself, even outside the PATH."""
 import importlib.util
 import os
 import sys

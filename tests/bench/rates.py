@@ -5,8 +5,7 @@
 Runs the program on scenes of cli/scenes. Every round runs all cases in turn; figures are medians.
 
 samples/s       from the difference of two sample counts, without start-up; per wall second of sampling and per CPU
-second
-                (not on a GPU)
+                second (not on a GPU)
 first, cold     seconds to create the context and take the first sample without compiled kernels
 first, warm     the same with kernels compiled by an earlier process
 start to PNG    wall seconds of the whole process for 16 samples, warm

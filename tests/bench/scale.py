@@ -15,8 +15,7 @@ bytes           device memory per sphere: pt_stats.device_bytes with and without
 first           seconds from the scene to a picture of one sample at the first path length, including compilation (the
                 driver's disk cache is off; Mitsuba has its own)
 M/s, M/CPU s    million samples per wall and per CPU second (not on a GPU). From path length 3 on a sample follows 1 to
-4
-                paths from its first vertex in pt, one in Mitsuba
+                4 paths from its first vertex in pt, one in Mitsuba
 
 With --error-samples a second table compares costs at equal error, at the first path length: relMSE, the mean of (x -
 r)^2 / (r^2 + 0.01), at this many samples (4 times as many in Mitsuba), against a reference r by the first library of 64

@@ -30,7 +30,7 @@ from pt._library import library, version_text
 from pt._scene import Material, Plane, Scene, Sphere, SphereArray
 from pt._stats import DeviceInfo, ErrorEstimate, Stats, devices
 
-if TYPE_CHECKING:  # imported by __getattr__ when first used: figures take as long as all the rest
+if TYPE_CHECKING:  # imported by __getattr__ on first use: figures take as long as all the rest
     from pt._render import render
     from pt.figures import Figure, figure
 
@@ -51,9 +51,9 @@ def version() -> str:
     return version_text(library())
 
 
-if not TYPE_CHECKING:  # type checkers would take it to allow any name
+if not TYPE_CHECKING:  # type checkers would allow any name
     def __getattr__(name):
-        """Loads the library and figures when they are first used, not when pt is imported."""
+        """Loads the library and figures on first use, not on import."""
         if name == "__version__":
             return version()
         modules = {"Figure": "pt.figures", "figure": "pt.figures", "render": "pt._render"}

@@ -1,10 +1,9 @@
-"""Python functions that the library calls, and what they raise.
+"""Python callbacks of the library, and their exceptions.
 
-Python runs signal handlers between the instructions of Python code, so while the library is at work they run in its
-callbacks. Ctrl-C raises KeyboardInterrupt there, often before the first instruction that a `try` could enclose. ctypes
-lets no exception pass through C, but hands it to sys.unraisablehook. A CallbackGuard takes the exceptions of its own
-callbacks from there; the library is told to stop at its next callback, and the exception is raised when the call has
-returned.
+Python runs signal handlers between instructions of Python code, so during a call of the library they run in its
+callbacks. Ctrl-C raises KeyboardInterrupt there, often before any `try`. ctypes does not pass exceptions through C, but
+to sys.unraisablehook. A CallbackGuard takes its callbacks' exceptions from there; the library stops at its next
+callback, and the exception is raised when the call has returned.
 """
 
 from __future__ import annotations
@@ -23,7 +22,7 @@ Log = Callable[[LogLevel, str], object]
 
 
 class CallbackGuard:
-    """Used by `with` around one call of the library; afterwards, raises what was caught."""
+    """Encloses one call of the library by `with`; afterwards raises the caught exception."""
 
     def __init__(self) -> None:
         self.error: BaseException | None = None
@@ -42,11 +41,11 @@ class CallbackGuard:
             raise self.error
 
     def watch(self, function: Callable[..., Any]) -> None:
-        """From now on, catches what this function raises."""
+        """Catches this function's exceptions from now on."""
         self._functions.append(function)
 
     def progress(self, function: Progress | None) -> Any:
-        """A pt_progress_fn that asks to stop once something was raised, or the function has returned True."""
+        """A pt_progress_fn that stops after an exception, or once the function returns True."""
 
         def report(_: object, fraction: float) -> int:
             if self.error is not None:
@@ -57,13 +56,13 @@ class CallbackGuard:
         return structs.pt_progress_fn(report)
 
     def takes(self, function: object, words: str | None) -> bool:
-        """Whether a function that raised belongs to this call. From Python 3.13 on, only a text with its address tells
-        which function it was."""
+        """Whether a function that raised belongs to this call. From Python 3.13 on, only a text with its address
+        identifies it."""
         return any(own is function or (words is not None and repr(own) in words) for own in self._functions)
 
 
 class _Hook:
-    """Replaces sys.unraisablehook while calls are under way."""
+    """Replaces sys.unraisablehook during calls."""
 
     def __init__(self, before: Callable[[Any], object]) -> None:
         self.before = before

@@ -1,4 +1,4 @@
-"""The camera, and the settings of a rendering."""
+"""The camera, and render settings."""
 
 from __future__ import annotations
 
@@ -18,17 +18,16 @@ from pt._vectors import Vector, vector
 
 @dataclass(frozen=True)
 class Camera:
-    """A pinhole; with an aperture, a thin lens; or, with a vertical_extent, parallel rays.
+    """A pinhole; with an aperture a thin lens; with a vertical_extent parallel rays.
 
     position          of the pinhole, scene units; parallel rays start on the plane through it across the view
     target            the point in the middle of the image; must differ from position
-    up                not parallel to the viewing direction; its part perpendicular to that is the image's vertical axis
+    up                not parallel to the viewing direction; its perpendicular part is the image's vertical axis
     vertical_fov      full vertical angle, radians, in [1e-8, pi); default pi / 4. None with parallel rays
     shutter           light is gathered evenly between these times, 0 <= open <= close <= 1
-    vertical_extent   None: a perspective. A number: orthographic projection by parallel rays; full height of the view,
-                      scene units, in [1e-18, 1e18]
+    vertical_extent   full height of the view of parallel rays, scene units, in [1e-18, 1e18]; None: perspective
     aperture          diameter of the lens, scene units, at most twice the focus; 0: a pinhole
-    focus             depth of the plane in focus, along the viewing direction, scene units; 0: the distance of target
+    focus             depth of the plane in focus, scene units; 0: the distance of target
     """
 
     position: Vector
@@ -46,7 +45,7 @@ class Camera:
         elif self.vertical_fov is not None:
             raise ValueError(f"camera.vertical_fov = {self.vertical_fov}: must be None with a vertical_extent, which is "
                              "of an orthographic projection")
-        elif self.vertical_extent == 0.0:  # the library's default, none
+        elif self.vertical_extent == 0.0:  # the library's default: perspective
             raise ValueError("camera.vertical_extent = 0: must be > 0")
         for name in ("position", "target", "up"):
             object.__setattr__(self, name, vector(name, getattr(self, name)))
@@ -55,13 +54,13 @@ class Camera:
     def around(center: npt.ArrayLike, radius: npt.ArrayLike, *, direction: Vector = (0.5, 0.4, 1.0),
                up: Vector = (0.0, 1.0, 0.0), vertical_fov: float = math.pi / 6, aspect: float = 4 / 3,
                margin: float = 1.05) -> Camera:
-        """The nearest camera that sees all of many spheres.
+        """The nearest camera that sees all spheres.
 
         center      shape (n, 3), n >= 1, scene units
         radius      shape (n,), or one number for all
         direction   from the spheres to the camera, any length but 0
         aspect      width / height of the image
-        margin      width of the view, over that which just holds the spheres
+        margin      width of the view over the tightest one
         """
         centers = real_column("center", center, 3, None)
         if not len(centers):
@@ -78,7 +77,7 @@ class Camera:
         return Camera(position=position, target=position - distance * back, up=up, vertical_fov=vertical_fov)
 
     def axes(self) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.float64]]:
-        """Unit vectors to the right and up in the image, and from the target to the camera."""
+        """Unit vectors right and up in the image, and from the target to the camera."""
         return _axes(np.subtract(self.position, self.target), self.up)
 
     @property
@@ -86,14 +85,14 @@ class Camera:
         return Projection.PERSPECTIVE if self.vertical_extent is None else Projection.ORTHOGRAPHIC
 
     def _scaled(self, scale: float) -> Camera:
-        """With all lengths multiplied by a number."""
+        """Multiplies all lengths."""
         extent = self.vertical_extent
         return replace(self, position=np.multiply(self.position, scale), target=np.multiply(self.target, scale),
                        vertical_extent=None if extent is None else extent * scale,
                        aperture=self.aperture * scale, focus=self.focus * scale)
 
     def _section(self) -> dict[str, Any]:
-        """The section of a scene file."""
+        """The scene file's section."""
         section: dict[str, Any] = {"position": list(self.position), "look_at": list(self.target), "up": list(self.up)}
         shutter = {} if tuple(self.shutter) == (0.0, 1.0) else {"shutter": list(self.shutter)}
         if self.vertical_fov is None:
@@ -103,7 +102,7 @@ class Camera:
 
     @staticmethod
     def _of_section(section: dict[str, Any]) -> Camera:
-        """The camera of a section. ValueError, TypeError, KeyError: it is none."""
+        """The camera of a section. ValueError, TypeError, KeyError: not a camera."""
         others = {name: float(section[name]) for name in ("vertical_extent", "aperture", "focus") if name in section}
         angle = section.get("vertical_fov")
         first, last = map(float, section.get("shutter", (0.0, 1.0)))
@@ -140,11 +139,10 @@ class RenderSettings:
     width, height     pixels, >= 1
     max_path_length   surface vertices after the camera, in [1, 1024]; 1 is emission only
     seed              equal inputs, device, driver and seed give equal bits
-    first_sample      index of the first sample: samples a to b of one sequence may be taken anywhere, and their films
-                      add up
+    first_sample      index of the first sample: ranges of one sequence may be taken anywhere, and their films add up
     estimator         how light is found
     sampler           where a sample's numbers come from
-    first_row         only the rows from this one on are rendered, and read back as an image of their own
+    first_row         the first row rendered; rows are read back as an image of their own
     row_count         0: all from first_row on
     """
 
@@ -169,5 +167,5 @@ class RenderSettings:
             row_count=self.row_count)
 
     def shape(self) -> tuple[int, int]:
-        """Rows and columns of what is read back."""
+        """Rows and columns of images read back."""
         return self.row_count or self.height - self.first_row, self.width

@@ -1,4 +1,4 @@
-"""NumPy arrays as columns of many spheres, read where they are if their layout allows it."""
+"""NumPy arrays as columns of spheres, read in place if the layout allows."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ TYPES: Final = {np.dtype(np.float32): ColumnType.FLOAT32, np.dtype(np.float64): 
 
 
 def _readable(array: Array) -> bool:
-    """Whether a pt_column can say where its numbers are: components side by side, spheres in ascending order."""
+    """Whether a pt_column can describe it: components side by side, spheres ascending."""
     if array.ndim == 2 and array.strides[1] != array.itemsize:
         return False
     sphere_bytes = array.itemsize * (array.shape[1] if array.ndim == 2 else 1)
@@ -26,7 +26,7 @@ def _readable(array: Array) -> bool:
 
 
 def _laid_out(name: str, array: Array, components: int, count: int | None) -> Array:
-    """Shape (count, 3) for three components, (count,) for one; one value for all has a stride of 0."""
+    """Shape (count, 3) for three components, (count,) for one; one value for all has stride 0."""
     single = (3,) if components == 3 else ()
     if array.shape == single and count is not None:
         return np.broadcast_to(array, (count, *single))
@@ -40,8 +40,8 @@ def _laid_out(name: str, array: Array, components: int, count: int | None) -> Ar
 
 
 def real_column(name: str, values: npt.ArrayLike, components: int, count: int | None) -> Array:
-    """float32 and float64 in the machine's byte order as they are; other numbers are copied, small floats as float32
-    and all others as float64."""
+    """float32 and float64 of native byte order stay; other numbers are copied, small floats to float32, others to
+    float64."""
     array = np.asarray(values)
     if array.dtype.kind not in "fiu":
         raise TypeError(f"{name}.dtype = {array.dtype}: must be of real numbers")
@@ -51,7 +51,7 @@ def real_column(name: str, values: npt.ArrayLike, components: int, count: int | 
 
 
 def check_finite(name: str, values: npt.ArrayLike, *, positive: bool = False) -> None:
-    """Raises ValueError, which names the first bad value by row and column."""
+    """Raises ValueError naming the first bad value by row and column."""
     array = np.asarray(values)
     good = np.isfinite(array)
     if positive:
@@ -85,7 +85,7 @@ def index_column(name: str, values: npt.ArrayLike, count: int) -> Array:
 
 
 def column_of(array: Array | None) -> structs.pt_column:
-    """The library's view of a column, which lives as long as the array."""
+    """The library's view of a column, valid as long as the array."""
     if array is None:
         return structs.pt_column()
     stride = array.strides[0] if len(array) > 1 else 0

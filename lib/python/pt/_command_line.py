@@ -1,4 +1,4 @@
-"""What the commands of the package share: exit codes, numbers of options, and names of files and series."""
+"""Shared by the package's commands: exit codes, numbers, names of files and series."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from typing import Any
 from pt._enums import Result
 from pt._files import format_of
 
-# Exit codes, the same as pt's.
+# pt's exit codes.
 INTERNAL, USAGE, SCENE, NO_DEVICE, LOST, FILES, TARGET_MISSED, SIGNAL = 1, 2, 3, 4, 5, 6, 7, 128
 CODE_OF_RESULT = {Result.ERROR_INVALID_ARGUMENT: USAGE, Result.ERROR_INCOMPATIBLE: USAGE,
                   Result.ERROR_INVALID_SCENE: SCENE, Result.ERROR_UNSUPPORTED: NO_DEVICE,
@@ -21,7 +21,7 @@ CODE_OF_RESULT = {Result.ERROR_INVALID_ARGUMENT: USAGE, Result.ERROR_INCOMPATIBL
 
 
 def at_least(least: float, kind: type) -> Callable[[str], Any]:
-    """A type for argparse: numbers of this kind, from least on."""
+    """An argparse type: numbers of this kind, from least on."""
     def read(text: str) -> Any:
         try:
             value = kind(text)
@@ -35,8 +35,8 @@ def at_least(least: float, kind: type) -> Callable[[str], Any]:
 
 
 def misnamed(files: Sequence[tuple[str, Sequence[str]]], source: str) -> tuple[str, int] | None:
-    """What is wrong with the names of files to be written, and the exit code for it; None if all are good. Each name
-    comes with the formats that it may have, empty if any will do. source: the file that is read."""
+    """Why names of output files are wrong, and the exit code; None if they are good. Each has its permitted formats,
+    empty for any. source: the file that is read."""
     for name, formats in files:
         place = pathlib.Path(name)
         try:
@@ -53,7 +53,7 @@ def misnamed(files: Sequence[tuple[str, Sequence[str]]], source: str) -> tuple[s
 
 
 def numbered(pattern: str, number: int | None) -> str:
-    """The name with its last # signs replaced by the number, if there is one, as by pt render --frames."""
+    """Replaces the name's last # signs by the number, if given, like pt render --frames."""
     if number is None:
         return pattern
     return re.sub(r"#+(?=[^#]*$)", lambda place: str(number).zfill(len(place.group())), pattern)

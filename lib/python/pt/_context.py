@@ -29,31 +29,28 @@ MOST_SAMPLES = 2**32 - 1
 
 
 class Context:
-    """One renderer, on one device or several: set a scene, a camera and settings, accumulate samples, read the image.
+    """One renderer on one or several devices: set a scene, a camera and settings, accumulate samples, read the image.
 
-    device                None: the best one. Otherwise an index into devices(), "gpu", "cpu", a UUID, or a part of a
+    device                None: the best one. Otherwise an index into devices(), "gpu", "cpu", a UUID, or part of a
                           name. "all" devices of the best kind, or several separated by commas, share the samples
     log                   called with level and line, during any call
-    validation            the Khronos validation layer reports to log; UnsupportedError where it is absent
-    scene_kernels         False: no kernels with a scene's numbers as constants, for scenes that change from frame to
-                          frame
-    submit_milliseconds   intended length of a submission to a device, in [1, 1000]; decides how soon calls can be
-                          stopped
+    validation            the Khronos validation layer reports to log; UnsupportedError without it
+    scene_kernels         False: no kernels with a scene's numbers as constants, for scenes that change every frame
+    submit_milliseconds   intended length of a submission, in [1, 1000]; decides how soon calls can be stopped
     shader_dir            a folder of GLSL files to compile in place of the library's kernels, as pt/shaders.h says;
-                          ShaderError where one does not compile
+                          ShaderError if one does not compile
 
     Use it by `with`, or close() it; otherwise the garbage collector, or the end of the program, closes it.
 
-    Threads: different contexts are independent, and the interpreter's lock is released during calls. A context takes
-    one call at a time: another call meanwhile, from another thread or from a callback, raises InvalidStateError. After
-    os.fork() a child cannot use its parent's contexts (InvalidStateError): start workers by
-    multiprocessing.get_context("spawn").
+    Threads: contexts are independent, and calls release the interpreter's lock. A context takes one call at a time;
+    another, from another thread or a callback, raises InvalidStateError. After os.fork() a child cannot use its
+    parent's contexts (InvalidStateError): start workers by multiprocessing.get_context("spawn").
 
-    Callbacks run on the calling thread. An exception in a callback, or in a signal handler meanwhile, such as that of
-    Ctrl-C, stops the call at its next callback, and the call raises it; the context stays usable. Progress functions
-    are called with the share of the call that is done, in [0, 1], and stop it by returning True.
+    Callbacks run on the calling thread. An exception in a callback, or in a signal handler such as Ctrl-C's, stops the
+    call at its next callback, and the call raises it; the context stays usable. Progress functions get the share of the
+    call that is done, in [0, 1], and stop it by returning True.
 
-    Errors are subclasses of Error. A call that fails has changed nothing, except that a lost device stays lost and
+    Errors are subclasses of Error. A failed call has changed nothing, except that a lost device stays lost and
     accumulate may have taken some of its samples.
     """
 
@@ -64,8 +61,7 @@ class Context:
         self._in_call = False
         self._shape: tuple[int, int] | None = None
         self._log = log
-        # The function that the library calls must outlive the context, but must not keep it alive: log may refer to the
-        # context.
+        # The callback must outlive the context without keeping it alive: log may refer to the context.
         this = weakref.ref(self)
         self._log_function = log_function(lambda: getattr(this(), "_log", None))
         log_pointer = structs.pt_log_fn(self._log_function)
@@ -89,7 +85,7 @@ class Context:
         guard.raise_caught()
 
     def close(self) -> None:
-        """Frees everything; a second call does nothing. InvalidStateError: another call is under way."""
+        """Frees everything; a second call does nothing. InvalidStateError: another call is running."""
         if self._handle is None:
             return
         if self._in_call:
@@ -109,40 +105,42 @@ class Context:
 
     @property
     def device(self) -> DeviceInfo:
-        """The device that this context runs on; of several, the first."""
+        """The context's device; of several, the first."""
         info = structs.pt_device_info()
         self._call("pt_get_context_device", info)
         return device_of(info)
 
     def set_scene(self, scene: Scene, progress: Progress | None = None) -> Result:
-        """Takes over a scene, and discards the samples so far. Ten million spheres take some seconds.
+        """Sets a scene and discards the samples so far. Ten million spheres take some seconds.
 
-        Result.CANCELLED: progress returned True, and everything is as before. If something is raised after progress was
-        called with 1, the new scene may have been set all the same. InvalidSceneError: a rule is broken, such as
-        "spheres[3].radius = -1: must be > 0"; the message has a line for each."""
+        Result.CANCELLED: progress returned True, and everything is as before. After an exception that follows
+        progress(1) the new scene may be set all the same. InvalidSceneError: broken rules, such as "spheres[3].radius =
+        -1: must be > 0"; the message has a line for each."""
         guard = self._guard()
         scene_struct = SceneStruct(scene, guard, progress)
         return self._call("pt_set_scene", scene_struct.struct, guard=guard)
 
     def set_camera(self, camera: Camera) -> None:
-        """Takes over a camera, and discards the samples so far. InvalidArgumentError: a rule is broken."""
+        """Sets a camera and discards the samples so far. InvalidArgumentError: a rule is broken."""
         self._call("pt_set_camera", camera._struct())
 
     def set_render(self, settings: RenderSettings) -> None:
-        """Takes over render settings, and discards the samples so far. Takes 112 bytes a pixel of the device's memory.
+        """Sets render settings and discards the samples so far. Takes 112 bytes a pixel of device memory.
 
-        InvalidArgumentError: a rule is broken. UnsupportedError, OutOfDeviceMemoryError: render fewer rows at a
-        time."""
+        InvalidArgumentError: a rule is broken. UnsupportedError, OutOfDeviceMemoryError: render fewer rows at a time.
+        """
         self._call("pt_set_render", settings._struct())
         self._shape = settings.shape()
 
     def reload_shaders(self) -> None:
-        """Compiles the files of shader_dir as they are now. If the kernels differ, the samples so far are discarded.
+        """Compiles the files of shader_dir again. If the kernels differ, the samples so far are discarded.
+
         ShaderError: a file does not compile; kernels and samples are as before. InvalidStateError: no shader_dir."""
         self._call("pt_reload_shaders")
 
     def prepare(self) -> None:
-        """Builds the kernels that accumulate needs, ahead of it. Cannot be interrupted.
+        """Builds the kernels of accumulate in advance. Cannot be interrupted.
+
         InvalidStateError: scene, camera or settings are not set."""
         self._call("pt_prepare")
 
@@ -150,12 +148,12 @@ class Context:
                    progress: Progress | None = None) -> Result:
         """Adds samples to every pixel.
 
-        sample_count   >= 1; with a target error, the most samples to add
+        sample_count   >= 1; with a target error the most to add
         target_error   0: none. Otherwise sampling ends once ErrorEstimate.relative_rmse_high is at or below it, with
                        Result.TARGET_REACHED; 0.01 is 1%
         sampling       where samples go; by default adaptive with a target error, else uniform
-        progress       called after each submission, about every twentieth of a second; returning True ends the call
-                       with Result.CANCELLED and the whole samples that were taken
+        progress       called after each submission, about every twentieth of a second; True ends the call with
+                       Result.CANCELLED and the whole samples taken so far
         """
         if not 0 <= sample_count <= MOST_SAMPLES:
             raise ValueError(f"sample_count = {sample_count}: must be in [1, {MOST_SAMPLES}]")
@@ -165,10 +163,10 @@ class Context:
         return self._call("pt_accumulate", info, guard=guard)
 
     def accumulate_tiles(self, samples: npt.ArrayLike, *, progress: Progress | None = None) -> Result:
-        """Adds samples to some tiles, so that machines can share what Film.plan says.
+        """Adds samples to some tiles, so that machines can share what Film.plan decides.
 
-        samples    how many samples the pixels of each tile take, 0 for none; shape (rows, columns) or flat. Tiles are
-                   squares of 8 x 8 pixels from the top left of what is rendered, smaller at the right and lower edges
+        samples    to add to each pixel of a tile, or 0; shape (rows, columns) or flat. Tiles are 8 x 8 pixels from the
+                   top left of the rendered part, smaller at the right and lower edges
         progress   as in accumulate
         """
         counts = np.ascontiguousarray(samples, dtype=np.uint32).ravel()
@@ -180,13 +178,13 @@ class Context:
 
     def readback(self, quantity: Quantity = Quantity.RADIANCE, *, out: npt.NDArray[Any] | None = None,
                  rectangle: Rectangle | None = None, format: Format = Format.RGB32F) -> npt.NDArray[Any]:
-        """The image so far: an array of shape (height, width, 3), float32, row 0 at the top, or as format says.
+        """The image so far: an array of shape (height, width, 3), float32, row 0 at the top, or by format.
 
-        quantity    radiance (linear RGB), its standard error, ... OBJECT asks for the format R32UI
-        out         receives the pixels in place of a new array, and is returned: float32 with 3 or 4 channels, float16
-                    with 4 or uint32 with 1. The pixels of a row must be side by side; rows may be at any distance, as
-                    in a part of a larger array. It is never copied: ValueError if it does not fit
-        rectangle   x, y, width, height in pixels, from the top left of what is rendered; None: all of it
+        quantity    radiance (linear RGB), its standard error, ... OBJECT needs the format R32UI
+        out         receives the pixels in place and is returned: float32 with 3 or 4 channels, float16 with 4 or uint32
+                    with 1. Pixels of a row must be side by side; rows may be at any distance, as in a part of a larger
+                    array. Never copied: ValueError if it does not fit
+        rectangle   x, y, width, height in pixels, from the top left of the rendered part; None: all of it
         format      of a new array
 
         InvalidStateError: there is no sample."""
@@ -197,13 +195,13 @@ class Context:
         return pixels
 
     def stats(self) -> Stats:
-        """What has been done, and what it took."""
+        """Counts and costs so far."""
         struct = structs.pt_stats()
         self._call("pt_get_stats", struct)
         return stats_of(struct)
 
     def error_estimate(self) -> ErrorEstimate:
-        """How good the image is. The first call after samples were taken examines the whole image."""
+        """How good the image is. The first call after new samples examines the whole image."""
         struct = structs.pt_error_estimate()
         self._call("pt_get_error_estimate", struct)
         return error_estimate_of(struct)
@@ -213,14 +211,14 @@ class Context:
         return Film(bytes_from(lambda data, size: self._call("pt_save_film", data, size)))
 
     def add_film(self, film: Film) -> None:
-        """Adds the samples of a film of the same scene, camera and settings (first_sample may differ).
+        """Adds a film of the same scene, camera and settings (first_sample may differ).
+
         IncompatibleError: it is of another picture, or has samples that the context has already."""
         data = film.to_bytes()
         self._call("pt_add_film", data, len(data))
 
     def image(self) -> Image:
-        """Radiance, standard error and sample counts as they are now, with the error. InvalidStateError: there is no
-        sample."""
+        """Radiance, standard error and sample counts now, with the error. InvalidStateError: there is no sample."""
         return Image(self.readback(Quantity.RADIANCE), self.readback(Quantity.STANDARD_ERROR),
                      self.readback(Quantity.SAMPLE_COUNT), self.error_estimate(), self.stats())
 
@@ -228,8 +226,8 @@ class Context:
                target_error: float = 0.0, progress: Progress | None = None, denoise: bool = False) -> Image:
         """Sets all three, accumulates samples and returns the image, even if progress ended the sampling early.
 
-        denoise   takes half of the samples with each of two seeds, and denoises them, as pt.denoise says; a target error
-                  is that of the result
+        denoise   takes half of the samples with each of two seeds and denoises them, as pt.denoise says; a target error
+                  is the result's
 
         InvalidStateError: it ended before the first sample, or before there was something to denoise."""
         self.set_scene(scene)
@@ -246,13 +244,13 @@ class Context:
         return guard
 
     def _call(self, function: str, *arguments: Any, guard: CallbackGuard | None = None) -> Result:
-        """Calls a function on the context, and raises what a callback raised, or the library's error."""
+        """Calls a function on the context; raises a callback's exception or the library's error."""
         handle, guard = self._handle, guard or self._guard()
         if handle is None:
             raise InvalidStateError("the context is closed")
-        # A flag, not a lock: Python may raise KeyboardInterrupt when a lock's acquire() returns, but never between this
-        # test and `try`, nor does it switch threads there. Without a global lock (PEP 703) it may, and then the library
-        # refuses the call.
+        # A flag, not a lock: KeyboardInterrupt may come when a lock's acquire() returns, but neither it nor a switch of
+        # threads comes between this test and `try`. Without a global lock (PEP 703) they may; then the library refuses
+        # the call.
         if self._in_call:
             raise InvalidStateError("another call on this context is under way")
         self._in_call = True
@@ -266,5 +264,5 @@ class Context:
 
 
 def _destroy(loaded: ctypes.CDLL, handle: ctypes.c_void_p, _log: object) -> None:
-    """The arguments keep the functions alive that the library may call until then."""
+    """The arguments keep the library's callbacks alive until then."""
     loaded.pt_destroy(handle)

@@ -1,4 +1,4 @@
-"""Images without noise, by Open Image Denoise."""
+"""Denoised images by Open Image Denoise."""
 
 from __future__ import annotations
 
@@ -27,8 +27,8 @@ if TYPE_CHECKING:
 
 Pixels = npt.NDArray[np.float32]
 
-OTHER_SEED: Final = 2**63  # the bit in which the seeds of both images differ
-FIRST_SAMPLES: Final = 16  # of each of both, where a target error ends them
+OTHER_SEED: Final = 2**63  # the two images' seeds differ in this bit
+FIRST_SAMPLES: Final = 16  # per image, before the first check of a target error
 
 
 def denoise(first: npt.ArrayLike, second: npt.ArrayLike, albedo: npt.ArrayLike, normal: npt.ArrayLike, *,
@@ -36,14 +36,15 @@ def denoise(first: npt.ArrayLike, second: npt.ArrayLike, albedo: npt.ArrayLike, 
             ) -> tuple[Pixels, ErrorEstimate]:
     """A picture without noise, and its error.
 
-    first, second   radiance, shape (height, width, 3): two images of one scene with other RenderSettings.seed and all else
-                    equal. Two parts of one sequence depend on each other, and the error would be stated too small
+    first, second   radiance, shape (height, width, 3): two images that differ in RenderSettings.seed only. Two parts of
+                    one sequence are dependent, and the error would be stated too small
     albedo, normal  Quantity.ALBEDO and NORMAL, of the same shape
-    library_path    of Open Image Denoise 2; None: that of the module pyoidn, else the system's
-    any_device      on what it chooses, such as a GPU, or the environment's OIDN_DEFAULT_DEVICE says, instead of the CPU
+    library_path    of Open Image Denoise 2; None: the module pyoidn's, else the system's
+    any_device      its own choice of device, such as a GPU, or OIDN_DEFAULT_DEVICE's, instead of the CPU
 
-    The result lies between the mean of both and what the filter makes of them, where its error is least. UnsupportedError:
-    the library is not there; `pip install pyoidn`, or this package's extra denoise, brings it. ValueError: shapes differ.
+    The result lies between the mean of both and the filtered image, where its error is least. UnsupportedError: the
+    library is not installed; `pip install pyoidn`, or this package's extra denoise, brings it. ValueError: shapes
+    differ.
     """
     images = [np.ascontiguousarray(image, np.float32) for image in (first, second, albedo, normal)]
     shape = images[0].shape
@@ -61,7 +62,7 @@ def denoise(first: npt.ArrayLike, second: npt.ArrayLike, albedo: npt.ArrayLike, 
 
 
 def find_library() -> str | None:
-    """That of the module pyoidn, which is not imported."""
+    """The library in the module pyoidn, which is not imported."""
     spec = importlib.util.find_spec("pyoidn")
     for folder in spec.submodule_search_locations or () if spec else ():
         path = pathlib.Path(folder, "oidn", "lib", "libOpenImageDenoise.so.2")
@@ -72,7 +73,7 @@ def find_library() -> str | None:
 
 def render_denoised(context: Context, settings: RenderSettings, samples: int, target_error: float,
                     progress: Progress | None) -> Image:
-    """Takes half of the samples with each of two seeds; the context has a scene and a camera. With a target error it looks
+    """Takes half of the samples with each of two seeds; the context has a scene and a camera. A target error is checked
     after 16 samples of each, and whenever there are half as many again."""
     most = max(samples // 2, 1)
     halves = [settings, replace(settings, seed=settings.seed ^ OTHER_SEED)]

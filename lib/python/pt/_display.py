@@ -1,4 +1,4 @@
-"""From linear radiance to a picture, as the program pt does it by default: exposure, and IEC 61966-2-1 (sRGB)."""
+"""From linear radiance to a picture, as pt does by default: exposure, and IEC 61966-2-1 (sRGB)."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ MOST_STOPS = 64.0
 
 
 def automatic_exposure(radiance: npt.NDArray[Any]) -> float:
-    """The stops that bring the average of an image to middle grey: Reinhard, Stark, Shirley, Ferwerda 2002,
-    "Photographic Tone Reproduction for Digital Images", eqs. 1 and 2, for the mean of the channels, rounded to
-    hundredths. Pixels darker than 1/128 of the picture's level have less weight. The level is the mean, after values
-    above the mean were cut down to it, three times."""
+    """The stops that bring an image's average to middle grey: Reinhard, Stark, Shirley, Ferwerda 2002, "Photographic
+    Tone Reproduction for Digital Images", eqs. 1 and 2, for the mean of the channels, rounded to hundredths. Pixels
+    darker than 1/128 of the level have less weight. The level is the mean after clipping values to the mean three
+    times."""
     means = radiance.astype(np.float64).mean(axis=2)
     means = means[means > 0]
     if not means.size:
@@ -33,7 +33,7 @@ def automatic_exposure(radiance: npt.NDArray[Any]) -> float:
 
 
 def to_srgb8(radiance: npt.NDArray[Any], exposure: float) -> npt.NDArray[np.uint8]:
-    """255 times the sRGB signal of the radiance times 2^exposure, clamped to [0, 1]; halves are rounded up."""
+    """255 times the sRGB signal of radiance times 2^exposure, clamped to [0, 1]; halves round up."""
     pixels: npt.NDArray[np.uint8] = quantised(signal(radiance.astype(np.float64) * 2.0**exposure), np.uint8)
     return pixels
 
@@ -45,22 +45,22 @@ def signal(light: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
 
 
 def linear(signal: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-    """Linear light of an sRGB signal: the inverse of signal()."""
+    """The inverse of signal()."""
     return np.where(signal <= 0.04045, signal / 12.92, ((signal + 0.055) / 1.055)**2.4)
 
 
 def quantised(signal: npt.NDArray[np.float64], dtype: Any) -> npt.NDArray[Any]:
-    """The signal as whole numbers, 1 being the largest of the type."""
+    """The signal as integers; 1 is the type's largest."""
     numbers: npt.NDArray[Any] = np.floor(np.iinfo(dtype).max * signal + 0.5).astype(dtype)
     return numbers
 
 
 def encode_png(pixels: npt.NDArray[Any]) -> bytes:
-    """A PNG of sRGB from pixels of shape (height, width, 3), or 4 with alpha, uint8 or uint16; W3C, "Portable Network
-    Graphics (PNG) Specification", 2003."""
+    """An sRGB PNG from pixels of shape (height, width, 3), or 4 with alpha, uint8 or uint16 (W3C, "Portable Network
+    Graphics (PNG) Specification", 2003)."""
     height, width, channels = pixels.shape
     big_endian = np.ascontiguousarray(pixels, pixels.dtype.newbyteorder(">"))
-    unfiltered = np.zeros((height, 1), np.uint8)  # each row begins with the number of its filter: none
+    unfiltered = np.zeros((height, 1), np.uint8)  # each row begins with its filter: none
     rows = np.hstack([unfiltered, big_endian.view(np.uint8).reshape(height, -1)])
     kind = {3: 2, 4: 6}[channels]  # RGB or RGBA; zlib, no interlacing
     header = struct.pack(">IIBBBBB", width, height, 8 * pixels.itemsize, kind, 0, 0, 0)

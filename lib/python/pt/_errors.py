@@ -1,4 +1,4 @@
-"""Errors of the library as exceptions: a class for each result below 0."""
+"""The library's errors as exceptions: a class for each result below 0."""
 
 from __future__ import annotations
 
@@ -10,20 +10,20 @@ from pt._enums import Result
 
 @dataclass(frozen=True)
 class BrokenRule:
-    """A field and the rule that it breaks: `spheres[3].center[0] = nan: must be finite`."""
+    """A field and its broken rule: `spheres[3].center[0] = nan: must be finite`."""
 
     subject: str  # "materials", "spheres", "planes", "sphere_arrays", "scene", "camera", "render", ...
-    index: int | None  # which element of subject, if that is an array; else None
+    index: int | None  # the element of subject, if that is an array; else None
     member: str  # of the subject, as "center"; "" for a rule about the argument itself
-    component: int | None  # which element of member, if it has several; else None
-    joined_with: str  # what else enters the value, as "* height" beside "width"; else ""
+    component: int | None  # the element of member, if it has several; else None
+    joined_with: str  # the rest of the value, as "* height" beside "width"; else ""
     value: str  # "nan"
     rule: str  # "must be finite"
 
 
 class Error(Exception):
-    """A call of the library that failed, with the library's message. It has changed nothing, except that a lost device
-    stays lost and accumulate may have taken some of its samples."""
+    """A failed call, with the library's message. It has changed nothing, except that a lost device stays lost and
+    accumulate may have taken some of its samples."""
 
     result: Result
     broken_rules: tuple[BrokenRule, ...]
@@ -47,7 +47,7 @@ class InvalidSceneError(Error, ValueError):
 
 
 class InvalidStateError(Error, RuntimeError):
-    """Something has to be set or to end first, or another call is under way."""
+    """Something has to be set or to end first, or another call is running."""
 
     result = Result.ERROR_INVALID_STATE
 
@@ -95,7 +95,7 @@ class InternalError(Error, RuntimeError):
 
 
 class IncompatibleError(Error, ValueError):
-    """A film that does not belong to what is rendered, or to the other film, or that is damaged."""
+    """A film that does not belong to the picture or the other film, or is damaged."""
 
     result = Result.ERROR_INCOMPATIBLE
 

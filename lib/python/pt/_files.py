@@ -10,11 +10,11 @@ from typing import BinaryIO, Final, TypeAlias
 
 Path: TypeAlias = "str | os.PathLike[str]"
 
-PICTURES: Final = ("exr", "png", "jpg", "jpeg")  # endings of the files that the commands write
+PICTURES: Final = ("exr", "png", "jpg", "jpeg")  # endings of the commands' outputs
 
 
 def format_of(path: Path, formats: Sequence[str]) -> str:
-    """The ending of a name, in lower case and without its dot. ValueError: it is none of the formats."""
+    """The lower-case ending of a name without its dot. ValueError: not one of the formats."""
     ending = pathlib.Path(path).suffix.lower().removeprefix(".")
     if ending not in formats:
         *others, last = (f".{each}" for each in formats)
@@ -23,8 +23,7 @@ def format_of(path: Path, formats: Sequence[str]) -> str:
 
 
 def write_atomically(path: Path, write: Callable[[BinaryIO], object]) -> None:
-    """Writes a file under another name in the same folder and then renames it; what was there before stays until
-    then."""
+    """Writes to another name in the same folder, then renames; the old file stays until then."""
     place = pathlib.Path(path)
     beside = place.with_name(f".{place.name}.{uuid.uuid4().hex}")
     try:

@@ -1,4 +1,4 @@
-"""Films: the exact sums behind an image, which can be added."""
+"""Films: the exact sums behind an image, which add up."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ TILE_SIDE = 8  # pixels
 
 @dataclass(frozen=True)
 class FilmInfo:
-    """Which picture a film belongs to, and which part of it the film has."""
+    """A film's picture, and the film's part of it."""
 
     width: int  # of the whole image, pixels
     height: int
-    x: int  # first column of the smallest rectangle with all pixels of the film
+    x: int  # first column of the smallest rectangle with all of the film's pixels
     y: int  # its first row
     columns: int  # its width, pixels
     rows: int  # its height, pixels
@@ -45,7 +45,7 @@ class FilmInfo:
 
 @dataclass(frozen=True)
 class FilmTile:
-    """A rectangle of the image whose pixels have the same samples."""
+    """A rectangle of pixels with the same samples."""
 
     x: int  # first column, in the image
     y: int  # first row
@@ -55,13 +55,13 @@ class FilmTile:
 
 
 class Film:
-    """Samples of an image as exact sums, which need neither a device nor the scene.
+    """Samples of an image as exact sums, without a device or the scene.
 
-    Films of other samples or other pixels of the same picture add up, by + or sum(), in any order, to the bits of one
-    long rendering. They can be pickled, saved, loaded, and compared: films of equal samples are equal.
+    Films of other samples or pixels of the same picture add up, by + or sum(), in any order, to the bits of one long
+    rendering. They can be pickled, saved, loaded, and compared: equal samples make equal films.
 
-    Made by Context.film(), Film.load(path), or Film(data) from the bytes of another film; bytes need not be trusted
-    (IncompatibleError). A film takes 112 bytes a pixel. It does one call at a time; calls of other threads wait.
+    Made by Context.film(), Film.load(path), or Film(data) from another film's bytes, which need not be trusted
+    (IncompatibleError). A film takes 112 bytes a pixel. Calls of other threads wait for the current one.
     """
 
     def __init__(self, data: bytes) -> None:
@@ -74,8 +74,8 @@ class Film:
 
     @classmethod
     def load(cls, path: Path) -> Film:
-        """A film from a file of save(), of the program pt (--film, --checkpoint), or from anywhere else with the same
-        bytes. Files of the program are packed: to read them takes Python 3.14 or the module zstandard."""
+        """A film from a file of save() or the program pt (--film, --checkpoint). The program's files are packed: they
+        need Python 3.14 or the module zstandard."""
         with open(path, "rb") as file:
             return cls(file.read())
 
@@ -84,8 +84,8 @@ class Film:
         write_atomically(path, lambda file: self.stream(file.write))
 
     def stream(self, write: Callable[[bytes], object]) -> None:
-        """Gives the bytes of to_bytes() to a function in pieces of at most a megabyte, so that a film can be saved or
-        sent without being in memory twice. An exception in the function ends the call and is raised."""
+        """Passes the bytes of to_bytes() to a function in pieces of at most a megabyte, to save or send a film without
+        a second copy in memory. An exception of the function ends the call and is raised."""
         guard = CallbackGuard()
 
         def take(_: object, data: int, size: int) -> int:
@@ -117,7 +117,7 @@ class Film:
         return total
 
     def __radd__(self, other: int) -> Film:
-        """0 + film: sum() begins with 0."""
+        """0 + film, with which sum() begins."""
         if other != 0:
             return NotImplemented
         return self
@@ -147,7 +147,7 @@ class Film:
 
     @property
     def info(self) -> FilmInfo:
-        """What the film is of."""
+        """The film's picture and part."""
         struct = structs.pt_film_info()
         with self._lock:
             self._call("pt_get_film_info", struct)
@@ -158,7 +158,7 @@ class Film:
 
     @property
     def tiles(self) -> list[FilmTile]:
-        """Which samples which pixels have; a single tile where all have the same."""
+        """The tiles with their samples; a single one if all pixels have the same."""
         with self._lock:
             info = structs.pt_film_info()
             self._call("pt_get_film_info", info)
@@ -166,8 +166,8 @@ class Film:
 
     def readback(self, quantity: Quantity = Quantity.RADIANCE, *, out: npt.NDArray[Any] | None = None,
                  rectangle: Rectangle | None = None, format: Format = Format.RGB32F) -> npt.NDArray[Any]:
-        """The rectangle in FilmInfo, with the same bits as from Context.readback. Pixels that the film does not have
-        are black, with an infinite standard error."""
+        """The rectangle in FilmInfo, with the bits of Context.readback. Missing pixels are black, with an infinite
+        standard error."""
         with self._lock:
             info = self.info
             shape = info.rows, info.columns
@@ -176,13 +176,13 @@ class Film:
         return pixels
 
     def stats(self) -> Stats:
-        """How many samples the film has."""
+        """The film's sample counts."""
         struct = structs.pt_stats()
         self._call("pt_get_film_stats", struct)
         return stats_of(struct)
 
     def error_estimate(self) -> ErrorEstimate:
-        """How good the film's image is. A film does not know the scene's lamps, so Uncertain.UNMET is set whenever the
+        """How good the film's image is. A film does not know the scene's lamps, so Uncertain.UNMET is set if the
         estimator finds lamps by chance."""
         struct = structs.pt_error_estimate()
         self._call("pt_get_film_error_estimate", struct)
@@ -195,15 +195,15 @@ class Film:
                          self.readback(Quantity.SAMPLE_COUNT), self.error_estimate(), self.stats())
 
     def plan(self, target_error: float, most: int) -> tuple[Result, npt.NDArray[np.uint32]]:
-        """Decides which samples the film takes next on its way to a target error, as Context.accumulate does, so that
-        one machine can decide, and others take the samples (Context.accumulate_tiles).
+        """Decides the film's next samples on its way to a target error, as Context.accumulate does: one machine
+        decides, others take the samples (Context.accumulate_tiles).
 
         target_error   > 0; 0.01 is 1%
-        most           the most samples that a pixel may have
+        most           the most samples per pixel
 
-        Returns Result.PENDING and the number of samples that each tile of 8 x 8 pixels is to have: shape (rows,
-        columns). Or Result.TARGET_REACHED, or Result.OK if no tile may take more, and the numbers that they have.
-        Decisions stay in the film. IncompatibleError: the film's tiles cannot be made of such squares."""
+        Returns Result.PENDING and the samples that each tile of 8 x 8 pixels is to have: shape (rows, columns). Or
+        Result.TARGET_REACHED, or Result.OK if no tile may take more, and the present numbers. Decisions stay in the
+        film. IncompatibleError: the film's tiles are not made of such squares."""
         with self._lock:
             info, count = self.info, ctypes.c_uint32()
             self._call("pt_plan_film", target_error, most, None, count)
@@ -225,8 +225,8 @@ class Film:
 
 
 def bytes_from(write: Callable[[Any, ctypes.c_uint64], object]) -> bytes:
-    """The bytes that a function of the library writes, after it was asked how many. They are written in place, since a
-    film takes hundreds of megabytes."""
+    """The bytes that a library function writes after stating their number; in place, because a film takes hundreds of
+    megabytes."""
     size = ctypes.c_uint64()
     write(None, size)
     allocated = size.value

@@ -1,4 +1,4 @@
-"""How far balls reach in a view, and the nearest camera that has them all whole in its picture."""
+"""Extents of balls in a view, and the nearest camera that sees them all whole."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import numpy.typing as npt
 Array = npt.NDArray[Any]
 Doubles = npt.NDArray[np.float64]
 
-ROWS_AT_ONCE: Final = 1 << 15  # so many that their numbers stay in a core's cache
+ROWS_AT_ONCE: Final = 1 << 15  # keeps their numbers in a core's cache
 
 
 def chunks(count: int) -> Iterator[slice]:
@@ -27,7 +27,7 @@ def coordinates(rows: Array) -> Doubles:
 
 @dataclass(frozen=True)
 class Spin:
-    """A full turn about an axis, during which points describe circles.
+    """A full turn about an axis.
 
     axis      unit vector
     through   a point of the axis
@@ -38,13 +38,13 @@ class Spin:
 
 
 def reach(centers: Array, radii: Array, axes: Doubles, directions: Doubles, spin: Spin | None = None) -> Doubles:
-    """How far balls reach in each direction: the maximum of dot(direction, center) + radius, their support function.
+    """The balls' support function: the maximum of dot(direction, center) + radius for each direction.
 
     centers      shape (n, 3), n >= 1
     radii        shape (n,)
     axes         shape (3, 3): unit vectors in rows
     directions   shape (k, 3): unit vectors in the coordinates of the axes
-    spin         if given, what reaches are the bodies that the balls sweep when they turn
+    spin         if given, for the bodies that the turning balls sweep
     """
     farthest = np.full(len(directions), -np.inf)
     world = directions @ axes
@@ -68,8 +68,7 @@ def reach(centers: Array, radii: Array, axes: Doubles, directions: Doubles, spin
 
 
 def _dot(direction: Doubles, places: Any) -> Doubles:
-    """A dot product in which components of 0 cost nothing. The order of the sum is fixed, so it rounds alike
-    everywhere."""
+    """A dot product that skips components of 0. The order of the sum is fixed, so it rounds alike everywhere."""
     terms = [factor * place for factor, place in zip(direction, places, strict=True) if factor != 0.0]
     total: Doubles = terms[0]
     for term in terms[1:]:
@@ -82,7 +81,7 @@ SIDES: Final = np.vstack([np.eye(3), -np.eye(3)])  # right, up, forward, and the
 
 @dataclass(frozen=True)
 class Extents:
-    """The bounds of balls along right, up and forward of a view: lowest and highest coordinates."""
+    """Lowest and highest coordinates of balls along right, up and forward."""
 
     low: Doubles
     high: Doubles
@@ -102,8 +101,8 @@ class Extents:
 
 
 def pyramid(tangents: tuple[float, float]) -> Doubles:
-    """The outward unit normals of the four planes that bound a perspective, in the axes of its view: left, right,
-    bottom, top. tangents: of half the horizontal and half the vertical angle."""
+    """Outward unit normals of a perspective's four bounding planes, in the view's axes: left, right, bottom, top.
+    tangents: of half the horizontal and half the vertical angle."""
     across, upwards = (1.0 / math.hypot(1.0, tangent) for tangent in tangents)
     sines = tangents[0] * across, tangents[1] * upwards
     return np.array([(-across, 0.0, -sines[0]), (across, 0.0, -sines[0]),
@@ -111,14 +110,13 @@ def pyramid(tangents: tuple[float, float]) -> Doubles:
 
 
 def apex(reaches: Doubles, axes: Doubles, normals: Doubles) -> Doubles:
-    """The nearest pinhole that sees balls which reach so far along the normals of the pyramid.
+    """The nearest pinhole that sees balls with these reaches along the pyramid's normals.
 
-    A ball is wholly in the picture if it is on the inner side of the four planes through the pinhole p and the sides of
-    the picture: dot(n, p) >= dot(n, c) + r for the outward unit normal n of each. Over all balls that is dot(n, p) >=
-    s, where s is how far they reach along n. If a is half of the horizontal angle, the left and right normals are
-    -cos(a) right - sin(a) forward and cos(a) right - sin(a) forward. Their sum bounds how far forward p may be,
-    dot(forward, p) <= -(s_left + s_right) / (2 sin a), and so does the other pair; p lies at the smaller bound.
-    Sideways, p is put into the middle of what is still allowed: dot(right, p) = (s_right - s_left) / (2 cos a).
+    A ball is wholly in view if dot(n, p) >= dot(n, c) + r for the pinhole p and the outward unit normal n of each side;
+    for all balls dot(n, p) >= s with the reach s. For half the horizontal angle a the normals are -cos(a) right -
+    sin(a) forward and cos(a) right - sin(a) forward. Their sum gives dot(forward, p) <= -(s_left + s_right) / (2 sin
+    a); the vertical pair gives another, and p takes the smaller one. Sideways p is in the middle of the rest:
+    dot(right, p) = (s_right - s_left) / (2 cos a).
     """
     right, above, forward = axes
     low, high = -reaches[0::2], -reaches[1::2]

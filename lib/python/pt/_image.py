@@ -1,4 +1,4 @@
-"""A finished image: its numbers, how good they are, and a picture of them."""
+"""A finished image: its numbers, their quality, and a picture."""
 
 from __future__ import annotations
 
@@ -13,18 +13,17 @@ from pt._stats import ErrorEstimate, Stats
 
 
 class Image:
-    """Linear radiance as an array of shape (height, width, 3), float32, row 0 at the top; NumPy takes the image as that
-    array: np.mean(image), image[y, x], image - other.
+    """Linear radiance, shape (height, width, 3), float32, row 0 at the top. NumPy accepts the image as an array:
+    np.mean(image), image[y, x], image - other.
 
     radiance         the mean of the samples, linear RGB, unclamped, >= 0
-    standard_error   of the same shape: the standard error of each number; only a hint in a single pixel, and infinite
-                     with up to 8 samples
-    sample_count     shape (height, width), uint32: number of samples of each pixel
-    error_estimate   how good the image is as a whole
-    stats            what it took
-    exposure         exposure in stops of the picture that _repr_png_ and save make; None: automatic
-    raw              of a denoised image the mean of the samples, which standard_error is of, while radiance and
-                     error_estimate are of the result; else None
+    standard_error   of each number; only a hint in a single pixel, and infinite with up to 8 samples
+    sample_count     shape (height, width), uint32
+    error_estimate   how good the whole image is
+    stats            counts and costs
+    exposure         stops for the picture of _repr_png_ and save; None: automatic
+    raw              a denoised image's mean of the samples, which standard_error belongs to; radiance and
+                     error_estimate are the result's. Else None
     """
 
     def __init__(self, radiance: npt.NDArray[np.float32], standard_error: npt.NDArray[np.float32],
@@ -44,7 +43,7 @@ class Image:
 
     @property
     def error(self) -> float:
-        """The relative root mean square error: 0.01 is 1%. Infinite with fewer than 16 samples."""
+        """Relative root mean square error: 0.01 is 1%. Infinite with fewer than 16 samples."""
         return self.error_estimate.relative_rmse
 
     @property
@@ -64,7 +63,7 @@ class Image:
 
     @property
     def picture_size(self) -> tuple[int, int]:
-        """Width and height of the picture in pixels."""
+        """Width and height in pixels."""
         return self.shape[1], self.shape[0]
 
     def __repr__(self) -> str:
@@ -74,16 +73,16 @@ class Image:
                 f"error {self.error:.3g} ({low:.3g} to {high:.3g})>")
 
     def to_srgb8(self, exposure: float | None = None) -> npt.NDArray[np.uint8]:
-        """The picture as bytes of sRGB, shape (height, width, 3): radiance times 2^exposure, clamped to [0, 1]. If
-        exposure is None, the image's is used, and if that is None too, the one that brings the average to middle grey,
-        0.18. The program pt writes the same bits by default."""
+        """The picture in sRGB, shape (height, width, 3): radiance times 2^exposure, clamped to [0, 1]. exposure
+        defaults to the image's, then to one that brings the average to middle grey, 0.18. pt writes the same bits by
+        default."""
         if exposure is None:
             exposure = self.exposure
         return to_srgb8(self.radiance, automatic_exposure(self.radiance) if exposure is None else exposure)
 
     def save(self, path: Path, *, exposure: float | None = None) -> None:
-        """Writes the picture of to_srgb8 if the path ends in .png, and the radiance if it ends in .npy. The file is
-        written whole or not at all. ValueError: another ending."""
+        """Writes the picture of to_srgb8 for .png, the radiance for .npy, whole or not at all. ValueError: another
+        ending."""
         if format_of(path, ("png", "npy")) == "npy":
             write_atomically(path, lambda file: np.save(file, self.radiance, allow_pickle=False))
         else:
@@ -91,5 +90,5 @@ class Image:
             write_atomically(path, lambda file: file.write(data))
 
     def _repr_png_(self) -> bytes:
-        """What notebooks show."""
+        """For notebooks."""
         return encode_png(self.to_srgb8())

@@ -1,4 +1,4 @@
-"""Finds and loads libpt, declares its functions, and turns what they return into values or exceptions."""
+"""Loads libpt, declares its functions, and turns results into values or exceptions."""
 
 from __future__ import annotations
 
@@ -16,10 +16,9 @@ from pt._errors import ERROR_OF_RESULT, BrokenRule, Error
 
 VERSION: Final = "0.3"
 SONAME: Final = {"win32": "pt.dll", "darwin": f"libpt.{VERSION}.dylib"}.get(sys.platform, f"libpt.so.{VERSION}")
-BROKEN_RULES_KEPT: Final = 8  # the most that the library keeps
+BROKEN_RULES_KEPT: Final = 8  # the library's limit
 
-# Every function must be here: without types, ctypes would cut its pointers to 32 bits. All that are not in NOT_RESULTS
-# return a pt_result.
+# Must list every function: without types, ctypes truncates pointers to 32 bits. All but NOT_RESULTS return a pt_result.
 PARAMETERS: Final[dict[str, list[Any]]] = {
     "pt_version": [],
     "pt_result_name": [c_int32],
@@ -62,7 +61,7 @@ NOT_RESULTS: Final[dict[str, Any]] = {
 
 
 def library_path() -> str:
-    """The library that PT_LIBRARY names, else the one installed with the package, else the system's."""
+    """PT_LIBRARY, else the library installed with the package, else the system's."""
     named = os.environ.get("PT_LIBRARY")
     if named:
         return named
@@ -71,9 +70,8 @@ def library_path() -> str:
 
 
 def load_library(path: str) -> ctypes.CDLL:
-    """Loads a libpt; the interpreter's lock is released while its functions run. ImportError: it is not there, or of a
-    version with other structs. A function that an older build of the same version lacks raises AttributeError when
-    called."""
+    """Loads a libpt; its functions run without the interpreter's lock. ImportError: missing, or of a version with other
+    structs. Functions that an older build lacks raise AttributeError when called."""
     try:
         loaded = ctypes.CDLL(path)
         for name, parameters in PARAMETERS.items():
@@ -95,7 +93,7 @@ def version_text(loaded: ctypes.CDLL) -> str:
 
 @functools.lru_cache(maxsize=1)
 def library() -> ctypes.CDLL:
-    """The library of this process, loaded when it is first needed."""
+    """This process's library, loaded on first use."""
     return load_library(library_path())
 
 
@@ -116,9 +114,8 @@ def _broken_rules(loaded: ctypes.CDLL, context: c_void_p | None) -> tuple[Broken
 
 
 def checked(loaded: ctypes.CDLL, result: int, context: c_void_p | None = None) -> Result:
-    """Returns the result of a call that did not fail; otherwise raises its error with the library's message. The
-    library keeps the message for the context, or for this thread's calls without one, until the next call: so no other
-    call may come in between."""
+    """Returns a good result; otherwise raises the error with the library's message. The message lasts until the next
+    call on the context, or of this thread without one, so no other call may come between."""
     if result >= 0:
         return Result(result)
     message = _text(loaded.pt_last_error(context))

@@ -1,4 +1,4 @@
-"""Memory that receives an image: a new array, or the caller's."""
+"""Memory for an image: a new array, or the caller's."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ LAYOUTS: Final[dict[Format, tuple[int, np.dtype[Any]]]] = {
 
 
 def new_pixels(shape: tuple[int, int], rectangle: Rectangle | None, format: Format) -> npt.NDArray[Any]:
-    """A new array for an image of this shape (rows, columns), or for the rectangle of it."""
+    """A new array for an image of this shape (rows, columns), or for the rectangle."""
     channels, dtype = LAYOUTS[Format(format)]
     rows, columns = shape if rectangle is None else (rectangle[3], rectangle[2])
     if rows < 0 or columns < 0:
@@ -28,8 +28,8 @@ def new_pixels(shape: tuple[int, int], rectangle: Rectangle | None, format: Form
 
 
 def _format_of(array: npt.NDArray[Any]) -> Format:
-    """The format that an array can receive; its rows may be at any distance, but the pixels of a row must be side by
-    side. ValueError: there is none."""
+    """The format that fits an array; rows may be at any distance, pixels of a row must be side by side. ValueError:
+    none."""
     if array.ndim == 3 and array.dtype.isnative:
         for format, (channels, dtype) in LAYOUTS.items():
             dense = (channels * dtype.itemsize, dtype.itemsize)
@@ -42,7 +42,7 @@ def _format_of(array: npt.NDArray[Any]) -> Format:
 
 def image_struct(pixels: npt.NDArray[Any], quantity: Quantity, shape: tuple[int, int], rectangle: Rectangle | None
                  ) -> structs.pt_image:
-    """A pt_image of an array, which must live for the call. ValueError: the image does not fit into it."""
+    """A pt_image of an array, which must outlive the call. ValueError: the image does not fit."""
     format = _format_of(pixels)
     if not pixels.flags.writeable:
         raise ValueError("out is read-only: must be writeable")

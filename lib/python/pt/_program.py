@@ -1,4 +1,4 @@
-"""The program `pt`, for its scene files: it reads and checks them, so that there is one reader with one set of messages."""
+"""Reads scene files by the program `pt`: one reader with one set of messages."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ TYPES: Final = {ColumnType.FLOAT32: np.float32, ColumnType.FLOAT64: np.float64, 
 
 @dataclass(frozen=True)
 class ReadScene:
-    """A scene file as the program reads it. files: those with columns."""
+    """A scene file as read by the program. files: of columns."""
 
     scene: Scene
     camera: Camera
@@ -41,14 +41,14 @@ class ReadScene:
 
 
 class Program:
-    """Reads and renders a scene by `pt render --parts`; cli/render/render_command.h describes its requests and answers.
+    """Reads and renders a scene by `pt render --parts`; cli/render/render_command.h describes requests and answers.
 
     arguments   of `pt render`
-    files       with which the program starts, by names relative to its working folder
-    facts       what pt says of the job before it looks for a device
+    files       initial ones, by names relative to its working folder
+    facts       pt's statement about the job, made before it opens a device
     is_cpu      whether the device is a CPU; known after the first film
 
-    Error: pt refuses the scene, or is not there. OSError: a file cannot be read."""
+    Error: pt refuses the scene, or is not installed. OSError: a file cannot be read."""
 
     def __init__(self, arguments: Sequence[str], files: Mapping[str, bytes] | None = None, device: str | None = None) -> None:
         self.is_cpu = False
@@ -67,12 +67,12 @@ class Program:
                 self._errors.close()
                 raise NoDeviceError(f"the program pt is not found (PT_PROGRAM names it): {error}") from error
             line = self._line()
-        finally:  # pt has read what is in it
+        finally:  # pt has read it
             shutil.rmtree(self._folder, ignore_errors=True)
         self.facts: dict[str, Any] = json.loads(line)
 
     def film(self, first: int, end: int, tiles: npt.ArrayLike) -> bytes:
-        """The film of samples from first on to before end, of these tiles."""
+        """The film of samples first to end - 1 of these tiles."""
         indices = np.ascontiguousarray(tiles, np.uint32)
         self._ask(struct.pack("=3I", first, end, len(indices)) + indices.tobytes())
         kind, size = map(int, self._line().split())
@@ -80,7 +80,7 @@ class Program:
         return self._bytes(size)
 
     def scene(self) -> ReadScene:
-        """What the file has, without looking for a device."""
+        """The file's contents, without opening a device."""
         self._ask(struct.pack("=3I", 0, 0, 0))
         read = json.loads(self._line())
         materials = [Material(**each) for each in read["materials"]]
@@ -108,10 +108,10 @@ class Program:
     def close(self) -> None:
         self._process.kill()
         self._process.wait()
-        with contextlib.suppress(OSError):  # unless Windows has kept it for the process that worked in it
+        with contextlib.suppress(OSError):  # unless Windows keeps a process's working folder
             os.rmdir(self._folder)
         for stream in (self._process.stdin, self._process.stdout, self._errors):
-            with contextlib.suppress(OSError):  # of what was still to be written
+            with contextlib.suppress(OSError):  # about unwritten data
                 if stream:
                     stream.close()
 
@@ -121,7 +121,7 @@ class Program:
             self._process.stdin.write(request)
             self._process.stdin.flush()
         except OSError:
-            pass  # pt has ended, and has said why
+            pass  # pt has ended, with a message
 
     def _line(self) -> bytes:
         assert self._process.stdout
@@ -149,13 +149,13 @@ class Program:
 
 
 def _sized(columns: dict[str, list[int]]) -> dict[str, tuple[int, int, int]]:
-    """Adds to each column how many spheres there are: as many as the rows of the longest."""
+    """Adds the number of spheres, the longest column's rows, to each column."""
     count = max(rows for _, rows in columns.values())
     return {name: (kind, rows, count) for name, (kind, rows) in columns.items()}
 
 
 def program() -> str:
-    """The path of this machine's program pt. Some wheels have one."""
+    """This machine's program pt. Some wheels include it."""
     packaged = pathlib.Path(__file__).with_name("bin") / "pt"
     named = os.environ.get("PT_PROGRAM") or (str(packaged) if packaged.exists() else "pt")
     return os.path.abspath(named) if os.sep in named else named

@@ -18,14 +18,14 @@ def render(positions: npt.ArrayLike, radii: npt.ArrayLike, colors: npt.ArrayLike
            camera: Camera | None = None, up: Direction = "z", floor: bool = False, material: Material | None = None,
            max_path_length: int = 4, denoise: bool = False, seed: int = 0, device: str | None = None,
            context: Context | None = None, progress: Progress | None = None) -> Figure:
-    """Renders spheres as figure() does, but only from arrays, and sooner: 640 x 480 pixels, 64 samples.
+    """Renders spheres like figure(), but from arrays only, and sooner: 640 x 480 pixels, 64 samples.
 
     positions   shape (n, 3), n >= 1
     radii       shape (n,), or one number for all; > 0
     colors      shape (n, 3) or (3,): sRGB, floats in [0, 1] or uint8. They multiply the material's diffuse; None: grey
 
-    Other parameters are those of figure(), which also reads files, maps numbers to colors and has more options. Arrays
-    are read in place as SphereArray says.
+    Other parameters are figure()'s, which also reads files, maps numbers to colors and has more options. Arrays are
+    read in place as SphereArray says.
     """
     centers = real_column("positions", positions, 3, None)
     if not len(centers):

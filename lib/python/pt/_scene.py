@@ -19,15 +19,15 @@ from pt._vectors import Color, Vector, color, vector
 
 @dataclass(frozen=True)
 class Material:
-    """How a surface reflects and shines: the physically-normalised Phong model of pt/pt.h.
+    """How a surface reflects and emits: the physically-normalised Phong model of pt/pt.h.
 
     Colors are linear R, G, B, each in [0, 1e18]; a single number is a grey.
 
     diffuse      share of the light that is reflected diffusely
     specular     weight of the lobe about the mirror direction
-    emission     radiance, the same in every direction and on both sides
+    emission     radiance, in every direction and on both sides
     glossiness   exponent of the lobe, in [0, 1e9]
-    hidden_from_camera   whether rays from the camera pass through; all other rays meet it
+    hidden_from_camera   whether camera rays pass through; other rays do not
     """
 
     diffuse: Color = 0.0
@@ -42,7 +42,7 @@ class Material:
         object.__setattr__(self, "glossiness", float(self.glossiness))
 
     def _section(self) -> dict[str, Any]:
-        """The section of a scene file, without default values; a grey is one number."""
+        """The scene file's section without defaults; a grey is one number."""
         section: dict[str, Any] = {}
         for name in ("diffuse", "specular", "emission", "glossiness", "hidden_from_camera"):
             value = getattr(self, name)
@@ -98,8 +98,8 @@ class Plane:
 
 
 class SphereArray:
-    """Many spheres, read from NumPy arrays in place, each time that the scene is set: changes of the arrays count until
-    then, and not afterwards.
+    """Many spheres, read from NumPy arrays in place each time the scene is set; later changes of the arrays do not
+    count.
 
     center     shape (n, 3): x, y, z at time 0, scene units
     radius     shape (n,), or one number for all; > 0, scene units
@@ -107,15 +107,15 @@ class SphereArray:
     motion     shape (n, 3) or (3,): displacement from time 0 to time 1; none by default
     color      shape (n, 3) or (3,), multiplies the material's diffuse: linear floats in [0, 1], or sRGB in uint8, as in
                pictures and color maps; 1 by default
-    end        shape (n, 3) or (3,): a second center; then each is a capsule, swept from one to the other. These
-               neither emit nor move
-    opacity    shape (n,), or one number for all, in [0, 1]: the share of rays that meet it, each at random; 1 by default
+    end        shape (n, 3) or (3,): a second center; each sphere is swept to it as a capsule, which neither emits nor
+               moves
+    opacity    shape (n,), or one number for all, in [0, 1]: the share of rays that meet it, each at random; 1 by
+               default
 
-    Arrays of float32, float64, uint32 (indices) and uint8 (colors) in the machine's byte order are read in place if
-    their rows are contiguous and ascend, at any distance: slices a[::2], the first columns a[:, :3] of a table, fields
-    of structured arrays, np.broadcast_to. Everything else is copied here, once: transposed (Fortran) and reversed
-    arrays, the other byte order, lists, other types of numbers. `copied` has the names of those columns; later changes
-    of these arrays do not count.
+    Arrays of float32, float64, uint32 (indices) and uint8 (colors) in native byte order are read in place if their rows
+    are contiguous and ascend, at any distance: slices a[::2], columns a[:, :3], fields of structured arrays,
+    np.broadcast_to. Others are copied once, here: transposed (Fortran) and reversed arrays, other byte orders, lists,
+    other types of numbers. `copied` has the names of those columns.
 
     ValueError: shapes do not fit. TypeError: not numbers, or colors of integers that are not uint8.
     """
@@ -150,9 +150,9 @@ class SphereArray:
 
 @dataclass
 class Scene:
-    """What is to be seen.
+    """The visible world.
 
-    materials       those that indices refer to; materials that spheres and planes bring along are added, each once
+    materials       referred to by indices; materials of spheres and planes are added, each once
     spheres         in any order, like all that follow
     planes
     sphere_arrays   more spheres, for instance one SphereArray for each species
@@ -165,7 +165,7 @@ class Scene:
 
 
 class _Materials:
-    """The list of a scene's materials while it grows."""
+    """A scene's materials while they are collected."""
 
     def __init__(self, listed: Sequence[Material]) -> None:
         self.all = list(listed)
@@ -186,7 +186,7 @@ class _Materials:
 
 
 class SceneStruct:
-    """A pt_scene and everything that it points to, which live as long as this object."""
+    """A pt_scene and all that it points to, valid as long as this object."""
 
     def __init__(self, scene: Scene, guard: CallbackGuard, progress: Progress | None) -> None:
         materials = _Materials(scene.materials)

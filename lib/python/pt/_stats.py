@@ -1,4 +1,4 @@
-"""What has been done, and how good an image is; which devices there are."""
+"""Counts and costs, the quality of an image, and devices."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from pt._library import checked, library
 
 @dataclass(frozen=True)
 class Stats:
-    """What has been done, and what it took. For a film, fields that only a context knows are 0."""
+    """Counts and costs so far. Fields that only a context knows are 0 for a film."""
 
     sample_count: int  # whole samples in every pixel; if they differ, the fewest
     max_sample_count: int  # the most that a pixel has (Sampling.ADAPTIVE)
     mean_sample_count: float  # mean over all pixels
-    rejected_samples: int  # samples left out, over all pixels: NaN, infinite, negative or too bright
+    rejected_samples: int  # left out, over all pixels: NaN, infinite, negative or too bright
     features: Feature  # of the kernel
-    device_bytes: int  # memory that the context has allocated on all its devices now
+    device_bytes: int  # allocated by the context on all its devices now
     device_count: int  # devices that share the samples
     device_seconds: float  # time spent in submissions, summed
     submit_count: int  # submissions that took samples
@@ -35,9 +35,10 @@ def stats_of(struct: structs.pt_stats) -> Stats:
 
 @dataclass(frozen=True)
 class ErrorEstimate:
-    """How good an image is, estimated without a reference: the root of the mean of (x - r)^2 over pixels and channels,
-    for the image x and its limit r, and the same for (x - r)^2 / (r^2 + 0.01), each with bounds of 95% confidence.
-    Nothing is known with fewer than 16 samples: then the lower bounds are 0, the other values infinite.
+    """How good an image is, estimated without a reference: the root mean square of x - r over pixels and channels, for
+    the image x and its limit r, and of (x - r) / sqrt(r^2 + 0.01), each with bounds of 95% confidence.
+
+    With fewer than 16 samples nothing is known: the lower bounds are 0, the other values infinite.
     """
 
     rmse: float  # root mean square error, in units of radiance
@@ -76,8 +77,7 @@ def device_of(struct: structs.pt_device_info) -> DeviceInfo:
 
 
 def devices() -> list[DeviceInfo]:
-    """The Vulkan devices of this machine; Context(device="0") uses the first, and so on. NoDeviceError: there is none,
-    or no Vulkan."""
+    """This machine's Vulkan devices; Context(device="0") uses the first. NoDeviceError: none, or no Vulkan."""
     loaded, count = library(), ctypes.c_uint32()
     checked(loaded, loaded.pt_get_devices(None, count))
     found = (structs.pt_device_info * count.value)()

@@ -1,4 +1,4 @@
-"""Triples of numbers: positions and colors of single things."""
+"""Positions and colors of single things."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Color: TypeAlias = "float | Sequence[float] | npt.NDArray[Any]"
 
 
 def vector(name: str, value: Vector) -> Triple:
-    """Three numbers as floats. ValueError: they are not three."""
+    """Three numbers as floats. ValueError: not three."""
     numbers = np.asarray(value, np.float64)
     if numbers.shape != (3,):
         raise ValueError(f"{name} = {value!r}: must be three numbers")
@@ -23,6 +23,6 @@ def vector(name: str, value: Vector) -> Triple:
 
 
 def color(name: str, value: Color) -> Triple:
-    """Red, green and blue; a single number stands for all three."""
+    """Red, green and blue; a single number is a grey."""
     numbers = np.asarray(value, np.float64)
     return vector(name, np.broadcast_to(numbers, 3) if numbers.ndim == 0 else numbers)

@@ -9,7 +9,7 @@ MAGIC = bytes.fromhex("28b52ffd")
 
 
 def module() -> Any:
-    """A module with compress and decompress; None if none is installed."""
+    """A module with compress and decompress, or None."""
     for name in ("compression.zstd", "zstandard"):
         try:
             return importlib.import_module(name)
@@ -19,8 +19,8 @@ def module() -> Any:
 
 
 def packer(size: int) -> Any:
-    """An object with compress(piece) and flush() for a frame that states the size of its contents, as readers of films
-    need; None if there is no module for it."""
+    """An object with compress(piece) and flush() for a frame that states its contents' size, as film readers need; None
+    without a module."""
     found = module()
     if found is None:
         return None

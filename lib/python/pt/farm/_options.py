@@ -29,8 +29,7 @@ class Options:
     checkpoint_every   seconds
     wait_for_workers   seconds without a ready worker until an error
     mixed              workers with other devices and drivers may join: the picture then equals one machine's
-    statistically,
-                       not bitwise, and its film names all devices. Needs the module xxhash
+                       statistically, not bitwise, and its film names all devices. Needs the module xxhash
     """
 
     part_seconds: float = 5.0

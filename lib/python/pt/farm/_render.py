@@ -29,8 +29,7 @@ def render(client: Any, job: AnyJob, samples: int, *, target_error: float = 0.0,
     samples        per pixel; with a target error the most
     target_error   0: none. Otherwise relative, as in Context.accumulate, and with the same samples
     progress       called some times a second with the counts and the film so far, which it must not change; True ends
-    the
-                   rendering
+                   the rendering
 
     FarmError: no worker can do it. Deaths of workers change no bit; if this process dies, a new one resumes from the
     checkpoint.
