@@ -1,5 +1,4 @@
-// One pt_context, whose failures are thrown as Failure; and the library's last error as the command line uses it: the
-// broken rules come as data, and are put into the words of whoever gave the value.
+// A pt_context that throws Failure, and the library's last error: broken rules as data, in the user's own names.
 #pragma once
 
 #include "cli/base/environment.h"
@@ -20,7 +19,7 @@
 
 namespace cli {
 
-// A struct of pt.h with its struct_size set and all other fields 0.
+// With struct_size set.
 template <typename Struct>
 constexpr Struct sized() {
     Struct value{};
@@ -28,7 +27,7 @@ constexpr Struct sized() {
     return value;
 }
 
-// The members of pt_broken_rule, owned.
+// pt_broken_rule, owned.
 struct BrokenRule {
     std::string subject{};
     std::optional<std::size_t> index{};
@@ -39,34 +38,33 @@ struct BrokenRule {
     std::string rule{};
 };
 
-// The rule and the name of the field, as it is given here: "--size: width * height = 0: must be >= 1".
+// "--size: width * height = 0: must be >= 1", with the user's name of the field.
 std::string rule_text(const std::string &field, const BrokenRule &rule);
 
-// The name of the field in the library: "spheres[3].center[0]".
+// "spheres[3].center[0]": the library's name.
 std::string field_text(const BrokenRule &rule);
 
-// The option that sets the field: "--size: width"; nullptr if none does.
+// "--size: width"; nullptr if no option sets the field.
 const char *find_option(const BrokenRule &rule);
 
 struct LibraryError {
     std::string message;
-    std::vector<BrokenRule> rules; // empty if the message is about no field
-    std::uint64_t left_out = 0;    // rules more, which are not known in detail
+    std::vector<BrokenRule> rules; // empty if the message concerns no field
+    std::uint64_t left_out = 0;    // further rules, known by number only
 
-    // One line for each rule, in the words that the function returns; the message if there are no rules.
+    // A line per rule in the function's words; the message without rules.
     std::string in_words(const std::function<std::string(const BrokenRule &)> &words) const;
 };
 
-// Names the option that sets the field: "--size: width = 0: must be >= 1". Uses the name in the library if no option
-// does.
+// "--size: width = 0: must be >= 1"; the library's name without an option.
 std::string in_words_of_options(const BrokenRule &rule);
 
-// The last error of the context, or with NULL that of this thread's last call without one.
+// NULL: this thread's, without a context.
 LibraryError last_error(const pt_context *context);
 
 class Context {
 public:
-    // Kernels are kept in the user's cache. Adds to the environment, which is not safe while other threads run.
+    // Keeps kernels in the user's cache. Changes the environment, which is unsafe while other threads run.
     explicit Context(pt_create_info info) : shader_dir_(info.shader_dir == nullptr ? "" : info.shader_dir) {
         choose_vector_width();
         kernels_.serve(info);
@@ -81,7 +79,7 @@ public:
     pt_context *get() const { return context_; }
     LibraryError last_error() const { return cli::last_error(context_); }
 
-    // To be used for calls whose arguments do not come from the scene file.
+    // For calls whose arguments do not come from the scene file.
     void require(pt_result result) const {
         if (result < 0)
             fail(result, last_error());
@@ -93,15 +91,13 @@ public:
         return stats;
     }
 
-    // The whole image is looked at for this.
     pt_error_estimate error_estimate() const {
         auto error = sized<pt_error_estimate>();
         require(pt_get_error_estimate(context_, &error));
         return error;
     }
 
-    // Reads some columns of the rows that are rendered. Floats have three components for each pixel; whole numbers have
-    // one, the number of the object. quantity: PT_QUANTITY_*.
+    // quantity: PT_QUANTITY_*. Floats have three components per pixel; object numbers one.
     template <typename Number>
     void read(std::uint32_t first, std::uint32_t count, std::uint32_t rows, std::uint32_t quantity,
               Number *values) const {
@@ -127,7 +123,7 @@ private:
                                                        : ""));
     }
 
-    // Shaders of --shader-dir are the user's to mend, like a scene file. Their compiler is a file.
+    // Shaders of --shader-dir belong to the user, like a scene file. Their compiler is a file.
     ExitCode code_of(pt_result result, const LibraryError &error) const {
         if (result == PT_ERROR_SHADER && !shader_dir_.empty())
             return ExitCode::scene;
@@ -140,7 +136,7 @@ private:
         return cache.empty() ? cache : cache / "kernels";
     }
 
-    std::string shader_dir_;              // empty: the shaders in the library
+    std::string shader_dir_;              // empty: the library's
     KernelFolder kernels_{kernel_path()}; // outlives the context
     pt_context *context_ = nullptr;
 };

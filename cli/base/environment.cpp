@@ -11,7 +11,7 @@
 namespace cli {
 namespace {
 
-// Asked of the processor, for the compiler's question finds nothing in Zig's runtime.
+// Asks the processor: the compiler's builtin lacks its runtime in Zig.
 bool has_avx512() {
 #if defined(__x86_64__)
     constexpr unsigned int needed = bit_AVX512F | bit_AVX512BW | bit_AVX512DQ | bit_AVX512VL;
@@ -32,11 +32,10 @@ std::filesystem::path user_cache() {
     return folder.empty() ? folder : folder / "pt";
 }
 
-// Gives vectors of 512 bits a folder of compiled shaders of their own. Mesa's key of a shader does not tell the width
-// (seen with 22.3.6 and 25.0.7), so code for 256 bits that some program has left would be used for 512. Films tell the
-// widths apart, because the device's name has it.
+// Gives vectors of 512 bits their own cache of compiled shaders. Mesa's keys ignore the width (22.3.6 and 25.0.7), so
+// it would use code for 256 bits. Films differ by the device's name, which has the width.
 void widen_vectors() {
-    constexpr const char *width_name = "LP_NATIVE_VECTOR_WIDTH"; // in bits
+    constexpr const char *width_name = "LP_NATIVE_VECTOR_WIDTH";
     constexpr const char *cache_name = "MESA_SHADER_CACHE_DIR";
     if (std::getenv(width_name) != nullptr)
         return;
@@ -45,7 +44,8 @@ void widen_vectors() {
     const std::filesystem::path cache = chosen == nullptr || *chosen == '\0' ? user_cache() : chosen;
     std::error_code error;
     if (!cache.empty())
-        std::filesystem::create_directories(cache / "shaders-512", error); // Mesa makes the last folder of a path only
+        std::filesystem::create_directories(cache / "shaders-512",
+                                            error); // Mesa creates only the last folder of a path
     if (cache.empty() || error)
         platform::set_environment("MESA_SHADER_CACHE_DISABLE", "true"); // every start compiles anew
     else

@@ -1,4 +1,4 @@
-// The program's exit codes, and the exception that carries one to main.
+// Exit codes, and the exception that carries one to main.
 #pragma once
 
 #include <pt/pt.h>
@@ -10,7 +10,7 @@ namespace cli {
 
 enum class ExitCode {
     done = 0,
-    internal = 1, // something computes wrongly: the program, the library, the driver or the device
+    internal = 1, // a wrong computation of program, library, driver or device
     usage = 2,
     scene = 3,
     no_device = 4,
@@ -18,7 +18,7 @@ enum class ExitCode {
     file = 6,
     target_missed = 7,
     images_differ = 8,
-    resumable = 75, // EX_TEMPFAIL of sysexits.h, after which schedulers try again
+    resumable = 75, // EX_TEMPFAIL of sysexits.h, after which schedulers retry
     signal = 128    // plus the signal's number
 };
 
@@ -54,21 +54,19 @@ inline void refuse_if(bool is_refused, const std::string &message, ExitCode code
         throw Failure(code, message);
 }
 
-// For a program that a signal has ended.
 constexpr int exit_code_of_signal(int signal) {
     return static_cast<int>(ExitCode::signal) + signal;
 }
 
-// For a failed call of pt.h whose arguments do not come from the user. If they do, the caller knows better: usage or
-// scene.
+// Failed calls without arguments of the user; others mean usage or scene.
 constexpr ExitCode exit_code_of(pt_result result) {
     switch (result) {
     case PT_ERROR_INVALID_ARGUMENT:
-    case PT_ERROR_INCOMPATIBLE: // films of different images were named
+    case PT_ERROR_INCOMPATIBLE: // films of different images
         return ExitCode::usage;
     case PT_ERROR_INVALID_SCENE:
         return ExitCode::scene;
-    // Another device or driver may do what this one cannot.
+    // Another device or driver may work.
     case PT_ERROR_UNSUPPORTED:
     case PT_ERROR_NO_DEVICE:
     case PT_ERROR_OUT_OF_DEVICE_MEMORY:

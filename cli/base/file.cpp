@@ -26,16 +26,16 @@ fs::path folder_of(const fs::path &path) {
     return path.has_parent_path() ? path.parent_path() : ".";
 }
 
-// Where the path leads; empty if there is no such file. A terminal may be read and written at the same time.
+// Empty if there is no file. A terminal may be read and written at once.
 fs::path target_of(const NamedFile &file, bool is_input) {
     if (file.path != standard_stream)
         return file.path;
     if (is_input)
         return platform::regular_size(platform::standard_input) ? "/dev/stdin" : "";
-    return "/dev/stdout"; // whatever it leads to: two reports on one stream would be mixed up
+    return "/dev/stdout"; // any target: two reports on one stream would mix
 }
 
-// Whether they are one file, or would be once written: then they have the same folder and the same name in it.
+// One file, or one once written: the same name in the same folder.
 bool is_same(const fs::path &one, const fs::path &other) {
     std::error_code error;
     if (one.empty() || other.empty() || one == other)
@@ -51,7 +51,7 @@ bool is_same(const fs::path &one, const fs::path &other) {
     throw Failure(ExitCode::file, "cannot read " + path + ": " + std::generic_category().message(errno));
 }
 
-// size: the expected size, so that large files are not moved while they grow.
+// size: expected, to avoid reallocations.
 std::string read_all(int descriptor, const std::string &name, std::size_t size) {
     constexpr std::size_t block = std::size_t{1} << 20;
     std::string text;
@@ -70,7 +70,7 @@ std::string read_all(int descriptor, const std::string &name, std::size_t size) 
 
 } // namespace
 
-// Short on purpose: a target's own name may already be as long as the file system allows.
+// Short: a target's own name may already have the longest permitted length.
 std::string temporary_name(int attempt) {
     return ".pt-" + std::to_string(platform::process_number()) + "-" + std::to_string(attempt) + ".tmp";
 }
@@ -92,7 +92,7 @@ AtomicFile::~AtomicFile() {
     if (!file_.is_open())
         return;
     std::error_code ignored;
-    file_.close(); // before which not every system removes it
+    file_.close(); // some systems remove closed files only
     fs::remove(temporary_, ignored);
 }
 
@@ -120,7 +120,7 @@ void AtomicFile::fail(int error) const {
     throw Failure(ExitCode::file, "cannot write " + path_ + ": " + std::generic_category().message(error));
 }
 
-// A rename would replace a file that the user may not write, or a device by a regular file, without complaint.
+// A rename would silently replace a file that the user may not write, or a device by a regular file.
 void AtomicFile::refuse_unsuitable_target() const {
     std::error_code error;
     const fs::file_status status = fs::status(target_, error);
@@ -199,7 +199,7 @@ void OutputFile::commit() {
     if (file_) {
         file_->commit();
     } else if (!std::cout.flush()) {
-        std::cout.clear(); // it is told now, and not once more at the end of the program
+        std::cout.clear(); // reported now, not again at the program's end
         throw Failure(ExitCode::file, "cannot write to standard output");
     }
 }
@@ -224,7 +224,7 @@ void print_for_people(const std::string &lines, bool standard_output_is_taken) {
         std::cout << lines << std::flush;
 }
 
-// System calls and not a stream: a stream opens a directory without complaint and keeps no reason for a failed read.
+// System calls, because a stream opens directories and loses the reason of a failed read.
 std::string read_file(const std::string &path) {
     const platform::FileDescriptor file(platform::open_to_read(path));
     if (!file.is_open())

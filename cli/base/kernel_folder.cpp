@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A key has to be the name of a file and must not lead elsewhere.
+// A key must not lead elsewhere.
 bool is_key(const std::string &key) {
     return !key.empty() && key.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
@@ -41,7 +41,7 @@ struct KeptFile {
     fs::file_time_type last_use;
 };
 
-// Files that others leave in the folder count too, such as the temporary file of a process that was killed.
+// Includes foreign files, such as a killed process's temporary file.
 std::vector<KeptFile> files_in(const fs::path &folder) {
     std::vector<KeptFile> files;
     std::error_code error;
@@ -68,7 +68,7 @@ std::uint64_t KernelFolder::load(const std::string &key, std::span<std::byte> by
     std::ifstream stream(file, std::ios::binary);
     if (!stream.read(reinterpret_cast<char *>(bytes.data()), static_cast<std::streamsize>(size)))
         return 0;
-    fs::last_write_time(file, fs::file_time_type::clock::now(), error); // it is in use
+    fs::last_write_time(file, fs::file_time_type::clock::now(), error); // marks it as used
     return size;
 }
 

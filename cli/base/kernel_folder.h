@@ -1,5 +1,4 @@
-// A folder with what drivers have made of kernels, so that the next start need not wait for that. It is a cache: where
-// it cannot be read or written the program does without, and says nothing.
+// A cache of drivers' compiled kernels. Without access the program silently does without.
 #pragma once
 
 #include <pt/pt.h>
@@ -14,21 +13,20 @@ namespace cli {
 
 class KernelFolder {
 public:
-    // Each file is for one device with its driver and one version of this program. The file that was used longest ago
-    // makes room.
+    // A file per device, driver and version of this program; the least recently used makes room.
     static constexpr std::size_t most_files = 32;
     static constexpr std::uint64_t most_bytes = std::uint64_t{64} << 20; // in all
 
-    // With an empty path nothing is kept. The folder need not exist.
+    // An empty path keeps nothing. The folder need not exist.
     explicit KernelFolder(std::filesystem::path path) : path_(std::move(path)) {}
 
-    // Returns the size of what is kept under a key, and writes it to bytes if there is room.
+    // Returns the data's size; writes to bytes if there is room.
     std::uint64_t load(const std::string &key, std::span<std::byte> bytes) const;
 
-    // The file appears whole or not at all.
+    // Whole or not at all.
     void store(const std::string &key, std::span<const std::byte> bytes) const;
 
-    // Sets the functions of a context to this folder, which must outlive it.
+    // The folder must outlive the context.
     void serve(pt_create_info &info);
 
 private:

@@ -12,8 +12,8 @@ char lower(char letter) {
     return static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
 }
 
-// Optimal string alignment distance: insertions, deletions, substitutions and swaps of neighbours (Damerau 1964, which
-// found that four misspellings in five are one of these), ignoring case. Three rows of the table are kept.
+// Optimal string alignment distance, ignoring case: insertions, deletions, substitutions and swaps of neighbours
+// (Damerau 1964: four misspellings in five are one of these). Keeps three rows of the table.
 std::size_t edit_distance(std::string_view from, std::string_view to) {
     std::vector<std::size_t> before_last(to.size() + 1);
     std::vector<std::size_t> last(to.size() + 1);
@@ -44,7 +44,7 @@ std::string_view nearest_name(std::string_view name, std::span<const std::string
         const std::size_t shorter = std::min(candidate.size(), name.size());
         const std::size_t longer = std::max(candidate.size(), name.size());
         if (longer - shorter >= best_distance)
-            continue; // at least as many insertions; this keeps long lists cheap
+            continue; // needs at least as many insertions; keeps long lists cheap
         const std::size_t distance = edit_distance(name, candidate);
         if (distance < best_distance) {
             best_distance = distance;

@@ -1,4 +1,4 @@
-// Values by their names, and the known name that a misspelt one was probably meant to be.
+// Values by names, and the probable meaning of misspelt ones.
 #pragma once
 
 #include <algorithm>
@@ -34,7 +34,7 @@ public:
         return found == names_.end() ? std::nullopt : std::optional(values_[std::size_t(found - names_.begin())]);
     }
 
-    // The first one. Throws std::out_of_range for a value that the table lacks.
+    // Throws std::out_of_range for an unknown value.
     constexpr std::string_view name(Value value) const {
         return names_.at(std::size_t(std::ranges::find(values_, value) - values_.begin()));
     }
@@ -47,10 +47,10 @@ private:
 template <std::size_t Count>
 ValueNames(const Named<std::uint32_t> (&)[Count]) -> ValueNames<Count>;
 
-// The known name that is fewest edits away; empty if none is close enough to be meant.
+// The known name with the fewest edits; empty if none is close.
 std::string_view nearest_name(std::string_view name, std::span<const std::string_view> known);
 
-// `unknown key "raduis", did you mean "radius"?` Without a near name, a short list of known ones is given whole.
+// `unknown key "raduis", did you mean "radius"?` Without a near name it gives short lists whole.
 std::string unknown_name(std::string_view kind, std::string_view name, std::span<const std::string_view> known);
 
 } // namespace cli

@@ -1,4 +1,4 @@
-// Reads numbers and sizes from the text of options: the whole text or nothing, no octal, no wrap-around.
+// Numbers of options: the whole text or nothing, no octal, no overflow.
 #pragma once
 
 #include <algorithm>
@@ -32,7 +32,7 @@ inline std::optional<double> parse_share(std::string_view text) {
     return number && percent ? std::optional(*number / 100.0) : number;
 }
 
-// "1920x1080": so many whole numbers, with a mark between them.
+// "1920x1080"
 template <std::size_t Count>
 std::optional<std::array<std::uint32_t, Count>> parse_numbers(std::string_view text, char mark) {
     std::array<std::uint32_t, Count> numbers{};

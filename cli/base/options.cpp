@@ -27,7 +27,7 @@ std::string type_name(const ValueRule &rule) {
     }
 }
 
-// Wraps words into lines of 100 characters that begin in that column.
+// Wraps at 100 characters.
 std::string wrapped(const std::string &text, std::size_t first_column) {
     constexpr std::size_t width = 100;
     std::string lines;
@@ -57,7 +57,6 @@ std::string related(const std::string &relation, const std::set<CLI::Option *> &
     return names.empty() ? "" : names + ")";
 }
 
-// The names of an option as users write them: "--exposure".
 std::vector<std::string> option_names(const CLI::App &command) {
     std::vector<std::string> names;
     for (const CLI::Option *option : command.get_options())
@@ -70,8 +69,7 @@ std::string unknown(std::string_view kind, std::string_view name, const std::vec
     return unknown_name(kind, name, std::vector<std::string_view>(known.begin(), known.end()));
 }
 
-// `unknown option "--expsure", did you mean "--exposure"?`, for the first argument that parsing left over; nothing if
-// there is none.
+// `unknown option "--expsure", did you mean "--exposure"?`; empty without a leftover argument.
 std::optional<std::string> unknown_argument(const CLI::App &command) {
     const std::vector<std::string> left_over = command.remaining();
     if (left_over.empty())
@@ -104,7 +102,7 @@ public:
     std::string make_option(const CLI::Option *option, bool is_positional) const override {
         const std::string value = is_positional ? "" : make_option_opts(option);
         const std::string others = related("needs", option->get_needs()) + related("not with", option->get_excludes());
-        std::string name = make_option_name(option, is_positional); // "--flag{default}", whose value may be left out
+        std::string name = make_option_name(option, is_positional); // "--flag{default}": the value is optional
         name = CLI::detail::find_and_replace(CLI::detail::find_and_replace(std::move(name), "{", "[="), "}", "]");
         return entry(name + value, option->get_description() + others, column_width_);
     }

@@ -1,5 +1,4 @@
-// What all commands have of the command line: options that several share, the reading of values for which CLI11 is too
-// lax (it takes "-1" for the largest unsigned number and "010" for 8), the help, and what is wrong with a command line.
+// Common options, values (CLI11 reads "-1" as the largest unsigned number and "010" as 8), help, errors.
 #pragma once
 
 #include "cli/base/json.h"
@@ -15,15 +14,14 @@
 
 namespace cli {
 
-// What the program does for a command: returns the exit code, or throws Failure.
+// Returns the exit code, or throws Failure.
 using Run = std::function<int()>;
 
-// Adds a command to the program. When the command line names it, `chosen` becomes `run`. notes: text of the help that
-// follows the options.
+// Naming the command sets `chosen` to `run`. notes: after the options in the help.
 CLI::App &add_command(CLI::App &program, Run &chosen, const std::string &name, const std::string &description,
                       const std::string &notes, Run run);
 
-// The same for a command that is run with options, which are read from the command line.
+// Takes a command with its own options.
 template <typename Options>
 std::pair<CLI::App &, Options &> add_command(CLI::App &program, Run &chosen, const std::string &name,
                                              const std::string &description, const std::string &notes,
@@ -34,10 +32,10 @@ std::pair<CLI::App &, Options &> add_command(CLI::App &program, Run &chosen, con
 
 [[noreturn]] void refuse_option(const std::string &option, const std::string &rule, const std::string &text);
 
-// Reads the value of a text by a rule. Throws CLI::ValidationError.
+// Throws CLI::ValidationError.
 nlohmann::json read_value(const std::string &option, const std::string &text, const ValueRule &rule);
 
-// store: receives the value, which keeps the rule.
+// store: takes the valid value.
 CLI::Option *add_value(CLI::App &command, const std::string &name, const ValueRule &rule,
                        std::function<void(const nlohmann::json &)> store, const std::string &help);
 
@@ -49,7 +47,7 @@ CLI::Option *add_number(CLI::App &command, const std::string &name, const ValueR
         command, name, rule, [&target](const nlohmann::json &value) { target = value.get<Number>(); }, help);
 }
 
-// find: the value of a name, as std::optional. kind: what the names stand for, in messages.
+// find: a name's value, as std::optional. kind: of the names, in messages.
 template <typename Target, typename Find>
 CLI::Option *add_name(CLI::App &command, const std::string &name, Target &target, Find find, std::string_view kind,
                       std::span<const std::string_view> names, const std::string &help) {
@@ -59,7 +57,7 @@ CLI::Option *add_name(CLI::App &command, const std::string &name, Target &target
         help);
 }
 
-// A file, or another text. value: the placeholder in the help.
+// value: the placeholder in the help.
 CLI::Option *add_text(CLI::App &command, const std::string &name, std::string &target, const std::string &value,
                       const std::string &help);
 
@@ -67,10 +65,10 @@ CLI::Option *add_device(CLI::App &command, std::string &device);
 CLI::Option *add_shader_dir(CLI::App &command, std::string &shader_dir);
 CLI::Option *add_quiet(CLI::App &command, bool &quiet);
 
-// Breaks the help into lines of 100 characters.
+// 100 characters per line.
 std::shared_ptr<CLI::Formatter> help_formatter();
 
-// error: why CLI11 refused the program's command line. With where to read on.
+// Why CLI11 refused the command line, and where to read on.
 std::string usage_reason(const CLI::App &program, const CLI::ParseError &error);
 
 std::vector<std::string> command_names(const CLI::App &program);

@@ -14,7 +14,7 @@ namespace cli {
 namespace {
 
 constexpr std::chrono::milliseconds update_interval{100};
-constexpr const char *line_eraser = "\r\x1b[K"; // ECMA-48: back to the left margin, erase to the end of the line
+constexpr const char *line_eraser = "\r\x1b[K"; // ECMA-48: to the left margin, erase to the end of the line
 
 std::string duration_text(double seconds) {
     const auto whole = static_cast<long long>(std::ceil(seconds));
@@ -80,7 +80,6 @@ void Progress::update_samples(double samples_of_part, Clock::time_point now) {
         print_line(sample_count, seconds);
 }
 
-// The time that is left if it goes on at the present rate.
 double Progress::remaining_seconds(double samples, double seconds) const {
     const double left = seconds * (static_cast<double>(sample_count_) - samples) / (samples - begun_);
     return std::min(left, std::max(limit_seconds_ - seconds, 0.0));
@@ -95,8 +94,7 @@ void Progress::say(const std::string &message) {
     print_message(message);
 }
 
-// The most important parts come first. Those that do not fit a narrow terminal are left out, from the end: a line that
-// wraps could not be overwritten.
+// The most important parts come first. A narrow terminal loses the last ones: a wrapped line could not be overwritten.
 void Progress::print_line(double samples, double seconds) {
     const std::array<std::string, 5> parts{
         formatted("%5.1f %%", 100.0 * fraction_),
@@ -108,7 +106,7 @@ void Progress::print_line(double samples, double seconds) {
     const std::size_t columns = column_count_();
     std::string line;
     for (const std::string &part : parts) {
-        if (line.size() + part.size() >= columns) // the last column stays free: some terminals wrap behind it
+        if (line.size() + part.size() >= columns) // the last column stays free: some terminals wrap after it
             break;
         line += part;
     }

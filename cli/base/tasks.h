@@ -1,4 +1,4 @@
-// Work beside that of the caller: in the background, or shared by all processors of the machine.
+// Work in the background, or on all processors.
 #pragma once
 
 #include <algorithm>
@@ -13,39 +13,37 @@ namespace cli {
 
 class BackgroundTask {
 public:
-    // Begins work in a thread, or does it at once if there is none to be had. No other work may be under way.
+    // Runs work in a thread, or at once if the system has none. No other work may be running.
     void start(std::function<void()> work) {
         future_ = std::async(std::launch::async | std::launch::deferred, std::move(work));
         if (future_.wait_for(std::chrono::seconds(0)) == std::future_status::deferred)
             future_.wait();
     }
 
-    // Whether work has not ended yet.
     bool is_under_way() const {
         return future_.valid() && future_.wait_for(std::chrono::seconds(0)) == std::future_status::timeout;
     }
 
-    // Whether work has been begun for which finish() has not been called yet.
+    // Whether finish() is still due.
     bool is_begun() const { return future_.valid(); }
 
-    // Waits until the work ends, and throws what it threw.
+    // Waits, and rethrows.
     void finish() {
         if (future_.valid())
             future_.get();
     }
 
 private:
-    std::future<void> future_; // destroyed, it waits for its thread
+    std::future<void> future_; // its destructor waits for the thread
 };
 
-// Calls work(first, end) for consecutive parts of [0, count): the last in this thread, the others in threads of their
-// own if the system has any left. grain: the least size of a part except the last, for which starting a thread pays. An
-// exception of work is thrown on when all parts that were begun have ended.
+// Calls work(first, end) for parts of [0, count), the last in this thread, others in threads if available. grain: size
+// of a part worth a thread. Rethrows when all parts have ended.
 template <typename Work>
 void in_parallel(std::size_t count, std::size_t grain, const Work &work) {
     const std::size_t processors = std::max(std::thread::hardware_concurrency(), 1U);
     const std::size_t part = std::max((count + processors - 1) / processors, grain);
-    std::vector<std::future<void>> others; // destroyed, they wait for their threads
+    std::vector<std::future<void>> others; // their destructors wait for the threads
     std::size_t first = 0;
     for (; first + part < count; first += part) {
         others.push_back(

@@ -1,4 +1,4 @@
-// Texts for people, put together from their parts, and messages on stderr.
+// Texts for people, and messages on stderr.
 #pragma once
 
 #include <cstdarg>
@@ -10,7 +10,6 @@
 
 namespace cli {
 
-// The parts one after the other, as streams write them.
 template <typename... Parts>
 std::string concat(const Parts &...parts) {
     std::ostringstream text;
@@ -18,7 +17,7 @@ std::string concat(const Parts &...parts) {
     return text.str();
 }
 
-// As printf writes it; what is longer than 255 characters is cut off.
+// Like printf, truncated to 255 characters.
 // NOLINTNEXTLINE(cert-dcl50-cpp): compilers check the arguments
 __attribute__((format(printf, 1, 2))) inline std::string formatted(const char *format, ...) {
     char text[256];
@@ -29,12 +28,11 @@ __attribute__((format(printf, 1, 2))) inline std::string formatted(const char *f
     return text;
 }
 
-// Three significant digits, so that 0.0031% can be told from 0; without exponent for what is seen in pictures.
+// Three significant digits show 0.0031%, without exponent for usual values.
 inline std::string percent_text(double share) {
     return formatted("%.3g%%", 100.0 * share);
 }
 
-// "a, b, c"
 template <typename Texts>
 std::string listed(const Texts &texts, const char *between = ", ") {
     std::string list;
@@ -43,8 +41,7 @@ std::string listed(const Texts &texts, const char *between = ", ") {
     return list;
 }
 
-// Cuts the middle out of a very long line, such as one with a number of a million digits: the subject comes first and
-// the rule last. No UTF-8 sequence is cut.
+// Cuts the middle out of very long lines: subject and rule are at the ends. Keeps UTF-8 sequences whole.
 inline std::string shortened(const std::string &line) {
     constexpr std::size_t longest = 2000;
     constexpr std::size_t kept = 900; // at each end
@@ -62,7 +59,6 @@ inline std::string shortened(const std::string &line) {
     return line.substr(0, end) + " [...] " + line.substr(begin);
 }
 
-// Every line begins with the program's name.
 inline void print_message(const std::string &message) {
     std::istringstream lines(message);
     for (std::string line; std::getline(lines, line);)

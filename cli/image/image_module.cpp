@@ -1,5 +1,4 @@
-// The module that encodes and decodes images by OpenImageIO; image_module.h says why it is one. image_file.cpp finds
-// its two functions by dlsym.
+// Encodes and decodes images by OpenImageIO; see image_module.h.
 #include "cli/image/image_module.h"
 
 #include <OpenImageIO/filesystem.h>
@@ -13,7 +12,7 @@ namespace {
 
 using namespace cli;
 
-// JPEG has no named attributes, only a description, which gets a line for each.
+// JPEG has no named attributes, only a description: a line for each.
 std::string description(std::span<const ImageAttribute> attributes) {
     std::vector<std::string> lines;
     for (const ImageAttribute &attribute : attributes)
@@ -21,7 +20,7 @@ std::string description(std::span<const ImageAttribute> attributes) {
     return listed(lines, "\n");
 }
 
-// "R", "G" and "B" for the main layer, "layer.R" or "layer.X" for others, and just the name for a layer of one channel.
+// "R", "G", "B" for the main layer, "layer.R" or "layer.X" for others, the layer's name for a single channel.
 std::vector<std::string> channel_names(std::span<const ImageLayer> layers) {
     std::vector<std::string> names;
     for (const ImageLayer &layer : layers) {
@@ -35,7 +34,7 @@ std::vector<std::string> channel_names(std::span<const ImageLayer> layers) {
     return names;
 }
 
-// The type of each channel; empty if all are floats.
+// Empty if all are floats.
 std::vector<OIIO::TypeDesc> channel_types(std::span<const ImageLayer> layers) {
     std::vector<OIIO::TypeDesc> types;
     for (const ImageLayer &layer : layers) {
@@ -46,7 +45,7 @@ std::vector<OIIO::TypeDesc> channel_types(std::span<const ImageLayer> layers) {
     return has_numbers ? types : std::vector<OIIO::TypeDesc>();
 }
 
-// The primaries and the white point of Rec. 709 (ITU-R BT.709-6, table 1), those of the radiance.
+// Rec. 709 (ITU-R BT.709-6, table 1), as the radiance.
 void add_chromaticities(OIIO::ImageSpec &spec) {
     constexpr std::array<float, 8> rec709{0.64F, 0.33F, 0.30F, 0.60F, 0.15F, 0.06F, 0.3127F, 0.3290F};
     spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, rec709.size()), rec709.data());
@@ -65,7 +64,7 @@ OIIO::ImageSpec describe_radiance(const ImageData &image) {
     spec.full_width = static_cast<int>(full_width);
     spec.full_height = static_cast<int>(full_height);
     add_chromaticities(spec);
-    spec.attribute("DateTime", ""); // without a date, OpenImageIO would write the present one
+    spec.attribute("DateTime", ""); // otherwise OpenImageIO writes the present date
     return spec;
 }
 
@@ -86,8 +85,7 @@ void add_attributes(OIIO::ImageSpec &spec, std::span<const ImageAttribute> attri
             spec.attribute(name, static_cast<float>(std::get<double>(value)));
 }
 
-// One row of the file, in which the channels of all layers stand side by side. Floats and whole numbers are copied bit
-// by bit.
+// All layers' channels side by side, copied bit by bit.
 void interleave_row(const ImageData &image, std::uint32_t y, std::span<std::uint32_t> row) {
     const std::size_t width = image.window.part.width;
     const std::size_t stride = row.size() / width;
@@ -118,8 +116,7 @@ bool write_layers(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec, const 
     return true;
 }
 
-// Encodes in memory instead of writing to a path: OpenImageIO does not notice when closing a file fails, as it does on
-// a full disk.
+// In memory: OpenImageIO does not notice when closing a file fails, as on a full disk.
 std::vector<unsigned char> encode(const ImageData &image, const char *extension) {
     const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(std::string("image.") + extension);
     if (!output)
@@ -137,7 +134,7 @@ std::vector<unsigned char> encode(const ImageData &image, const char *extension)
     return std::move(memory.buffer());
 }
 
-// Texts and single numbers, which are all that this program writes.
+// Texts and single numbers, as written by this program.
 std::vector<ImageAttribute> attributes_of(const OIIO::ImageSpec &spec) {
     std::vector<ImageAttribute> attributes;
     for (const OIIO::ParamValue &each : spec.extra_attribs) {

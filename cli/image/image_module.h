@@ -1,6 +1,5 @@
-// The interface between the program and the module libpt-image-file.so, which alone links OpenImageIO: its 261 shared
-// objects and 0.2 s are paid only for other formats than PNG. Both are built together: the types are C++, and failures
-// are std::runtime_error.
+// The interface to libpt-image-file.so, the only module that links OpenImageIO: 261 shared objects and 0.2 s, for other
+// formats than PNG. Built together with the program: types are C++, failures std::runtime_error.
 #pragma once
 
 #include "cli/base/number.h"
@@ -19,7 +18,7 @@
 
 namespace cli {
 
-// Pixels; x and y count from the picture's top left corner.
+// Pixels, from the picture's top left corner.
 struct Rectangle {
     std::uint32_t x;
     std::uint32_t y;
@@ -31,7 +30,7 @@ struct Rectangle {
     std::size_t pixel_count() const { return std::size_t{width} * height; }
 };
 
-// "10,20,640,480": x, y, width and height. Nothing unless all four are whole numbers.
+// "10,20,640,480"; empty unless four whole numbers.
 inline std::optional<Rectangle> parse_rectangle(std::string_view text) {
     const auto numbers = parse_numbers<4>(text, ',');
     return numbers ? std::optional(Rectangle{(*numbers)[0], (*numbers)[1], (*numbers)[2], (*numbers)[3]})
@@ -69,7 +68,7 @@ struct ImageAttribute {
     std::variant<std::string, std::int32_t, double> value; // double is float32 in a file
 };
 
-// For formats whose metadata consist of text only (PNG, JPEG).
+// For formats with metadata as text (PNG, JPEG).
 inline std::string attribute_text(const ImageAttribute &attribute) {
     if (const auto *text = std::get_if<std::string>(&attribute.value))
         return *text;
@@ -79,54 +78,51 @@ inline std::string attribute_text(const ImageAttribute &attribute) {
 }
 
 enum class LayerKind {
-    color,  // R, G and B; or one number, for which the layer is the channel
+    color,  // R, G and B; or one channel, the layer itself
     vector, // X, Y and Z
     numbers // one whole number
 };
 
-// Channels of an image whose values are stored together.
 struct ImageLayer {
     std::string name; // empty for the main one
     LayerKind kind;
     std::size_t channel_count;                   // 3 or 1
     std::span<const float> values;               // pixel by pixel, row by row from the top
-    std::span<const std::uint32_t> numbers = {}; // in place of them, of LayerKind::numbers
+    std::span<const std::uint32_t> numbers = {}; // instead, for LayerKind::numbers
 };
 
-// Layers for formats of radiance, signals for the others.
+// Layers for radiance, else signals.
 struct ImageData {
     ImageWindow window;
     std::span<const ImageLayer> layers = {};
     std::span<const std::uint8_t> signals = {}; // R, G, B of each pixel, for PNG also R, G, B, A, not multiplied by A
-    std::optional<double> gamma = {}; // light is the signal to this power; nothing: by the sRGB curve. For PNG
+    std::optional<double> gamma = {};           // light is the signal to this power; empty: the sRGB curve. For PNG
     std::span<const ImageAttribute> attributes = {};
 
     bool has_alpha() const { return signals.size() == 4 * window.part.pixel_count(); }
 };
 
-// Encodes an image in memory.
 using EncodeImage = void(const ImageData &image, const char *extension, std::vector<unsigned char> &file);
 
-// What a file holds.
 struct DecodedImage {
     std::string path;
-    std::int32_t x; // where the pixels begin in the picture; may lie outside of it
+    std::int32_t x; // of the pixels in the picture; may lie outside
     std::int32_t y;
     std::uint32_t width; // of the pixels
     std::uint32_t height;
     std::uint32_t full_width; // of the picture
     std::uint32_t full_height;
-    bool is_float;                     // otherwise whole numbers, as displays take them, scaled to [0, 1]
-    std::vector<std::string> channels; // their names
+    bool is_float;                     // otherwise whole numbers, as for displays, scaled to [0, 1]
+    std::vector<std::string> channels; // names
     std::vector<float> values;         // channel by channel of a pixel, row by row from the top
     std::vector<ImageAttribute> attributes;
 
-    // Three values a pixel: the channels R, G and B of a layer, or X, Y and Z, or three times its only one. The main
-    // layer has no name. Throws Failure(ExitCode::file) if there is none of that name.
+    // Three values per pixel: a layer's R, G, B or X, Y, Z, or its only channel three times. The main layer has no
+    // name. Throws Failure(ExitCode::file) if it is missing.
     std::vector<float> layer(const std::string &name) const;
 };
 
-// Reads a file in any format that OpenImageIO knows.
+// In any format that OpenImageIO knows.
 using DecodeImage = void(const std::string &path, DecodedImage &image);
 
 inline constexpr const char *encode_image_symbol = "pt_encode_image";

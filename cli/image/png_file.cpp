@@ -1,4 +1,4 @@
-// Encodes and decodes PNG images by libpng, without OpenImageIO, whose module takes 0.2 s and 200 MB to load.
+// PNG by libpng: OpenImageIO's module takes 0.2 s and 200 MB to load.
 #include "cli/base/file.h"
 #include "cli/image/image_file.h"
 
@@ -18,7 +18,7 @@
 namespace cli {
 namespace {
 
-// Must not return. The way out of libpng's C frames is a long jump, for no exception may cross them.
+// Leaves libpng's C frames by a long jump, because no exception may cross them. Must not return.
 [[noreturn]] void fail(png_structp png, png_const_charp reason) {
     *static_cast<std::string *>(png_get_error_ptr(png)) = reason;
     png_longjmp(png, 1);
@@ -26,7 +26,7 @@ namespace {
 
 void ignore(png_structp, png_const_charp) {}
 
-// libpng's structures, and the result of its callbacks: the file so far, or why there is none.
+// The file so far, or the error.
 struct Encoding {
     std::vector<unsigned char> file;
     std::string error;
@@ -60,7 +60,7 @@ struct Encoding {
     }
 };
 
-// Text chunks are Latin-1, and international ones UTF-8. The result points into both arguments.
+// Text chunks are Latin-1, international ones UTF-8. Points into both arguments.
 std::vector<png_text> texts_of(const ImageData &image, std::span<std::string> values) {
     std::vector<png_text> texts;
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -74,8 +74,8 @@ std::vector<png_text> texts_of(const ImageData &image, std::span<std::string> va
     return texts;
 }
 
-// What the bytes mean as light (PNG, ISO 15948, 11.3.3): sRGB, or a power of it with the primaries of sRGB, which are
-// those of Rec. 709 (ITU-R BT.709, table 1). Perceptual is the intent for photographs.
+// The bytes' color space (PNG, ISO 15948, 11.3.3): sRGB, or a power with Rec. 709's primaries (ITU-R BT.709, table 1).
+// Intent: perceptual, for photographs.
 void set_color_space(const Encoding &encoding, std::optional<double> gamma) {
     if (!gamma) {
         png_set_sRGB_gAMA_and_cHRM(encoding.png, encoding.info, PNG_sRGB_INTENT_PERCEPTUAL);
@@ -93,7 +93,7 @@ std::vector<png_bytep> rows_of(const ImageData &image) {
     return rows;
 }
 
-// Returns false after a failure. A long jump runs no destructors, so this function has no objects that need one.
+// False after a failure. A long jump skips destructors, so there are none.
 bool write(Encoding &encoding, const ImageData &image, std::span<png_text> texts, png_bytepp rows) {
     if (setjmp(png_jmpbuf(encoding.png)) != 0) // NOLINT(cert-err52-cpp): libpng's way to tell of errors
         return false;
@@ -101,8 +101,8 @@ bool write(Encoding &encoding, const ImageData &image, std::span<png_text> texts
                  image.has_alpha() ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     set_color_space(encoding, image.gamma);
-    // Pictures are noise about slopes. Differences of neighbours in a row, matched with less effort, make files as
-    // large as the best of all filters and zlib's default do, in a third of the time or less.
+    // Pictures are noise on slopes: differences of neighbours and a lower level give files as small as the defaults in
+    // a third of the time.
     png_set_filter(encoding.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
     png_set_compression_level(encoding.png, 4);
     png_set_text(encoding.png, encoding.info, texts.data(), static_cast<int>(texts.size()));
@@ -111,7 +111,6 @@ bool write(Encoding &encoding, const ImageData &image, std::span<png_text> texts
     return true;
 }
 
-// The same for a file that is read.
 struct Decoding {
     std::span<const std::byte> rest;
     std::string error;
@@ -138,7 +137,7 @@ struct Decoding {
     }
 };
 
-// Like write(). Colors come as red, green and blue of 8 or 16 bits, maybe with an alpha.
+// Red, green, blue of 8 or 16 bits, perhaps alpha.
 bool read(Decoding &decoding) {
     if (setjmp(png_jmpbuf(decoding.png)) != 0) // NOLINT(cert-err52-cpp): libpng's way to tell of errors
         return false;

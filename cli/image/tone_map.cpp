@@ -26,9 +26,9 @@ Color clamp(Color color) {
     return color;
 }
 
-// Reinhard, Stark, Shirley, Ferwerda 2002, "Photographic Tone Reproduction for Digital Images", eq. 3:
-// Ld = L / (1 + L). On the luminance, as in the paper, which keeps the ratio of the channels; per channel would wash
-// out every saturated color. The price: a channel far above the luminance may pass 1 and is clipped.
+// Reinhard, Stark, Shirley, Ferwerda 2002, "Photographic Tone Reproduction for Digital Images", eq. 3: Ld = L / (1 +
+// L), on the luminance, which keeps the channels' ratio; per channel it would wash out saturated colors. A channel far
+// above the luminance may pass 1 and is clipped.
 Color reinhard(Color color) {
     const double luminance = 0.2126 * color[0] + 0.7152 * color[1] + 0.0722 * color[2]; // Rec. 709
     for (double &component : color)
@@ -37,7 +37,7 @@ Color reinhard(Color color) {
 }
 
 // Narkowicz 2015, "ACES Filmic Tone Mapping Curve": a rational fit of the ACES reference and output transforms, per
-// channel. More contrast and saturation than ACES itself has.
+// channel, with more contrast and saturation than ACES.
 Color aces(Color color) {
     for (double &x : color)
         x = x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14);
@@ -45,9 +45,8 @@ Color aces(Color color) {
 }
 
 // Sobotka 2022, AgX (github.com/sobotka/AgX), base look, in the form of Wrensch 2023, "Minimal AgX Implementation":
-// the primaries move inwards, 16.5 stops about middle grey are taken logarithmically, and a polynomial stands for the
-// sigmoid (mean squared error 3.7e-6); then the primaries move back. What comes out is a signal for a display of gamma
-// 2.2, so it is decoded here and every curve gives light.
+// primaries inset, logarithm of 16.5 stops about middle grey, a polynomial for the sigmoid (mean squared error 3.7e-6),
+// primaries outset. The result is a signal for gamma 2.2, decoded here because every curve gives light.
 Color agx(const Color &color) {
     static constexpr Rows inset{{{0.842479062253094, 0.0784335999999992, 0.0792237451477643},
                                  {0.0423282422610123, 0.878468636469772, 0.0791661274605434},
@@ -72,9 +71,8 @@ Color agx(const Color &color) {
     return light;
 }
 
-// Khronos PBR Neutral Tone Mapper 2024 (github.com/KhronosGroup/ToneMapping). Takes off the 4 % that a Fresnel
-// reflection adds to a base color, leaves what then peaks below 0.76 alone, and above it compresses the peak and
-// fades towards white.
+// Khronos PBR Neutral Tone Mapper 2024 (github.com/KhronosGroup/ToneMapping). Subtracts the 4 % that Fresnel reflection
+// adds to a base color, keeps peaks below 0.76, compresses higher ones and fades them towards white.
 Color neutral(Color color) {
     constexpr double fresnel = 0.04;
     constexpr double start = 0.8 - fresnel;
@@ -82,7 +80,7 @@ Color neutral(Color color) {
     constexpr double desaturation = 0.15;
 
     const double least = *std::min_element(color.begin(), color.end());
-    // The parabola meets the constant at 2 * fresnel with equal slope and goes through 0.
+    // The parabola through 0 meets the constant at 2 * fresnel with equal slope.
     const double offset = least < 2.0 * fresnel ? least - least * least / (4.0 * fresnel) : fresnel;
     for (double &component : color)
         component -= offset;
@@ -96,12 +94,11 @@ Color neutral(Color color) {
     return color;
 }
 
-// From light of the display to the signal, both in [0, 1].
 double encode(const ToneMap &map, double light) {
     return map.gamma ? std::pow(light, 1.0 / *map.gamma) : encode_srgb(light);
 }
 
-// The color of what covers each pixel, undoing the multiplication by the covered share; black where that share is 0.
+// Divides by the covered share; black where that is 0.
 std::vector<float> unassociated(std::span<const float> radiance, std::span<const float> alpha) {
     std::vector<float> colors(radiance.size());
     for (std::size_t i = 0; i < colors.size(); ++i) {
@@ -111,7 +108,7 @@ std::vector<float> unassociated(std::span<const float> radiance, std::span<const
     return colors;
 }
 
-// Puts A, which is a share and is encoded as it is, after R, G and B of each pixel.
+// A is not encoded.
 std::vector<std::uint8_t> with_alpha(std::span<const std::uint8_t> colors, std::span<const float> alpha) {
     std::vector<std::uint8_t> pixels;
     pixels.reserve(4 * alpha.size());
@@ -147,7 +144,7 @@ double encode_srgb(double light) {
 std::vector<std::uint8_t> map_to_bytes(std::span<const float> radiance, const ToneMap &map) {
     const double scale = std::exp2(map.exposure);
     std::vector<std::uint8_t> bytes(radiance.size());
-    constexpr std::size_t grain = 20'000; // pixels: two milliseconds, many times what a thread takes to start
+    constexpr std::size_t grain = 20'000; // pixels: two milliseconds
     in_parallel(radiance.size() / 3, grain, [&](std::size_t first, std::size_t end) {
         for (std::size_t i = 3 * first; i < 3 * end; i += 3) {
             const Color light =

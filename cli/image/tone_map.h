@@ -1,6 +1,5 @@
-// How radiance is shown: exposure, tone curve, display encoding and rounding to bytes, and the files of pictures
-// for a display. One way for pictures that are rendered and for those made of a file of radiance, so that both have the
-// same bits.
+// Exposure, tone curve, display encoding, rounding to bytes, and files; the same for renderings and files of radiance,
+// so that both have the same bits.
 #pragma once
 
 #include "cli/base/names.h"
@@ -33,53 +32,50 @@ inline constexpr ValueNames<5, ToneCurve> tone_curves({{"none", ToneCurve::none}
                                                        {"neutral", ToneCurve::neutral}});
 
 struct ToneMap {
-    double exposure = 0.0; // stops: radiance is multiplied by 2^exposure
+    double exposure = 0.0; // stops: radiance times 2^exposure
     ToneCurve curve = ToneCurve::none;
-    std::optional<double> gamma; // encode with the power 1 / gamma in place of the sRGB curve
-    bool is_automatic = false;   // whether the exposure follows from the picture
+    std::optional<double> gamma; // encode with the power 1 / gamma instead of the sRGB curve
+    bool is_automatic = false;   // from the picture
 };
 
-// From radiance >= 0 to light of the display, each component in [0, 1].
+// Radiance >= 0 to display light, each component in [0, 1].
 Color apply_curve(ToneCurve curve, const Color &radiance);
 
-// Light of the display in [0, 1] to the signal in [0, 1]: IEC 61966-2-1.
+// Display light to signal, both in [0, 1]: IEC 61966-2-1.
 double encode_srgb(double light);
 
-// From R, G, B triples of radiance >= 0 to as many bytes: 255 times the signal, rounded, halves up. No dither, so that
-// equal pictures are equal files.
+// R, G, B triples of radiance >= 0 to bytes: 255 times the signal, halves up. No dither: equal pictures are equal
+// files.
 std::vector<std::uint8_t> map_to_bytes(std::span<const float> radiance, const ToneMap &map);
 
 inline constexpr double largest_exposure = 64.0; // the least is its negative
 
-// The stops that bring the average of an image to middle grey, 0.18: Reinhard, Stark, Shirley, Ferwerda 2002,
-// "Photographic Tone Reproduction for Digital Images", eqs. 1 and 2, whose average is the exponential of the mean of
-// the logarithms. It hardly depends on how bright the lamps in view are. Two things differ from that paper. A pixel
-// counts by the mean of its channels instead of its luminance: blue light has so little luminance that it would be
-// burnt out. And pixels below 1/128 of the picture's level count the less the darker they are; otherwise the logarithms
-// of what looks black, such as the tails of lobes, would decide everything. The level is the mean after cutting values
-// above the mean down to it, three times, so that a lamp in a hundredth of the pixels does not set it. Rounded to
-// hundredths, so that the number that is shown gives the same picture. 0 if all is black.
+// The stops that bring the picture's average to middle grey, 0.18: Reinhard, Stark, Shirley, Ferwerda 2002,
+// "Photographic Tone Reproduction for Digital Images", eqs. 1 and 2 (exponential of the mean logarithm), which hardly
+// depends on the brightness of lamps in view. Two differences: a pixel's mean of channels replaces its luminance, which
+// would burn out blue; and pixels below 1/128 of the level count less the darker they are, because logarithms of near
+// black, such as tails of lobes, would dominate. The level is the mean after clipping to the mean three times, so that
+// a lamp in a hundredth of the pixels does not set it. Rounded to hundredths, so that the number shown gives the same
+// picture. 0 if all is black.
 double automatic_exposure(std::span<const float> radiance);
 
 struct Display {
-    std::optional<double> exposure; // stops; nothing: automatic
+    std::optional<double> exposure; // stops; empty: automatic
     ToneCurve curve = ToneCurve::none;
-    std::optional<double> gamma; // nothing: the sRGB curve
+    std::optional<double> gamma; // empty: the sRGB curve
 
     ToneMap tone_map(std::span<const float> radiance) const {
         return {exposure ? *exposure : automatic_exposure(radiance), curve, gamma, !exposure};
     }
 };
 
-// Describes in the metadata what was done to the radiance.
 void add_tone_map(std::vector<ImageAttribute> &attributes, const ToneMap &tone_map);
 
-// "exposure -3.13 EV (auto)" and the end of the line; empty where it was given, or nothing is tone-mapped.
+// "exposure -3.13 EV (auto)" and a line end; empty without automatic exposure.
 std::string automatic_exposure_line(const std::optional<ToneMap> &tone_map);
 
-// image: its window and attributes. radiance: R, G, B triples of the window's part, >= 0. alpha: of each pixel, by
-// which its radiance is multiplied already; empty for none. Throws Failure(ExitCode::file), and leaves an
-// existing file as it was.
+// image: window and attributes. radiance: R, G, B triples of the window's part, >= 0. alpha: per pixel, already
+// multiplied into the radiance; or empty. Throws Failure(ExitCode::file), and leaves an existing file as it was.
 void write_display_image(ImageWriter &writer, const ImageTarget &target, ImageData image,
                          std::span<const float> radiance, const ToneMap &tone_map, std::span<const float> alpha = {});
 

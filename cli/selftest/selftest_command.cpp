@@ -1,4 +1,4 @@
-// The command `pt selftest`: checks whether a device computes what it should.
+// `pt selftest` checks whether a device computes correctly.
 #include "cli/base/devices.h"
 #include "cli/base/exit_code.h"
 #include "cli/base/file.h"
@@ -26,7 +26,7 @@ namespace {
 struct SelftestOptions {
     std::string device;
     std::string json;
-    std::string shader_dir; // empty: the library's own kernels
+    std::string shader_dir; // empty: the library's
     bool directions = false;
 };
 
@@ -69,7 +69,7 @@ std::vector<SelftestCheck> check_functions(const Context &context) {
     return checks;
 }
 
-// Renders a scene; one call of pt_accumulate for each count.
+// A call of pt_accumulate for each count.
 std::vector<float> render(const Context &context, const SceneFile &scene,
                           const std::vector<std::uint32_t> &sample_counts) {
     describe_scene(context, scene, [](double) { return true; });
@@ -91,7 +91,7 @@ double differing_values(std::span<const float> a, std::span<const float> b) {
     });
 }
 
-// The sum of samples is exact, so its bits must not depend on how the samples are split over calls.
+// Sums are exact, so no split over calls may change a bit.
 SelftestCheck check_splits(const Context &context) {
     const SelftestScene ball = lamp_in_a_ball();
     const std::uint32_t count = ball.scene.sample_count.value();

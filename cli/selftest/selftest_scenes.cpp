@@ -11,15 +11,13 @@
 namespace cli {
 namespace {
 
-// Probability that a correct device fails one check; over all scenes, about one in a million.
+// Probability that a correct device fails a check; about one in a million for all.
 constexpr double false_alarm = 1e-7;
 
-// Bernstein's inequality (Boucheron, Lugosi and Massart, Concentration Inequalities, 2013, section 2.8), which holds
-// for skewed samples too: for n independent samples of variance s^2 and deviations up to m,
-//     P(|error| > t) <= 2 exp(-n t^2 / (2 s^2 + 2 m t / 3)).
-// This is solved for t. A sample that has one value with probability p, and is 0 otherwise, has s^2 = (1 - p) / p, and
-// deviates by s^2 upwards and 1 downwards: m = s^2 + 6 s is enough for all p up to 0.97, and allows smooth integrands
-// six standard deviations. Samples of a stratified sampler are not independent, but less noisy.
+// Bernstein's inequality (Boucheron, Lugosi and Massart, Concentration Inequalities, 2013, section 2.8), solved for t:
+// for n independent samples of variance s^2 and deviations up to m, P(|error| > t) <= 2 exp(-n t^2 / (2 s^2 + 2 m t /
+// 3)). A sample that is nonzero with probability p has s^2 = (1 - p) / p and deviates by s^2 up and 1 down, so m = s^2
+// + 6 s holds up to p = 0.97; smooth integrands get six standard deviations. Stratified samples are less noisy.
 double noise_bound(double relative_std, double sample_count) {
     const double log_probability = std::log(2.0 / false_alarm);
     const double variance = relative_std * relative_std;
@@ -27,7 +25,7 @@ double noise_bound(double relative_std, double sample_count) {
     return (linear + std::sqrt(linear * linear + 2.0 * sample_count * variance * log_probability)) / sample_count;
 }
 
-// The mean of a channel's values to a power; to the power 0, the share of values that are not 0.
+// Mean of a channel's values to a power; with power 0 the share of nonzero values.
 double channel_mean(std::span<const float> radiance, std::size_t channel, int power) {
     double sum = 0.0;
     for (std::size_t i = channel; i < radiance.size(); i += 3)
@@ -35,27 +33,27 @@ double channel_mean(std::span<const float> radiance, std::size_t channel, int po
     return sum / (static_cast<double>(radiance.size()) / 3.0);
 }
 
-constexpr double unit_roundoff = 0x1p-24; // of float32: largest relative error of rounding
+constexpr double unit_roundoff = 0x1p-24; // of float32: largest relative rounding error
 
-// A sample takes some 50 operations. The worst in Vulkan, division, is off by 2.5 ulp, which is 5 roundoffs.
+// Some 50 operations; the worst in Vulkan, division, errs by 2.5 ulp = 5 roundoffs.
 constexpr double sample_rounding = 50 * 5 * unit_roundoff;
 
-// members: the scene except for sizes.
+// members: the scene without sizes.
 SceneFile scene_of(std::uint32_t side, std::uint32_t sample_count, const std::string &members) {
     return parse_scene(concat(R"({"film": {"width": )", side, R"(, "height": )", side, R"(}, "render": {"spp": )",
                               sample_count, members, "}"),
                        "");
 }
 
-// Emission is added unchanged to an exact sum, and rounded once.
+// Emission is added unchanged to an exact sum and rounded once.
 SelftestScene inside_a_lamp() {
     const SceneFile scene = scene_of(16, 16, R"(, "max_path_length": 3}, "materials": {"lamp": {"emission": 0.1}},
         "spheres": [{"center": [0, 0, 2], "radius": 50, "material": "lamp"}])");
     return {"inside a lamp", scene, double{scene.materials[0].emission[0]}, 0.0, unit_roundoff};
 }
 
-// A white ball in a black lamp of radiance 1: every path ends on the lamp after at most one reflection of weight 1,
-// which is albedo / pi * cos over cos / pi: two products, three divisions, and the product with the emission.
+// A white ball in a black lamp of radiance 1: every path ends on the lamp after at most one reflection of weight
+// (albedo / pi * cos) / (cos / pi): two products, three divisions, and the product with the emission.
 SelftestScene white_furnace() {
     const SceneFile scene = scene_of(16, 16, R"(, "max_path_length": 3, "estimator": "bsdf"},
         "materials": {"lamp": {"emission": 1}, "white": {"diffuse": 1}},
@@ -64,7 +62,7 @@ SelftestScene white_furnace() {
     return {"white furnace", scene, 1.0, 0.0, (3 * 1 + 3 * 5) * unit_roundoff};
 }
 
-// A point of a floor, which the camera sees in so narrow an angle that light varies by 1e-8 around it.
+// A point of a floor; the view is so narrow that light varies by 1e-8.
 SceneFile floor_scene(const std::string &members) {
     return scene_of(32, 64,
                     R"(, "max_path_length": 2},
@@ -72,11 +70,10 @@ SceneFile floor_scene(const std::string &members) {
                         members);
 }
 
-// The irradiance of a uniform sphere of radius r wholly above a plane is that of a point at its centre with the same
-// power: pi L (r / d)^2 cos (Snyder 1996). The reflected radiance is albedo / pi times that. The noise: sampled by its
-// solid angle, the lamp's contribution varies with the cosine over its half angle a, sin a = r / d, by less than sin a
-// tan + 1 - cos a. A direction sampled by the cosine finds the lamp with probability p = sin^2 a cos, and contributes
-// with a weight of at most p^2.
+// A uniform sphere of radius r above a plane has the irradiance of a point of its power at its center, pi L (r / d)^2
+// cos (Snyder 1996); times albedo / pi. Noise: sampled by solid angle, the contribution varies with the cosine over the
+// half angle a, sin a = r / d, by less than sin a tan + 1 - cos a. A direction by the cosine hits the lamp with
+// probability p = sin^2 a cos, and has a weight of at most p^2.
 SelftestScene floor_under_lamp(const std::string &name, const std::string &members) {
     const SceneFile scene = floor_scene(members);
     const pt_sphere &lamp = scene.spheres[0];
@@ -106,7 +103,7 @@ SelftestScene tiny_far_lamp() {
         "planes": [{"normal": [0, 1, 0], "offset": 1, "material": "floor"}])");
 }
 
-// The ball touches the plane at that point: within the spot seen, it departs from the plane by a part in 1e18.
+// The ball touches the plane there: within the spot seen they differ by a part in 1e18.
 SelftestScene huge_ball_as_floor() {
     return floor_under_lamp("floor is a ball of 1e7", R"(
         "materials": {"lamp": {"emission": 10}, "floor": {"diffuse": 0.8}},
@@ -114,24 +111,23 @@ SelftestScene huge_ball_as_floor() {
                     {"center": [0, -10000001, -2], "radius": 1e7, "material": "floor"}])");
 }
 
-// A glossy floor in a dome of radiance 1. The integral of (n + 2) / (2 pi) cos^n g cos over the directions about the
-// mirror direction r, where cos is the cosine to the normal and cos g that to r, comes only from the directions'
-// component along r, so it is (n + 2) / (n + 2) times r's own cosine. The lobe is 1e-3 wide, so the horizon cuts off
-// nothing. The noise: over the lobe, whose component in the plane of incidence has variance 1 / n, the cosine varies by
-// tan / sqrt(n).
+// A glossy floor in a dome of radiance 1. The integral of (n + 2) / (2 pi) cos^n g cos over directions, g from the
+// mirror direction r, is r's cosine times (n + 2) / (n + 2): only the components along r count. The lobe, 1e-3 wide, is
+// not cut by the horizon. Noise: over the lobe, of variance 1 / n in the plane of incidence, the cosine varies by tan /
+// sqrt(n).
 SelftestScene sharp_lobe() {
     const SceneFile scene = floor_scene(R"(
         "materials": {"dome": {"emission": 1}, "floor": {"specular": 1, "glossiness": 1e6}},
         "spheres": [{"center": [0, 0, 0], "radius": 1e4, "material": "dome"}],
         "planes": [{"normal": [0, 1, 0], "offset": 1, "material": "floor"}])");
-    constexpr double tangent = 2.0; // of the angle between the floor's normal and the view
+    constexpr double tangent = 2.0; // of the angle between normal and view
     return {"lobe of 1e-3 radians", scene, 1.0 / std::sqrt(1.0 + tangent * tangent),
             tangent / std::sqrt(double{scene.materials[1].glossiness}), sample_rounding};
 }
 
-// A lamp of radius 1 recedes along the axis, from distance a to b. It fills pi / (z^2 - 1) of the image plane at
-// distance 1: on average pi / (b - a) times the integral of 1 / (z^2 - 1), which is log((z - 1) / (z + 1)) / 2. It is
-// always within the image, a square of side 2 tan(fov / 2) > 2 / sqrt(a^2 - 1). Noise: a share p of the samples is 1.
+// A unit lamp recedes along the axis from a to b. It fills pi / (z^2 - 1) of the image plane at distance 1: on average
+// pi / (b - a) times the integral of 1 / (z^2 - 1) = log((z - 1) / (z + 1)) / 2. It stays within the image: side 2
+// tan(fov / 2) > 2 / sqrt(a^2 - 1). Noise: a share p of the samples is 1.
 SelftestScene receding_lamp() {
     const SceneFile scene = scene_of(64, 64, R"(, "max_path_length": 1}, "materials": {"lamp": {"emission": 1}},
         "camera": {"position": [0, 0, 0], "look_at": [0, 0, -1], "vertical_fov": 29.2},
@@ -153,8 +149,8 @@ struct DirectionKind {
     double scale;      // its sample is scale * c
 };
 
-// A floor under a sky of radiance 1, seen from straight above by parallel rays, one sample to a pixel: with the sampler
-// "random", so that samples are independent. more_planes block all but a share of the directions, whatever the cosine.
+// A floor under a sky of radiance 1, from above by parallel rays, one sample per pixel; sampler "random" makes samples
+// independent. more_planes block all but a share of the directions at any cosine.
 SelftestScene direction_scene(const DirectionKind &kind, const std::string &what, int exponent,
                               const std::string &more_planes, double share) {
     const auto moment = [&](int e) {
@@ -201,10 +197,9 @@ SelftestCheck SelftestScene::judge(std::span<const float> radiance) const {
     return {"scene", name, worst_error, bound(), "relative", formatted("%.9g, exact is %.9g", worst, expected)};
 }
 
-// A wall of albedo rho, a sphere of radius R, around a black lamp of radius r. A direction from the wall, sampled by
-// the cosine, finds the lamp with probability q = (r / R)^2, otherwise the wall again: paths of L vertices carry
-//     rho Le q sum_{j <= L - 2} (rho (1 - q))^j.
-// The noise: with probability q a path ends on the lamp and lacks the rest: a deviation below sqrt(q) of the value.
+// A spherical wall of albedo rho, radius R, around a black lamp of radius r. A direction by the cosine hits the lamp
+// with probability q = (r / R)^2, else the wall: paths of L vertices carry rho Le q sum_{j <= L - 2} (rho (1 - q))^j.
+// Noise: a path ends on the lamp with probability q and lacks the rest: less than sqrt(q) of the value.
 SelftestScene lamp_in_a_ball() {
     constexpr double rho = 0.5;
     constexpr double emission = 100.0;
@@ -222,10 +217,9 @@ std::vector<SelftestScene> selftest_scenes() {
             huge_ball_as_floor(), tiny_far_lamp(), sharp_lobe(),     receding_lamp()};
 }
 
-// With f the reflection and c the cosine, a sample is f * c over the density: 2 c for a white diffuse floor with
-// uniform directions; (n + 2) / 2 c^n for a lobe of exponent n with directions by the cosine; (n + 2) / (n + 1) c for
-// the lobe with directions by the lobe itself. A wall, a black upright plane beside the camera's rays, blocks half of
-// all directions.
+// A sample is reflection times cosine c over density: 2 c for white diffuse and uniform directions; (n + 2) / 2 c^n for
+// a lobe of exponent n by the cosine; (n + 2) / (n + 1) c for the lobe by itself. A black upright plane beside the rays
+// blocks half of all directions.
 std::vector<SelftestScene> direction_scenes() {
     constexpr double n = 20.0;
     constexpr int wall_count = 4;
