@@ -1,15 +1,14 @@
-// A surface that is held by a ball, and rays against it: a ball that may move, or a capsule, which does not move, but is a
-// ball swept along a segment. All that tells these kinds apart is here. The kinds that a surface may be of, a bit each, are
-// KINDS, or TREE_KINDS in the tree. Part of scene.glsl.
+// A ball that may move, or a capsule, a ball swept along a segment: all differences of these kinds are here. KINDS and
+// TREE_KINDS have a bit per kind present. Part of scene.glsl.
 #ifndef BALL_GLSL
 #define BALL_GLSL
 
 #include "maths.glsl"
 
-// Finite, because Vulkan does not promise infinities, and farther than anything in a scene.
+// Finite, because Vulkan does not promise infinities.
 const float NO_HIT = 3.0e38;
 
-// A ball at a time, or the first end of a capsule and its axis: the way from one end to the other, and 1 / its length.
+// A ball at a time, or a capsule's first end; axis: the way to the other end, and 1 / its length.
 struct Ball {
     vec4 centre_radius;
     vec4 axis;
@@ -19,7 +18,7 @@ const vec4 NO_AXIS = vec4(0.0);
 
 const bool HAS_WAYS = MOTION == 1u || KINDS > KIND_BALL;
 
-// From the words that gpu_layout.h describes. The place is that at time 0 of those in which the way is counted.
+// Reads the words of gpu_layout.h.
 Ball ball_from(vec4 centre_radius, vec4 way, float time, uint kinds)
 {
     bool is_capsule = (kinds & KIND_CAPSULE) != 0u && way.w > 0.0;
@@ -28,8 +27,7 @@ Ball ball_from(vec4 centre_radius, vec4 way, float time, uint kinds)
     return Ball(centre_radius, is_capsule ? way : NO_AXIS);
 }
 
-// Of the swept balls' centres the one that is nearest to a place. centre: the first one; to_first: the way there from the
-// place.
+// The swept ball's center nearest to a place. to_first: the way from there to the first center.
 vec3 nearest_centre(Ball ball, vec3 centre, vec3 to_first, uint kinds)
 {
     if ((kinds & KIND_CAPSULE) == 0u)
@@ -38,7 +36,7 @@ vec3 nearest_centre(Ball ball, vec3 centre, vec3 to_first, uint kinds)
     return centre + clamp(-dot(to_first, axis.xyz * axis.w) * axis.w, 0.0, 1.0) * axis.xyz;
 }
 
-// Distance along the unit vector direction to a sphere that no path gets inside of, or NO_HIT: see sphere_distance.
+// sphere_distance() for a sphere that no path enters.
 float distance_from_outside(vec3 to_centre, float radius, vec3 direction, bool leaving)
 {
     float b = dot(to_centre, direction);
@@ -48,16 +46,10 @@ float distance_from_outside(vec3 to_centre, float radius, vec3 direction, bool l
     return !leaving && squared_half_chord >= 0.0 && b > 0.0 ? nearer : NO_HIT;
 }
 
-// Distance along the unit vector direction to a sphere, or NO_HIT. to_centre = centre - origin; leaving: the ray
-// starts on it. With b = to_centre . direction and l the part of to_centre across the ray, the roots are b -+
-// sqrt(r^2 - l^2). Taking l by subtraction of vectors, not of squares, keeps small far spheres in place (Haines et
-// al., "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems 2019, chapter 7). From a point of the
-// sphere itself the roots are 0 and 2 b: from outside the ray never meets it again, from inside at 2 b. The vertex
-// knows its side; for small far spheres and grazing directions the sign of b would tell it wrongly. The side and the
-// direction tell whether there is a hit: from outside, a line that meets the sphere does so ahead if it leads inwards,
-// b > 0; from inside, every direction meets it. The sign of the distance does not tell, because rounding may turn it
-// for rays that start near the sphere. If the camera is outside all spheres, no path ever gets inside. outside: whether
-// a ray that starts elsewhere is outside of this sphere.
+// Distance along the unit vector direction to a sphere, or NO_HIT (shaders/README.md, section 3). to_centre = center -
+// origin; leaving: the ray starts on the sphere; outside: a ray that starts elsewhere is outside. Side and direction
+// decide a hit: rounding may flip the sign of the distance near the sphere, and of b on it. If the camera is outside
+// all spheres, no path gets inside.
 float sphere_distance(vec3 to_centre, float radius, vec3 direction, bool leaving, bool inside, bool outside)
 {
     if (INSIDE == 0)
@@ -73,8 +65,8 @@ float sphere_distance(vec3 to_centre, float radius, vec3 direction, bool leaving
     return met ? distance : NO_HIT;
 }
 
-// Whether the sphere blocks a shadow ray that comes from outside all spheres and ends at a distance: whether the nearer
-// root b - sqrt(r^2 - l^2) is less than that, without taking the root. at_end: the ray starts or ends on it.
+// Whether the sphere blocks a shadow ray from outside all spheres: b - sqrt(r^2 - l^2) < distance, without the root.
+// at_end: the ray starts or ends on it.
 bool sphere_blocks(vec3 to_centre, float radius, vec3 direction, bool at_end, float distance)
 {
     float b = dot(to_centre, direction);
@@ -84,23 +76,17 @@ bool sphere_blocks(vec3 to_centre, float radius, vec3 direction, bool at_end, fl
     return !at_end && b > 0.0 && met_before;
 }
 
-// A capsule is a ball swept from one end of a segment to the other. A ray meets it where it meets the first of the swept
-// balls, and leaves it where it leaves the last. This function finds these balls; then all that is said above of distances
-// to a ball holds.
+// The way from a capsule's first end to the center of the ball that a ray meets first, or leaves last.
 //
-// With the unit vector u of the axis, its length L, c = u . direction, the part p of u across the ray and the part l of
-// the way to the first end, the ball at s on the axis is met at b + s c - sqrt(r^2 - |l + s p|^2). This is least where
-// its derivative is 0: at s = (n - c h) / |p|, with n = -l . p / |p| and the half chord h of the nearest approach,
-// h^2 = r^2 - |l + n p / |p||^2 (p . p + c c = 1 has been used). With the other sign of h the ball is the last that the
-// ray leaves. Both are convex in s, so on the segment it is the value clamped to [0, L]. Along the axis |p| = 0, and the
-// sign of c h tells the end.
+// Unit vector u of the axis, length L, c = u . direction, p the part of u across the ray, l the part of to_first
+// across: the ball at s is met at b + s c - sqrt(r^2 - |l + s p|^2), least at s = (n - c h) / |p|, with n = -l . p /
+// |p| and h^2 = r^2 - |l + n p / |p||^2, the half chord at the nearest approach (p . p + c c = 1). The last ball has
+// the other sign of h. Both are convex in s, so s is clamped to [0, L]. Along the axis |p| = 0, and the sign of c h
+// decides.
 //
-// Rounding of u, p and the ball's place acts like a shift of the ends by d = 2^-22 (|to_first| + L) at most, across the
-// ray. A ball that is off by e = d / |p| along the axis is met later by e^2 / (2 h |p|), of second order; but where
-// |p|^2 < 2 d / h, nearly along the axis, it might not be met at all. With h - d for h it is met wherever the ray meets
-// the endless cylinder, and later by d / |p| at most, which is no more than a shift by d changes the distance.
-//
-// Returns the way from the first end to the middle of that ball.
+// Rounding shifts the ends across the ray by at most d = 2^-22 (|to_first| + L). Then e = d / |p| along the axis delays
+// the hit by e^2 / (2 h |p|), but nearly along the axis, |p|^2 < 2 d / h, the ball might be missed. With h - d for h it
+// is met wherever the ray meets the endless cylinder, at most d / |p| later, no more than by a shift by d.
 vec3 swept_to(vec3 to_first, vec4 axis, float radius, vec3 direction, bool to_last)
 {
     vec3 unit = axis.xyz * axis.w;
@@ -119,7 +105,7 @@ vec3 swept_to(vec3 to_first, vec4 axis, float radius, vec3 direction, bool to_la
     return (share >= sine ? 1.0 : share > 0.0 ? share / sine : 0.0) * axis.xyz;
 }
 
-// The way from a ray's origin to the centre of the ball that it meets first, or of the one that it leaves last.
+// The way from a ray's origin to the center of that ball.
 vec3 to_met(Ball ball, vec3 to_first, vec3 direction, bool to_last, uint kinds)
 {
     if ((kinds & KIND_CAPSULE) == 0u)
@@ -127,9 +113,9 @@ vec3 to_met(Ball ball, vec3 to_first, vec3 direction, bool to_last, uint kinds)
     return to_first + swept_to(to_first, ball.axis, ball.centre_radius.w, direction, to_last);
 }
 
-// sphere_distance() for a ball whose centre_radius is to_first from the ray's origin, and from_side from where its side is
-// told. From outside, the first ball of a capsule is met; from inside, the last one. A ray that leaves the capsule's
-// surface towards its inside usually starts on another ball than it meets.
+// sphere_distance() for a ball; from_side: its place relative to where the side is decided. From outside a capsule's
+// first ball is met, from inside the last. A ray that leaves the capsule inwards usually starts on another ball than it
+// meets.
 float ball_distance(Ball ball, vec3 to_first, vec3 from_side, vec3 direction, bool leaving, bool inside, uint kinds)
 {
     vec3 to_centre = nearest_centre(ball, from_side, from_side, kinds);
@@ -143,7 +129,7 @@ float ball_distance(Ball ball, vec3 to_first, vec3 from_side, vec3 direction, bo
                            !to_last);
 }
 
-// sphere_blocks() likewise.
+// sphere_blocks() for a ball.
 bool ball_blocks(Ball ball, vec3 to_first, vec3 direction, bool at_end, float distance, uint kinds)
 {
     vec3 to_centre = to_met(ball, to_first, direction, false, kinds);

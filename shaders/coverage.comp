@@ -1,5 +1,4 @@
-// Counts the samples of a pixel whose camera rays meet a surface. It traces the camera rays of these samples again,
-// without the light that they carry. One invocation for each pixel.
+// Counts a pixel's samples whose camera rays meet a surface, by tracing these rays again. One invocation per pixel.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -11,11 +10,10 @@ layout(push_constant) uniform Push { CoverageConstants view; };
 #include "camera_ray.glsl"
 #include "camera_walk.glsl"
 
-// The number of rays that a driver cut short, then the counts of the pixels.
+// Rays that a driver cut short, then the pixels' counts.
 layout(set = 0, binding = BINDING_COVERED) buffer Covered { uint lost_rays; uint counts[]; } covered;
 
-// The first and last sample of each tile among those that are asked for; a tile has none if the last comes before the
-// first.
+// First and last requested sample of each tile; none if last < first.
 layout(set = 0, binding = BINDING_TILES) readonly buffer TileSamples { uvec2 ranges[]; } tile_samples;
 
 uint tile_of(uvec2 pixel)

@@ -1,5 +1,5 @@
-// Sums up what the pixels of a film say about the error of its image: one workgroup for some tiles side by side. A tile
-// depends on nothing outside it, and every sum has its order, so that a film always gives the same bits.
+// Sums the errors of an image's pixels: one workgroup for some adjacent tiles. Tiles are independent and every sum has
+// a fixed order, so a film always gives the same bits.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -16,21 +16,21 @@ layout(push_constant) uniform Push { EstimateConstants estimate; };
 
 layout(set = 0, binding = BINDING_RESOLVED) writeonly buffer Groups { TileErrors groups[]; } estimated;
 
-// For each tile of the film: its samples in the older and the newer part, where tiles differ; and, on request, the sums of
-// squared relative errors that its own samples show, and of those expected from light that no sample has met.
+// Of each tile: its samples in the older and the newer part, if tiles differ; on request its squared relative errors,
+// shown by samples and expected from unseen light.
 layout(set = 0, binding = BINDING_TILE_COUNTS) readonly buffer TileCounts { uvec2 counts[]; } tile_samples;
 layout(set = 0, binding = BINDING_TILE_SQUARES) writeonly buffer TileSquares { vec2 squares[]; } tile_squares;
 
 const uint TILES = ESTIMATE_WORKGROUP_SIZE / TILE_SIZE;
 
-// What pixels have besides their sums.
+// Counts beside the sums.
 struct Findings {
     uvec2 rejected; // samples, low and high word
     uint unknown;   // pixels without a sample in either part
-    uint lost;      // pixels that do not have the samples expected
+    uint lost;      // pixels with unexpected sample counts
 };
 
-// The kinds of squares in TileErrors of gpu_layout.h.
+// The squares of TileErrors (gpu_layout.h).
 const uint SQUARE = 0u;
 const uint RELATIVE_SQUARE = 1u;
 const uint MET_ONCE = 2u;
@@ -42,7 +42,7 @@ struct Squares {
     float shares; // squared and summed
 };
 
-// What a column of a tile, and later a whole tile, says about the errors of its pixels.
+// Error sums of a tile's column, later of a tile.
 struct Errors {
     Squares squares[SQUARE_KINDS];
     uint met_again; // values
@@ -50,16 +50,15 @@ struct Errors {
     Findings findings;
 };
 
-// Each invocation handles one column of a tile, so the invocations of one row of pixels read adjacent memory.
+// An invocation has one column of a tile, so that invocations read adjacent memory.
 shared float means[TILE_SIZE][ESTIMATE_WORKGROUP_SIZE]; // of one channel
 shared ValueSet column_sets[ESTIMATE_WORKGROUP_SIZE];
-shared Errors errors[ESTIMATE_WORKGROUP_SIZE]; // of columns, and then of tiles
+shared Errors errors[ESTIMATE_WORKGROUP_SIZE]; // of columns, then of tiles
 
-// How many pixels are requested from memory before the first is waited for. Measured on an H200: with 1024x512 pixels
-// an error took 89 us with 1, 84 with 2 and 83 with 4; with twice as many pixels 151, 147 and 134.
+// Pixels loaded ahead; the best of 1, 2 and 4 on an H200.
 const uint PIXELS_ASKED_FOR = 4u;
 
-// A whole number of 2^-60ths as a float.
+// A multiple of 2^-60.
 float as_float(WholeNumber number)
 {
     return float(number.words[0]) * exp2(-60.0) + float(number.words[1]) * exp2(-28.0)
@@ -72,14 +71,14 @@ float as_float(uvec4 sum)
     return as_float(whole_number(sum));
 }
 
-// What the samples of a pixel show in one channel.
+// One channel of a pixel.
 struct Shown {
     float mean;
     float standard_error;
-    float lesser; // of the means of the parts
+    float lesser; // of the parts' means
 };
 
-// The standard error is the difference of the sums, each multiplied by the other's count, times a scale (quotient.h).
+// The scale of cross-multiplied sums is in quotient.h.
 Shown shown_by(uvec4 sum_a, uvec4 sum_b, uvec2 counts)
 {
     bool first_is_less;
@@ -111,7 +110,7 @@ Findings findings_of(PartCount older, PartCount newer, uvec2 expected)
                     uvec2(older.done, newer.done) != expected ? 1u : 0u);
 }
 
-// The sorted values to the left of a pixel, in it and to its right, for the columns of a tile from first to last.
+// The values left of a pixel, in it and right of it, within a tile's columns.
 Sorted row_about(uint y, uint column, uint first, uint last)
 {
     float left = column > first ? means[y][max(column, 1u) - 1u] : BELOW_ALL;
@@ -119,15 +118,14 @@ Sorted row_about(uint y, uint column, uint first, uint last)
     return sorted(left, means[y][column], right);
 }
 
-// The share in a sum that is not 0. A part that is the whole sum has a share of exactly 1, although a division may be
-// off by some units in the last place: a single tile has no spread, and the host computes the spread as a difference of
-// shares.
+// Exactly 1 for the whole sum, although division may err: a single tile has no spread, which the host computes as a
+// difference of shares. sum != 0.
 float share_of(float part, float sum)
 {
     return part == sum ? 1.0 : part / sum;
 }
 
-// Unlike squares of the summands, squares of their shares in the sum stay within the range of float32.
+// Squares of shares, because squares of the summands may leave float32's range.
 Squares squares_of(float values[TILE_SIZE])
 {
     Squares all = Squares(0.0, 0.0);
@@ -138,7 +136,6 @@ Squares squares_of(float values[TILE_SIZE])
     return all;
 }
 
-// Of the pixels of both.
 Squares united(Squares a, Squares b)
 {
     float sum = a.sum + b.sum;
@@ -146,7 +143,7 @@ Squares united(Squares a, Squares b)
                                   : 0.0);
 }
 
-// The sum over all tiles, with the part of a whole tile that each covers.
+// Also each tile's part of a whole tile.
 ErrorSquares squares_of_tiles(uint kind, uvec2 size)
 {
     ErrorSquares all = ErrorSquares(0.0, 0.0, 0.0, 0.0);
@@ -163,8 +160,7 @@ ErrorSquares squares_of_tiles(uint kind, uvec2 size)
     return all;
 }
 
-// Writes what the tiles add up to. One invocation for each kind of squares; the first one writes everything else as
-// well.
+// An invocation per kind of squares; the first also writes the rest.
 void write_errors(uint group, uint invocation, uvec2 size)
 {
     if (invocation < SQUARE_KINDS) {
@@ -204,15 +200,13 @@ void main()
     const uint first_tile = estimate.first_tile + corner.x / TILE_SIZE
                           + gl_WorkGroupID.y * ((estimate.film_width + TILE_SIZE - 1u) / TILE_SIZE);
 
-    // The pixels of this invocation, one below the other, and the columns of their tile. Pixels outside the film are
-    // replaced by the first one.
+    // This invocation's pixels, one below the other; the first one replaces those outside the film.
     const uint pixels = invocation < size.x ? size.y : 0u;
     const uint first_pixel = corner.y * estimate.film_width + corner.x + (pixels > 0u ? invocation : 0u);
     const uint last = size.y - 1u;
     const uint first_column = invocation / TILE_SIZE * TILE_SIZE;
     const uint last_column = min(first_column + TILE_SIZE, size.x) - 1u;
 
-    // How many samples pixels have.
     const bool are_even = estimate.sample_counts != uvec2(ANY_COUNT);
     const uvec2 expected = are_even     ? estimate.sample_counts
                          : pixels > 0u ? tile_samples.counts[first_tile + invocation / TILE_SIZE]
@@ -240,7 +234,6 @@ void main()
     uint met_again = 0u;
     float unseen = 0.0;
     for (uint channel = 0u; channel < 3u; ++channel) {
-        // What the samples of each pixel show.
         float standard_errors[TILE_SIZE];
         float lessers[TILE_SIZE];
         [[unroll]] for (uint first = 0u; first < TILE_SIZE; first += PIXELS_ASKED_FOR) {
@@ -260,9 +253,8 @@ void main()
         }
         barrier();
 
-        // What the pixels are on the average: of columns, then of tiles. Means are taken as they were stored, behind a
-        // barrier, lest a driver rounds the same mean in two ways: who asks a set about one of its values must have the
-        // same number.
+        // Averages of columns, then of tiles. Reads means back behind a barrier: recomputed, they may round
+        // differently, and a set is asked about its own values.
         ValueSet column_set = empty_set();
         for (uint i = 0u; i < pixels; ++i)
             column_set = with_value(column_set, means[i][invocation]);
@@ -272,7 +264,7 @@ void main()
         [[unroll]] for (uint i = 0u; i < TILE_SIZE; ++i)
             tile_set = united(tile_set, column_sets[first_column + i]);
 
-        // The expected error of each pixel. The rows around it are kept from pixel to pixel.
+        // Expected errors; the rows around a pixel are kept for the next.
         const bool is_row = size.y == 1u;
         const bool is_column = first_column == last_column;
         const bool is_beside_edge = invocation == first_column || invocation == last_column;
@@ -307,14 +299,14 @@ void main()
         barrier(); // before the next channel's means
     }
 
-    // Sums of columns of tiles, then of tiles, then of all.
+    // Sums of columns, of tiles, of all.
     [[unroll]] for (uint kind = 0u; kind < SQUARE_KINDS; ++kind)
         errors[invocation].squares[kind] = squares_of(squares[kind]);
     errors[invocation].met_again = met_again;
     errors[invocation].unseen = unseen;
     errors[invocation].findings = findings;
     barrier();
-    // An invocation sums up one kind of squares of a tile; one invocation for each tile sums up everything else.
+    // An invocation sums one kind of squares of a tile; one per tile sums the rest.
     const uint tile = invocation % TILES;
     const uint kind = min(invocation / TILES, SQUARE_KINDS - 1u);
     const uint first = tile * TILE_SIZE;
@@ -339,8 +331,7 @@ void main()
     barrier();
     write_errors(gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x, invocation, size);
 
-    // On request, what tiles say about themselves: into memory that the host reads, so a look that does not need them is
-    // spared it. If a pixel lacks samples in one of the parts, nothing is known.
+    // On request each tile's own errors, in host-visible memory. Infinite if a pixel lacks samples in a part.
     if (estimate.by_tile == 1u && invocation < TILES && first < size.x)
         tile_squares.squares[first_tile + tile] =
             of_tile.findings.unknown > 0u

@@ -1,5 +1,4 @@
-// Exact sums of samples: 128-bit fixed point, so that addition commutes and associates. Used by pathtrace.comp,
-// fold.comp and add.comp; gpu_layout.h has the layout, lib/film/film.cpp reads it.
+// Exact sums of samples in 128-bit fixed point (shaders/README.md, section 11). gpu_layout.h has the layout.
 #ifndef FILM_GLSL
 #define FILM_GLSL
 
@@ -9,7 +8,7 @@
 
 layout(set = 0, binding = BINDING_FILM) buffer Film { uint words[]; } film;
 
-// What an invocation gathers: sums of windows, including their biases, which are then added to the film.
+// An invocation's sums of windows, biases included.
 struct FilmPixel {
     uvec4 windows[3];
     uint accepted;
@@ -21,19 +20,13 @@ FilmPixel empty_film_pixel()
     return FilmPixel(uvec4[3](uvec4(0u), uvec4(0u), uvec4(0u)), 0u, 0u);
 }
 
-// A sum of floats is exact as long as no addition rounds. So each value is cut into four windows, multiples of 2^6,
-// 2^-16, 2^-38 and 2^-60 that add up to it, each small enough for 511 of them to sum up in 32 bits (the pre-rounded
-// sums of Demmel and Nguyen, "Fast Reproducible Floating-Point Summation", ARITH 2013). Adding a bias of three halves
-// (of one, where the value has no sign) of a power of two rounds a number to a multiple of that power's 2^-23 and
-// leaves the multiple in the low bits: no shift, no carry, nothing that depends on the sum so far. Where a value has
-// bits below 2^-60 (2^-37 and more have none), it is rounded.
-// Vulkan does not say which of its two neighbours a sum is rounded to. To nearest, what is left for the next window is
-// at most half of a window's unit; towards zero, less than a whole one. So a window holds less than 2^22 of its own
-// units, and 511 of them less than 2^31. Either way nothing is lost: differences of a number and its rounded one are
-// exact here.
+// Biases that round a value to multiples of 2^6, 2^-16, 2^-38 and 2^-60, left in the low bits of the sum (Demmel and
+// Nguyen, "Fast Reproducible Floating-Point Summation", ARITH 2013): 3/2 times a power of two, or 1 for unsigned
+// values. A window holds less than 2^22 units even with rounding towards zero, so 511 fit into 32 bits. Bits below
+// 2^-60 are rounded; values from 2^-37 on have none.
 const vec4 WINDOW_BIASES = vec4(536870912.0, 192.0, 4.57763671875e-5, 1.0913936421275139e-11);
 
-// These sums contain the bits of the biases too. They are subtracted once at the end, which is exact modulo 2^32.
+// Includes the biases' bits, which are subtracted once at the end, modulo 2^32.
 uvec4 windows_of(float value)
 {
     precise float a = value + WINDOW_BIASES.x;
@@ -46,11 +39,10 @@ uvec4 windows_of(float value)
     return floatBitsToUint(vec4(a, b, c, d));
 }
 
-// Adds a sample in film units, or counts it as left out if a component is NaN, infinite, negative or too bright.
+// In film units. NaN, infinite, negative or too bright samples are left out and counted.
 void film_add(inout FilmPixel pixel, vec3 value)
 {
-    // As integers, since Vulkan does not promise how comparisons treat NaN: floats >= 0 are ordered as their bits
-    // are, and negative ones, infinity and NaN lie above.
+    // As integers, because Vulkan does not define comparisons with NaN: all that is unacceptable lies above the limit.
     const uint limit = (127u + FILM_MAX_EXPONENT) << 23u;
     uvec3 bits = floatBitsToUint(value);
     bool accepted = max(max(bits.r, bits.g), bits.b) < limit;
@@ -76,8 +68,7 @@ uvec4 add_with_carry(uvec4 a, uvec4 b)
     return sum;
 }
 
-// Sums of windows as one fixed-point number of 128 bits. The first is not negative; the others are signed, in two's
-// complement.
+// The first window is not negative; the others are two's complement.
 uvec4 fixed_point(uvec4 windows)
 {
     uvec3 sign = uvec3(ivec3(windows.yzw) >> 31);
@@ -88,9 +79,8 @@ uvec4 fixed_point(uvec4 windows)
     return add_with_carry(add_with_carry(a, b), add_with_carry(c, d));
 }
 
-// Adds to the three least significant words of a sum, which begin at words[first] and lie stride apart. Returns what is to
-// be added to the most significant one. is_first: the sum is 0, whatever the words hold. They are not read then, as the end
-// of an invocation spends its time on memory.
+// Adds to the three low words of a sum at words[first]; returns the addend of the highest. is_first: the sum is 0, and
+// the words are not read, which saves time.
 uint film_store_sum(uint first, uint stride, uvec4 sum, bool is_first)
 {
     uvec4 old = uvec4(0u);
@@ -103,11 +93,11 @@ uint film_store_sum(uint first, uint stride, uvec4 sum, bool is_first)
     return new.w;
 }
 
-// The plane of a word that hardly ever changes: the most significant ones of the three sums, and the samples left out.
+// Planes that hardly ever change: highest words of sums, and the samples left out.
 uint rare_plane(uint i) { return i < 3u ? (i + 1u) * FILM_SUM_WORDS - 1u : FILM_REJECTED; }
 
-// Adds to these words. pixel: the first word of a pixel in a part. A loop that makes a single trip except for pixels
-// that need more, since lavapipe 22.3 executes the bodies of all ifs.
+// pixel: a pixel's first word in a part. A loop, usually of one trip, because lavapipe 22.3 executes the bodies of all
+// ifs.
 void film_add_rare_words(uint pixel, uint stride, uvec4 addends)
 {
     uint i = addends.x != 0u ? 0u : addends.y != 0u ? 1u : addends.z != 0u ? 2u : 3u;
@@ -119,13 +109,13 @@ void film_add_rare_words(uint pixel, uint stride, uvec4 addends)
     } while (i < 4u);
 }
 
-// The same where several invocations add to a pixel: each word takes its addend and the carry of the word before at
-// once, in whatever order. That a word has overflowed is seen by exactly one of those who add to it.
+// For several invocations per pixel: each word takes its addend and the previous carry in any order. Exactly one of
+// them sees a word's overflow.
 void film_store_shared_sum(uint first, uint stride, uvec4 sum)
 {
     uint carry = 0u;
     [[unroll]] for (uint i = 0u; i < FILM_SUM_WORDS; ++i) {
-        uint addend = sum[i] + carry; // 0, with a carry, where that overflows
+        uint addend = sum[i] + carry; // 0, with a carry, on overflow
         carry = addend < carry ? 1u : 0u;
         if (addend != 0u) {
             uint old = atomicAdd(film.words[first + i * stride], addend);
@@ -134,9 +124,8 @@ void film_store_shared_sum(uint first, uint stride, uvec4 sum)
     }
 }
 
-// Adds what an invocation has gathered to its pixel in one part of the film. shared_pixel: other invocations may do the
-// same at that time. Otherwise, is_first: the part has no sample of the pixel yet, and its words hold anything, except
-// that the rare ones are 0.
+// Adds an invocation's sums to its pixel in one part. shared_pixel: others may do so too. is_first: the part has no
+// sample of the pixel, and only its rare words are 0.
 void film_store(uint film_part, uint pixel_in_strip, uint strip_pixel_count, FilmPixel pixel, bool shared_pixel,
                 bool is_first)
 {

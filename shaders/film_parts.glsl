@@ -1,10 +1,10 @@
-// The samples of a pixel, and their sums, in each part of the film.
+// A pixel's samples and sums in each part of the film.
 #ifndef FILM_PARTS_GLSL
 #define FILM_PARTS_GLSL
 
 #include "film.glsl"
 
-// How many samples a pixel has in one part of the film.
+// Sample counts in one part.
 struct PartCount {
     uint accepted;
     uint done; // accepted or left out

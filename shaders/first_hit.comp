@@ -1,8 +1,6 @@
-// What camera rays meet first: depth, normal, albedo or object of the pixels of a rectangle. One invocation a ray.
-// Depth and object are of the ray through the pixel's centre, halfway through the shutter's time: a mean of two depths
-// is where nothing is, and a mean of two numbers is another object. Normal and albedo are means over the pixel's square
-// and the shutter's time, as radiance is: what denoisers are guided by has to have the image's edges, neither harder
-// nor elsewhere.
+// First hits of camera rays in a rectangle, one ray per invocation. Depth and object belong to the ray through the
+// pixel's center at half the shutter's time, because means of them are meaningless. Normal and albedo are means over
+// pixel and shutter, like radiance: denoisers need the image's own edges.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -17,17 +15,17 @@ layout(push_constant) uniform Push { FirstHitConstants view; };
 
 const uint FLOAT_INFINITY_BITS = 0x7f800000u;
 
-shared vec3 values[WORKGROUP_SIZE]; // of rays whose mean is taken
+shared vec3 values[WORKGROUP_SIZE]; // of the rays of a mean
 
-// The place in a pixel (x, y) and the time (z) of one of the rays whose mean is taken: a rank-1 lattice (Korobov 1959),
-// whose multipliers 3 and 5 keep its points farthest apart, in the pixel and in all three dimensions.
+// Place in the pixel (x, y) and time (z): a rank-1 lattice (Korobov 1959). The multipliers 3 and 5 maximise the
+// distance of points.
 vec3 lattice_point(uint ray)
 {
     uvec3 point = uvec3(ray, 3u * ray, 5u * ray) % FILTER_RAYS;
     return (vec3(point) + 0.5) / float(FILTER_RAYS);
 }
 
-// Depth along the view. Rays start at the pinhole, or on a plane ahead of it across the view.
+// Depth along the view. Rays start at the pinhole, or on a plane across the view.
 float depth_of(CameraRay ray, Hit hit)
 {
     float cosine = dot(ray.direction, view.camera.forward) / length(view.camera.forward);
@@ -57,7 +55,6 @@ void main()
     const uint ray_index = gl_GlobalInvocationID.x % ray_count;
     const bool is_there = index < view.pixel_count;
 
-    // What the ray has met.
     vec3 value = vec3(0.0);
     uint surface = NO_SURFACE;
     if (is_there) {
@@ -79,7 +76,7 @@ void main()
     if (!is_there || ray_index != 0u)
         return;
 
-    // The pixel of the ray.
+    // Takes the mean over the rays of the pixel.
     if (takes_mean) {
         for (uint i = 1u; i < FILTER_RAYS; ++i)
             value += values[gl_LocalInvocationIndex + i];

@@ -1,5 +1,4 @@
-// Adds one part of the film to the part that the frame names, and empties it. One invocation for each pixel of the
-// tiles.
+// Adds one part of the film to the part that the frame names, and empties it. One invocation per pixel of the tiles.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -35,7 +34,7 @@ void main()
     film_add_rare_words(kept, stride, rare);
     film.words[kept + FILM_ACCEPTED * stride] += film.words[emptied + FILM_ACCEPTED * stride];
 
-    // If the part is overwritten next, only its rare words have to be 0.
+    // A part to be overwritten needs zeros in its rare words only.
     if (frame.is_first == 0u) {
         [[unroll]] for (uint plane = 0u; plane < FILM_WORDS; ++plane)
             film.words[emptied + plane * stride] = 0u;

@@ -1,6 +1,5 @@
-// Elementary functions with stated errors, where Vulkan promises too little: sin and cos may be off by 2^-11, log2 near 1
-// by 2^-21, and so pow by almost anything for large exponents. lib/kernel/accuracy.cpp derives the errors, and
-// pt_get_accuracy measures them.
+// Elementary functions with bounded errors; Vulkan's sin, cos, log2 and pow promise too little (shaders/README.md,
+// section 12). lib/kernel/accuracy.cpp derives the bounds.
 #ifndef MATHS_GLSL
 #define MATHS_GLSL
 
@@ -12,13 +11,12 @@ const float PI = 3.14159265358979;
 const float NUMBER_STEP = 1.0 / 16777216.0;
 const float LARGEST_NUMBER = 1.0 - NUMBER_STEP;
 
-// 1.5 * 2^23: adding it to |x| < 2^22 leaves round(x) in the low bits of the mantissa. Float-to-int conversion would do
-// too, but is many times slower on machines without an instruction for it.
+// 1.5 * 2^23: added to |x| < 2^22 it leaves round(x) in the low bits. Conversion to int is slow on machines without an
+// instruction for it.
 const float ROUNDING_BIAS = 12582912.0;
 
-// A number, but at most or at least a limit. One of the two must not be negative: then floats have the order of the
-// integers that their bits are. With vectors of 512 bits that takes one instruction, where lavapipe takes five for
-// floats, half by half; an H200 does better with floats.
+// min and max, if one argument is not negative: floats then have the order of their bits, which lavapipe compares in
+// one instruction instead of five. An H200 prefers floats.
 float at_most(float number, float limit)
 {
     if (INTEGER_ORDER == 0u)
@@ -33,10 +31,10 @@ float at_least(float number, float limit)
     return intBitsToFloat(max(floatBitsToInt(number), floatBitsToInt(limit)));
 }
 
-// The largest of R, G and B, none of them negative.
+// The largest of R, G and B, none negative.
 float strongest_of(vec3 color) { return at_least(color.r, at_least(color.g, color.b)); }
 
-// The larger of two numbers that are not positive. As integers their order is reversed.
+// max of two numbers <= 0, whose order as integers is reversed.
 float nearer_to_zero(float a, float b)
 {
     if (INTEGER_ORDER == 0u)
@@ -44,10 +42,9 @@ float nearer_to_zero(float a, float b)
     return uintBitsToFloat(min(floatBitsToUint(a), floatBitsToUint(b)));
 }
 
-// sin and cos of 2 pi u for u in [0, 1], each within 4.5 ulp, also near its zeros.
-// With m = min(u, 1 - u) and w = m - 1/4, a quarter of a turn at most, cos(2 pi u) = -sin(2 pi w) = w p(w^2) and
-// sin(2 pi u) = +-cos(2 pi w) = (1/2 - u) m q(w^2): each zero is a factor that is exact near it, the rest is smooth. p
-// and q have the least largest relative error (Remez 1934), 5.3e-9 and 1.0e-9. No quadrants to tell apart.
+// sin and cos of 2 pi u for u in [0, 1], within 4.5 ulp, also near zeros. With m = min(u, 1 - u) and w = m - 1/4:
+// cos(2 pi u) = -sin(2 pi w) = w p(w^2), sin(2 pi u) = +-cos(2 pi w) = (1/2 - u) m q(w^2).
+// The factors are exact near their zeros. p and q are minimax (Remez 1934), to 5.3e-9 and 1.0e-9.
 void sin_cos_turn(float u, out float sine, out float cosine)
 {
     float m = at_most(u, 1.0 - u);
@@ -57,8 +54,8 @@ void sin_cos_turn(float u, out float sine, out float cosine)
     sine = (0.5 - u) * m * (16.0 + z * (-59.8273288 + z * (81.7913450 + z * (-58.5570666 + z * 24.7337946))));
 }
 
-// log2(1 - y) for y in [0, 1), within 18 ulp. Below 1/4 it is -y times a polynomial of 8e-9 relative error, log2(e) at
-// y = 0, which keeps full precision near 0; above, log2 itself, which Vulkan promises to 2^-21.
+// log2(1 - y) for y in [0, 1), within 18 ulp. Below 1/4 a polynomial of relative error 8e-9; above, Vulkan bounds log2
+// by 2^-21.
 float log2_one_minus(float y)
 {
     float tail =
@@ -66,17 +63,17 @@ float log2_one_minus(float y)
     return y < 0.25 ? -y * (1.44269504 + y * tail) : log2(1.0 - y);
 }
 
-// 2^-100 and less counts as 0: denormal numbers cost hundreds of cycles each on CPUs, and nobody sees such a lobe.
+// Lobes up to 2^-100 count as 0: denormal numbers cost CPUs hundreds of cycles.
 const float EXP2_UNDERFLOW = -100.0;
 
-// 2^x for x <= 0, within 3 + 2 |x| ulp, which Vulkan promises, so 3 ulp of 1 at most.
+// 2^x for x <= 0, within 3 + 2 |x| ulp (Vulkan), so 3 ulp of 1.
 float exp2_negative(float x)
 {
     return x < EXP2_UNDERFLOW ? 0.0 : exp2(x);
 }
 
-// 1 - 2^x for x <= 0, within 2.5 ulp, also near 0. 2^x = 2^k (1 + e) with k the nearest integer and e = 2^r - 1, where
-// r = x - k is exact; e / r is a polynomial of 1.1e-8 relative error.
+// 1 - 2^x for x <= 0, within 2.5 ulp, also near 0. 2^x = 2^k (1 + e): k the nearest integer, r = x - k exact, e = 2^r -
+// 1; e / r is a polynomial of relative error 1.1e-8.
 float one_minus_exp2(float x)
 {
     x = nearer_to_zero(x, EXP2_UNDERFLOW);
@@ -88,7 +85,7 @@ float one_minus_exp2(float x)
     return (1.0 - power) - power * e;
 }
 
-// Mean of R, G and B: positive whenever one of them is, which a luminance rounded to float need not be.
+// Positive if any component is, unlike a rounded luminance.
 float mean(vec3 color)
 {
     return (color.r + color.g + color.b) * (1.0 / 3.0);

@@ -1,5 +1,4 @@
-// The path tracer's kernel: each invocation takes samples of a slice in one pixel of a tile. Invocations along y share
-// the samples of a pixel.
+// The path tracer: each invocation takes samples of a slice in one pixel of a tile. Invocations along y share a pixel.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -14,10 +13,9 @@ layout(push_constant) uniform Push { FrameConstants frame; };
 #include "tile_pixel.glsl"
 #include "tree_path.glsl"
 
-// The push constants are read once, into held, and not for each sample: lavapipe 22.3 reads them for one invocation
-// after the other, which took an eighth of the time of paths with two vertices.
+// Push constants are read once, into `held`: lavapipe 22.3 reads them for one invocation after the other.
 
-// The key of a sample of the pixel, by its number within the slice.
+// The key of a pixel's sample, by its number in the slice.
 SampleKey key_of_sample(SampleKey pixel, FrameConstants held, uint number)
 {
     const uint row_length = row_blocks(TABLE_BLOCKS, blocks_of_sample(), BRANCH_COUNT);
@@ -32,7 +30,7 @@ void add_sample(FrameConstants held, inout FilmPixel gathered, vec3 radiance)
     film_add(gathered, radiance * held.film_scale);
 }
 
-// Takes the samples from done to end.
+// Takes samples done to end - 1.
 void take_samples(uvec2 pixel, uint pixel_index, uint done, uint end, inout FilmPixel gathered)
 {
     FrameConstants held = frame;
@@ -58,7 +56,7 @@ void take_samples_by_steps(uvec2 pixel, uint pixel_index, uint done, uint end, i
     bool begins = true;
     do {
         if (walk.done) {
-            // Takes what the walk has found.
+            // Uses the walk's result.
             if (!begins) {
                 begins = ends_with(current, walk, departure, lamps);
                 if (begins) {
@@ -67,7 +65,7 @@ void take_samples_by_steps(uvec2 pixel, uint pixel_index, uint done, uint end, i
                 }
             }
 
-            // Begins the next walk, of this sample or of the next.
+            // Begins the next walk, of this sample or the next.
             if (!begins) {
                 walk = leave_last_vertex(current, departure, lamps);
             } else if (done < end) {
@@ -88,7 +86,7 @@ void main()
         return;
     uvec2 pixel = uvec2(at.in_image % frame.camera.width, at.in_image / frame.camera.width);
 
-    // The range of samples of the slice that this invocation takes.
+    // This invocation's samples of the slice.
     uint done = gl_GlobalInvocationID.y * frame.share;
     uint end = min(done + frame.share, frame.sample_count);
 

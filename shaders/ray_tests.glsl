@@ -1,31 +1,23 @@
-// A ray against a surface, without epsilons: a ray carries the surface that it leaves.
+// Rays against surfaces, without epsilons (shaders/README.md, section 3).
 #ifndef RAY_TESTS_GLSL
 #define RAY_TESTS_GLSL
 
 #include "maths.glsl"
 #include "scene.glsl"
 
-// Surfaces are opaque, so a path stays on the camera's side of each of them, at the path's time. With KNOWN_SIDES the
-// camera tells the side. The place of a vertex would tell it wrongly for surfaces that the vertex nearly touches:
-// rounding may put the vertex behind a surface that stands just behind its own, and the path would end there, or leak
-// out of a room.
+// With KNOWN_SIDES the camera decides a path's side of each surface, because a vertex that nearly touches one may lie
+// on the wrong side by rounding: its path would end there, or leak out of a room.
 
-// Where a ray starts: on which surface, if any, and whether inside a sphere.
+// A ray's start: on which surface, if any, and whether inside a sphere.
 struct Start {
     vec3 origin;
     uint surface; // NO_SURFACE for rays from the camera
     bool inside;
 };
 
-// Distance along the unit vector direction to a plane, or NO_HIT. level: of the plane at the ray's origin; leaving: the
-// ray starts on it. With the height h, the slope s of the height along the ray and the curvature k, the roots of k / 2
-// t^2 + s t + h = 0 are 2 |h| / q and q / k up to their signs, with q = |s| + sqrt(s^2 - 2 k h), in which nothing
-// cancels. The first, a plane's only one, is ahead if the ray leads towards the surface. The second is the far wall,
-// for rays that lead away from the surface on the inside, h < 0. From a point of the surface itself h = 0. Far above
-// the surface s^2 - 2 k h would cancel; 1 - l^2, with l the part of the gradient across the ray, does not and is the
-// same, since the squared length of the gradient is 1 + 2 k h. side: the height of the camera above a flat plane. If it
-// tells the side, a ray that leads towards the surface meets it, at a negative distance if rounding has put the ray's
-// origin behind it.
+// Distance along the unit vector direction to a plane, or NO_HIT: 2 |h| / q or q / k of shaders/README.md, section 3.
+// level: at the origin; leaving: the ray starts on the plane. side: the camera's height above a flat plane; if it
+// decides, a ray towards the plane hits it, at a negative distance if rounding has put the origin behind it.
 float plane_distance(Level level, vec3 direction, bool leaving, bool inside, float side)
 {
     float slope = dot(level.gradient, direction);
@@ -51,8 +43,8 @@ float plane_distance(Level level, vec3 direction, bool leaving, bool inside, flo
 }
 
 struct Hit {
-    float distance; // NO_HIT if there is none; negative if rounding has put the ray's start beyond the surface
-    uint surface;   // NO_SURFACE if there is none
+    float distance; // NO_HIT for none; negative if rounding has put the start beyond the surface
+    uint surface;   // NO_SURFACE for none
 };
 
 void keep_closer(inout Hit hit, float distance, uint surface)
@@ -62,16 +54,16 @@ void keep_closer(inout Hit hit, float distance, uint surface)
     hit.surface = closer ? surface : hit.surface;
 }
 
-// A ray towards a lamp: anything that it meets before the lamp blocks it.
+// A ray to a lamp: any earlier hit blocks it.
 struct ShadowRay {
     vec3 direction;
-    float distance; // to the lamp; 0 where there is no lamp to look for
+    float distance; // to the lamp; 0 without a lamp
     uint lamp;      // its surface, which never blocks itself
 };
 
 const ShadowRay NO_SHADOW_RAY = ShadowRay(vec3(0.0), 0.0, NO_SURFACE);
 
-// The tests that all walks share. A walk fetches a surface once for all its rays, so these take what was fetched.
+// A walk fetches a surface once for all its rays.
 float distance_to_sphere(Start start, vec3 direction, uint sphere, Ball ball)
 {
     vec3 to_first = ball.centre_radius.xyz - start.origin;
@@ -79,7 +71,7 @@ float distance_to_sphere(Start start, vec3 direction, uint sphere, Ball ball)
     return ball_distance(ball, to_first, from_side, direction, sphere == start.surface, start.inside, KINDS);
 }
 
-// A lamp is a mere ball.
+// A lamp is a plain ball.
 float distance_to_lamp(Start start, vec3 direction, uint surface, vec4 centre_radius)
 {
     return distance_to_sphere(start, direction, surface, Ball(centre_radius, NO_AXIS));
@@ -90,8 +82,7 @@ float distance_to_plane(Start start, vec3 direction, uint plane, Level level, fl
     return plane_distance(level, direction, plane == start.surface, start.inside, camera_height(plane, time));
 }
 
-// Whether a surface at some distance along a shadow ray blocks it. At equal distances the first surface is the one that
-// is seen.
+// At equal distances the first surface is seen.
 bool blocks(ShadowRay shadow, float distance, uint surface)
 {
     bool before = distance < shadow.distance || (CLOSE_LAMPS == 1 && distance == shadow.distance && surface < shadow.lamp);
@@ -116,9 +107,9 @@ void shade_plane(inout bool blocked, Start start, ShadowRay shadow, uint plane, 
     blocked = blocked || blocks(shadow, distance_to_plane(start, shadow.direction, plane, level, time), plane);
 }
 
-// If a lamp nearly coincides with another sphere, a ray towards it ends where an intersection finds the lamp. Then the
-// distances to both come from one formula, so just one of them is less, however they are rounded, and light that both
-// send is counted once. If the ray misses the lamp by rounding, it ends where the lamp was sampled.
+// If a lamp nearly coincides with another sphere, a ray to it ends at its intersection: both distances then come from
+// one formula, exactly one is less, and light that both emit counts once. A ray that misses the lamp by rounding ends
+// at the sampled point.
 ShadowRay ended_as_met(ShadowRay shadow, Start start, float time)
 {
     if (CLOSE_LAMPS == 1 && shadow.distance > 0.0 && is_walked_lamp(shadow.lamp)) {
