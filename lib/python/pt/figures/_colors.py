@@ -156,7 +156,7 @@ def _direct(colors: Any, notes: list[str]) -> Bytes:
 def _of_values(values: Array, title: str, given: Options, notes: list[str]) -> tuple[Bytes, Legend]:
     if given.categories or values.dtype.kind in "USOb":
         names, codes = categories(values)
-        return _of_categories(title, names, codes, given, {}, values.dtype.kind in "iu", [])
+        return _of_categories(title, names, codes, given, {}, values.dtype.kind in "iu")
     if values.dtype.kind not in "fiu":
         raise TypeError(f"color has {values.dtype}: must be numbers or words")
     return _of_numbers(values, title, given, notes)
@@ -171,20 +171,25 @@ def _of_types(particles: Particles, given: Options, own: Mapping[str, str]) -> t
         numbers = [int(name) for name in names]
         names = [elements.SYMBOLS[number] for number in numbers]
         known = {name: tuple(elements.COLORS[number].tolist()) for name, number in zip(names, numbers)}
+    there = names if isinstance(given.categories, bool) else given.categories
+    if missing := [name for name in own if name not in there]:
+        raise ValueError(f"color: {missing[0]!r} is none of the {kind}s, {', '.join(there[:20])}" + _found_in(particles, missing[0]))
     known.update((str(name), srgb(f"color of {name}", color)) for name, color in own.items())
-    return _of_categories(given.title or kind, names, codes, given, known, labels.dtype.kind in "if", list(own))
+    return _of_categories(given.title or kind, names, codes, given, known, labels.dtype.kind in "if")
 
 
-def _of_categories(title: str, names: list[str], codes: Array, given: Options, known: Mapping[str, RGB], numbered: bool,
-                   wanted: list[str]) -> tuple[Bytes, Legend]:
-    """numbered: the names are numbers, mostly from 1; then the number decides the color, so that files agree. wanted:
-    must be among the names."""
+def _found_in(particles: Particles, word: str) -> str:
+    """For a message: the columns that have a word."""
+    found = [name for name, values in particles.columns.items() if values.dtype.kind in "US" and (values.astype(str) == word).any()]
+    return f"; it is in the column {' and '.join(found)}: --color {found[0]} (color={found[0]!r}) colors by it" if found else ""
+
+
+def _of_categories(title: str, names: list[str], codes: Array, given: Options, known: Mapping[str, RGB], numbered: bool
+                   ) -> tuple[Bytes, Legend]:
+    """numbered: the names are numbers, mostly from 1; then the number decides the color, so that files agree."""
     order = names if isinstance(given.categories, bool) else list(given.categories)
-    for option, each in (("color", wanted), ("categories", names)):
-        missing = [name for name in each if name not in order]
-        if missing:
-            told = "is none of the types," if option == "color" else "is in the data, and not among"
-            raise ValueError(f"{option}: {missing[0]!r} {told} {', '.join(order[:20])}")
+    if missing := [name for name in names if name not in order]:
+        raise ValueError(f"categories: {missing[0]!r} is in the data, and not among {', '.join(order[:20])}")
     if len(names) > MOST_CATEGORIES:
         raise ValueError(f"color: {len(names)} categories; there can be {MOST_CATEGORIES}")
     places = [order.index(name) for name in names]
