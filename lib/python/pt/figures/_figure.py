@@ -25,6 +25,7 @@ from pt.figures._bonds import ball_radii, bonds_of, meeting_in_sight
 from pt.figures._colors import Legend, colors_of, srgb
 from pt.figures._compose import compose, lay_over
 from pt.figures._files import encode_jpeg, write_scene
+from pt.figures._framing import drawn_cell, far_away, narrow_note
 from pt.figures._layout import Balls, Layout, View
 from pt.figures._legend import raster, save
 from pt.figures._options import Options, described
@@ -112,41 +113,55 @@ def prepare(particles: Particles, options: Options, scale: float | None = None, 
         settled.update({"bond_radius": bonds.radius} if len(bonds.atoms) else {})
         radii = ball_radii(radii, options.drawn_model, bonds.radius, options.radius is not None)
         rods[-1] = meeting_in_sight(bonds, radii)
-    conditions = [options.where] if isinstance(options.where, str) else options.where
-    shown = np.logical_and.reduce([holds(particles, each) for each in conditions]) if conditions else None
+    shown = _shown(particles, options, radii, notes)
     positions = particles.positions
     if shown is not None:
-        if not shown.any():
-            raise ValueError(f"{particles.name} has no particles for which where = {', '.join(conditions)} holds")
         positions = positions[shown]
         radii = radii[shown] if len(radii) > 1 else radii
         colors = colors[shown] if colors.ndim == 2 else colors
         opacities = opacities[shown] if opacities is not None and len(opacities) > 1 else opacities
         rods = [each.among(shown) for each in rods]
-    _check(particles.name, radii, shown)
-    cell = particles.cell if options.box == "lines" else None
+    cell = drawn_cell(particles, options.box, positions, notes)
     centers, radii, cell, scale = _in_range(positions, radii, cell, scale)
     return Drawn(centers, np.broadcast_to(radii, len(centers)) if len(radii) == 1 else radii, colors, legend, cell,
                  scale, notes, [each.times(scale, LEAST_LENGTH) for each in rods], settled,
                  None if opacities is None else np.broadcast_to(opacities, len(centers)))
 
 
+def _shown(particles: Particles, options: Options, radii: Array, notes: list[str]) -> Array | None:
+    """Which particles are drawn; None: all."""
+    conditions = [options.where] if isinstance(options.where, str) else options.where
+    shown = np.logical_and.reduce([holds(particles, each) for each in conditions]) if conditions else None
+    if shown is not None and not shown.any():
+        raise ValueError(f"{particles.name} has no particles for which where = {', '.join(conditions)} holds")
+    _check(particles.name, radii, shown)
+    if options.frame_all or options.camera:
+        return shown
+    if shown is None:
+        far = far_away(particles.positions, radii, notes)
+        return None if far is None else ~far
+    far = far_away(particles.positions[shown], radii[shown] if len(radii) > 1 else radii, notes)
+    if far is not None:
+        shown[shown] = ~far
+    return shown
+
+
 def _check(name: str, radii: Array, shown: Array | None) -> None:
-    """Refuses bad radii, naming the first."""
-    for rows in chunks(len(radii)):
-        good: Array = np.isfinite(radii[rows]) & (radii[rows] > 0.0)
-        if not good.all():
-            row = rows.start + int(good.argmin())
-            particle = row if shown is None or len(radii) == 1 else int(np.flatnonzero(shown)[row])
-            raise ValueError(f"{name}: particle {particle + 1:,}: radius = {radii[row]}: must be > 0 and finite (where = "
-                             "'radius > 0' leaves out such particles)")
+    """Refuses bad radii of particles that are shown, naming the first."""
+    bad = ~(np.isfinite(radii) & (radii > 0.0))
+    if shown is not None:
+        bad = bad & shown
+    if bad.any():
+        row = int(bad.argmax())
+        raise ValueError(f"{name}: particle {row + 1:,}: radius = {radii[row if len(radii) > 1 else 0]}: must be > 0 and finite "
+                         "(where = 'radius > 0' leaves out such particles)")
 
 
 def _in_range(positions: Array, radii: Array, cell: Cell | None, scale: float | None
               ) -> tuple[Array, Array, Cell | None, float]:
     """The particles in units that suit the library's range of lengths."""
     if scale is None:
-        largest = max(float(radii.max()), 0.0 if cell is None else float(np.abs(cell.vectors).max()),
+        largest = max(float(radii.max()), 0.0 if cell is None else float(np.abs(cell_corners(cell)).max()),
                       *(float(np.abs(positions[rows]).max()) for rows in chunks(len(positions))))
         scale = 1.0 if 2.0**-20 < largest < 2.0**40 else 2.0**-math.frexp(largest)[1]
     if scale == 1.0:
@@ -186,6 +201,13 @@ class Staged:
         return Staged(drawn, Layout.of(view, view.reaches(drawn.balls), options.style, options.floor), options)
 
     @functools.cached_property
+    def notes(self) -> list[str]:
+        """What was decided by the data, and what is not shown."""
+        pixels = pixels_per_length(self.layout.camera, self.layout.size[1], self.layout.distance)
+        narrow = narrow_note(self.drawn.radii, pixels, self.layout.size, self.drawn.scale)
+        return [*self.drawn.notes, *([narrow] if narrow else [])]
+
+    @functools.cached_property
     def scene(self) -> Scene:
         stage, drawn = self.layout.stage, self.drawn
         material = self.options.material or stage.material
@@ -223,6 +245,8 @@ class Staged:
         if self.drawn.opacities is not None:
             per_side = rays_per_side(image.stats.mean_sample_count, settings.width * settings.height)
         shares = read_shares(context, camera, settings, overlaid, per_side)
+        if not shares.shapes.any():
+            self.notes.append("the picture is blank: no ball is in view")
         stage: Any = SURROUND_BRIGHTNESS if len(lamps) > 1 else 1.0
         if scene.planes:
             bare = Scene(lamps, scene.planes)
@@ -245,7 +269,7 @@ class Figure(Image):
         vars(self).update(vars(image))
         self.exposure = staged.options.exposure
         self.scene, self.camera = staged.scene, staged.layout.camera
-        self.legend, self.notes = staged.drawn.legend, staged.drawn.notes
+        self.legend, self.notes = staged.drawn.legend, list(staged.notes)
         self._staged, self._stage, self._shares = staged, stage, shares
 
     @property

@@ -113,6 +113,8 @@ class Options:
     view: Direction = _view(VIEWS[0], "SIDE|X,Y,Z", f"{', '.join(VIEWS)}, or the direction to the camera")
     up: Direction = _view("z", "AXIS|X,Y,Z", "x, y, z, -x, -y or -z, or a direction: what is up in the data and the picture")
     projection: str = _view("perspective", "", "what the camera does", choices=("perspective", "orthographic"))
+    frame_all: bool = _view(False, "", "shows balls that are very far from all others, too. By default up to 0.5% of the balls, at "
+                            "least one, are left out where that brings the others 4 times as near; it is said")
     camera: Camera | None = _python(None, "", "takes this one, in the units of the data, in place of view and projection")
 
     style: str = _look("matte", "", "the last one: light from all sides alone",
@@ -121,7 +123,8 @@ class Options:
     outlines: bool = _look(False, "", "dark lines round the balls; not with opacity")
     floor: bool = _look(False, "", "a floor that shows the shadows alone")
     background: Any = _look("white", "COLOR", "a color, or transparent")
-    box: str = _look("lines", "", "what is shown of the cell, where the data have one", choices=("lines", "none"))
+    box: str = _look("auto", "", "what is shown of the cell, where the data have one. auto is lines, except of a protein's crystal "
+                     "and of a cell far from its particles", choices=("auto", "lines", "none"))
     exposure: float | None = _look(0.0, "EV", "stops by which balls are brightened; auto, in Python None: as pt render",
                                    read=_stops, rule=(lambda stops: -64.0 <= stops <= 64.0, "from -64 to 64"))
 

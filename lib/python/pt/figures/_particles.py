@@ -48,11 +48,19 @@ class Cell:
     origin    shape (3,)
     vectors   shape (3, 3): a row for each edge
     periodic  shape (3,): whether the cell repeats along each edge
+    is_crystal_of_macromolecule  whether it is the crystal's cell of a protein or a nucleic acid
     """
 
     origin: Array
     vectors: Array
     periodic: Array
+    is_crystal_of_macromolecule: bool = False
+
+    @property
+    def inverse(self) -> Array:
+        """Shape (3, 3): (positions - origin) @ inverse are shares of the edges."""
+        inverse: Array = np.linalg.pinv(self.vectors)
+        return inverse
 
     @staticmethod
     def of(vectors: npt.ArrayLike, origin: npt.ArrayLike = (0, 0, 0), periodic: npt.ArrayLike = True) -> Cell | None:

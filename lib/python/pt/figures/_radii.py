@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping
 from typing import Final
@@ -13,11 +14,14 @@ from pt._fit import Array, Doubles, chunks, coordinates
 from pt.figures import _elements as elements
 from pt.figures._options import Opacity, Radius
 from pt.figures._particles import Particles
+from pt.figures._spread import reaches_of, usual_reach
 
 PROBES: Final = 1000
 IN_CELL: Final = 8  # particles in a cell, if they fill their box evenly
 MOST_PAIRS: Final = 4_000_000
 TABLE_BITS: Final = 20
+COVER: Final = 0.01  # share of the picture that balls cover at least, where nothing says their radii; by taste
+THIN: Final = 0.001  # least radius of such balls, as a share of the picture: together, a radius of a pixel
 STEPS: Final = np.indices((3, 3, 3)).reshape(3, 1, 27) - 1
 
 
@@ -111,7 +115,17 @@ def _automatic(particles: Particles, notes: list[str]) -> Array:
         # bonds, 16 times in a gas at 0 degrees Celsius and 1 bar: other distances are not in angstroms.
         if len(radii) and 0.7 * radii.min() <= typical <= 30.0 * radii.max():
             return _of_elements(particles, particles.elements, "covalent", notes)
-    return np.array([typical])
+    return np.array([_seen(typical, particles.positions, notes)])
+
+
+def _seen(typical: float, positions: Array, notes: list[str]) -> float:
+    """The typical radius, unless it is small beside all of the picture: pairs far apart, and lines of many particles."""
+    span = 2.0 * usual_reach(reaches_of(positions, np.zeros(1)))
+    if math.pi * len(positions) * typical * typical >= COVER * span * span:
+        return typical
+    radius = max(span * math.sqrt(COVER / (math.pi * len(positions))), THIN * span, typical)
+    notes.append(f"the radius is {radius:.3g}: balls that touch their neighbours, of {typical:.3g}, would hardly be seen")
+    return radius
 
 
 def _of_elements(particles: Particles, numbers: npt.NDArray[np.uint8], kind: str, notes: list[str]) -> Array:
@@ -142,7 +156,8 @@ def _of_types(particles: Particles, radii: Mapping[str, float]) -> Array:
 
 def typical_radius(positions: Array) -> float:
     """Half of the distance between most nearest neighbours, so that most balls just touch; for random points, half of
-    the median distance to the fourth neighbour. Neighbours at the same place do not count."""
+    the median distance to the fourth neighbour, of fewer than twelve to a nearer one. Neighbours at the same place do not
+    count."""
     first, fourth = _neighbour_distances(positions)
     if not len(first):
         return 1.0
@@ -159,6 +174,7 @@ def _neighbour_distances(positions: Array) -> tuple[Array, Array]:
     """For a sample of the particles, the distances to the nearest and the fourth neighbour, if these are in adjacent
     cells of a grid."""
     count = len(positions)
+    fourth = min(4, max(count // 3, 1)) - 1  # of few particles, one far away must not be everybody's fourth neighbour
     low, high = (np.array([end(column) for column in positions.T], np.float64) for end in (np.min, np.max))
     extent = high - low
     broad = extent > 1e-6 * extent.max()
@@ -186,7 +202,8 @@ def _neighbour_distances(positions: Array) -> tuple[Array, Array]:
         pairs += len(others)
         if pairs > MOST_PAIRS:
             break
-    return np.array([each[0] for each in found if len(each)]), np.array([each[3] for each in found if len(each) > 3])
+    return (np.array([each[0] for each in found if len(each)]),
+            np.array([each[fourth] for each in found if len(each) > fourth]))
 
 
 def _near(positions: Array, places: Doubles, low: Doubles, side: float) -> tuple[Doubles, Array, Array]:

@@ -69,12 +69,16 @@ def vectors_of(particles: Particles, given: Vectors, scale: float | None, radii:
 
 
 def cell_corners(cell: Cell) -> Doubles:
-    """Shape (8, 3): bit i of a corner's index says whether it is at the end of edge i."""
-    corners: Doubles = cell.origin + (np.arange(8)[:, None] >> np.arange(3) & 1) @ cell.vectors
+    """Shape (2^k, 3) of a cell with k edges: bit i of a corner's index says whether it is at the end of edge i."""
+    vectors = cell.vectors[cell.vectors.any(axis=1)]
+    edges = np.arange(len(vectors))
+    corners: Doubles = cell.origin + (np.arange(2**len(vectors))[:, None] >> edges & 1) @ vectors
     return corners
 
 
 def cell_edges(cell: Cell) -> Doubles:
-    """Both ends of the twelve edges, shape (2, 12, 3)."""
-    pairs = [(k, k | 1 << edge) for k in range(8) for edge in range(3) if not k >> edge & 1]
-    return np.stack([cell_corners(cell)[list(ends)] for ends in zip(*pairs)])
+    """Both ends of the twelve edges, shape (2, 12, 3); of the four of a flat cell."""
+    corners = cell_corners(cell)
+    steps = [1 << edge for edge in range(len(corners).bit_length() - 1)]
+    pairs = [(k, k | step) for k in range(len(corners)) for step in steps if not k & step]
+    return np.stack([corners[list(ends)] for ends in zip(*pairs)])

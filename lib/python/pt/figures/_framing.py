@@ -1,0 +1,91 @@
+"""Which balls decide what a picture shows: all but a few that are far from all others. And notes on pictures that show
+little."""
+
+from __future__ import annotations
+
+import math
+from typing import Final
+
+import numpy as np
+
+from pt._fit import Array, chunks
+from pt.figures._particles import Cell, Particles
+from pt.figures._rods import cell_corners
+from pt.figures._spread import middle_of, reaches_of, usual_reach
+
+FAR: Final = 4.0  # times as far from the middle as all others
+BEYOND: Final = 1.25  # times as far as these: is left out
+OUTSIDE: Final = 0.1  # share of the particles that may be outside of the cell unmentioned
+WALL: Final = 0.01  # of the cell's edges: how far outside does not count
+LEAST_COVER: Final = 0.1  # of the picture, by balls that are narrower than a pixel
+WIDTH: Final = 8.0  # pixels, of balls that are well seen; by taste
+
+
+def far_away(positions: Array, radii: Array, notes: list[str]) -> Array | None:
+    """Which balls are so far from all others, and so few, that a picture of all would hardly show the others; None if there
+    are none. A ball as large as all others together is never one."""
+    reaches = reaches_of(positions, radii)
+    usual = usual_reach(reaches)
+    usual = max(usual, float(reaches.max(where=radii > usual, initial=0.0)))
+    largest = float(reaches.max())
+    if largest <= FAR * usual:
+        return None
+    far: Array = reaches > BEYOND * usual
+    count = int(np.count_nonzero(far))
+    notes.append(f"{count:,} of {len(far):,} balls {'is' if count == 1 else 'are'} not drawn, up to {largest / usual:.3g} times as far "
+                 "away as the others: --frame-all (frame_all=True) draws all")
+    return far
+
+
+def drawn_cell(particles: Particles, box: str, positions: Array, notes: list[str]) -> Cell | None:
+    """The cell if it is drawn: by default, unless it is a protein's crystal cell or far from the particles.
+
+    positions   of the particles that are drawn
+    """
+    cell = particles.cell
+    if cell is None or box == "none" or (box == "auto" and cell.is_crystal_of_macromolecule):
+        return None
+    outside = _count_outside(cell, positions)
+    if outside > OUTSIDE * len(positions):
+        notes.append(f"{outside:,} of {len(positions):,} particles are outside of their periodic cell: --wrap (wrap=True) brings "
+                     "them back")
+    if box == "auto" and _is_far(cell, positions):
+        notes.append("the cell is not drawn: it is far from the particles. --box lines (box=\"lines\") draws it")
+        return None
+    return cell
+
+
+def _count_outside(cell: Cell, positions: Array) -> int:
+    """How many particles are outside of a cell along its periodic edges."""
+    count = 0
+    for rows in chunks(len(positions)):
+        outside = np.abs((positions[rows] - cell.origin) @ cell.inverse - 0.5) > 0.5 + WALL
+        count += int((outside & cell.periodic).any(axis=1).sum())
+    return count
+
+
+def _is_far(cell: Cell, positions: Array) -> bool:
+    """Whether a picture of both would show little of the cell and of the particles."""
+    corners, middle = cell_corners(cell), middle_of(positions)
+    alone = max(float(reaches_of(positions, np.zeros(1)).max()), 0.5 * float(np.ptp(corners, axis=0).max()))
+    return float(np.abs(corners - middle).max()) > FAR * alone
+
+
+def narrow_note(radii: Array, pixels: float, size: tuple[int, int], scale: float) -> str | None:
+    """A note if balls are narrower than a pixel and together cover little of the picture; else None.
+
+    radii    in scene units
+    pixels   per scene unit
+    scale    scene units per unit of the data
+    """
+    if float(radii.min()) >= 0.5 / pixels:
+        return None
+    halves = radii * pixels
+    narrow = radii < 0.5 / pixels
+    count = int(np.count_nonzero(narrow))
+    cover = math.pi * float(np.square(halves).sum(where=narrow))
+    if cover > LEAST_COVER * size[0] * size[1]:
+        return None
+    radius = f"{0.5 * WIDTH / (pixels * scale):.2g}"
+    return (f"{count:,} of {len(radii):,} balls are narrower than a pixel and hardly seen: --radius {radius} (radius={radius}) makes "
+            f"balls {WIDTH:.0f} pixels wide")

@@ -1,0 +1,35 @@
+"""How far most particles are spread, whatever a few far away do."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from pt._fit import Array, Doubles, chunks, coordinates
+
+FEW: Final = 0.005  # share of the balls that do not count, if they are the farthest; of fewer balls, one
+LEAST_COUNT: Final = 5  # from which on one does not count
+SAMPLE: Final = 100_000  # particles that tell the middle
+
+
+def middle_of(positions: Array) -> Doubles:
+    """The median along each axis, which a few particles far away do not move."""
+    middle: Doubles = np.median(positions[::max(len(positions) // SAMPLE, 1)], axis=0).astype(np.float64)
+    return middle
+
+
+def reaches_of(positions: Array, radii: Array) -> Doubles:
+    """How far each ball reaches from the middle along one of the axes, shape (n,). radii: shape (n,) or (1,)."""
+    middle = middle_of(positions)[:, None]
+    reaches = np.broadcast_to(radii, len(positions)).astype(np.float64)
+    for rows in chunks(len(positions)):
+        reaches[rows] += np.abs(coordinates(positions[rows]) - middle).max(axis=0)
+    return reaches
+
+
+def usual_reach(reaches: Doubles) -> float:
+    """How far all but the few farthest balls reach."""
+    count = len(reaches)
+    last = count - 1 - (max(int(FEW * count), 1) if count >= LEAST_COUNT else 0)
+    return float(np.partition(reaches, last)[last])

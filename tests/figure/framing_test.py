@@ -1,0 +1,181 @@
+"""What a picture frames, and what is said of pictures that show little."""
+
+import math
+import re
+import unittest
+
+import numpy as np
+import pt
+from pt.figures._figure import Staged, prepare
+from pt.figures._options import Options
+from pt.figures._overlay import pixels_per_length
+from pt.figures._particles import Cell, Particles
+from pt.figures._radii import COVER, THIN, radii_of
+from pt.figures._rods import cell_corners, cell_edges
+from pt.figures._spread import reaches_of, usual_reach
+
+RANDOM = np.random.default_rng(8)
+CUBE = RANDOM.uniform(-1, 1, (2000, 3))
+WATERS = np.array([[0.0, 0, 0], [0.96, 0, 0], [-0.24, 0.93, 0], [3, 0, 0], [3.96, 0, 0]])
+TEN = Cell.of([10, 10, 10], periodic=(True, True, False))
+
+
+def drawn_of(positions, cell=None, **options):
+    return prepare(Particles(np.asarray(positions, float), cell=cell), Options(**{"radius": 0.1, **options}))
+
+
+class FarAway(unittest.TestCase):
+    def test_one_ion_far_away_does_not_decide_the_picture(self):
+        elements = np.array([8, 1, 1, 8, 1, 11], np.uint8)
+        whole = Particles(np.vstack([WATERS, [1000, 0, 0]]), elements=elements)
+        staged, near = Staged.of(whole, Options()), Staged.of(Particles(WATERS, elements=elements[:5]), Options())
+        self.assertEqual((staged.layout.camera, len(staged.drawn.centers)), (near.layout.camera, 5))
+        # The middle is at x = 1.98. An oxygen of radius 0.66 reaches 2.64 from it, the ion of radius 1.66 reaches 999.68.
+        self.assertEqual(staged.notes, [f"1 of 6 balls is not drawn, up to {999.68 / 2.64:.3g} times as far away as the others: "
+                                        "--frame-all (frame_all=True) draws all"])
+        for options in ({"frame_all": True}, {"camera": pt.Camera((0, 0, 9), (0, 0, 0))}):
+            self.assertEqual(len(Staged.of(whole, Options(**options)).drawn.centers), 6)
+
+    def test_up_to_a_two_hundredth_is_left_out_and_no_corner_of_the_rest(self):
+        for count, left in ((10, 0), (11, 11)):
+            far = RANDOM.uniform(50, 90, (count, 3))
+            drawn = drawn_of(np.vstack([far, CUBE]))
+            self.assertEqual(len(drawn.centers), len(CUBE) + left)
+            self.assertEqual(len(drawn.notes), 1 - left // 11)
+        few = np.vstack([CUBE[:3], [[900, 0, 0]]])
+        self.assertEqual(len(drawn_of(few).centers), 4)
+        self.assertEqual(len(drawn_of(np.vstack([CUBE[:1], few])).centers), 4)
+
+    def test_usual_spreads_are_whole(self):
+        gaussian = RANDOM.normal(size=(5000, 3))
+        disc = RANDOM.exponential(size=(5000, 1)) * gaussian / np.linalg.norm(gaussian, axis=1)[:, None]
+        near = np.vstack([CUBE, [[3.8, 0, 0]]])
+        for positions in (gaussian, disc, near, CUBE[:1], CUBE[:2] * 1e3):
+            drawn = drawn_of(positions)
+            self.assertEqual((len(drawn.centers), drawn.notes), (len(positions), []))
+
+    def test_a_ball_as_large_as_all_others_together_stays(self):
+        positions, radii = np.vstack([CUBE, [[60, 0, 0]]]), np.full(2001, 0.1)
+        for radius, count in ((0.5, 2000), (50, 2001)):
+            radii[-1] = radius
+            self.assertEqual(len(drawn_of(positions, radius=radii).centers), count)
+
+    def test_only_particles_that_are_shown_count(self):
+        particles = Particles(np.vstack([CUBE, CUBE + 1000]), {"kind": np.repeat([0, 1], 2000)})
+        drawn = prepare(particles, Options(radius=0.1, where="kind == 1"))
+        self.assertEqual((len(drawn.centers), drawn.notes), (2000, []))
+        particles.positions[0] = -5000
+        self.assertEqual(len(prepare(particles, Options(radius=0.1, where="kind == 1")).centers), 2000)
+        particles.positions[2000] = -5000
+        drawn = prepare(particles, Options(radius=0.1, where="kind == 1"))
+        np.testing.assert_array_equal(drawn.centers, CUBE[1:] + 1000)
+        self.assertIn("1 of 2,000 balls is not drawn", drawn.notes[0])
+
+    def test_the_usual_reach_is_that_of_all_but_the_farthest(self):
+        reaches = reaches_of(np.arange(1000.0)[:, None] * (1, 0.5, 0), np.full(1, 2.0))
+        np.testing.assert_array_equal(np.sort(reaches)[::-1][:3], [501.5, 501.5, 500.5])
+        self.assertEqual(usual_reach(reaches), np.sort(reaches)[994])
+
+
+class Cells(unittest.TestCase):
+    def test_edges_of_cells_of_all_kinds(self):
+        origin, rows = np.array([-3.0, 1, 2]), np.array([[4.0, 0, 0], [1, 5, 0], [0, 1, 6]])
+        for kept in ((0, 1, 2), (1, 0, 2), (0, 1), (0, 2), (2,)):
+            vectors = np.zeros((3, 3))
+            vectors[:len(kept)] = rows[list(kept)]
+            cell = Cell(origin, vectors, vectors.any(axis=1))
+            shares = np.array(list(np.ndindex(*[2] * len(kept))))
+            expected = origin + shares @ rows[list(kept)]
+            np.testing.assert_array_equal(np.sort(cell_corners(cell), axis=0), np.sort(expected, axis=0))
+            begins, ends = cell_edges(cell)
+            self.assertEqual(len(begins), {1: 1, 2: 4, 3: 12}[len(kept)])
+            for edge in kept:  # each as often as it is parallel to others
+                self.assertEqual(int((np.abs(ends - begins - rows[edge]) < 1e-12).all(axis=1).sum()), 2 ** (len(kept) - 1))
+
+    def test_which_cells_are_drawn(self):
+        crystal = Cell(TEN.origin, TEN.vectors, TEN.periodic, is_crystal_of_macromolecule=True)
+        for cell, box, is_drawn in ((TEN, "auto", True), (TEN, "lines", True), (TEN, "none", False), (None, "lines", False),
+                                    (crystal, "auto", False), (crystal, "lines", True)):
+            self.assertEqual(drawn_of(CUBE + 5, cell, box=box).cell is not None, is_drawn, (cell, box))
+
+    def test_particles_outside_are_counted_along_periodic_edges(self):
+        inside = CUBE[:80] + 5
+        for shift, told in (((10, 0, 0), True), ((0, -10, 0), True), ((0, 0, 10), False), ((0.5, 0.5, 0), False)):
+            notes = drawn_of(np.vstack([inside, CUBE[80:100] + 5 + shift]), TEN).notes
+            self.assertEqual(notes, ["20 of 100 particles are outside of their periodic cell: --wrap (wrap=True) brings them back"] * told)
+        few = np.vstack([inside, CUBE[80:88] + (15, 5, 5)])
+        self.assertEqual(drawn_of(few, TEN).notes, [])
+        for beyond, told in ((0.05, 0), (0.15, 1)):  # a hundredth of the edge does not count
+            self.assertEqual(len(drawn_of(np.vstack([few, CUBE[:20] * 0.01 + (5, 10 + beyond, 5)]), TEN).notes), told)
+        self.assertEqual(drawn_of(CUBE + 15, TEN, box="none").notes, [])
+        self.assertEqual(drawn_of(CUBE + 15, TEN, wrap=True).notes, [])
+
+    def test_a_cell_far_from_its_particles_is_not_drawn(self):
+        chain = np.arange(8.0)[:, None] * (3, 2, 0) + (872, -495, 2.5)
+        drawn = drawn_of(chain, TEN)
+        self.assertIsNone(drawn.cell)
+        self.assertEqual([note[:25] for note in drawn.notes], ["8 of 8 particles are outs", "the cell is not drawn: it"])
+        self.assertIsNotNone(drawn_of(chain, TEN, box="lines").cell)
+        for positions in (chain - chain.mean(axis=0) + (24, 0, 5), CUBE + (0, 0, 19), CUBE * 0.1 + 1):  # beside it, or in a corner
+            self.assertIsNotNone(drawn_of(positions, TEN).cell)
+
+
+class Blank(unittest.TestCase):
+    def staged(self, radii, **options):
+        return Staged.of(Particles(CUBE[:100] * 50), Options(radius=radii, size=(400, 300), frame_all=True, **options))
+
+    def test_balls_narrower_than_a_pixel_are_told(self):
+        for projection in ("perspective", "orthographic"):
+            for factor in (1.0, 2.0**100):
+                radii = np.full(100, 0.01)
+                radii[:7] = 5
+                staged = Staged.of(Particles(CUBE[:100] * 50 * factor), Options(radius=radii * factor, size=(400, 300), projection=projection))
+                layout = staged.layout
+                pixels = pixels_per_length(layout.camera, 300, layout.distance) * staged.drawn.scale
+                note = re.fullmatch(r"93 of 100 balls are narrower than a pixel and hardly seen: --radius (\S+) \(radius=\1\) makes balls "
+                                    r"8 pixels wide", staged.notes[0])
+                self.assertLess(abs(2 * float(note[1]) * pixels / 8 - 1), 0.05)  # of two digits
+        pixels = pixels_per_length(self.staged(0.01).layout.camera, 300, self.staged(0.01).layout.distance)
+        for width, told in ((0.95, 1), (1.05, 0)):  # the camera hardly moves
+            self.assertEqual([note[:10] for note in self.staged(0.5 * width / pixels).notes], ["100 of 100"] * told)
+
+    def test_many_that_cover_the_picture_are_not(self):
+        places = RANDOM.uniform(0, 1, (60_000, 3)) * (1, 1, 0)
+        staged = Staged.of(Particles(places), Options(radius=0.001, size=(400, 400)))
+        pixels = pixels_per_length(staged.layout.camera, 400, staged.layout.distance)
+        self.assertLess(0.002 * pixels, 1)
+        self.assertGreater(60_000 * math.pi * (0.001 * pixels)**2, 0.1 * 400**2)
+        self.assertEqual(staged.notes, [])
+
+    def test_a_camera_that_sees_nothing(self):
+        camera = pt.Camera(position=(0, 0, 9), target=(0, 0, 19))
+        away, toward = (pt.figure(CUBE, radius=0.1, size=(8, 6), samples=1, camera=each)
+                        for each in (camera, pt.Camera((0, 0, 9), (0, 0, 0))))
+        self.assertEqual((away.notes, toward.notes), (["the picture is blank: no ball is in view"], []))
+
+
+class Radii(unittest.TestCase):
+    def automatic(self, positions):
+        notes = []
+        return float(radii_of(Particles(positions), None, notes)[0]), notes
+
+    def test_pairs_far_apart_and_lines_are_seen(self):
+        pairs = np.vstack([CUBE[:200], CUBE[:200] + 1e-5])
+        line = np.linspace(-1, 1, 20_000)[:, None] * (1, 0.5, 0)
+        for positions, share in ((pairs, math.sqrt(COVER / (math.pi * 400))), (line, THIN)):
+            radius, notes = self.automatic(positions)
+            span = 2 * usual_reach(reaches_of(positions, np.zeros(1)))
+            self.assertAlmostEqual(radius / span, share)
+            self.assertRegex(notes[0], "^the radius is .* would hardly be seen$")
+        self.assertEqual(self.automatic(CUBE)[1], [])
+
+    def test_one_far_away_is_not_the_fourth_neighbour_of_all_others(self):
+        for count in (5, 8, 11):
+            cloud = CUBE[:count].copy()
+            cloud[1] = cloud[0] + 0.01  # as in random points, where the fourth neighbour decides
+            cloud[-1] = 1000
+            self.assertLess(self.automatic(cloud)[0], 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
