@@ -97,6 +97,14 @@ class Command(unittest.TestCase):
             "l.svg", "only-capsules-1-center.npy", "only-capsules-1-end.npy", "only-center.npy", "only-color.npy",
             "only-radius.npy", "only.json"])
 
+    def test_a_note_of_a_series_is_told_once(self):
+        points = np.random.default_rng(4).normal(size=(3, 30, 3))
+        points[1:, 0] = 900
+        points[2, 0] *= 2
+        np.save(self.folder / "far.npy", points)
+        said = self.call_figure("far.npy", *SMALL, "--radius", "0.1", "--frames", "0-2", "-o", "f#.png")
+        self.assertEqual(said.count("1 of 30 balls is not drawn"), 1)
+
     def test_an_error_that_is_not_reached_is_told_by_the_code(self):
         self.call_figure("water.xyz", *SMALL, "--error", "0.001%", "-o", "a.png", code=7)
         self.call_figure("water.xyz", *SMALL[:2], "--error", "30%", "-o", "b.png")
@@ -112,7 +120,9 @@ class Command(unittest.TestCase):
         (self.folder / "data.png").write_text(WATER)
         for code, words, arguments in (
                 (2, "there is nothing to write", ("water.xyz",)),
-                (2, "must end in .exr, .png, .jpg or .jpeg", ("water.xyz", "-o", "a.gif")),
+                (2, "must end in .exr, .png, .jpg or .jpeg", ("water.xyz", "-o", "a.bmp")),
+                (2, r"a.GIF: a film is made of pictures: -o a-###.png with .* ffmpeg .* -i a-%03d.png a.GIF",
+                 ("water.xyz", "-o", "a.GIF")),
                 (6, "its folder nowhere is not there", ("water.xyz", "-o", "nowhere/a.png")),
                 (2, "named twice, or is water.xyz", ("water.xyz", "-o", "a.png", "-o", "./a.png")),
                 (2, "or is data.png", ("data.png", "-o", "./data.png")),

@@ -102,7 +102,8 @@ class Cells(unittest.TestCase):
         inside = CUBE[:80] + 5
         for shift, told in (((10, 0, 0), True), ((0, -10, 0), True), ((0, 0, 10), False), ((0.5, 0.5, 0), False)):
             notes = drawn_of(np.vstack([inside, CUBE[80:100] + 5 + shift]), TEN).notes
-            self.assertEqual(notes, ["20 of 100 particles are outside of their periodic cell: --wrap (wrap=True) brings them back"] * told)
+            self.assertEqual(notes, ["20 of 100 particles are outside of their periodic cell: --wrap (wrap=True) brings them "
+                                     "back"] * told)
         few = np.vstack([inside, CUBE[80:88] + (15, 5, 5)])
         self.assertEqual(drawn_of(few, TEN).notes, [])
         for beyond, told in ((0.05, 0), (0.15, 1)):  # a hundredth of the edge does not count
@@ -129,11 +130,12 @@ class Blank(unittest.TestCase):
             for factor in (1.0, 2.0**100):
                 radii = np.full(100, 0.01)
                 radii[:7] = 5
-                staged = Staged.of(Particles(CUBE[:100] * 50 * factor), Options(radius=radii * factor, size=(400, 300), projection=projection))
+                staged = Staged.of(Particles(CUBE[:100] * 50 * factor),
+                                   Options(radius=radii * factor, size=(400, 300), projection=projection))
                 layout = staged.layout
                 pixels = pixels_per_length(layout.camera, 300, layout.distance) * staged.drawn.scale
-                note = re.fullmatch(r"93 of 100 balls are narrower than a pixel and hardly seen: --radius (\S+) \(radius=\1\) makes balls "
-                                    r"8 pixels wide", staged.notes[0])
+                note = re.fullmatch(r"93 of 100 balls are narrower than a pixel and hardly seen: --radius (\S+) \(radius=\1\) "
+                                    r"makes balls 8 pixels wide", staged.notes[0])
                 self.assertLess(abs(2 * float(note[1]) * pixels / 8 - 1), 0.05)  # of two digits
         pixels = pixels_per_length(self.staged(0.01).layout.camera, 300, self.staged(0.01).layout.distance)
         for width, told in ((0.95, 1), (1.05, 0)):  # the camera hardly moves

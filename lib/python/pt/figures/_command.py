@@ -29,6 +29,7 @@ picture; lengths follow from the data, so that their units do not matter. All of
 one scale, and names with # signs for their number:
   ffmpeg -framerate 25 -i f-%03d.png -pix_fmt yuv420p f.mp4    (after -o f-###.png)
 """
+FILMS = (".gif", ".mp4", ".webm", ".mov", ".avi", ".mkv")
 
 
 def refuse(message: str, code: int = USAGE) -> NoReturn:
@@ -113,6 +114,10 @@ def check(given: argparse.Namespace) -> None:
     if "-" in given.output and (series or not given.output_format):
         refuse("-o -: a series needs files" if series else "-o -: needs --format")
     for path in pictures:
+        stem, ending = os.path.splitext(path)
+        if ending.lower() in FILMS:
+            refuse(f"-o {path}: a film is made of pictures: -o {stem}-###.png with --frames or --turntable, and then "
+                   f"ffmpeg -framerate 25 -i {stem}-%03d.png {path}")
         if series and "#" not in os.path.basename(path):
             refuse(f"-o {path}: of a series the name must have # signs, for the number")
         if given.background == "transparent" and path.lower().endswith((".jpg", ".jpeg")):
@@ -156,10 +161,10 @@ def draw(given: argparse.Namespace, options: Options) -> int:
     missed = False
     for number, each in staged(given, options):
         if not given.quiet:
-            for note in each.drawn.notes:
-                if note not in told:
+            for note in each.notes:
+                if (words := re.sub(r"\d", "", note)) not in told:  # of a series, once for all numbers
                     print(f"pt-figure: {note}", file=sys.stderr)
-            told.update(each.drawn.notes)
+                    told.add(words)
         if given.legend and not number:
             each.save_legend(given.legend)
         if given.write_scene and not number:

@@ -131,7 +131,7 @@ def prepare(particles: Particles, options: Options, scale: float | None = None, 
 def _shown(particles: Particles, options: Options, radii: Array, notes: list[str]) -> Array | None:
     """Which particles are drawn; None: all."""
     conditions = [options.where] if isinstance(options.where, str) else options.where
-    shown = np.logical_and.reduce([holds(particles, each) for each in conditions]) if conditions else None
+    shown: Array | None = np.logical_and.reduce([holds(particles, each) for each in conditions]) if conditions else None
     if shown is not None and not shown.any():
         raise ValueError(f"{particles.name} has no particles for which where = {', '.join(conditions)} holds")
     _check(particles.name, radii, shown)

@@ -32,8 +32,8 @@ def far_away(positions: Array, radii: Array, notes: list[str]) -> Array | None:
         return None
     far: Array = reaches > BEYOND * usual
     count = int(np.count_nonzero(far))
-    notes.append(f"{count:,} of {len(far):,} balls {'is' if count == 1 else 'are'} not drawn, up to {largest / usual:.3g} times as far "
-                 "away as the others: --frame-all (frame_all=True) draws all")
+    notes.append(f"{count:,} of {len(far):,} balls {'is' if count == 1 else 'are'} not drawn, up to {largest / usual:.3g} times as "
+                 "far away as the others: --frame-all (frame_all=True) draws all")
     return far
 
 
@@ -87,5 +87,5 @@ def narrow_note(radii: Array, pixels: float, size: tuple[int, int], scale: float
     if cover > LEAST_COVER * size[0] * size[1]:
         return None
     radius = f"{0.5 * WIDTH / (pixels * scale):.2g}"
-    return (f"{count:,} of {len(radii):,} balls are narrower than a pixel and hardly seen: --radius {radius} (radius={radius}) makes "
-            f"balls {WIDTH:.0f} pixels wide")
+    return (f"{count:,} of {len(radii):,} balls are narrower than a pixel and hardly seen: --radius {radius} (radius={radius}) "
+            f"makes balls {WIDTH:.0f} pixels wide")
