@@ -1,88 +1,167 @@
-"""Prints tables of denoised images: stated against true error, and the gain.
+"""Prints whether denoised images are worse than raw ones, and how good their stated error is.
 
-    python3 tests/render/denoise_calibration.py [--scenes NAME ...] [--sizes WIDTHxHEIGHT ...]
+    python3 tests/render/denoise_calibration.py [--own] [--hundred SEED] [--files SCENE ...] [--images FOLDER] [--worst N]
 
-PT_LIBRARY names the library; needs NumPy and Open Image Denoise (pip install pyoidn, or LD_LIBRARY_PATH). Scenes: see
-error_calibration.py. An image is made of two halves of the samples; its true error is the root mean over seeds of its
-squared relative error. The square is the product of the differences to two images of other seeds, so that their noise
-cancels in the mean.
+Scenes are those of cli/scenes and calibration_scenes.py (--own), those of tests/bench/random_scenes.py from a seed on, and
+scene files. PT_LIBRARY names the library and PT_PROGRAM the program, which reads the scenes; it takes NumPy and Open Image
+Denoise (pip install pyoidn, or LD_LIBRARY_PATH). With --images, what is rendered is kept in the folder and used again;
+--render renders only, without Open Image Denoise.
+
+An image is made of two of half of the samples each. Errors are differences to an image of many samples. An image is worse
+if its error is more than 2% above that of the mean of both halves. Light is the difference of the means of both images
+over the standard error of the latter.
 """
 
 import argparse
+import json
 import math
 import pathlib
+import statistics
 import sys
+from dataclasses import dataclass
 
 import numpy as np
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from error_calibration import RELATIVE_BITS, Case, all_scenes, print_table  # noqa: E402
-from scene_renderer import SceneRenderer  # noqa: E402 (which finds pt)
-from pt import _structs as structs, denoise  # noqa: E402
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / part) for part in ("lib/python", "tests/support", "tests/render", "tests/bench")]
+import pt  # noqa: E402
+from calibration_scenes import scenes  # noqa: E402
+from pt._program import Program  # noqa: E402
+from random_scenes import hundred  # noqa: E402
+from scene_file import FOLDER  # noqa: E402
 
-COUNTS = [4, 16, 64, 256]
-SEEDS = range(100, 108)
-TRUTH_SEEDS, TRUTH_SAMPLES = (9, 10), 1024
-MORE_TRUTH_SAMPLES = {"two-lamps": 32768}  # few meet the light at shadows' ends
-ALBEDO, NORMAL = 5, 4  # PT_QUANTITY_*
+COUNTS = [16, 64, 256]
+TRUTH_SEED, SEED = 9, 100
 
 
-def measure(name, scene, size):
-    """Cases; and by sample count the mean squared errors of both halves together and of the denoised image."""
-    width, height = map(int, size.split("x"))
-    length = scene.get("render", {}).get("max_path_length", 6)
-    with SceneRenderer(scene) as renderer:
-        def pixels(quantity=0):
-            image = np.empty((height, width, 3), np.float32)
-            renderer.call("pt_readback", structs.pt_image(quantity=quantity, data=image.ctypes.data, size_bytes=image.nbytes))
-            return image
+@dataclass
+class Case:
+    name: str
+    count: int
+    relative: float  # error over that of the raw image
+    absolute: float
+    gain: float  # mean square of the raw image's relative error over the denoised one's
+    light: float  # difference of means over its noise
+    brighter: int  # values above all those of both halves in the 3x3 pixels about them
+    stated: float  # over the true relative error
+    holds: bool
+    is_uncertain: bool
 
-        def images(seed, counts):
-            renderer.set_render(width, height, max_path_length=length, seed=seed)
-            for before, count in zip([0, *counts], counts):
-                renderer.accumulate(count - before)
-                yield pixels()
 
-        truths = [next(images(seed, [MORE_TRUTH_SAMPLES.get(name, TRUTH_SAMPLES)])).astype(float) for seed in TRUTH_SEEDS]
-        weights = 1 / (np.maximum(truths[0] * truths[1], 0) + 0.01)
+def scene_files(options):
+    """Arguments of `pt render` and files for it, by name."""
+    for path in [*(sorted(FOLDER.glob("*.json")) if options.own else []), *options.files]:
+        yield path.stem, str(path.resolve()), {}
+    made = [*(scenes().items() if options.own else []),
+            *(pair for seed in options.hundred for pair in hundred(seed))]
+    for name, scene in made:
+        yield name, "scene.json", {"scene.json": json.dumps(scene).encode()}
 
-        def square(image):
-            return float((weights * (image - truths[0]) * (image - truths[1])).mean())
 
-        guides = pixels(ALBEDO), pixels(NORMAL)
-        found = {count: [] for count in COUNTS}
-        for seed in SEEDS:
-            halves = [list(images(each, [count // 2 for count in COUNTS])) for each in (seed, seed ^ 2**63)]
-            for count, first, second in zip(COUNTS, *halves):
-                image, error = denoise(first, second, *guides)
-                found[count].append((square((first.astype(float) + second) / 2), square(image.astype(float)), error))
-    cases, gains = [], {}
-    for count, each in found.items():
-        gains[count] = [float(np.mean(column)) for column in list(zip(*each))[:2]]
-        true = math.sqrt(gains[count][1])
-        cases += [Case(name, size, "mis", "sobol", count, error.relative_rmse / true, int(error.uncertain) & RELATIVE_BITS != 0,
-                       error.relative_rmse_low <= true <= error.relative_rmse_high) for *_, error in each]
-    return cases, gains
+def rendered(context, path, files, options):
+    """Truth, albedo, normals and, by samples, halves."""
+    program = Program([path], files)
+    try:
+        read = program.scene()
+    finally:
+        program.close()
+    context.set_scene(read.scene)
+    context.set_camera(read.camera)
+    width, height = map(int, options.size.split("x"))
+
+    def images(seed, counts):
+        context.set_render(pt.RenderSettings(width, height, max_path_length=read.settings.max_path_length, seed=seed))
+        for before, count in zip([0, *counts], counts):
+            context.accumulate(count - before)
+            yield context.readback()
+
+    arrays = {"truth": next(images(TRUTH_SEED, [options.truth_samples]))}
+    arrays |= {"albedo": context.readback(pt.Quantity.ALBEDO), "normal": context.readback(pt.Quantity.NORMAL)}
+    for half, seed in enumerate((SEED, SEED ^ 2**63)):
+        for count, image in zip(COUNTS, images(seed, [count // 2 for count in COUNTS])):
+            arrays[f"half{half}-{count}"] = image
+    return arrays
+
+
+def largest_about(image):
+    padded = np.pad(image, ((1, 1), (1, 1), (0, 0)), mode="edge")
+    height, width = image.shape[:2]
+    return np.max([padded[y:y + height, x:x + width] for y in range(3) for x in range(3)], axis=0)
+
+
+def measured(name, count, arrays):
+    first, second = (arrays[f"half{half}-{count}"] for half in range(2))
+    truth = arrays["truth"].astype(float)
+    raw = (first.astype(float) + second) / 2
+    denoised, error = pt.denoise(first, second, arrays["albedo"], arrays["normal"])
+
+    def square(image, weight):
+        return max(float((weight * (image - truth) ** 2).mean()), 1e-30)  # 0 where there is no noise
+
+    relative, absolute = ([square(image, weight) for image in (raw, denoised)] for weight in (1 / (truth ** 2 + 0.01), 1))
+    true = math.sqrt(relative[1])
+    noise = math.sqrt(float(((first.astype(float) - second) ** 2).sum())) / 2 / raw.size
+    shift = float(denoised.mean(dtype=float) - raw.mean())
+    return Case(name, count, math.sqrt(relative[1] / relative[0]), math.sqrt(absolute[1] / absolute[0]),
+                relative[0] / relative[1], shift / noise if noise else 0.0,
+                int((denoised > largest_about(np.maximum(first, second)) * (1 + 1e-6)).sum()),
+                error.relative_rmse / true, error.relative_rmse_low <= true <= error.relative_rmse_high,
+                bool(int(error.uncertain) & (2 + 4 + 8)))
+
+
+def share(cases, holds):
+    return f"{100 * sum(map(holds, cases)) / len(cases):.1f}%" if cases else "-"
+
+
+def print_table(title, cases, key):
+    heads = [title, "images", "relative worse", "absolute worse", "worst", "gain", "light beyond 2", "worst light",
+             "brighter", "uncertain", "known: bounds hold", "all: bounds hold", "known: below 0.9", "above 2"]
+    print("| " + " | ".join(heads) + " |\n|" + "---|" * len(heads))
+    for value in [*dict.fromkeys(map(key, cases)), "all"]:
+        some = [case for case in cases if value in (key(case), "all")]
+        known = [case for case in some if not case.is_uncertain]
+        cells = [value, len(some), share(some, lambda case: case.relative > 1.02), share(some, lambda case: case.absolute > 1.02),
+                 f"{max(max(case.relative, case.absolute) for case in some):.2f}",
+                 f"{math.exp(statistics.fmean(math.log(case.gain) for case in some)):.2f}",
+                 share(some, lambda case: abs(case.light) > 2), f"{max((case.light for case in some), key=abs):.1f}",
+                 sum(case.brighter for case in some), share(some, lambda case: case.is_uncertain),
+                 share(known, lambda case: case.holds), share(some, lambda case: case.holds),
+                 share(known, lambda case: case.stated < 0.9), share(known, lambda case: case.stated > 2)]
+        print("| " + " | ".join(map(str, cells)) + " |")
+    print(flush=True)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--scenes", metavar="NAME", nargs="+")
-    parser.add_argument("--sizes", metavar="WIDTHxHEIGHT", nargs="+", default=["256x128"])
+    parser.add_argument("--own", action="store_true")
+    parser.add_argument("--hundred", metavar="SEED", type=int, nargs="*", default=[])
+    parser.add_argument("--files", metavar="SCENE", type=pathlib.Path, nargs="*", default=[])
+    parser.add_argument("--size", metavar="WIDTHxHEIGHT", default="64x32")
+    parser.add_argument("--truth-samples", type=int, default=32768, help="default: 32768")
+    parser.add_argument("--images", metavar="FOLDER", type=pathlib.Path)
+    parser.add_argument("--render", action="store_true")
+    parser.add_argument("--worst", type=int, default=0, help="images to name, by relative and by absolute error")
     options = parser.parse_args()
-    cases = []
-    print("| scene | size | samples | two halves | denoised | times better |\n|---|---|---|---|---|---|")
-    for name, scene in all_scenes().items():
-        if options.scenes and name not in options.scenes:
-            continue
-        for size in options.sizes:
-            found, gains = measure(name, scene, size)
-            cases += found
-            for count, (halves, denoised) in gains.items():
-                print(f"| {name} | {size} | {count} | {halves:.2e} | {denoised:.2e} | {halves / denoised:.2f} |", flush=True)
-    print()
-    print_table("samples", cases, [], lambda case: case.count)
-    print_table("scene", cases, [], lambda case: case.scene)
+    context, cases = None, []
+    for name, path, files in scene_files(options):
+        kept = options.images and options.images / f"{name}.npz"
+        if kept and kept.exists():
+            arrays = dict(np.load(kept))
+        else:
+            context = context or pt.Context()
+            arrays = rendered(context, path, files, options)
+            if kept:
+                kept.parent.mkdir(parents=True, exist_ok=True)
+                np.savez_compressed(kept, **arrays)
+            print(name, file=sys.stderr, flush=True)
+        if not options.render:
+            cases += [measured(name, count, arrays) for count in COUNTS]
+    if options.render:
+        return
+    print_table("samples", cases, lambda case: case.count)
+    for of in ("relative", "absolute"):
+        for case in sorted(cases, key=lambda case: -getattr(case, of))[:options.worst]:
+            print(of, case)
 
 
 if __name__ == "__main__":
