@@ -19,7 +19,7 @@ class Interruption(CommandLineTest):
                            FAKE_PT_SIGNAL=f"{int(signal.SIGINT)}:{submission}", **environment)
 
     def test_a_terminal_that_goes_away(self):
-        """It sends SIGHUP to its foreground process group; later writes to it fail."""
+        """A closing terminal sends SIGHUP to its foreground process group; later writes to it fail."""
         try:
             ours, theirs = pty.openpty()
         except OSError as error:  # a chroot without /dev/pts

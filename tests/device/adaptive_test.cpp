@@ -38,7 +38,7 @@ protected:
         ContextFixture::TearDown();
     }
 
-    // Its tiles differ from 16 samples on, on any device.
+    // A context whose tiles may differ from 16 samples on, on any device.
     pt_context *context() { return alone_.get(); }
 
     Context context_on(uint32_t device_count, uint32_t submit_milliseconds = 50, bool like_gpus = false) {
@@ -73,7 +73,7 @@ private:
     Context alone_;
 };
 
-// Films in host memory and films that kernels read, on one device and on several.
+// Films in host memory and in kernels, one device and several.
 TEST_F(AdaptiveTest, EachTileHasTheBitsOfAnEvenFilm) {
     for (const auto &[device_count, like_gpus] : {std::pair{1U, false}, {1U, true}, {3U, true}}) {
         const Context uneven = context_on(device_count, 50, like_gpus);
@@ -122,8 +122,7 @@ TEST_F(AdaptiveTest, TakesFewerSamples) {
     EXPECT_LT(adaptive, 0.9 * uniform.mean_sample_count);
 }
 
-// Calls of random lengths, some cancelled by their progress, and films continued in another context. PT_TEST_SPLITS=200
-// sets the number.
+// Random lengths, cancellations, and films continued elsewhere. PT_TEST_SPLITS=200 sets the number.
 TEST_F(AdaptiveTest, SplitsAndResumesChangeNoBit) {
     const char *const wanted = std::getenv("PT_TEST_SPLITS");
     const int splits = wanted ? std::atoi(wanted) : 3;
@@ -162,7 +161,6 @@ TEST_F(AdaptiveTest, SplitsAndResumesChangeNoBit) {
     }
 }
 
-// Even samples before, after and between uneven ones, and a merge with tiles of another film.
 TEST_F(AdaptiveTest, UnevenFilmsTakeEvenSamplesAndAddUp) {
     const Context uneven = context_on(2, 1);
     begin(uneven.get());
@@ -174,7 +172,6 @@ TEST_F(AdaptiveTest, UnevenFilmsTakeEvenSamplesAndAddUp) {
         ASSERT_EQ(after[i], before[i] + 9.0F);
     const Bytes saved = film_of(uneven.get());
 
-    // The samples that an even film with the smallest count lacks.
     const auto least = stats_of(uneven.get()).sample_count;
     begin(context());
     ASSERT_EQ(pt_add_film(context(), saved.data(), saved.size()), PT_OK) << pt_last_error(context());
@@ -186,7 +183,7 @@ TEST_F(AdaptiveTest, UnevenFilmsTakeEvenSamplesAndAddUp) {
     EXPECT_EQ(stats_of(context()).sample_count, least);
 }
 
-// No pixel gets more samples than asked for; a later call takes the rest.
+// A later call takes the rest.
 TEST_F(AdaptiveTest, TheMostSamplesAreThoseOfAPixel) {
     const Bytes expected = film_on_target(context());
     begin(context());

@@ -1,4 +1,4 @@
-// pt_get_broken_rule beside pt_last_error, on a real device.
+// pt_get_broken_rule beside pt_last_error.
 #include "tests/device/api_fixture.h"
 #include "tests/support/scene_of.h"
 

@@ -13,7 +13,7 @@ namespace {
 // Result and message.
 using Outcome = std::pair<pt_result, std::string>;
 
-// Sizes from the first field to the whole, in steps of 8 bytes so that no pointer is split.
+// In steps of 8 bytes, so that no pointer is split.
 template <typename T>
 std::vector<uint32_t> older_sizes() {
     std::vector<uint32_t> sizes{sizeof(uint32_t)};
@@ -29,8 +29,7 @@ T with_tail(const T &value, uint32_t size, int byte) {
     return copy;
 }
 
-// Sizes at which an older struct, followed by unrelated bytes, is read differently from the whole struct with zeros
-// there.
+// Sizes at which bytes behind an older struct matter.
 template <typename T, typename Call>
 std::vector<uint32_t> misread_sizes(const T &value, const Call &call) {
     std::vector<uint32_t> misread;
@@ -59,8 +58,7 @@ Newer<T> newer_than(const T &value) {
     return newer;
 }
 
-// The call must accept a newer struct with a zero tail, name each nonzero byte there, and refuse sizes that the struct
-// never had.
+// Newer structs: accepts a zero tail, names each nonzero byte there. Refuses sizes that the struct never had.
 template <typename T, typename Call>
 void expect_sizes_heeded(const T &value, const std::string &name, const Call &call) {
     EXPECT_EQ(call(newer_than(value).known), call(value));
@@ -190,8 +188,7 @@ TEST(StructSize, CreateInfo) {
     expect_sizes_heeded(info, "create", call);
 }
 
-// The call must write exactly the caller's size, with the whole struct's bytes, and refuse sizes that the struct never
-// had.
+// Writes exactly the caller's size, and refuses sizes that the struct never had.
 template <typename T, typename Call>
 void expect_written_sizes_heeded(const T &whole, const std::string &name, const Call &call) {
     for (const uint32_t size : older_sizes<T>()) {

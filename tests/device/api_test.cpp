@@ -199,7 +199,7 @@ TEST_F(ApiTest, ProgressRisesToOneOnTheCallingThread) {
     EXPECT_FALSE(progress.elsewhere);
 }
 
-// All samples of this scene are equal, so its error is 0 at the first check.
+// All samples are equal, so the error is 0 at the first check.
 TEST_F(ApiTest, TheErrorIsKnownFrom16Samples) {
     set_all();
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -228,7 +228,7 @@ TEST_F(ApiTest, TheErrorIsKnownFrom16Samples) {
     expect_image(116);
 }
 
-// An exception of a C++ callback does not cross the C boundary; the film keeps whole samples.
+// The exception does not cross the C boundary; the film keeps whole samples.
 TEST_F(ApiTest, ProgressThatThrowsIsAnErrorThatKeepsTheFilmWhole) {
     set_all();
     const pt_accumulate_info info{sizeof info,

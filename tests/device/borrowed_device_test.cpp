@@ -97,7 +97,7 @@ protected:
         device.finish();
         EXPECT_EQ(device.film().rejected_samples(), 0U);
         device.discard_samples();
-        // Transfers that the film's buffers skip where host and device share memory.
+        // Transfers that buffers skip where host and device share memory.
         std::array<std::byte, 64> words{};
         Buffer buffer(device.device(), BufferUse::Storage, words.size(), "test");
         clear(device.device(), buffer);
@@ -140,7 +140,7 @@ TEST_F(BorrowedDeviceTest, ASubmissionThatLosesTheDeviceLetsGoOfTheQueue) {
 }
 
 #ifndef __SANITIZE_ADDRESS__ // what stays behind is a deliberate leak
-// A submission that was given up is still running: neither what it uses nor the device may be destroyed.
+// Running work was given up: neither what it uses nor the device may be destroyed.
 TEST_F(BorrowedDeviceTest, ADeviceThatHangsKeepsWhatItsWorkUses) {
     const CallerVulkan handles = this->handles(false);
     std::optional<Gate> gate(caller_->device());

@@ -60,7 +60,6 @@ glm::dvec3 ray_of(const pt_camera &camera, std::uint32_t pixel) {
                              (pixel / picture.x + 0.5 - 0.5 * picture.y) * up);
 }
 
-// The camera, a ball and a lamp inside a capsule.
 Given inside() {
     Given given = random_scene(9, 5, 3, 3.0);
     given.planes.clear();
@@ -87,7 +86,7 @@ protected:
         return read(quantity);
     }
 
-    // Pixels whose depth or object differs from sphere tracing in double along the central ray.
+    // Against sphere tracing in double along the central ray.
     std::size_t wrong_pixels(const Given &seen, const Given &truth) {
         const std::vector<float> depths = first_hits(seen, PT_QUANTITY_DEPTH);
         std::vector<std::uint32_t> objects(std::size_t{picture.x} * picture.y);
@@ -156,9 +155,8 @@ double difference(const std::vector<float> &a, const std::vector<float> &b) {
     return differences / light;
 }
 
-// Coinciding ends make a sphere: to the bit beside other capsules; otherwise up to rounding in another kernel. Hits
-// depend on rounding within 2^-22 of the silhouettes of 100 balls, for fewer than 1e-4 of the rays; a ball changes a
-// hundredth.
+// Equal to the bit beside other capsules, otherwise up to rounding in another kernel: within 2^-22 of the silhouettes
+// of 100 balls, fewer than 1e-4 of the rays. A ball changes a hundredth.
 TEST_F(Capsules, AreSpheresWhereTheirEndsCoincide) {
     for (const bool all : {false, true}) {
         Given given = all ? random_scene(4, 200, 100, 8.0) : random_scene(1, 6, 3, 8.0);
@@ -193,8 +191,7 @@ TEST_F(Capsules, HaveTheSameBitsOfSplitsAndScale) {
         expect_the_same_bits_of_splits_and_scale(given);
 }
 
-// Grazing, tiny, huge, touching and nested capsules, along the view, and in a tree. Negative control: radii larger by
-// 3%.
+// Negative control: radii larger by 3%.
 TEST_F(Capsules, AreMetWhereTheirDistanceIsZero) {
     Given given = random_scene(11, 40, 0, 8.0);
     given.planes.clear();
@@ -215,7 +212,7 @@ TEST_F(Capsules, AreMetWhereTheirDistanceIsZero) {
     EXPECT_TRUE(stats().features & PT_FEATURE_TREE);
 }
 
-// Parallel rays along the axis see one end; across it a rectangle and two half discs.
+// One end along the axis; a rectangle and two half discs across.
 TEST_F(Capsules, AreSeenInParallel) {
     constexpr double radius = 0.75;
     Given given;

@@ -1,5 +1,4 @@
-// Coverage. Where every surface emits 1 and reflects nothing, the mean radiance is the share of samples that hit, and
-// sums are exact: coverage has the same bits.
+// Where every surface emits 1 and reflects nothing, coverage has the bits of the mean radiance, because sums are exact.
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
@@ -130,7 +129,6 @@ TEST_F(Coverage, OfManySamplesIsTakenInParts) {
     EXPECT_TRUE(covered == radiance);
 }
 
-// Tiles with different sample counts, and ranges with gaps.
 TEST_F(Coverage, KnowsWhichSamplesEachTileHas) {
     const Context adaptive =
         create_context([](pt_create_info &) {},
@@ -142,7 +140,7 @@ TEST_F(Coverage, KnowsWhichSamplesEachTileHas) {
     ASSERT_LT(*std::ranges::min_element(counts), *std::ranges::max_element(counts));
     expect_that_of_radiance(adaptive.get());
 
-    // Rows with an earlier first sample, so that tiles differ in their first range.
+    // Tiles differ in their first range.
     pt_render later = picture();
     later.first_sample = 5000;
     later.row_count = 8;
@@ -163,7 +161,7 @@ TEST_F(Coverage, KnowsWhichSamplesEachTileHas) {
     expect_that_of_radiance(context());
 }
 
-// Rows, rectangles, several devices, spheres around the camera, and an empty scene.
+// Also spheres around the camera, and an empty scene.
 TEST_F(Coverage, OfPartsIsPartOfTheWhole) {
     const Context shared = create_context(
         [](pt_create_info &) {}, [](const auto *info, auto **made) { return create_shared(2, *info, made, true); });

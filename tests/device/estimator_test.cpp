@@ -80,7 +80,7 @@ TEST_P(EstimatorMeans, AgreeForAllEstimatorsAndSamplers) {
     const Means reference = means_of(render_batches(render, mean_batches, 8 * mean_samples));
     const double bound = allowed(mean_batches);
     double worst_error = 0.0;
-    // A sampler's numbers do not depend on the estimator, so one each suffices beyond two vertices.
+    // A sampler's numbers do not depend on the estimator.
     for (const uint32_t estimator :
          {PT_ESTIMATOR_UNIFORM, PT_ESTIMATOR_COSINE, PT_ESTIMATOR_BSDF, PT_ESTIMATOR_LIGHT, PT_ESTIMATOR_MIS})
         for (const uint32_t sampler : {PT_SAMPLER_RANDOM, PT_SAMPLER_HALTON, PT_SAMPLER_HALTON_CP, PT_SAMPLER_SOBOL}) {
@@ -99,7 +99,7 @@ TEST_P(EstimatorMeans, AgreeForAllEstimatorsAndSamplers) {
             worst_error = std::max(worst_error, means.whole.standard_error / means.whole.mean);
         }
     std::printf("largest standard error of a mean: %.2f%%\n", 100.0 * worst_error);
-    // Negative control: the least precise would see a lamp 25% brighter, the most precise one 1% brighter.
+    // Negative control: a lamp 25% brighter for the least precise, 1% for the most precise.
     EXPECT_GT(0.25 / worst_error, bound);
     EXPECT_GT(std::abs(deviation(reference.whole, 1.01 * reference.whole.mean)), bound);
 }

@@ -54,8 +54,7 @@ TEST_F(ExactnessTest, SplittingOverCallsKeepsTheBits) {
     EXPECT_NE(image_of({7, 19, 37}), at_once) << "a missing sample must show";
 }
 
-// The samples of a dispatch and the table of points are limited. Calls beyond these limits must give the bits of many
-// small calls.
+// Dispatch and table of points are limited; calls beyond must give the bits of many small calls.
 class GatheringTest : public ExactnessTest {
 protected:
     Context create_fixtures_context() override {
@@ -157,8 +156,8 @@ TEST_F(ExactnessTest, SamplesMayRunOutBeforeTheTargetErrorIsReached) {
     EXPECT_EQ(stats().sample_count, 16U);
 }
 
-// Standard errors of n samples are |A - B| sqrt(a b) / n. A is the image of the first a, the largest power of two below
-// n, and B the image of the others. Calls end before, at, after and across the counts at which parts are folded.
+// |A - B| sqrt(a b) / n: A is the image of the first a samples, the largest power of two below n, B the image of the
+// others. Calls end before, at, after and across the counts at which parts are folded.
 TEST_F(ExactnessTest, StandardErrorsAreThoseOfTheFilmsParts) {
     const auto standard_errors = [&] {
         Image errors(width * height * 3);
@@ -176,7 +175,7 @@ TEST_F(ExactnessTest, StandardErrorsAreThoseOfTheFilmsParts) {
         readback(image);
         return image;
     };
-    // Largest deviation over its bound by rounding: of both images, and of the standard error to float32.
+    // Largest deviation over its bound by rounding.
     const auto deviation = [&](const Image &found, const Image &older, const Image &newer, double a, double b) {
         double worst = 0.0;
         for (std::size_t i = 0; i < found.size(); ++i) {
@@ -199,13 +198,12 @@ TEST_F(ExactnessTest, StandardErrorsAreThoseOfTheFilmsParts) {
         const Image first = part_of(0, older);
         const Image last = part_of(older, newer);
         EXPECT_LE(deviation(found, first, last, older, newer), 1.01) << older << " and " << newer;
-        // Negative control: a part that lacks a sample.
+        // Negative control: a sample less.
         EXPECT_GT(deviation(found, part_of(0, older - 1), last, older, newer), 1e3) << older << " and " << newer;
     }
 }
 
-// Every sample is float32(0.1), and so is every mean. The loops exceed 65,535 trips, after which a known driver stops
-// kernels.
+// Every sample and mean is float32(0.1). The loops exceed 65,535 trips, after which a known driver stops.
 TEST_F(ExactnessTest, NoSampleIsLostInLongRuns) {
     const Image image = image_inside_a_lamp(0.1F, 1U << 20);
     EXPECT_EQ(image, Image(image.size(), 0.1F));

@@ -66,7 +66,7 @@ std::uint32_t word(const std::vector<std::uint32_t> &film, std::size_t plane, st
     return film[(pt::gpu::FILM_WORDS + plane) * pixels + pixel];
 }
 
-// Adds to the second part of the film; the first must not change.
+// The first part must not change.
 TEST(Film, DeviceSumsAreExact) {
     struct {
         std::uint32_t per_pixel, count, film_part;
@@ -98,8 +98,7 @@ TEST(Film, DeviceSumsAreExact) {
     }
 }
 
-// The most samples per invocation with full windows: the brightest sample fills the first, half units of a window the
-// others.
+// The brightest sample fills the first window, half units the others.
 TEST(Film, WindowsHoldTheMostSamplesThatAnInvocationGathers) {
     struct {
         std::uint32_t per_pixel, count, film_part;
@@ -117,7 +116,7 @@ TEST(Film, WindowsHoldTheMostSamplesThatAnInvocationGathers) {
     }
 }
 
-// A device that rounds towards zero, as Vulkan allows: llvmpipe's threads inherit the rounding mode.
+// Vulkan allows rounding towards zero: llvmpipe's threads inherit the mode.
 class FilmRoundedToZero : public VulkanFixture {
 protected:
     void SetUp() override {
@@ -161,8 +160,7 @@ protected:
     }
 };
 
-// Rounding to zero leaves nearly a whole unit for the second and third window. Negative control: as many samples as
-// only half units would allow.
+// The rest for the next window is nearly a whole unit. Negative control: as many samples as half units would allow.
 TEST_F(FilmRoundedToZero, WindowsHoldTheMostSamplesThatAnInvocationGathers) {
     if (device().info().kind != PT_DEVICE_CPU)
         GTEST_SKIP() << "a GPU does not round as this thread does";

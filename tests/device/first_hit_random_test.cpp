@@ -1,5 +1,5 @@
-// First hits of camera rays in random scenes, in trees and lists, against long double. PT_TEST_MANY: 600 scenes;
-// PT_TEST_FIRST_SCENE: the first.
+// First hits in random scenes, in trees and lists, against long double. PT_TEST_MANY: 600 scenes; PT_TEST_FIRST_SCENE:
+// the first.
 #include "lib/kernel/gpu_scene.h"
 #include "tests/device/first_hit_scenes.h"
 #include "tests/device/tree_fixture.h"
@@ -120,8 +120,7 @@ protected:
                                                     given.render.first_row + pixel / columns);
         if (!means)
             return false;
-        // Sums of 16 numbers up to 1. Albedos were multiplied by pi and a share of it, and divided again: a dozen
-        // roundings.
+        // Sums of 16 numbers up to 1; albedos: a dozen roundings.
         const double of_sum = 16.0 * static_cast<double>(rounding);
         for (int i = 0; i < 3; ++i) {
             const std::size_t place = 3 * pixel + static_cast<std::size_t>(i);
@@ -203,7 +202,6 @@ private:
         return static_cast<std::uint32_t>(uniform(0, std::nextafter(most + 1.0, 0.0)));
     }
 
-    // Inside, beside, or far from the cloud; looks at one of its spheres.
     void set_camera(Shot &given) {
         pt_camera &camera = given.camera;
         camera = {};
@@ -265,8 +263,8 @@ TEST_F(RandomFirstHit, IsThatOfLongDouble) {
     }
 }
 
-// Balls in a sky, with rays that start beyond the tree. Coordinates in quarters, the camera's too, are exact in float32
-// and on the tree's grid, so tree and list must agree to the bit.
+// Rays start beyond the tree. Coordinates in quarters are exact in float32 and on the grid, so tree and list agree to
+// the bit.
 TEST_F(RandomFirstHit, OfALatticeInASkyIsThatOfAList) {
     Shot shot;
     shot.materials = {{{0.7F, 0.7F, 0.7F}, {0, 0, 0}, {0, 0, 0}, 0, 0}, {{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0, 0}};

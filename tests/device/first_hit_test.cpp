@@ -54,7 +54,6 @@ protected:
     }
 };
 
-// A pixel's bits do not depend on rectangle, rows, submissions, devices or format.
 TEST_F(FirstHit, RectanglesRowsAndDevicesAgree) {
     const Given given = many(true);
     set(context(), given, picture());
@@ -117,7 +116,7 @@ TEST_F(FirstHit, RectanglesRowsAndDevicesAgree) {
                                    std::span(all_objects).subspan(std::size_t{9} * picture_width, 7 * picture_width)));
 }
 
-// First hits take no sample; samples around them keep their bits.
+// First hits take no sample and change none.
 TEST_F(FirstHit, IsNothingToSamples) {
     for (const Given &given : {coursework(), many(true)}) {
         const Context without = create_context();

@@ -17,7 +17,6 @@ public:
                             {}, {});
     }
 
-    // Opens the gate and waits until the device is idle.
     void open() const {
         event_.set();
         device_.waitIdle();

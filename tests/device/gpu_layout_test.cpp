@@ -1,4 +1,4 @@
-// Host and kernel agree on push constants and the scene buffer. Exact pictures check each word's place.
+// Host and kernel agree on push constants and the scene buffer.
 #include "lib/kernel/gpu_scene.h"
 #include "lib/scene/seen_scene.h"
 #include "push_layout.spv.h"
@@ -59,8 +59,7 @@ TEST(GpuLayout, WhatTheSceneDoesNotUseIsNotInTheBuffer) {
     EXPECT_EQ(gpu_scene.words.size(), 9U);
 }
 
-// A floor sphere becomes a curved plane, ahead of flat ones. So does a lamp 2048 times as large as its distance, which
-// then is no lamp any more.
+// Curved planes precede flat ones. A lamp 2048 times as large as its distance becomes one and no lamp.
 TEST(GpuLayout, HugeSpheresArePlanesWithACurvature) {
     pt::Scene scene = small_scene();
     scene.spheres.push_back({{0, -1026, 1}, 1024, {0, 0, 0}, 0});

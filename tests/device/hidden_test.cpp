@@ -66,7 +66,7 @@ pt_sphere ball(double x, double y, double z, double radius, std::uint32_t materi
 
 // ---- Light that is 1 everywhere
 
-// Every surface emits 1 in a closed scene, so a vertex that reflects half has exactly 1.5.
+// Every surface emits 1, so a vertex that reflects half has exactly 1.5.
 constexpr std::uint32_t shining = 0;
 
 Hiding closed(const std::string &name) {
@@ -93,7 +93,7 @@ std::vector<Hiding> closed_scenes() {
     between_planes.spheres = {ball(0, 0, -9, 1, shining), ball(1.5, 0, -9, 0.75, shining)};
     between_planes.planes = {{{0, 0, 1}, 6, shining + hidden, 0}, {{0, 0, 1}, 12, shining + hidden, 0}};
 
-    // Curved planes: the camera is above one globe, which holds the ball, and inside another.
+    // The camera is above one globe, which holds the ball, and inside another.
     Hiding &globes = add("globes");
     globes.spheres = {ball(0, 0, -9, 1, shining), ball(0, 0, -1e7 - 5, 1e7, shining + hidden),
                       ball(0, 0, -1e7 + 3, 1e7, shining + hidden)};

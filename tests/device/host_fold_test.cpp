@@ -56,7 +56,6 @@ protected:
         return sums;
     }
 
-    // The expected film: the other part of these pixels added to this one.
     pt::PixelSums folded(std::span<const pt::PixelRange> pixels, std::uint32_t into) const {
         pt::PixelSums sums = before_;
         for (const pt::PixelRange &range : pixels)

@@ -1,4 +1,4 @@
-// Calls on a context that is in a call: from callbacks and from another thread.
+// Calls from callbacks and other threads while a call is running.
 #include "lib/api/in_use.h"
 #include "tests/device/api_fixture.h"
 #include "tests/device/every_call.h"
@@ -96,7 +96,7 @@ TEST_F(InUseTest, CallsFromAnotherThreadAreRefused) {
     EXPECT_EQ(message(), "");
 }
 
-// A refused call leaves the outer call's message alone, which is newer once that call fails.
+// The outer call's message is newer once it fails.
 TEST_F(InUseTest, TheMessageIsThatOfTheLastCallThatFailed) {
     set_all();
     std::string inside;
@@ -111,7 +111,7 @@ TEST_F(InUseTest, TheMessageIsThatOfTheLastCallThatFailed) {
     std::thread([&] { EXPECT_EQ(message(), "thrown by a callback"); }).join();
 }
 
-// A child lacks the driver's threads; a call that reached the driver would wait forever.
+// A child lacks the driver's threads; calls would wait forever.
 TEST_F(InUseTest, AChildOfForkIsRefused) {
     set_all();
     const std::string not_ours = "this context belongs to the process that this one was forked from";

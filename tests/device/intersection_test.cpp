@@ -1,5 +1,4 @@
-// Rays against one sphere, from huge ones stored as curved planes to rays that start a few ulp from the surface,
-// against long double.
+// Rays against one sphere, from huge ones (curved planes) to starts a few ulp from the surface, against long double.
 #include "intersection.spv.h"
 #include "lib/kernel/gpu_scene.h"
 #include "tests/device/probe.h"
@@ -41,8 +40,7 @@ struct Ball {
 
 enum class Held { AsTheSceneNeeds, ByItsCenter };
 
-// Rays may start on either side, wherever the camera is. A ball that moves by a 32nd of its radius is stored by its
-// center; it stands still at the rays' time.
+// A ball that moves by a 32nd of its radius is stored by its center; it stands still at the rays' time.
 std::vector<Met> follow(const Ball &ball, const std::vector<Ray> &rays, Held held = Held::AsTheSceneNeeds) {
     pt::Scene scene;
     scene.materials = {{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0}};
@@ -86,12 +84,12 @@ struct Reference {
     }
 };
 
-// Largest errors of distance, position and normal over their bounds.
+// Largest errors over their bounds.
 //
-// With y = x + o n the height of a ray's origin x is n . x + o + k / 2 |y|^2, S = |x| + |o| + |y| (1 + k |y|) and c the
-// cosine at the hit. Rounding n, o, k on the host and up to ten operations on the device: height 8 eps S, slope 8 eps
-// (1 + k |y|). Distance: height error / c + slope error t / c, doubled for the root: 16 eps (S + t (1 + k |y|)) / c. A
-// point errs by the height there, its normal by k times that, and by rounding.
+// With y = x + o n a ray's origin x has the height n . x + o + k / 2 |y|^2; S = |x| + |o| + |y| (1 + k |y|), c the
+// cosine at the hit. Rounding n, o, k and ten operations: height 8 eps S, slope 8 eps (1 + k |y|). Distance: height
+// error / c + slope error t / c, doubled for the root: 16 eps (S + t (1 + k |y|)) / c. A point errs by the height
+// there, its normal by k times that, and by rounding.
 struct Worst {
     double distance = 0, position = 0, normal = 0;
     int missed = 0, compared = 0;
@@ -202,7 +200,7 @@ TEST(Intersection, TheSameBoundFailsForHugeSpheresHeldByTheirCenter) {
     EXPECT_GT(worst.position, 100.0);
 }
 
-// From up to five radii away, aimed at random points of the sphere.
+// From up to five radii away.
 TEST(Intersection, CurvedPlanesAreMetFromFarAway) {
     RandomRays random(2);
     const Ball ball = under_the_camera(1e3, 1.5);
@@ -218,8 +216,8 @@ TEST(Intersection, CurvedPlanesAreMetFromFarAway) {
     expect_within_bounds(worst);
 }
 
-// Leaving rays never hit again outside, and hit the far wall inside, even with a rounded origin. A chord t = 2 s / k
-// turns the slope's 8 eps into 16 eps R = 8 eps t / s, which the bound allows.
+// Outside they never hit again, inside they hit the far wall. A chord t = 2 s / k turns the slope's 8 eps into 16 eps R
+// = 8 eps t / s.
 TEST(Intersection, RaysThatLeaveAHugeSphereMeetItAgainFromInsideOnly) {
     for (const double radius : {1e3, 1e6, 1e9}) {
         RandomRays random(3);
@@ -244,7 +242,7 @@ TEST(Intersection, RaysThatLeaveAHugeSphereMeetItAgainFromInsideOnly) {
     }
 }
 
-// The wrong rule, in float32: a hit wherever the distance is positive.
+// The wrong rule: a hit wherever the distance is positive.
 bool met_by_sign(const Ball &ball, const Ray &ray) {
     const glm::vec3 to_center = glm::vec3(ball.center) - ray.origin;
     const auto radius = static_cast<float>(ball.radius);
@@ -257,8 +255,7 @@ bool met_by_sign(const Ball &ball, const Ray &ray) {
     return b + half_chord > 0.0F;
 }
 
-// Rays that start up to 64 ulp from a sphere. None leaks through; none that leads away outside is stopped. Within 3 eps
-// r float32 cannot tell the side; inward rays still hit, at once or at the far side.
+// Within 3 eps r float32 cannot tell the side; inward rays still hit, at once or at the far side.
 TEST(Intersection, NothingLeaksThroughASphereNearItsSurface) {
     RandomRays random(4);
     const Ball ball{{0, 0, 0}, 3.0};

@@ -1,4 +1,4 @@
-// Runs the path-tracing kernel over a small film as lib/kernel/kernel.cpp does, with the test's scene and constants.
+// The path-tracing kernel over a small film, with the test's scene and constants.
 #pragma once
 
 #include "lib/film/pixel_sums.h"
@@ -62,7 +62,7 @@ public:
         return film_by(probe);
     }
 
-    // The same with a kernel specialised by the driver; ten times slower to build.
+    // Specialised by the driver; ten times slower to build.
     FilmWords film_by_driver(std::uint32_t source) const {
         const auto values = with_scene_source(constants(), source, words());
         Probe probe(pt::embedded_code().pathtrace, sizeof frame_, values);
@@ -78,7 +78,7 @@ public:
         return probe;
     }
 
-    // The kernel for the scene with a tree; films read the tree's current words. walk_trips: as ID_WALK_TRIPS.
+    // Films read the tree's current words. walk_trips: ID_WALK_TRIPS.
     Probe probe_of_tree(std::uint32_t walk_trips = 0) const {
         Constants of_scene = this->constants();
         of_scene[pt::gpu::ID_WALK_TRIPS] = walk_trips;

@@ -1,4 +1,4 @@
-// Lamps sampled on the device: frequencies against the stated densities, and these against geometry in double.
+// Lamps sampled on the device against the stated densities, and these against geometry in double.
 #include "lamps.spv.h"
 #include "shaders/specialization.h"
 #include "tests/device/probe.h"
@@ -101,8 +101,7 @@ TEST(LampChoice, FollowsTheStatedProbability) {
     expect_stated_probabilities(few);
 }
 
-// As documented: nine tenths by radiance (r / d)^2 min(1, (n . v + r) / d), one tenth evenly among lamps partly above
-// the horizon; 0 below it.
+// nine tenths by radiance (r / d)^2 min(1, (n . v + r) / d), one tenth evenly among lamps partly above the horizon
 TEST(LampChoice, HasTheDocumentedProbability) {
     const std::vector<Drawn> drawn = draw(uneven_lamps, {}, 9, 64);
     std::vector<double> weights;

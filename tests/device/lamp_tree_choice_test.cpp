@@ -49,7 +49,6 @@ Frequencies frequencies(const std::vector<TreeDrawn> &drawn, std::uint32_t lamp_
     return cells;
 }
 
-// Each sample states its lamp's probability to the bit, and lamps that cannot be sampled give no light.
 void expect_what_is_stated(const std::vector<TreeDrawn> &drawn, const std::vector<double> &weights) {
     for (std::size_t i = weights.size(); i < drawn.size(); ++i) {
         const TreeDrawn &sample = drawn[i];

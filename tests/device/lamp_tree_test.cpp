@@ -14,8 +14,8 @@
 
 namespace {
 
-// Differences of positions are rounded: up to 2^-20 of a quotient, because nothing here is nearer to a vertex than a
-// 1000th of its distance from the camera.
+// Differences of positions are rounded, up to 2^-20 of a quotient: nothing is nearer to a vertex than a 1000th of its
+// camera distance.
 TEST(LampTreeProbabilities, AreThoseOfAReferenceInDouble) {
     for (const auto &[name, scene] : lamp_scenes::all()) {
         const pt::GpuScene gpu_scene = lamp_scenes::gpu_scene(scene);
@@ -38,8 +38,8 @@ TEST(LampTreeProbabilities, AreThoseOfAReferenceInDouble) {
     }
 }
 
-// sum w^2 / P over (sum w)^2, less 1. Weights alone give 0, with the uniform share at most 1 / 9; choice by power has 9
-// on the ground here.
+// sum w^2 / P over (sum w)^2, less 1: 0 for weights alone, at most 1 / 9 with the uniform share, 9 by power on the
+// ground here.
 double relative_variance(TreeProbe &probe, const pt::GpuScene &scene, const TreeVertex &vertex) {
     const std::vector<double> weights = lamp_weights(scene, vertex);
     const std::vector<double> probabilities = probe.probabilities(vertex);

@@ -1,5 +1,4 @@
-// Code that the kernel omits for a scene changes no picture: insides, planes as obstacles or lamps, sides of vertices,
-// ends of shadow rays.
+// Code that the kernel omits for a scene changes no picture.
 #include "tests/device/kernel_render.h"
 #include "tests/invariance/invariance_scene.h"
 
@@ -29,8 +28,8 @@ Image image_with_other(const KernelRender &render, std::uint32_t id) {
     return image_with(render, constants);
 }
 
-// Values that differ by more than rounding along equal paths: a vertex errs by about 2^-24 of its distance, each ball
-// magnifies that by up to 2 distance / radius, here 30, so two keep it below 1e-3 of the light.
+// More than rounding along equal paths: a vertex errs by 2^-24 of its distance, each ball magnifies by up to 2 distance
+// / radius, here 30; two keep it below 1e-3.
 std::size_t differing_values(const Image &a, const Image &b) {
     const float mean = std::accumulate(a.begin(), a.end(), 0.0F) / static_cast<float>(a.size());
     std::size_t count = 0;
@@ -39,8 +38,8 @@ std::size_t differing_values(const Image &a, const Image &b) {
     return count;
 }
 
-// Rounding decides at rims and where surfaces meet, within 2^-20 of the scene: on average in half a sample of 3072,
-// each of some 20 rays against 9 surfaces. More than 6 such samples, of 3 values each, have a probability of 1e-6.
+// Rounding decides at rims and contacts, within 2^-20 of the scene: in half a sample of 3072 on average, each of some
+// 20 rays against 9 surfaces. More than 6 samples of 3 values have a probability of 1e-6.
 constexpr std::size_t decided_by_rounding = 18;
 
 // All lamps are inside.
@@ -60,7 +59,7 @@ struct Case {
     bool shows; // whether inverting it changes the picture
 };
 
-// The last cases are negative controls: omitted code that the scene needs.
+// The last cases are negative controls.
 std::vector<Case> cases() {
     InvarianceScene within = room();
     within.spheres.push_back({{0, 0, -5}, 20, {0, 0, 0}, 4, 0});
@@ -93,8 +92,7 @@ TEST(LeftOut, ShowsWhereItIsNeededAlone) {
     }
 }
 
-// The same bits: missing emission is 0. No gloss, because glossy vertices choose their last direction differently where
-// planes emit.
+// Glossy vertices choose their last direction differently where planes emit.
 TEST(LeftOut, EmissionOfPlanesWhereNoneEmits) {
     InvarianceScene scene = room();
     for (pt_material &material : scene.materials)

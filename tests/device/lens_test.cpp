@@ -33,8 +33,8 @@ struct Case {
     std::uint32_t reference_samples;
 };
 
-// Also a view so narrow that rays start ahead of the lens (a pixel below 2^-14 of its distance), and a lens cut by the
-// floor and a ball. Below the floor is no light.
+// Rays of the narrow view start ahead of the lens (a pixel below 2^-14 of its distance); floor and a ball cut the last
+// lens.
 std::vector<Case> cases() {
     Given cut = random_balls(5, 7, 8.0);
     cut.camera.position[1] = -1.0;
@@ -61,8 +61,8 @@ TEST_F(Lens, ShowsWhatAPathTracerInDoubleDoes) {
     }
 }
 
-// A shining ball behind the focus whose disc exceeds the picture: brightness goes with the inverse square of the disc's
-// radius. Negative controls: a lens 3% wider (6% less light), a focus 3% farther (9%).
+// The disc exceeds the picture, so brightness goes with its inverse square radius. Negative controls: a lens 3% wider
+// (6% less light), a focus 3% farther (9%).
 TEST_F(Lens, IsAsWideAndFocusedAsStated) {
     Given given;
     given.planes.clear();
@@ -95,8 +95,7 @@ TEST_F(Lens, HasTheSameBitsOfSplitsAndScale) {
     }
 }
 
-// First hits come from the pinhole at the lens's center; a lens without diameter is a pinhole to the bit, with any
-// focus.
+// First hits come from the pinhole at the lens's center.
 TEST_F(Lens, WithoutADiameterIsAPinhole) {
     Given lens = random_balls(1, 7, 8.0);
     Given pinhole = lens;

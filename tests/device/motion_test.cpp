@@ -92,11 +92,11 @@ TEST_F(HugeMotion, InTheLimitOfNoneIsRest) {
         }
 }
 
-// A lamp from a radius of 65536 distances on is stored as a plane, however it moves; its inside is never seen.
+// A moving lamp this large is a plane; its inside is never seen.
 TEST_F(HugeMotion, OfALampTheOutsideIsSeen) {
     constexpr double radius = 1e6;
     const pt_material materials[] = {{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0, 0}, {{0, 0, 0}, {0, 0, 0}, {4, 4, 4}, 0, 0}};
-    // A second lamp overhead fills the view; from inside the floor it would be hidden.
+    // A second lamp overhead fills the view, unless seen from inside.
     const pt_sphere spheres[] = {{{0, -1e-3 - radius, 0}, radius, {1e3, 0, 0}, 0, 0}, {{0, 50, 0}, 5, {0, 0, 0}, 1, 0}};
     const pt_scene scene = scene_of(materials, spheres, {});
     pt_camera camera{};
@@ -110,8 +110,7 @@ TEST_F(HugeMotion, OfALampTheOutsideIsSeen) {
         EXPECT_EQ(value, 4.0F) << "the lamp overhead fills the view";
 }
 
-// Midpoint rule over 32 instants. The light of a lamp 3 above goes with about height^-2, which changes by 1/4: relative
-// error (1/4)^2 * 6 / 24 / 32^2 = 2e-5.
+// Midpoint rule: a lamp 3 above gives light with about height^-2, which changes by 1/4: (1/4)^2 * 6 / 24 / 32^2 = 2e-5.
 TEST_F(HugeMotion, IsTheMeanOfFrozenTimes) {
     constexpr uint32_t times = 32;
     for (const FloorBall &floor : {FloorBall{1e7, {3, 0.5, -2}}, FloorBall{1e5, {1000, 0.25, 0}}}) {
@@ -151,7 +150,7 @@ TEST_F(HugeMotion, IsRefusedWhereItIsTooLong) {
     EXPECT_EQ(pt_accumulate(context(), &info), PT_OK) << "held by its centre";
 }
 
-// Parallel views count their width instead of the distance, wherever the camera is.
+// A parallel view's width counts instead of the distance.
 TEST_F(HugeMotion, IsRefusedInNarrowParallelViews) {
     const pt_material shining{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0, 0};
     const pt_sphere globe{{0, -1e7, 0}, 1e7, {1e6, 0, 0}, 0, 0};

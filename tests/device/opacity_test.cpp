@@ -74,8 +74,8 @@ Given cloud(std::uint32_t count) {
     return given;
 }
 
-// A row of balls passes the product of their transparencies. With 98,304 rays, five standard errors (at most .008) are
-// exceeded once in 1.7 million times. Negative control: opacities larger by 3%.
+// With 98,304 rays, five standard errors (at most .008) are exceeded once in 1.7 million times. Negative control:
+// opacities larger by 3%.
 TEST_F(Opacity, IsTheShareOfRaysThatMeet) {
     const auto passed = [&](float first, float second) {
         const std::vector<Given::Capsule> row{ball_at({0, 0, 2}, 1.0, first), ball_at({0, 0, -2}, 1.0, second)};
@@ -105,7 +105,7 @@ TEST_F(Opacity, OfTwoSpheresIsIndependent) {
     }
 }
 
-// Nested shells, one through the floor and one about the camera: paths run on both sides of each.
+// Paths run on both sides of each shell.
 Given shells() {
     Given given = cloud(20);
     for (const auto &[height, radius] : {std::pair(0.0, 2.0), {0.0, 1.2}, {-1.5, 1.8}, {-0.5, 3.0}})
@@ -114,7 +114,6 @@ Given shells() {
     return given;
 }
 
-// A sphere that reaches through an opaque plane shows nothing behind it.
 TEST_F(Opacity, LeavesPlanesOpaque) {
     Given given = shells();
     given.spheres[0].center[1] = -4.0;

@@ -150,8 +150,8 @@ TEST_F(PollingTest, AfterACancellationTheCameraMayMove) {
     EXPECT_EQ(image_of(on.get()), expected);
 }
 
-// Also with repeated cancellations, which finish the sample that some tiles have begun. The error is checked at the
-// same counts, never while slices run.
+// Cancellations finish the sample that some tiles have begun. The error is checked at the same counts, never while
+// slices run.
 TEST_F(PollingTest, ATargetIsReachedAtTheSameCount) {
     constexpr uint32_t most = 4096;
     constexpr double target = 0.1;

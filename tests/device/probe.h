@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-// Shared by all probes, with the validation layer unless PT_TEST_NO_VALIDATION is set.
+// Has the validation layer unless PT_TEST_NO_VALIDATION is set.
 pt::vulkan::Device &probe_device();
 
 // ID_POINT_BLOCKS of probes: the 16 KiB that every device offers.
@@ -25,8 +25,7 @@ public:
     Probe(std::span<const std::uint32_t> spirv, std::uint32_t push_bytes,
           std::span<const std::uint32_t> constants = {});
 
-    // Contents for later runs: scene buffer (bindings 0 and 1), tree buffer (5), table of points (4), of up to
-    // probe_point_blocks.
+    // Contents of the scene buffer (bindings 0 and 1), tree buffer (5), table of points (4).
     void set_scene(std::span<const glm::vec4> words) { scene_.assign(words.begin(), words.end()); }
     void set_tree(std::span<const glm::uvec4> nodes, std::span<const glm::uvec4> spheres) {
         tree_nodes_.assign(nodes.begin(), nodes.end());
@@ -34,8 +33,8 @@ public:
     }
     void set_points(std::span<const pt::PointBlock> blocks) { points_.assign(blocks.begin(), blocks.end()); }
 
-    // Runs one invocation per item with input (binding 3) and push constants; returns output_count values (binding 2,
-    // initially zero). Guard words after the output must survive.
+    // One invocation per item, with input (binding 3) and push constants; returns binding 2, initially zero. Guard
+    // words after it must survive.
     template <typename Output, typename Push>
     std::vector<Output> run(std::span<const glm::vec4> input, std::size_t output_count, const Push &push,
                             std::uint32_t invocations) {

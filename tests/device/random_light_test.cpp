@@ -1,5 +1,5 @@
-// Random scenes against a path tracer in double. PT_TEST_SCENES: the number of scenes; by default each kind once in a
-// tree and once in a list.
+// Random scenes against a path tracer in double. PT_TEST_SCENES: their number; by default each kind in a tree and in a
+// list.
 #include "tests/support/batch_fixture.h"
 #include "tests/support/light_in_double.h"
 #include "tests/support/shared_context.h"
@@ -178,8 +178,8 @@ protected:
         return deviation(picture.has_tree ? with_tree_.get() : context(), given, exact, picture.render);
     }
 
-    // The sum of deviations in standard errors, each with the variance of Student's t with 11 degrees of freedom.
-    // Clamped, so that an image without noise does not dominate.
+    // Sum of deviations in standard errors, each with the variance of Student's t, 11 degrees of freedom; clamped for
+    // images without noise.
     static double pooled(const std::vector<double> &deviations) {
         double sum = 0.0;
         for (const double deviation : deviations)
@@ -205,9 +205,8 @@ Given turned(const Picture &picture) {
     return other;
 }
 
-// One false alarm in a thousand runs for single images and blocks, in ten thousand for all together. Negative controls:
-// lobes reflecting 3% more in one scene of each kind; with trees, whose kernels stay, also lamps 3% brighter and
-// another view.
+// One false alarm in a thousand runs for images and blocks, in ten thousand for all. Negative controls: lobes with 3%
+// more in one scene of each kind; with trees also lamps 3% brighter and another view.
 TEST_F(RandomLight, IsThatOfAPathTracerInDouble) {
     const double bound = student_bound(1e-3 / (14.0 * scene_count()), image_count);
     std::vector<double> deviations;

@@ -1,4 +1,4 @@
-// Images in the caller's buffers: the bits of pt_readback, in time, and nothing beside them.
+// Images in the caller's buffers have the bits of pt_readback, in time.
 #include "lib/film/pixel_format.h"
 #include "tests/device/caller_vulkan.h"
 #include "tests/device/gate.h"
@@ -198,7 +198,7 @@ TEST_F(ReadbackToBufferTest, HasTheBitsOfReadback) {
     }
 }
 
-// The call returns before the gated work ends; the caller's later commands find the pixels.
+// The call returns before the gated work ends.
 TEST_F(ReadbackToBufferTest, WithASemaphoreToSignalTheHostDoesNotWait) {
     for (const bool like_gpus : {false, true}) {
         use_context(like_gpus);
@@ -219,7 +219,7 @@ TEST_F(ReadbackToBufferTest, WithASemaphoreToSignalTheHostDoesNotWait) {
     }
 }
 
-// The second round makes the layer report semaphores left signaled or used twice.
+// The layer reports wrong semaphores in the second round.
 TEST_F(ReadbackToBufferTest, SemaphoresOrderItOnTheDevice) {
     use_context(true);
     const vk::raii::Semaphore before = caller_->device().createSemaphore({});
@@ -269,7 +269,7 @@ TEST_F(ReadbackToBufferTest, TheContextGoesOnMeanwhile) {
     caller_->device().waitIdle();
 }
 
-// Also with the film in host memory: samples that move its split begin before the earlier image can be made.
+// Later samples move the film's split before the earlier image is made.
 TEST_F(ReadbackToBufferTest, LaterSamplesDoNotChangeIt) {
     for (const bool like_gpus : {false, true}) {
         use_context(like_gpus);

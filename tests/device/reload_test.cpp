@@ -227,7 +227,7 @@ using DriverMayLeak = __lsan::ScopedDisabler;
 struct DriverMayLeak {};
 #endif
 
-// A renamed entry point makes code that every driver refuses. Without the validation layer, which would complain first.
+// Every driver refuses a renamed entry point. Without the validation layer, which would complain first.
 TEST_F(ReloadTest, KernelsThatTheDriverRefusesAreNotTaken) {
     pt::CreateSettings settings;
     settings.device = std::getenv("PT_TEST_DEVICE") ? std::getenv("PT_TEST_DEVICE") : "";

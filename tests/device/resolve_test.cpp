@@ -1,5 +1,4 @@
-// Means and standard errors from device and host, against exact integers and long double. PT_TEST_SUMS: the number of
-// random sums.
+// Means and standard errors against exact integers and long double. PT_TEST_SUMS: the number of random sums.
 #include "lib/film/pixel_format.h"
 #include "lib/film/quotient.h"
 #include "lib/kernel/buffer_writer.h"
@@ -160,7 +159,6 @@ TEST_F(Resolve, FormatsAreThoseOfTheHost) {
         }
 }
 
-// By strips of the film and pieces of the buffer, at any offset.
 TEST_F(Resolve, BuffersHoldTheImageAndNothingElse) {
     device_with(pt::vulkan::gpu_like_policy());
     RandomSums random;
@@ -221,7 +219,7 @@ TEST_F(Resolve, SamplesLostOnTheWayToABufferAreAnError) {
     writer.write(of_one, {buffer.handle(), 0, width * 12, {}});
 }
 
-// The loss is in the first of several pieces while the next is running; the device stays usable.
+// The loss is in the first of several pieces; the device stays usable.
 TEST_F(Resolve, LostSamplesAreAnError) {
     device_with(pt::vulkan::gpu_like_policy());
     constexpr std::uint32_t high = 1200;

@@ -32,9 +32,9 @@ TEST(SamplerSobol, ScramblesDifferBetweenPixelsDimensionsAndSeeds) {
     EXPECT_EQ(distinct.size(), taken);
 }
 
-// Point 0 is the origin in every dimension, so its numbers are scramble and shift alone. Their first digits must be
-// independent between the blocks of a path: otherwise paths that depend on several of them (Russian roulette) are wrong
-// at low sample counts. Seeds and pixels vary together.
+// Point 0 is the origin in every dimension, so its numbers are scramble and shift. Their first digits must be
+// independent between a path's blocks: otherwise paths that depend on several (Russian roulette) are wrong at low
+// sample counts.
 std::vector<std::vector<std::uint32_t>> scrambles_of_blocks(int component_index) {
     std::vector<std::vector<std::uint32_t>> blocks;
     for (std::uint32_t block = 0; block < table_blocks; ++block) {
@@ -61,8 +61,8 @@ double triple_deviate(const std::vector<std::uint32_t> &x, const std::vector<std
     return statistics::chi_square_deviate(observed, std::vector<double>(cells, static_cast<double>(x.size()) / cells));
 }
 
-// The shifts of a pixel's blocks are multiples of one word. If the factors of three blocks summed to 0 with small
-// weights, as in arithmetic progressions, the shifts would lie on few planes.
+// The shifts of a pixel's blocks are multiples of one word. If factors of three blocks summed to 0 with small weights,
+// the shifts would lie on few planes.
 TEST(SobolScrambling, IsIndependentAmongThreeBlocksOfAPath) {
     for (const int which : {0, 1, 2}) {
         const auto blocks = scrambles_of_blocks(which);

@@ -38,7 +38,6 @@ TEST_P(Sampler, StaysBelowOneForWordsOfAllOnes) {
     }
 }
 
-// Over the samples of a pixel, and over the pixels of a sample unless all pixels share it.
 TEST_P(Sampler, IsUniformOverPixels) {
     if (GetParam() == PT_SAMPLER_HALTON)
         GTEST_SKIP() << "the same in every pixel";
@@ -118,7 +117,7 @@ TEST(SamplerHalton, IsTheRadicalInverseInEveryPixel) {
     }
 }
 
-// Branch b of sample i is, beyond the shared blocks, sample B i + b of the sequence, also where that passes 2^32.
+// Beyond the shared blocks, branch b of sample i is sample B i + b, also where that passes 2^32.
 TEST(SamplerHalton, OfABranchIsTheRadicalInverseOfASampleOfItsOwn) {
     constexpr std::uint32_t branches = 4;
     Request request;
@@ -138,8 +137,7 @@ TEST(SamplerHalton, OfABranchIsTheRadicalInverseOfASampleOfItsOwn) {
         }
 }
 
-// Whether a pixel shifts all points of the table by one number per dimension: digit by digit, or modulo 1, where
-// truncation to 24 bits leaves a unit.
+// Shifted digit by digit, or modulo 1, where truncation to 24 bits leaves a unit.
 bool is_shifted_in_pixels(const Table &table, const Blocks &blocks, std::uint32_t sampler, const Request &request) {
     constexpr std::uint32_t mask = (1U << 24) - 1;
     const auto shift_of = [&](std::uint32_t place, int d) {
@@ -173,8 +171,7 @@ TEST(SamplerShifts, AreOneInEachPixelAndDimension) {
         }
 }
 
-// Halton's points over pixels are far less even than random ones, and a correlation of 3 in 100 between neighbours
-// shows.
+// Halton's points over pixels are uneven, and a correlation of 3 in 100 shows.
 TEST(SamplerChecks, NegativeControls) {
     Request request;
     request.pixel_count = 1U << 18;

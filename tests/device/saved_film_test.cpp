@@ -115,7 +115,6 @@ protected:
     }
 };
 
-// Ends on either side of splits, and a range within eight samples.
 TEST_F(SavedFilm, PartsAddUpToTheWholeInAnyOrder) {
     const Picture expected = whole(150);
     const uint32_t ends[] = {0, 3, 7, 30, 64, 65, 100, 128, 150};
@@ -161,11 +160,10 @@ TEST_F(SavedFilm, AsAValueShowsWhatTheContextShows) {
     EXPECT_EQ(kept_error.uncertain, rendered.uncertain);
     for (double Error::*const each : {&Error::rmse, &Error::rmse_low, &Error::rmse_high, &Error::relative_rmse,
                                       &Error::relative_rmse_low, &Error::relative_rmse_high})
-        // A GPU sums the squares of 16 tiles, at most 3072, in float32: within 3072 x 2^-24.
+        // A GPU sums squares of 16 tiles, at most 3072, in float32: 3072 x 2^-24.
         EXPECT_NEAR(kept_error.*each, rendered.*each, 2e-4 * rendered.*each);
 }
 
-// Partial films added to a context that has rendered, which then renders the missing samples.
 TEST_F(SavedFilm, AContextGoesOnWithTheSamplesThatAreMissing) {
     const Picture expected = whole(100);
     const Bytes middle = part(20, 50);
@@ -182,7 +180,6 @@ TEST_F(SavedFilm, AContextGoesOnWithTheSamplesThatAreMissing) {
     EXPECT_FALSE(whole(99) == expected);
 }
 
-// The range of samples then covers all indices.
 TEST_F(SavedFilm, FilmsReachToTheLastIndex) {
     constexpr uint32_t first_of_last = UINT32_MAX - 39;
     const Bytes early = part(0, 30);
@@ -227,7 +224,6 @@ TEST_F(SavedFilm, RowsAreFilmsOfTheirOwn) {
             "rendered on"));
 }
 
-// The message names the difference; the context keeps its film.
 TEST_F(SavedFilm, StrangersAreRefusedAndNothingChanges) {
     const auto strange_film = [&](const std::function<void(pt_render &, pt_camera &)> &change) {
         pt_render render = settings(0);

@@ -66,7 +66,7 @@ InvarianceScene diffuse_scene() {
     return scene;
 }
 
-// Elsewhere each scene has one source, and compilers may fuse products and sums differently for another.
+// Elsewhere each scene has one source; another may round differently.
 class SceneSource : public testing::Test {
 protected:
     void SetUp() override {
@@ -92,7 +92,7 @@ TEST_F(SceneSource, KeepsTheBitsOfADiffuseSceneWithManyLamps) {
     EXPECT_FALSE(same.holds(gpu::SCENE_IN_CONSTANTS, words));
     EXPECT_FALSE(same.holds(gpu::SCENE_IN_STORAGE, table_words(render.features(), words)));
 
-    // And the floor, the last surface, gets the ball's material by its index alone.
+    // The floor gets the ball's material by its index alone.
     std::vector<glm::vec4> table = table_words(render.features(), render.words());
     const std::uint32_t ball = render.features()[gpu::ID_LAMP_COUNT];
     const std::uint32_t floor = render.features().surface_count() - 1;
@@ -102,7 +102,7 @@ TEST_F(SceneSource, KeepsTheBitsOfADiffuseSceneWithManyLamps) {
     EXPECT_FALSE(same.holds(gpu::SCENE_IN_STORAGE, table));
 }
 
-// One lamp's radiance, place and size are constants everywhere, which invites compilers to reorder products.
+// All is constant, which invites compilers to reorder products.
 TEST_F(SceneSource, KeepsTheBitsWithOneLampMotionGlossAndAHugeSphere) {
     InvarianceScene scene = scene_with_lamps(1);
     scene.camera.shutter_close = 1.0;
@@ -120,7 +120,7 @@ TEST_F(SceneSource, KeepsTheBitsWithOneLampMotionGlossAndAHugeSphere) {
     EXPECT_TRUE(render.film_by_driver(gpu::SCENE_IN_UNIFORM) == same.film) << "whoever fills the constants in";
 }
 
-// Two lamps that differ by place alone: selecting either's radiance gives the same.
+// The lamps differ by place alone.
 TEST_F(SceneSource, KeepsTheBitsOfTwoEqualLamps) {
     InvarianceScene scene = scene_with_lamps(2);
     scene.spheres[2].material = scene.spheres[1].material;
@@ -137,7 +137,6 @@ TEST_F(SceneSource, KeepsTheBitsOfTwoEqualLamps) {
     EXPECT_FALSE(same.holds(gpu::SCENE_IN_UNIFORM, words));
 }
 
-// Balls and planes of one emitting glossy material differ by place alone.
 TEST_F(SceneSource, KeepsTheBitsOfSurfacesOfOneMaterial) {
     InvarianceScene scene = scene_with_lamps(2);
     std::fill_n(scene.materials[3].diffuse, 3, 0.3F);
@@ -169,7 +168,7 @@ TEST_F(SceneSource, KeepsTheBitsOfASingleSurface) {
     EXPECT_TRUE(Comparison(render).holds(gpu::SCENE_IN_UNIFORM, render.words()));
 }
 
-// A context's second scene of the same features may read a buffer; in its own context it may have constants.
+// A second scene of the same features may read a buffer.
 class SceneSourceTest : public ContextFixture {
 protected:
     static std::vector<float> image_of(pt_context *on, const InvarianceScene &source) {

@@ -1,4 +1,4 @@
-// Progress and cancellation of pt_set_scene, and successive scenes of one tree shape, against new contexts.
+// pt_set_scene: progress, cancellation, and scenes of one tree shape.
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/scene_of.h"
@@ -118,7 +118,6 @@ TEST_F(SetSceneTest, TellsNoEndOfWhatItRefuses) {
     EXPECT_TRUE(told.shares.empty() || told.shares.back() < 1.0);
 }
 
-// Cancelled at any call: scene and samples stay, and the next scene works.
 TEST_F(SetSceneTest, LeavesAllAsItWasWhereItIsStopped) {
     Cloud before(200);
     Cloud cloud(many);

@@ -115,7 +115,7 @@ TEST_F(ShaderSourceTest, AFolderIsNoFile) {
     expect_complaint(shaders.file("folder") + ": Is a directory");
 }
 
-// Include guards permit recursion; without them it has no end, however many lines include.
+// Include guards permit recursion; without them it has no end.
 TEST_F(ShaderSourceTest, AnEndlessIncludeIsRefused) {
     shaders.write("circle.glsl", "#ifndef CIRCLE\n#define CIRCLE\n#include \"arc.glsl\"\n#endif\n");
     shaders.write("arc.glsl", "#include \"circle.glsl\"\n#include \"circle.glsl\"\n");

@@ -97,7 +97,7 @@ TEST_F(TracePipelinesTest, WhoPollsKeepsTheKernelThatThereIs) {
     EXPECT_NE(trace(other_ball, 100.0), any);
 }
 
-// The least recently used kernel is rebuilt. Not checked by its address, which may be reused.
+// The least recently used one is rebuilt, perhaps at a reused address.
 TEST_F(TracePipelinesTest, AHandfulIsKept) {
     use(false);
     const auto of_lamps = [&](std::uint32_t lamp_count) {

@@ -88,7 +88,6 @@ Compared compare(const pt::Scene &scene, const pt::Camera &camera) {
     return compare(prepared_scene_of({scene.materials, {spheres_of_caller, {}}, scene.planes}, 1), camera);
 }
 
-// Sweeps half of the non-lamps to other spheres; some begin where another does.
 Compared compare_with_capsules(const pt::Scene &scene, const pt::Camera &camera) {
     std::vector<pt_sphere> spheres;
     std::vector<pt_sphere> capsules; // motion is the other end
@@ -137,7 +136,6 @@ TEST(Tree, WalksFindWhatTestingEverySphereFinds) {
     }
 }
 
-// A heap of overlapping balls and a lamp, at the end of a floor.
 pt::Scene heap_on_a_floor(TreeScenes &scenes) {
     pt::Scene scene;
     scene.materials = {{glm::vec3(0.5F), glm::vec3(0.0F), glm::vec3(20.0F), 0.0F},
@@ -155,7 +153,7 @@ pt::Camera far_away(double tan_half_fov) {
     return {{0.1, 0.2, 4e5}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, tan_half_fov, 0.0, 1.0};
 }
 
-// From 10^5 times the heap's size: a narrow view, where depths round to few values, and the horizon of a wide one.
+// From 10^5 times its size: a narrow view, where depths round to few values, and the horizon of a wide one.
 TEST(Tree, RaysFromFarAwayFindWhatTestingEverySphereFinds) {
     TreeScenes scenes(9);
     const pt::Scene scene = heap_on_a_floor(scenes);
@@ -163,8 +161,8 @@ TEST(Tree, RaysFromFarAwayFindWhatTestingEverySphereFinds) {
         EXPECT_TRUE(compare(scene, far_away(tan_half_fov)).same) << tan_half_fov;
 }
 
-// Compares a new tree with one shaped for the spheres reflected in the origin: equally good boxes, about the reverse
-// order. Empty if the trees are equal or no shape was kept.
+// Against a tree shaped for the spheres reflected in the origin: equally good boxes, about the reverse order. Empty if
+// the trees are equal or no shape was kept.
 std::optional<bool> is_seen_alike(const pt::Scene &scene, const pt::Camera &camera) {
     const std::vector<pt_sphere> spheres = caller_spheres(scene.spheres);
     std::vector<pt_sphere> reflected = spheres;
@@ -219,7 +217,7 @@ TEST(Tree, RaysFromFarAwayFindTheSameWhateverItsShape) {
     EXPECT_GE(compared, 2);
 }
 
-// More spheres than the driver allows loop trips: the interruption is reported.
+// More spheres than the driver allows loop trips.
 TEST(Tree, WalksThatADriverCutsAreTold) {
     const std::uint64_t budget = probe_device().limits().loop_trip_budget;
     if (budget > 1'000'000)

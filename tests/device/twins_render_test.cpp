@@ -41,8 +41,7 @@ protected:
         return {moments.mean, std::sqrt(moments.variance / batch_count)};
     }
 
-    // Compares light within tolerance, by which the geometry may differ. The difference of two means of n batches has
-    // the bound of one mean of 2 n - 1.
+    // tolerance: by which the geometry may differ. Two means of n batches have the bound of one mean of 2 n - 1.
     void expect_light(const Estimate &expected, const InvarianceScene &scene, std::uint32_t path_length,
                       double tolerance) {
         const Estimate found = mean_of(scene, path_length, 200);
@@ -53,7 +52,7 @@ protected:
     }
 };
 
-// ---- A lamp, a floor and a room -----------------------------------------------------------------------------------
+// ---- A lamp, a floor and a room
 
 enum Named { lamp, floor_plane, oblique_plane, room };
 
@@ -79,7 +78,7 @@ InvarianceScene scene_of_named(std::initializer_list<Named> surfaces) {
     return scene;
 }
 
-// Displaces or grows copies by a share of their size.
+// share: of their size.
 void shift_twins(InvarianceScene &scene, double share) {
     for (std::size_t i = 1; i < scene.spheres.size(); ++i)
         if (scene.spheres[i].radius == scene.spheres[0].radius)
@@ -105,7 +104,7 @@ TEST_F(RenderedTwins, SendTheirLightOnce) {
             SCOPED_TRACE(share);
             InvarianceScene twice = scene_of_named(repeated);
             shift_twins(twice, share);
-            // A lamp displaced by a share of its radius sends at most that share more.
+            // A lamp displaced by a share of its radius sends at most that much more.
             expect_light(once, twice, path_length, 1e-6 + 2 * share);
         }
     }

@@ -15,7 +15,7 @@ namespace {
 constexpr uint32_t width = 32;
 constexpr uint32_t height = 32;
 
-// A floor fills the image, 100 below a lamp that covers radius^2 / 40000 of all directions.
+// The floor fills the image, 100 below a lamp that covers radius^2 / 40000 of all directions.
 class UncertainTest : public ContextFixture {
 protected:
     void set_up(double lamp_radius, uint32_t estimator, uint32_t max_path_length = 2,
@@ -45,7 +45,7 @@ protected:
 
 constexpr uint32_t unmet = PT_UNCERTAIN_UNMET;
 
-// 1024 pixels with 16 samples take 16384 directions: 164 hit a lamp that covers a hundredth; 2,620 with 256.
+// 16 samples of 1024 pixels hit a lamp of a hundredth 164 times, 256 samples 2,620 times.
 TEST_F(UncertainTest, WhileALampIsHardlyMetByChance) {
     for (const uint32_t estimator : {PT_ESTIMATOR_UNIFORM, PT_ESTIMATOR_COSINE, PT_ESTIMATOR_BSDF}) {
         set_up(20.0, estimator);
@@ -68,8 +68,7 @@ TEST_F(UncertainTest, WhileALobeIsHardlyMetByChance) {
     }
 }
 
-// A lamp covering a 20th of a pixel in view is hit .8 times by 16 samples, 13 times by 256. Beside the view it does not
-// count.
+// 16 samples hit a 20th of a pixel .8 times, 256 samples 13 times. Beside the view it does not count.
 TEST_F(UncertainTest, WhileSamplesHardlyMeetALampInView) {
     const double pixel = 2.0 * std::tan(0.5) / height; // at distance 1
     for (const bool in_view : {true, false}) {
@@ -79,7 +78,7 @@ TEST_F(UncertainTest, WhileSamplesHardlyMeetALampInView) {
     }
 }
 
-// A lamp covering 2.5e-9 is never hit: a black picture whose parts agree without evidence.
+// A lamp of 2.5e-9 is never hit: black parts agree without evidence.
 TEST_F(UncertainTest, NothingIsKnownOfAPictureThatIsBlackByChance) {
     set_up(0.01, PT_ESTIMATOR_BSDF);
     EXPECT_EQ(after(16), unmet);

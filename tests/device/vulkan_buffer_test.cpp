@@ -46,7 +46,7 @@ TEST_F(VulkanTest, CountsWhatTransfersTake) {
     EXPECT_EQ(device().allocated_bytes(), before);
 }
 
-// A streamed buffer holds offsets for several dispatches of a submission; each sees its own by the dynamic offset.
+// Dispatches of one submission see their own offsets.
 TEST_F(VulkanTest, ADynamicOffsetChoosesThePartOfAStreamedBuffer) {
     constexpr pt::vulkan::Binding bindings[] = {{0, vk::DescriptorType::eUniformBufferDynamic}, {1}};
     constexpr std::array keep_the_sum = {1U, 0U};

@@ -1,4 +1,4 @@
-// Submissions: waiting, failures and what remains after them; the validation layer reaches the log.
+// Submissions: waiting, failures, and the validation layer's messages.
 #include "lib/vulkan/buffer.h"
 #include "lib/vulkan/device.h"
 #include "tests/device/vulkan_fixture.h"

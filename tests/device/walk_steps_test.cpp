@@ -1,5 +1,4 @@
-// Walks step by step (tree_path.glsl) against whole walks, one sample at a time: all bits of films, if the driver
-// rounds as written.
+// Walks by steps (tree_path.glsl) against whole walks: all bits of films, if the driver rounds as written.
 #include "tests/device/kernel_render.h"
 #include "tests/device/tree_scenes.h"
 #include "tests/support/checked_scene_of.h"
@@ -22,7 +21,7 @@ pt::PreparedScene all_in_a_tree(const pt::Scene &scene) {
     return prepared_scene_of({scene.materials, {spheres, {}}, scene.planes}, 1);
 }
 
-// One lamp, few that are each sampled, more than branches, and many; paths of one vertex, of one direction, and with
+// One lamp, few that are each sampled, more than branches, and many; paths of one vertex, of one direction, with
 // roulette.
 TEST(WalkSteps, TakeTheSamplesOfWholeWalks) {
     TreeScenes scenes(23);

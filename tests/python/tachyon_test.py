@@ -253,8 +253,8 @@ class Lamps(unittest.TestCase):
 
 class Pictures(unittest.TestCase):
     def test_the_first_surfaces_are_those_that_tachyon_shows(self):
-        """Its pictures have 10 (i + 1) in red for ball i, in green for plane i; it samples the upper right corners of
-        pixels."""
+        """Tachyon's pictures have 10 (i + 1) in red for ball i, in green for plane i; it samples the upper right
+        corners of pixels."""
         for name in ("perspective", "parallel"):
             with self.subTest(name):
                 found = read(DATA / f"{name}.dat")

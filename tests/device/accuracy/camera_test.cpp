@@ -27,7 +27,7 @@ struct Result {
     glm::vec4 direction, lens_origin, lens_direction;
 };
 
-// Fields of view from 1e-8 to nearly pi, images of 1 to 16384 pixels; a quarter of the pixels in a corner.
+// Fields of view from 1e-8 to nearly pi, 1 to 16384 pixels.
 std::vector<Item> items() {
     Inputs inputs(4);
     std::vector<Item> items;
@@ -54,14 +54,13 @@ std::vector<Item> items() {
     return items;
 }
 
-// Absolute, u = 2^-24. W = forward + x right - y up; its parts are perpendicular, so none is longer than W:
-// x, y and their products 2 u (|x| + |y|) <= 2.9 u |W|; the two sums 2 u |W|;
-// normalize = W / length(W): dot product 3 u, halved by the root; sqrt 9 u; division 5 u.
+// Absolute, u = 2^-24. W = forward + x right - y up, with perpendicular parts: x, y and their products 2 u (|x| + |y|)
+// <= 2.9 u |W|; two sums 2 u |W|; W / length(W): dot product 3 u, halved by the root, sqrt 9 u, division 5 u.
 constexpr Real bound = (2.9L + 2 + 15.5L) * half_ulp;
 
-// Distance in the plane of focus between the lens ray and the pinhole ray, over their length. The origin a r errs by 2
-// u |a| per axis (product, sum) plus the axis's lack of unit length; its opposite in the direction errs as much, and
-// the place in the image by u (sum) and u (product): 7 u of the radius. The direction adds its own bound.
+// Distance in the plane of focus between lens ray and pinhole ray, over their length: 7 u of the radius. The origin a r
+// errs by 2 u |a| per axis and the axis's lack of unit length; its opposite in the direction as much; the place in the
+// image by 2 u. Plus the direction's bound.
 Real lens_bound(Real radius, Real distance) {
     return 7 * half_ulp * radius / distance + bound;
 }

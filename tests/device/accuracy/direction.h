@@ -15,9 +15,8 @@ inline Direction direction_at(Real cosine, Real sine, Real turns) {
     return {sine * std::cos(2 * pi * turns), sine * std::sin(2 * pi * turns), cosine};
 }
 
-// Turns a vector from about z to about an axis by the basis of Duff et al. (JCGT 6(1), 2017). For axis.z >= 0 that is
-// Frisvad's smallest rotation: with k = z x axis, v + k x v + k x (k x v) / (1 + cos). For axis.z < 0: Frisvad's about
-// -axis with its second and third vectors negated.
+// Uses the basis of Duff et al. (JCGT 6(1), 2017). For axis.z >= 0 that is Frisvad's smallest rotation: with k = z x
+// axis, v + k x v + k x (k x v) / (1 + cos). For axis.z < 0: Frisvad's about -axis, second and third vectors negated.
 inline Direction turned_to(const glm::vec3 &float_axis, const Direction &vector) {
     const bool down = float_axis.z < 0.0F;
     const Direction axis = glm::normalize(Direction(float_axis)) * (down ? Real{-1} : Real{1});
@@ -27,26 +26,23 @@ inline Direction turned_to(const glm::vec3 &float_axis, const Direction &vector)
     return v + k_v + glm::cross(k, k_v) / (1 + axis.z);
 }
 
-// Bounds on the length of an error vector, u = 2^-24 (half_ulp). They are absolute, because a unit vector's components
-// pass through 0 and the angle is what matters. Division errs by 2.5 ulp <= 5 u; sqrt is 1 / inversesqrt, 4 u + 5 u.
-// For narrow cones the terms in `sine` vanish.
+// Length of an error vector, u = 2^-24 (half_ulp), absolute because components pass through 0. Division errs by 2.5 ulp
+// <= 5 u; sqrt is 1 / inversesqrt, 4 u + 5 u. In narrow cones the terms in `sine` vanish.
 
 // sin_cos_turn: 4.5 ulp of at most u each (lib/kernel/accuracy.cpp), and a product each.
 inline Real azimuth_bound(Real sine) {
     return sine * (4.5L * std::sqrt(Real{2}) + 1) * half_ulp;
 }
 
-// rotate_to_axis. q (|q| <= sine) errs by 2 u, its quotient by 6 u more: 8 u sine; `along` (<= sqrt(2)) by u for its
-// sum. x and y err by that, sqrt(2) u (product) and 0.7 u (sums); z by u (product), 2 u sine (q) and u / 2 (sum): 8.3 u
-// sine + 3.5 u. The basis' tangents err by 2.5 times the axis's lack of unit length, times |v.x| + |v.y| <= sqrt(2)
-// sine.
+// rotate_to_axis. q (<= sine) errs by 2 u, its quotient by 6 u more: 8 u sine; `along` (<= sqrt(2)) by u. x and y:
+// that, sqrt(2) u (product), 0.7 u (sums); z: u (product), 2 u sine (q), u / 2 (sum): 8.3 u sine + 3.5 u. The tangents
+// err by 2.5 times the axis's lack of unit length, times |v.x| + |v.y| <= sqrt(2) sine.
 inline Real rotation_bound(const glm::vec3 &axis, Real sine) {
     const Real length = length_error(axis);
     return sine * (8.3L * half_ulp + 2.5L * std::sqrt(Real{2}) * length) + length + 3.5L * half_ulp;
 }
 
-// direction_about, where one_minus_cos has the relative error `share`. Polar angle: share h / sine. sine = sqrt(h (2 -
-// h)): half of 2 u, and 9 u. 1 - h: u / 2.
+// direction_about; share: of one_minus_cos. Polar angle: share h / sine. sine = sqrt(h (2 - h)): u + 9 u. 1 - h: u / 2.
 inline Real direction_about_bound(const glm::vec3 &axis, Real h, Real share) {
     const Real sine = std::sqrt(h * (2 - h));
     const Real polar = sine > 0 ? share * h / sine : 0;

@@ -1,5 +1,5 @@
-// Evaluates shader functions on the device over many items. Inputs and outputs are structs of 16-byte vectors, one item
-// per invocation (tests/device/probe/items.glsl).
+// Evaluates shader functions over many items: structs of 16-byte vectors, one per invocation
+// (tests/device/probe/items.glsl).
 #pragma once
 
 #include "tests/device/probe.h"
@@ -9,8 +9,7 @@
 
 namespace accuracy {
 
-// Fails the running test if the kernel leaves an output word unwritten. A second run that skips one item shows that
-// this is detected.
+// Fails the test if an output word stays unwritten. A second run that skips one item is the negative control.
 void evaluate_bytes(Probe &probe, std::span<const std::byte> inputs, std::span<std::byte> outputs,
                     std::uint32_t item_count);
 

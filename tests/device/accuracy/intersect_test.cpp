@@ -44,8 +44,7 @@ Item passing_ray(Inputs &inputs, double distance, double radius, double impact, 
     return {glm::vec3(centre), static_cast<float>(radius), glm::vec3(direction), start};
 }
 
-// Distances up to a million radii; impacts from the center to grazing within 1e-6 and beyond; starts inside, some just
-// below the surface and along it; starts on the surface, up to rounding.
+// Up to a million radii away, grazing within 1e-6, from inside, and from the surface.
 std::vector<Item> items() {
     Inputs inputs(10);
     std::vector<Item> items;
@@ -73,10 +72,9 @@ struct Exact {
     Real bound;
 };
 
-// u = 2^-24, d = |center|, b = center . direction, l = |center - b direction|.
-// b: 3 u d and the lack of unit length. The vector across: u |b| + u l; the error of b lies along the ray, so only its
-// square counts.
-// l^2: 3 u more; r^2: u; difference: u; sqrt: 9 u.
+// u = 2^-24, d = |center|, b = center . direction, l = |center - b direction|. b: 3 u d and lack of unit length.
+// Across: u |b| + u l; the error of b lies along the ray, so its square counts. l^2: 3 u more; r^2: u; difference: u;
+// sqrt: 9 u.
 Exact exact_sphere(const Item &item) {
     const Direction centre(item.centre);
     const Direction direction = glm::normalize(Direction(item.direction));
@@ -134,8 +132,7 @@ Exact exact_larger_sphere(Item item) {
     return exact_sphere(item);
 }
 
-// Rays that can start where the camera is outside all spheres: clearly outside by float32's error, or leaving on the
-// outside. Tests of paths cover points between.
+// Clearly outside by float32's error, or leaving on the outside. Tests of paths cover the rest.
 bool starts_outside(const Item &item) {
     const Real d = glm::length(Direction(item.centre));
     const Real r = item.radius;
@@ -149,8 +146,7 @@ struct Wrong {
     std::size_t shadows = 0;    // wrong answers of shadow rays
 };
 
-// Whether the sphere blocks exactly the shadow rays that end behind the hit. Decided if the hit's distance exceeds 1e-4
-// |center|: a tenth of it is then a hundred times the float32 error.
+// Decided if the hit's distance exceeds 1e-4 |center|: a tenth of it is then a hundred times the float32 error.
 bool blocks_rightly(const Exact &exact, const Result &found, const Item &item) {
     if (exact.met == 1 && exact.distance > 1e-4L * glm::length(Direction(item.centre)))
         return found.blocks_before == 0.0F && found.blocks_behind == 1.0F;

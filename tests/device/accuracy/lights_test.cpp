@@ -45,8 +45,7 @@ std::vector<Lamp> lamps() {
     return lamps;
 }
 
-// Vertices at r / sine from a lamp of radius r: sines from 1e-7 to 1, and within 1e-6 of 1. A quarter of the normals
-// put the lamp just above or below the horizon.
+// Sines r / d from 1e-7 to within 1e-6 of 1. A quarter of the normals put the lamp just above or below the horizon.
 std::vector<Item> items(const std::vector<Lamp> &lamps) {
     Inputs inputs(7);
     std::vector<Item> items;
@@ -67,7 +66,7 @@ std::vector<Item> items(const std::vector<Lamp> &lamps) {
     return items;
 }
 
-// Error of sqrt(square) for an argument error `bound`; near 0 more than half of the relative error.
+// Error of sqrt(square) for an argument error `bound`.
 Real root_bound(Real square, Real bound) {
     const Real root = std::sqrt(std::max<Real>(square, 0));
     return std::max(std::sqrt(std::max<Real>(square, 0) + bound) - root,
@@ -91,15 +90,15 @@ struct View {
         const Real cosine = std::sqrt(std::max<Real>(1 - squared_sine, 0));
         height = squared_sine / (1 + cosine);
         highest_cosine = glm::dot(glm::normalize(Direction(item.normal)), axis) + Real{lamp.radius} / distance;
-        // sin^2: r^2 u; d^2 5 u (differences 2 u, squares u, sums 2 u); division 5 u. 1 - sin^2 errs by that and u / 2,
-        // absolute, so its root by much for near lamps; then sqrt 9 u, sum u, division 5 u.
+        // sin^2: r^2 u, d^2 5 u, division 5 u. 1 - sin^2 errs by that and u / 2, absolute, so its root by much for near
+        // lamps; sqrt 9 u, sum u, division 5 u.
         const Real cosine_bound = root_bound(1 - squared_sine, 11.5L * half_ulp) + 9 * half_ulp * cosine;
         height_share = 16 * half_ulp + (cosine_bound + 2 * half_ulp) / (1 + cosine - cosine_bound);
     }
 };
 
-// Absolute. The axis errs by 8.5 u (differences u, inversesqrt of d^2 6.5 u, product u); directions err with it, and by
-// three times that across, because the basis turns with the axis. Then direction_about, with u for the product u.x h.
+// The axis errs by 8.5 u (differences u, inversesqrt of d^2 6.5 u, product u), directions by it, and by three times
+// that across, as the basis turns with the axis. Then direction_about, and u for u.x h.
 Real direction_bound(const View &view, const glm::vec3 &axis, Real h) {
     const Real axis_bound = 8.5L * half_ulp;
     const Real sine = std::sqrt(h * (2 - h));
@@ -107,8 +106,8 @@ Real direction_bound(const View &view, const glm::vec3 &axis, Real h) {
            std::sqrt(Real{2}) * sine * (3 + 2.5L) * axis_bound + axis_bound;
 }
 
-// Absolute. d: 7.5 u (half of 5 u for d^2, inversesqrt 4 u, product u). r^2 - d^2 h (2 - h): 3 u r^2, and 18 u and h's
-// relative error for the second term.
+// d: 7.5 u (half of 5 u for d^2, inversesqrt 4 u, product u). r^2 - d^2 h (2 - h): 3 u r^2, and 18 u and h's relative
+// error for the second term.
 Real distance_bound(const View &view, const Lamp &lamp, Real h) {
     const Real share = view.height_share + half_ulp;
     const Real squared_radius = Real{lamp.radius} * lamp.radius;
@@ -140,8 +139,8 @@ struct AccuracyLights : testing::Test {
     }
 };
 
-// The weight, radiance sin^2 min(1, highest cosine), must not be 0 where its bound on the irradiance is not. Dot
-// product and sum err by 4 u, their factor 1 / d by 6.5 u + u, and the normal's length counts.
+// radiance sin^2 min(1, highest cosine) must not be 0 where the irradiance's bound is not. Dot product and sum 4 u,
+// factor 1 / d 7.5 u, and the normal's length.
 TEST_F(AccuracyLights, OfLampSamples) {
     Comparison height("one_minus_cos", "of itself");
     Comparison density("cone_density", "of itself");

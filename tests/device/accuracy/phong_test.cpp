@@ -40,8 +40,7 @@ glm::vec3 beside(Inputs &inputs, const glm::vec3 &direction, double angle) {
     return {glm::normalize(std::cos(angle) * axis + std::sin(angle) * across)};
 }
 
-// Exponents 0 to 1e9; most outgoing directions where the lobe is neither 0 nor 1. about_mirror: around the axis's
-// mirror direction, else around the axis.
+// Exponents 0 to 1e9; most directions where the lobe is neither 0 nor 1, about the axis or its mirror direction.
 std::vector<Item> items(bool about_mirror) {
     Inputs inputs(about_mirror ? 2 : 3);
     std::vector<Item> items;
@@ -83,7 +82,7 @@ Real power(Real cosine, Real n) {
     return cosine > 0 ? std::pow(cosine, n) : 0;
 }
 
-// max(0, wo . r)^n for the unit vectors along r and wo; the device's r errs by mirror_error. With u = 2^-24:
+// max(0, wo . r)^n; the device's r errs by mirror_error, u = 2^-24.
 // y = |wo - r|^2 / 2: differences 2 u, squares u, sums 2 u; lengths 1 + a, 1 + b give y (1 + a) (1 + b) + (a - b)^2 /
 // 2; mirror_error times the chord and itself.
 // log2(1 - y): 22 u (18 ulp of at most u / 2 where the logarithm is 0.42); times n: u; 2^x: 3 + 2 |x| ulp of at most 2
@@ -115,8 +114,8 @@ Bounded lobe_about_mirror(const Item &item) {
                 7 * half_ulp + 4 * length_error(item.normal), item.glossiness);
 }
 
-// Diffuse and specular coefficients of the value (over the cosine) or of the density, by pt.h and Lafortune and Willems
-// (1994). Their sum bounds the whole.
+// Coefficients of the value (over the cosine) or density, by pt.h and Lafortune and Willems (1994). Their sum bounds
+// the whole.
 struct Terms {
     Real diffuse, specular;
 

@@ -23,8 +23,8 @@ struct Result {
 std::vector<Item> items() {
     Inputs inputs(1);
     std::vector<Item> items;
-    // Heights from 5e-15 (an angle of 1e-7) to 2 (the opposite direction). Densities whose squares or ratios overflow a
-    // float, but from 2^-126 to 2^126 = 8.5e37: Vulkan bounds the error of division for such divisors only.
+    // Heights from 5e-15 (1e-7 radians) to 2. Densities whose squares or ratios overflow, within 2^-126 to 2^126 =
+    // 8.5e37, where Vulkan bounds the error of division.
     for (std::size_t i = 0; i < random_count; ++i)
         items.push_back({inputs.direction(), static_cast<float>(inputs.log_uniform(5e-15, 2.0)),
                          glm::vec2(inputs.number(), inputs.number()),
@@ -50,8 +50,7 @@ Real uniform_bound(Real sine) {
     return azimuth_bound(sine) + 9.5L * half_ulp * sine + half_ulp / 2;
 }
 
-// Mirrors a direction to the axis's side. Where the dot product (2 u and the lengths) cannot tell the side, takes the
-// nearer of both.
+// Where the dot product (2 u and the lengths) cannot tell the side, takes the nearer direction.
 Direction mirrored_up(const Direction &direction, const Item &item, const glm::vec4 &found) {
     const Real cosine = glm::dot(direction, Direction(item.axis));
     const bool undecided = std::abs(cosine) < 4 * half_ulp + uniform_bound(1);
@@ -59,7 +58,7 @@ Direction mirrored_up(const Direction &direction, const Item &item, const glm::v
     return side < 0 ? -direction : direction;
 }
 
-// The point of the disc by wedges between the square's diagonals, unlike the kernel.
+// By wedges between the square's diagonals, unlike the kernel.
 Direction concentric(const glm::vec2 &numbers) {
     const Real x = 2 * Real{numbers.x} - 1;
     const Real y = 2 * Real{numbers.y} - 1;
@@ -72,8 +71,7 @@ Direction concentric(const glm::vec2 &numbers) {
     return side * radius * Direction(std::cos(angle), std::sin(angle), 0);
 }
 
-// 2 u - 1 is exact for 24 bits. The ratio (at most 1) errs by 5 u, the angle by 5 pi / 4 u; its eighth is exact. The
-// product errs by u / 2 per component.
+// 2 u - 1 is exact for 24 bits. The ratio errs by 5 u, the angle by 5 pi / 4 u, the product by u / 2 per component.
 constexpr Real concentric_share = 5 * pi / 4 * half_ulp;
 
 class AccuracySampling : public testing::Test {
@@ -118,7 +116,7 @@ TEST_F(AccuracySampling, OfDirectionsAndWeights) {
     disc.finish();
 }
 
-// Unbiased multiple importance sampling needs weights that sum to 1; each is within 14.5 ulp of at most 2^-24.
+// Each weight is within 14.5 ulp of at most 2^-24.
 TEST_F(AccuracySampling, WeightsOfBothTechniquesSumToOne) {
     std::vector<Item> exchanged = items_;
     for (Item &item : exchanged)

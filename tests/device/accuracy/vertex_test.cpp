@@ -42,7 +42,7 @@ std::vector<glm::vec4> surfaces() {
     return surfaces;
 }
 
-// Rays that end within a thousandth of their length from a point of the surface.
+// The rays end within a thousandth of their length from the surface.
 std::vector<Item> items(const std::vector<glm::vec4> &surfaces) {
     Inputs inputs(9);
     std::vector<Item> items;
@@ -63,9 +63,8 @@ std::vector<Item> items(const std::vector<glm::vec4> &surfaces) {
     return items;
 }
 
-// u = 2^-24. Sphere: normalize times radius 15.5 u (dot product 3 u, halved by the root; sqrt 9 u; division 5 u);
-// product u; sum u |p|. Plane: normal . p + offset 2 u |p| + u; correction 3 u of itself; difference u |p|; a normal
-// off unit length by l leaves 2 l of the height.
+// u = 2^-24. Sphere: normalize times radius 15.5 u, product u; sum u |p|. Plane: normal . p + offset 2 u |p| + u;
+// correction 3 u of itself; difference u |p|; a normal off unit length by l leaves 2 l of the height.
 Real sphere_bound(const glm::vec4 &sphere, const Direction &point) {
     return half_ulp * (16.5L * sphere.w + glm::length(point));
 }
@@ -109,8 +108,8 @@ TEST(AccuracyVertex, OfPoints) {
         // A dot product errs by 3 u.
         EXPECT_LE(glm::dot(normal, Direction(item.direction)), 3 * half_ulp) << "not on the side of the ray's start";
         inside += results[i].inside == 1.0F ? 1 : 0;
-        // About the stored normal: dot product 2 u, so 2 (n . d) n 4 u + 2 u; difference u. A ray along the surface is
-        // its own mirror image.
+        // About the stored normal: 2 (n . d) n 4 u + 2 u; difference u. A ray along the surface is its own mirror
+        // image.
         mirror.add(glm::vec3(results[i].mirror), glm::reflect(Direction(item.direction), normal), 7 * half_ulp, input);
     }
     EXPECT_TRUE(inside > 0 && inside < all.size()) << "only one side was tested";

@@ -7,8 +7,8 @@
 
 #include "items.glsl"
 
-// start: 0 anywhere, 1 on the sphere and outside, 2 inside. The center, relative to the ray's start, is the plane's
-// normal too; the radius is its height.
+// start: 0 anywhere, 1 on the sphere and outside, 2 inside. The center is the plane's normal too, the radius its
+// height.
 struct Item { vec4 centre_radius; vec4 direction_start; };
 layout(set = 0, binding = 2) writeonly buffer Output { vec4 results[]; };
 layout(set = 0, binding = 3) readonly buffer Input { Item items[]; };
