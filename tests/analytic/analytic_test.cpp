@@ -1,5 +1,4 @@
-// Pixels with exactly known radiance (tests/data/analytic/README.md), judged by the known deviation of a sample and by
-// the noise of batches.
+// Pixels with exactly known radiance (tests/data/analytic/README.md).
 #include "tests/analytic/analytic_fixture.h"
 #include "tests/analytic/crop.h"
 #include "tests/analytic/scenes.h"
@@ -47,7 +46,7 @@ bool measurement_agrees(const Measurement &measured, const Exact &exact) {
            difference <= batch_bound(measured.radiance, exact, batch_count);
 }
 
-// Whether noise is small enough for an error of 3% to be detected.
+// Whether an error of 3% exceeds the noise.
 bool resolves(const Measurement &measured, const Exact &exact) {
     const Bounds bounds(measured, exact);
     return exact.radiance > 0.0 && 0.03 > 2.0 * std::min(bounds.tabulated, bounds.of_batches);
@@ -55,7 +54,7 @@ bool resolves(const Measurement &measured, const Exact &exact) {
 
 class PixelFixture : public AnalyticFixture {
 protected:
-    // A piece of the rows has the same bits.
+    // A piece of rows has the same bits.
     Batches render(const cli::SceneFile &scene, const Crop &crop, std::uint32_t samples, std::uint32_t first_row = 0,
                    std::uint32_t row_count = 0) {
         set_up(scene.scene(), cropped(scene.camera, scene.render.height, crop.height));
@@ -107,8 +106,8 @@ std::string test_name(std::string name) {
     return "Scene" + name;
 }
 
-// Pixels of whole images lie where they should, in scenes unlike their mirror images. Few samples leave the first judge
-// alone: the measured noise is 0 where none finds a dim pixel's light.
+// Whole images, unlike their mirror images. With few samples the first judge stands alone, because the measured noise
+// may be 0.
 class WholeImage : public PixelFixture, public testing::WithParamInterface<std::string> {};
 
 TEST_P(WholeImage, PixelsAreInTheirPlaces) {

@@ -10,8 +10,8 @@
 
 namespace analytic {
 
-// The smallest image about the same center that contains a pixel. It has the same rays if the image plane's distance,
-// height / (2 tan(fov / 2)) pixels, is kept.
+// The smallest image about the same center with a pixel. The image plane's distance, height / (2 tan(fov / 2)) pixels,
+// is kept, and so are the rays.
 struct Crop {
     std::uint32_t width;
     std::uint32_t height;
@@ -19,7 +19,7 @@ struct Crop {
     std::uint32_t y;
 };
 
-// Twice the distance from the middle to the pixel's farther edge; it has the parity of size.
+// Has the parity of size.
 inline std::uint32_t crop_size(std::uint32_t size, std::uint32_t position) {
     const auto twice = [&](std::uint32_t edge) {
         return static_cast<std::uint32_t>(std::abs(2 * std::int64_t{edge} - std::int64_t{size}));

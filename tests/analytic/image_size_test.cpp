@@ -1,4 +1,4 @@
-// Images of many shapes: each pixel shows its share of an emitting sphere.
+// Images of many shapes show an emitting sphere.
 #include "tests/analytic/analytic_fixture.h"
 #include "tests/analytic/judge.h"
 #include "tests/analytic/sphere_coverage.h"
@@ -26,7 +26,6 @@ class ImageSize : public AnalyticFixture, public testing::WithParamInterface<Sha
 
 const SphereCoverage sphere_coverage(1, 0.5, -5);
 
-// The sphere at (1, 0.5, -4), seen from (0, 0, 1).
 Image render_sphere(const Shape &shape, double radius, const auto &image_of) {
     const pt_material material{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0, 0};
     const pt_sphere sphere{{1, 0.5, -4}, radius, {0, 0, 0}, 0, 0};
@@ -54,7 +53,7 @@ double share_of(const Shape &shape, std::uint32_t x, std::uint32_t y) {
     return sphere_coverage.share(left, left + size, top - size, top);
 }
 
-// Number of disagreeing pixels. Full and empty pixels are exact; the quadrature decides to 1e-4.
+// Number of wrong pixels. Full and empty ones are exact; the quadrature decides to 1e-4.
 std::uint32_t compare(const Image &image, const Shape &shape) {
     std::uint32_t found = 0;
     for (std::uint32_t y = 0; y < shape.height; ++y)
@@ -76,11 +75,10 @@ TEST_P(ImageSize, EveryPixelCoversItsShare) {
     };
     const Image image = render_sphere(shape, 1.0, render);
     EXPECT_EQ(compare(image, shape), 0U);
-    // Negative control: a sphere 3% larger, 6% more area.
+    // Negative control: 6% more area.
     EXPECT_GT(compare(render_sphere(shape, 1.03, render), shape), 0U);
 }
 
-// The window contains the sphere, so shares add up to its area in closed form.
 TEST(ImageSizeClosedForm, SharesAddUpToTheArea) {
     EXPECT_NEAR(sphere_coverage.area(), 0.1342652736, 1e-9);
     const Shape shape{61, 37, 1.0};
@@ -91,8 +89,7 @@ TEST(ImageSizeClosedForm, SharesAddUpToTheArea) {
     EXPECT_NEAR(sum, sphere_coverage.area(), 1e-6);
 }
 
-// One pixel; a workgroup, one less and one more; the greatest lengths; primes. Small windows let many pixels of 16384
-// see the sphere.
+// A workgroup, one less and one more; the greatest lengths, in small windows; primes.
 INSTANTIATE_TEST_SUITE_P(Shapes, ImageSize,
                          testing::Values(Shape{1, 1, 1.0}, Shape{63, 1, 0.02}, Shape{64, 1, 0.02}, Shape{65, 1, 0.02},
                                          Shape{16384, 1, 2.0 / 16384}, Shape{1, 16384, 1.0}, Shape{61, 37, 1.0},

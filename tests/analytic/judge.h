@@ -8,7 +8,7 @@
 
 namespace analytic {
 
-// One false alarm in a million over all tabulated pixels and both judges.
+// One false alarm in a million over all pixels and both judges.
 inline constexpr double false_alarms = 1e-6;
 inline constexpr double tabulated_pixels = 147;
 inline constexpr double false_alarm_per_judgement = false_alarms / (2.0 * tabulated_pixels);
@@ -22,12 +22,11 @@ struct Exact {
 // Up to 50 operations of 2^-24 = 6e-8.
 inline constexpr double rounding = 3e-6;
 
-// Relative bound on the error of a mean: Bernstein's inequality (Boucheron, Lugosi and Massart, Concentration
-// Inequalities, 2013, section 2.8), valid for few and skewed samples. For n independent samples of variance s^2 and
-// deviations up to m, P(|error| > t) <= 2 exp(-n t^2 / (2 s^2 + 2 m t / 3)); solved for t. A sample that is nonzero
-// with probability p has s^2 = (1 - p) / p and deviates by s^2 up and 1 down: m = s^2 + 6 s holds up to p = 0.97, and
-// gives smooth integrands six standard deviations. The default sampler's samples are stratified: not independent, but
-// less noisy.
+// Relative bound on a mean's error by Bernstein's inequality (Boucheron, Lugosi and Massart, Concentration
+// Inequalities, 2013, section 2.8), valid for few and skewed samples: n independent samples of variance s^2, deviations
+// up to m: P(|error| > t) <= 2 exp(-n t^2 / (2 s^2 + 2 m t / 3)), solved for t. A sample that is nonzero with
+// probability p has s^2 = (1 - p) / p and deviates by s^2 up and 1 down: m = s^2 + 6 s holds up to p = 0.97, and gives
+// smooth integrands six deviations. Stratified samples are less noisy.
 inline double noise_bound(double relative_std, std::uint32_t sample_count,
                           double false_alarm = false_alarm_per_judgement) {
     const double n = sample_count;
@@ -42,12 +41,12 @@ inline double error_bound(double relative_std, std::uint32_t sample_count) {
     return rounding + noise_bound(relative_std, sample_count);
 }
 
-// The first judge knows the noise beforehand, so that unseen light cannot deceive it. Black must be exact.
+// The first judge knows the noise, so unseen light cannot deceive it. Black must be exact.
 inline bool agrees(double measured, const Exact &exact, std::uint32_t sample_count) {
     return std::abs(measured - exact.radiance) <= error_bound(exact.relative_std, sample_count) * exact.radiance;
 }
 
-// The second judge measures the noise from batches; stratified samples let it detect smaller errors.
+// The second judge measures the noise of batches, smaller with stratified samples.
 inline double batch_bound(const Estimate &measured, const Exact &exact, std::uint32_t batch_count) {
     return rounding * exact.radiance + student_bound(false_alarm_per_judgement, batch_count) * measured.standard_error;
 }

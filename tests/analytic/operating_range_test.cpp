@@ -1,5 +1,5 @@
-// Prints how far images agree with exact values, by scale, distance, lamps, lobes and brightness. Never fails; takes
-// minutes. Run pt_analytic_tests --gtest_also_run_disabled_tests --gtest_filter=*OperatingRange*
+// Prints how far images agree with exact values; never fails; takes minutes. Run pt_analytic_tests
+// --gtest_also_run_disabled_tests --gtest_filter=*OperatingRange*
 #include "tests/analytic/analytic_fixture.h"
 #include "tests/analytic/crop.h"
 #include "tests/analytic/scenes.h"
@@ -24,7 +24,6 @@ constexpr std::uint32_t range_batch_count = 16;
 
 class DISABLED_OperatingRange : public AnalyticFixture {
 protected:
-    // Prints whether the radiance is as expected within noise, and noise below 1%.
     void measure(double value, const cli::SceneFile &scene, const pt_camera &camera, const Crop &crop, double expected,
                  std::uint32_t samples) {
         const pt_scene library_scene = scene.scene();
@@ -90,7 +89,6 @@ TEST_F(DISABLED_OperatingRange, Scale) {
     }
 }
 
-// Along an axis, obliquely without round numbers, and in motion.
 struct Look {
     const char *name;
     glm::dvec3 direction;
@@ -106,8 +104,7 @@ void store(const glm::dvec3 &from, double (&to)[3]) {
         to[i] = from[i];
 }
 
-// Area on the image plane at distance 1 of a unit sphere that moves across the view, by six Gauss nodes in time, three
-// by symmetry.
+// Area of a moving unit sphere on the image plane at distance 1, by six Gauss nodes in time, three by symmetry.
 double area_in_motion(double distance, double way) {
     constexpr std::array<std::array<double, 2>, 3> nodes{{{0.2386191860831969, 0.4679139345726910},
                                                           {0.6612093864662645, 0.3607615730481386},
@@ -118,7 +115,7 @@ double area_in_motion(double distance, double way) {
     return sum;
 }
 
-// A central unit sphere fills pi / (d^2 - 1) of the image plane, in a square of 16 / (d^2 - 1).
+// The sphere fills pi / (d^2 - 1) of a square of 16 / (d^2 - 1).
 TEST_F(DISABLED_OperatingRange, DistanceOfASphere) {
     for (const Look &look : looks) {
         std::printf("\ndistance from a sphere's surface / radius, %s\n", look.name);
@@ -145,12 +142,12 @@ TEST_F(DISABLED_OperatingRange, DistanceOfASphere) {
 constexpr double floor_side = 0.1;
 constexpr double lamp_height = 3.1; // above the floor y = -1
 
-// Mean over a square of this side about (0, 0) on a floor of albedo 0.8 under a lamp of radius 1, emission 10 at (3,
-// 2.1, 0): by two Gauss nodes per direction, to 1e-7.
+// Mean over a square about (0, 0) on a floor of albedo 0.8 under a lamp of radius 1, emission 10 at (3, 2.1, 0): by two
+// Gauss nodes per direction, to 1e-7.
 double floor_under_lamp() {
     double sum = 0.0;
     const double node = 0.5 * floor_side / std::sqrt(3.0);
-    for (const double x : {-node, node}) // nodes in z are equally far from the lamp
+    for (const double x : {-node, node})
         sum += 0.8 * 10 * lamp_height / std::pow(std::hypot(3 - x, node, lamp_height), 3);
     return sum / 2;
 }
@@ -167,7 +164,7 @@ TEST_F(DISABLED_OperatingRange, DistanceOfALitFloor) {
     }
 }
 
-// Light goes with emission * radius^2; 1e14 at radius 1e-4.
+// Light goes with emission * radius^2.
 TEST_F(DISABLED_OperatingRange, SizeOfALamp) {
     std::printf("\nradius / distance of a lamp\n");
     for (int exponent = -15; exponent <= 2; ++exponent) {
@@ -192,14 +189,13 @@ TEST_F(DISABLED_OperatingRange, SizeOfAFloorBall) {
             ball.radius = std::pow(10.0, exponent);
             ball.center[1] = -1.0 - ball.radius;
             ball.motion[0] = motion;
-            // The plane's value and the first term in the curvature, from the tabulated radius 1e5. Motion m along
-            // itself lowers the floor by m^2 / (6 R) on average.
+            // The plane's value and the first term in the curvature, from the radius 1e5. Motion m along itself lowers
+            // the floor by m^2 / (6 R).
             measure(ball.radius, scene, 128, 127, 0.12151634857013521 + 0.0640719 / ball.radius);
         }
     }
 }
 
-// A lamp, a ball and its shadow; from afar the light is constant.
 TEST_F(DISABLED_OperatingRange, DistanceOfAWorld) {
     for (const Look &look : looks) {
         std::printf("\ndistance of a lit world of size 3, %s\n", look.name);
@@ -229,7 +225,7 @@ TEST_F(DISABLED_OperatingRange, DistanceOfAWorld) {
     }
 }
 
-// From n = 3000 on the lobe clears the horizon, so its albedo is the cosine.
+// From n = 3000 on the lobe's albedo is the cosine.
 TEST_F(DISABLED_OperatingRange, GlossinessUnderADome) {
     std::printf("\nglossiness under a uniform dome\n");
     for (const double glossiness : {1e-30, 1e-12, 1e-7, 3e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10}) {

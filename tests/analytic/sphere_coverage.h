@@ -9,8 +9,8 @@
 
 namespace analytic {
 
-// A unit sphere at c, seen from the origin along -z on the plane z = -1: (x, y) is covered if (c_x x + c_y y - c_z)^2
-// >= (|c|^2 - 1) (x^2 + y^2 + 1), an ellipse in front of the camera.
+// A unit sphere at c from the origin, on the plane z = -1: the ellipse (c_x x + c_y y - c_z)^2 >= (|c|^2 - 1) (x^2 +
+// y^2 + 1).
 class SphereCoverage {
 public:
     SphereCoverage(double x, double y, double z) : x_(x), y_(y), z_(z), tangent_(x * x + y * y + z * z - 1.0) {}
@@ -21,7 +21,7 @@ public:
         return std::numbers::pi * tangent_ * tangent_ / std::pow(minor, 1.5);
     }
 
-    // The covered part of the line at height y; equal ends if none.
+    // Equal ends if none.
     std::pair<double, double> chord(double y) const {
         const double p = y_ * y - z_; // (c_x x + p)^2 - tangent (x^2 + y^2 + 1) = 0
         const double a = x_ * x_ - tangent_;
@@ -34,7 +34,7 @@ public:
         return std::minmax((-half_b - root) / a, (-half_b + root) / a);
     }
 
-    // Midpoint rule over lines: errs by 3e-5 where the ellipse begins or ends within the rectangle, else less.
+    // Midpoint rule over lines, to 3e-5.
     double share(double left, double right, double bottom, double top) const {
         constexpr int lines = 1024;
         double sum = 0.0;

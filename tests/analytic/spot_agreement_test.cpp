@@ -1,4 +1,4 @@
-// Rays through spots (shaders/spots.glsl) change only the noise: images converge to an estimator without them.
+// Rays through spots (shaders/spots.glsl) change only the noise.
 #include "tests/analytic/analytic_fixture.h"
 #include "tests/support/batch_fixture.h"
 #include "tests/support/scene_of.h"
@@ -19,7 +19,6 @@ using namespace analytic;
 
 constexpr std::uint32_t spot_batch_count = 24;
 
-// A low lamp over a floor; wall and ceiling are far.
 struct SpotScene {
     const char *name;
     pt_material floor;
@@ -76,10 +75,10 @@ protected:
     }
 };
 
-// Five standard errors: one false alarm in two million per comparison.
+// Five standard errors: one false alarm in two million.
 const double spot_bound = student_bound(std::erfc(5.0 / std::sqrt(2.0)), spot_batch_count);
 
-// Longer paths than spots sample; PT_TEST_MANY adds three vertices. Noise is 0.3%, so 3% is detected.
+// PT_TEST_MANY adds longer paths. Noise is 0.3%, so 3% is detected.
 TEST_P(SpotAgreement, WithDirectionsByChance) {
     for (const std::uint32_t length : {3U, 5U}) {
         if (length > 3 && !std::getenv("PT_TEST_MANY"))

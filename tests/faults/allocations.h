@@ -1,11 +1,11 @@
-// Replaces the global operator new, so that a chosen allocation of the library fails.
+// Replaces the global operator new, to fail a chosen allocation.
 #pragma once
 
 #include <cstddef>
 
 namespace faults {
 
-// Counts this thread's allocations as the library's, in its scope.
+// In its scope this thread's allocations are the library's.
 class InLibrary {
 public:
     InLibrary();
@@ -14,7 +14,7 @@ public:
     InLibrary &operator=(const InLibrary &) = delete;
 };
 
-// Excludes them, in Vulkan and callbacks.
+// Excludes Vulkan and callbacks.
 class OutOfLibrary {
 public:
     OutOfLibrary();
@@ -29,13 +29,13 @@ private:
 // number: counted from 1; 0: none. goes_on: all later ones fail too.
 void fail_allocation(std::size_t number, bool goes_on);
 
-// Whether it was reached, and whether it throws; callers of the others can do without.
+// Whether it was reached, and whether it throws; others are optional.
 bool allocation_failed();
 bool allocation_threw();
 
 long live_allocations();
 
-// Starts measuring the library's peak memory; returns its current bytes.
+// Measures the library's peak memory from here; returns its bytes.
 long begin_most_bytes();
 long most_live_bytes();
 

@@ -1,5 +1,5 @@
-// The library's clock in fault tests advances on request only: no submission is overdue on a slow machine, slices are
-// reproducible, and waiting for a hung device takes no time.
+// The library's clock, which advances on request only: nothing is overdue on a slow machine, slices are reproducible,
+// and hung devices take no time.
 #pragma once
 
 #include <chrono>

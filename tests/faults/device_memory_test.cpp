@@ -1,4 +1,4 @@
-// Too little device memory, as the device states; drivers may promise more.
+// Too little device memory, as the device states.
 #include "tests/faults/vulkan_calls.h"
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
@@ -42,7 +42,6 @@ protected:
     static uint64_t bytes_in_use(const Context &context) { return stats_of(context.get()).device_bytes; }
 };
 
-// Adding a film needs its sums twice for a while.
 TEST_F(DeviceMemoryTest, AFilmIsAddedWhereItsSumsFitInTwice) {
     const Context roomy = context_with(UINT64_MAX);
     take(roomy, 1);

@@ -1,4 +1,4 @@
-// Every allocation of the library fails once: the call fails as pt.h says, changes nothing, and leaks nothing.
+// Every allocation fails once: the call fails as pt.h says, changes nothing, leaks nothing.
 #include "tests/faults/allocations.h"
 #include "tests/faults/sweep.h"
 
@@ -28,7 +28,7 @@ public:
         if (!failed)
             return false;
         ++failures_;
-        // Allocations that do not throw are optional; pt_destroy returns nothing.
+        // Non-throwing allocations are optional.
         if (threw && step != "pt_destroy") {
             EXPECT_EQ(pt_result_name(result), std::string("PT_ERROR_OUT_OF_HOST_MEMORY"))
                 << step << ", allocation " << number_ << ": " << message;

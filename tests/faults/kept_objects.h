@@ -1,5 +1,4 @@
-// Reuses Vulkan's instance, devices and pipelines: the library creates and destroys them, the driver, which takes a
-// quarter of a second, makes each once.
+// Reuses instance, devices and pipelines, which take a driver a quarter of a second.
 #pragma once
 
 #include <vulkan/vulkan_core.h>

@@ -25,7 +25,7 @@ constexpr uint32_t width = 24;
 constexpr uint32_t height = 20;
 constexpr uint32_t other_film_end = 12; // in both parts of the film
 
-// A lamp, a moving glossy ball and a floor: paths too long for all pixels in a millisecond.
+// Long paths: a millisecond is too short for all pixels.
 struct Scene {
     std::array<pt_material, 3> materials = {{{{0, 0, 0}, {0, 0, 0}, {8, 4, 2}, 0, 0},
                                              {{0.2F, 0.5F, 0.8F}, {0.8F, 0.8F, 0.8F}, {0, 0, 0}, 40, 0},
@@ -54,7 +54,7 @@ int32_t go_on(void * /*user*/, double /*fraction*/) {
     return 0;
 }
 
-// Polls to the end. A failure leaves no samples running, else later calls would be refused.
+// A failure leaves no samples running, else later calls would be refused.
 pt_result start_and_poll(pt_context *context, const pt_accumulate_info *info) {
     pt_accumulate_info to_start = *info;
     to_start.progress = nullptr;
@@ -153,7 +153,6 @@ void Life::tell() {
 
     look("pt_prepare", [&] { return pt_prepare(context_); });
 
-    // By some tiles, then to the error's check, and past it.
     accumulate_to("pt_accumulate", 2, 0.0);
     readback("pt_readback, radiance", PT_QUANTITY_RADIANCE);
     readback("pt_readback, standard error", PT_QUANTITY_STANDARD_ERROR);
@@ -175,7 +174,7 @@ void Life::tell() {
 
     save_film("pt_save_film");
 
-    // The setters again discard samples; a film is added to one sample.
+    // The setters again discard samples.
     call("pt_set_scene, again", set_scene);
     accumulate_to("", 1, 0.0);
     add_film("pt_add_film");
@@ -193,7 +192,6 @@ pt_result Life::run(const Function &function) {
     return function();
 }
 
-// A call that the life can do without.
 void Life::look(const std::string &step, const Function &function) {
     if (left_.contains(step))
         call(step, function);
@@ -230,8 +228,7 @@ void Life::call(const std::string &step, const Function &function, const std::fu
     EXPECT_GE(run(function), PT_OK) << step << ": " << pt_last_error(context_);
 }
 
-// A failed call keeps its whole samples, perhaps all. Several devices may keep none if memory does not suffice to
-// complete begun samples.
+// A failed call keeps its whole samples; several devices may keep none if memory is short.
 void Life::accumulate_to(const std::string &step, uint32_t sample_count, double target_error, Accumulate accumulate) {
     pt_accumulate_info info{};
     info.struct_size = sizeof info;

@@ -1,4 +1,4 @@
-// The life of a context, call by call. Each call may fail once; then pt.h's contract is checked and the call repeated.
+// The life of a context, call by call. A call may fail once; then pt.h's contract is checked and the call repeated.
 #pragma once
 
 #include <pt/pt.h>
@@ -21,7 +21,7 @@ struct Setting {
 using Image = std::vector<float>;
 using Film = std::vector<char>;
 
-// Images by sample count, and films, from an undisturbed life.
+// Images by sample count, from an undisturbed life.
 struct ExpectedImages {
     std::map<uint32_t, Image> radiance;
     std::map<uint32_t, Image> standard_error;
@@ -36,10 +36,9 @@ class Injection {
 public:
     virtual ~Injection() = default;
 
-    // Before the first attempt at a call.
     virtual void arm() = 0;
 
-    // After it: checks the result; false if no fault happened.
+    // Checks the result; false if no fault happened.
     virtual bool disarm(const std::string &step, pt_result result, const std::string &message) = 0;
 };
 
@@ -47,7 +46,7 @@ using Steps = std::set<std::string>;
 
 class Life {
 public:
-    // injected: the calls with faults. The life skips what they do not need.
+    // injected: the calls with faults; the life skips what they do not need.
     Life(const Setting &setting, const ExpectedImages &expected, const Steps &injected);
     ~Life();
     Life(const Life &) = delete;

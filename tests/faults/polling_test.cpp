@@ -36,7 +36,7 @@ constexpr Way ways[] = {{false, 1, 50, 0, false},   {false, 2, 1, 0, false}, {fa
 
 constexpr uint32_t polled_size = 48;
 
-// A floor, a ball and one within that nearly coincide, and a lamp.
+// One ball is within the other, nearly equal.
 struct PolledScene {
     std::array<pt_material, 2> materials = {
         {{{0.5F, 0.5F, 0.5F}, {0.2F, 0.2F, 0.2F}, {0, 0, 0}, 20, 0}, {{0, 0, 0}, {0, 0, 0}, {9, 9, 9}, 0, 0}}};
@@ -57,7 +57,6 @@ long pipelines() {
     return found == live.end() ? 0 : found->second;
 }
 
-// Moves the camera with samples running, for seconds at each place by the library's clock.
 void expect_nothing_built_by_polls(const Way &way) {
     pose_as_gpu(way.gpu);
     pt_create_info info{};

@@ -1,4 +1,4 @@
-// Host memory of pt_set_scene for many spheres, beside the caller's arrays.
+// Host memory of pt_set_scene, beside the caller's arrays.
 #include "tests/faults/allocations.h"
 #include "tests/support/scene_of.h"
 
@@ -15,7 +15,7 @@ using namespace faults;
 
 constexpr std::uint32_t sphere_count = 200'000;
 
-// In [0, 1]^3, in columns of floats. Points into this object.
+// Points into this object.
 struct ManySpheres {
     std::vector<pt_material> materials = {{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0, 0},
                                           {{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0, 0}};

@@ -9,7 +9,7 @@ namespace faults {
 
 namespace {
 
-// The thread keeps its last message without a context. A longer one made first keeps that memory unchanged.
+// A longer message made first keeps the thread's message memory unchanged.
 void keep_a_long_message() {
     const std::string no_device(1000, '?');
     pt_create_info create{};

@@ -1,4 +1,4 @@
-// Lives with a fault at the first possible place, then at the second, until there is no more.
+// Lives with a fault at each possible place in turn.
 #pragma once
 
 #include "tests/faults/life.h"
@@ -12,8 +12,8 @@ namespace faults {
 // The fault at a place of each call, numbered from 1.
 using InjectionAt = std::function<std::unique_ptr<Injection>(std::size_t number)>;
 
-// One round of lives per place. The fault is injected in the same steps as in the previous round. After each life all
-// Vulkan objects and memory are gone.
+// One round of lives per place, in the steps of the previous round. After each life all Vulkan objects and memory are
+// gone.
 void sweep(const Setting &setting, const ExpectedImages &expected, const Steps &steps, const InjectionAt &injection_at);
 
 } // namespace faults

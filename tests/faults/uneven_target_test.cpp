@@ -1,4 +1,4 @@
-// Memory and Vulkan faults during adaptive sampling: the repeated call ends with undisturbed bytes.
+// Faults during adaptive sampling: the repeated call ends with undisturbed bytes.
 #include "tests/faults/allocations.h"
 #include "tests/faults/vulkan_calls.h"
 #include "tests/support/context_calls.h"
@@ -46,7 +46,7 @@ pt_result take_to_target(pt_context *context) {
     return pt_accumulate(context, &info);
 }
 
-// Every place at first, then about every eighth: rounds repeat most places.
+// Rounds repeat most places, so later about every eighth.
 std::size_t place_after(std::size_t place) {
     return place + 1 + place / 8;
 }

@@ -1,5 +1,4 @@
-// Every Vulkan call fails once: the pt.h call fails as it says, changes nothing (a lost device stays lost), and leaks
-// nothing.
+// Every Vulkan call fails once: the pt.h call fails as it says, changes nothing, leaks nothing.
 #include "tests/faults/sweep.h"
 #include "tests/faults/vulkan_calls.h"
 
@@ -16,7 +15,7 @@ namespace {
 using namespace faults;
 
 pt_result expected_result(const CallFault &fault) {
-    // Work that cannot be waited for is unknown; work that does not end is lost with its device.
+    // Unknown work, or work that does not end, loses the device.
     if (fault.function == "vkWaitForFences" && fault.result == VK_TIMEOUT) // the next look will tell
         return PT_OK;
     if (fault.function == "vkWaitForFences" || fault.function == "vkResetFences")
@@ -74,7 +73,7 @@ public:
         if (fault.function.empty())
             return false;
         places_.push_back({step, number_, fault});
-        // Another type of memory may do for a full heap; the CPU has one.
+        // The CPU has one type of memory; others may have room elsewhere.
         const bool another_memory =
             fault.function == "vkAllocateMemory" && fault.result == VK_ERROR_OUT_OF_DEVICE_MEMORY && result == PT_OK;
         if (step != "pt_destroy" && !another_memory) {
@@ -91,8 +90,8 @@ private:
     std::vector<Place> &places_;
 };
 
-// Every call fails once with its first error; then each function with its other errors at its first place, and
-// submissions, which may lose a device, at all places.
+// First every call with its first error; then each function's other errors at its first place, and submissions at all
+// places.
 void fail_every_call(const Setting &setting) {
     const ExpectedImages expected = undisturbed_images();
     std::vector<Place> places;
@@ -110,8 +109,8 @@ void fail_every_call(const Setting &setting) {
             Life life(setting, expected, {place.step});
             life.live(injection);
             heal_devices();
-            // A hung device stays, with what it uses. Real time decides how often work is looked at, so there may be
-            // fewer calls, and no failure.
+            // A hung device stays with its objects. Real time decides how often work is looked at, so there may be
+            // fewer calls.
             const bool hangs = places.size() > met_before && places.back().fault.function == "vkQueueSubmit" &&
                                places.back().fault.result == VK_TIMEOUT;
             EXPECT_EQ(live_objects().contains("vkCreateDevice"), hangs);

@@ -74,7 +74,7 @@ VkDevice device_of(const std::tuple<A...> &arguments) {
         return VK_NULL_HANDLE;
 }
 
-// The result to return without a call; empty to make it.
+// Empty: make the call.
 std::optional<VkResult> result_by_plan(Call call) {
     const std::vector<VkResult> &errors = function(call).errors;
     if (errors.empty() || ++call_count != failing_number)
@@ -85,12 +85,11 @@ std::optional<VkResult> result_by_plan(Call call) {
     return fault.result;
 }
 
-// Durations by the library's clock: a submission, and a look at a hung one.
+// Durations by the library's clock: of a submission, and of a look at a hung one.
 constexpr std::chrono::milliseconds submission_time{1};
 constexpr std::chrono::milliseconds look_time{100};
 constexpr std::chrono::microseconds polling_time{300};
 
-// Lost devices stay lost, hung submissions stay hung, as time passes.
 template <Call call, typename... A>
 std::optional<VkResult> result_by_state(const std::tuple<A...> &arguments) {
     constexpr bool is_wait = call == Call::WaitForFences || call == Call::GetFenceStatus;
@@ -214,7 +213,7 @@ struct Hook<call, Result(VKAPI_PTR *)(A...)> {
             const VkResult result = made<call>(real, values...);
             if (result == VK_SUCCESS)
                 note_effect<call>(arguments);
-            if (planned == VK_TIMEOUT) // a GPU's driver copes with freed resources; this one must wait
+            if (planned == VK_TIMEOUT) // a GPU's driver copes with freed resources
                 wait_idle(device_of(arguments));
             return result;
         } else {
@@ -245,7 +244,7 @@ const std::unordered_map<std::string_view, Entry> &entries() {
     return entries;
 }
 
-// Called for functions without a hook, whose faults would go untested.
+// A function without a hook would go untested.
 [[noreturn]] void unknown_function() {
     std::fputs("the library called a Vulkan function that tests/faults/vulkan_functions.h does not list\n", stderr);
     std::abort();

@@ -1,4 +1,4 @@
-// Wraps Vulkan: makes a chosen call fail and tracks live objects. The linker replaces vkGetInstanceProcAddr (--wrap).
+// Makes a chosen Vulkan call fail, and tracks live objects. The linker replaces vkGetInstanceProcAddr (--wrap).
 #pragma once
 
 #include <vulkan/vulkan_core.h>
@@ -18,8 +18,8 @@ struct CallFault {
 };
 
 // The number-th call that can fail, from 1 (0: none), returns the function's error_index-th error, modulo their count.
-// A submission that "returns" VK_TIMEOUT is made but never seen to end; each look takes a tenth of a second by the
-// library's clock. A wait that returns it takes an hour, as if the process had been stopped; the work goes on.
+// A submission with VK_TIMEOUT is made but never seen to end; each look takes a tenth of a second by the library's
+// clock. A wait with it takes an hour, as after a stopped process.
 void fail_call(std::size_t number, std::size_t error_index);
 
 CallFault call_fault();
@@ -27,16 +27,15 @@ CallFault call_fault();
 // Lost and hung devices work again.
 void heal_devices();
 
-// Devices claim to be discrete GPUs, which get staging buffers, two submissions at a time, and limited patience.
+// Devices claim to be discrete GPUs: staging buffers, two submissions at a time, limited patience.
 void pose_as_gpu(bool pose);
 
-// Limits each heap's stated bytes.
 void limit_memory(std::uint64_t bytes);
 
-// By maker. Descriptor sets and command buffers go with their pools, uncounted.
+// By maker. Descriptor sets and command buffers are not counted.
 std::map<std::string, long> live_objects();
 
-// Stops counting live objects, which stay until the process ends.
+// Live objects stay until the process ends, uncounted.
 void forget_objects();
 
 } // namespace faults

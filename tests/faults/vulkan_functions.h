@@ -1,4 +1,4 @@
-// The library's Vulkan functions, their effect on objects, and their errors (Vulkan 1.3.239, "Return Codes").
+// Vulkan functions, their effect on objects, their errors (Vulkan 1.3.239, "Return Codes").
 #pragma once
 
 // X(name without vk, effect on objects, errors...)

@@ -1,5 +1,4 @@
-// The adaptive rule and plan on films with known errors, without a device. A tile of variance v with n samples has the
-// squared error v / n.
+// The adaptive rule and plan without a device. A tile of variance v with n samples has the squared error v / n.
 #include "lib/film/adaptive_rule.h"
 #include "lib/film/error_estimate.h"
 #include "lib/film/tile_samples.h"
@@ -95,9 +94,8 @@ TEST(AdaptiveRule, LevelsDouble) {
     EXPECT_TRUE(pt::is_level(std::uint64_t{1} << 31));
 }
 
-// Samples in proportion to sqrt(v) need (mean of sqrt(v))^2 / mean(v) of an even film's. Counts are powers of two, off
-// by up to half a level, which costs 4% on average; the last round misses its end by at most a factor 2^(1/2). Negative
-// control: stopping at equal errors gains nothing.
+// Samples in proportion to sqrt(v): (mean of sqrt(v))^2 / mean(v) of an even film's. Counts are powers of two, which
+// costs 4%; the last round misses its end by at most 2^(1/2). Negative control: stopping at equal errors gains nothing.
 TEST(AdaptiveRule, GoesWhereSamplesGainMost) {
     for (const std::uint32_t seed : {1U, 2U, 3U}) {
         const std::vector<double> variances = spread_variances(seed);
@@ -135,7 +133,7 @@ TEST(AdaptiveRule, DoesNotOvershootTheTarget) {
     }
 }
 
-// No sample may have hit their light yet.
+// No sample may have hit their light.
 TEST(AdaptiveRule, BlackTilesGetHalfOfTheMean) {
     std::vector<double> variances(model_grid.count(), 0.0);
     std::fill_n(variances.begin(), variances.size() / 2, 1.0);
@@ -146,7 +144,6 @@ TEST(AdaptiveRule, BlackTilesGetHalfOfTheMean) {
     EXPECT_GT(film.samples.least(), 16U);
 }
 
-// Without any known error all tiles take more.
 TEST(AdaptiveRule, WhatIsUnknownIsSampledEvenly) {
     const TileSamples samples = first_samples();
     for (const double square : {0.0, static_cast<double>(INFINITY)}) {
@@ -157,7 +154,6 @@ TEST(AdaptiveRule, WhatIsUnknownIsSampledEvenly) {
     }
 }
 
-// Where light may be unseen, tiles with the fewest samples take more.
 TEST(AdaptiveRule, WhereLightIsUnseenTheFloorRises) {
     TileSamples samples = first_samples();
     const std::vector<std::uint32_t> few{1, 2, 3};
@@ -174,7 +170,6 @@ TEST(AdaptiveRule, WhereLightIsUnseenTheFloorRises) {
     }
 }
 
-// Bounds do not help to find unseen light.
 TEST(AdaptiveRule, WhatIsUnseenMovesNoBound) {
     const TileSamples samples = first_samples();
     std::vector<double> squares(model_grid.count(), 1e-6);
@@ -188,7 +183,7 @@ TEST(AdaptiveRule, WhatIsUnseenMovesNoBound) {
     EXPECT_GT(pt::round_after(before, samples, squares, gains, 1.1, true).number, before.number);
 }
 
-// Half of the tiles each: mean(v) mean(1) / mean(sqrt(v))^2 = 2 (1 + r) / (1 + sqrt(r))^2 for their ratio r.
+// mean(v) mean(1) / mean(sqrt(v))^2 of two halves: 2 (1 + r) / (1 + sqrt(r))^2 for their ratio r.
 TEST(AdaptiveRule, TilesThatAreAlikeStayTogether) {
     std::vector<double> gains(1000, 1.0);
     EXPECT_FALSE(pt::are_worth_telling_apart(gains));
@@ -221,8 +216,7 @@ struct ModelFilm {
     bool has_target_error = false;
 };
 
-// Squared errors v / n, times a random factor for each n, like the difference of a film's parts. spread: standard
-// deviation of log(v).
+// v / n times a random factor for each n, like the difference of a film's parts. spread: deviation of log(v).
 class ModelErrors {
 public:
     ModelErrors(std::uint32_t seed, double spread) : seed_(seed) {
@@ -255,7 +249,7 @@ private:
     std::vector<double> variances_;
 };
 
-// Takes samples until the target or `most`. stop_after: tiles; the last one gets at most half of its step.
+// stop_after: tiles; the last one gets at most half of its step.
 void sample_plan(ModelFilm &film, const ModelErrors &errors, std::uint64_t most, std::uint64_t stop_after) {
     const AdaptivePlan plan(
         goal_error, most, [&] { return errors.error_of(film); }, [&] { return errors.squares_of(film); });
@@ -289,7 +283,7 @@ ModelFilm sampled_at_once(const ModelErrors &errors, std::uint64_t most) {
     return film;
 }
 
-// Calls end after some tiles, at some samples, or neither. Some just complete pixels with fewer samples than the most.
+// Some calls just complete pixels.
 ModelFilm sampled_in_calls(const ModelErrors &errors, std::uint64_t most, std::mt19937 &generator) {
     ModelFilm film;
     for (int call = 0; call < 12; ++call) {
@@ -301,7 +295,7 @@ ModelFilm sampled_in_calls(const ModelErrors &errors, std::uint64_t most, std::m
     return film;
 }
 
-// Spreads as in pictures and none; limits at a level, between levels, and beyond the target.
+// Limits at a level, between levels, and beyond the target.
 TEST(AdaptivePlan, CallsThatEndAnywhereComeToTheSameSamples) {
     std::mt19937 generator(1);
     int with_target_error = 0;
@@ -325,7 +319,7 @@ TEST(AdaptivePlan, CallsThatEndAnywhereComeToTheSameSamples) {
     EXPECT_GT(apart, 20);
 }
 
-// The last tiles of a round reach the target before tiles that still lack samples of it.
+// The last tiles of a round may reach the target first.
 TEST(AdaptivePlan, ARoundThatIsUnderWayIsNotTheEnd) {
     ModelFilm film{TileSamples(plan_grid, pt::SampleSet({0, 16})), {20, 0}, {}, false};
     film.samples.add(std::vector<std::uint32_t>{5}, {16, 24});

@@ -1,4 +1,4 @@
-// The rules of a camera, its defaults and its axes.
+// A camera's rules, defaults and axes.
 #include "lib/scene/camera.h"
 
 #include "tests/host/refusals.h"
@@ -118,7 +118,7 @@ TEST(Camera, TakesWhatIsSet) {
     EXPECT_EQ(camera.shutter_close, 0.25);
 }
 
-// The angle's last bits differ between systems' libraries.
+// Systems differ in the angle's last bits.
 TEST(Camera, IsTheSameWhereTangentsAreNearlySo) {
     pt_camera source = valid_camera();
     source.vertical_fov = 0.7;
@@ -129,7 +129,6 @@ TEST(Camera, IsTheSameWhereTangentsAreNearlySo) {
     EXPECT_NE(digest_of(pt::validated_camera(source)), digest);
 }
 
-// The lens radius is half the aperture; the focus defaults to the target. Pinholes ignore the focus.
 TEST(Camera, MayHaveALens) {
     pt_camera source = valid_camera();
     const std::string pinhole = digest_of(pt::validated_camera(source));

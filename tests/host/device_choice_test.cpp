@@ -113,7 +113,6 @@ TEST(DeviceChoiceTest, SeveralAreAListOrAllOfTheBestKind) {
             << wrong;
 }
 
-// By index, by UUID, or listed twice by the driver.
 TEST(DeviceChoiceTest, NoDeviceIsChosenTwice) {
     std::vector<pt_device_info> devices = workstation;
     devices.push_back(devices[5]);

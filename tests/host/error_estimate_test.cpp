@@ -1,4 +1,4 @@
-// The error estimate on small images with known results.
+// The error estimate on small images.
 #include "lib/film/error_estimate.h"
 
 #include "tests/support/image_tiles.h"
@@ -31,12 +31,12 @@ pt::ErrorEstimate estimate(std::uint32_t width, const std::vector<float> &radian
     return estimator.result();
 }
 
-// The margin added to a root of squares as concentrated as this number of equal pixels (error_estimate.cpp).
+// The margin for squares as concentrated as this many equal pixels (error_estimate.cpp).
 double raised(double root, double pixel_count) {
     return root * (1.0 + 0.6 / std::sqrt(pixel_count));
 }
 
-// 3^2 and 4^2 in two of six values; the pixels' squares are as concentrated as 25^2 / (9^2 + 16^2) equal ones.
+// 3^2 and 4^2 in two of six values: like 25^2 / (9^2 + 16^2) equal ones.
 TEST(ErrorEstimate, IsTheRootOfTheMeanOfSquares) {
     const pt::ErrorEstimate found = estimate(2, {10, 10, 10, 10, 10, 10}, {3, 0, 0, 4, 0, 0});
     const double pixel_count = 625.0 / 337.0;
@@ -71,8 +71,7 @@ TEST(ErrorEstimate, IsUncertainWhereLampsMayBeMissed) {
     EXPECT_TRUE(std::isinf(estimate(32, black, black, PT_SAMPLER_RANDOM, true).relative_rmse.high));
 }
 
-// Bright pixels on black, hit in one half of the samples or in both. If most were hit once, each counts by the black
-// around it; otherwise by the expected number of hits, 2 ln 3.
+// If most pixels were hit once, each counts by the black around it, otherwise by the expected hits, 2 ln 3.
 TEST(ErrorEstimate, TellsLampsFromRareSamples) {
     constexpr std::size_t side = 64;
     const auto relative_square = [](std::size_t met_once, std::size_t met_again) {
@@ -98,7 +97,6 @@ TEST(ErrorEstimate, TellsLampsFromRareSamples) {
     EXPECT_GT(expected(40, 0), 300.0);
 }
 
-// With lamps found by chance, pixels hit once count by their surroundings, here 0.
 TEST(ErrorEstimate, OfLampsFoundByChanceAsksNotWhatWasMetAgain) {
     std::vector<float> radiance(3 * 32 * 32, 0.0F);
     std::vector<float> errors(radiance.size(), 0.0F);
@@ -115,7 +113,7 @@ TEST(ErrorEstimate, OfLampsFoundByChanceAsksNotWhatWasMetAgain) {
     }
 }
 
-// One bright column on black after 16 samples: its neighbours may have unseen light.
+// Its neighbours may have unseen light.
 TEST(ErrorEstimate, CountsLightThatMayBeUnseen) {
     std::vector<float> radiance(3 * 32 * 32, 0.0F);
     std::vector<float> errors(radiance.size(), 0.0F);
@@ -169,8 +167,8 @@ TEST(ErrorEstimate, IsHiddenByMoreThanOneLeftOutSampleInAMillion) {
     EXPECT_TRUE(pt::hides_error((1 << 10) + 1, std::uint64_t{1} << 30));
 }
 
-// Two tiles with squares 64 * 3 * 1 and 64 * 3 * 4: mean 2.5 per value, deviations 64 * 3 * 1.5, whose root sum of
-// squares is 1.5 sqrt(2) / 5 of the sum. The pixels equal (64 * 5)^2 / (64 * 17) equal ones.
+// Squares 64 * 3 * 1 and 64 * 3 * 4: mean 2.5 per value, deviations 64 * 3 * 1.5, root sum of squares 1.5 sqrt(2) / 5
+// of the sum; like (64 * 5)^2 / (64 * 17) equal pixels.
 TEST(ErrorEstimate, BoundsComeFromTheSpreadOverTiles) {
     std::vector<float> errors;
     for (int pixel = 0; pixel < 8 * 16; ++pixel)

@@ -18,7 +18,7 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
-// Written by another program from FORMAT.md: two tiles; the first has samples in both parts.
+// Written by another program from FORMAT.md; the first of two tiles has samples in both parts.
 Bytes golden_film() {
     std::ifstream file(PT_TEST_DATA_DIR "/film/version-1.ptfilm", std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
@@ -46,8 +46,8 @@ const pt::FilmHeader golden_header{{{"scene", "00112233445566778899aabbccddeeff"
                                      }()},
                                     {{3, 1, 2, 2}, pt::SampleSet({8, 10})}}};
 
-// The golden film's sums: for pixel i, channel c and a number s of each part, r = (i + s) mod 2 of n samples were
-// rejected; the sum is (n - r) ((c + 1) 10^25 + 10^18 i + 977 s).
+// For pixel i, channel c and a number s of each part, r = (i + s) mod 2 of n samples were rejected; the sum is (n - r)
+// ((c + 1) 10^25 + 10^18 i + 977 s).
 void set_part(pt::PixelSums &sums, std::uint32_t part, std::uint32_t samples, std::uint32_t s) {
     __extension__ using Wide = unsigned __int128;
     constexpr Wide ten_to_18 = 1'000'000'000'000'000'000U;
@@ -117,7 +117,6 @@ TEST(FilmBytes, EveryBitCounts) {
     const pt::FilmReader unharmed(golden);
 }
 
-// Appends zero sums and a valid checksum.
 Bytes sealed(const std::string &header, std::size_t sum_bytes) {
     const auto text = std::as_bytes(std::span(header));
     Bytes bytes(text.begin(), text.end());
@@ -128,7 +127,6 @@ Bytes sealed(const std::string &header, std::size_t sum_bytes) {
     return bytes;
 }
 
-// Inserts the line of planes after the first.
 std::string with_planes(std::string header) {
     const std::string first = "pt film 1\n";
     return header.starts_with(first)

@@ -1,4 +1,4 @@
-// The C calls of films without a context: results and messages.
+// C calls of films without a context.
 #include "tests/support/film_maker.h"
 
 #include <pt/errors.h>
@@ -22,7 +22,7 @@ struct CloseFilm {
 };
 using OpenedFilm = std::unique_ptr<pt_film, CloseFilm>;
 
-// Columns 1 to 5, rows 2 to 4 of 9 x 7: the left three columns have the samples [0, 3), the others [0, 20).
+// In an image of 9 x 7: the left three columns have the samples [0, 3), the others [0, 20).
 film_maker::Samples two_tiles() {
     film_maker::Samples samples;
     for (std::uint32_t y = 2; y < 5; ++y)
@@ -127,7 +127,7 @@ std::int32_t append(void *user, const void *data, std::uint64_t size) {
     return bytes.size() > 2'000'000 ? 1 : 0;
 }
 
-// Films of more than one megabyte; cancelled within one of more than two.
+// More than one megabyte; cancelled within two.
 TEST(FilmCalls, HandOnTheBytes) {
     for (const std::uint32_t width : {20'000U, 40'000U}) {
         film_maker::Samples samples;
@@ -155,7 +155,6 @@ TEST(FilmCalls, HandOnTheBytes) {
                    "take = NULL: must not be NULL");
 }
 
-// Missing pixels are black; values do not depend on the rectangle.
 TEST(FilmCalls, ReadImages) {
     film_maker::Samples samples = two_tiles();
     samples.erase({2, 1});

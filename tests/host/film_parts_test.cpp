@@ -34,7 +34,6 @@ TEST(FilmParts, TheOlderPartHasThePowerOfTwoBelow) {
     EXPECT_EQ(counts_of_first(UINT32_MAX), (PartCounts{1U << 31, (1U << 31) - 1}));
 }
 
-// The definition, over all indices.
 std::uint64_t split_by_definition(const SampleRange &hull) {
     std::uint64_t best = 0;
     for (std::uint64_t index = hull.first + 1; index < hull.end; ++index)
@@ -49,8 +48,7 @@ TEST(FilmParts, TheSplitHasTheMostZerosAtItsEnd) {
             ASSERT_EQ(pt::split_of({first, end}), split_by_definition({first, end})) << first << ", " << end;
 }
 
-// Films take ranges in any order, as devices take slices. Finally each part has just the samples on its side of the
-// split, and an overwritten part was empty.
+// Finally each part has just the samples on its side of the split.
 TEST(FilmParts, SamplesAddedInAnyOrderEndOnTheirSideOfTheSplit) {
     std::mt19937 random(1);
     for (int round = 0; round < 3000; ++round) {

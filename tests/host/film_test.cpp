@@ -1,4 +1,4 @@
-// Sums of films, with any tiles in any order, have the bytes of films made sample by sample; refusals change nothing.
+// Sums of films have the bytes of films made sample by sample.
 #include "lib/film/film.h"
 
 #include "tests/support/expected_error.h"
@@ -25,7 +25,7 @@ Bytes bytes_of(const pt::Film &film) {
     return bytes;
 }
 
-// Tiles of the image: 8x8 as in adaptive sampling, or the whole.
+// 8x8 as in adaptive sampling, or the whole image.
 std::vector<pt::Rectangle> grid(std::uint32_t width, std::uint32_t height) {
     std::vector<pt::Rectangle> tiles;
     for (std::uint32_t y = 0; y < image_height; y += height)
@@ -44,13 +44,12 @@ Bytes film_by_sample(const Samples &samples) {
     return film_maker::film_of(film_maker::identity(image_width, image_height), film_maker::tiles_of(samples), samples);
 }
 
-// Some tiles, with one set of samples for all or one for each.
+// One set of samples for all tiles, or one for each.
 struct Part {
     Samples samples;
     Bytes bytes;
 };
 
-// Each tile takes some indices from `first` on.
 Part random_part(std::mt19937 &random, std::uint32_t first) {
     const std::pair<std::uint32_t, std::uint32_t> grids[] = {
         {image_width, image_height}, {8, 8}, {image_width, 4}, {5, 3}};
@@ -74,7 +73,7 @@ Part random_part(std::mt19937 &random, std::uint32_t first) {
     return part;
 }
 
-// Some rounds add equal tiles, others overlapping ones.
+// Equal tiles, and overlapping ones.
 TEST(Film, SumsHaveTheBytesOfTheirSamplesInAnyOrder) {
     std::mt19937 random(1);
     for (int round = 0; round < 40; ++round) {

@@ -1,4 +1,4 @@
-// Exceptions without a message, names of results, the log. tests/faults/ covers other exceptions.
+// Exceptions without a message, names of results, the log.
 #include "lib/api/guard.h"
 #include "lib/base/log.h"
 

@@ -1,4 +1,4 @@
-// Hidden surfaces: where they confine paths, and the kernel's features.
+// Where hidden surfaces confine paths, and the kernel's features.
 #include "lib/kernel/gpu_scene.h"
 #include "lib/kernel/kernel_surfaces.h"
 #include "lib/kernel/scene_features.h"
@@ -96,7 +96,6 @@ TEST(HiddenSurfaces, LyingApartLeaveTheKernelAsItIs) {
 }
 
 TEST(HiddenSurfaces, WithPathsOnBothSidesAreMetFromBoth) {
-    // Views into a shell, out of one, and through a plane.
     const pt::Features into = features_of(scene_of({sphere(-5, 1, Dark), sphere(-5, 2, HiddenDark)}));
     EXPECT_TRUE(into[pt::gpu::ID_INSIDE]);
     EXPECT_FALSE(into[pt::gpu::ID_KNOWN_SIDES]);
@@ -117,7 +116,6 @@ TEST(HiddenSurfaces, WithPathsOnBothSidesAreMetFromBoth) {
     EXPECT_FALSE(in_a_room(HiddenDark)[pt::gpu::ID_KNOWN_SIDES]);
 }
 
-// A capsule is everywhere at once; a moving ball is not.
 TEST(HiddenSurfaces, ThatAreCapsulesAreMetAllAlong) {
     const auto with = [](double z, bool is_swept) {
         const pt::Sphere hidden{{0, 0, z}, 1, {0, 0, 6}, HiddenDark, is_swept ? pt::Kind::capsule : pt::Kind::ball};

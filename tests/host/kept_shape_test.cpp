@@ -1,4 +1,4 @@
-// Trees that keep another's shape: their words, and when a new tree is made instead.
+// Trees that keep another's shape.
 #include "tests/host/heap_tree.h"
 
 #include "lib/kernel/prepared_scene.h"
@@ -93,7 +93,6 @@ TEST(KeptShape, HasTheWordsOfTheTreeThatItWasMadeFor) {
     EXPECT_EQ(back->words(), tree.words());
 }
 
-// Everything but the shape is current.
 TEST(KeptShape, IsOfAllThatIsNotPlacesToo) {
     const Spheres spheres = heap(ball_count, 0.0);
     const pt::SphereTree tree = tree_of(spheres);
@@ -163,7 +162,7 @@ TEST(KeptShape, IsNotForTwins) {
     EXPECT_FALSE(kept(tree, with_twins));
 }
 
-// The boxes' surface may grow by a quarter, in one step or several.
+// The limit is a quarter, in one step or several.
 TEST(KeptShape, IsGivenUpWhereANewTreeWouldBeMuchBetter) {
     const Spheres spheres = heap(ball_count, 0.0);
     const pt::SphereTree tree = tree_of(spheres);
@@ -188,7 +187,7 @@ TEST(KeptShape, IsGivenUpWhereANewTreeWouldBeMuchBetter) {
     EXPECT_LT(steps, 30);
 }
 
-// One far sphere makes the other boxes small shares of the whole.
+// One far sphere makes the other boxes small shares.
 TEST(KeptShape, IsGivenUpWhereTheWholeIsAnother) {
     const Spheres spheres = heap(ball_count, 0.0);
     const pt::SphereTree tree = tree_of(spheres);
@@ -204,7 +203,6 @@ TEST(KeptShape, IsGivenUpWhereTheWholeIsAnother) {
     EXPECT_TRUE(kept(tree, scaled)) << "all is as it was";
 }
 
-// A prepared scene takes the previous shape, and is the same scene in films.
 TEST(KeptShape, IsTakenFromTheSceneBefore) {
     const std::vector<pt::Material> materials(2, pt::Material{glm::vec3(0.5F), glm::vec3(0), glm::vec3(0), 0});
     const auto prepared = [&](const Spheres &spheres, const pt::PreparedScene *before) {

@@ -1,4 +1,4 @@
-// Which surfaces are spots: planes close to a lamp, and surfaces that mirror one.
+// Spots: planes close to a lamp, and surfaces that mirror one.
 #include "lib/kernel/gpu_scene.h"
 #include "lib/kernel/light_spots.h"
 
@@ -15,7 +15,7 @@ constexpr std::uint32_t lamp_material = 0;
 constexpr std::uint32_t matt_material = 1;
 constexpr std::uint32_t polished_material = 2;
 
-// A lamp of radius 0.1 above a floor, a ceiling 10 above, and a ball.
+// A ceiling is 10 above the lamp.
 struct SpotRoom {
     double lamp_height = 0.5;
     float floor_diffuse = 0.5F;

@@ -1,4 +1,4 @@
-// Float16 conversion against exact values, for every number and the midpoints between.
+// Float16 numbers and the midpoints between them.
 #include "lib/film/pixel_format.h"
 #include "tests/support/half_edges.h"
 

@@ -1,4 +1,4 @@
-// The host's values, mostly in double, equal the kernels', in integers.
+// The host's values, mostly in double, equal the kernels'.
 #include "lib/film/pixel_sums.h"
 
 #include "shaders/quotient.h"
@@ -22,7 +22,7 @@ namespace {
 
 using Planes = std::array<std::array<std::uint32_t, pt::gpu::FILM_WORDS>, pt::gpu::FILM_PARTS>;
 
-// Samples of both parts in nearly all pixels, the radiance unit, and the bits of sums.
+// Samples of both parts, the radiance unit, the bits of sums.
 struct Usual {
     std::uint32_t a;
     std::uint32_t b;
@@ -30,8 +30,7 @@ struct Usual {
     int most_bits;
 };
 
-// Some sums have few bits, so that quotients often lie midway between floats; some are 0; some have close or equal
-// means in both parts.
+// Few bits make quotients midway between floats; some means are equal or close.
 class RandomSums {
 public:
     explicit RandomSums(const Usual &usual) : usual_(usual) {}
@@ -177,7 +176,7 @@ void expect_those_of_kernels(const Usual &usual) {
         }
 }
 
-// Weights of one and two words, products beyond 128 bits, subnormals, overflow, long sums.
+// Weights of one and two words, products beyond 128 bits, subnormals, overflow.
 TEST(PixelSums, HaveTheValuesOfKernels) {
     for (const Usual &usual : {Usual{8, 8, 0, 84},
                                {32, 8, 0, 84},

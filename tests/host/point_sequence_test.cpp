@@ -1,5 +1,4 @@
-// Radical inverses against exact values, Sobol points against their net properties, scrambling against 64-bit
-// arithmetic, and the kernel's table of points.
+// Radical inverses against exact values, Sobol points against their net properties, and the kernel's table.
 #include "lib/kernel/point_sequence.h"
 
 #include <gtest/gtest.h>
@@ -96,7 +95,7 @@ TEST(RadicalInverse, OfTheLastDimensionMatchesItsDigits) {
             place /= 311.0L;
             value += place * static_cast<long double>(rest % 311);
         }
-        // 64 bits of mantissa err by about 2^-62, so the floor is off only within 2^-30 of an integer.
+        // 64 bits of mantissa: the floor is off only within 2^-30 of an integer.
         const long double scaled = value * 4294967296.0L;
         EXPECT_NEAR(static_cast<double>(scaled), pt::radical_inverse(index, pt::sequence_dimensions - 1) + 0.5, 0.501)
             << "index " << index;
@@ -133,7 +132,7 @@ TEST(Sobol, TheFirstTwoDimensionsAreAZeroTwoSequence) {
     }
 }
 
-// A wrong row of direction numbers could repeat another and still be a (0,1)-sequence.
+// A wrong row could repeat another and still be a (0,1)-sequence.
 TEST(Sobol, DimensionsDiffer) {
     std::vector<Coordinates> all;
     for (std::uint32_t dimension = 0; dimension < pt::sequence_dimensions; ++dimension)
@@ -196,7 +195,6 @@ using Indices = std::vector<std::uint32_t>;
 
 constexpr std::uint64_t table_seed = 7;
 
-// Blocks of all sizes over all dimensions.
 pt::PointLayout all_dimensions() {
     pt::PointLayout layout{{}, 0, 1};
     for (std::uint32_t left = pt::sequence_dimensions; left > 0; left -= layout.block_dimensions.back())
@@ -205,7 +203,6 @@ pt::PointLayout all_dimensions() {
     return layout;
 }
 
-// One coordinate of a block in every row.
 Coordinates column(const Table &table, const pt::PointLayout &layout, std::uint32_t block, std::uint32_t component) {
     Coordinates coordinates;
     for (std::size_t row = 0; row < table.size(); row += layout.row_blocks())
@@ -213,7 +210,6 @@ Coordinates column(const Table &table, const pt::PointLayout &layout, std::uint3
     return coordinates;
 }
 
-// All dimensions of a layout with one branch.
 std::vector<Coordinates> dimensions_of(const Table &table, const pt::PointLayout &layout) {
     std::vector<Coordinates> dimensions;
     for (std::uint32_t block = 0; block < layout.block_count(); ++block)
@@ -222,7 +218,7 @@ std::vector<Coordinates> dimensions_of(const Table &table, const pt::PointLayout
     return dimensions;
 }
 
-// Whether these are nested scrambles of Sobol points: any two share as many leading digits as the points.
+// Any two share as many leading digits as Sobol's points.
 bool is_scrambled_sobol(const Coordinates &coordinates, const Indices &indices, std::uint32_t dimension) {
     for (std::size_t i = 0; i < indices.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
@@ -252,7 +248,7 @@ TEST(PointTable, RowsAreThePoints) {
     }
 }
 
-// A permutation, so that a sample's numbers never share a dimension.
+// A sample's numbers never share a dimension.
 TEST(PointTable, TimeIsTheFifthDimensionOfSobol) {
     const pt::PointLayout layout{{3, 2, 2, 2}, 2, 1};
     const std::vector<Coordinates> dimensions =
@@ -290,8 +286,7 @@ TEST(PointTable, BranchesArePointsOfTheirOwnInTheDimensionsThatTheyDoNotShare) {
     }
 }
 
-// With four branches sample 2^30 + i has points 2^32 + 4 i + b, which Sobol's 32 bits repeat; another scramble keeps
-// every coordinate of a branch different from sample i's.
+// Sample 2^30 + i has the points 2^32 + 4 i + b, which Sobol's 32 bits repeat; another scramble makes them different.
 TEST(PointTable, OfSobolRepeatsNoPoint) {
     const pt::PointLayout layout{{3, 2, 4, 4}, 2, 4};
     const auto row_of = [&](std::uint32_t index) {

@@ -16,7 +16,7 @@ pt::Scene small_scene() {
             {{{0, 1, 0}, 0.25, 0}}};
 }
 
-// A change behind its back shows when the digest is computed.
+// A change behind its back shows when.
 TEST(PreparedScene, ComputesTheDigestOnceWhereItIsAskedFor) {
     pt::PreparedScene prepared(small_scene());
     prepared.scene.spheres[0].radius = 2.0;
@@ -53,7 +53,6 @@ TEST(SceneDigest, DependsOnEveryNumber) {
     }
 }
 
-// Only the surfaces' materials matter, not their list.
 TEST(SceneDigest, DoesNotDependOnTheListOfMaterials) {
     const std::string digest = pt::digest_of(small_scene());
     pt::Scene unused = small_scene();

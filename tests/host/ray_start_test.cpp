@@ -57,7 +57,7 @@ TEST(RayStart, IsThePinholeInWideViews) {
 
 constexpr double narrow = 1e-5;
 
-// The start is before the surface by the view's half diagonal there, 7.07e-6 of the distance.
+// The margin is the view's half diagonal there, 7.07e-6 of the distance.
 TEST(RayStart, IsJustBeforeTheFirstSurfaceInView) {
     const pt::Camera camera = looking_along(oblique, narrow);
     const double width = std::tan(0.5 * narrow) * std::sqrt(2.0);
@@ -68,7 +68,7 @@ TEST(RayStart, IsJustBeforeTheFirstSurfaceInView) {
     EXPECT_NEAR(start_of({}, {{{0, 1, 0}, -1e6 - 2, 0}}, camera), 1e6 / 0.6 * (1 - width), 20) << "a ceiling";
 }
 
-// The narrowest view, and balls down to a quarter of its width.
+// Balls down to a quarter of the view's width.
 TEST(RayStart, IsOutsideOfTinyFarBalls) {
     const pt::Camera camera = looking_along(oblique, 1e-8);
     for (int i = 0; i < 200; ++i) {
@@ -120,7 +120,7 @@ TEST(RayStart, OfParallelRaysIsFiveEighthsOfTheDiagonalBeforeTheFirstSurface) {
     EXPECT_NEAR(start_of({towards}, {}, camera), 1e4 - 103 - before, 1e-9);
 }
 
-// Otherwise vertices would track the sides of all surfaces, which partly coinciding ones confuse.
+// Otherwise vertices track the sides of all surfaces.
 TEST(RayStart, OfParallelRaysIsOnOneSideOfALongCapsuleAcrossTheView) {
     pt::Camera camera = parallel_along(oblique, 2.0);
     pt::Sphere capsule{camera_position - 500.0 * camera.right, 0.25, 1000.0 * camera.right, 0, pt::Kind::capsule};
@@ -139,8 +139,7 @@ TEST(RayStart, OfParallelRaysIsAtThePositionWhereNothingIsInView) {
     EXPECT_EQ(start_of({}, {{{0, 1, 0}, -1.5, 0}}, camera), 0.0) << "a plane divides the view";
 }
 
-// Random rays of pinholes, lenses and parallel views against spheres, moving ones too, and planes by textbook formulas:
-// none may hit before it starts.
+// Random rays by textbook formulas.
 TEST(RayStart, NothingInViewIsBeforeIt) {
     std::mt19937 engine(5);
     const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(engine); };
@@ -200,8 +199,8 @@ TEST(RayStart, NothingInViewIsBeforeIt) {
     EXPECT_GT(near_misses[1], 1000) << "the bound is of use";
 }
 
-// Each sphere of a tree has a margin within which float32 decides sides. Lists with spheres larger by it, or smaller
-// around the camera, give the same start.
+// Margins within which float32 decides sides: lists with spheres larger by it, or smaller around the camera, give the
+// same start.
 TEST(RayStart, OfATreeIsThatOfItsSpheres) {
     std::mt19937 engine(7);
     const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(engine); };

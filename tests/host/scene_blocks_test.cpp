@@ -1,4 +1,4 @@
-// The scene buffer's length, and which scenes share materials.
+// The scene buffer's length and shared materials.
 #include "lib/kernel/gpu_scene.h"
 #include "lib/kernel/scene_blocks.h"
 

@@ -1,4 +1,4 @@
-// Features by geometry: insides of spheres, planes between surfaces and lamps.
+// Features by geometry.
 #include "lib/kernel/gpu_scene.h"
 #include "lib/kernel/scene_features.h"
 #include "tests/support/checked_scene_of.h"
@@ -51,7 +51,6 @@ bool inside(const std::vector<pt::Sphere> &spheres, const Shutter &shutter = {0,
     return features_of(spheres, {}, shutter)[pt::gpu::ID_INSIDE];
 }
 
-// A sky around the tree does not count.
 TEST(FeatureTreeInside, IsWhetherTheCameraIsInASphereOfTheTree) {
     pt::Scene scene;
     scene.materials = {{glm::vec3(0.5F), glm::vec3(0), glm::vec3(0), 0}, {glm::vec3(0), glm::vec3(0), glm::vec3(1), 0}};
@@ -84,8 +83,7 @@ TEST(FeatureInside, IsWhetherTheCameraIsInASphere) {
     EXPECT_TRUE(inside({ball_at({0, 0, -5}, 6), ball_at({0, 5, 0}, 4)})) << "in the first alone";
 }
 
-// A resting sphere that the camera touches becomes a curved plane, which needs no such feature; a moving one stays a
-// ball, whose side float32 cannot tell there.
+// A resting sphere becomes a curved plane, which needs no such feature; a moving one stays a ball.
 TEST(FeatureInside, IsTrueWhereFloat32CannotTell) {
     constexpr double radius = 2;
     const auto touches = [](double distance) { // at half time; farther off at others
@@ -104,7 +102,7 @@ TEST(FeatureInside, IsTrueWhereFloat32CannotTell) {
         }
 }
 
-// The center passes over the camera at half time, at a height.
+// The center is over the camera at half time.
 TEST(FeatureInside, IsAtAnyTimeOfTheShutter) {
     const auto passing = [](double height, const Shutter &shutter) {
         return inside({ball_at({-8, height, 0}, 1, {16, 0, 0})}, shutter);
@@ -127,7 +125,7 @@ pt::Plane floor_at(double height, bool upwards = true) {
     return {{0, side, 0}, -side * (eye.y + height), dark};
 }
 
-// Lamps are found by index; other emitters are planes, or spheres stored as planes.
+// Lamps are found by index.
 TEST(FeaturePlanesEmit, IsWhetherAnythingButALampEmits) {
     pt::Plane glowing = floor_at(-5);
     glowing.material = shining;
@@ -201,7 +199,7 @@ TEST(FeaturePlanesBlock, NeedsPlanesAndLamps) {
     EXPECT_FALSE(planes_block({}, {}));
 }
 
-// A curved plane may bulge between two points on one side of its tangent plane.
+// It may bulge between two points on one side of its tangent plane.
 TEST(FeaturePlanesBlock, IsTrueWithACurvedPlane) {
     const pt::Sphere huge = ball_at({0, -1004, 0}, 1000);
     const pt::Features features = features_of({huge, lamp_at({0, 3, -5}, 1)}, {});

@@ -1,4 +1,4 @@
-// One broken scene per rule, with the whole message.
+// One broken scene per rule, with the message.
 #include "lib/scene/checked_scene.h"
 
 #include "tests/host/refusals.h"
@@ -20,7 +20,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr float nan_float = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity_float = std::numeric_limits<float>::infinity();
 
-// A valid scene for tests to break.
 struct Draft {
     std::vector<pt_material> materials = std::vector<pt_material>(
         5, pt_material{{0.5F, 0.5F, 0.5F}, {0.25F, 0.25F, 0.25F}, {0.0F, 1.0F, 2.0F}, 10.0F, 0});

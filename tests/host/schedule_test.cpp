@@ -1,4 +1,4 @@
-// Slices on simulated devices: all work once, near the target time, within the limits, growing slowly.
+// Slices on simulated devices.
 #include "lib/render/schedule.h"
 
 #include "lib/render/tile_tasks.h"
@@ -114,7 +114,7 @@ struct DeviceCase {
     std::uint32_t tile_count;
     std::uint64_t samples;
     Device device;
-    // Share of full slices after warm-up that must be within a factor of 2 of the target.
+    // Share of full slices after warm-up within a factor of 2 of the target.
     double on_target;
 };
 
@@ -138,11 +138,10 @@ TEST(Schedule, DoesAllWorkOnceNearTheTarget) {
                                 {"samples tile by tile", full_hd, 20, constant_device(1e6), 1.0},
                                 {"about a sample", 800, 300, constant_device(1.03e6), 1.0},
                                 {"a fast GPU", full_hd, 5000, constant_device(3e9), 1.0},
-                                // Only the slice in which the speed falls is too long.
+                                // The speed falls in one slice.
                                 {"speed falls to a tenth", full_hd, 400, throttled_device(1e8, 2e8), 0.99},
                                 {"speed falls below a sample", full_hd, 100, throttled_device(1e8, 5e7), 0.99},
-                                // A slice's time has its own noise and its predecessor's: beyond a factor of 2 with
-                                // probability (1 - ln 2 / (2 ln 1.5))^2 = 0.02.
+                                // Two noises: beyond a factor of 2 with probability (1 - ln 2 / (2 ln 1.5))^2 = 0.02.
                                 {"a noisy clock", 25 * 10, 200000, noisy_device(1e8), 0.95}};
     for (const DeviceCase &each : cases) {
         SCOPED_TRACE(each.name);
@@ -180,7 +179,6 @@ TEST(Schedule, HoldsTheLargestSampleCount) {
     EXPECT_EQ(fault(simulate(1, most, limits, constant_device(1e15)), 1, most, limits), "nothing");
 }
 
-// Slices of some tiles are about equal, without a small rest.
 TEST(Schedule, SlicesAreLargerThanHalfOfTheBudget) {
     const pt::Schedule schedule(usual_limits());
     EXPECT_EQ(schedule.tiles(257, 1), 129U); // a tile more than the budget
@@ -191,7 +189,7 @@ TEST(Schedule, SlicesAreLargerThanHalfOfTheBudget) {
     EXPECT_EQ(schedule.tiles(64, 4), 64U);
 }
 
-// At most doubled, at least a tile; impossible times are ignored.
+// Impossible times are ignored.
 TEST(Schedule, LearnsFromASliceOfFullSizeAtOnce) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
@@ -215,7 +213,7 @@ TEST(Schedule, LearnsFromASliceOfFullSizeAtOnce) {
     EXPECT_EQ(pt::Schedule({0.05, 0.25, 1}).budget(), 64.0);
 }
 
-// A slice of one tile is all overhead, and must not count as the device's speed, 78 times as high.
+// A slice of one tile is all overhead: the device is 78 times as fast.
 TEST(Schedule, SmallSlicesChangeLittle) {
     pt::ScheduleLimits limits = usual_limits();
     limits.first_slice_paths = 5e6;

@@ -1,4 +1,4 @@
-// Small lamps: their pixels, the error that no sample shows, and the smallest share of directions.
+// Small lamps: their pixels, the error that no sample shows, the smallest share of directions.
 #include "lib/render/missed_lamps.h"
 #include "lib/render/small_lamps.h"
 #include "lib/scene/camera.h"
@@ -25,7 +25,7 @@ constexpr std::uint32_t dark = 0;
 constexpr std::uint32_t lamp = 1;
 constexpr std::uint32_t hidden = 2;
 
-// A view of 90 degrees: with 200 rows a pixel at depth 100 has side 1.
+// With 200 rows a pixel at depth 100 has side 1.
 constexpr pt::Camera camera{.position = {1.0, 2.0, 3.0},
                             .right = {1, 0, 0},
                             .up = {0, 1, 0},
@@ -91,8 +91,7 @@ TEST(SmallLamps, AreSpreadOverPixels) {
     EXPECT_NEAR(share_of(at_the_edge, 399, 0), 0.5 * size, thin);
 }
 
-// A pinhole's size in focus; elsewhere the lens's disc, in squares of pixels: radius 30 |100 / 75 - 1| = 10, or 314
-// pixels.
+// The lens's disc, in squares of pixels: radius 30 |100 / 75 - 1| = 10, or 314 pixels.
 TEST(SmallLamps, AreSpreadByALens) {
     const std::vector<pt_sphere> lamps{sphere_at(0.5, 0.5, 100, radius, lamp)};
     pt::Camera lens = camera;
@@ -145,7 +144,6 @@ TEST(SmallLamps, AreThoseThatTheCameraSees) {
     EXPECT_TRUE(pieces_of({moving}, {}, open).empty());
 }
 
-// Camera and lamp are inside the capsule's far end only.
 TEST(SmallLamps, AreSeenFromWithinACapsule) {
     const pt_sphere first = sphere_at(0, 0, -10, 50, dark);
     const pt_sphere last = sphere_at(0, 0, 120, 50, dark);

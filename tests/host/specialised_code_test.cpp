@@ -66,8 +66,7 @@ TEST(SpecialisedCodeTest, LeavesToTheDriverWhatItDoesNotKnow) {
     EXPECT_TRUE(is_left([](Code &code) { code[5] &= 0xffffU; })) << "an instruction of no words";
 }
 
-// Calls, branches and decorations have their targets, phis come from their predecessors, and results keep the kernel's
-// decorations, such as NoContraction.
+// Calls and branches have targets, phis come from predecessors, and decorations stay, such as NoContraction.
 void expect_whole(const Code &code, const Code &kernel) {
     const std::vector<Code> instructions = instructions_of(code);
     std::set<std::uint32_t> there;

@@ -1,4 +1,4 @@
-// One broken array per rule, with the whole message.
+// One broken array per rule, with the message.
 #include "tests/host/particles.h"
 #include "tests/host/refusals.h"
 #include "tests/support/expected_error.h"
@@ -154,7 +154,6 @@ TEST(SphereArrays, AreNamedByTheirIndex) {
     EXPECT_EQ(rule.component, 0);
 }
 
-// Eight of two million violations are reported, the others counted.
 TEST(SphereArrays, CountMostOfManyViolations) {
     Particles particles;
     particles.count = 1000000;

@@ -1,4 +1,4 @@
-// Spheres in columns equal structs, with any types and strides. Also counts, older and newer structs, and colors.
+// Columns equal structs. Also counts, older and newer structs, colors.
 #include "lib/scene/checked_scene.h"
 #include "lib/scene/scene.h"
 #include "lib/scene/sphere_source.h"
@@ -25,7 +25,7 @@ namespace sphere_arrays {
 
 namespace {
 
-// Elements at a stride and offset, in an allocation that ends with the last one.
+// The allocation ends with the last element.
 class ColumnCopy {
 public:
     template <typename Number>
@@ -187,7 +187,7 @@ TEST(SphereArrays, OfOtherSizesAreRefused) {
 TEST(SphereArrays, ColorsMultiplyTheDiffuse) {
     const Particles particles;
     const pt::Scene scene = particles.validated();
-    // The first has its material's color; the second reflects nothing in any color.
+    // The second reflects nothing in any color.
     ASSERT_EQ(scene.materials.size(), 5U);
     EXPECT_EQ(scene.spheres[0].material, 0U);
     EXPECT_EQ(scene.spheres[1].material, 2U);
@@ -273,7 +273,7 @@ TEST(SphereArrays, ColorsMayBeOfAnyType) {
     EXPECT_EQ(particles.outcome(), "accepted");
 }
 
-// IEC 61966-2-1. The power errs by a few roundings of double; one of float is 2^29 times as large.
+// IEC 61966-2-1, to a few roundings of double.
 TEST(Srgb, IsDecodedAsTheStandardSays) {
     for (int byte = 0; byte < 256; ++byte) {
         const double encoded = byte / 255.0;

@@ -1,4 +1,4 @@
-// The shape of a tree: one place per sphere, ordered links, and a depth within the kernel's stack for any input.
+// The shape of a tree, within the kernel's stack for any input.
 #include "lib/tree/sphere_order.h"
 #include "shaders/gpu_layout.h"
 
@@ -35,7 +35,6 @@ pt::TreeShape shape_of(std::vector<pt::TreeItem> items, const pt::SphereOrder &o
     return pt::tree_shape(std::move(items), order, nobody);
 }
 
-// Links follow the order of nodes, parents come first, depths are right.
 void expect_well_linked(const pt::TreeShape &shape) {
     std::vector<std::uint32_t> depths(shape.nodes.size(), 0);
     std::vector<bool> placed(shape.spheres.size());
@@ -118,7 +117,7 @@ TEST(SphereOrder, GivesEachSphereOnePlaceInATreeThatTheStackHolds) {
         }
 }
 
-// Three kinds of spheres at each point, in turn: the first of each stays, also in deep trees.
+// Three kinds at each point, in turn.
 TEST(SphereOrder, LeavesTheFirstOfTwins) {
     constexpr std::uint32_t different = 3 * 50;
     const auto ball = [](std::uint32_t i) {
@@ -143,7 +142,7 @@ struct Told {
     }
 };
 
-// Progress covers the stage, half of the whole, exactly.
+// The stage is half of the whole.
 TEST(SphereOrder, TellsHowFarItIs) {
     for (const Kind &kind : kinds()) {
         SCOPED_TRACE(kind.name);

@@ -14,7 +14,7 @@ namespace sphere_arrays {
 
 namespace {
 
-// Arrays of all sizes, empty ones too, read in every way.
+// All sizes, empty ones too.
 TEST(SphereSource, ReadsInOrderAcrossArrays) {
     std::vector<float> center(3 * 2000);
     std::vector<float> color(3 * 2000);
@@ -62,7 +62,7 @@ TEST(SphereSource, ReadsInOrderAcrossArrays) {
     const std::vector<std::uint32_t> starts(source.array_starts().begin(), source.array_starts().end());
     EXPECT_EQ(starts, (std::vector<std::uint32_t>{5, 5, 6, 306, 306, 306, 1006, 1008}));
 
-    // In any order, and in scene order so that runs cross arrays.
+    // Runs in scene order cross arrays.
     std::vector<std::uint32_t> indices;
     for (std::uint32_t i = 0; i < source.size(); ++i)
         indices.push_back(i % 3 == 0 ? i * 401 % 1008 : 1007 - i);
@@ -77,7 +77,7 @@ TEST(SphereSource, ReadsInOrderAcrossArrays) {
     EXPECT_EQ(read, indices.size());
 }
 
-// Columns, a common value, and none (the first material); empty arrays use nothing.
+// Empty arrays use nothing.
 TEST(SphereSource, KnowsWhichMaterialsAreUsed) {
     const std::vector<float> center(3 * 4);
     const std::vector<std::uint32_t> materials = {7, 5, 7, 5};

@@ -21,7 +21,7 @@ TEST(SphereTree, BoxesHoldTheirSpheresAtAllTimes) {
     }
 }
 
-// Radii and ways rounded to float err by half of 2^-23 of up to 2^30 steps each.
+// Radii and ways round by half of 2^-23 of up to 2^30 steps.
 TEST(SphereTree, StaysWithinReach) {
     for (const double scale : {1e-18, 1.0, 1e17})
         for (const double motion : {0.0, 1.0}) {
@@ -44,7 +44,6 @@ TEST(SphereTree, StaysWithinReach) {
         }
 }
 
-// Balls near the precision of double do not enlarge the steps.
 TEST(SphereTree, HasStepsThatSuitBallsAllInOnePoint) {
     std::vector<pt_sphere> spheres;
     for (int i = 0; i < 40; ++i)
@@ -67,7 +66,7 @@ TEST(SphereTree, NumbersLampsInTheScenesOrder) {
     }
 }
 
-// Twins in float32: moving to and fro along one path, or a grid step apart.
+// Moving to and fro along one path, or a grid step apart.
 TEST(SphereTree, KeepsTheFirstOfTwins) {
     std::vector<pt_sphere> spheres = heap(100, 0.0);
     spheres[0].center[0] = 100; // 2^-22 of it is 2^7 steps
@@ -170,7 +169,7 @@ TEST(SphereTree, HasWaysIfWhatIsLeftOutMoves) {
     EXPECT_TRUE(has_ways(tree_with(one, spheres, {0, 100})));
 }
 
-// 16 bytes and 4 of material, and a node of 48 bytes per three spheres with four children, per two with some empty.
+// 16 bytes and 4 of material; a node of 48 bytes per three spheres, or per two with empty children.
 TEST(SphereTree, TakesNoMoreThan48BytesASphere) {
     std::vector<pt_sphere> spheres = heap(100'000, 0.0);
     for (pt_sphere &sphere : spheres)

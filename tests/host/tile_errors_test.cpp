@@ -1,4 +1,4 @@
-// Errors of tiles by shaders/pixel_error.h, bit for bit, with sums in the order of values.
+// Errors of tiles by shaders/pixel_error.h, bit for bit.
 #include "lib/film/tile_errors.h"
 #include "shaders/pixel_error.h"
 

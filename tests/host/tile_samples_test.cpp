@@ -1,4 +1,4 @@
-// Samples of sets and tiles, against sets of numbers; tasks take each missing sample once, in any order and split.
+// Samples of sets and tiles, and tasks that take each missing one once.
 #include "lib/film/sample_set.h"
 #include "lib/film/tile_samples.h"
 #include "lib/render/tile_tasks.h"
@@ -160,7 +160,7 @@ TEST(TileSamples, RowsOfTilesAreAFilmOfTheirOwn) {
     EXPECT_EQ(lower.total(), 16U * 16U);
 }
 
-// Tiles reach their own goals, others stay. Within a task tiles differ by at most one sample.
+// Tiles of a task differ by at most one sample.
 TEST(TileTasks, BringTilesToTheirGoals) {
     std::mt19937 random(1);
     for (int round = 0; round < 200; ++round) {

@@ -1,4 +1,4 @@
-// Cuts of a tree's parts: the best for few spheres, nearly so for many, and samples as good as all.
+// Cuts: the best for few spheres, nearly so for many.
 #include "lib/tree/cuts.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ namespace {
 using Items = std::vector<pt::TreeItem>;
 
 // Sides below 4 are rounded by 2^-23, a box's side by 2^-22, half its surface by 2^-21 times the sum of sides, below
-// 15; rounding of the sum is less.
+// 15.
 constexpr double surface_error = 15 * 0x1p-21;
 
 pt::Part part_of(Items &items) {
@@ -75,7 +75,6 @@ void expect_boxes(const pt::Part &part) {
     }
 }
 
-// Of various sizes, on integers with equal coordinates, and not.
 TEST(TreeCuts, OfFewSpheresAreTheBest) {
     std::mt19937 engine(3);
     std::uniform_real_distribution<float> share(0.0F, 1.0F);
@@ -106,8 +105,7 @@ TEST(TreeCuts, OfFewSpheresAreTheBest) {
     }
 }
 
-// Uniform clouds, longest along one axis. Some cut is within half of one of 8 bins of the best, x = 1/2; costs go about
-// as x^2 + (1 - x)^2: a 60th more, plus chance.
+// Some cut is within half of one of 8 bins of x = 1/2; costs go as x^2 + (1 - x)^2: a 60th more, plus chance.
 TEST(TreeCuts, OfManySpheresAreAboutTheBest) {
     std::mt19937 engine(5);
     std::uniform_real_distribution<float> share(0.0F, 1.0F);
@@ -127,7 +125,7 @@ TEST(TreeCuts, OfManySpheresAreAboutTheBest) {
         }
 }
 
-// Two heaps with a wide gap, interleaved periodically: equidistant samples would see one heap only.
+// Equidistant samples would see one heap only.
 TEST(TreeCuts, OfSamplesHeedNoPattern) {
     const std::uint32_t count = 4 * pt::sampled_from;
     const std::uint32_t run = count / pt::sample_size;

@@ -32,7 +32,6 @@ pt::DistinctScene without_twins(const pt::Scene &scene) {
     return pt::without_twins(pt::seen_scene(scene, camera()));
 }
 
-// Radii of the spheres that are left.
 std::vector<double> distinct(const std::vector<Sphere> &spheres) {
     std::vector<double> radii;
     for (const pt::SeenSphere &sphere : without_twins(scene_of(spheres, {})).seen.spheres)
@@ -40,7 +39,6 @@ std::vector<double> distinct(const std::vector<Sphere> &spheres) {
     return radii;
 }
 
-// Materials of the planes that are left, with unit normals.
 std::vector<std::uint32_t> distinct_planes(const std::vector<Plane> &planes) {
     std::vector<std::uint32_t> materials;
     for (const pt::CurvedPlane &plane : without_twins(scene_of({}, planes)).seen.planes)

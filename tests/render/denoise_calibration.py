@@ -2,14 +2,14 @@
 
     python3 tests/render/denoise_calibration.py [--own] [--hundred SEED] [--files SCENE ...] [--images FOLDER] [--worst N]
 
-Scenes are those of cli/scenes and calibration_scenes.py (--own), those of tests/bench/random_scenes.py from a seed on, and
-scene files. PT_LIBRARY names the library and PT_PROGRAM the program, which reads the scenes; it takes NumPy and Open Image
-Denoise (pip install pyoidn, or LD_LIBRARY_PATH). With --images, what is rendered is kept in the folder and used again;
---render renders only, without Open Image Denoise.
+Scenes are those of cli/scenes and calibration_scenes.py (--own), those of tests/bench/random_scenes.py from a seed on,
+and scene files. PT_LIBRARY names the library and PT_PROGRAM the program, which reads the scenes; it takes NumPy and
+Open Image Denoise (pip install pyoidn, or LD_LIBRARY_PATH). With --images, what is rendered is kept in the folder and
+used again; --render renders only, without Open Image Denoise.
 
-An image is made of two of half of the samples each. Errors are differences to an image of many samples. An image is worse
-if its error is more than 2% above that of the mean of both halves. Light is the difference of the means of both images
-over the standard error of the latter.
+An image is made of two of half of the samples each. Errors are differences to an image of many samples. An image is
+worse if its error is more than 2% above that of the mean of both halves. Light is the difference of the means of both
+images over the standard error of the latter.
 """
 
 import argparse

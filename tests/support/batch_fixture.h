@@ -1,4 +1,4 @@
-// Renders batches of independent samples, so that a mean has a standard error with any sampler.
+// Batches of independent samples, for means with standard errors.
 #pragma once
 
 #include "tests/support/context_fixture.h"
@@ -33,16 +33,15 @@ inline Estimate estimate_of_pixel(const Batches &batches, std::size_t pixel) {
     return estimate_over(batches, std::span(&pixel, 1));
 }
 
-// Bound on a mean's deviation in standard errors, two-sided: the quantile of Student's t by D. L. Wallace's
-// approximation (Ann. Math. Statist. 30, 1959), within 0.02 for 8 degrees of freedom and more.
+// Quantile of Student's t, two-sided, by D. L. Wallace's approximation (Ann. Math. Statist. 30, 1959), within 0.02 for
+// 8 degrees of freedom and more.
 inline double student_bound(double false_alarm, std::size_t batch_count) {
     const double degrees = static_cast<double>(batch_count) - 1.0;
     const double z = statistics::normal_quantile(0.5 * false_alarm) * (8.0 * degrees + 3.0) / (8.0 * degrees + 1.0);
     return std::sqrt(degrees * std::expm1(z * z / degrees));
 }
 
-// Deviation in standard errors. A rounding error of 1e-6 is included: some dozens of roundings by 2^-24 per path, which
-// partly average out.
+// In standard errors. Includes a rounding error of 1e-6: some dozens of roundings by 2^-24.
 inline double deviation(const Estimate &estimate, double expected) {
     const double rounding = 1e-6 * std::abs(expected);
     return (estimate.mean - expected) / std::hypot(estimate.standard_error, rounding);
@@ -55,8 +54,8 @@ protected:
         ASSERT_EQ(pt_set_camera(context(), &camera), PT_OK) << pt_last_error(context());
     }
 
-    // Each batch has its own seed. Plain Halton ignores seeds: its batches are successive parts of the sequence whose
-    // errors partly cancel, so the standard error is an upper bound.
+    // Plain Halton ignores seeds: its batches are successive, and their errors partly cancel, so the standard error is
+    // an upper bound.
     Batches render_batches(pt_render render, uint32_t batch_count, uint32_t samples) {
         Batches batches;
         for (uint32_t batch = 0; batch < batch_count; ++batch) {

@@ -1,4 +1,4 @@
-"""A page in headless Chromium over its DevTools protocol (chromedevtools.github.io/devtools-protocol)."""
+"""A page in headless Chromium (chromedevtools.github.io/devtools-protocol)."""
 
 import asyncio
 import base64
@@ -76,7 +76,7 @@ class Chromium:
         return said["result"].get("value")
 
     def until(self, expression, seconds=60):
-        """Waits for a true value of a JavaScript expression and returns it."""
+        """Waits for a true value of JavaScript."""
         end = time.monotonic() + seconds
         while not self.value(f"!!({expression})"):
             if time.monotonic() > end:

@@ -1,4 +1,4 @@
-// Common sequences of pt.h calls. A failing call fails the test.
+// Sequences of pt.h calls. A failing call fails the test.
 #pragma once
 
 #include "tests/support/coursework_scene.h"

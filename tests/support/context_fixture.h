@@ -1,5 +1,5 @@
-// Tests on a real device through pt.h. Warnings of the library or the validation layer fail them. PT_TEST_DEVICE: as
-// pt_create_info.device. PT_TEST_NO_VALIDATION: without the layer, for leak checks.
+// Tests through pt.h. Warnings of the library or the validation layer fail them. PT_TEST_DEVICE: pt_create_info.device.
+// PT_TEST_NO_VALIDATION: no layer, for leak checks.
 #pragma once
 
 #include "tests/support/image_target.h"
@@ -56,7 +56,7 @@ protected:
 
     using Create = std::function<pt_result(const pt_create_info *, pt_context **)>;
 
-    // A context with the fixture's settings, changed by `adjust`. Destroy it before the test ends.
+    // Has the fixture's settings, changed by `adjust`. Destroy it before the test ends.
     Context create_context(
         const std::function<void(pt_create_info &)> &adjust = [](pt_create_info &) {},
         const Create &create = &pt_create) {

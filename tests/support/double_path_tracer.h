@@ -1,5 +1,4 @@
-// A plain path tracer in double that shares no code with the library. It tests every surface, samples one lamp and the
-// reflection at each vertex, and combines them by the balance heuristic.
+// A plain path tracer in double that shares no code with the library.
 #pragma once
 
 #include <pt/pt.h>
@@ -63,7 +62,7 @@ private:
         std::uint32_t surface = 0; // spheres first, then planes
     };
 
-    // f = kd / pi + ks (n + 2) / (2 pi) max(0, cos)^n, with the cosine to the mirror direction.
+    // f = kd / pi + ks (n + 2) / (2 pi) max(0, cos)^n.
     struct Reflection {
         glm::dvec3 normal, mirror, diffuse, specular;
         double exponent;
@@ -134,7 +133,7 @@ private:
         return vector(sphere.center) + time * vector(sphere.motion);
     }
 
-    // 1 - cos(half angle of the sphere); 0 from inside, where it is not sampled.
+    // 1 - cos(half angle); 0 inside, where it is not sampled.
     double cap(const pt_sphere &sphere, const glm::dvec3 &from, double time) const {
         const glm::dvec3 to = centre_at(sphere, time) - from;
         const double squared_sine = sphere.radius * sphere.radius / glm::dot(to, to);
@@ -231,8 +230,7 @@ private:
         return opacity.data == nullptr || share() < *at<float>(opacity, row);
     }
 
-    // The side between its end planes, and both balls: a ray enters their union at the least distance of the three, and
-    // leaves at the greatest.
+    // A ray enters the union of side and balls at the least distance, and leaves at the greatest.
     static void meet_capsule(Hit &nearest, const glm::dvec3 &origin, const glm::dvec3 &direction,
                              const pt_sphere_array &array, std::uint32_t row) {
         const double *const a = at<double>(array.center, row);

@@ -82,7 +82,7 @@ inline void set_pixel(pt::PixelSums &sums, std::size_t at, const Pixel &pixel, c
     }
 }
 
-// All pixels of a tile must have the same samples.
+// Pixels of a tile must have the same samples.
 inline Bytes film_of(const pt::FilmIdentity &identity, const std::vector<pt::Rectangle> &tiles,
                      const Samples &samples) {
     pt::FilmHeader header{identity, {}};
@@ -105,7 +105,7 @@ inline Bytes film_of(const pt::FilmIdentity &identity, const std::vector<pt::Rec
     return bytes;
 }
 
-// A film's tiles, found pixel by pixel: runs in rows, then equal runs in successive rows.
+// Runs in rows, then equal runs in successive rows.
 inline std::vector<pt::Rectangle> tiles_of(const Samples &samples) {
     std::vector<pt::Rectangle> tiles;
     const auto at = [&](std::int64_t row, std::int64_t column) -> const std::set<std::uint32_t> * {

@@ -1,4 +1,4 @@
-// First hits of rays in pt.h scenes by independent formulas in long double, with float32's error.
+// First hits by independent formulas in long double, with float32's error.
 #pragma once
 
 #include "lib/scene/seen_scene.h"
@@ -44,27 +44,22 @@ struct Meeting {
     std::uint32_t object = PT_NO_OBJECT;
 };
 
-// Let u be the rounding. A direction errs by 4 u across itself (two products and sums per component; normalisation
-// scales all alike) and by 4 u in length.
+// u: rounding. A direction errs by 4 u across (two products and sums per component) and in length.
 //
-// Sphere with center c relative to the camera, radius r: c errs by u |c|; c - b d by 4 u |c| for d and 3 u |c| for its
-// operations; so the ray's distance l from the center, and b, by 8 u |c|. The half chord h = sqrt(r^2 - l^2) errs by (8
-// u |c| l + 2 u r^2) / h, with l < r by (8 u |c| + 2 u r) / cosine, cosine = h / r. Twice that is allowed. The root's
-// argument errs by r (16 u |c| + 4 u r), or l - r by 8 u |c| + 2 u r: within twice this of touching, hit or miss is
-// undecided.
+// Sphere, center c, radius r: c errs by u |c|; c - b d by 4 u |c| for d and 3 u |c|; so the ray's distance l from the
+// center, and b, by 8 u |c|. The half chord h = sqrt(r^2 - l^2) errs by (8 u |c| + 2 u r) / cosine, cosine = h / r.
+// Twice that is allowed. l - r errs by 8 u |c| + 2 u r: within twice this hit or miss is undecided.
 //
-// A sphere stored as a plane of curvature k, at height h: nothing of size r is rounded. The distance 2 h / q, q = s +
-// sqrt(s^2 - 2 k h) for the slope s, errs by u for h and by q's error: 4 u for s, (4 u s + 4 u) / cosine for the root,
-// and q is no less than the cosine. 16 u / cosine^2 of the distance is allowed, and 8 u for the rest; within 64 u of
-// touching (s^2 against 2 k h) it is undecided. The same holds for the far wall q / k; a plane has k = 0.
+// Curved plane k at height h: 2 h / q, q = s + sqrt(s^2 - 2 k h), slope s, errs by u for h, 4 u for s, (4 u s + 4 u) /
+// cosine for the root; q is no less than the cosine. 16 u / cosine^2 of the distance is allowed, and 8 u for the rest;
+// within 64 u of touching (s^2 against 2 k h) it is undecided. The far wall is q / k; a plane has k = 0.
 //
-// Parallel rays start at origin = a right - b up, with errors of 5 u of both terms' sizes (scale, place, vector,
-// product, sum). A center relative to it takes one more subtraction: 8 u o for the length o of these sizes is allowed
-// beside 8 u |c|, and as much again. A height n . origin + offset errs by 9 u of |n| times these sizes, and by 2 u of
-// the offset: 16 u o / cosine is allowed.
+// Parallel rays: origin = a right - b up errs by 5 u of both terms' sizes (scale, place, vector, product, sum), of
+// length o. 8 u o is allowed beside 8 u |c|, and as much again for the subtraction. A height n . origin + offset errs
+// by 9 u of |n| times these sizes and 2 u of the offset: 16 u o / cosine is allowed.
 //
-// In narrow views rays start ahead of the camera, and |c| and distances count from there. A tree's grid displaces
-// centers by up to `astray`, within which the camera's side is undecided too.
+// In narrow views |c| and distances count from the rays' start. A tree's grid displaces centers by up to `astray`,
+// within which the camera's side is undecided.
 inline Meeting meet_sphere(const pt_sphere &sphere, const Vector &camera, const Ray &ray, Real time, bool is_flat,
                            Real astray) {
     const Vector centre = vector_of(sphere.center) + time * vector_of(sphere.motion) - camera - ray.origin;
@@ -156,8 +151,8 @@ struct View {
     }
 };
 
-// The library's own rule, because it decides which of two forms is rounded. It depends on where rays start. Lamps keep
-// their centers up to a radius of 65536 times their height.
+// The library's own rule decides which form is rounded. Lamps keep their centers up to a radius of 65536 times their
+// height.
 inline bool is_held_as_plane(const pt_sphere &sphere, const pt_material &material, const View &view) {
     const auto vector = [](const double(&v)[3]) { return glm::dvec3(v[0], v[1], v[2]); };
     pt::Camera start{};
@@ -173,7 +168,7 @@ inline bool is_seen(const pt_scene &scene, std::uint32_t material) {
     return scene.materials[material].flags != PT_MATERIAL_HIDDEN_FROM_CAMERA;
 }
 
-// The first surface; empty if float32 may find another or none.
+// Empty if float32 may find another or none.
 inline std::optional<Meeting> first_met(const pt_scene &scene, const View &view, const Ray &ray) {
     std::vector<Meeting> met;
     for (std::uint32_t i = 0; i < scene.sphere_count; ++i) {

@@ -1,4 +1,4 @@
-// Feeds the tiles of an invented image to an error estimator.
+// Feeds an invented image's tiles to an error estimator.
 #pragma once
 
 #include "lib/film/error_estimate.h"

@@ -1,5 +1,5 @@
-/* Preloaded in sanitized tests: modules stay loaded. Vulkan drivers keep memory in static variables; in an unloaded
- * driver the leak check could neither reach it nor name its allocations. */
+/* Keeps modules loaded: the leak check cannot reach the static variables of an unloaded Vulkan driver, nor name its
+ * allocations. */
 int dlclose(void *handle);
 
 int dlclose(void *handle) {

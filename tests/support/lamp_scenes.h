@@ -1,4 +1,4 @@
-// Scenes with many lamps that are hard to choose among, and their facts in double.
+// Scenes with many lamps that are hard to choose among.
 #pragma once
 
 #include "lib/kernel/gpu_scene.h"

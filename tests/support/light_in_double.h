@@ -21,7 +21,7 @@ inline constexpr glm::uvec2 picture(24, 16);
 inline constexpr glm::uvec2 block(8, 8);
 inline constexpr std::uint32_t image_count = 12;
 inline constexpr std::uint32_t samples_of_image = 32;
-// In standard errors from 12 images; one of 72 blocks exceeds it by chance once in 330. Seeds are fixed.
+// In standard errors from 12 images; exceeded by one of 72 blocks once in 330. Seeds are fixed.
 inline constexpr double most_errors = 6.5;
 
 struct Given {
@@ -105,8 +105,7 @@ inline pt_camera camera_at(const glm::dvec3 &position, const glm::dvec3 &target,
     return camera;
 }
 
-// Rods and balls about the origin, every third ball moving, a lamp above, a floor; the view is 4 high at the origin.
-// Many make a tree.
+// Every third ball moves; the view is 4 high at the origin. Many make a tree.
 inline Given random_scene(std::uint32_t seed, std::uint32_t rods, std::uint32_t balls, double distance) {
     std::mt19937 engine(seed);
     const auto uniform = [&](double low, double high) {
@@ -178,7 +177,7 @@ struct Deviation {
 
 class LightInDouble : public ContextFixture {
 protected:
-    // Each image has other seeds and, because one sampler ignores seeds, other samples.
+    // Other seeds and, for samplers that ignore seeds, other samples.
     static Deviation deviation(pt_context *context, const Given &given, const Blocks &exact, pt_render render) {
         std::vector<std::vector<float>> images;
         for (render.seed = 1; render.seed <= image_count; ++render.seed) {

@@ -1,5 +1,5 @@
-"""Renders scene files with libpt (PT_LIBRARY, or the system's), through the package's structs and functions but not its
-objects: several libraries can be loaded and measured."""
+"""Renders scene files with libpt (PT_LIBRARY, or the system's) without the package's objects, so that several libraries
+can be loaded and measured."""
 
 import array
 import ctypes
@@ -24,8 +24,6 @@ def vector(values):
 
 
 class Renderer:
-    """A pt_context of the library that PT_LIBRARY names."""
-
     def __init__(self, **create_info):
         self.library = load_library(library_path())
         self.context = ctypes.c_void_p()
@@ -39,7 +37,7 @@ class Renderer:
         self.context = ctypes.c_void_p()
 
     def call(self, function, *arguments):
-        """Calls a function on the context; returns its result or raises its error."""
+        """Returns the function's result or raises its error."""
         return checked(self.library, getattr(self.library, function)(self.context, *arguments), self.context)
 
     def device(self):
@@ -100,7 +98,6 @@ class SceneRenderer(Renderer):
                         shutter_open=shutter_open, shutter_close=shutter_close)
 
     def set_json(self, scene):
-        """Takes materials, spheres and planes of a scene file."""
         names = list(scene["materials"])
         self.set_scene(
             [structs.pt_material(color(m.get("diffuse", 0)), color(m.get("specular", 0)),
