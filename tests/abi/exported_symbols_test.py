@@ -1,5 +1,5 @@
-"""libpt's exported symbols and soname. Called as exported_symbols_test.py LIBRARY ARCHIVE HEADERS LIST C_COMPILER
-(HEADERS is a folder). The list is the contract: a missing symbol breaks programs; a new one is a promise."""
+"""libpt's exported symbols and soname: exported_symbols_test.py LIBRARY ARCHIVE HEADERS LIST C_COMPILER (HEADERS: a
+folder). A missing symbol breaks programs; a new one is a promise."""
 
 import pathlib
 import re
@@ -43,7 +43,6 @@ def complaints(library, archive, headers, listed):
 
 
 def build(folder, compiler, source, soname):
-    """A library, an archive and headers like pt's for the functions in source."""
     (folder / "f.c").write_text(source)
     for old in folder.glob("*.h"):
         old.unlink()

@@ -1,7 +1,6 @@
-"""Sizes and offsets of the headers' structs against a table. Called as struct_layout_test.py HEADERS TABLE ROOT
-C_COMPILER; with only the first and the last argument it prints the table. Structs may grow at the tail only; other
-changes break compiled programs. The output of ROOT/lib/python/generate.py must be current, and the Python package's
-structs must have the table's layout."""
+"""Sizes and offsets of structs: struct_layout_test.py HEADERS TABLE ROOT C_COMPILER; with only the first and the last
+argument it prints the table. Structs may grow at the tail only. The output of ROOT/lib/python/generate.py must be
+current, and the Python package must have the same layout."""
 
 import ctypes
 import importlib.util
@@ -13,7 +12,7 @@ import tempfile
 
 
 def loaded_file(path):
-    """Loads a file as a module alone: its package needs NumPy and the library."""
+    """The package around it needs NumPy and the library."""
     spec = importlib.util.spec_from_file_location(path.stem, path)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
@@ -29,7 +28,6 @@ def struct_bodies(headers):
 
 
 def structs_of(headers):
-    """Names of the headers' structs and their members."""
     return [(name, [member for member, _ in generate.members_of(body)]) for name, body in struct_bodies(headers)]
 
 
@@ -46,7 +44,7 @@ def program_for(structs, includes):
 
 
 def layout_of(headers, compiler):
-    """The table of the compiler's layouts; headers: text by name."""
+    """headers: text by name."""
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         (folder / "pt").mkdir()
@@ -63,7 +61,6 @@ def ctypes_structs(module):
 
 
 def python_layout(structs):
-    """The same for ctypes structs."""
     lines = []
     for name, struct in structs.items():
         lines.append(f"{name} {ctypes.sizeof(struct)}")
@@ -95,7 +92,6 @@ def check_the_check(headers, table, compiler):
 
 
 def check_the_package_check(headers):
-    """Changed headers change the generated package: members, types, enumerators, numbers."""
     written = generate.files_of(headers)
     for old, new, wanted in (
         ("uint32_t row_count;", "uint32_t row_count; uint64_t more;", '("row_count", c_uint32), ("more", c_uint64)]'),

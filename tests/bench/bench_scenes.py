@@ -1,5 +1,3 @@
-"""The benchmark's scenes, and how each is measured."""
-
 import hashlib
 import json
 import pathlib
@@ -53,5 +51,4 @@ def sample_counts(name):
 
 
 def read_reference_table(folder=REFERENCES):
-    """Facts about each reference, by scene."""
     return json.loads((pathlib.Path(folder) / "references.json").read_text(encoding="utf-8"))

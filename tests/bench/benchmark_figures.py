@@ -1,4 +1,4 @@
-"""The benchmark's results: points, costs, ratios, and the report."""
+"""The benchmark's results and report."""
 
 import statistics
 
@@ -13,7 +13,7 @@ COARSE = 0.01  # the largest error of a reference, over the smallest error measu
 
 
 def points_of(cells, unit):
-    """Cells of one or several rounds -> sample count -> (cost, error)."""
+    """Cells -> sample count -> (cost, error)."""
     by_count = {}
     for cell in cells:
         by_count.setdefault(cell["spp"], []).append(cell)
@@ -48,7 +48,7 @@ def scene_figures(rounds, unit):
 
 
 def ratio_text(figures):
-    """Two or three digits of the ratio at each target, without exponents."""
+    """Two or three digits, without exponents."""
     def text(one):
         ratio = one["ratio"]
         if ratio > 1000:
@@ -58,7 +58,7 @@ def ratio_text(figures):
 
 
 def behind(report):
-    """A line for each option that is ahead of the default, the furthest first."""
+    """A line for each option ahead of the default, the furthest first."""
     found = []
     for name, scene in report["scenes"].items():
         for option, figures in scene["options"].items():

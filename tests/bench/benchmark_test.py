@@ -1,5 +1,4 @@
-"""The benchmark: arithmetic, matching scenes and references, and a run. No times are judged. PT_LIBRARY names the
-library."""
+"""The benchmark's arithmetic, scenes and references, and a run. PT_LIBRARY names the library."""
 
 import contextlib
 import io

@@ -8,7 +8,7 @@ ROUNDING = 1e-5  # of a mean without noise, relative: Mitsuba sums a pixel's sam
 
 
 def block_means(pixels, width, height):
-    """From R, G, B row by row: each channel's mean over each block."""
+    """Each channel's mean over each block."""
     means = []
     for top in range(0, height, BLOCK):
         for left in range(0, width, BLOCK):
@@ -19,7 +19,7 @@ def block_means(pixels, width, height):
 
 
 def whole_means(blocks):
-    """Means of blocks of one size -> channel means of the image."""
+    """Channel means of the image."""
     return [statistics.fmean(blocks[channel::3]) for channel in range(3)]
 
 
@@ -29,7 +29,7 @@ def mean_and_error(runs):
 
 
 def compare(runs, expected_runs):
-    """Largest deviation of the runs' means in standard errors, and the relative resolution."""
+    """Largest deviation of the means in standard errors, and the relative resolution."""
     largest_z, relative = 0, []
     for (mean, error), (expected, expected_error) in zip(mean_and_error(runs), mean_and_error(expected_runs)):
         noise = math.hypot(error, expected_error, ROUNDING * expected)

@@ -31,7 +31,6 @@ NOISE_MARGIN = 3
 
 
 def names(known):
-    """Parses --samplers and --estimators: names with commas, each once."""
     def read(text):
         chosen = list(dict.fromkeys(text.split(",")))
         for name in chosen:
@@ -137,7 +136,6 @@ class Bench:
 
 
 def cells_of(runs, near):
-    """Table rows from the runs of each sampler, estimator and sample count."""
     cells, before = [], None
     for (sampler, estimator, samples), of_rounds in runs.items():
         columns = list(zip(*of_rounds))

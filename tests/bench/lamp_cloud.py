@@ -1,4 +1,4 @@
-"""Clouds of small lamps over a floor with balls, in columns, by count and seed."""
+"""Clouds of small lamps over a floor with balls, by count and seed."""
 
 import array
 import random
@@ -11,8 +11,8 @@ MATT, DARK = {"diffuse": [0.7, 0.6, 0.5]}, {"diffuse": [0.4, 0.5, 0.6]}
 
 
 class LampCloud:
-    """Columns as in SphereCloud. The total surface does not depend on the count. Without `shining` all but the first
-    are dark: rays meet the same spheres without a choice among lamps."""
+    """Columns as in SphereCloud, of constant total surface. Without `shining` all but the first are dark: the same rays
+    without a choice among lamps."""
 
     def __init__(self, count, shining=True):
         rng = random.Random(SEED)

@@ -39,8 +39,6 @@ def parse_arguments():
 
 
 class Measured:
-    """A context with the times of its calls."""
-
     def __init__(self, name, path, scene):
         os.environ["PT_LIBRARY"] = path
         self.name = name

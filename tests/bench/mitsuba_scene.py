@@ -46,8 +46,6 @@ def emitter(material):
 
 
 class MitsubaScene:
-    """A scene and its renderings: paths without roulette, box pixels."""
-
     def __init__(self, variant, scene, size=None, lengths=None):
         """size: width and height; lengths: path lengths, if not the scene's."""
         import mitsuba

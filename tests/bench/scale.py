@@ -85,8 +85,6 @@ def cpu_seconds():
 
 
 class Library:
-    """A context with a cloud, and their costs."""
-
     def __init__(self, name, path, cloud, options):
         os.environ["PT_LIBRARY"] = path
         self.name, self.options = name, options
@@ -198,7 +196,7 @@ def relative_error(image, reference):
 
 
 def difference_of_means(image, reference):
-    """Difference of means, relative to the reference and in standard errors by the pixels' differences."""
+    """Relative, and in standard errors by the pixels' differences."""
     pixels = [sum(image[i:i + 3]) - sum(reference[i:i + 3]) for i in range(0, len(image), 3)]
     mean = statistics.fmean(pixels)
     error = statistics.pstdev(pixels, mean) / math.sqrt(len(pixels))

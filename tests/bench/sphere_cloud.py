@@ -1,4 +1,4 @@
-"""Clouds of random spheres over a floor with one lamp, in columns, by count and seed."""
+"""Clouds of random spheres over a floor with one lamp, by count and seed."""
 
 import array
 import random

@@ -1,5 +1,4 @@
-// Films of the shipped scenes against tests/data/film_checksums.txt, which only changes of radiance may change: on a
-// CPU, on a CPU used like a GPU, and on two devices with short submissions.
+// Films of the shipped scenes against tests/data/film_checksums.txt, which only changes of radiance may change.
 #include "cli/scene/scene_file.h"
 #include "lib/base/digest.h"
 #include "tests/support/context_calls.h"
@@ -38,7 +37,7 @@ std::string checksum_of(const std::vector<Number> &numbers) {
     return hexadecimal(pt::checksum(std::as_bytes(std::span(numbers))));
 }
 
-// Tiles, samples and sums, without the identity, which names the kernels, and the checksum.
+// Without the identity, which names the kernels, and the checksum.
 std::string checksum_of_sums(const std::vector<char> &film) {
     const std::size_t first = std::string_view(film.data(), film.size()).find("\ntile ");
     return hexadecimal(pt::checksum(std::as_bytes(std::span(film).first(film.size() - 8).subspan(first))));
@@ -59,8 +58,7 @@ protected:
         ASSERT_EQ(pt_accumulate(on, &info), PT_OK) << pt_last_error(on);
     }
 
-    // Even film (sums, picture, standard errors), then sums with more samples in some tiles. Rows rendered alone, and a
-    // saved and continued film, must have the same bits.
+    // Even film, then more samples in some tiles. Rows alone, and a saved and continued film, have the same bits.
     static std::string checksums(pt_context *on, const cli::SceneFile &file, std::uint32_t sampler) {
         const pt_scene scene = file.scene();
         pt_render render = render_of(width, height, std::min(file.render.max_path_length, 4U));
@@ -108,7 +106,6 @@ protected:
     }
 };
 
-// Lines "device NAME", then its scenes.
 std::vector<std::string> lines_of(const std::string &device) {
     std::ifstream file(PT_TEST_DATA_DIR "/film_checksums.txt");
     std::vector<std::string> lines;
@@ -121,7 +118,7 @@ std::vector<std::string> lines_of(const std::string &device) {
     return lines;
 }
 
-// Each scene in one way with one sampler, so that each way meets each sampler; PT_TEST_MANY: all ways.
+// Each way meets each sampler; PT_TEST_MANY: all ways.
 TEST_F(FilmChecksums, AreThoseOfBefore) {
     constexpr const char *samplers[] = {"random", "halton", "halton-cp", "sobol"};
     std::vector<std::filesystem::path> scenes;

@@ -1,6 +1,5 @@
-"""Checkpoints: a rendering that is killed at any moment and resumed on any machine ends with the same bytes; damaged
-and foreign checkpoints are refused. PT_TEST_KILLS: how often one rendering is killed (default: 4). Arguments: see
-command_line.py."""
+"""Checkpoints: renderings killed at any moment and resumed on any machine end with the same bytes. PT_TEST_KILLS: how
+often one rendering is killed (default: 4)."""
 
 import json
 import os
@@ -24,7 +23,7 @@ class KeptRender(CommandLineTest):
         return ["render", COURSEWORK, "--spp", str(spp), "--size", size, "-o", "a.png", "--film", "a.ptfilm", "-q"]
 
     def whole(self, *options):
-        """Image and film of an undisturbed rendering; removes the files."""
+        """Removes the files."""
         self.expect(0, *options)
         found = [self.contents(name) for name in ("a.png", "a.ptfilm")]
         for name in "a.png", "a.ptfilm":
@@ -41,7 +40,6 @@ class KeptRender(CommandLineTest):
 
 class KilledRender(KeptRender):
     def identity(self, name):
-        """Changes when the file is replaced."""
         return os.stat(self.path(name)).st_ino if os.path.exists(self.path(name)) else None
 
     def test_killed_at_any_moment(self):
@@ -110,7 +108,7 @@ class KilledRender(KeptRender):
 
 class Surroundings(KeptRender):
     """Errors cost at most the checkpoint, never the picture."""
-    made = []  # undisturbed image and film, rendered once
+    made = []  # rendered once
 
     def setUp(self):
         super().setUp()
@@ -155,7 +153,7 @@ class Surroundings(KeptRender):
 class Resume(CommandLineTest):
     program = PT
     small = ("render", COURSEWORK, "--size", "16x8", "-q")
-    made = {}  # images and the checkpoint, rendered once
+    made = {}  # rendered once
 
     def setUp(self):
         super().setUp()
@@ -173,7 +171,6 @@ class Resume(CommandLineTest):
                     error=error)
 
     def refuse(self, error, *options):
-        """Nothing is written, and the checkpoint stays."""
         before = self.contents("c.ptfilm")
         self.resume(2, *options, error=error)
         self.assertEqual(self.contents("c.ptfilm"), before)
@@ -182,11 +179,11 @@ class Resume(CommandLineTest):
     def test_it_goes_on_to_the_same_bytes(self):
         self.resume(0)
         self.assertEqual(self.contents("a.png"), self.contents("whole.png"))
-        self.resume(0)  # nothing is left to do
+        self.resume(0)
         self.assertEqual(self.contents("a.png"), self.contents("whole.png"))
 
     def test_a_crop_goes_on_too(self):
-        """Whole rows are kept, so other columns may be shown; other rows are another film."""
+        """Whole rows are kept: other columns may be shown, other rows are another film."""
         crop = ["--checkpoint", "crop.ptfilm", "--crop"]
         self.expect(0, *self.small, "-o", "half.png", "--spp", "12", *crop, "2,3,5,4")
         for part in "2,3,5,4", "0,3,16,4":
@@ -214,7 +211,7 @@ class Resume(CommandLineTest):
         self.assertEqual(self.contents("c.ptfilm"), self.checkpoint)
 
     def test_damaged_ones_are_refused(self):
-        """FilmBytes and the fuzzer damage unpacked films by thousands."""
+        """FilmBytes and the fuzzer damage more."""
         flipped = bytearray(self.checkpoint)
         flipped[len(flipped) // 2] ^= 4
         for damaged in self.checkpoint[:100], self.checkpoint[:-1], flipped:

@@ -1,4 +1,4 @@
-"""Spheres in columns of NPY files. Arguments: see command_line.py."""
+"""Spheres in columns of NPY files."""
 
 import json
 import os
@@ -84,7 +84,7 @@ class RealDevice(ColumnsTest):
         return read_exr_channels(self.path("a.exr"))
 
     def test_columns_are_the_spheres_that_they_list(self):
-        """The image of single spheres, with any types; colors are sRGB, decoded."""
+        """Colors are sRGB, decoded."""
         def linear(byte):
             share = byte / 255
             return share / 12.92 if share <= 0.04045 else ((share + 0.055) / 1.055) ** 2.4
@@ -106,8 +106,7 @@ class RealDevice(ColumnsTest):
                 for name, lines in expected.items():
                     for line, other in zip(lines, found[name]):
                         for a, b in zip(line, other):
-                            # The library decodes to float32, this test to double: an ulp of a color is one of the
-                            # light.
+                            # The library decodes to float32: an ulp of a color is one of the light.
                             self.assertLessEqual(abs(a - b), 2**-20 * abs(a))
 
     def test_columns_are_the_capsules_that_they_list(self):

@@ -1,6 +1,5 @@
-"""Runs the program in an empty folder and reads its files. Scripts take the arguments PT PT_WITH_FAKE_LIBRARY SCENES
-[unittest arguments]. Most cases run against fake_library.cpp, which needs no device and fails on demand; classes named
-RealDevice run the program itself.
+"""Runs the program in an empty folder. Arguments of scripts: PT PT_WITH_FAKE_LIBRARY SCENES [unittest arguments]. Most
+cases use fake_library.cpp, which needs no device; classes named RealDevice use the program itself.
 """
 
 import os
@@ -19,8 +18,7 @@ from png import parse_png, png_chunks, read_png  # noqa: E402, F401
 PT, FAKE_PT, SCENES = sys.argv[1:4]
 COURSEWORK = os.path.join(SCENES, "coursework-diffuse.json")  # gives no warnings
 
-# Seconds after which a program counts as hung. No test passes or fails by the clock: awaited events come soon on any
-# machine, or never.
+# Seconds after which a program counts as hung: awaited events come soon on any machine, or never.
 PATIENCE = 600
 
 RESULT = {"INVALID_ARGUMENT": -1, "INVALID_SCENE": -2, "INVALID_STATE": -3, "UNSUPPORTED": -4, "NO_DEVICE": -5,
@@ -29,7 +27,7 @@ RESULT = {"INVALID_ARGUMENT": -1, "INVALID_SCENE": -2, "INVALID_STATE": -3, "UNS
 
 
 def npy(type_code, shape, numbers, version=1):
-    """An NPY file as by numpy.save."""
+    """As by numpy.save."""
     head = f"{{'descr': '{type_code}', 'fortran_order': False, 'shape': {shape}, }}\n".encode()
     size = struct.pack("<H" if version == 1 else "<I", len(head))
     letter = {"<f4": "f", "<f8": "d", "|u1": "B"}[type_code]
@@ -84,7 +82,7 @@ class CommandLineTest(unittest.TestCase):
         return process.returncode
 
     def expect(self, code, *arguments, error=None, **environment):
-        """Runs the program. Every line of a failure must begin with its name; `error` must be among them."""
+        """Every line of a failure must begin with the program's name; `error` must be among them."""
         self.assertEqual(self.run_pt(*arguments, **environment), code, self.errors)
         if code != 0:
             self.assertNotEqual(self.errors, "")

@@ -1,4 +1,4 @@
-"""The program as users meet it: exit codes, messages, files. Arguments: see command_line.py."""
+"""The program as users meet it: exit codes, messages, files."""
 
 import glob
 import json
@@ -56,7 +56,7 @@ class Usage(CommandLineTest):
         self.assertEqual(self.files(), [])
 
     def test_failing_allocations_end_the_program(self):
-        # Every run fails at another allocation of the parsing, and reports it or does without.
+        # Each run fails at another allocation of the parsing.
         codes = []
         for number in range(1, 3000, 61):
             codes.append(self.run_pt("render", COURSEWORK, "-o", "a.png", "--gamma", "0", FAKE_PT_ALLOCATION=number))
@@ -253,7 +253,7 @@ class RealDevice(CommandLineTest):
 
 class Warnings(CommandLineTest):
     def warnings(self, *options, scene="s.json", **environment):
-        """Warnings of --stats, with and without -q; stderr has each once, or none with -q."""
+        """Warnings of --stats; stderr has each once, or none with -q."""
         arguments = ["render", scene, "-o", "a.png", "--size", "8x4", "--stats", "stats.json", *options]
         self.expect(0, *arguments, **environment)
         told = json.loads(self.read("stats.json"))["warnings"]

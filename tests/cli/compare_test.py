@@ -1,4 +1,4 @@
-"""`pt compare`: figures, limits, exit codes, refusals. Arguments: see command_line.py."""
+"""`pt compare`: figures, limits, exit codes, refusals."""
 
 import json
 
@@ -100,7 +100,7 @@ class RealDevice(CommandLineTest):
     program = PT
 
     def test_what_is_not_finite_exceeds_every_limit(self):
-        # Fewer than 9 samples leave the second part empty, so the standard error is infinite.
+        # Fewer than 9 samples leave the second part empty.
         self.expect(0, "render", COURSEWORK, *SIZE, "-o", "e.exr", "--layers", "standard-error")
         compare = ("compare", "e.exr", "e.exr", "--layer", "standard_error")
         self.expect(0, *compare)

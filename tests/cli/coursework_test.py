@@ -1,5 +1,4 @@
-"""The steps of shaders/COURSEWORK.md: each diff applies to the kernel before, and its picture matches other renderers
-within the noise. Arguments: see command_line.py."""
+"""The steps of shaders/COURSEWORK.md: each diff applies, and its picture matches other renderers."""
 
 import os
 import shutil
@@ -22,7 +21,7 @@ SIDE = 16  # of a block, pixels
 
 
 def pixels_of(path):
-    """128 x 64 pixels; larger images are averaged, like a box filter."""
+    """Larger images are averaged, like a box filter."""
     channels = read_exr_channels(path)
     image = numpy.stack([numpy.array(channels[name]) for name in "RGB"], axis=2)
     side = len(image) // 64
@@ -30,8 +29,7 @@ def pixels_of(path):
 
 
 def deviations(image, reference):
-    """Differences of channel means in standard deviations, estimated from pixels: the largest, and the root mean square
-    over blocks."""
+    """Differences of channel means in standard deviations: the largest, and the root mean square over blocks."""
     def of_pixels(difference):
         deviation = difference.std(axis=-2) / numpy.sqrt(difference.shape[-2])
         return difference.mean(axis=-2) / numpy.maximum(deviation, 1e-9)

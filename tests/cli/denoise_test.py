@@ -1,5 +1,5 @@
 """`pt render --denoise` and `pt denoise` with a stand-in for Open Image Denoise (OPEN_IMAGE_DENOISE in the
-environment). Python's tests compare its bits, the library's tests its errors. Arguments: see command_line.py.
+environment).
 """
 
 import json

@@ -216,9 +216,8 @@ pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *info) {
     return PT_OK;
 }
 
-// Red grows from 0 to 1 to the right, green downwards; blue is 2, brighter than a display, and with
-// FAKE_PT_FAIL=split:1 depends on the calls that took the samples. Quantities are places in the picture; objects are
-// counted row by row.
+// Red grows from 0 to 1 to the right, green downwards; blue is 2, and with FAKE_PT_FAIL=split:1 depends on the calls.
+// Other quantities are places; objects are counted row by row.
 pt_result pt_readback(pt_context *context, const pt_image *image) {
     const pt_render &render = context->render;
     auto *object = static_cast<std::uint32_t *>(image->data);

@@ -1,4 +1,4 @@
-// cli/base/file: files are written whole or not at all, and leftovers of killed programs.
+// cli/base/file.
 #include "cli/base/file.h"
 #include "tests/cli/refusal_of.h"
 #include "tests/cli/temporary_folder.h"

@@ -1,6 +1,4 @@
-"""Files that are read and written: standard streams, and outputs that would overwrite inputs. Arguments: see
-command_line.py.
-"""
+"""Standard streams, and outputs that would overwrite inputs."""
 
 import json
 import os
@@ -56,7 +54,7 @@ class StandardStreams(CommandLineTest):
 
 
 class SameFiles(CommandLineTest):
-    """Overwriting is refused before a device is created, which would fail."""
+    """Refused before a device is created, which would fail."""
 
     def refuse(self, error, *arguments, command="render"):
         before = {name: self.contents(name) for name in self.files()}
@@ -134,7 +132,7 @@ class SameFiles(CommandLineTest):
 
 @unittest.skipUnless(os.geteuid() == 0, "needs root, for a second user")
 class LinksOfOthers(CommandLineTest):
-    """Others' links in folders like /tmp lead root to no file, for any output."""
+    """Others' links in folders like /tmp lead root nowhere."""
     RULE = "is another user's, in a folder where everybody may write; only your own links"
 
     def test_they_are_refused_before_anything_is_rendered(self):

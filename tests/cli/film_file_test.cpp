@@ -1,4 +1,4 @@
-// Film files (cli/film/film.h): unpacked ones and an absurd size. checkpoint_test.py has the program's.
+// Film files (cli/film/film.h); checkpoint_test.py has the program's.
 #include "cli/film/film.h"
 
 #include "tests/cli/refusal_of.h"
@@ -14,7 +14,7 @@ TEST(FilmFile, IsReadUnpacked) {
     EXPECT_EQ(cli::read_film_file(folder.file("a")), std::vector(1000, std::byte{'x'}));
 }
 
-// The frame claims a size that it cannot hold; no memory is taken for it.
+// No memory is taken for the claim.
 TEST(FilmFile, AnAbsurdSizeIsRefused) {
     const TemporaryFolder folder;
     std::string frame("\x28\xb5\x2f\xfd\xc0\x00", 6); // RFC 8878, 3.1.1.1: eight bytes of content size follow

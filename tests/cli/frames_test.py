@@ -1,4 +1,4 @@
-"""`pt render --frames`: files, stops, and pictures equal to single scenes. Arguments: see command_line.py."""
+"""`pt render --frames`: files, stops, and pictures equal to single scenes."""
 
 import json
 import os

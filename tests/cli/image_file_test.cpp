@@ -1,4 +1,4 @@
-// cli/image/image_file and its module: OpenImageIO reads back what was written.
+// cli/image/image_file and its module, read back by OpenImageIO.
 
 #include "cli/image/image_file.h"
 #include "tests/cli/refusal_of.h"
@@ -129,7 +129,6 @@ TEST(ImageFile, PngKeepsALargePicture) {
     EXPECT_EQ(read_pixels<std::uint8_t>(folder.file("a.png"), OIIO::TypeDesc::UINT8), bytes);
 }
 
-// Written by OpenImageIO, with 8 and 16 bits.
 TEST(ImageFile, PngOfOtherProgramsIsRead) {
     const TemporaryFolder folder;
     const std::string path = folder.file("a.png");

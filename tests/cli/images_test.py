@@ -1,4 +1,4 @@
-"""Images of `pt render` and `pt tonemap`: crops, standard output, metadata. Arguments: see command_line.py."""
+"""Images of `pt render` and `pt tonemap`: crops, standard output, metadata."""
 
 import json
 import os
@@ -17,7 +17,6 @@ CROP_TEXT = ",".join(map(str, CROP))
 
 
 def cut(image, rectangle):
-    """A rectangle of rows with three numbers per pixel."""
     x, y, width, height = rectangle
     return [row[3 * x:3 * (x + width)] for row in image[y:y + height]]
 
@@ -134,7 +133,7 @@ class Exr(ImagesTest):
 
 class EqualRuns(CommandLineTest):
     def images(self, folder, **environment):
-        """Renders once in a folder of this name, with this environment."""
+        """Renders once per folder, with this environment."""
         os.mkdir(self.path(folder))
         paths = [f"{folder}/a.{kind}" for kind in ("png", "jpg", "exr")]
         outputs = [word for path in paths for word in ("-o", path)]

@@ -1,5 +1,4 @@
-"""Signals while rendering, and the files left; exit_codes_test has each signal's code. Arguments: see command_line.py.
-"""
+"""Signals while rendering, and the files left; exit_codes_test has each signal's code."""
 
 import fcntl
 import os

@@ -1,4 +1,4 @@
-"""Kernels kept from run to run. Arguments: see command_line.py."""
+"""Kernels kept from run to run."""
 
 import os
 import re

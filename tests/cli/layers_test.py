@@ -1,4 +1,4 @@
-"""`pt render --layers` and --alpha. Arguments: see command_line.py."""
+"""`pt render --layers` and --alpha."""
 
 import math
 import struct
@@ -17,7 +17,7 @@ def as_float(number):
 
 
 def row_exr(channels):
-    """An uncompressed .exr of one row ("OpenEXR File Layout"); channels: values sorted by name."""
+    """One row, uncompressed ("OpenEXR File Layout"); channels: sorted by name."""
     width = len(channels["R"])
     window = struct.pack("<4i", 0, 0, width - 1, 0)
     listed = b"".join(name.encode() + struct.pack("<x4i", 2, 0, 1, 1) for name in channels) + b"\0"
@@ -145,7 +145,7 @@ class RealDeviceLayers(LayersTest):
         self.assertEqual({pixel["sample_count"] for pixel in pixels}, {2.0})
         self.assertTrue({pixel["id"] for pixel in pixels} <= set(range(8)))  # four spheres and four planes
         self.assertGreater(len({pixel["id"] for pixel in pixels}), 5)
-        # The camera looks from (0, 0, 1) at the wall z = -18.5, behind all else.
+        # The camera looks from (0, 0, 1) at the wall z = -18.5.
         for pixel in pixels:
             self.assertLessEqual(pixel["Z"], 19.5 + 1e-5)
             if pixel["id"] == 5:
@@ -153,7 +153,7 @@ class RealDeviceLayers(LayersTest):
             self.assertLessEqual(math.hypot(*(pixel[f"N.{axis}"] for axis in "XYZ")), 1 + 1e-6)
 
     def test_alpha_is_that_of_the_samples(self):
-        # A ball of radiance 1 without reflection: the mean is the share of samples that hit.
+        # Of radiance 1: the mean is the share of samples that hit.
         self.write("ball.json", """{"materials": {"white": {"emission": 1}},
                                     "spheres": [{"center": [0, 0, -4], "radius": 1, "material": "white"}]}""")
         self.expect(0, "render", "ball.json", *SIZE, "-o", "a.exr", "-o", "a.png", "--alpha", "--exposure", "0")

@@ -1,5 +1,4 @@
-"""cli/README.md says what the program does: its examples run, its tables have all commands, options, keys and exit
-codes, and its ranges are enforced. README.md's first scene runs too. Arguments: see command_line.py."""
+"""cli/README.md against the program: examples, tables, ranges. README.md's first scene runs too."""
 
 import json
 import os
@@ -24,7 +23,7 @@ EITHER = {"camera": (["vertical_fov", "aperture", "focus"], ["projection", "vert
 
 
 def rows_after(heading):
-    """The cells of the first table below a heading, without its head."""
+    """The first table's cells below a heading."""
     table = re.search(rf"{re.escape(heading)}.*?\n\|[-| ]+\|\n((?:\|[^\n]*\n)+)", MANUAL, re.DOTALL)[1]
     return [[cell.strip() for cell in line.strip("|").split("|")] for line in table.splitlines()]
 
@@ -57,7 +56,7 @@ def beyond(least, largest):
 
 
 def scene_with(section, values):
-    """A scene file whose section has these values by key, and required ones."""
+    """With required keys beside them."""
     members = json.dumps({**REQUIRED.get(section, {}), **values})
     others = "" if section == "materials" else ', "materials": {"red": {"diffuse": 0.5}}'
     return '{"%s": %s%s}' % (section, SECTIONS[section] % members[1:-1], others)
@@ -121,7 +120,7 @@ class RealDevice(CommandLineTest):
         self.assertRegex(self.output, r"^wrote ball.png: 48x24, .*\nexposure .* \(auto\)\nerror .*; target reached")
 
     def test_the_tour_of_the_readme(self):
-        """The commands run as written, in a smaller size; each row shows the output of its last command."""
+        """Each row shows its last command's output (here in a smaller size)."""
         root = os.path.join(SCENES, "..", "..")
         with open(os.path.join(root, "README.md"), encoding="utf-8") as file:
             tour = file.read().split("\n## A tour in five steps\n")[1].split("\n## ")[0]

@@ -1,5 +1,4 @@
-"""`pt merge`: parts add up to the bits of the whole; others are refused with a reason. Arguments: see command_line.py.
-"""
+"""`pt merge`: parts add up to the bits of the whole; others are refused with a reason."""
 
 import json
 import os

@@ -1,4 +1,4 @@
-"""Images in pieces of rows, samples in steps or on several devices. Arguments: see command_line.py."""
+"""Images in pieces of rows, in steps, or on several devices."""
 
 import json
 import resource
@@ -119,7 +119,7 @@ class RealDevice(CommandLineTest):
 
         whole, pieces = stats(), stats("--piece-rows", "8")
         self.assertLess(pieces["device_bytes"], whole["device_bytes"])
-        # A piece has fewer pixels, so a larger margin, and fewer neighbours at cuts.
+        # A piece has fewer pixels, so a larger margin.
         for key in ("rmse", "relative_rmse"):
             self.assertAlmostEqual(pieces[key], whole[key], delta=0.25 * whole[key])
 

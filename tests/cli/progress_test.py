@@ -1,4 +1,4 @@
-"""Progress in files and terminals. Arguments: see command_line.py."""
+"""Progress in files and terminals."""
 
 import fcntl
 import json

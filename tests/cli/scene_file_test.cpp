@@ -1,4 +1,4 @@
-// cli/scene/scene_file, with json_items, scene_reader and the table of keys.
+// cli/scene/scene_file.
 #include "cli/scene/scene_file.h"
 
 #include "tests/cli/refusal_of.h"
@@ -44,7 +44,7 @@ constexpr const char *small = R"({
               "estimator": "uniform" }
 })";
 
-// One colored sphere moves all into an array, which keeps the order.
+// One colored sphere moves all into an array.
 TEST(SceneFile, SpheresMayHaveColors) {
     const auto sphere = [](const std::string &rest) {
         return R"({"center": [1, 2, 3], "radius": 1, "material": "a")" + rest + "}";
@@ -327,7 +327,7 @@ TEST(SceneFile, AByteOrderMarkOfUtf8DoesNoHarm) {
     EXPECT_TRUE(refusal("\xef\xbb\xbf{,").starts_with("1:2: syntax error")) << refusal("\xef\xbb\xbf{,");
 }
 
-// A quadratic reader would take 10^10 steps, minutes.
+// A quadratic reader would take minutes.
 TEST(SceneFile, ManyItemsAreReadInLinearTime) {
     std::string text = "{\"materials\":{";
     constexpr int count = 30'000;

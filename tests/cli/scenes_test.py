@@ -1,5 +1,4 @@
-"""Every scene of cli/scenes says its purpose, is complete, and renders without unexpected warnings. Arguments: see
-command_line.py."""
+"""Every scene says its purpose, is complete, and renders without unexpected warnings."""
 
 import json
 import os

@@ -1,4 +1,4 @@
-"""`pt schema` and the program agree on the scenes here, changed in every place. Arguments: see command_line.py."""
+"""`pt schema` and the program agree on scenes changed in every place."""
 
 import copy
 import json
@@ -127,7 +127,7 @@ class Schema(CommandLineTest):
             is_valid = self.validator.is_valid(scene)
             refused = self.refused_by(self.fake, scene, "--size", "4x2")
             kind = "valid" if is_valid else "reader"
-            # The stand-in accepts everything; the library's rules need a device.
+            # The library's rules need a device.
             if not refused and not is_valid:
                 refused = self.refused_by(PT, scene)
                 kind = "library"

@@ -1,5 +1,4 @@
-// cli/selftest: right images pass, wrong ones fail, and the report says so. selftest_test.py tests the scenes on a
-// device.
+// cli/selftest: judgement and report. selftest_test.py tests the scenes.
 #include "cli/selftest/selftest.h"
 
 #include <gtest/gtest.h>
@@ -64,7 +63,7 @@ TEST(SelftestScene, WithoutNoiseEveryPixelCounts) {
     EXPECT_EQ(scene_count, 2);
 }
 
-// Closed form against the integral over time, by the midpoint rule.
+// Against the integral over time, by the midpoint rule.
 TEST(SelftestScene, RecedingLampByQuadrature) {
     const SelftestScene scene = cli::selftest_scenes().back();
     ASSERT_EQ(scene.name, "receding lamp");

@@ -1,4 +1,4 @@
-"""`pt selftest` as users meet it. Arguments: see command_line.py."""
+"""`pt selftest` as users meet it."""
 
 import json
 import os
@@ -8,7 +8,7 @@ from command_line import PT, RESULT, SCENES, CommandLineTest, main
 
 
 class Selftest(CommandLineTest):
-    """The stand-in's image fails every scene; all else can be right or wrong."""
+    """The stand-in's image fails every scene."""
 
     def checks(self, **environment):
         self.assertEqual(self.run_pt("selftest", "--json", "s.json", **environment), 1, self.errors)

@@ -1,4 +1,4 @@
-"""`pt render --shader-dir`, with and without --watch. Arguments: see command_line.py."""
+"""`pt render --shader-dir`, with and without --watch."""
 
 import glob
 import json
@@ -150,8 +150,7 @@ class MaterialsPage(CommandLineTest):
                  "spheres": [{"center": [0, 0, 0], "radius": 1000, "material": "sky"}],
                  "planes": [{"normal": [0, 1, 0], "offset": 0, "material": "floor"}]}))
             self.assertEqual(self.values("--spp", "1"), [[SRGB[radiance]] * 9] * 2)
-            # Within 4 standard errors with other directions: 0.9 of the value per sample, and .8 of an 8-bit step for
-            # each remaining percent.
+            # Within 4 standard errors: 0.9 of the value per sample, and .8 of an 8-bit step for each percent.
             for row in self.values("--spp", "65536", "--estimator", "uniform"):
                 for value in row:
                     self.assertLessEqual(abs(value - SRGB[radiance]), 2)

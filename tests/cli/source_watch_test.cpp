@@ -1,4 +1,4 @@
-// cli/render/source_watch: a picture's files, and when they count as changed.
+// cli/render/source_watch.
 #include "cli/render/source_watch.h"
 #include "tests/cli/temporary_folder.h"
 
@@ -52,8 +52,7 @@ protected:
         EXPECT_FALSE(watch.changed(milliseconds{0}));
     }
 
-    // A call takes a tenth of a second or a look at the files: the third looks at the latest, the next one sees files
-    // settled.
+    // The third call looks at the files at the latest; the next one sees them settled.
     static void expect_nothing(SourceWatch &watch) {
         for (int call = 0; call < 6; ++call)
             EXPECT_FALSE(watch.changed(milliseconds{100}));
@@ -72,7 +71,6 @@ TEST_F(SourceWatchTest, PassesOverWhatIsNoChange) {
     expect_change(sources, {folder.file("scene")});
 }
 
-// A change undone between two looks is not reported; begin() accepts changes.
 TEST_F(SourceWatchTest, ComparesWithTheBeginning) {
     SourceWatch sources = watch();
     folder.write("scene", "2");

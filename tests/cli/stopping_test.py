@@ -1,5 +1,4 @@
-"""Ends of a rendering (samples, time, target error, signals) with exit codes, messages about the error, and previews.
-Arguments: see command_line.py."""
+"""Ends of a rendering (samples, time, target error, signals), messages about the error, and previews."""
 
 import json
 import os
@@ -8,7 +7,7 @@ import subprocess
 
 from command_line import COURSEWORK, PATIENCE, PT, CommandLineTest, main, read_exr_channels, read_png
 
-# With samples of 20 ms it would take hours; the first check of the error comes after 16.
+# Hours of samples; the first check of the error comes after 16.
 ENDLESS = ("--spp", "1000000", "--time", "0.5")
 SLOW = {"FAKE_PT_SAMPLE_MS": 20}
 
@@ -147,8 +146,8 @@ KEYS = [name + end for name in ("rmse", "relative_rmse") for end in ("", "_low",
 
 
 class TargetError(CommandLineTest):
-    """The stand-in's relative error is 0.5 / N with bounds of half and twice that, unknown below 16; the other error is
-    twice as large."""
+    """The relative error is 0.5 / N with bounds of half and twice that, unknown below 16; the other one is twice as
+    large."""
 
     def render(self, *options, code=0):
         arguments = ["render", COURSEWORK, "-o", "a.png", "--size", "4x3", "--stats", "s.json"]
@@ -218,7 +217,7 @@ class RealDeviceError(CommandLineTest):
         self.assertTrue(0 < stats["relative_rmse_low"] < stats["relative_rmse"] < stats["relative_rmse_high"] <= 0.1)
         self.assertTrue(0 < stats["rmse_low"] < stats["rmse"] < stats["rmse_high"])
 
-        # The pixels of one call with as many samples; one check earlier was too early.
+        # One check earlier was too early.
         self.expect(0, *arguments, "-o", "b.exr", "--spp", str(stats["spp"]))
         self.assertEqual(read_exr_channels(self.path("a.exr")), read_exr_channels(self.path("b.exr")))
         self.assertEqual(json.loads(self.read("s.json"))["rmse"], stats["rmse"])

@@ -1,4 +1,4 @@
-// cli/image/tone_map: exposure, curves, encoding and rounding.
+// cli/image/tone_map.
 #include "cli/image/tone_map.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ using cli::ToneMap;
 constexpr ToneCurve all_curves[] = {ToneCurve::none, ToneCurve::reinhard, ToneCurve::aces, ToneCurve::agx,
                                     ToneCurve::neutral};
 
-// A few operations near 1, one of them a power: 1e-12 is thousands of roundings.
+// 1e-12 is thousands of roundings near 1.
 constexpr double rounding = 1e-12;
 
 void expect_color(const Color &color, const Color &expected, double tolerance) {
@@ -51,7 +51,7 @@ TEST(ToneMap, SrgbAnchors) {
     EXPECT_NEAR(cli::encode_srgb(0.001), 0.01292, rounding);
 }
 
-// The standard rounds the break point to 7 decimals: the pieces differ by up to the slope times half a unit.
+// The standard rounds the break point to 7 decimals: the slope times half a unit.
 TEST(ToneMap, SrgbPiecesMeet) {
     constexpr double break_point = 0.0031308;
     const double above = cli::encode_srgb(std::nextafter(break_point, 1.0));
@@ -99,13 +99,13 @@ TEST(ToneMap, AgxAnchors) {
                  {0.21446743070720334, 0.21453266862054834, 0.21453672826813272}, rounding);
     expect_color(apply_curve(ToneCurve::agx, {1.0, 0.2, 0.05}),
                  {0.6533598827094625, 0.2536195947288043, 0.107880509867948}, rounding);
-    // Sobotka's sigmoid pivots at middle grey with half the signal; the polynomial's published root mean square error
-    // is sqrt(3.67e-6) = 0.0019.
+    // Sobotka's sigmoid has half the signal at middle grey; the polynomial's root mean square error is sqrt(3.67e-6) =
+    // 0.0019.
     EXPECT_NEAR(std::pow(apply_curve(ToneCurve::agx, {0.18, 0.18, 0.18})[1], 1.0 / 2.2), 0.5, 3 * 0.0019);
 }
 
 TEST(ToneMap, NeutralAnchors) {
-    // Below the compression it subtracts the 4 % of Fresnel reflection, near black a share of them.
+    // Subtracts the 4 % of Fresnel reflection, near black a share of them.
     expect_color(apply_curve(ToneCurve::neutral, {0.5, 0.3, 0.2}), {0.46, 0.26, 0.16}, rounding);
     expect_color(apply_curve(ToneCurve::neutral, {0.05, 0.05, 0.05}), {0.015625, 0.015625, 0.015625}, rounding);
     expect_color(apply_curve(ToneCurve::neutral, {1.0, 1.0, 1.0}),
@@ -151,8 +151,7 @@ TEST(Exposure, TheAverageOfLogarithmsBecomesMiddleGrey) {
     EXPECT_EQ(automatic_exposure(grey({0x1p-20F * 0.09F, 0x1p-20F * 0.36F})), 20.0) << "moves with the picture";
 }
 
-// A hundredth of the pixels is 2^20 times as bright: by the lamp alone the level is 2^20 / 100^4, about 0.01 of the
-// rest.
+// A hundredth of the pixels is 2^20 times as bright: alone it sets the level to 2^20 / 100^4.
 TEST(Exposure, HardlyDependsOnLamps) {
     std::vector<float> radiance = grey({0x1p20F * 0.18F});
     radiance.resize(3 * 100, 0.18F);

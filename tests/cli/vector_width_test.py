@@ -1,4 +1,4 @@
-"""Vector widths requested of Mesa's llvmpipe, on machines with wide vectors. Arguments: see command_line.py."""
+"""Vector widths requested of Mesa's llvmpipe."""
 
 import json
 import os
@@ -34,7 +34,7 @@ class RealDeviceWidth(CommandLineTest):
             self.skipTest("there is no llvmpipe")
 
     def render(self, name, **environment):
-        """The device's name, which contains llvmpipe's width."""
+        """Contains llvmpipe's width."""
         self.expect(0, "render", COURSEWORK, "-o", name, "--size", "64x32", "--spp", "4", "--max-path-length", "6",
                     "--device", self.device, XDG_CACHE_HOME=self.path("cache"), **environment)
         return read_exr_attributes(self.path(name))["pt.device"][1].decode()
@@ -44,7 +44,7 @@ class RealDeviceWidth(CommandLineTest):
         self.assertTrue(os.listdir(self.path("cache/pt/shaders-512")))
 
     def test_a_checkpoint_goes_on_wherever_caches_can_be(self):
-        """Cron, services and other users have other cache folders, or none."""
+        """Cron and services have other cache folders, or none."""
         self.write("file", "")
         picture = ("render", COURSEWORK, "--size", "16x8", "--device", self.device, "--checkpoint", "c.ptfilm", "--spp")
         self.expect(0, *picture, "8", "-o", "a.png", XDG_CACHE_HOME=self.path("cache"))

@@ -1,4 +1,4 @@
-// cli/render/warnings: each rule, on both sides of its bound.
+// cli/render/warnings: both sides of each bound.
 #include "cli/render/warnings.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-"""`pt render --watch` with changing scenes. Arguments: see command_line.py."""
+"""`pt render --watch` with changing scenes."""
 
 import json
 import os

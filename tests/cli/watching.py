@@ -16,14 +16,14 @@ def scene_text(width, emission=1.0):
 
 
 class Watching:
-    """A running program; both streams come through one pipe, in order."""
+    """Both streams come through one pipe, in order."""
 
     def __init__(self, process):
         self.process = process
         self.seen = []
 
     def line_with(self, text):
-        """The next line with this text; skips others."""
+        """Skips other lines."""
         for line in self.process.stdout:
             self.seen.append(line)
             if text in line:
@@ -31,7 +31,6 @@ class Watching:
         raise AssertionError(f"{text} does not come after\n{''.join(self.seen)}")
 
     def end(self, number=signal.SIGINT):
-        """Sends a signal and returns the exit code."""
         self.process.send_signal(number)
         self.seen += self.process.stdout
         return self.process.wait(timeout=PATIENCE)
@@ -52,6 +51,6 @@ class WatchTest(CommandLineTest):
         return Watching(process)
 
     def save(self, name, text):
-        """As editors do: a new file replaces the old one."""
+        """Like editors: a new file replaces the old one."""
         self.write(name + "~", text)
         os.replace(self.path(name + "~"), self.path(name))

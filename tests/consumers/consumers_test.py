@@ -1,6 +1,5 @@
-"""Users' programs, built from the installed library with pkg-config, CMake, Python and Debian's packages. Called as
-consumers_test.py STEP with the paths below; `install` comes first. The installation is moved before use, and no program
-finds the build folder."""
+"""Users' programs, built from the installed library: consumers_test.py STEP with the paths below, `install` first. The
+installation is moved before use, and no program finds the build folder."""
 
 import argparse
 import json
@@ -21,7 +20,7 @@ class Failed(Exception):
 
 
 def run(*command, expect=0, cwd=None, **environment):
-    """Standard output of a command, which must exit with `expect`."""
+    """The command must exit with `expect`."""
     done = subprocess.run([str(word) for word in command], cwd=cwd, env={**os.environ, **environment},
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     if done.returncode != expect:
@@ -35,13 +34,13 @@ def require(holds, message):
 
 
 def check_enclosure(*command, **environment):
-    """Succeeds with exact radiances, and fails with another expectation."""
+    """Exact radiances, and failure with another expectation."""
     run(*command, **environment)
     run(*command, "2.5", expect=1, **environment)
 
 
 def files_with(tree, *texts):
-    """Files below a folder that contain one of the texts."""
+    """Files that contain one of the texts."""
     found = []
     for path in sorted(tree.rglob("*")):
         if path.is_file() and not path.is_symlink():
@@ -51,7 +50,6 @@ def files_with(tree, *texts):
 
 
 def needed(program):
-    """Shared libraries that a program is linked with."""
     return [line.split("[")[1].rstrip("]") for line in run("readelf", "--dynamic", program).splitlines()
             if "(NEEDED)" in line]
 
@@ -95,7 +93,7 @@ class Steps:
                     require(f"{place}/" not in text, f"{path} names {place}")
 
     def check_manual(self, share):
-        """Manual pages of all commands, and bash's completion, at their places below share/."""
+        """Manual pages of all commands, and bash's completion."""
         text = (share / "man/man1/pt.1").read_text()
         commands = re.findall(r"^  (\w+) ", text.split("Commands:\n")[1].split("\n\n")[0], re.MULTILINE)
         require("render" in commands, f"pt.1 refers to {commands}")
@@ -113,7 +111,7 @@ class Steps:
             require(said == expected, f"completion of {words} is {said}")
 
     def c99(self):
-        """pkg-config with both libraries; the C example and README.md's program."""
+        """pkg-config with both libraries, and README.md's program."""
         folder = self.folder("c99")
         strict = [self.options.c_compiler, "-std=c99", "-pedantic-errors", "-Wall", "-Wextra", "-Werror"]
         enclosure = HERE / "c99" / "enclosure.c"
@@ -171,9 +169,9 @@ class Steps:
         return fast, slow
 
     def subproject(self):
-        """add_subdirectory. Equal objects are taken from the library's own build (reuse.py)."""
+        """add_subdirectory, with objects of the library's own build (reuse.py)."""
         folder = self.folder("subproject")
-        # Only the library is optimised, and only where the project leaves that open.
+        # Only the library, and only where the project leaves that open.
         for number, (settings, expected) in enumerate((
                 ([], ({"lib"}, {"tests"})),
                 (["-DCMAKE_BUILD_TYPE=Debug"], (set(), {"lib", "tests"})),
@@ -200,7 +198,7 @@ class Steps:
         require(installed == ["enclosure_static"], f"the project's installation has {installed}")
 
     def python(self):
-        """The package with the library; the Python example has the bits of the C example."""
+        """The Python example has the bits of the C example."""
         folder = self.folder("python")
         library = {"PT_LIBRARY": str(self.library / "libpt.so.0.3"), "PYTHONPATH": str(SOURCE / "lib" / "python")}
         run(sys.executable, "-B", EXAMPLES / "smallest.py", cwd=folder, **library)
@@ -221,7 +219,7 @@ class Steps:
             require(output.read_bytes().startswith(magic), f"{output} is of another format")
 
     def check_program_without_module(self, program, folder, **environment):
-        """Without the module it writes and reads PNG; others are refused before rendering, with what to install."""
+        """Without the module only PNG; the refusal says what to install."""
         scene = SOURCE / "cli" / "scenes" / "coursework.json"
         small = [scene, "--size", "16x8", "--spp", "1"]
         run(program, "render", *small, "-o", folder / "only.png", **environment)
@@ -244,7 +242,6 @@ class Steps:
         self.check_program_without_module(folder / "without" / "bin" / "pt", folder)
 
     def without_openimageio(self):
-        """CMake says so, and neither builds nor packs the module."""
         build = self.folder("without_openimageio")
         said = run(self.options.cmake, "-G", "Ninja", "-S", SOURCE, "-B", build, "-DPT_BUILD_TESTS=OFF",
                    "-DCMAKE_DISABLE_FIND_PACKAGE_PkgConfig=ON", f"-DCMAKE_C_COMPILER={self.options.c_compiler}",
@@ -260,7 +257,6 @@ class Steps:
         return run("dpkg-deb", "--field", package, name).strip().split(", ")
 
     def debian(self):
-        """Contents, dependencies, and use of the unpacked packages."""
         folder = self.folder("debian")
         run(self.options.cpack, "-G", "DEB", "-B", folder, cwd=self.options.build)
         packages = {path.name.split("_")[0]: path for path in folder.glob("*.deb")}

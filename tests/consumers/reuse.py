@@ -1,6 +1,5 @@
-"""A compiler launcher that takes an object from another build if it has the same sources and command, and compiles
-otherwise. Arguments: a file with the other build's commands (`ninja -t compdb`), the other build, this build's folder
-of pt, and the compiler's words."""
+"""A compiler launcher that takes equal objects from another build. Arguments: a file with the other build's commands
+(`ninja -t compdb`), the other build, this build's folder of pt, and the compiler's words."""
 
 import json
 import pathlib
@@ -13,13 +12,13 @@ words = sys.argv[4:]
 
 
 def plain(text, build, output):
-    """The words that decide an object: builds differ in folders, launchers and warnings."""
+    """Builds differ in folders, launchers and warnings."""
     text = text.replace(output, "OUT").replace(str(build), "BUILD").replace("\\", "").replace('"', "").replace("'", "")
     return sorted(word for word in text.split() if not word.startswith("-W") and not word.endswith("ccache"))
 
 
 def same_sources(source):
-    """The same generated sources: all shaders, and the unity file."""
+    """All shaders, and the unity file."""
     generated = [path.relative_to(own) for path in (own / "lib/shaders").glob("*.h")]
     return generated and all(
         (other / name).exists() and (other / name).read_text().replace(str(other), str(own)) == (own / name).read_text()

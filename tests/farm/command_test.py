@@ -1,5 +1,4 @@
-"""pt-farm: outputs, exit codes, messages, frames, signals and checkpoints. Argument: the program pt, whose pictures
-must be equal. Skipped without distributed."""
+"""pt-farm. Argument: the program pt, whose pictures must be equal. Skipped without distributed."""
 
 import contextlib
 import io
@@ -42,7 +41,7 @@ class Command(unittest.TestCase):
             json.dump(SCENE, file)
 
     def refused(self, *words):
-        """Exit code and output of a command that ends before any worker starts."""
+        """What the command says if it ends before any worker starts."""
         said, words = io.StringIO(), ["pt-farm", "render", "scene.json", *words]
         before, sys.argv = sys.argv, words
         try:
@@ -131,7 +130,6 @@ class Command(unittest.TestCase):
                                                         outside: b"c.npy", "d.npy": b"in/d.npy", "s.json": b""})
         self.assertEqual(job.files["s.json"], scene.replace(b"../c.npy", outside.encode()))
     def test_what_workers_refuse(self):
-        """The program's message and code."""
         said = self.farm("-o", "a.exr", "--set", "spheres[1].radius=-1", "--local-workers", "1", "-q", code=2)
         self.assertRegex(said, r"InvalidArgumentError: --set spheres\[1\].radius=-1: spheres.* must be > 0")
 
@@ -181,7 +179,7 @@ class Command(unittest.TestCase):
 
 
     def test_options_reach_the_farm(self):
-        """The options reach farm.Options; films_test tests checkpoint_every."""
+        """films_test tests checkpoint_every."""
         class Reached(Exception):
             pass
 

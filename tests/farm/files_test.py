@@ -1,5 +1,5 @@
-"""The commands of lib/python/FARM.md, verbatim except for the scene's size, give the picture of one process. Arguments:
-the program pt, FARM.md, and a stand-in for Open Image Denoise. GNU parallel and Dask are optional."""
+"""The commands of lib/python/FARM.md give the picture of one process. Arguments: the program pt, FARM.md, and a
+stand-in for Open Image Denoise. GNU parallel and Dask are optional."""
 
 import importlib.util
 import os
@@ -15,7 +15,6 @@ SCENE = pathlib.Path(__file__).resolve().parents[2] / "cli/scenes/coursework-dif
 
 
 def commands(start):
-    """The manual's lines with this start, continuations joined."""
     lines = pathlib.Path(MANUAL).read_text().replace("\\\n", " ").splitlines()
     return [line.replace("scene.json", f"{SCENE} --size 16x8") for line in lines if line.startswith(start)]
 
@@ -36,7 +35,7 @@ class Files(unittest.TestCase):
         self.assertEqual(done.returncode, 0, f"{words}\n{done.stdout}")
 
     def parts(self, line):
-        """Runs a line of the manual, then the one that adds its films."""
+        """Also runs the line that adds its films."""
         self.run_line(line)
         self.assertEqual(len(os.listdir(self.folder)), 16)
         self.run_line(command("pt merge").replace("picture.png", "sum.exr"))

@@ -1,5 +1,4 @@
-"""pt.farm: with any faults of workers and coordinator the film has the bytes of one process. Each case compares films
-with a Context of this process. Skipped without distributed."""
+"""pt.farm: with any faults the film has the bytes of a Context of this process. Skipped without distributed."""
 
 import dataclasses
 import os
@@ -62,8 +61,7 @@ class Unreadable:
 
 
 def faulty(name, part, codecs):
-    """Every other of a worker's first films is faulty; three in a row would exclude it. Workers start at different
-    faults, so that few parts suffice for all."""
+    """Every other first film of a worker is faulty. Workers start at different faults, so that few parts suffice."""
     worker = distributed.get_worker()
     worker.films = getattr(worker, "films", 0) + 1
     time.sleep(0.03)
@@ -155,8 +153,8 @@ class Farm(unittest.TestCase):
             self.cluster.workers[name].process.pid
 
     def harm(self, workers, stopped=None, killed=None):
-        """A progress function and tasks. When all workers have parts, at which they wait, some are harmed; the others
-        go on, and a stopped one too once they have been given its parts."""
+        """When all workers wait with their parts, some are harmed; the others go on, and a stopped one too once its
+        parts are given to them."""
         go = os.path.join(self.enterContext(tempfile.TemporaryDirectory()), "go")
         calls, held = [], []
 
@@ -189,8 +187,7 @@ class Farm(unittest.TestCase):
         self.assertEqual(found.film, self.whole)
 
     def test_faulty_outcomes(self):
-        """None enters the sum, and each is reported. Short parts on a busy machine too, so that each worker gets some.
-        """
+        """None enters the sum. Short parts, so that each worker gets some."""
         options = dataclasses.replace(QUICK, part_seconds=0.004, most_tries=50)
         with mock.patch.object(_coordinator, "least_seconds", lambda workers, adding_seconds: 0.05):
             found = self.farm(2 * SAMPLES, task=faulty, options=options)
@@ -270,7 +267,6 @@ class Farm(unittest.TestCase):
         self.assertEqual((more.progress.samples, more.progress.samples_wanted), (SAMPLES, SAMPLES))
 
     def test_the_scheduler_dies(self):
-        """Returned parts are kept, and another cluster continues from them."""
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "kept.ptfilm")
             options = dataclasses.replace(QUICK, checkpoint=path)
@@ -284,7 +280,7 @@ class Farm(unittest.TestCase):
             self.assertEqual(self.farm(samples, options=options, task=render_part).film, whole(samples))
 
     def test_a_full_disk(self):
-        """Reported once; the rendering continues, and checkpoints resume when there is room."""
+        """The rendering continues, and checkpoints resume when there is room."""
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "kept.ptfilm")
 
@@ -311,8 +307,7 @@ class Farm(unittest.TestCase):
         self.assertEqual(seen.issued, seen.parts)
 
     def test_accounts_of_parts(self):
-        """test_target_error has errors. A coordinator that drops a part reports it, though its film is complete in the
-        end."""
+        """A coordinator that drops a part reports it, though its film is complete."""
         options, wanted = dataclasses.replace(QUICK, patience=60.0), set()
         found = self.farm(task=render_part, options=options, progress=lambda now, film: wanted.add(now.samples_wanted))
         self.assertEqual(wanted, {SAMPLES})  # also in earlier rounds

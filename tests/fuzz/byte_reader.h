@@ -1,4 +1,4 @@
-// The fuzzer's bytes as values. After the last byte all values are 0, so a prefix of an input is an input.
+// The fuzzer's bytes as values; after the last byte 0, so a prefix of an input is an input.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,6 @@ class ByteReader {
 public:
     explicit ByteReader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
 
-    // The bits of a T.
     template <typename T>
     requires std::is_trivially_copyable_v<T> T raw() {
         T value{};

@@ -1,4 +1,4 @@
-// On a device: accepted input renders to finite images without left-out samples, the same in any split. See examine.h.
+// On a device: finite images without left-out samples, the same in any split.
 #include "tests/fuzz/examine.h"
 
 #include "lib/base/error.h"
@@ -19,7 +19,7 @@ namespace fuzz {
 
 namespace {
 
-// Whether the samples exist and rendering takes less than seconds, by the number of ray-surface tests.
+// Whether the samples exist and rendering takes less than seconds.
 bool can_be_rendered(const Input &input) {
     constexpr double most_tests = 4e6;
     const pt_render &render = input.render;
@@ -37,9 +37,9 @@ bool conserves_energy(const pt_material &material) {
     return true;
 }
 
-// With energy-conserving materials a sample's expectation is at most K L (path length, brightest emission), so by
-// Markov's inequality it exceeds the limit 2^20 L with probability at most K / 2^20. Plain Halton is not random: its
-// first point is 0 in all dimensions, which hits sharp lobes under estimators that do not follow them.
+// A sample's expectation is at most K L (path length, brightest emission), so by Markov's inequality it exceeds the
+// limit 2^20 L with probability K / 2^20 at most. Plain Halton's first point is 0 in all dimensions, which hits sharp
+// lobes.
 bool may_lose_samples(const Input &input) {
     const bool follows_lobe = input.render.estimator == PT_ESTIMATOR_BEST ||
                               input.render.estimator == PT_ESTIMATOR_BSDF || input.render.estimator == PT_ESTIMATOR_MIS;
@@ -88,8 +88,7 @@ void examine_one(const Input &input) {
             "the bits do not depend on how samples are split over calls");
 }
 
-// The kernel's features; empty if refused. Repeated surfaces merge, so a neighbour in which one has moved may need
-// another kernel.
+// Repeated surfaces merge, so a neighbour may need another kernel; empty if refused.
 std::optional<pt::Features> features(const Input &input) {
     try {
         return pt::gpu_scene(pt::PreparedScene(pt::owned_scene(checked_scene_of(input.scene()))),
@@ -102,8 +101,8 @@ std::optional<pt::Features> features(const Input &input) {
 
 } // namespace
 
-// A kernel takes a thousand times as long as such an image, so neighbours that need another are skipped. The first
-// image has a kernel of its own, the others one for all scenes of its features.
+// A kernel takes a thousand times as long as an image, so neighbours that need another are skipped. The first image has
+// a kernel of its own.
 const std::uint32_t neighbour_count = 255;
 
 void examine(std::span<const Input> family) {

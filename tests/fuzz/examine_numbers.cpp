@@ -1,5 +1,4 @@
-// Without a device: accepted input keeps pt.h's promises and becomes finite numbers for the kernel; refusals have a
-// code and a message. See examine.h.
+// Without a device: accepted input keeps pt.h's promises; refusals have a code and a message.
 #include "tests/fuzz/examine.h"
 
 #include "lib/base/error.h"
@@ -87,8 +86,7 @@ void require_scene(const pt::Scene &scene) {
 }
 
 void require_camera(const pt::Camera &camera) {
-    // The least angle between up and the view leaves errors of 5 * 2^-53 / 2^-26 (camera.cpp), twice that between two
-    // vectors.
+    // The least angle between up and the view leaves 5 * 2^-53 / 2^-26 (camera.cpp), twice that between two vectors.
     constexpr double rounding = 10 * 0x1p-27;
     require(are_lengths(camera.position), "the camera's position is made of lengths");
     require(is_unit(camera.forward) && is_unit(camera.right) && std::abs(glm::length(camera.up) - 1.0) <= rounding,
@@ -131,8 +129,8 @@ void require_features(const pt::Features &features, const pt::Scene &scene) {
             "the loop trips of a sample can be counted");
 }
 
-// The kernel adds three squares of lengths: up to 3e18 from the pinhole, which may be 6e18 behind the rays' start. Only
-// a lobe's peak, k_s (n + 2) / (2 pi), exceeds the bounds of lengths and colors.
+// Squares of lengths up to 3e18 from the pinhole, which may be 6e18 behind the rays' start. Only a lobe's peak, k_s (n
+// + 2) / (2 pi), is larger.
 constexpr float largest_length = 9.0001e18F;
 constexpr float largest_peak = 1.6e26F;
 
@@ -141,8 +139,7 @@ bool is_within(const glm::vec4 &word, float largest) {
     return size.x <= largest && size.y <= largest && size.z <= largest && size.w <= largest;
 }
 
-// The lamp tree has lengths, powers (per lamp at most twice the scene's size) and spreads, which are squares
-// (lamp_tree_words.cpp).
+// Lengths, powers (at most twice the scene's size) and squares of lengths (lamp_tree_words.cpp).
 float largest_in_lamp_tree(std::uint64_t word, const pt::Features &features) {
     const std::uint64_t group_words = pt::gpu::lamp_tree_group_words(features[pt::gpu::ID_MOTION]);
     if (word >= group_words * pt::LampTreeShape(features[pt::gpu::ID_LAMP_COUNT]).all_groups())

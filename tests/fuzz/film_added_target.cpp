@@ -1,5 +1,4 @@
-// Films added to a context, which keeps its film or gets sums that it can continue. The fuzzer's bytes follow the
-// identity's lines, which depend on the device.
+// Films added to a context. The bytes follow the identity's lines, which depend on the device.
 #include "tests/fuzz/film_input.h"
 #include "tests/fuzz/on_device.h"
 #include "tests/support/scene_of.h"

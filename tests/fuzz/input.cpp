@@ -118,7 +118,7 @@ void read_claims(ByteReader &bytes, Input &input) {
     input.tail_byte = bytes.one_in(8) ? 1 : 0;
 }
 
-// Wrong strides are at most a struct's size, so that reads stay in the structs, or they are refused.
+// Reads stay in the structs, or are refused.
 void read_columns(ByteReader &bytes, Input &input) {
     static constexpr std::uint32_t right_types[] = {PT_TYPE_FLOAT64, PT_TYPE_FLOAT64, PT_TYPE_FLOAT64, PT_TYPE_UINT32,
                                                     PT_TYPE_SRGB8};
@@ -269,7 +269,7 @@ void change_one_number(Input &input, ByteReader &bytes) {
 }
 
 void SizedStruct::copy(const void *value, std::size_t known_size, std::uint32_t size, std::uint8_t tail_byte) {
-    // The size itself is always read; more than 64 KiB is refused unread.
+    // More than 64 KiB is refused unread.
     constexpr std::size_t largest = 65536;
     const std::size_t length = std::clamp<std::size_t>(size, sizeof(std::uint32_t), largest);
     bytes_ = std::make_unique<std::uint8_t[]>(length);

@@ -21,7 +21,7 @@ struct Input {
     pt_render render{};
     std::uint32_t sample_count = 1;
 
-    // False claims of pt_scene. They never promise more than exists, unless they are refused by themselves.
+    // False claims of pt_scene never promise more than exists, unless refused by themselves.
     struct SceneClaims {
         bool has_materials = true;
         bool has_spheres = true;
@@ -30,7 +30,7 @@ struct Input {
         std::uint32_t fewer_materials = 0;
     } claims;
 
-    // The last spheres may be given by two arrays of columns, which point into the structs.
+    // The last spheres may be columns that point into the structs.
     struct Columns {
         std::uint32_t count = 0;      // spheres in both
         bool has_colors = false;      // sRGB, from the centers' bytes
@@ -54,7 +54,7 @@ Input decoded_input(ByteReader bytes);
 // Changes a number within its own rule; usually keeps the kernel's features.
 void change_one_number(Input &input, ByteReader &bytes);
 
-// A struct in memory of exactly the given size, so that AddressSanitizer detects reads beyond.
+// In memory of exactly the given size, so that AddressSanitizer detects reads beyond.
 class SizedStruct {
 public:
     template <typename T>

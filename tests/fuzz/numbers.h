@@ -1,5 +1,4 @@
-// Numbers for scenes from the fuzzer's bytes: ordinary ones, any magnitude, and the ends of pt.h's ranges. A wild
-// source also breaks rules.
+// Ordinary numbers, any magnitude, and the ends of pt.h's ranges. A wild source also breaks rules.
 #pragma once
 
 #include "tests/fuzz/byte_reader.h"

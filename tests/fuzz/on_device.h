@@ -1,5 +1,4 @@
-// One context for all inputs; calls without a reason to fail must succeed. Environment: see
-// tests/support/context_fixture.h.
+// One context for all inputs. Environment: see tests/support/context_fixture.h.
 #pragma once
 
 #include "tests/fuzz/require.h"

@@ -1,4 +1,4 @@
-// Scene files: JSON through the program's reader to pt.h's structs.
+// JSON through the program's reader to pt.h's structs.
 #include "tests/fuzz/examine.h"
 #include "tests/fuzz/mutation.h"
 
@@ -32,7 +32,7 @@ bool is_number_character(std::uint8_t character) {
            std::string_view("+-.eE").find(static_cast<char>(character)) != std::string_view::npos;
 }
 
-// Replaces a number of the text; returns 0 without one, or without room.
+// Returns 0 without a number, or without room.
 std::size_t exchange_number(std::span<std::uint8_t> room, std::size_t size, std::mt19937 &random) {
     static constexpr std::string_view numbers[] = {
         "0",     "-0",   "1",     "-1",       "2",      "0.5",    "0.999999999999", "1e18",   "-1e18",
@@ -54,7 +54,7 @@ std::size_t exchange_number(std::span<std::uint8_t> room, std::size_t size, std:
 
 } // namespace
 
-// Most single-character changes are syntax errors, so every other change replaces a number.
+// Most single-character changes are syntax errors.
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t *data, std::size_t size, std::size_t max_size,
                                                unsigned int seed) {
     std::mt19937 random(seed);

@@ -1,5 +1,4 @@
-// Changes that keep the image but not its noise: order of surfaces, mirror, rotation. The noise is estimated from
-// seeds.
+// Changes that keep the image but not its noise, estimated from seeds.
 #include "tests/invariance/invariance_scene.h"
 #include "tests/support/batch_fixture.h"
 
@@ -35,7 +34,7 @@ struct Agreement {
     double largest_t;
 };
 
-// Student's t of two means of batches with equal noise: 2 * (16 - 1) degrees of freedom.
+// Student's t of two means with equal noise: 2 * (16 - 1) degrees of freedom.
 Agreement agreement(const Batches &a, const Batches &b) {
     Agreement result{0.0, 0.0};
     for (std::size_t block = 0; block < blocks; ++block) {
@@ -50,8 +49,7 @@ Agreement agreement(const Batches &a, const Batches &b) {
     return result;
 }
 
-// With k = 30 degrees of freedom t^2 has mean k / (k - 2) = 1.071, standard deviation 1.6; over 128 blocks 0.14: six of
-// them above the mean.
+// With k = 30 degrees of freedom t^2 has mean k / (k - 2) = 1.071, deviation 1.6, over 128 blocks 0.14.
 constexpr double expected_mean_square_t = 30.0 / 28.0;
 constexpr double mean_square_t_bound = expected_mean_square_t + 6.0 * 0.14;
 // One false alarm in a million over the blocks of six comparisons.

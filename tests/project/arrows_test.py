@@ -1,4 +1,4 @@
-"""Includes run one way: rooms of the library or program include only earlier rooms. Called as arrows_test.py ROOT."""
+"""Rooms include only earlier rooms: arrows_test.py ROOT."""
 
 import pathlib
 import re
@@ -10,7 +10,7 @@ ORDERS = {"cli": ("base", "image", "film", "scene", "render", "merge", "denoise"
 
 
 def arrows(part, includes):
-    """Pairs of rooms that include backwards; includes: (room, text of a file)."""
+    """includes: (room, text of a file)."""
     order = ORDERS[part]
     found = set()
     for room, text in includes:

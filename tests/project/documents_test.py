@@ -1,5 +1,4 @@
-"""The project's pages against the code: links, names, numbers, and every function in the library's page. Files named in
-comments must exist. Arguments: the project's folder."""
+"""The project's pages against the code. Files named in comments must exist. Arguments: the project's folder."""
 
 import pathlib
 import re
@@ -12,11 +11,11 @@ PAGES += [*(ROOT / "tests").glob("*/**/*.md"), *(ROOT / "lib").glob("*/*.md")]
 CURRENT = [page for page in PAGES if page.name not in ("CHANGELOG.md", "NOTEBOOK.md")]  # they cover the past, too
 CODE = re.compile(r"\.(h|c|cpp|glsl|comp|py|json|csv|cmake|sh)$|^CMakeLists\.txt$")
 
-# Limits of words, in a page and in all pages but the changes.
+# Limits of words: of a page, and of all pages but the changes.
 MOST_WORDS = {"README.md": 1200, "CONTRIBUTING.md": 1500, "shaders/README.md": 9000, "tests/bench/README.md": 2500}
 MOST_WORDS_IN_ALL = 27_600
 
-# Numbers in pages, and the file and text that define them, with groups in the same order.
+# A file and its text, with groups in the same order.
 NUMBERS = (
     (r"(?:[Ff]rom|scenes of) (\d+) spheres\s+o[nr]\b", "lib/tree/tree_choice.h", r"default_tree_from = (\d+);"),
     (r"[Uu]p to (\d+) (?:spheres )?that reach\s+(\d+) times as far", "lib/tree/tree_choice.cpp",
@@ -60,7 +59,7 @@ def code_files():
 
 
 def names_of_code(text):
-    """A page's identifiers with an underscore that stand alone as code, and its names of source files and folders."""
+    """Identifiers with an underscore that stand alone as code, and names of source files and folders."""
     spans = re.findall(r"`([\w./]+)(?:\(\))?`", re.sub(r"```.*?```", "", text, flags=re.DOTALL))
     others = {span for span in spans if re.search(r"/|\.(h|c|cpp|glsl|comp|py|json|md|sh|exr|png)$", span)}
     identifiers = {word for span in spans if span not in others for word in span.split(".") if "_" in word}
@@ -69,7 +68,6 @@ def names_of_code(text):
 
 
 def missing_files(page, names, files):
-    """Names that exist at no place from which pages name files."""
     folders = [ROOT, page.parent, ROOT / "lib/include", ROOT / "lib/include/pt"]
     return [name for name in names if name not in files and not any((folder / name).exists() for folder in folders)]
 

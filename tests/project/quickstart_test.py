@@ -39,7 +39,7 @@ class Quickstart(unittest.TestCase):
         path.chmod(0o755)
 
     def run_script(self, command, failing="", installed=""):
-        """Returns the exit status; sets self.lines (commands) and self.output."""
+        """Sets self.lines (commands) and self.output."""
         notes = self.root / "notes"
         notes.write_text("")
         done = subprocess.run(["sh", self.root / "cmake" / "quickstart.sh", command], text=True, capture_output=True,

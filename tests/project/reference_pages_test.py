@@ -1,5 +1,5 @@
-"""The headers document everything: Doxygen with warnings as errors, a comment for each enumerator, and each function's
-threads. Called as reference_pages_test.py DOXYGEN DOXYFILE HEADERS (a folder); functions take headers as text by name.
+"""The headers document everything: Doxygen with warnings as errors, each enumerator, each function's threads.
+reference_pages_test.py DOXYGEN DOXYFILE HEADERS (a folder); headers: text by name.
 """
 
 import pathlib
@@ -29,14 +29,12 @@ def silent_functions(header):
 
 
 def silent_values(header):
-    """Enumerators without a comment before or after them."""
     header = re.sub(r"/\*\*<.*?\*/", "@", header, flags=re.DOTALL)
     values = re.findall(r"(\*/\s*)?\b(PT_\w+) = -?\d+,?\s*(@)?", header)
     return [name for before, name, behind in values if not before and not behind]
 
 
 def check_the_check(doxygen, settings, headers):
-    """Negative controls: missing comments, and comments about missing things."""
     header = headers["pt.h"]
     for old, new, wanted in (
         ("PT_API uint32_t pt_version(void);", "PT_API uint32_t pt_version(void);\nPT_API int pt_new(int x);", "pt_new"),

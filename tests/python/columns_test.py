@@ -1,4 +1,4 @@
-"""NumPy arrays as columns: read in place, and all layouts have the plain one's bits."""
+"""NumPy arrays as columns: all layouts have the plain one's bits."""
 
 import unittest
 

@@ -1,5 +1,4 @@
-"""The package's commands: --help needs no optional module, and pages have valid ones. Arguments: the project's folder.
-"""
+"""Commands: --help needs no optional module, and pages have valid ones. Arguments: the project's folder."""
 
 import pathlib
 import re
@@ -17,7 +16,6 @@ PYPROJECT = tomllib.loads((ROOT / "lib/python/pyproject.toml").read_text())["pro
 
 
 def figure_commands(text):
-    """Arguments of each `pt figure` in a page."""
     lines = re.findall(r"^pt[ -]figure ([^#\n]*)", text, re.MULTILINE) + re.findall(r"`pt[ -]figure ([^`]*)`", text)
     return [words for line in lines if (words := shlex.split(line)) != ["--help"]]
 

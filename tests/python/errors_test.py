@@ -1,4 +1,4 @@
-"""Exceptions: a class for each result, the library's message, the broken rules."""
+"""Exceptions and broken rules."""
 
 import ctypes
 import pathlib
@@ -71,7 +71,6 @@ class Functions(unittest.TestCase):
              "pt_take_bytes_fn": "CFunctionType"}
 
     def declared(self):
-        """Results and parameters of the headers' functions."""
         text = " ".join(" ".join(path.read_text().split()) for path in sorted(HEADERS.glob("*.h")))
         return {name: (kind.strip(), [] if parameters == "void" else parameters.split(", "))
                 for kind, name, parameters in re.findall(r"PT_API ([\w ]+?[ *]+)(pt_\w+)\(([^)]*)\);", text)}

@@ -1,4 +1,4 @@
-"""The package's example and the programs in its pages run and write their files. Arguments: the project's folder."""
+"""The package's example and its pages' programs. Arguments: the project's folder."""
 
 import contextlib
 import pathlib

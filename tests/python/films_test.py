@@ -49,7 +49,7 @@ class Films(unittest.TestCase):
         self.assertEqual(sum(copies), self.whole)
 
     def test_streams(self):
-        """Pieces are in order and complete; an exception passes through and ends the writing."""
+        """In order and complete; an exception ends the writing."""
         pieces = []
         self.whole.stream(pieces.append)
         self.assertEqual(b"".join(pieces), self.whole.to_bytes())
@@ -139,7 +139,7 @@ class Films(unittest.TestCase):
 
 
 class Plans(unittest.TestCase):
-    """One context decides, others take tiles' samples: the film of one context with a target error."""
+    """One context decides, others take tiles' samples."""
 
     ERROR, MOST, SHAPE = 0.006, 4096, {"width": 136, "height": 100}
 

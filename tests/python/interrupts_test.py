@@ -1,4 +1,4 @@
-"""Progress, and exceptions during calls: they stop the call, which raises them, and leave a usable context."""
+"""Progress and exceptions stop a call, which leaves a usable context."""
 
 import signal
 import sys
@@ -37,7 +37,6 @@ class Interrupts(unittest.TestCase):
         self.assertIs(sys.unraisablehook, self.hook)
 
     def check_usable(self):
-        """Samples are unchanged, and more can be added."""
         ready(self.context)
         self.context.accumulate(8)
         with pt.Context() as fresh:
@@ -92,7 +91,7 @@ class Interrupts(unittest.TestCase):
             self.check_usable()
 
     def test_a_signal_while_samples_are_taken(self):
-        """The signal comes during the call, without a progress function to raise it."""
+        """Without a progress function to raise it."""
         for _ in range(3):
             with self.assertRaises(Alarm):
                 signal.setitimer(signal.ITIMER_REAL, 0.02)

@@ -1,5 +1,4 @@
-"""Scenes read by the program for the package give the program's films. Arguments: the program pt, the folder of scenes.
-"""
+"""Scenes read by the program for the package. Arguments: the program pt, the folder of scenes."""
 
 import json
 import os
@@ -50,7 +49,6 @@ class Reading(unittest.TestCase):
         return path
 
     def films(self, path):
-        """Films of the package and of the program."""
         program = Program([str(path), "--size", "16x8"])
         self.addCleanup(program.close)
         read = program.scene()

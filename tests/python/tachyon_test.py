@@ -209,7 +209,7 @@ class Lamps(unittest.TestCase):
 
     @staticmethod
     def irradiance(lamp):
-        """Irradiance of a facing surface at the origin: cosine times radiance over the lamp's cone."""
+        """Irradiance of a facing surface at the origin."""
         widest = math.asin(lamp.radius / np.linalg.norm(lamp.center))
         angles = (np.arange(20000) + 0.5) * widest / 20000
         return 2 * math.pi * lamp.material.emission[1] * np.sum(np.cos(angles) * np.sin(angles)) * widest / 20000
@@ -266,7 +266,7 @@ class Pictures(unittest.TestCase):
                 self.assertGreater(self.differences(found)[0], 300)
 
     def differences(self, found):
-        """Wrong pixels among certain ones, and whether nearly all are certain."""
+        """Wrong pixels, and whether nearly all are certain."""
         width, height = found.settings.width, found.settings.height
         name = "perspective" if found.camera.vertical_extent is None else "parallel"
         shown = np.frombuffer((DATA / f"{name}.ppm").read_bytes()[-3 * width * height:], np.uint8)

@@ -1,4 +1,4 @@
-"""mypy --strict accepts the package and its example, and infers result types. Arguments: the package's folder."""
+"""mypy --strict accepts the package and its example. Arguments: the package's folder."""
 
 import os
 import pathlib
@@ -28,7 +28,7 @@ pt.figure("a.xyz", floor="yes")
 
 class Types(unittest.TestCase):
     def check(self, *arguments):
-        """mypy's output, with one cache for all calls."""
+        """One cache serves all calls."""
         return subprocess.run([sys.executable, "-m", "mypy", "--strict", "--no-error-summary", "--cache-dir",
                                self.folder / "cache", *arguments], text=True, capture_output=True, cwd=self.folder,
                               env={**os.environ, "MYPYPATH": str(PACKAGE)})

@@ -1,6 +1,5 @@
-"""The page of pt view in headless Chromium (Debian's), run by hand: needs a browser and a minute. python3
-tests/python/view_browser_test.py build/bin/pt [FOLDER for screenshots], with PYTHONPATH=lib/python and
-PT_LIBRARY=build/lib/libpt.so.0.3"""
+"""The page of pt view in headless Chromium (Debian's), by hand: python3 tests/python/view_browser_test.py build/bin/pt
+[FOLDER for screenshots], with PYTHONPATH=lib/python and PT_LIBRARY=build/lib/libpt.so.0.3"""
 
 import json
 import os

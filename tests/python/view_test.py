@@ -1,5 +1,5 @@
-"""The server of pt view, without a browser: access and answers. Arguments: the program pt, and whether kernels can be
-compiled at run time (0 or 1)."""
+"""The server of pt view: access and answers. Arguments: the program pt, and whether kernels can be compiled at run time
+(0 or 1)."""
 
 import asyncio
 import http.client
@@ -60,7 +60,6 @@ class Page:
         self.run(self.socket.send_str(message if isinstance(message, str) else json.dumps(message)))
 
     def ask(self, message):
-        """The next answer that is not a frame."""
         self.send(message)
         while True:
             answer = self.run(self.socket.receive())
@@ -75,7 +74,6 @@ class Page:
             self.pixels = np.frombuffer(data, np.float32, offset=4 + length).reshape(self.state["height"], self.state["width"], 3)
 
     def frame(self, holds=lambda state: True):
-        """The next frame with such a state."""
         while True:
             self.send({"next": 0})
             self.take(self.run(self.socket.receive()).data)

@@ -41,9 +41,9 @@ struct Judgement {
     bool accepts(double ratio) const { return ratio >= low && ratio <= high; }
 };
 
-// Limits of stated / true error; shaders/README.md, section 11, has a calibration. Random samples: of tens of thousands
-// of values the brightest few hundred weigh most, so both scatter by some per cent. Sequences: up to 2^p - 1, 1 <= p <=
-// 2, more in mean square (error_estimate.cpp), hence sqrt(3), and more by errors of denominators.
+// shaders/README.md, section 11, has a calibration. Random samples: the brightest few hundred of tens of thousands
+// weigh most, so both errors scatter. Sequences: up to 2^p - 1, 1 <= p <= 2, more in mean square (error_estimate.cpp),
+// hence sqrt(3), and more by denominators.
 constexpr Judgement of_random{0.9, 1.2};
 constexpr Judgement of_sequence{0.8, 2.0};
 
@@ -80,9 +80,8 @@ protected:
     }
 };
 
-// With lamps found by chance, rare bright samples carry most light and error. Dividing such a pixel by its own mean
-// would state less than half of the error; its surroundings are less close to its limit and state up to 1.73 times the
-// error here.
+// Lamps found by chance: a bright pixel divided by its own mean would state less than half of the error; its
+// surroundings state up to 1.73 times the error here.
 constexpr Judgement of_rare{0.9, 2.0};
 
 constexpr CalibrationCase calibration_cases[] = {
@@ -112,7 +111,7 @@ TEST_F(StatedError, IsThatByTheReference) {
             const pt_error_estimate stated = error();
             const double ratio = stated.relative_rmse / relative_rmse(image(), reference);
             EXPECT_TRUE(each.judgement.accepts(ratio)) << stats().sample_count << " samples: " << ratio;
-            // One truth in twenty is outside the 95% bounds, but not by much.
+            // One truth in twenty is outside the 95% bounds.
             EXPECT_GE(stated.relative_rmse_high, 0.9 * stated.relative_rmse / ratio);
             if (each.estimator == PT_ESTIMATOR_BEST) {
                 EXPECT_LE(stated.relative_rmse_low, 1.1 * stated.relative_rmse / ratio);
@@ -123,8 +122,8 @@ TEST_F(StatedError, IsThatByTheReference) {
     }
 }
 
-// A hundred lamps each cover a 70th of a pixel: 64 samples meet one about once, and often twice, unlike fireflies, for
-// which the stated error would be more than ten times too large.
+// A hundred lamps of a 70th of a pixel: 64 samples hit one about once, and often twice, unlike fireflies, for which the
+// stated error would be ten times too large.
 TEST_F(StatedError, OfLampsBelowAPixelIsThatByManySamples) {
     constexpr uint32_t width = 64;
     constexpr uint32_t height = 32;
@@ -171,8 +170,7 @@ struct RangesCase {
     Judgement judgement;
 };
 
-// A range's older part may have so few samples that their error dominates: of [1000, 1500) the 24 up to 1024. Largest
-// over six seeds: 3.05.
+// A range's older part may be small: of [1000, 1500) the 24 up to 1024. Largest over six seeds: 3.05.
 constexpr Judgement of_late_range{0.8, 3.2};
 
 TEST_F(StatedError, OfRangesIsThatByTheReference) {
@@ -221,8 +219,7 @@ double error_from_parts(const std::vector<Image> &samples, const PartOf &part_of
     return estimator.result().relative_rmse.estimate;
 }
 
-// The film's rule against a wrong one: even and odd samples are the first digit of the first dimension, so each part
-// would see one half of every pixel.
+// Even and odd samples are the first digit of the first dimension, so each part would see one half of every pixel.
 TEST_F(StatedError, OfSobolFailsForEvenAndOddSamples) {
     constexpr uint32_t sample_count = 64;
     std::vector<Image> samples;
@@ -238,7 +235,6 @@ TEST_F(StatedError, OfSobolFailsForEvenAndOddSamples) {
     ASSERT_EQ(2 * older, sample_count);
     const double by_film = error_from_parts(samples, [&](uint32_t i) { return i < older ? 0 : 1; });
     const double by_parity = error_from_parts(samples, [](uint32_t i) { return i % 2; });
-    // Rounding to float32 is far below 1e-4 of the error.
     EXPECT_NEAR(by_film, error().relative_rmse, 1e-4 * by_film);
     EXPECT_TRUE(of_sequence.accepts(by_film / truth)) << by_film / truth;
     EXPECT_FALSE(of_sequence.accepts(by_parity / truth)) << by_parity / truth;

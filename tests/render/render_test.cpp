@@ -1,5 +1,4 @@
-// The coursework scene against converged references of other renderers (tests/reference/README.md). Tolerances come
-// from the noise between batches.
+// The coursework scene against references of other renderers (tests/reference/README.md).
 #include "tests/render/reference_image.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
@@ -15,7 +14,7 @@ namespace {
 
 constexpr uint32_t width = 256;
 constexpr uint32_t height = 128;
-// Seeds differ: quasi-random samples of one seed are dependent.
+// Seeds differ, because quasi-random samples of one seed are dependent.
 constexpr uint32_t batch_count = 16;
 constexpr uint32_t batch_samples = 16;
 constexpr uint32_t block_size = 8;
@@ -25,7 +24,7 @@ struct Case {
     bool diffuse;
     uint32_t max_path_length;
     double reference_rmse; // as stated with the reference
-    uint32_t sampler;      // random like the reference's samples, so that both noises are distributed alike
+    uint32_t sampler;      // random like the reference's samples
 };
 
 using Image = std::vector<float>;
@@ -58,7 +57,7 @@ double block_mean(const Image &image, uint32_t block) {
     return sum / (block_size * block_size * 3);
 }
 
-// Mean square per value of the noise of the batches' mean.
+// Noise of the batches' mean, squared.
 double noise_of_mean(const std::vector<Image> &batches) {
     double sum = 0.0;
     std::vector<double> values(batches.size());
@@ -75,8 +74,7 @@ struct Agreement {
     double largest_t;
 };
 
-// Student's t per block: the batches give the variance of the mean; the reference's noise, known in total, is
-// distributed like ours.
+// Student's t per block; the reference's noise, known in total, is distributed like ours.
 Agreement agreement(const std::vector<Image> &batches, const Image &reference, double reference_rmse) {
     const double reference_share = reference_rmse * reference_rmse / noise_of_mean(batches);
     constexpr uint32_t blocks = (width / block_size) * (height / block_size);
@@ -102,9 +100,8 @@ Agreement agreement(const std::vector<Image> &batches, const Image &reference, d
     return result;
 }
 
-// With k = 15 degrees of freedom t^2 has mean k / (k - 2) = 1.154, standard deviation 1.84, over 512 blocks 0.081. 0.5
-// above the mean (6 deviations) allows for sums that are not quite normal and noise distributed differently, and
-// detects a bias of one standard error per block.
+// With k = 15 degrees of freedom t^2 has mean k / (k - 2) = 1.154, deviation 1.84, over 512 blocks 0.081. 0.5 above the
+// mean allows for sums that are not quite normal, and detects a bias of one standard error per block.
 constexpr double expected_mean_square_t = 15.0 / 13.0;
 constexpr double mean_square_t_bound = expected_mean_square_t + 0.5;
 // P(|t| > 8.5) = 4e-7 with 15 degrees of freedom, 2e-4 over 512 blocks.

@@ -48,7 +48,7 @@ pt_context *ready_context(uint64_t seed) {
     return context;
 }
 
-// A context's whole life; returns pt_accumulate's result, and the image if wanted.
+// Returns pt_accumulate's result, and the image if wanted.
 pt_result live(uint64_t seed, uint32_t sample_count, Progress &progress, Image *image = nullptr) {
     pt_context *const context = ready_context(seed);
     const pt_accumulate_info info{sizeof info, sample_count, &Progress::report, &progress, 0, 0, 0, nullptr, 0, 0};

@@ -1,5 +1,4 @@
-// A user's C++ program with its own namespace pt, whose names the library uses inside. Exit status 0 if they are not
-// mixed up.
+// A user's C++ program with its own namespace pt and the library's internal names.
 #include <pt/pt.h>
 
 #include <iostream>
