@@ -1,4 +1,4 @@
-// The C boundary: null checks, struct sizes, the end of exceptions. Renderer and the validated_* functions do the rest.
+// The C boundary: null checks, struct sizes, the end of exceptions.
 #include "lib/api/context.h"
 #include "lib/api/guard.h"
 #include "lib/base/error.h"
@@ -27,8 +27,8 @@ namespace pt {
 
 namespace {
 
-// The last refused call of this thread: another call was running, or the context belongs to another process. Kept here,
-// because the context's own error belongs to the running call.
+// This thread's last refused call: another call was running, or the context belongs to another process. The context's
+// own error belongs to the running call.
 struct Refusal {
     const pt_context *context = nullptr;
     const char *message = nullptr;
@@ -57,7 +57,7 @@ pt_result guard_any_time(pt_context *context, Call &&call) noexcept {
     return result;
 }
 
-// All other calls, which are refused while samples are running (pt/async.h).
+// Runs a call that is refused while samples are running (pt/async.h).
 template <typename Call>
 pt_result guard_context(pt_context *context, Call &&call) noexcept {
     return guard_any_time(context, [&](Renderer &renderer) {
@@ -98,8 +98,8 @@ pt_accumulate_info validated_accumulate(const pt_accumulate_info *info, bool may
     return accumulate;
 }
 
-// A context in use cannot be freed, so pt_destroy only logs; once, because the log function may call pt_destroy. Not in
-// a forked child, which may hold the context unintentionally, and where a vanished thread may have held the log's lock.
+// A context in use cannot be freed, so pt_destroy only logs; once, because the log function may call it. Silent in a
+// forked child, which may hold the context unintentionally, and where a vanished thread may have held the log's lock.
 void refuse_to_destroy(pt_context &context, const char *reason) noexcept {
     const bool told = refusal.context == &context || context.in_use.not_of_this_process();
     refusal = {&context, reason};
@@ -110,7 +110,7 @@ void refuse_to_destroy(pt_context &context, const char *reason) noexcept {
 }
 
 // Calls read() with the error of pt_last_error; or with NULL and a fixed message if this thread was refused or may not
-// see the context's error.
+// see it.
 template <typename Read>
 auto read_last_error(const pt_context *context, Read &&read) noexcept {
     if (!context)
@@ -197,7 +197,7 @@ void pt_destroy(pt_context *context) {
     }
     pt::refusal.forget(context);
     const pt::DefaultRounding rounding;
-    delete context; // still marked as in use, so that calls from its callbacks are refused
+    delete context; // still in use, so calls from its callbacks are refused
 }
 
 pt_result pt_get_context_device(pt_context *context, pt_device_info *device) {

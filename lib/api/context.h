@@ -1,4 +1,3 @@
-// The struct behind a pt_context, and the check of pt_create_info.
 #pragma once
 
 #include "lib/api/guard.h"
@@ -17,7 +16,6 @@ struct pt_context {
 
 namespace pt {
 
-// For calls without a context.
 extern thread_local LastError thread_last_error;
 
 // Throws PT_ERROR_INVALID_ARGUMENT with a line per broken rule.

@@ -44,7 +44,6 @@ const FilmTile &tile_of(const Film &film, std::uint32_t index) {
     return tiles[index];
 }
 
-// The values of pixels without samples.
 void write_nothing(const Image &image) {
     const auto &[pixels, quantity, format, row_bytes] = image.layout;
     const float value = quantity == PT_QUANTITY_STANDARD_ERROR ? std::numeric_limits<float>::infinity() : 0.0F;
@@ -125,7 +124,7 @@ pt_film_info info_of(const Film &film) {
             .device = facts.device.c_str()};
 }
 
-// Runs a call on a pt_film, which may be const.
+// The film may be const.
 template <typename Handle, typename Call>
 pt_result guard_film(Handle *film, Call &&call) noexcept {
     return guard(thread_last_error, [&] {

@@ -1,4 +1,4 @@
-// Turns exceptions into a pt_result, a message for pt_last_error and rules for pt_get_broken_rule.
+// Turns exceptions into a pt_result, a message and broken rules.
 #pragma once
 
 #include "lib/base/error.h"
@@ -14,7 +14,6 @@
 
 namespace pt {
 
-// The last failed call's message and rules.
 class LastError {
 public:
     // Never throws: without memory a fixed message replaces it, without rules.
@@ -60,8 +59,7 @@ private:
     }
 }
 
-// Rounds to nearest in this scope, with any mode of the caller. Threads started meanwhile inherit it, such as a
-// driver's.
+// Rounds to nearest in this scope. Threads started meanwhile inherit it, such as a driver's.
 class DefaultRounding {
 public:
     DefaultRounding() noexcept : callers_(std::fegetround()) { set(FE_TONEAREST); }
@@ -79,8 +77,8 @@ private:
     int callers_;
 };
 
-// Runs the body of a C call, which returns a pt_result or nothing (PT_OK), or throws. A callback's exception also ends
-// here, as PT_ERROR_INTERNAL with its message, because callers may be written in C. Samples taken before it stay.
+// Runs the body of a C call, which returns a pt_result or nothing (PT_OK), or throws. A callback's exception becomes
+// PT_ERROR_INTERNAL with its message, because callers may be written in C. Earlier samples stay.
 template <typename Call>
 pt_result guard(LastError &last_error, Call &&call) noexcept {
     const DefaultRounding rounding;

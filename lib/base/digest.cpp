@@ -9,7 +9,6 @@
 
 namespace pt {
 
-// One state for digests of 128 and 64 bits.
 struct Digest::State {
     XXH3_state_t hash;
 };

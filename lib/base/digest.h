@@ -1,4 +1,4 @@
-// Digests by XXH3: they detect changes, not forgeries.
+// XXH3 digests detect changes, not forgeries.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -26,7 +26,7 @@ public:
     void add(std::span<const std::uint32_t> words);
     void add(std::string_view text);
 
-    // If only bytes are added, checksum() is the XXH3 of all of them in a row.
+    // The XXH3 of all bytes in a row, if only bytes are added.
     void add_bytes(std::span<const std::byte> bytes);
     std::uint64_t checksum() const;
 

@@ -1,4 +1,4 @@
-// The library's only exception: a pt_result, its message and the broken rules. Caught by guard.h alone.
+// The library's only exception. Caught by guard.h alone.
 #pragma once
 
 #include <pt/pt.h>
@@ -12,7 +12,7 @@
 
 namespace pt {
 
-// A field, its value and its rule; the members of pt_broken_rule.
+// As pt_broken_rule.
 struct BrokenRule {
     std::string subject;
     std::int64_t index = -1;
@@ -26,14 +26,14 @@ struct BrokenRule {
     std::string text() const;
 };
 
-// Rules broken by one call: the first ones in full, and the number of all, because a scene may break millions.
+// Rules broken by one call: the first ones in full and the number of all, which may be millions.
 class Violations {
 public:
     static constexpr std::size_t most_kept = 8;
 
     void add(BrokenRule rule);
 
-    // Whether further rules are only counted, without text.
+    // Whether further rules are only counted.
     bool only_count() const { return first_.size() == most_kept; }
     void count_one() { ++count_; }
 
@@ -43,7 +43,6 @@ public:
     // A line per kept rule, and the number of the others.
     std::string text() const;
 
-    // Throws Error if there are any.
     void throw_if_any(pt_result code) const;
 
 private:

@@ -12,8 +12,7 @@ struct Log {
     pt_log_fn function = nullptr;
     void *user = nullptr;
 
-    // Passes a message on line by line. Never throws, because drivers and layers call it and exceptions must not unwind
-    // their frames. Undeliverable lines are dropped.
+    // Passes a message on line by line. Never throws, because drivers call it; drops lines that cannot be delivered.
     void write(int32_t level, const std::string &message) const noexcept {
         if (!function)
             return;
@@ -28,7 +27,7 @@ struct Log {
         }
     }
 
-    // Calls message() only if there is a log function. The message is dropped without memory for it.
+    // Calls message() only if there is a log function. Without memory the message is dropped.
     template <typename Message>
     void info(Message &&message) const noexcept {
         if (!function)

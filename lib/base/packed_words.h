@@ -1,6 +1,6 @@
-// Unpacks embedded SPIR-V (cmake/SpirvToHeader.cmake): words that are mostly small, or one of seven frequent ones.
-// Packed form: hexadecimal digits, two per byte, low one first. A word is its number of digits, 0 to 8, then the
-// digits; or a digit 9 to 15 for a frequent word.
+// Unpacks embedded SPIR-V (cmake/SpirvToHeader.cmake), whose words are mostly small or among seven frequent ones.
+// Packed: hexadecimal digits, two per byte, low one first. A word is its number of digits, 0 to 8, and the digits; or a
+// digit 9 to 15 for a frequent word.
 #pragma once
 
 #include <array>

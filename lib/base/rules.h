@@ -1,4 +1,3 @@
-// Rules of the caller's numbers.
 #pragma once
 
 #include "lib/base/error.h"
@@ -29,7 +28,6 @@ std::string number_text(std::floating_point auto value) {
     return std::string(text.data(), end);
 }
 
-// "(x, y, z)"
 template <typename Number>
 std::string number_text(const glm::vec<3, Number> &value) {
     return '(' + number_text(value.x) + ", " + number_text(value.y) + ", " + number_text(value.z) + ')';
@@ -45,9 +43,8 @@ inline const char *finite_rule(double value) {
 constexpr double min_length = 1e-18;
 constexpr double max_length = 1e18;
 
-// Lengths are 0 or of magnitude [1e-18, 1e18], so that squares are normal in float32 and sums of squares finite: 1e-36
-// > 2^-126 = 1.18e-38; the largest squared distance of a sphere from the camera is 3 * (3e18)^2 = 2.7e37 < 2^128 =
-// 3.4e38 (each component sums center, motion and position).
+// Lengths are 0 or of magnitude [1e-18, 1e18]: then squares are normal in float32 (1e-36 > 2^-126 = 1.18e-38) and
+// squared distances finite (3 * (3e18)^2 = 2.7e37 < 2^128 = 3.4e38, a component being center + motion - position).
 constexpr bool is_positive_length(double value) {
     return value >= min_length && value <= max_length;
 }
@@ -80,9 +77,9 @@ inline const char *share_rule(double value) {
     return is_share(value) ? nullptr : "must lie in [0, 1]";
 }
 
-// A field; or the first of several that make the value, and the message's text about the others: {"width", "* height"}.
+// A field; or the first of several that make the value, and how the message goes on: {"width", "* height"}.
 struct Member {
-    Member(const char *field, const char *others = "") : name(field), with(others) {} // implicit: a name alone will do
+    Member(const char *field, const char *others = "") : name(field), with(others) {} // implicit
 
     const char *name;
     const char *with;
@@ -113,7 +110,7 @@ public:
             refuse(member, number_text(value), broken);
     }
 
-    // Refuses an element of a column. Most of many millions are only counted.
+    // Refuses an element of a column; most of many millions are only counted.
     template <typename Value>
     void refuse_element(const Member &member, std::size_t element, const Value &value, std::string_view rule) const {
         if (violations_.only_count())
@@ -122,7 +119,6 @@ public:
             refuse_component(member, static_cast<std::int32_t>(element), number_text(value), std::string(rule));
     }
 
-    // Checks every component; the message names it.
     template <typename Value, std::size_t N>
     void check_each(const Member &member, const Value (&values)[N], Rule rule) const {
         for (std::size_t i = 0; i < N; ++i)

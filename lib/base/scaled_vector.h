@@ -1,4 +1,4 @@
-// Scales vectors so that squared lengths stay within double's range.
+// Keeps squared lengths within double's range.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -12,8 +12,8 @@ inline glm::dvec3 vector(const double (&components)[3]) {
     return {components[0], components[1], components[2]};
 }
 
-// v * 2^-exponent with its largest component in [1/2, 1). Does not round (except components below 2^-1000 of the
-// largest), so vectors that differ by a power of two have the same direction to the bit.
+// v * 2^-exponent with its largest component in [1/2, 1). Exact (except components below 2^-1000 of the largest), so
+// vectors that differ by a power of two have the same direction to the bit.
 struct ScaledVector {
     glm::dvec3 vector;
     int exponent;
@@ -26,7 +26,7 @@ inline ScaledVector scaled(const glm::dvec3 &v) {
     return {{std::ldexp(v.x, -exponent), std::ldexp(v.y, -exponent), std::ldexp(v.z, -exponent)}, exponent};
 }
 
-// v / |v| for finite v != 0. Divides, because 1 / |v| would round twice and axes would not stay exact.
+// v / |v| for finite v != 0. Multiplying by 1 / |v| would round twice, and axes would not stay exact.
 inline glm::dvec3 unit_vector(const glm::dvec3 &v) {
     const glm::dvec3 vector = scaled(v).vector;
     return vector / glm::length(vector);

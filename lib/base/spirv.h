@@ -1,4 +1,4 @@
-// Words and instructions of a SPIR-V module (Khronos, "SPIR-V Specification", version 1.5).
+// A SPIR-V module's words and instructions (Khronos, "SPIR-V Specification", version 1.5).
 #pragma once
 
 #include <cstddef>
@@ -75,7 +75,7 @@ constexpr std::uint32_t first_word(Opcode opcode, std::uint32_t word_count) {
 // Thrown for code that this file does not know.
 struct Unknown {};
 
-// Calls use(instruction, offset) from an offset on, until use returns false.
+// Calls use(instruction, offset) until it returns false.
 template <typename Use>
 void for_each_instruction(Words code, std::size_t offset, Use &&use) {
     while (offset < code.size()) {

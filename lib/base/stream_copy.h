@@ -1,4 +1,4 @@
-// Copies around the processor's cache, for bytes that will not be read soon.
+// Copies around the processor's cache, for bytes that are not read soon.
 #pragma once
 
 #include <cstddef>

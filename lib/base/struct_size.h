@@ -1,4 +1,4 @@
-// The growth rule of pt.h's structs: struct_size first, growth at the tail, zero means default.
+// The growth of pt.h's structs: struct_size first, new fields at the tail, zero means default.
 #pragma once
 
 #include "lib/base/error.h"
@@ -11,7 +11,7 @@
 
 namespace pt {
 
-// Structs have tens of bytes. More than 65536 must be an uninitialised field.
+// Structs have tens of bytes; more than 65536 is an uninitialised field.
 constexpr bool is_struct_size(std::uint32_t size) {
     return size >= sizeof size && size <= 65536;
 }
@@ -26,7 +26,7 @@ inline BrokenRule wrong_size(const char *name, std::int64_t index, std::uint32_t
     return {.subject = name, .index = index, .member = "struct_size", .value = std::to_string(size), .rule = rule};
 }
 
-// The caller's struct_size. name: in messages; index: >= 0 for an element of an array. Throws
+// The caller's struct_size. name, index: for messages; index >= 0: of an array's element. Throws
 // PT_ERROR_INVALID_ARGUMENT.
 inline std::uint32_t struct_size_of(const void *user, const char *name, std::int64_t index = -1) {
     require_not_null(user, name);
@@ -40,7 +40,7 @@ inline std::uint32_t struct_size_of(const void *user, const char *name, std::int
     return size;
 }
 
-// Throws PT_ERROR_UNSUPPORTED if a newer struct has nonzero bytes beyond those known here.
+// Throws PT_ERROR_UNSUPPORTED for nonzero bytes beyond those known here.
 inline void require_known(const void *user, std::uint32_t size, std::size_t known, const char *name,
                           std::int64_t index) {
     const auto *bytes = static_cast<const unsigned char *>(user);
@@ -52,8 +52,8 @@ inline void require_known(const void *user, std::uint32_t size, std::size_t know
                                        std::to_string(known) + " bytes of the struct"));
 }
 
-// The caller's struct as known here, by the rule of Linux' copy_struct_from_user: a shorter struct is extended by
-// zeros; the unknown part of a longer one must be zero.
+// The caller's struct by the rule of Linux' copy_struct_from_user: a shorter one is extended by zeros; a longer one's
+// unknown part must be zero.
 template <typename T>
 T copy_in(const T *user, const char *name, std::int64_t index = -1) {
     const std::uint32_t size = struct_size_of(user, name, index);
@@ -64,7 +64,7 @@ T copy_in(const T *user, const char *name, std::int64_t index = -1) {
     return copy;
 }
 
-// Writes what both sides know. size: of the caller's struct, whose struct_size stays.
+// Writes what both sides know. size: the caller's struct_size, which stays.
 template <typename T>
 void copy_known(const T &result, T *user, std::uint32_t size) noexcept {
     constexpr std::size_t first = sizeof result.struct_size;
@@ -73,7 +73,7 @@ void copy_known(const T &result, T *user, std::uint32_t size) noexcept {
                 reinterpret_cast<const unsigned char *>(&result) + first, end - first);
 }
 
-// The same, after checking the caller's struct_size.
+// Also checks the caller's struct_size.
 template <typename T>
 void copy_out(const T &result, T *user, const char *name) {
     copy_known(result, user, struct_size_of(user, name));

@@ -1,4 +1,4 @@
-// Reports a long call's progress to the caller's pt_progress_fn, which may cancel it.
+// Reports a long call's progress, a sequence of stages, to the caller's pt_progress_fn, which may cancel it.
 #pragma once
 
 #include <pt/pt.h>
@@ -8,10 +8,9 @@
 
 namespace pt {
 
-// Thrown when the caller cancels; the call returns PT_CANCELLED.
+// The call returns PT_CANCELLED.
 struct Cancelled {};
 
-// The work is a sequence of stages, within which the share grows with the work done.
 class WorkProgress {
 public:
     // Reports to nobody.
@@ -39,10 +38,9 @@ public:
             tell();
     }
 
-    // One unit of work per element.
     void add(std::size_t elements) { add(static_cast<double>(elements), elements); }
 
-    // Reports 1: only what cannot fail is left.
+    // Reports 1: the rest cannot fail.
     void finish() {
         enter(1.0, 1.0);
         done_ = 1.0;
@@ -50,7 +48,7 @@ public:
     }
 
 private:
-    // Between half a millisecond and several: often enough for people, rarely enough for slow callbacks.
+    // Takes between half a millisecond and several.
     static constexpr std::size_t elements_between_calls = std::size_t{1} << 17;
 
     void tell() {
@@ -62,7 +60,7 @@ private:
 
     pt_progress_fn function_ = nullptr;
     void *user_ = nullptr;
-    double begin_ = 0.0; // of the stage, as a share of the whole
+    double begin_ = 0.0; // share of the whole
     double end_ = 0.0;
     double work_ = 1.0; // of the stage
     double done_ = 0.0; // of the stage

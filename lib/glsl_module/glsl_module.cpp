@@ -1,4 +1,3 @@
-// Compiles GLSL to SPIR-V with glslang, as a module (see glsl_module.h).
 #include "lib/glsl_module/glsl_module.h"
 
 #include "lib/platform/file.h"
@@ -30,7 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 using Words = std::vector<std::uint32_t>;
 
-// Drops a byte order mark; throws std::runtime_error with the system's reason.
+// Throws std::runtime_error with the system's reason.
 std::string read_source(const fs::path &path) {
     const auto fail = [&] { throw std::runtime_error(path.string() + ": " + std::generic_category().message(errno)); };
     const platform::FileDescriptor file(platform::open_to_read(path));
@@ -41,7 +40,7 @@ std::string read_source(const fs::path &path) {
     for (std::ptrdiff_t count = 1; count > 0;) {
         count = platform::read_some(file.get(), block);
         if (count < 0)
-            fail(); // for example a directory
+            fail(); // such as a directory
         text.append(block, static_cast<std::size_t>(count));
     }
     constexpr std::string_view byte_order_mark = "\xef\xbb\xbf"; // of UTF-8, which editors may add
@@ -50,8 +49,7 @@ std::string read_source(const fs::path &path) {
     return text;
 }
 
-// Finds the files of #include lines: beside the including file, then in the directory. glslang's messages use the paths
-// found.
+// Finds included files: beside the including file, then in the directory. glslang's messages use the paths found.
 class Includer : public glslang::TShader::Includer {
 public:
     Includer(fs::path directory, const fs::path &main_file) :
@@ -119,11 +117,10 @@ private:
     bool is_endless_ = false;          // no further #include is followed
 };
 
-// The rules of glslangValidator -V. It continues after errors to report all; stopping within an included file would
-// also make it misread the next directive.
+// The rules of glslangValidator -V. It reports all errors: stopping within an included file would also make it misread
+// the next directive.
 constexpr auto rules = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules | EShMsgCascadingErrors);
 
-// Removes the log's empty last lines.
 std::string trimmed(std::string log) {
     log.erase(log.find_last_not_of('\n') + 1);
     return log;
@@ -143,7 +140,7 @@ Words spirv_of(const fs::path &path, const fs::path &directory) {
     const char *const texts[] = {text.data()};
     const int lengths[] = {static_cast<int>(text.size())};
     const char *const names[] = {name.c_str()};
-    constexpr int vulkan_glsl = 100; // version of the dialect GL_KHR_vulkan_glsl
+    constexpr int vulkan_glsl = 100; // dialect GL_KHR_vulkan_glsl
     constexpr int default_version = 100;
 
     glslang::TShader shader(EShLangCompute);

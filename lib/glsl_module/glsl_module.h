@@ -1,5 +1,5 @@
-/* The interface to libpt-glsl.so, the only module that links glslang (7 MB), loaded only to compile kernels at run
- * time. Found by dlsym. Plain C types, no exceptions. */
+/* The interface to libpt-glsl.so, the only module that links glslang (7 MB), loaded by dlsym only to compile kernels
+ * at run time. Plain C types, no exceptions. */
 #ifndef PT_GLSL_MODULE_H
 #define PT_GLSL_MODULE_H
 
@@ -10,8 +10,8 @@
 extern "C" {
 #endif
 
-/* Receives the SPIR-V's bytes, or the compiler's log, not zero-terminated. Both belong to the module, for the
- * duration of the call. Must not throw. */
+/* Receives the SPIR-V's bytes, or the compiler's log, not zero-terminated; the module's, for the duration of the
+ * call. Must not throw. */
 typedef void (*pt_glsl_receive_fn)(void *user, const void *bytes, size_t size);
 
 /* Compiles the compute shader directory/name and its included files (beside the including file, then in directory) to

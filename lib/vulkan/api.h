@@ -1,4 +1,4 @@
-// Vulkan-Hpp with RAII handles, exceptions, designated initialisers and the linked loader.
+// Vulkan-Hpp with RAII, exceptions and the linked loader.
 #pragma once
 
 #define VULKAN_HPP_NO_CONSTRUCTORS

@@ -20,7 +20,7 @@ using Usage = vk::BufferUsageFlagBits;
 constexpr vk::MemoryPropertyFlags host_visible = Property::eHostVisible | Property::eHostCoherent;
 constexpr vk::MemoryPropertyFlags host_readable = host_visible | Property::eHostCached;
 
-// Largest staging buffer. Copying this much takes about a millisecond, many times the cost of a submission.
+// Copying this much takes many times as long as a submission.
 constexpr std::uint64_t max_staging_bytes = 16U << 20;
 
 // Stays mapped if its memory has the properties mapped_if.
@@ -45,7 +45,7 @@ struct Allocation {
     }
 
     DeviceObject<vk::raii::DeviceMemory> memory;
-    DeviceObject<vk::raii::Buffer> buffer; // destroyed before its memory is freed
+    DeviceObject<vk::raii::Buffer> buffer; // destroyed before its memory
     std::byte *mapped = nullptr;
 };
 
@@ -91,7 +91,7 @@ struct Buffer::State {
     State(const State &) = delete;
     State &operator=(const State &) = delete;
 
-    // Calls function(staging, first, length) for pieces of [0, size) that fit into the staging buffer.
+    // Calls function(staging, first, length) for pieces that fit into the staging buffer.
     template <typename Function>
     void staged(std::uint64_t size, Function &&function) {
         const std::uint64_t piece = staging_bytes();
@@ -166,7 +166,6 @@ void Buffer::download(std::span<std::byte> data, std::uint64_t offset) {
     });
 }
 
-// In one transfer if all pieces fit into the staging buffer.
 void Buffer::download(std::span<const BufferPiece> pieces) {
     const bool fit_together =
         std::accumulate(pieces.begin(), pieces.end(), std::uint64_t{0},
@@ -191,7 +190,7 @@ void Buffer::download(std::span<const BufferPiece> pieces) {
 }
 
 void Buffer::write(const vk::raii::CommandBuffer &commands, std::span<const std::byte> data) const {
-    if (!data.empty()) // Vulkan forbids 0 bytes; a scene without surfaces has none
+    if (!data.empty()) // Vulkan forbids 0 bytes
         commands.updateBuffer<std::byte>(handle(), 0, data);
 }
 

@@ -12,15 +12,15 @@
 namespace pt::vulkan {
 
 enum class BufferUse {
-    Storage,          // kernels read and write it
-    UniformOrStorage, // kernels read it as either, or as texels
-    Texels,           // kernels read it as texels
-    Streamed,         // kernels read it as uniform; the host writes it often, without waiting
-    HostWritten,      // kernels read it; the host writes it in place, without waiting
-    HostRead          // kernels or copies write it; the host reads it in place after they have ended
+    Storage,
+    UniformOrStorage, // as uniform or storage, or as texels
+    Texels,
+    Streamed,    // uniform; the host writes it often, without waiting
+    HostWritten, // the host writes it in place, without waiting
+    HostRead     // the host reads it in place
 };
 
-// A part of a buffer, and the memory to read it into.
+// A part of a buffer, and where to read it to.
 struct BufferPiece {
     std::span<std::byte> data;
     std::uint64_t offset;
@@ -40,19 +40,18 @@ public:
     std::uint64_t size() const;
     vk::Buffer handle() const;
 
-    // These wait for the device, except uploads to a streamed buffer. Offsets and sizes are multiples of 4 bytes within
-    // the buffer.
+    // These wait for the device, except uploads to a streamed buffer. Offsets and sizes: multiples of 4 bytes.
     void upload(std::span<const std::byte> data, std::uint64_t offset);
     void download(std::span<std::byte> data, std::uint64_t offset);
     void download(std::span<const BufferPiece> pieces);
 
-    // The bytes that the host accesses in place; at NULL if it cannot.
+    // The host's view of the buffer; at NULL without one.
     std::span<std::byte> host_memory() const;
 
     // Records a write of up to max_recorded_bytes to the beginning.
     void write(const vk::raii::CommandBuffer &commands, std::span<const std::byte> data) const;
 
-    // Records zeroing. Offset and size as above.
+    // Records zeroing.
     void clear(const vk::raii::CommandBuffer &commands, std::uint64_t offset, std::uint64_t bytes) const;
 
     void copy(const vk::raii::CommandBuffer &commands, const Buffer &other,

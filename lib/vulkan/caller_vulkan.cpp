@@ -26,8 +26,8 @@ std::string pointer_text(const void *pointer) {
                 BrokenRule{.subject = "vulkan", .member = field, .value = value, .rule = rule});
 }
 
-// An instance's version cannot be queried. Drivers that follow the specification's recommendation offer no functions
-// beyond it, and version 1.2 has this function.
+// An instance's version cannot be queried, but this function is of version 1.2, and drivers that follow the
+// specification's recommendation offer none beyond the instance's.
 bool offers_version_1_2(const vk::raii::Instance &instance, VkDevice device) {
     return instance.getDispatcher()->vkGetDeviceProcAddr(device, "vkGetSemaphoreCounterValue") != nullptr;
 }
@@ -64,7 +64,7 @@ vk::raii::PhysicalDevice validated_physical_device(const vk::raii::Instance &ins
                                          [](const vk::raii::PhysicalDevice &device) { return *device; });
     if (found == devices.end())
         refuse("physical_device", pointer_text(caller.physical_device), "must be one of vulkan.instance");
-    // Must precede calls of anything beyond Vulkan 1.0.
+    // Must precede calls beyond Vulkan 1.0.
     const std::uint32_t device_version = found->getProperties().apiVersion;
     if (device_version >= VK_API_VERSION_1_2 && !offers_version_1_2(instance, caller.device))
         refuse("instance", pointer_text(caller.instance),

@@ -1,4 +1,4 @@
-// The caller's Vulkan handles, checked (pt_vulkan). Nobody here owns them.
+// The caller's Vulkan handles (pt_vulkan), not owned.
 #pragma once
 
 #include "lib/vulkan/api.h"
@@ -12,7 +12,7 @@
 
 namespace pt::vulkan {
 
-// Locks a queue for this thread by the caller's functions, if any. For std::lock_guard.
+// Locks a queue by the caller's functions, if any.
 struct QueueLock {
     pt_queue_fn lock_queue = nullptr;
     pt_queue_fn unlock_queue = nullptr;
@@ -40,8 +40,8 @@ struct CallerVulkan {
 // Checks without calling Vulkan. Throws PT_ERROR_INVALID_ARGUMENT.
 CallerVulkan validated_vulkan(const pt_vulkan &vulkan);
 
-// Checks the rest; throws PT_ERROR_INVALID_ARGUMENT or PT_ERROR_UNSUPPORTED if the device cannot be used. The caller's
-// instance must outlive the result.
+// Checks the rest; throws PT_ERROR_INVALID_ARGUMENT, or PT_ERROR_UNSUPPORTED for a device without what is needed. The
+// caller's instance must outlive the result.
 vk::raii::PhysicalDevice validated_physical_device(const vk::raii::Instance &instance, const CallerVulkan &caller);
 
 // The parts of that check that do not depend on the machine.

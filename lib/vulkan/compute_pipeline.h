@@ -12,8 +12,8 @@
 
 namespace pt::vulkan {
 
-// A part of a buffer for a binding. The offset is a multiple of Limits::storage_buffer_alignment or, for texels, of 256
-// bytes, which suits every device.
+// A part of a buffer for a binding. Its offset is a multiple of Limits::storage_buffer_alignment or, for texels, of 256
+// bytes.
 struct BufferRange {
     BufferRange() = default; // none
     BufferRange(const Buffer &whole) : buffer(whole.handle()), bytes(whole.size()) {}
@@ -24,7 +24,6 @@ struct BufferRange {
     std::uint64_t bytes = 0;
 };
 
-// Texel buffers hold words of four integers.
 inline constexpr vk::Format texel_format = vk::Format::eR32G32B32A32Uint;
 inline constexpr std::uint64_t texel_bytes = 16;
 
@@ -48,15 +47,14 @@ struct Binding {
 
 class ComputePipeline {
 public:
-    // constants[i]: bits of the specialization constant with id i. Throws PT_ERROR_SHADER if the driver refuses the
-    // kernel.
+    // constants[i] has specialization constant id i. Throws PT_ERROR_SHADER if the driver refuses the kernel.
     ComputePipeline(Device &device, std::span<const std::uint32_t> spirv, std::span<const Binding> bindings,
                     std::uint32_t push_constant_bytes, std::span<const std::uint32_t> constants);
 
     // ranges[i] is for bindings[i].
     DescriptorSet bind(std::span<const BufferRange> ranges) const;
 
-    // Records group_count x rows workgroups. offsets: of the dynamic bindings, in bytes.
+    // Records group_count x rows workgroups. offsets: bytes, of the dynamic bindings.
     void dispatch(const vk::raii::CommandBuffer &commands, const DescriptorSet &set,
                   std::span<const std::byte> push_constants, std::uint32_t group_count,
                   std::span<const std::uint32_t> offsets = {}, std::uint32_t rows = 1) const;

@@ -16,27 +16,27 @@ namespace pt::vulkan {
 
 namespace {
 
-// Mesa's llvmpipe leaves the loops of an invocation after this many trips (Mesa 22.3.6, LP_MAX_TGSI_LOOP_ITERATIONS).
-// Newer versions do not, but shorter submissions cost them little.
+// Mesa 22.3.6's llvmpipe ends an invocation's loops after this many trips (LP_MAX_TGSI_LOOP_ITERATIONS). Newer versions
+// do not, but shorter submissions cost them little.
 constexpr std::uint64_t llvmpipe_loop_trips = 65'535;
 
 // More would not help. A multiple of 256 bytes, the largest alignment of offsets.
 constexpr std::uint32_t largest_uniform_range = 65'536;
 
-// A few times the 100,000 invocations that a large GPU holds, so that little of it idles at the end.
+// A few times the 100,000 that a large GPU holds.
 constexpr std::uint32_t busy_gpu_invocations = 1U << 18;
 
-// Submissions aim at a twentieth of a second; a slower GPU than this counts as lost.
+// Submissions aim at a twentieth of a second.
 constexpr std::chrono::seconds gpu_patience{10};
 constexpr std::chrono::nanoseconds wait_step = std::chrono::milliseconds{100};
 
-// Longer code waits to be fetched: beyond about 16 surfaces unrolled loops slow an H200 down.
+// Longer code waits to be fetched.
 constexpr std::uint32_t gpu_unrolled = 16;
 
 // The best of 8, 16, 32, 4096 and none on an H200.
 constexpr std::uint32_t gpu_walk_trips = 8;
 
-// Many times the 30 microseconds of falling asleep and waking, and hardly any CPU time.
+// Many times the 30 us of falling asleep and waking.
 constexpr std::chrono::microseconds gpu_polling{300};
 
 Limits limits_of(const vk::raii::PhysicalDevice &device) {
@@ -53,7 +53,7 @@ Limits limits_of(const vk::raii::PhysicalDevice &device) {
             .loop_trip_budget = llvmpipe ? llvmpipe_loop_trips : std::numeric_limits<std::uint64_t>::max()};
 }
 
-// Identifies the model in headers of pipeline caches, and the driver's version.
+// Identifies the model and the driver's version.
 std::array<std::uint32_t, 7> driver_id_of(const vk::raii::PhysicalDevice &device) {
     const vk::PhysicalDeviceProperties properties = device.getProperties();
     std::array<std::uint32_t, 7> id = {properties.vendorID, properties.deviceID, properties.driverVersion};
@@ -90,8 +90,8 @@ double tests_per_second(std::uint32_t kind) {
 } // namespace
 
 DevicePolicy default_policy(const pt_device_info &info) {
-    // A loaded CPU may take any time, so its patience is endless. CPUs and integrated GPUs share the host's memory; a
-    // discrete GPU reads it over a bus, and the host reads the GPU's uncached.
+    // A loaded CPU may take any time. CPUs and integrated GPUs share the host's memory; a discrete GPU reads it over a
+    // bus, and the host reads the GPU's uncached.
     const bool cpu = info.kind == PT_DEVICE_CPU;
     return {.patience = cpu ? std::chrono::nanoseconds::max() : gpu_patience,
             .share_memory = cpu || info.kind == PT_DEVICE_INTEGRATED_GPU,
@@ -147,7 +147,7 @@ Device::~Device() {
     if (!abandoned_ && comes_to_rest())
         return;
     // vkDestroyDevice waits for running work, however long (NVIDIA's driver 580.159), and destroying the instance first
-    // crashes. Both stay until the process ends.
+    // crashes.
     pipeline_cache_.abandon();
     for (Submission &submission : submissions_) {
         submission.fence.release();
@@ -193,7 +193,7 @@ void Device::require_alive() const {
         throw Error(PT_ERROR_DEVICE_LOST, lost_message_);
 }
 
-// Marks the device as lost even without memory for the message.
+// Succeeds even without memory for the message.
 void Device::lose(const std::function<std::string()> &reason) {
     lost_ = true;
     lost_message_ += ": " + reason();
@@ -221,7 +221,7 @@ Device::Ticket Device::start(const Record &record, const Semaphores &semaphores)
                                          .pSignalSemaphores = &semaphores.signal},
                           *free->fence);
         } catch (const vk::DeviceLostError &error) {
-            comes_to_rest(); // what earlier submissions use may be destroyed from here on
+            comes_to_rest(); // earlier submissions' objects may be destroyed from here on
             lose([&] { return error.what(); });
         }
     });
@@ -292,7 +292,7 @@ void Device::record_work(const vk::raii::CommandBuffer &commands, const Record &
     commands.reset(); // the last recording may have failed half-way
     commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
     // A submission sees the host's earlier writes (Vulkan specification, "Host Write Ordering Guarantees"). Fences make
-    // earlier submissions' writes available but not visible; this barrier does.
+    // earlier submissions' writes available; this barrier makes them visible.
     write_barrier(commands, device_stages, device_accesses);
     record(commands);
     write_barrier(commands, Stage::eHost, Access::eHostRead | Access::eHostWrite);
@@ -324,14 +324,14 @@ bool Device::look_at(Submission &submission, std::chrono::nanoseconds timeout) {
         }
         return ended;
     } catch (const vk::SystemError &error) {
-        // With any error, wait for the work: what it uses may be destroyed from here on.
+        // Objects of running work may be destroyed from here on.
         comes_to_rest();
         lose([&] { return error.what(); });
     }
 }
 
-// Here and in comes_to_rest() work is given up only if it is overdue and then found unfinished once more: after a
-// stopped process resumes, the time may be over but the work done.
+// Gives up if the work is overdue and then found unfinished once more: a stopped process may resume after the time is
+// over and the work done.
 void Device::wait(Submission &submission) {
     for (bool was_overdue = false; !look_at(submission, wait_time()); was_overdue = is_overdue(submission))
         if (was_overdue) {

@@ -22,45 +22,42 @@ struct Limits {
     std::uint64_t max_storage_buffer_range; // bytes per binding
     std::uint64_t max_texel_count;          // per binding
     std::uint64_t max_allocation_bytes;
-    std::uint32_t max_uniform_range;        // bytes per uniform binding: 16 to 64 KiB, a multiple of 256
+    std::uint32_t max_uniform_range;        // per uniform binding; a multiple of 256
     std::uint32_t max_workgroup_count;      // along x
-    std::uint64_t storage_buffer_alignment; // of bindings' offsets, bytes
-    std::uint64_t loop_trip_budget;         // the driver silently stops an invocation after these loop trips
+    std::uint64_t storage_buffer_alignment; // bytes
+    std::uint64_t loop_trip_budget;         // the driver silently stops an invocation after these
 };
 
-// How a device is used. Tests override it to reach other paths.
+// How a device is used. Tests override it.
 struct DevicePolicy {
-    std::chrono::nanoseconds patience; // a longer submission means that the device is lost
+    std::chrono::nanoseconds patience; // a longer submission means a lost device
     bool share_memory;                 // the host accesses buffers in place where their memory is fast for both
-    bool scene_in_constants;           // kernels run faster with the scene compiled in than read from a buffer
+    bool scene_in_constants;           // compiling the scene in is faster than a buffer
     std::uint32_t invocations;         // enough to keep it busy; 0: any number
-    std::uint32_t queue_depth; // submissions to keep running: 2 where it would idle while the host prepares the next
-    // Time to poll a submission before sleeping: sleeping and waking take longer than many submissions.
+    std::uint32_t queue_depth;         // submissions to keep running; 2 where the device would idle between them
+    // Time to poll a submission before sleeping.
     std::chrono::nanoseconds polling{0};
-    // Ray-surface tests per second that any such device achieves. It sizes the first slice; measured times size the
-    // others. Default: an eighth of two CPU cores.
+    // Ray-surface tests per second that any such device achieves, to size the first slice. Default: an eighth of two
+    // CPU cores.
     double tests_per_second = 2.5e8;
-    // Loops over up to this many surfaces are unrolled. The default is for CPUs: lavapipe reads constant places once
-    // for all invocations, faster than a tree up to about 100 spheres; compilation takes 10 milliseconds per surface,
-    // which sets the limit.
+    // Loops over up to this many surfaces are unrolled. Default: for CPUs, where unrolled loops beat a tree up to about
+    // 100 spheres, but compile for 10 ms per surface.
     std::uint32_t unrolled = 112;
     // Samples per pixel from which tiles may differ (lib/film/adaptive_rule.h); four times as many for paths of two
-    // vertices. On GPUs a check of the error costs as much as some samples, so early checks do not pay. 0, or a power
-    // of two >= 16.
+    // vertices. On GPUs an earlier check costs more than it saves. 0, or a power of two >= 16.
     std::uint32_t adaptive_from = 256;
-    std::uint32_t walk_trips = 0; // specialization constant ID_WALK_TRIPS, in scenes with a tree
-    // Kernels run faster with comparisons of integers instead of floats (shaders/maths.glsl), and with uniform instead
-    // of storage buffers for values that differ between invocations.
+    std::uint32_t walk_trips = 0; // ID_WALK_TRIPS, in scenes with a tree
+    // Faster with comparisons of integers (shaders/maths.glsl), and with uniform instead of storage buffers.
     bool compiles_for_cpu = false;
     bool resolve_on_device = false; // kernels make images and error estimates faster than the host
 };
 
 DevicePolicy default_policy(const pt_device_info &info);
 
-// A GPU's policy with endless patience and a CPU's tests_per_second, to test a GPU's paths on a CPU.
+// A GPU's paths on a CPU, with endless patience.
 DevicePolicy gpu_like_policy();
 
-// Binary semaphores of a submission, or null: it waits before its kernels and signals at its end.
+// Binary semaphores or null: waited for before the kernels, signalled at the end.
 struct Semaphores {
     vk::Semaphore wait;
     vk::Semaphore signal;
@@ -68,8 +65,8 @@ struct Semaphores {
 
 class Device {
 public:
-    // The instance must outlive the device. A device that hangs is never destroyed, nor is its instance: both stay
-    // until the process ends. caller: its device and queue are used, not owned; NULL for a device of its own.
+    // The instance must outlive the device. A device that hangs is never destroyed, nor is its instance. caller: its
+    // device and queue are used, not owned; NULL for a device of its own.
     Device(Instance &instance, const vk::raii::PhysicalDevice &physical_device, const DevicePolicy &policy,
            const CallerVulkan *caller = nullptr);
     ~Device();
@@ -88,37 +85,37 @@ public:
 
     bool lost() const { return lost_; }
 
-    // Whether submissions that were given up are still running, or were when the device was abandoned. If so, what they
-    // use must not be destroyed.
+    // Whether submissions that were given up are still running, or were when the device was abandoned. Nothing they
+    // use may be destroyed.
     bool hangs() const;
 
     // Neither the device nor anything on it is destroyed any more.
     void abandon() noexcept { abandoned_ = true; }
 
-    // Throws PT_ERROR_DEVICE_LOST with the first loss's message once the device is lost.
+    // Throws PT_ERROR_DEVICE_LOST with the message of the loss.
     void require_alive() const;
 
     using Record = std::function<void(const vk::raii::CommandBuffer &)>;
     using Ticket = std::uint32_t;
 
-    // Records and submits commands. They see earlier submissions' writes; the host sees theirs after finish().
-    // Submissions run in order. At most queue_depth may be running, besides one of submit() and one for a caller who
-    // waits on the device.
+    // Records and submits commands. Submissions run in order and see earlier ones' writes; the host sees theirs after
+    // finish(). At most queue_depth may be running, besides one of submit() and one for a caller who waits on the
+    // device.
     Ticket start(const Record &record, const Semaphores &semaphores = {});
 
     using Clock = std::chrono::steady_clock;
 
-    // Waits for a submission, until the given time. Returns whether finish() would return at once.
+    // Waits until the given time. Returns whether finish() would return at once.
     bool is_done(Ticket ticket, Clock::time_point until);
 
-    // Notes which submissions have ended. Their ends are then known to lie between the last look and this one.
+    // Notes which submissions have ended, to bound the times of their ends.
     void look();
 
     // Whether all submissions have ended, waited for or not.
     bool is_at_rest() const;
 
-    // Waits for a submission. Returns the seconds from its start, or the previous one's end if later, to its end; if
-    // ends are known within bounds only, the possible value nearest to expected_seconds.
+    // Waits for a submission. Returns the seconds from its start, or the previous one's end if later, to its end. If
+    // the end is known within bounds only, takes the value nearest to expected_seconds.
     double finish(Ticket ticket, double expected_seconds = 0.0);
 
     // Waits for all running work, also after finish() failed. False if it outlasts the device's patience.
@@ -140,7 +137,7 @@ public:
 private:
     struct OwnedOrLent {
         vk::raii::Device handle;
-        bool is_owned; // else not destroyed
+        bool is_owned;
 
         ~OwnedOrLent() {
             if (!is_owned)
@@ -148,7 +145,6 @@ private:
         }
     };
 
-    // A time within bounds.
     struct Moment {
         Clock::time_point earliest;
         Clock::time_point latest;
@@ -161,7 +157,7 @@ private:
         bool pending = false; // finish() has not been called
         Clock::time_point start{};
         Clock::time_point last_look{}; // the last that found it unfinished
-        std::optional<Moment> end{};   // once its end was seen
+        std::optional<Moment> end{};   // once seen
     };
 
     void record_work(const vk::raii::CommandBuffer &commands, const Record &record) const;
@@ -177,9 +173,9 @@ private:
     Limits limits_;
     DevicePolicy policy_;
     vk::PhysicalDeviceMemoryProperties memory_properties_;
-    std::array<std::uint32_t, 7> driver_id_; // of driver and device model
+    std::array<std::uint32_t, 7> driver_id_;
     std::uint32_t queue_family_;
-    QueueLock queue_lock_; // a no-op for the device's own queue, which no other thread knows
+    QueueLock queue_lock_; // a no-op for the device's own queue
     OwnedOrLent device_;
     vk::raii::Queue queue_;
     vk::raii::CommandPool command_pool_ = nullptr;

@@ -73,7 +73,7 @@ bool is_index(const std::string &text) {
     return !text.empty() && text.size() < 32 && text.find_first_not_of("0123456789") == std::string::npos;
 }
 
-// Why a device does not match the request; empty if it does. Ignores indices.
+// Why a device does not match; empty if it does. Ignores indices.
 std::string mismatch(const pt_device_info &device, const std::string &wanted) {
     if (wanted.empty())
         return "";
@@ -189,7 +189,6 @@ Error named_twice(const std::string &wanted, const std::string &item, const pt_d
                                device.name + "), which is in the list already"}};
 }
 
-// The best suitable device and the other suitable ones of its kind.
 std::vector<std::size_t> all_of_the_best_kind(std::span<const pt_device_info> devices) {
     const std::uint32_t kind = devices[choose_device(devices, "")].kind;
     std::vector<std::size_t> chosen;

@@ -19,7 +19,7 @@ pt_device_info describe(const vk::raii::PhysicalDevice &device);
 // each device.
 std::size_t choose_device(std::span<const pt_device_info> devices, const std::string &wanted);
 
-// One or several devices, each once. Throws the same, and PT_ERROR_INVALID_ARGUMENT if a list names a device twice.
+// The same for one or several. Throws PT_ERROR_INVALID_ARGUMENT if a list names a device twice.
 std::vector<std::size_t> choose_devices(std::span<const pt_device_info> devices, const std::string &wanted);
 
 } // namespace pt::vulkan

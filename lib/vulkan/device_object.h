@@ -1,4 +1,3 @@
-// A Vulkan object made on a Device.
 #pragma once
 
 #include "lib/vulkan/device.h"
@@ -7,8 +6,8 @@
 
 namespace pt::vulkan {
 
-// Destroys its object unless the device hangs: running work's objects must not be destroyed (Vulkan specification,
-// "Object Lifetime"), and memory that it may still write to must not be reused.
+// A Vulkan object, destroyed unless the device hangs: running work's objects must not be destroyed (Vulkan
+// specification, "Object Lifetime"), nor memory reused that it may still write to.
 template <typename Object>
 class DeviceObject {
 public:

@@ -41,8 +41,7 @@ bool contains(const std::vector<Properties> &list, Name name, const char *wanted
     return std::ranges::any_of(list, [&](const Properties &item) { return std::strcmp(item.*name, wanted) == 0; });
 }
 
-// Names the environment variables that decide which drivers the loader finds, and what to do. The library reads the
-// environment only here, for the message.
+// Names the environment variables that decide which drivers the loader finds, and what to do.
 std::string driver_advice(const vk::raii::Context &context) {
     const std::uint32_t version = context.enumerateInstanceVersion();
     std::string advice = " (Vulkan loader " + std::to_string(VK_API_VERSION_MAJOR(version)) + "." +
@@ -108,9 +107,9 @@ vk::raii::Instance create_instance(const vk::raii::Context &context,
     }
 }
 
-// The loader unloads drivers with the last instance, and NVIDIA's driver permanently takes static thread-local storage
-// at each load: after thirty times no instance can be created (driver 580.159). Keeping it loaded also halves the time
-// of further instances.
+// The loader unloads drivers with the last instance, and NVIDIA's driver (580.159) takes static thread-local storage at
+// each load for good: after thirty times no instance can be created. Keeping it loaded also halves the time of further
+// instances.
 void keep_nvidia_driver_loaded() noexcept {
     for (const char *name : {"libGLX_nvidia.so.0", "libEGL_nvidia.so.0"}) // one of them is the driver
         platform::keep_loaded(name);
@@ -119,7 +118,7 @@ void keep_nvidia_driver_loaded() noexcept {
 vk::raii::Instance owned_instance(const vk::raii::Context &context, const Log &log, bool validation) {
     const vk::DebugUtilsMessengerCreateInfoEXT messages = messenger_info(log);
     try {
-        // The chain of structs makes the messenger report creation and destruction of the instance too.
+        // Chained, the messenger also reports the instance's creation and destruction.
         vk::raii::Instance instance = create_instance(context, validation ? &messages : nullptr);
         keep_nvidia_driver_loaded();
         return instance;

@@ -12,7 +12,7 @@ namespace pt::vulkan {
 
 class Instance {
 public:
-    // Throws PT_ERROR_NO_DEVICE without Vulkan or drivers, PT_ERROR_UNSUPPORTED without a requested validation layer.
+    // Throws PT_ERROR_NO_DEVICE without Vulkan or drivers, PT_ERROR_UNSUPPORTED without the validation layer.
     Instance(const Log &log, bool validation);
 
     // The caller's; not owned.
@@ -27,17 +27,17 @@ public:
 
     const vk::raii::Instance &handle() const { return instance_; }
 
-    // At least one; throws PT_ERROR_NO_DEVICE otherwise.
+    // At least one; else throws PT_ERROR_NO_DEVICE.
     std::vector<vk::raii::PhysicalDevice> physical_devices() const;
 
-    // The Vulkan instance is never destroyed any more: it must outlive its devices.
+    // Never destroys the Vulkan instance: it must outlive its devices.
     void abandon();
 
 private:
-    std::unique_ptr<const Log> log_; // the layer has its address, also while the instance is destroyed
+    std::unique_ptr<const Log> log_; // the layer keeps its address, also during destruction
     vk::raii::Context context_;
     vk::raii::Instance instance_;
-    bool is_owned_; // else not destroyed
+    bool is_owned_;
     std::optional<vk::raii::DebugUtilsMessengerEXT> messenger_;
 };
 

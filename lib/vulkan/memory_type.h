@@ -1,4 +1,3 @@
-// Chooses a buffer's memory type.
 #pragma once
 
 #include "lib/base/error.h"
@@ -11,7 +10,7 @@
 
 namespace pt::vulkan {
 
-// Indices of allowed types (bit i: type i) with one of the wanted sets of properties, best set first, each once. Throws
+// Allowed types (bit i: type i) with one of the wanted sets of properties, best set first, each once. Throws
 // PT_ERROR_UNSUPPORTED if there are none.
 inline std::vector<std::uint32_t> memory_types(const vk::PhysicalDeviceMemoryProperties &memory, std::uint32_t allowed,
                                                std::span<const vk::MemoryPropertyFlags> wanted_best_first) {

@@ -20,7 +20,7 @@ constexpr std::uint64_t most_bytes = std::uint64_t{1} << 28;
 
 constexpr std::string_view magic = "ptkernel";
 
-// Precedes a driver's bytes and identifies them: drivers trust them, so they must never see others.
+// Precedes and identifies a driver's bytes: drivers trust them, so they must never see others.
 struct KernelSeal {
     char magic[8];
     char key[32];
@@ -79,7 +79,7 @@ void PipelineCache::load(const KernelStore &store, const Log &log) {
     }
 }
 
-// Never throws, because finished calls end with it; without memory nothing is kept.
+// Never throws, because finished calls end with it.
 void PipelineCache::save(const Log &log) noexcept {
     if (!store_.store || !std::exchange(has_news_, false))
         return;

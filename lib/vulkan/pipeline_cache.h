@@ -1,5 +1,5 @@
-// A driver's cache of built kernels, which the caller may keep between processes. It only saves time: damaged or
-// foreign kernels are rebuilt.
+// A driver's cache of built kernels, which the caller may keep between processes. Damaged or foreign kernels are
+// rebuilt.
 #pragma once
 
 #include "lib/base/log.h"
@@ -13,7 +13,7 @@
 
 namespace pt::vulkan {
 
-// The caller's functions; each may be NULL.
+// The caller's functions, or NULL.
 struct KernelStore {
     pt_load_kernels_fn load = nullptr;
     pt_store_kernels_fn store = nullptr;
@@ -28,17 +28,15 @@ public:
 
     const vk::raii::PipelineCache &handle() const { return cache_; }
 
-    // Loads the caller's kernels under a key, if they are intact and the driver accepts them. key: 32 hexadecimal
-    // digits, also for save().
+    // Loads the caller's kernels if they are intact and the driver accepts them. key: 32 hexadecimal digits, also for
+    // save().
     void use(const KernelStore &store, std::string key, const Log &log);
 
-    // Changes save()'s key.
     void set_key(std::string key) noexcept { key_ = std::move(key); }
 
-    // Notes that a kernel was built.
     void note_kernel() { has_news_ = true; }
 
-    // Gives new kernels to the caller, if the driver's bytes have changed.
+    // Gives the caller new kernels, if the driver's bytes have changed.
     void save(const Log &log) noexcept;
 
     void abandon() { cache_.release(); }

@@ -1,4 +1,3 @@
-// Translates Vulkan's errors.
 #pragma once
 
 #include "lib/base/error.h"
@@ -12,7 +11,7 @@ namespace pt::vulkan {
 // PT_ERROR_INTERNAL for unlisted ones.
 pt_result result_of(vk::Result result);
 
-// Throws a pt::Error; its message says what was being done.
+// Throws a pt::Error.
 [[noreturn]] void throw_translated(const vk::SystemError &error, std::string_view what_was_being_done);
 
 // Runs a function and translates what Vulkan throws.

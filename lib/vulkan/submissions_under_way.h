@@ -1,4 +1,4 @@
-// Waits for submissions in order; for all of them in the end, with any error.
+// Waits for submissions in order; its end waits for all, also after errors.
 #pragma once
 
 #include "lib/vulkan/device.h"
@@ -17,7 +17,7 @@ public:
     ~SubmissionsUnderWay() {
         try {
             finish_all();
-        } catch (...) { // the device is lost; the failed call reports it
+        } catch (...) { // the failed call reports it
         }
     }
 
