@@ -1,3 +1,4 @@
+// A pt_context, and the check of pt_create_info.
 #pragma once
 
 #include "lib/api/guard.h"

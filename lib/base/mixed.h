@@ -1,3 +1,4 @@
+// Mixes 64-bit seeds.
 #pragma once
 
 #include <cstdint>

@@ -1,3 +1,4 @@
+// Rules of the caller's numbers.
 #pragma once
 
 #include "lib/base/error.h"

@@ -1,3 +1,4 @@
+// The lifetime of objects on a device.
 #pragma once
 
 #include "lib/vulkan/device.h"

@@ -1,3 +1,4 @@
+// Chooses memory types of buffers.
 #pragma once
 
 #include "lib/base/error.h"

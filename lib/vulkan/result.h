@@ -1,3 +1,4 @@
+// Translates Vulkan's errors.
 #pragma once
 
 #include "lib/base/error.h"

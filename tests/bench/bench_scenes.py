@@ -1,3 +1,5 @@
+"""The scenes of the benchmark."""
+
 import hashlib
 import json
 import pathlib

@@ -1,3 +1,4 @@
+// Rules of images in the caller's memory.
 #include "lib/render/image.h"
 
 #include "tests/host/refusals.h"

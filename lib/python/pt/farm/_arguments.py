@@ -51,7 +51,7 @@ def parser() -> argparse.ArgumentParser:
 
 
 def frames_of(arguments: argparse.Namespace) -> list[int | None]:
-    """The frames to render; [None] for a single picture without a number."""
+    """The frames to render; [None] for a single picture."""
     if arguments.frames is None:
         return [None]
     found = re.fullmatch(r"(\d+)(?:-(\d+))?", arguments.frames, re.ASCII)
@@ -79,7 +79,6 @@ def check(arguments: argparse.Namespace) -> None:
 
 
 def check_files(arguments: argparse.Namespace) -> None:
-    """Checks names and formats of outputs before rendering."""
     wanted: list[tuple[str, tuple[str, ...]]] = [(name, PICTURES) for name in arguments.output]
     wanted += [(name, ()) for name in (arguments.film, arguments.checkpoint) if name]
     if wrong := misnamed(wanted, arguments.scene):
@@ -92,7 +91,6 @@ def check_files(arguments: argparse.Namespace) -> None:
 
 
 def written(arguments: argparse.Namespace) -> list[str]:
-    """Patterns of the output files of each frame."""
     return [*arguments.output, *filter(None, (arguments.film,))]
 
 

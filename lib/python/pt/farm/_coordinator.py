@@ -25,18 +25,16 @@ from pt.farm._sum import Sum, read_film, write_film
 from pt.farm._workers import MOST_FETCHED, Member, Try, now, submit
 
 TICK = 0.25  # seconds between checks for late parts and progress
-SLOTS = 2  # parts per worker: one renders while another travels or waits for the coordinator
+SLOTS = 2  # parts per worker: one renders while another travels or waits
 
 # Tiles that keep a device busy. CPU: 4 for each of 16 cores. GPU: 262,144 pixels, about the largest GPUs' invocations.
 LEAST_TILES = {True: 64, False: 4096}
 LEAD = 0.05  # seconds for travel and merging
 LATE = 3.0  # times the expected seconds, after which a part is late
-LOOK_SHARE = 0.05  # of the time, for the error shown, which costs as much as planning a round
+LOOK_SHARE = 0.05  # of the time, for the error shown
 
 
 class _Opened(NamedTuple):
-    """A returned film."""
-
     film: Film
     size: int  # bytes
     identity: Identity
@@ -69,7 +67,7 @@ class Coordinator:
         self._checkpoint_error = ""
         self._look_end = self._look_cost = 0.0
         self._goals: Goals = np.zeros(self._shape, np.uint32)
-        self._has_only = self._sum.film is None  # the film has no samples beyond the earlier goals
+        self._has_only = self._sum.film is None  # without samples beyond the earlier goals
         self._cells: Cells | None = None  # of the film when _cells_at parts were merged
         self._cells_at = 0
         self._asked_at = -1  # parts merged when it last asked for more
@@ -110,7 +108,6 @@ class Coordinator:
         self._sum.merge()
 
     def _want(self) -> None:
-        """Updates the samples per pixel decided so far."""
         wanted = np.maximum(self._goals, self._final).astype(np.float64)
         for samples, tiles in self._cells or ():  # a checkpoint's film may have more
             wanted.ravel()[tiles] = np.maximum(wanted.ravel()[tiles], sum(map(len, samples)))
@@ -136,8 +133,7 @@ class Coordinator:
         self._ask_cost = self._ask_end - start
 
     def _forgot(self, missing: list[Part]) -> None:
-        """Counts parts that are missing without a failed try: the list of parts was wrong, but the film will be right.
-        """
+        """Counts parts that are missing without a failed try: the list of parts was wrong."""
         work = sum(part.work for part in missing)
         if work:
             self._progress.forgotten += work
@@ -150,7 +146,6 @@ class Coordinator:
         return self._sum.film
 
     def look(self) -> ErrorEstimate:
-        """Computes the film's error."""
         start = now()
         error = self.film.error_estimate()
         self._look_end, self._look_cost = now(), now() - start
@@ -213,7 +208,6 @@ class Coordinator:
         self._again(address, each, "its worker died")
 
     def _again(self, address: str, each: Try, reason: str) -> None:
-        """Hands a part out again after a failed try."""
         if each.number not in self._open:
             return
         tries = self._tries.setdefault(each.number, [])

@@ -77,7 +77,7 @@ class Crew:
         """Accepts a worker after its introduction. identity: of its film."""
         member.introduction = None
         if outcome is None:
-            member.is_banned = True  # it has died, and will be gone at the next look
+            member.is_banned = True  # it has died; the next look will remove it
         elif identity is None:
             self.blame(member, outcome, most=1)
         else:

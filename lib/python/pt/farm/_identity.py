@@ -1,5 +1,5 @@
 """A film's identity: the lines of its header from `scene` to `device` (lib/film/FORMAT.md). Films with equal ones add
-up, so unfit workers are recognised before they have done anything."""
+up, so unfit workers are recognised before they work."""
 
 from __future__ import annotations
 
@@ -17,7 +17,6 @@ class Identity:
 
     @property
     def models(self) -> frozenset[str]:
-        """Names of devices with their drivers."""
         return frozenset(dict(self.lines)[LAST].split(" and "))
 
     def differences(self, other: Identity, but: tuple[str, ...] = ()) -> list[str]:
@@ -36,8 +35,8 @@ def identity_of(data: bytes) -> Identity:
 
 
 def with_models(data: bytes, models: frozenset[str]) -> bytes:
-    """A film's bytes with these models as its devices, like a film of a context on several models. These films add up,
-    and state that they are mixed. ImportError: xxhash is missing."""
+    """A film's bytes with these models as its devices: such films add up, and say that they are mixed. ImportError:
+    xxhash is missing."""
     xxhash = importlib.import_module("xxhash")
     header = _header(data)
     start = header.index(b"\n" + LAST.encode() + b" ") + 1

@@ -43,12 +43,12 @@ class Options:
 
 @dataclass
 class Progress:
-    """Counts so far. issued is the number of parts merged, dropped, failed, lost and running."""
+    """Counts so far. issued: parts merged, dropped, failed, lost and running."""
 
     seconds: float = 0.0
     samples: float = 0.0  # mean over all pixels at the last check of the film
     samples_wanted: float = 0.0  # the final mean; with a target error, as far as decided
-    error: float = float("inf")  # relative; error_high is its upper bound, with 95% confidence
+    error: float = float("inf")  # relative; error_high: upper bound, with 95% confidence
     error_high: float = float("inf")
     workers: int = 0
     parts: int = 0  # merged
@@ -60,7 +60,7 @@ class Progress:
     forgotten: int = 0  # samples of tiles that the coordinator lost track of, and rendered again
     part_bytes: int = 0  # received
     messages: list[str] = field(default_factory=list)  # of workers
-    last_result: int = enums.Result.OK  # the library's result for the last error
+    last_result: int = enums.Result.OK  # the library's, for the last error
     ended_by: str = ""  # "samples", "error", "limit"; "stopped" if progress() returned True
 
     def line(self) -> str:
@@ -72,13 +72,12 @@ class Progress:
 
 @dataclass(frozen=True)
 class Result:
-    """film: with the bytes of one long rendering. progress: the last one."""
+    """film has the bytes of one long rendering."""
 
     film: Film
     progress: Progress
 
     @property
     def devices(self) -> tuple[str, ...]:
-        """Models and drivers that took the samples. With several the picture is as good as one machine's, but its bits
-        differ."""
+        """Models and drivers that took the samples. With several, the bits differ from one machine's."""
         return tuple(self.film.info.device.split(" and "))

@@ -105,7 +105,7 @@ def has_only(cells: Cells, first_sample: int, goals: Goals) -> bool:
 
 
 def further_parts(before: Goals, after: Goals, first_sample: int) -> list[Part]:
-    """The parts from one number of samples per tile to a larger one, both counted from first_sample."""
+    """The parts between two numbers of samples per tile, both counted from first_sample."""
     tiles = np.flatnonzero(after.ravel() > before.ravel()).astype(np.uint32)
     wanted: dict[tuple[int, int], list[Indices]] = {}
     steps = np.stack([before.ravel()[tiles], after.ravel()[tiles]])

@@ -17,7 +17,7 @@ from pt.farm._job import AnyJob
 from pt.farm._options import FarmError, Options, Progress, Result
 from pt.farm._part import Goals, grid_shape
 
-FIRST_LOOK = 16  # samples per pixel, the fewest with a known error
+FIRST_LOOK = 16  # the fewest samples per pixel with a known error
 
 
 def render(client: Any, job: AnyJob, samples: int, *, target_error: float = 0.0, sampling: Sampling = Sampling.BEST,

@@ -21,7 +21,7 @@ class Renderer(Protocol):
         """Known after the first film."""
 
     def film(self, part: Part) -> bytes:
-        """A part's film as bytes. Error: it could not be rendered."""
+        """Error: it could not be rendered."""
 
     def close(self) -> None:
         """Frees the device."""
@@ -38,7 +38,7 @@ def device_of(job: AnyJob) -> str | None:
 
 
 class Library:
-    """Renders by a context in this process."""
+    """Renders in this process."""
 
     def __init__(self, job: Job) -> None:
         self._settings = job.settings

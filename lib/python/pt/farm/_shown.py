@@ -31,8 +31,6 @@ class Signals:
 
 
 class Shown:
-    """Progress on stderr."""
-
     def __init__(self, is_quiet: bool, signals: Signals) -> None:
         self._is_quiet, self._time, self._told, self._signals = is_quiet, 0.0, 0, signals
 

@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 FIRST_GUESS = 2000.0  # samples of tiles per second: a slow core
-LEAST_SECONDS = 0.1  # the shortest part; the smallest one of 1920x1080 takes 0.03 s
-REMEMBERED = 5.0  # seconds of earlier parts that count: a part's duration
+LEAST_SECONDS = 0.1  # of the shortest part; the smallest of 1920x1080 takes 0.03 s
+REMEMBERED = 5.0  # seconds of earlier parts that count
 BUSY_SHARE = 0.5  # of the coordinator's time, for adding films
 
 
 class Speed:
-    """A worker's speed, in samples of tiles per second."""
+    """Samples of tiles per second."""
 
     def __init__(self) -> None:
         self.value = FIRST_GUESS
         self._work = self._seconds = 0.0
 
     def measure(self, work: int, seconds: float) -> None:
-        """Averages the last parts, weighted by seconds, because short parts are mostly overhead."""
+        """Weights the last parts by seconds, because short parts are mostly overhead."""
         kept = min(REMEMBERED / self._seconds, 1.0) if self._seconds else 0.0
         self._work = kept * self._work + work
         self._seconds = kept * self._seconds + max(seconds, 1e-6)
@@ -33,5 +33,5 @@ class Speed:
 
 
 def least_seconds(workers: int, adding_seconds: float) -> float:
-    """The shortest parts with which the coordinator keeps up, at adding_seconds each."""
+    """The shortest parts with which the coordinator keeps up."""
     return max(workers * adding_seconds / BUSY_SHARE, LEAST_SECONDS)

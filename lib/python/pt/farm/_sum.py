@@ -17,7 +17,7 @@ from pt.farm._workers import now
 
 PIXEL_BYTES = 112
 # Adding a part also costs time for the film's tiles, so parts are first added to each other, up to this share of a
-# film. 1/8 to 1/64 take about equal time; 1/32 takes less memory than 1/8.
+# film.
 BATCH_SHARE = 1 / 32
 SHOW_SHARE = 0.02  # of the time, for early additions that keep the picture recent
 
@@ -34,7 +34,7 @@ class Sum:
         self._bytes = self._freed = 0
         self._most_bytes = int(BATCH_SHARE * PIXEL_BYTES * width * height)
         self._merged, self._cost = now(), 0.0
-        self.seconds = 0.0  # of merging, in all
+        self.seconds = 0.0  # of merging
 
     def add(self, part: Film, size: int, models: frozenset[str]) -> None:
         """size: bytes. models: the part's device."""
@@ -83,8 +83,7 @@ def _give_back() -> None:
 
 
 def write_film(film: Film, path: Path) -> None:
-    """Writes the film, packed by zstd like the program's if a module is installed; `pt merge` and `pt render --resume`
-    read both."""
+    """Packs by zstd, like the program, if a module is installed; `pt merge` and `pt render --resume` read both."""
     packer = _zstd.packer(film.size)
     if packer is None:
         film.save(path)
@@ -98,7 +97,7 @@ def write_film(film: Film, path: Path) -> None:
 
 
 def read_film(path: Path) -> Film | None:
-    """Reads a film; None without a file."""
+    """None without a file."""
     if not pathlib.Path(path).exists():
         return None
     try:

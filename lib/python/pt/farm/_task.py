@@ -31,7 +31,7 @@ class Outcome:
     is_cpu: bool = False
     error: str = ""
     may_help_elsewhere: bool = True
-    result: int = Result.OK  # the library's result for the error
+    result: int = Result.OK  # the library's, for the error
 
 
 def fault_of(value: object, seconds: float) -> str:

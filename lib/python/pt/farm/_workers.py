@@ -1,4 +1,4 @@
-"""A Dask cluster's workers, as seen by the coordinator."""
+"""A Dask cluster's workers."""
 
 from __future__ import annotations
 
@@ -36,11 +36,9 @@ class Try:
 
 @dataclass
 class Member:
-    """A worker that has joined."""
-
     address: str
     joined: float
-    identity: Identity | None = None  # of its films, once it is ready
+    identity: Identity | None = None  # once it is ready
     is_cpu: bool = False
     speed: Speed = field(default_factory=Speed)
     tries: dict[Any, Try] = field(default_factory=dict)  # by the future's key
@@ -63,7 +61,7 @@ class Member:
 
 
 def addresses(client: Any) -> set[str]:
-    """Addresses of all workers. OSError: the scheduler is gone."""
+    """OSError: the scheduler is gone."""
     if client.status not in ("running", "connecting"):
         raise OSError("the connection to the scheduler has ended")
     return set(client.nthreads())
