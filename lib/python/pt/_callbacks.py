@@ -1,9 +1,9 @@
 """Python callbacks of the library, and their exceptions.
 
-Python runs signal handlers between instructions of Python code, so during a call of the library they run in its
-callbacks. Ctrl-C raises KeyboardInterrupt there, often before any `try`. ctypes does not pass exceptions through C, but
-to sys.unraisablehook. A CallbackGuard takes its callbacks' exceptions from there; the library stops at its next
-callback, and the exception is raised when the call has returned.
+Signal handlers run between instructions of Python code, so during a call of the library they run in its callbacks.
+Ctrl-C raises KeyboardInterrupt there, often before any `try`. ctypes passes exceptions not through C, but to
+sys.unraisablehook. There a CallbackGuard takes them; the library stops at its next callback, and the exception is
+raised when the call has returned.
 """
 
 from __future__ import annotations
@@ -41,7 +41,6 @@ class CallbackGuard:
             raise self.error
 
     def watch(self, function: Callable[..., Any]) -> None:
-        """Catches this function's exceptions from now on."""
         self._functions.append(function)
 
     def progress(self, function: Progress | None) -> Any:

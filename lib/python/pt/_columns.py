@@ -40,8 +40,8 @@ def _laid_out(name: str, array: Array, components: int, count: int | None) -> Ar
 
 
 def real_column(name: str, values: npt.ArrayLike, components: int, count: int | None) -> Array:
-    """float32 and float64 of native byte order stay; other numbers are copied, small floats to float32, others to
-    float64."""
+    """Keeps float32 and float64 of native byte order; copies other numbers, small floats to float32, others to float64.
+    """
     array = np.asarray(values)
     if array.dtype.kind not in "fiu":
         raise TypeError(f"{name}.dtype = {array.dtype}: must be of real numbers")
@@ -51,7 +51,7 @@ def real_column(name: str, values: npt.ArrayLike, components: int, count: int | 
 
 
 def check_finite(name: str, values: npt.ArrayLike, *, positive: bool = False) -> None:
-    """Raises ValueError naming the first bad value by row and column."""
+    """ValueError names the first bad value by row and column."""
     array = np.asarray(values)
     good = np.isfinite(array)
     if positive:

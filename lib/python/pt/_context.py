@@ -61,7 +61,7 @@ class Context:
         self._in_call = False
         self._shape: tuple[int, int] | None = None
         self._log = log
-        # The callback must outlive the context without keeping it alive: log may refer to the context.
+        # Outlives the context without keeping it alive: log may refer to the context.
         this = weakref.ref(self)
         self._log_function = log_function(lambda: getattr(this(), "_log", None))
         log_pointer = structs.pt_log_fn(self._log_function)

@@ -13,7 +13,7 @@ import numpy.typing as npt
 Array = npt.NDArray[Any]
 Doubles = npt.NDArray[np.float64]
 
-ROWS_AT_ONCE: Final = 1 << 15  # keeps their numbers in a core's cache
+ROWS_AT_ONCE: Final = 1 << 15  # their numbers fit into a core's cache
 
 
 def chunks(count: int) -> Iterator[slice]:
@@ -68,7 +68,7 @@ def reach(centers: Array, radii: Array, axes: Doubles, directions: Doubles, spin
 
 
 def _dot(direction: Doubles, places: Any) -> Doubles:
-    """A dot product that skips components of 0. The order of the sum is fixed, so it rounds alike everywhere."""
+    """A dot product that skips components of 0, in a fixed order, so that it rounds alike everywhere."""
     terms = [factor * place for factor, place in zip(direction, places, strict=True) if factor != 0.0]
     total: Doubles = terms[0]
     for term in terms[1:]:
@@ -81,7 +81,7 @@ SIDES: Final = np.vstack([np.eye(3), -np.eye(3)])  # right, up, forward, and the
 
 @dataclass(frozen=True)
 class Extents:
-    """Lowest and highest coordinates of balls along right, up and forward."""
+    """Coordinates of balls along right, up and forward."""
 
     low: Doubles
     high: Doubles
@@ -112,11 +112,10 @@ def pyramid(tangents: tuple[float, float]) -> Doubles:
 def apex(reaches: Doubles, axes: Doubles, normals: Doubles) -> Doubles:
     """The nearest pinhole that sees balls with these reaches along the pyramid's normals.
 
-    A ball is wholly in view if dot(n, p) >= dot(n, c) + r for the pinhole p and the outward unit normal n of each side;
-    for all balls dot(n, p) >= s with the reach s. For half the horizontal angle a the normals are -cos(a) right -
-    sin(a) forward and cos(a) right - sin(a) forward. Their sum gives dot(forward, p) <= -(s_left + s_right) / (2 sin
-    a); the vertical pair gives another, and p takes the smaller one. Sideways p is in the middle of the rest:
-    dot(right, p) = (s_right - s_left) / (2 cos a).
+    A ball is wholly in view if dot(n, p) >= dot(n, c) + r for the pinhole p and each side's outward unit normal n; all
+    are if dot(n, p) >= s with the reach s. For half the horizontal angle a the normals are -cos(a) right - sin(a)
+    forward and cos(a) right - sin(a) forward. Their sum gives dot(forward, p) <= -(s_left + s_right) / (2 sin a); the
+    vertical pair gives another bound, and p takes the smaller. Sideways dot(right, p) = (s_right - s_left) / (2 cos a).
     """
     right, above, forward = axes
     low, high = -reaches[0::2], -reaches[1::2]

@@ -115,7 +115,7 @@ def _broken_rules(loaded: ctypes.CDLL, context: c_void_p | None) -> tuple[Broken
 
 def checked(loaded: ctypes.CDLL, result: int, context: c_void_p | None = None) -> Result:
     """Returns a good result; otherwise raises the error with the library's message. The message lasts until the next
-    call on the context, or of this thread without one, so no other call may come between."""
+    call on the context, or of this thread without one."""
     if result >= 0:
         return Result(result)
     message = _text(loaded.pt_last_error(context))

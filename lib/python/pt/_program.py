@@ -80,7 +80,7 @@ class Program:
         return self._bytes(size)
 
     def scene(self) -> ReadScene:
-        """The file's contents, without opening a device."""
+        """Reads without opening a device."""
         self._ask(struct.pack("=3I", 0, 0, 0))
         read = json.loads(self._line())
         materials = [Material(**each) for each in read["materials"]]
