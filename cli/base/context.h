@@ -1,4 +1,4 @@
-// A pt_context that throws Failure, and the library's last error: broken rules as data, in the user's own names.
+// A pt_context that throws Failure, and the library's last error, in the user's own names.
 #pragma once
 
 #include "cli/base/environment.h"
@@ -38,7 +38,7 @@ struct BrokenRule {
     std::string rule{};
 };
 
-// "--size: width * height = 0: must be >= 1", with the user's name of the field.
+// "--size: width * height = 0: must be >= 1"
 std::string rule_text(const std::string &field, const BrokenRule &rule);
 
 // "spheres[3].center[0]": the library's name.

@@ -9,7 +9,7 @@ namespace cli {
 std::filesystem::path user_cache();
 
 // Asks llvmpipe for vectors of 512 bits, unless the user has chosen a width, with a cache of their own: lists of
-// spheres are 1.3 to 1.7 times as fast as with 256. Not while other threads run: the environment has no lock.
+// spheres are up to 1.7 times as fast. Not while other threads run: the environment has no lock.
 void widen_vectors();
 
 // With AVX-512 only; before an instance is created.

@@ -1,5 +1,5 @@
 // Reads files whole, and writes them whole or not at all: to a temporary name beside their place, then renamed. A lock
-// marks temporary files in use; killed programs leave others. A command writes no file twice, and none that it reads.
+// marks temporary files in use; killed programs leave others.
 #pragma once
 
 #include "lib/platform/file.h"
@@ -34,8 +34,9 @@ public:
     // The constructor's checks, without leaving a file; also removes abandoned ones.
     static void check_writable(const std::string &path);
 
-    // The file that is written, behind symbolic links, because a rename would replace the link. Refuses links of other
-    // users in sticky folders that everybody may write (Failure(ExitCode::file)), except the folder's owner's.
+    // The file that is written, behind symbolic links, because a rename would replace the link. Throws
+    // Failure(ExitCode::file) for another user's link in a sticky folder that everybody may write, except the folder
+    // owner's.
     static std::filesystem::path target_of(const std::string &path);
 
 private:

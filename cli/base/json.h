@@ -1,4 +1,4 @@
-// JSON: paths, rules of values as data (which give check, refusal and JSON Schema), refusals, reports.
+// JSON: paths, rules of values (which give check, refusal and JSON Schema), reports.
 #pragma once
 
 #include <nlohmann/json.hpp>

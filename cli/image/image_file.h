@@ -1,4 +1,4 @@
-// Image formats, the images that -o and --format request, and their files: PNG here, others by image_module.h.
+// Image formats, the images that -o and --format request, and their files.
 #pragma once
 
 #include "cli/image/image_module.h"
@@ -18,14 +18,14 @@
 
 namespace cli {
 
-// Options, refusals and helps follow from the rows below. The module writes layers of radiance, or bytes.
+// Options, refusals and helps follow from the rows below.
 struct ImageFormat {
     std::string_view name; // the extension
     bool is_radiance;      // linear float32 layers; others are tone-mapped to bytes
     bool has_alpha;
     bool needs_module; // else PNG
 
-    // Limit of format or encoder. Checked before writing: libjpeg ends the process beyond it.
+    // Of format or encoder; checked before writing, because libjpeg ends the process beyond it.
     std::uint32_t longest_side;
 };
 
@@ -54,7 +54,7 @@ inline bool is_for_displays(const ImageFormat &format) {
     return !format.is_radiance;
 }
 
-// ".exr, .png": the extensions of formats for which `holds`.
+// ".exr, .png": formats for which `holds`.
 std::string extensions(const std::function<bool(const ImageFormat &)> &holds, const char *between = ", ");
 
 std::optional<ImageFormat> format_of_name(std::string_view name);
@@ -67,8 +67,8 @@ struct ImageTarget {
     ImageFormat format;
 };
 
-// Throws Failure(ExitCode::usage) for a name without a known format, standard output without --format or on a terminal,
-// and --format without standard output.
+// Throws Failure(ExitCode::usage) for an unknown format, standard output without --format or on a terminal, and
+// --format without standard output.
 void check_image_names(std::span<const std::string> paths, std::optional<ImageFormat> format);
 
 // format: of standard output.
@@ -77,13 +77,13 @@ ImageTarget image_target(const std::string &path, std::optional<ImageFormat> for
 // Throws Failure: ExitCode::usage for an image too large for its format, ExitCode::file for an unwritable file.
 void check_image_target(const ImageTarget &target, const ImageWindow &window);
 
-// Throws Failure(ExitCode::file) if the module, a separate package, is missing.
+// Throws Failure(ExitCode::file) without the module, a separate package.
 std::filesystem::path module_path();
 
 // name: see image_module.h. Throws Failure(ExitCode::internal) if the module cannot be loaded.
 void *load_symbol(const std::filesystem::path &path, const char *name);
 
-// Writes image.signals, and the attributes as text chunks. Throws std::runtime_error.
+// Attributes become text chunks. Throws std::runtime_error.
 std::vector<unsigned char> encode_png(const ImageData &image);
 
 // Alpha is a channel; text chunks are skipped. Throws std::runtime_error.
@@ -91,13 +91,13 @@ void decode_png(const std::string &path, DecodedImage &image);
 
 class ImageWriter {
 public:
-    // Loads in the background. Throws Failure(ExitCode::file) at once if the module is missing.
+    // Loads in the background. Throws Failure(ExitCode::file) at once without the module.
     void load_module();
 
     // A long rendering may stop then.
     bool failed() const { return failed_; }
 
-    // Waits for load_module(), if called. Throws Failure(ExitCode::internal) if it failed.
+    // Throws Failure(ExitCode::internal) if load_module() failed.
     void wait() const {
         if (encode_.valid())
             static_cast<void>(encode_.get());

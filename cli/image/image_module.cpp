@@ -1,4 +1,4 @@
-// Encodes and decodes images by OpenImageIO; see image_module.h.
+// Images by OpenImageIO.
 #include "cli/image/image_module.h"
 
 #include <OpenImageIO/filesystem.h>
@@ -12,7 +12,7 @@ namespace {
 
 using namespace cli;
 
-// JPEG has no named attributes, only a description: a line for each.
+// JPEG has no named attributes, only a description.
 std::string description(std::span<const ImageAttribute> attributes) {
     std::vector<std::string> lines;
     for (const ImageAttribute &attribute : attributes)
@@ -20,7 +20,7 @@ std::string description(std::span<const ImageAttribute> attributes) {
     return listed(lines, "\n");
 }
 
-// "R", "G", "B" for the main layer, "layer.R" or "layer.X" for others, the layer's name for a single channel.
+// "R", "G", "B" of the main layer, "layer.R" or "layer.X" of others; a single channel has the layer's name.
 std::vector<std::string> channel_names(std::span<const ImageLayer> layers) {
     std::vector<std::string> names;
     for (const ImageLayer &layer : layers) {
@@ -134,7 +134,7 @@ std::vector<unsigned char> encode(const ImageData &image, const char *extension)
     return std::move(memory.buffer());
 }
 
-// Texts and single numbers, as written by this program.
+// Texts and single numbers.
 std::vector<ImageAttribute> attributes_of(const OIIO::ImageSpec &spec) {
     std::vector<ImageAttribute> attributes;
     for (const OIIO::ParamValue &each : spec.extra_attribs) {

@@ -1,5 +1,5 @@
-// The interface to libpt-image-file.so, the only module that links OpenImageIO: 261 shared objects and 0.2 s, for other
-// formats than PNG. Built together with the program: types are C++, failures std::runtime_error.
+// The interface to libpt-image-file.so, the only module that links OpenImageIO (261 shared objects, 0.2 s). Built with
+// the program: types are C++, failures std::runtime_error.
 #pragma once
 
 #include "cli/base/number.h"
@@ -68,7 +68,7 @@ struct ImageAttribute {
     std::variant<std::string, std::int32_t, double> value; // double is float32 in a file
 };
 
-// For formats with metadata as text (PNG, JPEG).
+// In PNG and JPEG.
 inline std::string attribute_text(const ImageAttribute &attribute) {
     if (const auto *text = std::get_if<std::string>(&attribute.value))
         return *text;
@@ -87,7 +87,7 @@ struct ImageLayer {
     std::string name; // empty for the main one
     LayerKind kind;
     std::size_t channel_count;                   // 3 or 1
-    std::span<const float> values;               // pixel by pixel, row by row from the top
+    std::span<const float> values;               // by pixel, from the top left
     std::span<const std::uint32_t> numbers = {}; // instead, for LayerKind::numbers
 };
 
@@ -114,15 +114,14 @@ struct DecodedImage {
     std::uint32_t full_height;
     bool is_float;                     // otherwise whole numbers, as for displays, scaled to [0, 1]
     std::vector<std::string> channels; // names
-    std::vector<float> values;         // channel by channel of a pixel, row by row from the top
+    std::vector<float> values;         // by pixel, from the top left
     std::vector<ImageAttribute> attributes;
 
-    // Three values per pixel: a layer's R, G, B or X, Y, Z, or its only channel three times. The main layer has no
-    // name. Throws Failure(ExitCode::file) if it is missing.
+    // Three values per pixel: R, G, B or X, Y, Z, or the only channel three times. The main layer has no name. Throws
+    // Failure(ExitCode::file) without the layer.
     std::vector<float> layer(const std::string &name) const;
 };
 
-// In any format that OpenImageIO knows.
 using DecodeImage = void(const std::string &path, DecodedImage &image);
 
 inline constexpr const char *encode_image_symbol = "pt_encode_image";

@@ -1,4 +1,4 @@
-// PNG by libpng: OpenImageIO's module takes 0.2 s and 200 MB to load.
+// PNG by libpng: OpenImageIO takes 0.2 s and 200 MB to load.
 #include "cli/base/file.h"
 #include "cli/image/image_file.h"
 
@@ -18,7 +18,7 @@
 namespace cli {
 namespace {
 
-// Leaves libpng's C frames by a long jump, because no exception may cross them. Must not return.
+// Leaves libpng's C frames by a long jump, because no exception may cross them.
 [[noreturn]] void fail(png_structp png, png_const_charp reason) {
     *static_cast<std::string *>(png_get_error_ptr(png)) = reason;
     png_longjmp(png, 1);
@@ -26,7 +26,6 @@ namespace {
 
 void ignore(png_structp, png_const_charp) {}
 
-// The file so far, or the error.
 struct Encoding {
     std::vector<unsigned char> file;
     std::string error;
@@ -101,8 +100,8 @@ bool write(Encoding &encoding, const ImageData &image, std::span<png_text> texts
                  image.has_alpha() ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     set_color_space(encoding, image.gamma);
-    // Pictures are noise on slopes: differences of neighbours and a lower level give files as small as the defaults in
-    // a third of the time.
+    // On noise on slopes, differences of neighbours and a lower level give files as small as the defaults in a third of
+    // the time.
     png_set_filter(encoding.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
     png_set_compression_level(encoding.png, 4);
     png_set_text(encoding.png, encoding.info, texts.data(), static_cast<int>(texts.size()));
@@ -137,7 +136,7 @@ struct Decoding {
     }
 };
 
-// Red, green, blue of 8 or 16 bits, perhaps alpha.
+// 8 or 16 bits, perhaps with alpha.
 bool read(Decoding &decoding) {
     if (setjmp(png_jmpbuf(decoding.png)) != 0) // NOLINT(cert-err52-cpp): libpng's way to tell of errors
         return false;

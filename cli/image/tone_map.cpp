@@ -27,8 +27,7 @@ Color clamp(Color color) {
 }
 
 // Reinhard, Stark, Shirley, Ferwerda 2002, "Photographic Tone Reproduction for Digital Images", eq. 3: Ld = L / (1 +
-// L), on the luminance, which keeps the channels' ratio; per channel it would wash out saturated colors. A channel far
-// above the luminance may pass 1 and is clipped.
+// L), on the luminance: per channel it would wash out saturated colors. A channel may pass 1 and is clipped.
 Color reinhard(Color color) {
     const double luminance = 0.2126 * color[0] + 0.7152 * color[1] + 0.0722 * color[2]; // Rec. 709
     for (double &component : color)
@@ -36,8 +35,8 @@ Color reinhard(Color color) {
     return color;
 }
 
-// Narkowicz 2015, "ACES Filmic Tone Mapping Curve": a rational fit of the ACES reference and output transforms, per
-// channel, with more contrast and saturation than ACES.
+// Narkowicz 2015, "ACES Filmic Tone Mapping Curve": a rational fit of the ACES transforms, per channel, with more
+// contrast and saturation than ACES.
 Color aces(Color color) {
     for (double &x : color)
         x = x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14);
@@ -71,8 +70,8 @@ Color agx(const Color &color) {
     return light;
 }
 
-// Khronos PBR Neutral Tone Mapper 2024 (github.com/KhronosGroup/ToneMapping). Subtracts the 4 % that Fresnel reflection
-// adds to a base color, keeps peaks below 0.76, compresses higher ones and fades them towards white.
+// Khronos PBR Neutral Tone Mapper 2024 (github.com/KhronosGroup/ToneMapping). Subtracts Fresnel reflection's 4 %, keeps
+// peaks below 0.76, compresses higher ones and fades them towards white.
 Color neutral(Color color) {
     constexpr double fresnel = 0.04;
     constexpr double start = 0.8 - fresnel;
@@ -144,7 +143,7 @@ double encode_srgb(double light) {
 std::vector<std::uint8_t> map_to_bytes(std::span<const float> radiance, const ToneMap &map) {
     const double scale = std::exp2(map.exposure);
     std::vector<std::uint8_t> bytes(radiance.size());
-    constexpr std::size_t grain = 20'000; // pixels: two milliseconds
+    constexpr std::size_t grain = 20'000; // pixels; takes two milliseconds
     in_parallel(radiance.size() / 3, grain, [&](std::size_t first, std::size_t end) {
         for (std::size_t i = 3 * first; i < 3 * end; i += 3) {
             const Color light =

@@ -1,5 +1,4 @@
-// Exposure, tone curve, display encoding, rounding to bytes, and files; the same for renderings and files of radiance,
-// so that both have the same bits.
+// Exposure, tone curve, display encoding and rounding; the same bits for renderings and files of radiance.
 #pragma once
 
 #include "cli/base/names.h"
@@ -44,19 +43,17 @@ Color apply_curve(ToneCurve curve, const Color &radiance);
 // Display light to signal, both in [0, 1]: IEC 61966-2-1.
 double encode_srgb(double light);
 
-// R, G, B triples of radiance >= 0 to bytes: 255 times the signal, halves up. No dither: equal pictures are equal
-// files.
+// Bytes are 255 times the signal, halves up. No dither: equal pictures are equal files.
 std::vector<std::uint8_t> map_to_bytes(std::span<const float> radiance, const ToneMap &map);
 
 inline constexpr double largest_exposure = 64.0; // the least is its negative
 
-// The stops that bring the picture's average to middle grey, 0.18: Reinhard, Stark, Shirley, Ferwerda 2002,
-// "Photographic Tone Reproduction for Digital Images", eqs. 1 and 2 (exponential of the mean logarithm), which hardly
-// depends on the brightness of lamps in view. Two differences: a pixel's mean of channels replaces its luminance, which
-// would burn out blue; and pixels below 1/128 of the level count less the darker they are, because logarithms of near
-// black, such as tails of lobes, would dominate. The level is the mean after clipping to the mean three times, so that
-// a lamp in a hundredth of the pixels does not set it. Rounded to hundredths, so that the number shown gives the same
-// picture. 0 if all is black.
+// Stops that bring the picture's average to middle grey, 0.18: Reinhard, Stark, Shirley, Ferwerda 2002, "Photographic
+// Tone Reproduction for Digital Images", eqs. 1 and 2 (exponential of the mean logarithm). Two differences: the
+// channels' mean replaces luminance, which would burn out blue; pixels below 1/128 of the level count less the darker
+// they are, because logarithms of near black would dominate. The level is the mean after clipping to the mean three
+// times, so that a lamp in a hundredth of the pixels does not set it. Rounded to hundredths, so that the number shown
+// gives the same picture. 0 if all is black.
 double automatic_exposure(std::span<const float> radiance);
 
 struct Display {
@@ -74,8 +71,8 @@ void add_tone_map(std::vector<ImageAttribute> &attributes, const ToneMap &tone_m
 // "exposure -3.13 EV (auto)" and a line end; empty without automatic exposure.
 std::string automatic_exposure_line(const std::optional<ToneMap> &tone_map);
 
-// image: window and attributes. radiance: R, G, B triples of the window's part, >= 0. alpha: per pixel, already
-// multiplied into the radiance; or empty. Throws Failure(ExitCode::file), and leaves an existing file as it was.
+// radiance: R, G, B of the window's part, >= 0. alpha: per pixel, already multiplied into the radiance; or empty.
+// Throws Failure(ExitCode::file), and leaves an existing file as it was.
 void write_display_image(ImageWriter &writer, const ImageTarget &target, ImageData image,
                          std::span<const float> radiance, const ToneMap &tone_map, std::span<const float> alpha = {});
 

@@ -15,9 +15,9 @@ namespace {
 constexpr double false_alarm = 1e-7;
 
 // Bernstein's inequality (Boucheron, Lugosi and Massart, Concentration Inequalities, 2013, section 2.8), solved for t:
-// for n independent samples of variance s^2 and deviations up to m, P(|error| > t) <= 2 exp(-n t^2 / (2 s^2 + 2 m t /
-// 3)). A sample that is nonzero with probability p has s^2 = (1 - p) / p and deviates by s^2 up and 1 down, so m = s^2
-// + 6 s holds up to p = 0.97; smooth integrands get six standard deviations. Stratified samples are less noisy.
+// P(|error| > t) <= 2 exp(-n t^2 / (2 s^2 + 2 m t / 3)) for n independent samples of variance s^2 and deviations up to
+// m. Samples that are nonzero with probability p have s^2 = (1 - p) / p and m = max(s^2, 1), so m = s^2 + 6 s holds up
+// to p = 0.97; smooth integrands get six standard deviations. Stratified samples are less noisy.
 double noise_bound(double relative_std, double sample_count) {
     const double log_probability = std::log(2.0 / false_alarm);
     const double variance = relative_std * relative_std;
@@ -25,7 +25,7 @@ double noise_bound(double relative_std, double sample_count) {
     return (linear + std::sqrt(linear * linear + 2.0 * sample_count * variance * log_probability)) / sample_count;
 }
 
-// Mean of a channel's values to a power; with power 0 the share of nonzero values.
+// Mean of a channel's values to a power, or the share of nonzero values.
 double channel_mean(std::span<const float> radiance, std::size_t channel, int power) {
     double sum = 0.0;
     for (std::size_t i = channel; i < radiance.size(); i += 3)
@@ -33,9 +33,9 @@ double channel_mean(std::span<const float> radiance, std::size_t channel, int po
     return sum / (static_cast<double>(radiance.size()) / 3.0);
 }
 
-constexpr double unit_roundoff = 0x1p-24; // of float32: largest relative rounding error
+constexpr double unit_roundoff = 0x1p-24; // of float32
 
-// Some 50 operations; the worst in Vulkan, division, errs by 2.5 ulp = 5 roundoffs.
+// Some 50 operations; Vulkan's worst, division, errs by 2.5 ulp = 5 roundoffs.
 constexpr double sample_rounding = 50 * 5 * unit_roundoff;
 
 // members: the scene without sizes.
@@ -62,7 +62,7 @@ SelftestScene white_furnace() {
     return {"white furnace", scene, 1.0, 0.0, (3 * 1 + 3 * 5) * unit_roundoff};
 }
 
-// A point of a floor; the view is so narrow that light varies by 1e-8.
+// A point of a floor: in this view light varies by 1e-8.
 SceneFile floor_scene(const std::string &members) {
     return scene_of(32, 64,
                     R"(, "max_path_length": 2},
@@ -70,9 +70,8 @@ SceneFile floor_scene(const std::string &members) {
                         members);
 }
 
-// A uniform sphere of radius r above a plane has the irradiance of a point of its power at its center, pi L (r / d)^2
-// cos (Snyder 1996); times albedo / pi. Noise: sampled by solid angle, the contribution varies with the cosine over the
-// half angle a, sin a = r / d, by less than sin a tan + 1 - cos a. A direction by the cosine hits the lamp with
+// A sphere of radius r at distance d above a plane gives pi L (r / d)^2 cos, like a point (Snyder 1996); times albedo /
+// pi. Noise: by solid angle, with sin a = r / d, less than sin a tan + 1 - cos a. A direction by the cosine hits with
 // probability p = sin^2 a cos, and has a weight of at most p^2.
 SelftestScene floor_under_lamp(const std::string &name, const std::string &members) {
     const SceneFile scene = floor_scene(members);
@@ -103,7 +102,7 @@ SelftestScene tiny_far_lamp() {
         "planes": [{"normal": [0, 1, 0], "offset": 1, "material": "floor"}])");
 }
 
-// The ball touches the plane there: within the spot seen they differ by a part in 1e18.
+// Within the view, ball and plane differ by a part in 1e18.
 SelftestScene huge_ball_as_floor() {
     return floor_under_lamp("floor is a ball of 1e7", R"(
         "materials": {"lamp": {"emission": 10}, "floor": {"diffuse": 0.8}},
@@ -111,10 +110,9 @@ SelftestScene huge_ball_as_floor() {
                     {"center": [0, -10000001, -2], "radius": 1e7, "material": "floor"}])");
 }
 
-// A glossy floor in a dome of radiance 1. The integral of (n + 2) / (2 pi) cos^n g cos over directions, g from the
-// mirror direction r, is r's cosine times (n + 2) / (n + 2): only the components along r count. The lobe, 1e-3 wide, is
-// not cut by the horizon. Noise: over the lobe, of variance 1 / n in the plane of incidence, the cosine varies by tan /
-// sqrt(n).
+// A glossy floor in a dome of radiance 1. The integral of (n + 2) / (2 pi) cos^n g cos, g from the mirror direction r,
+// is r's cosine: only components along r count. The lobe, 1e-3 wide, is not cut by the horizon. Noise: its variance 1 /
+// n in the plane of incidence changes the cosine by tan / sqrt(n).
 SelftestScene sharp_lobe() {
     const SceneFile scene = floor_scene(R"(
         "materials": {"dome": {"emission": 1}, "floor": {"specular": 1, "glossiness": 1e6}},
@@ -125,9 +123,9 @@ SelftestScene sharp_lobe() {
             tangent / std::sqrt(double{scene.materials[1].glossiness}), sample_rounding};
 }
 
-// A unit lamp recedes along the axis from a to b. It fills pi / (z^2 - 1) of the image plane at distance 1: on average
-// pi / (b - a) times the integral of 1 / (z^2 - 1) = log((z - 1) / (z + 1)) / 2. It stays within the image: side 2
-// tan(fov / 2) > 2 / sqrt(a^2 - 1). Noise: a share p of the samples is 1.
+// A unit lamp recedes along the axis from a to b. It covers pi / (z^2 - 1) of the image plane at distance 1: on average
+// pi / (b - a) times the integral log((z - 1) / (z + 1)) / 2. The whole lamp is in view: side 2 tan(fov / 2) > 2 /
+// sqrt(a^2 - 1). Noise: a share p of the samples is 1.
 SelftestScene receding_lamp() {
     const SceneFile scene = scene_of(64, 64, R"(, "max_path_length": 1}, "materials": {"lamp": {"emission": 1}},
         "camera": {"position": [0, 0, 0], "look_at": [0, 0, -1], "vertical_fov": 29.2},
@@ -145,7 +143,7 @@ struct DirectionKind {
     const char *name;
     const char *estimator;
     const char *floor; // members of the floor's material
-    double power;      // a direction of cosine c about the normal has density proportional to c^power
+    double power;      // of the density c^power about the normal, c the cosine
     double scale;      // its sample is scale * c
 };
 
@@ -199,7 +197,7 @@ SelftestCheck SelftestScene::judge(std::span<const float> radiance) const {
 
 // A spherical wall of albedo rho, radius R, around a black lamp of radius r. A direction by the cosine hits the lamp
 // with probability q = (r / R)^2, else the wall: paths of L vertices carry rho Le q sum_{j <= L - 2} (rho (1 - q))^j.
-// Noise: a path ends on the lamp with probability q and lacks the rest: less than sqrt(q) of the value.
+// Noise: a path that ends on the lamp lacks the rest, less than sqrt(q) of the value.
 SelftestScene lamp_in_a_ball() {
     constexpr double rho = 0.5;
     constexpr double emission = 100.0;
@@ -218,8 +216,8 @@ std::vector<SelftestScene> selftest_scenes() {
 }
 
 // A sample is reflection times cosine c over density: 2 c for white diffuse and uniform directions; (n + 2) / 2 c^n for
-// a lobe of exponent n by the cosine; (n + 2) / (n + 1) c for the lobe by itself. A black upright plane beside the rays
-// blocks half of all directions.
+// a lobe by the cosine; (n + 2) / (n + 1) c for the lobe by itself. A black plane beside the rays blocks half of all
+// directions.
 std::vector<SelftestScene> direction_scenes() {
     constexpr double n = 20.0;
     constexpr int wall_count = 4;
