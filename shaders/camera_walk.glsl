@@ -7,11 +7,12 @@
 #include "tree_walk.glsl"
 #include "vertex.glsl"
 
-Walk walk_from_camera(CameraRay ray)
+// opacity_number: of vertex 0.
+Walk walk_from_camera(CameraRay ray, uint opacity_number)
 {
     Hit hit = closest_hit(ray.origin, ray.direction, ray.time);
     Start start = Start(ray.origin, NO_SURFACE, false);
-    return walk_from(start, ray.direction, true, NO_SHADOW_RAY, ray.time, hit, false);
+    return walk_from(start, ray.direction, true, NO_SHADOW_RAY, ray.time, opacity_number, hit, false);
 }
 
 // The vertex where a ray has met something.

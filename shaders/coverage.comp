@@ -28,7 +28,7 @@ bool meets_something(uvec2 pixel, uint sample_index)
     SampleKey key = key_of_pixel(view.seed, pixel_index);
     key.sample_index = sample_index;
     key.row = (sample_index - view.first_sample) * TABLE_BLOCKS;
-    Walk walk = walk_from_camera(camera_ray(view.camera, pixel, key));
+    Walk walk = walk_from_camera(camera_ray(view.camera, pixel, key), opacity_number(key, 0u));
     finish(walk, false);
     return walk.hit.surface != NO_SURFACE;
 }

@@ -60,4 +60,17 @@ vec4 direction_numbers(SampleKey branch, uint begin, uint count)
     return GLOSS == 1u ? numbers : numbers.xyzz;
 }
 
+// The number by which the ray that leaves a vertex passes surfaces at random (passes() of tree_walk.glsl); vertex 0 is the
+// camera. Times the odd number of a surface it is a coordinate of an extensible lattice in base 2 (Hickernell, Hong,
+// L'Ecuyer and Lemieux 2000), shifted in each pixel: each of 2^m samples falls into another of 2^m equal parts of [0, 1),
+// and surfaces with different numbers decide independently.
+uint opacity_number(SampleKey branch, uint vertex)
+{
+    const uint first_block = 1u << 31; // beyond those of all paths
+    uint block = first_block + vertex;
+    if (SAMPLER == SAMPLER_RANDOM)
+        return sample_words(branch, block).x;
+    return (bitfieldReverse(branch.sample_index) + branch.shift.w + branch.seed.y) * odd_number(block);
+}
+
 #endif

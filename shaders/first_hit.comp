@@ -25,6 +25,9 @@ vec3 lattice_point(uint ray)
     return (vec3(point) + 0.5) / float(FILTER_RAYS);
 }
 
+// As in dimensions.glsl; the golden ratio (0x9e3779b9 / 2^32) spreads the numbers of neighbouring pixels.
+uint opacity_number(uint pixel_index, uint ray) { return (pixel_index + 1u) * 0x9e3779b9u + bitfieldReverse(ray); }
+
 // Depth along the view. Rays start at the pinhole, or on a plane across the view.
 float depth_of(CameraRay ray, Hit hit)
 {
@@ -63,7 +66,7 @@ void main()
         uint pixel_index = view.first_pixel + row * view.camera.width + column;
         uvec2 pixel = uvec2(pixel_index % view.camera.width, pixel_index / view.camera.width);
         CameraRay ray = ray_through(view.camera, pixel, takes_mean ? lattice_point(ray_index) : vec3(0.5));
-        Walk walk = walk_from_camera(ray);
+        Walk walk = walk_from_camera(ray, opacity_number(pixel_index, ray_index));
         finish(walk, false);
         surface = walk.hit.surface;
         if (TREE == 1u && walk_was_cut)

@@ -175,7 +175,8 @@ struct TreeFrame {
     uint first_color;
     uint first_lamp;
     float shutter_time; // while the shutter is open
-    uint reserved[3];
+    float steps_per_unit;
+    uint reserved[2];
 };
 PT_CONSTANT TREE_REACH = 0x20000000; // coordinates of places in a tree are at most this, 2^29
 

@@ -61,11 +61,12 @@ vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
     vec3 radiance = vec3(0.0);
     if (SAMPLE_EVERY_LAMP && LAMP_COUNT > BRANCH_COUNT) {
         Start start = Start(vertex.position, vertex.surface, vertex.inside);
+        uint opacity = opacity_number(branch_key(key, BRANCH_COUNT - 1u), 1u);
         uint i = BRANCH_COUNT;
         [[unroll]] do {
             vec2 place = every_lamp_numbers(key, i);
             LampLight lamp = light_of_lamp(whole, vertex, material, choice_of(lamps, i), place, 1.0, directions);
-            radiance += lamp.light * (is_hidden(lamp.shadow, start, time) ? 0.0 : lamp.weight);
+            radiance += lamp.light * (is_hidden(lamp.shadow, start, time, opacity) ? 0.0 : lamp.weight);
             ++i;
         } while (i < LAMP_COUNT);
     }
@@ -94,7 +95,9 @@ vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
         Path path = path_from(arrival);
         if (SPOT_COUNT > 0u)
             departure_share = 1.0;
-        leave(path, vertex, material, lamp, lamps, SAMPLE_EVERY_LAMP ? 0.0 : directions, time, numbers, directions);
+        uint opacity = opacity_number(branch_numbers, 1u);
+        leave(path, vertex, material, lamp, lamps, SAMPLE_EVERY_LAMP ? 0.0 : directions, time, numbers, opacity,
+              directions);
         if (SPOT_COUNT > 0u)
             departure_share = share_beside_spots(spots, path, vertex, time);
         if (MAX_PATH_LENGTH > 2u && path.alive) {
@@ -118,7 +121,7 @@ vec3 emitted_by(uint surface) { return may_emit(surface) ? emission_of(surface).
 vec3 path_radiance(CameraView camera, uvec2 pixel, SampleKey key)
 {
     CameraRay ray = camera_ray(camera, pixel, key);
-    Walk walk = walk_from_camera(ray);
+    Walk walk = walk_from_camera(ray, opacity_number(key, 0u));
     finish(walk, false);
     Hit hit = walk.hit;
     if (hit.surface == NO_SURFACE)

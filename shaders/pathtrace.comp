@@ -71,7 +71,7 @@ void take_samples_by_steps(uvec2 pixel, uint pixel_index, uint done, uint end, i
             } else if (done < end) {
                 SampleKey key = key_of_sample(pixel_key, held, done);
                 current = sample_of(key, camera_ray(held.camera, pixel, key));
-                walk = walk_from_camera(current.camera);
+                walk = walk_from_camera(current.camera, opacity_number(key, 0u));
                 begins = false;
             }
         }

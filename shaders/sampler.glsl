@@ -52,14 +52,15 @@ SampleKey key_of_pixel(uvec2 seed, uint pixel)
     return SampleKey(seed, pixel, 0u, 0u, pcg4d(uvec4(pixel, 0u, seed)));
 }
 
-// The pixel's hash times an odd number of the block (shaders/README.md, section 8). Hashing pixel and block would take
-// three times as many multiplications.
-uvec4 shift_of(SampleKey key, uint block)
+// A number of a block. The pixel's hash times this shifts the block's points (shaders/README.md, section 8). Hashing pixel
+// and block would take three times as many multiplications.
+uint odd_number(uint block)
 {
     uint odd = block * 0x9e3779b9u + 0xc2b2ae35u;
-    odd = ((odd ^ odd >> 16u) * 0x7feb352du) | 1u;
-    return key.shift * odd;
+    return ((odd ^ odd >> 16u) * 0x7feb352du) | 1u;
 }
+
+uvec4 shift_of(SampleKey key, uint block) { return key.shift * odd_number(block); }
 
 bool all_in_table()
 {

@@ -175,19 +175,20 @@ bool may_meet_light(Start start, vec3 direction, Hit hit, float time)
 }
 
 // Whether a shadow ray is blocked.
-bool is_hidden(ShadowRay towards_lamp, Start start, float time)
+bool is_hidden(ShadowRay towards_lamp, Start start, float time, uint opacity_number)
 {
     ShadowRay shadow = ended_as_met(towards_lamp, start, time);
     if (TREE == 1u)
         shadow = ended_as_met_in_tree(shadow, start, time);
     bool blocked = is_blocked(start, time, shadow);
-    Walk walk = walk_from(start, shadow.direction, false, shadow, time, Hit(NO_HIT, NO_SURFACE), blocked);
+    Walk walk = walk_from(start, shadow.direction, false, shadow, time, opacity_number, Hit(NO_HIT, NO_SURFACE),
+                          blocked);
     finish(walk, true);
     return walk.blocked;
 }
 
 // Walks the ray on which a path leaves a vertex, together with the shadow ray to the lamp.
-Walk walk_onwards(Vertex vertex, Path path, inout Departure departure, float time)
+Walk walk_onwards(Vertex vertex, Path path, inout Departure departure, float time, uint opacity_number)
 {
     Start start = Start(vertex.position, vertex.surface, vertex.inside);
     ShadowRay shadow = ended_as_met(departure.lamp.shadow, start, time);
@@ -199,17 +200,17 @@ Walk walk_onwards(Vertex vertex, Path path, inout Departure departure, float tim
     bool is_last = path.vertex_count + 1u == MAX_PATH_LENGTH;
     if (TREE == 1u && is_last)
         departure.carries_light = departure.carries_light && may_meet_light(start, departure.direction, hit, time);
-    Walk walk = walk_from(start, departure.direction, departure.carries_light, shadow, time, hit, blocked);
+    Walk walk = walk_from(start, departure.direction, departure.carries_light, shadow, time, opacity_number, hit, blocked);
     walk.seeks_light = is_last;
     return walk;
 }
 
 // Moves the path from a vertex to the next, in one of the directions that leave the vertex.
 void leave(inout Path path, Vertex vertex, Material material, LampLight lamp, Lamps lamps, float lamp_choices,
-           float time, vec4 numbers, float directions)
+           float time, vec4 numbers, uint opacity_number, float directions)
 {
     Departure departure = depart(path, vertex, material, lamp, lamp_choices, numbers, directions);
-    Walk walk = walk_onwards(vertex, path, departure, time);
+    Walk walk = walk_onwards(vertex, path, departure, time, opacity_number);
     finish(walk, SAMPLE_LAMPS);
     arrive(path, departure, lamps, ahead(walk.hit), walk.blocked);
 }
@@ -237,7 +238,7 @@ void extend(inout Path path, SampleKey key, uint begin, uint as_vertex, float ti
         lamp = light_of_chosen_lamp(path.throughput, vertex, material, lamps, chosen, 1.0, 1.0);
     }
     vec4 numbers = direction_numbers(key, begin, vertex_blocks(2u, LAMP_COUNT));
-    leave(path, vertex, material, lamp, lamps, 1.0, time, numbers, 1.0);
+    leave(path, vertex, material, lamp, lamps, 1.0, time, numbers, opacity_number(key, path.vertex_count), 1.0);
 }
 
 #endif

@@ -69,7 +69,7 @@ Walk leave_last_vertex(inout TreeSample current, out Departure departure, out La
         numbers.z = lobe_number(numbers.z, current.branch, directions);
     departure = depart(current.path, vertex, material, lamp, lamp_choices, numbers, directions);
     departure.carries_light = departure.carries_light && current.branch < BRANCH_COUNT;
-    return walk_onwards(vertex, current.path, departure, time);
+    return walk_onwards(vertex, current.path, departure, time, opacity_number(key, current.path.vertex_count));
 }
 
 // Takes what a walk has found into its sample. Tells whether that ends it.

@@ -84,6 +84,7 @@ struct Walk {
     vec3 direction;
     ShadowRay shadow;
     float time;
+    uint opacity_number; // of the rays (dimensions.glsl)
     Hit hit;      // of the other surfaces at first, and of all of them at last
     bool blocked; // likewise
     uvec4 hit_word;
@@ -118,13 +119,15 @@ const int ENDED = -1;
 const uint ROOT = 0u;
 
 // hit and blocked: of the surfaces that are not in the tree. Without a tree that is all.
-Walk walk_from(Start start, vec3 direction, bool is_followed, ShadowRay shadow, float time, Hit hit, bool blocked)
+Walk walk_from(Start start, vec3 direction, bool is_followed, ShadowRay shadow, float time, uint opacity_number,
+               Hit hit, bool blocked)
 {
     Walk walk;
     walk.start = start;
     walk.direction = direction;
     walk.shadow = shadow;
     walk.time = time;
+    walk.opacity_number = opacity_number;
     walk.hit = hit;
     walk.blocked = blocked;
     walk.seeks_light = false;
@@ -207,25 +210,36 @@ uint next_place(inout Walk walk)
 
 bool is_in_tree(uint surface) { return surface >= SURFACE_COUNT && surface != NO_SURFACE; }
 
-// Whether a ray passes a sphere as though it were not there. A hash of the ray and the sphere decides (Enderton et al.
-// 2010, "Stochastic transparency"; Wyman and McGuire 2017, "Hashed alpha testing"), so it depends neither on the order in
-// which spheres are tested nor on how samples are split. Each ray decides anew: light that passes n of them is the
-// product of n shares. Places on the grid often differ in few bits, so the hash ends with the finalizer of two rounds
-// that Wellons found by search ("Prospecting for hash functions", 2018; lowbias32), where each bit changes half of all.
-bool passes(uvec4 word, GridRay ray, vec3 direction)
+// An odd number of a sphere: a hash of all that tells where it is, in steps of the grid, so that it is the same at any
+// scale. Places on the grid often differ in few bits, so the hash ends like one that Wellons found by search
+// ("Prospecting for hash functions", 2018; lowbias32), where each bit changes half of all.
+uint opacity_generator(uvec4 word, uint place)
+{
+    uint radius = word.w - floatBitsToUint(tree_step());
+    uint hash = (word.x ^ radius) * 0x9e3779b1u;
+    hash = (hash ^ (hash >> 15u) ^ word.y) * 0x85ebca77u;
+    hash = (hash ^ (hash >> 13u) ^ word.z) * 0xc2b2ae3du;
+    if (TREE_WAYS) {
+        uvec3 way = floatBitsToUint(tree_way(place).xyz * tree_steps_per_unit());
+        hash = (hash ^ (hash >> 16u) ^ way.x) * 0x27d4eb2fu;
+        hash = (hash ^ (hash >> 15u) ^ way.y) * 0x165667b1u;
+        hash = (hash ^ (hash >> 13u) ^ way.z) * 0x9e3779b1u;
+    }
+    hash = (hash ^ (hash >> 16u)) * 0x7feb352du;
+    return hash ^ (hash >> 16u) | 1u;
+}
+
+// Whether a ray passes a sphere as though it were not there: at random (Enderton et al. 2010, "Stochastic transparency"),
+// but as a function of the sphere and of the ray's number, so that neither the order in which spheres are tested nor how
+// samples are split matters. Spheres that differ decide independently, and so does each ray of a path: what passes n of
+// them is the product of n shares. See opacity_number().
+bool passes(uvec4 word, uint place, uint opacity_number)
 {
     if (TREE_OPACITY == 0)
         return false;
-    uvec3 bits = word.xyz + (floatBitsToUint(direction) ^ uvec3(ray.base) ^ floatBitsToUint(ray.rest));
-    uint radius = word.w - floatBitsToUint(tree_step()); // in steps, as bits: the same at any scale
-    uint hash = (bits.x ^ radius) * 0x9e3779b1u;
-    hash = (hash ^ (hash >> 15u) ^ bits.y) * 0x85ebca77u;
-    hash = (hash ^ (hash >> 13u) ^ bits.z) * 0xc2b2ae3du;
-    hash = (hash ^ (hash >> 16u)) * 0x7feb352du;
-    hash = (hash ^ (hash >> 15u)) * 0x846ca68bu;
-    hash ^= hash >> 16u;
+    uint number = opacity_generator(word, place) * opacity_number;
     const float steps = float(TREE_OPACITY_STEPS) / 16777216.0; // of 24 bits, which a float holds
-    return float(hash >> 8u) * steps >= float(word.w & TREE_OPACITY_STEPS);
+    return float(number >> 8u) * steps >= float(word.w & TREE_OPACITY_STEPS);
 }
 
 // exists: whether there is a sphere.
@@ -238,7 +252,7 @@ void test_sphere(inout Walk walk, bool exists, uint place, uvec4 word, GridRay r
     bool between = blocks_in_tree(walk.start, ray, walk.shadow, direction, distance, surface, word, ball);
     bool meets = exists;
     if (TREE_OPACITY == 1)
-        meets = exists && !passes(word, ray, direction);
+        meets = exists && !passes(word, place, walk.opacity_number);
     walk.blocked = walk.blocked || (in_shadow && meets && between);
     keep_closer_of_tree(walk.hit, walk.hit_word, meets && !in_shadow ? distance : NO_HIT, surface, word);
 }

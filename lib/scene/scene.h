@@ -45,6 +45,8 @@ struct Sphere {
     Kind kind = Kind::ball;
     std::int16_t opacity = no_opacity; // in steps, as above
 
+    bool is_translucent() const { return opacity != no_opacity && opacity < opaque; }
+
     MovingBall ball() const { return {center, motion, radius, kind}; } // in the time from 0 to 1
 };
 

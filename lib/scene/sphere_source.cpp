@@ -123,6 +123,12 @@ Sphere SphereSource::operator[](std::uint32_t index) const {
     return sphere;
 }
 
+glm::vec3 SphereSource::color(std::uint32_t index) const {
+    glm::vec3 color;
+    read_colors({&index, 1}, {&color, 1});
+    return color;
+}
+
 void SphereSource::mark_materials(std::vector<bool> &used, WorkProgress &progress) const {
     for (const pt_sphere_array &part : parts_) {
         const pt_column &column = part.material;

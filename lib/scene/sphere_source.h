@@ -39,6 +39,7 @@ public:
 
     // One sphere. For many, for_each is faster.
     Sphere operator[](std::uint32_t index) const;
+    glm::vec3 color(std::uint32_t index) const;
 
     // Marks the materials that spheres have. A unit of work is a sphere, or an array with one material for all its
     // spheres.

@@ -2,6 +2,7 @@
 #include "lib/tree/sphere_tree.h"
 
 #include "lib/scene/seen_scene.h"
+#include "lib/tree/coincident_spheres.h"
 #include "lib/tree/equal_words.h"
 #include "lib/tree/tree_node.h"
 
@@ -55,7 +56,14 @@ SphereTree::SphereTree(const SphereSource &spheres, std::span<const std::uint32_
                        std::span<const TreeMaterial> materials, WorkProgress &progress) :
     SphereTree(SphereExtent(spheres, left_out, materials, progress), spheres, left_out) {
     const auto order = [&](std::uint32_t a, std::uint32_t b) {
-        return SphereWords(spheres[a], grid_).all() <=> SphereWords(spheres[b], grid_).all();
+        const std::array pair{spheres[a], spheres[b]};
+        const auto places = SphereWords(pair[0], grid_).all() <=> SphereWords(pair[1], grid_).all();
+        if (places != 0 || !pair[0].is_translucent())
+            return places;
+        const auto look = [&](std::uint32_t index, const Sphere &sphere) {
+            return std::pair(materials[sphere.material].index, color_word(spheres.color(index)));
+        };
+        return look(a, pair[0]) <=> look(b, pair[1]);
     };
     progress.enter(share_of_items, static_cast<double>(spheres.size()));
     std::vector<TreeItem> items = items_of(spheres, left_out, grid_, progress);
@@ -69,6 +77,12 @@ SphereTree::SphereTree(const SphereSource &spheres, std::span<const std::uint32_
             std::ranges::copy(pt::words_of(shape.nodes[node]), words_of_node(node).begin());
     }
     write_spheres(spheres, materials, progress);
+    if (has_opacities_) {
+        progress.enter(share_of_alike, static_cast<double>(sphere_count_));
+        set_coincident_apart(std::span(words_).subspan(first_sphere_, sphere_count_),
+                             std::span(words_).subspan(first_motion_, first_surface_ - first_motion_), *spheres_,
+                             progress);
+    }
     write_nodes(progress);
     cost_as_made_ = cost_;
     close_lamps_ = finds_close_lamps(progress);
@@ -334,6 +348,7 @@ gpu::TreeFrame SphereTree::frame(const Camera &camera) const {
     frame.first_lamp = first_lamp_ - first_sphere_;
     frame.middle = glm::vec3(grid_.middle - camera.position);
     frame.shutter_open = static_cast<float>(camera.shutter_open);
+    frame.steps_per_unit = static_cast<float>(grid_.steps_per_unit);
     frame.shutter_time = static_cast<float>(camera.shutter_close - camera.shutter_open);
     return frame;
 }

@@ -4,6 +4,7 @@
 #include <pt/stats.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -23,9 +24,13 @@ class Opacity : public LightInDouble {
 protected:
     // The share of a sky (radiance 3, 4, 5) that passes black capsules.
     double share_passed(const std::vector<Given::Capsule> &capsules) {
+        return mean(image(under_sky(capsules), 256)) / 4.0;
+    }
+
+    static Given under_sky(const std::vector<Given::Capsule> &capsules) {
         Given given = black(capsules);
         given.spheres = {{{0, 0, 0}, 100.0, {0, 0, 0}, 2, 0}};
-        return mean(image(given, 256)) / 4.0;
+        return given;
     }
 
     double share_covered(const std::vector<Given::Capsule> &capsules) {
@@ -36,19 +41,19 @@ protected:
         return mean(covered);
     }
 
+    static double mean(const std::vector<float> &values) {
+        return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+    }
+
 private:
     static Given black(const std::vector<Given::Capsule> &capsules) {
         Given given;
-        for (const std::size_t material : {1, 2})
-            std::ranges::fill(given.materials[material].diffuse, 0.0F);
+        for (pt_material &material : given.materials)
+            std::ranges::fill(material.diffuse, 0.0F);
         given.planes.clear();
         given.camera = camera_at({0, 0, 8}, {0, 0, 0}, 0.05);
         given.capsules = capsules;
         return given;
-    }
-
-    static double mean(const std::vector<float> &values) {
-        return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
     }
 };
 
@@ -103,6 +108,77 @@ TEST_F(Opacity, OfTwoSpheresIsIndependent) {
         EXPECT_NEAR(passed({0, 0.5, 1}, 1.0, extent), 0.25, 0.008) << extent;
         EXPECT_NEAR(passed({0.5, 0, 1}, 1.0, extent), 0.25, 0.008) << extent;
     }
+}
+
+Given::Capsule rod(const glm::dvec3 &from, const glm::dvec3 &to, float opacity, std::uint32_t material = 1) {
+    return {{from.x, from.y, from.z}, {to.x, to.y, to.z}, 1.0, material, opacity};
+}
+
+// Surfaces that a user can tell apart, whatever they have in common, let the product of their shares pass; duplicates
+// count once. Negative control: the duplicates, which let twice as much pass as the others.
+TEST_F(Opacity, OfSurfacesThatDifferIsIndependent) {
+    const glm::dvec3 atom(0, 0, 1);
+    const std::vector<Given::Capsule> bonds{rod(atom, {2, 0, 1}, 0.5F), rod(atom, {0, 2, 1}, 0.5F)};
+    EXPECT_NEAR(share_passed(bonds), 0.25, 0.008);
+    EXPECT_NEAR(share_passed({bonds[0], rod({2, 0, 1}, atom, 0.5F)}), 0.25, 0.008) << "swapped ends";
+    EXPECT_NEAR(share_passed({bonds[0], rod(atom, {-2, 0, 1}, 0.5F)}), 0.25, 0.008) << "opposite";
+    EXPECT_NEAR(share_passed({bonds[0], rod(atom, {4, 0, 1}, 0.5F)}), 0.25, 0.008) << "a longer one";
+    EXPECT_NEAR(share_passed({bonds[0], ball_at(atom, 1.0, 0.5F)}), 0.25, 0.008) << "an atom and its bond";
+    EXPECT_NEAR(share_passed({rod({-2, 0, 1}, atom, 0.5F), bonds[0]}), 0.25, 0.008) << "halves of a bond";
+    EXPECT_NEAR(share_passed({bonds[0], rod(atom, {2, 0, 1}, 0.5F, 0)}), 0.25, 0.008) << "materials";
+    EXPECT_NEAR(share_passed({bonds[0], bonds[0]}), 0.5, 0.008) << "duplicates";
+
+    std::vector<Given::Capsule> star;
+    for (int i = 0; i < 8; ++i)
+        star.push_back(rod(atom, {2 * std::cos(i), 2 * std::sin(i), 1}, 0.1F));
+    EXPECT_NEAR(share_passed(star), std::pow(1.0 - std::round(25.5) / 255.0, 8.0), 0.008);
+}
+
+// Balls in one place that differ in their color or their motion alone.
+TEST_F(Opacity, OfColorsAndMotionsIsIndependent) {
+    Given given = under_sky({});
+    given.camera.shutter_close = 1.0;
+    struct Ball {
+        double motion[3];
+        float color[3];
+    };
+    const auto passed = [&](const std::vector<Ball> &balls) {
+        static constexpr std::array center{0.0, 0.0, 1.0};
+        static constexpr float radius = 1.0F, opacity = 0.5F;
+        pt_sphere_array array{};
+        array.struct_size = sizeof array;
+        array.count = static_cast<std::uint32_t>(balls.size());
+        array.center = {center.data(), 0, PT_TYPE_FLOAT64};
+        array.radius = {&radius, 0, PT_TYPE_FLOAT32};
+        array.opacity = {&opacity, 0, PT_TYPE_FLOAT32};
+        array.motion = {balls[0].motion, sizeof(Ball), PT_TYPE_FLOAT64};
+        array.color = {balls[0].color, sizeof(Ball), PT_TYPE_FLOAT32};
+        pt_scene scene = given.scene();
+        scene.sphere_arrays = &array;
+        scene.sphere_array_count = 1;
+        return mean(render_image(context(), scene, given.camera, picture_of(PT_SAMPLER_SOBOL), 256)) / 4.0;
+    };
+    const Ball still{{0, 0, 0}, {1, 1, 1}};
+    EXPECT_NEAR(passed({still, {{0, 0, 0}, {1, 0, 0}}}), 0.25, 0.008);
+    EXPECT_NEAR(passed({still, {{0, 0, 0}, {1, 0, 0}}, {{0, 0, 0}, {0, 1, 0}}}), 0.125, 0.008);
+    EXPECT_NEAR(passed({still, {{0.1, 0, 0}, {1, 1, 1}}}), 0.25, 0.008);
+    EXPECT_NEAR(passed({still, still}), 0.5, 0.008) << "duplicates";
+}
+
+// With the sampler's points 256 rays of a pixel fall into 256 equal parts, so the share that meets a surface is off by
+// 2 of them at most, in every pixel. Negative control: random numbers, which are off by five times as much somewhere.
+TEST_F(Opacity, OfOneSurfaceIsEvenlySpread) {
+    Given given = under_sky({ball_at({0, 0, 1}, 1.0, 0.4F)});
+    std::ranges::fill(given.materials[2].emission, 1.0F);
+    const auto largest_error = [&](std::uint32_t sampler) {
+        double largest = 0.0;
+        for (const float value : render_image(context(), given.scene(), given.camera, picture_of(sampler), 256))
+            largest = std::max(largest, std::abs(value - 0.6));
+        return largest;
+    };
+    EXPECT_LE(largest_error(PT_SAMPLER_SOBOL), 2.0 / 256.0);
+    EXPECT_LE(largest_error(PT_SAMPLER_HALTON_CP), 2.0 / 256.0);
+    EXPECT_GT(largest_error(PT_SAMPLER_RANDOM), 10.0 / 256.0);
 }
 
 // Paths run on both sides of each shell.
