@@ -168,8 +168,11 @@ typedef struct pt_sphere_array {
      * (PT_ERROR_INVALID_SCENE); their surface is off by 2^-21 of their length and radius where these are larger than
      * the distance. They are spheres otherwise, in counts, trees and numbers of objects. */
     pt_column end;
-    /** Share of rays in [0, 1] that meet the sphere; the others pass it as though it were not there, each decided at
-     * random for camera, path and shadow rays alike. FLOAT32 or FLOAT64, held to a 255th; default 1. Below 1 the
+    /** Share of rays in [0, 1] that meet the sphere; the others pass it as though it were not there, decided at random
+     * for each camera, path and shadow ray. Spheres that differ in anything decide independently: the product of their
+     * 1 - opacity passes. With the default sampler a pixel's rays meet one sphere in even proportion; what two and more
+     * let through, and what depends on the place in the pixel or on the lamp too, has an error that falls with the root
+     * of the sample count, as with random numbers. FLOAT32 or FLOAT64, held to a 255th; default 1. Below 1 the
      * material neither emits nor is hidden (PT_ERROR_INVALID_SCENE), and the sphere is in a tree, however few or far it
      * is: centers are held to 2^-30 of the extent of all that are in it, radii to 2^-16 of themselves. */
     pt_column opacity;
