@@ -81,10 +81,10 @@ class MitsubaScene:
         normal, offset = [n / length for n in plane["normal"]], plane["offset"] / length
         if sum(n * x for n, x in zip(normal, position)) + offset < 0:
             normal, offset = [-n for n in normal], -offset
-        centre = [-offset * n for n in normal]
+        center = [-offset * n for n in normal]
         up = [0, 0, 1] if abs(normal[2]) < 0.9 else [0, 1, 0]
         transform = self.mi.ScalarTransform4f
-        return transform().look_at(origin=centre, target=[c + n for c, n in zip(centre, normal)],
+        return transform().look_at(origin=center, target=[c + n for c, n in zip(center, normal)],
                                    up=up) @ transform().scale(HALF_SIZE)
 
     def sensor(self, camera, sampler):

@@ -84,7 +84,7 @@ TEST(GpuLayout, HugeSpheresArePlanesWithACurvature) {
     EXPECT_EQ(words[24], glm::vec4(0));
 }
 
-TEST(GpuLayout, OtherSpheresKeepTheirCentre) {
+TEST(GpuLayout, OtherSpheresKeepTheirCenter) {
     const pt::Material diffuse{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0};
     const pt::Material lamp{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0};
     const pt::Camera camera = camera_at({0, 0, 0});
@@ -98,7 +98,7 @@ TEST(GpuLayout, OtherSpheresKeepTheirCentre) {
     EXPECT_TRUE(is_flat(below(33, -1, 0), diffuse, camera));
     EXPECT_TRUE(is_flat(below(33, 0, 0), diffuse, camera));
     EXPECT_FALSE(is_flat(below(31, 1, 0), diffuse, camera));
-    EXPECT_FALSE(is_flat(below(33, -33, 0), diffuse, camera)) << "the camera at its centre";
+    EXPECT_FALSE(is_flat(below(33, -33, 0), diffuse, camera)) << "the camera at its center";
     EXPECT_TRUE(is_flat(below(33, 1, 1), diffuse, camera));
     EXPECT_FALSE(is_flat(below(33, 1, 3), diffuse, camera));
     EXPECT_TRUE(is_flat(below(65537, 1, 0), lamp, camera));

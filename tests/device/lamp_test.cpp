@@ -15,7 +15,7 @@
 namespace {
 
 struct Lamp {
-    glm::vec3 centre;
+    glm::vec3 center;
     float radius;
     float radiance;
 };
@@ -51,7 +51,7 @@ std::vector<Drawn> draw(const std::vector<Lamp> &lamps, const Viewpoint &from, s
     constants[pt::gpu::ID_SAMPLER] = PT_SAMPLER_RANDOM;
     std::vector<glm::vec4> scene(2 * lamps.size());
     for (std::size_t i = 0; i < lamps.size(); ++i) {
-        scene[i] = glm::vec4(lamps[i].centre, lamps[i].radius);
+        scene[i] = glm::vec4(lamps[i].center, lamps[i].radius);
         scene[lamps.size() + i] = glm::vec4(lamps[i].radiance);
     }
     Probe probe(lamps_spirv(), sizeof push, constants);
@@ -107,8 +107,8 @@ TEST(LampChoice, HasTheDocumentedProbability) {
     std::vector<double> weights;
     double total = 0.0;
     for (const Lamp &lamp : uneven_lamps) {
-        const double distance = glm::length(glm::dvec3(lamp.centre));
-        const double cosine = std::min(1.0, (double{lamp.centre.y} + double{lamp.radius}) / distance);
+        const double distance = glm::length(glm::dvec3(lamp.center));
+        const double cosine = std::min(1.0, (double{lamp.center.y} + double{lamp.radius}) / distance);
         weights.push_back(lamp.radiance * std::pow(lamp.radius / distance, 2) * std::max(cosine, 0.0));
         total += weights.back();
     }
@@ -123,7 +123,7 @@ TEST(LampChoice, IsPossibleExactlyForLampsAboveTheHorizon) {
     std::vector<bool> above;
     for (const float top : {1.0F, 1e-1F, 1e-3F, 1e-5F, 0.0F, -1e-5F, -1e-3F, -1.0F}) {
         lamps.push_back({{3.0F, top - 1.0F, 1.0F}, 1.0F, 1.0F});
-        above.push_back(lamps.back().centre.y + 1.0F > 0.0F);
+        above.push_back(lamps.back().center.y + 1.0F > 0.0F);
     }
     const std::vector<Drawn> drawn = draw(lamps, {}, 10, 64);
     for (std::size_t i = 0; i < lamps.size(); ++i) {

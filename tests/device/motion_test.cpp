@@ -147,7 +147,7 @@ TEST_F(HugeMotion, IsRefusedWhereItIsTooLong) {
     set_up_floor({1e7, {312501, 0, 0}}, 0.25, 0.5);
     EXPECT_EQ(pt_accumulate(context(), &info), PT_OK) << "while the shutter is open it moves less";
     set_up_floor({6e4, {1e6, 0, 0}});
-    EXPECT_EQ(pt_accumulate(context(), &info), PT_OK) << "held by its centre";
+    EXPECT_EQ(pt_accumulate(context(), &info), PT_OK) << "held by its center";
 }
 
 // A parallel view's width counts instead of the distance.

@@ -74,7 +74,7 @@ void require_scene(const pt::Scene &scene) {
         require(material.glossiness >= 0.0F && material.glossiness <= 1e9F, "glossiness lies in [0, 1e9]");
     }
     for (const pt::Sphere &sphere : scene.spheres) {
-        require(are_lengths(sphere.center) && are_lengths(sphere.motion), "centres and motions are lengths");
+        require(are_lengths(sphere.center) && are_lengths(sphere.motion), "centers and motions are lengths");
         require(is_positive_length(sphere.radius), "radii lie in [1e-18, 1e18]");
         require(sphere.material < scene.materials.size(), "spheres have a material");
     }

@@ -42,7 +42,7 @@ inline pt::Camera camera_at(const glm::dvec3 &position, double open = 0.0, doubl
 
 // A sphere as stored.
 struct Held {
-    glm::ivec3 centre;
+    glm::ivec3 center;
     glm::dvec3 way; // in steps
     double radius;  // in steps
 };
@@ -62,9 +62,9 @@ inline Held held(const pt::SphereTree &tree, std::uint32_t place) {
 
 inline void expect_holds(const pt::GridBox &box, const Held &sphere) {
     for (const double time : {0.0, 0.3, 1.0}) {
-        const glm::dvec3 centre = glm::dvec3(sphere.centre) + time * sphere.way;
-        EXPECT_TRUE(glm::all(glm::lessThanEqual(glm::dvec3(box.low), centre - sphere.radius)));
-        EXPECT_TRUE(glm::all(glm::lessThanEqual(centre + sphere.radius, glm::dvec3(box.high))));
+        const glm::dvec3 center = glm::dvec3(sphere.center) + time * sphere.way;
+        EXPECT_TRUE(glm::all(glm::lessThanEqual(glm::dvec3(box.low), center - sphere.radius)));
+        EXPECT_TRUE(glm::all(glm::lessThanEqual(center + sphere.radius, glm::dvec3(box.high))));
     }
 }
 

@@ -219,12 +219,12 @@ TEST(RayStart, OfATreeIsThatOfItsSpheres) {
         const auto count = static_cast<int>(std::pow(10.0, uniform(0, 2.5)));
         for (int i = 0; i < count; ++i) {
             const bool is_sky = i == 3 && round % 4 == 0;
-            const glm::dvec3 centre = is_sky ? camera_position : middle + point(10);
+            const glm::dvec3 center = is_sky ? camera_position : middle + point(10);
             const glm::dvec3 way = moves && !is_sky ? point(0.5) : glm::dvec3(0);
             const double radius = is_sky ? 30 : uniform(0.1, 1.5);
-            held.push_back({{centre.x, centre.y, centre.z}, radius, {way.x, way.y, way.z}, 0, 0});
-            const bool is_around = way == glm::dvec3(0) && glm::length(centre - camera_position) < radius;
-            list.push_back({centre, radius * (is_around ? 1.0 - 0x1p-15 : 1.0 + 0x1p-15), way, 0});
+            held.push_back({{center.x, center.y, center.z}, radius, {way.x, way.y, way.z}, 0, 0});
+            const bool is_around = way == glm::dvec3(0) && glm::length(center - camera_position) < radius;
+            list.push_back({center, radius * (is_around ? 1.0 - 0x1p-15 : 1.0 + 0x1p-15), way, 0});
         }
         const pt::PreparedScene prepared = prepared_scene_of(checked_scene_of(scene_of({&grey, 1}, held, {})), 1);
         const double start = pt::starting_ahead(prepared.scene, prepared.tree.get(), camera, square).start_distance;

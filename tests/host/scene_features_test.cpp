@@ -38,13 +38,13 @@ pt::Features features_of(const std::vector<pt::Sphere> &spheres, const std::vect
 }
 
 // center: relative to the camera.
-pt::Sphere ball_at(const glm::dvec3 &centre, double radius, const glm::dvec3 &motion = nowhere,
+pt::Sphere ball_at(const glm::dvec3 &center, double radius, const glm::dvec3 &motion = nowhere,
                    std::uint32_t material = dark) {
-    return {eye + centre, radius, motion, material};
+    return {eye + center, radius, motion, material};
 }
 
-pt::Sphere lamp_at(const glm::dvec3 &centre, double radius, const glm::dvec3 &motion = nowhere) {
-    return ball_at(centre, radius, motion, shining);
+pt::Sphere lamp_at(const glm::dvec3 &center, double radius, const glm::dvec3 &motion = nowhere) {
+    return ball_at(center, radius, motion, shining);
 }
 
 bool inside(const std::vector<pt::Sphere> &spheres, const Shutter &shutter = {0, 1}) {
@@ -76,7 +76,7 @@ TEST(FeatureInside, IsWhetherTheCameraIsInASphere) {
     for (const std::uint32_t material : {dark, shining}) {
         EXPECT_FALSE(inside({ball_at({0, 3, -4}, 4, nowhere, material)}));
         EXPECT_TRUE(inside({ball_at({0, 3, -4}, 6, nowhere, material)}));
-        EXPECT_TRUE(inside({ball_at({0, 0, 0}, 1e-3, nowhere, material)})) << "in its centre";
+        EXPECT_TRUE(inside({ball_at({0, 0, 0}, 1e-3, nowhere, material)})) << "in its center";
     }
     EXPECT_FALSE(inside({ball_at({0, 0, -5}, 4), ball_at({0, 5, 0}, 4)}));
     EXPECT_TRUE(inside({ball_at({0, 0, -5}, 4), ball_at({0, 5, 0}, 6)})) << "in the second alone";
@@ -205,7 +205,7 @@ TEST(FeaturePlanesBlock, IsTrueWithACurvedPlane) {
     const pt::Features features = features_of({huge, lamp_at({0, 3, -5}, 1)}, {});
     EXPECT_TRUE(features[pt::gpu::ID_CURVATURE]);
     EXPECT_TRUE(features[pt::gpu::ID_PLANES_BLOCK]);
-    EXPECT_FALSE(planes_block({ball_at({0, -14, 0}, 10), lamp_at({0, 3, -5}, 1)}, {})) << "held by its centre";
+    EXPECT_FALSE(planes_block({ball_at({0, -14, 0}, 10), lamp_at({0, 3, -5}, 1)}, {})) << "held by its center";
 }
 
 TEST(FeatureSky, IsALampThatHoldsTheCamera) {

@@ -59,7 +59,7 @@ TEST(SphereTree, NumbersLampsInTheScenesOrder) {
     for (std::uint32_t lamp = 0; lamp < 50; ++lamp) {
         const glm::uvec4 &word = tree.sphere_words()[frame.first_lamp + lamp];
         const pt_sphere &sphere = spheres[10 * lamp + 3];
-        EXPECT_EQ(held(tree, word.x).centre, tree.grid().place({sphere.center[0], sphere.center[1], sphere.center[2]}));
+        EXPECT_EQ(held(tree, word.x).center, tree.grid().place({sphere.center[0], sphere.center[1], sphere.center[2]}));
         EXPECT_EQ(word.y, 1U);
         EXPECT_EQ(tree.sphere_words()[frame.first_surface + word.x / 4][static_cast<int>(word.x % 4)],
                   pt::gpu::TREE_LAMP_BIT + lamp);
@@ -205,7 +205,7 @@ TEST(SphereTree, FramesPutSpheresWhereTheyAre) {
         for (const std::uint32_t lamp : {0U, 4U, 9U}) {
             const std::uint32_t place = tree.sphere_words()[frame.first_lamp + lamp].x;
             const glm::dvec3 from_camera =
-                glm::dvec3(held(tree, place).centre - frame.camera) * step + glm::dvec3(frame.shift);
+                glm::dvec3(held(tree, place).center - frame.camera) * step + glm::dvec3(frame.shift);
             const pt_sphere &sphere = spheres[10 * lamp + 3];
             for (int axis = 0; axis < 3; ++axis)
                 EXPECT_LE(std::abs(from_camera[axis] - (sphere.center[axis] - position[axis])), bound);

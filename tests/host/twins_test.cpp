@@ -78,7 +78,7 @@ TEST(Twins, AreSpheresThatDifferByAMillionthOfTheirSize) {
 }
 
 // From afar float32 merges more, but never touching balls.
-TEST(Twins, AreSpheresWhoseCentresFloat32HoldsAlike) {
+TEST(Twins, AreSpheresWhoseCentersFloat32HoldsAlike) {
     EXPECT_EQ(distinct({ball({0, 0, -1e3}, 1), ball({4e-4, 0, -1e3}, 1)}).size(), 1U);
     EXPECT_EQ(distinct({ball({0, 0, -1e2}, 1), ball({4e-4, 0, -1e2}, 1)}).size(), 2U);
     EXPECT_EQ(distinct({ball({0, 0, -1e12}, 1), ball({2, 0, -1e12}, 1)}).size(), 2U);

@@ -129,13 +129,13 @@ private:
         return (radiance.r + radiance.g + radiance.b) / 3.0;
     }
 
-    glm::dvec3 centre_at(const pt_sphere &sphere, double time) const {
+    glm::dvec3 center_at(const pt_sphere &sphere, double time) const {
         return vector(sphere.center) + time * vector(sphere.motion);
     }
 
     // 1 - cos(half angle); 0 inside, where it is not sampled.
     double cap(const pt_sphere &sphere, const glm::dvec3 &from, double time) const {
-        const glm::dvec3 to = centre_at(sphere, time) - from;
+        const glm::dvec3 to = center_at(sphere, time) - from;
         const double squared_sine = sphere.radius * sphere.radius / glm::dot(to, to);
         return squared_sine < 1.0 ? squared_sine / (1.0 + std::sqrt(1.0 - squared_sine)) : 0.0;
     }
@@ -155,7 +155,7 @@ private:
         const double height = cap(lamp, from, time);
         if (height == 0.0)
             return glm::dvec3(0.0);
-        const glm::dvec3 to = around(glm::normalize(centre_at(lamp, time) - from), share() * height);
+        const glm::dvec3 to = around(glm::normalize(center_at(lamp, time) - from), share() * height);
         if (glm::dot(to, reflection.normal) <= 0.0 || first_hit(from, to, time, false).surface != index)
             return glm::dvec3(0.0);
         const double density = lamp_density(index, from, time) + reflection.density(to);
@@ -187,9 +187,9 @@ private:
             const pt_sphere &sphere = scene_.spheres[i];
             if (is_of_camera && is_hidden(sphere.material))
                 continue;
-            const glm::dvec3 to_centre = centre_at(sphere, time) - origin;
-            const double along = glm::dot(to_centre, direction);
-            const glm::dvec3 across = to_centre - along * direction;
+            const glm::dvec3 to_center = center_at(sphere, time) - origin;
+            const double along = glm::dot(to_center, direction);
+            const glm::dvec3 across = to_center - along * direction;
             const double square = sphere.radius * sphere.radius - glm::dot(across, across);
             if (square <= 0.0)
                 continue;
@@ -198,7 +198,7 @@ private:
             const double distance = enters ? along - half_chord : along + half_chord;
             if (distance <= 0.0 || distance >= nearest.distance)
                 continue;
-            const glm::dvec3 outward = (distance * direction - to_centre) / sphere.radius;
+            const glm::dvec3 outward = (distance * direction - to_center) / sphere.radius;
             nearest = {distance, enters ? outward : -outward, sphere.material, i};
         }
         for (std::uint32_t i = 0; i < scene_.sphere_array_count; ++i)

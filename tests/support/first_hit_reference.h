@@ -62,13 +62,13 @@ struct Meeting {
 // within which the camera's side is undecided.
 inline Meeting meet_sphere(const pt_sphere &sphere, const Vector &camera, const Ray &ray, Real time, bool is_flat,
                            Real astray) {
-    const Vector centre = vector_of(sphere.center) + time * vector_of(sphere.motion) - camera - ray.origin;
+    const Vector center = vector_of(sphere.center) + time * vector_of(sphere.motion) - camera - ray.origin;
     const Real r = sphere.radius;
-    const Real along = glm::dot(centre, ray.direction);
-    const Real l = glm::length(centre - along * ray.direction);
-    const Real height = glm::length(centre) - r;
+    const Real along = glm::dot(center, ray.direction);
+    const Real l = glm::length(center - along * ray.direction);
+    const Real height = glm::length(center) - r;
     Meeting meeting;
-    const Real reach = glm::length(centre - ray.start) + glm::length(ray.spread);
+    const Real reach = glm::length(center - ray.start) + glm::length(ray.spread);
     const Real touching = is_flat ? 64.0L * rounding * r : (16.0L * reach + 4.0L * r) * rounding + astray;
     if (height > 0.0L && (along <= 0.0L || l > r)) {
         meeting.is_uncertain = along > 0.0L && l - r < touching;
@@ -80,9 +80,9 @@ inline Meeting meet_sphere(const pt_sphere &sphere, const Vector &camera, const 
     meeting.is_uncertain = meeting.is_uncertain || std::abs(height) < astray;
     const Real half_chord = std::sqrt((r - l) * (r + l));
     // The roots' product is the camera's power: the nearer root without cancellation.
-    meeting.distance = height > 0.0L ? height * (glm::length(centre) + r) / (along + half_chord) : along + half_chord;
-    const Vector from_centre = meeting.distance * ray.direction - centre;
-    const Vector outward = glm::normalize(from_centre);
+    meeting.distance = height > 0.0L ? height * (glm::length(center) + r) / (along + half_chord) : along + half_chord;
+    const Vector from_center = meeting.distance * ray.direction - center;
+    const Vector outward = glm::normalize(from_center);
     const Real cosine = std::max(std::abs(glm::dot(outward, ray.direction)), rounding);
     const Real way = glm::length(meeting.distance * ray.direction - ray.start) + glm::length(ray.spread);
     const Real across = is_flat ? way : reach;

@@ -27,10 +27,10 @@ inline pt::GpuScene gpu_scene(const pt::Scene &scene, const pt::Camera &seen_by 
     return pt::gpu_scene(pt::PreparedScene(scene), seen_by, {16, 12, 3, 0, 0, estimator, PT_SAMPLER_RANDOM, 0, 12});
 }
 
-inline void add_lamp(pt::Scene &scene, const glm::dvec3 &centre, double radius, double radiance,
+inline void add_lamp(pt::Scene &scene, const glm::dvec3 &center, double radius, double radiance,
                      const glm::dvec3 &motion = glm::dvec3(0.0)) {
     scene.materials.push_back({glm::vec3(0), glm::vec3(0), glm::vec3(static_cast<float>(radiance)), 0});
-    scene.spheres.push_back({centre, radius, motion, static_cast<std::uint32_t>(scene.materials.size() - 1)});
+    scene.spheres.push_back({center, radius, motion, static_cast<std::uint32_t>(scene.materials.size() - 1)});
 }
 
 // Powers span some decades.
@@ -40,9 +40,9 @@ inline pt::Scene in_a_box(std::uint32_t count, double decades, double motion = 0
     const auto between = [&](double low, double high) { return low + (high - low) * unit(generator); };
     pt::Scene scene;
     for (std::uint32_t i = 0; i < count; ++i) {
-        const glm::dvec3 centre(between(-10, 10), between(0.3, 8), between(-10, 10));
+        const glm::dvec3 center(between(-10, 10), between(0.3, 8), between(-10, 10));
         const glm::dvec3 way(between(-motion, motion), between(0, motion), between(-motion, motion));
-        add_lamp(scene, centre, between(0.005, 0.02), std::pow(10.0, between(0, decades)), way);
+        add_lamp(scene, center, between(0.005, 0.02), std::pow(10.0, between(0, decades)), way);
     }
     return scene;
 }

@@ -20,7 +20,7 @@ constexpr float leaving_outside = 1.0F;
 constexpr float leaving_inside = 2.0F;
 
 struct Item {
-    glm::vec3 centre; // relative to the ray's start; also the plane's normal
+    glm::vec3 center; // relative to the ray's start; also the plane's normal
     float radius;     // the plane's height below it
     glm::vec3 direction;
     float start;
@@ -40,8 +40,8 @@ Item passing_ray(Inputs &inputs, double distance, double radius, double impact, 
         glm::normalize(glm::cross(direction, glm::dvec3(inputs.direction()) + glm::dvec3(0, 0.01, 0.02)));
     const double sine = std::min(impact * radius / distance, 1.0);
     const double side = inputs.word() % 4 == 0 ? -1.0 : 1.0;
-    const glm::dvec3 centre = distance * (side * std::sqrt(1.0 - sine * sine) * direction + sine * across);
-    return {glm::vec3(centre), static_cast<float>(radius), glm::vec3(direction), start};
+    const glm::dvec3 center = distance * (side * std::sqrt(1.0 - sine * sine) * direction + sine * across);
+    return {glm::vec3(center), static_cast<float>(radius), glm::vec3(direction), start};
 }
 
 // Up to a million radii away, grazing within 1e-6, from inside, and from the surface.
@@ -76,17 +76,17 @@ struct Exact {
 // Across: u |b| + u l; the error of b lies along the ray, so its square counts. l^2: 3 u more; r^2: u; difference: u;
 // sqrt: 9 u.
 Exact exact_sphere(const Item &item) {
-    const Direction centre(item.centre);
+    const Direction center(item.center);
     const Direction direction = glm::normalize(Direction(item.direction));
     const Real r = item.radius;
-    const Real d = glm::length(centre);
-    const Real b = glm::dot(centre, direction);
+    const Real d = glm::length(center);
+    const Real b = glm::dot(center, direction);
     const Real b_bound = d * (3 * half_ulp + length_error(item.direction));
     if (item.start == leaving_outside)
         return {0, no_hit, 1};
     if (item.start == leaving_inside)
         return {std::abs(b) > b_bound ? 1 : -1, 2 * std::abs(b), 2 * b_bound}; // undecided along the surface
-    const Real l = glm::length(centre - b * direction);
+    const Real l = glm::length(center - b * direction);
     const Real along = 2 * b_bound;
     const Real l_bound = half_ulp * (std::abs(b) + l);
     const Real square = r * r - l * l;
@@ -106,7 +106,7 @@ Exact exact_sphere(const Item &item) {
 
 // -h / (n . v): dot product 2 u |n|, division 5 u.
 Exact exact_plane(const Item &item) {
-    const Direction normal(item.centre);
+    const Direction normal(item.center);
     const Real rate = glm::dot(normal, Direction(item.direction));
     const Real rate_bound = 3 * half_ulp * glm::length(normal);
     if (item.start != anywhere)
@@ -134,7 +134,7 @@ Exact exact_larger_sphere(Item item) {
 
 // Clearly outside by float32's error, or leaving on the outside. Tests of paths cover the rest.
 bool starts_outside(const Item &item) {
-    const Real d = glm::length(Direction(item.centre));
+    const Real d = glm::length(Direction(item.center));
     const Real r = item.radius;
     return item.start == leaving_outside || (item.start == anywhere && d * d - r * r > 5 * half_ulp * d * d);
 }
@@ -148,13 +148,13 @@ struct Wrong {
 
 // Decided if the hit's distance exceeds 1e-4 |center|: a tenth of it is then a hundred times the float32 error.
 bool blocks_rightly(const Exact &exact, const Result &found, const Item &item) {
-    if (exact.met == 1 && exact.distance > 1e-4L * glm::length(Direction(item.centre)))
+    if (exact.met == 1 && exact.distance > 1e-4L * glm::length(Direction(item.center)))
         return found.blocks_before == 0.0F && found.blocks_behind == 1.0F;
     return exact.met != 0 || found.blocks_behind == 0.0F;
 }
 
 Wrong compare_all(const std::vector<Item> &all, std::uint32_t inside, const std::string &name) {
-    Comparison sphere("sphere_distance" + name, "of the centre");
+    Comparison sphere("sphere_distance" + name, "of the center");
     Comparison leaving("sphere_distance" + name + ", leaving", "of the radius");
     Comparison plane("plane_distance" + name, "of itself");
     std::vector<std::uint32_t> constants(pt::gpu::CONSTANT_COUNT);
@@ -170,7 +170,7 @@ Wrong compare_all(const std::vector<Item> &all, std::uint32_t inside, const std:
         wrong.shadows += blocks_rightly(exact, results[i], all[i]) ? 0 : 1;
         EXPECT_FALSE(std::isnan(results[i].sphere)) << "item " << i;
         wrong.of_control += agrees(exact_larger_sphere(all[i]), results[i].sphere) ? 0 : 1;
-        const Real distance = glm::length(Direction(all[i].centre));
+        const Real distance = glm::length(Direction(all[i].center));
         compare(all[i].start == anywhere ? sphere : leaving, exact, results[i].sphere, distance, all[i]);
         const Exact on_plane = exact_plane(all[i]);
         wrong.found += agrees(on_plane, results[i].plane) ? 0 : 1;

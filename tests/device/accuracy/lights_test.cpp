@@ -16,7 +16,7 @@ namespace {
 constexpr std::uint32_t lamp_count = 512; // fill a probe's scene
 
 struct Lamp {
-    glm::vec3 centre;
+    glm::vec3 center;
     float radius;
     float radiance;
 };
@@ -59,7 +59,7 @@ std::vector<Item> items(const std::vector<Lamp> &lamps) {
             const double cosine = -sine * (1.0 + (inputs.number() - 0.5) * inputs.log_uniform(1e-8, 1.0));
             normal = cosine * axis + std::sqrt(std::max(0.0, 1.0 - cosine * cosine)) * glm::normalize(across);
         }
-        items.push_back({glm::vec3(glm::dvec3(lamp.centre) - lamp.radius / sine * axis), i % lamp_count,
+        items.push_back({glm::vec3(glm::dvec3(lamp.center) - lamp.radius / sine * axis), i % lamp_count,
                          glm::vec4(glm::vec3(glm::normalize(normal)), 0.0F),
                          glm::vec4(inputs.number(), inputs.number(), 0.0F, 0.0F)});
     }
@@ -83,9 +83,9 @@ struct View {
     Real highest_cosine;
 
     View(const Lamp &lamp, const Item &item) {
-        const Direction to_centre = Direction(lamp.centre) - Direction(item.position);
-        distance = glm::length(to_centre);
-        axis = to_centre / distance;
+        const Direction to_center = Direction(lamp.center) - Direction(item.position);
+        distance = glm::length(to_center);
+        axis = to_center / distance;
         squared_sine = Real{lamp.radius} * lamp.radius / (distance * distance);
         const Real cosine = std::sqrt(std::max<Real>(1 - squared_sine, 0));
         height = squared_sine / (1 + cosine);
@@ -130,7 +130,7 @@ struct AccuracyLights : testing::Test {
         constants[pt::gpu::ID_SCENE_SOURCE] = pt::gpu::SCENE_IN_UNIFORM;
         std::vector<glm::vec4> scene;
         for (const Lamp &lamp : lamps_)
-            scene.emplace_back(lamp.centre, lamp.radius);
+            scene.emplace_back(lamp.center, lamp.radius);
         for (const Lamp &lamp : lamps_)
             scene.emplace_back(lamp.radiance);
         Probe probe(lamp_items_spirv(), sizeof(ItemRange), constants);
@@ -156,7 +156,7 @@ TEST_F(AccuracyLights, OfLampSamples) {
         const View view(lamp, item);
         if (view.squared_sine > 1 - 12 * half_ulp)
             continue; // undecided: on the lamp
-        const std::vector<float> input = list(item.position, lamp.centre, lamp.radius, item.normal, item.numbers);
+        const std::vector<float> input = list(item.position, lamp.center, lamp.radius, item.normal, item.numbers);
         height.add(result.height / view.height, 1, view.height_share, input);
 
         const Real cosine = std::min<Real>(view.highest_cosine, 1);

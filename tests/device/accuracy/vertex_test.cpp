@@ -48,13 +48,13 @@ std::vector<Item> items(const std::vector<glm::vec4> &surfaces) {
     std::vector<Item> items;
     for (std::uint32_t i = 0; i < random_count; ++i) {
         const std::uint32_t surface = i % (sphere_count + plane_count);
-        const glm::dvec3 centre_or_normal(surfaces[surface]);
+        const glm::dvec3 center_or_normal(surfaces[surface]);
         const double size = double{surfaces[surface].w};
         glm::dvec3 point = size * inputs.log_uniform(1e-2, 1e2) * glm::dvec3(inputs.direction());
         if (surface < sphere_count)
-            point = centre_or_normal + size * glm::dvec3(inputs.direction());
+            point = center_or_normal + size * glm::dvec3(inputs.direction());
         else
-            point -= (glm::dot(centre_or_normal, point) + size) * centre_or_normal;
+            point -= (glm::dot(center_or_normal, point) + size) * center_or_normal;
         const double distance = size * inputs.log_uniform(1e-1, 1e2);
         const glm::dvec3 direction(inputs.direction());
         items.push_back({glm::vec3(point - distance * direction), surface, glm::vec3(direction),

@@ -9,7 +9,7 @@
 
 // start: 0 anywhere, 1 on the sphere and outside, 2 inside. The center is the plane's normal too, the radius its
 // height.
-struct Item { vec4 centre_radius; vec4 direction_start; };
+struct Item { vec4 center_radius; vec4 direction_start; };
 layout(set = 0, binding = 2) writeonly buffer Output { vec4 results[]; };
 layout(set = 0, binding = 3) readonly buffer Input { Item items[]; };
 
@@ -18,7 +18,7 @@ void main()
     uint index = gl_GlobalInvocationID.x;
     if (!is_item(index))
         return;
-    vec4 sphere = items[index].centre_radius;
+    vec4 sphere = items[index].center_radius;
     vec3 direction = items[index].direction_start.xyz;
     float start = items[index].direction_start.w;
     bool leaving = start > 0.0;
