@@ -90,7 +90,7 @@ struct ValueRule {
     double least = -std::numeric_limits<double>::infinity(); // of each number
     double largest = std::numeric_limits<double>::infinity();
     bool excludes_largest = false;
-    bool may_be_negative = false; // a length: also 0 and negative numbers of that size
+    bool may_be_negative = false; // a length: 0 and the negative range are valid, too
     bool is_of_library = false;   // the library checks the range, and reports all violations together
     bool is_float = false;        // float32
     bool excludes_zeros = false;  // not all numbers of the array may be 0

@@ -30,7 +30,7 @@ struct Measurement {
     Estimate radiance;
 };
 
-// By both judges, relative to the exact value.
+// Bounds of both judges, relative to the exact value.
 struct Bounds {
     Bounds(const Measurement &measured, const Exact &exact) :
         tabulated(error_bound(exact.relative_std, measured.sample_count)),

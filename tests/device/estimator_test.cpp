@@ -38,7 +38,7 @@ pt_material lamp(float radiance) {
 
 constexpr pt_plane floor_plane{{0, 1, 0}, 1, 0, 0};
 
-// Hit by chance often enough for a finite variance with all.
+// So large that every estimator has a finite variance.
 ListedScene large_lamp() {
     const pt_material glossy{{0.3F, 0.3F, 0.3F}, {0.5F, 0.5F, 0.5F}, {0, 0, 0}, 10, 0};
     return {{diffuse(0.8F), lamp(5), diffuse(0.6F), glossy},

@@ -38,8 +38,8 @@ std::size_t differing_values(const Image &a, const Image &b) {
     return count;
 }
 
-// Rounding decides at rims and contacts, within 2^-20 of the scene: in half a sample of 3072 on average, each of some
-// 20 rays against 9 surfaces. More than 6 samples of 3 values have a probability of 1e-6.
+// Rounding decides rays within 2^-20 of the scene from rims and contacts: in half a sample of 3072 on average, for 20
+// rays and 9 surfaces each. More than 6 samples of 3 values have a probability of 1e-6.
 constexpr std::size_t decided_by_rounding = 18;
 
 // All lamps are inside.

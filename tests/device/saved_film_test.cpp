@@ -239,7 +239,7 @@ TEST_F(SavedFilm, StrangersAreRefusedAndNothingChanges) {
         std::copy(to.begin(), to.end(), place);
         return film;
     };
-    // As by another scene, with a valid checksum.
+    // Changes a header's value and makes the checksum valid.
     const auto with_another = [](Bytes film, const std::string &name) {
         const std::string start = "\n" + name + ' ';
         const auto value = std::search(film.begin(), film.end(), start.begin(), start.end()) +

@@ -41,7 +41,8 @@ protected:
         return {moments.mean, std::sqrt(moments.variance / batch_count)};
     }
 
-    // tolerance: by which the geometry may differ. Two means of n batches have the bound of one mean of 2 n - 1.
+    // tolerance: relative change of light by the geometry. Two means of n batches have the bound of one mean of 2 n -
+    // 1.
     void expect_light(const Estimate &expected, const InvarianceScene &scene, std::uint32_t path_length,
                       double tolerance) {
         const Estimate found = mean_of(scene, path_length, 200);

@@ -26,7 +26,7 @@ class Parts(unittest.TestCase):
                          [(8, 10, 14), (8, 32, 207), (15, 32, 14)])
 
     def test_what_goes_on(self):
-        """Tiles with their old counts that are to get more, against what the film lacks."""
+        """Goals raised from old counts lack the same parts as the film with those counts."""
         random = np.random.default_rng(1)
         before = random.integers(1, 4, (13, 17), np.uint32) * 8
         after = before + random.integers(0, 3, (13, 17), np.uint32) * 8

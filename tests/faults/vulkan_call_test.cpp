@@ -20,7 +20,7 @@ pt_result expected_result(const CallFault &fault) {
         return PT_OK;
     if (fault.function == "vkWaitForFences" || fault.function == "vkResetFences")
         return PT_ERROR_DEVICE_LOST;
-    if (fault.function == "vkGetFenceStatus") // the wait for it will tell
+    if (fault.function == "vkGetFenceStatus") // a later wait reports it
         return fault.result == VK_ERROR_DEVICE_LOST ? PT_ERROR_DEVICE_LOST : PT_OK;
     if (fault.function == "vkGetPipelineCacheData") // the cache is optional
         return PT_OK;

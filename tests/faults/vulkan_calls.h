@@ -19,7 +19,7 @@ struct CallFault {
 
 // The number-th call that can fail, from 1 (0: none), returns the function's error_index-th error, modulo their count.
 // A submission with VK_TIMEOUT is made but never seen to end; each look takes a tenth of a second by the library's
-// clock. A wait with it takes an hour, as after a stopped process.
+// clock. A wait with VK_TIMEOUT takes an hour, as after a stopped process.
 void fail_call(std::size_t number, std::size_t error_index);
 
 CallFault call_fault();

@@ -57,7 +57,8 @@ private:
     Image original_;
 };
 
-// Powers of two change no mantissa. A length within the kernel would show the more the farther it is from the scene's.
+// Powers of two change no mantissa. A length in the kernel would show the more, the farther it is from the scene's
+// size.
 TEST_P(Invariance, UnitOfLength) {
     for (const int exponent : {-50, -20, -4, 20, 50}) { // lengths of 2^-52 = 2e-16 to 2^55 = 3e16
         SCOPED_TRACE(exponent);

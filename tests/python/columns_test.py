@@ -104,7 +104,7 @@ class Columns(unittest.TestCase):
         linear = np.where(signal <= 0.04045, signal / 12.92, ((signal + 0.055) / 1.055)**2.4)
         images = [radiance(self.context, scene_of(pt.SphereArray(POSITIONS, RADII, 0, color=color)))
                   for color in (srgb, linear)]
-        # Trees hold both to a thousandth, and up to six surfaces color a path.
+        # Trees store colors to a thousandth, and a path meets up to six surfaces.
         np.testing.assert_allclose(*images, rtol=2e-3 * 6)
         self.assertGreater(np.abs(images[0] - self.plain).max(), 0.01)
 

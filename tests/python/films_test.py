@@ -49,7 +49,7 @@ class Films(unittest.TestCase):
         self.assertEqual(sum(copies), self.whole)
 
     def test_streams(self):
-        """In order and complete; an exception ends the writing."""
+        """Pieces come in order and complete; an exception ends the writing."""
         pieces = []
         self.whole.stream(pieces.append)
         self.assertEqual(b"".join(pieces), self.whole.to_bytes())

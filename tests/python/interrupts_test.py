@@ -91,7 +91,7 @@ class Interrupts(unittest.TestCase):
             self.check_usable()
 
     def test_a_signal_while_samples_are_taken(self):
-        """Without a progress function to raise it."""
+        """No progress function raises the exception."""
         for _ in range(3):
             with self.assertRaises(Alarm):
                 signal.setitimer(signal.ITIMER_REAL, 0.02)

@@ -42,8 +42,8 @@ struct Judgement {
 };
 
 // shaders/README.md, section 11, has a calibration. Random samples: the brightest few hundred of tens of thousands
-// weigh most, so both errors scatter. Sequences: up to 2^p - 1, 1 <= p <= 2, more in mean square (error_estimate.cpp),
-// hence sqrt(3), and more by denominators.
+// weigh most, so both errors scatter. Sequences: errors are up to sqrt(3) larger (error_estimate.cpp: mean squares by
+// up to 2^p - 1, 1 <= p <= 2), and more by denominators.
 constexpr Judgement of_random{0.9, 1.2};
 constexpr Judgement of_sequence{0.8, 2.0};
 

@@ -72,7 +72,7 @@ class Progress:
 
 @dataclass(frozen=True)
 class Result:
-    """film has the bytes of one long rendering."""
+    """The film equals one long rendering's, byte for byte."""
 
     film: Film
     progress: Progress
