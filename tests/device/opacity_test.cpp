@@ -114,8 +114,8 @@ Given::Capsule rod(const glm::dvec3 &from, const glm::dvec3 &to, float opacity, 
     return {{from.x, from.y, from.z}, {to.x, to.y, to.z}, 1.0, material, opacity};
 }
 
-// Surfaces that a user can tell apart, whatever they have in common, let the product of their shares pass; duplicates
-// count once. Negative control: the duplicates, which let twice as much pass as the others.
+// Different surfaces, whatever they share, let the product of their shares pass; duplicates count once. Negative
+// control: the duplicates, which let twice as much pass as the others.
 TEST_F(Opacity, OfSurfacesThatDifferIsIndependent) {
     const glm::dvec3 atom(0, 0, 1);
     const std::vector<Given::Capsule> bonds{rod(atom, {2, 0, 1}, 0.5F), rod(atom, {0, 2, 1}, 0.5F)};
@@ -165,8 +165,8 @@ TEST_F(Opacity, OfColorsAndMotionsIsIndependent) {
     EXPECT_NEAR(passed({still, still}), 0.5, 0.008) << "duplicates";
 }
 
-// With the sampler's points 256 rays of a pixel fall into 256 equal parts, so the share that meets a surface is off by
-// 2 of them at most, in every pixel. Negative control: random numbers, which are off by five times as much somewhere.
+// 256 rays of a pixel fall into 256 equal parts by the sampler's points, so the share that meets a surface is off by 2
+// of them at most. Negative control: random numbers, which are off by five times as much somewhere.
 TEST_F(Opacity, OfOneSurfaceIsEvenlySpread) {
     Given given = under_sky({ball_at({0, 0, 1}, 1.0, 0.4F)});
     std::ranges::fill(given.materials[2].emission, 1.0F);

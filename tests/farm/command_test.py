@@ -41,7 +41,7 @@ class Command(unittest.TestCase):
             json.dump(SCENE, file)
 
     def refused(self, *words):
-        """What the command says if it ends before any worker starts."""
+        """The code and the message of a command that ends before any worker starts."""
         said, words = io.StringIO(), ["pt-farm", "render", "scene.json", *words]
         before, sys.argv = sys.argv, words
         try:
