@@ -11,10 +11,9 @@ Variant llvm_ad_rgb runs on the CPU and needs LLVM's shared library, named by DR
 with libllvm15 Mitsuba 3.9.1 ends with "Cannot select: fminimum" on processors with AVX-512); cuda_ad_rgb runs on a GPU.
 
 Every round measures all scenes and options in turn. Costs: median CPU seconds (GPU: wall seconds) of sampling. Errors:
-mean relMSE, the mean of (x - r)^2 / (r^2 + 0.01) over pixels and channels, against references (references.py). A
-scene's two targets are the default's errors at its two largest sample counts, usually 64 and 256. A ratio is an
-option's cost of the target over the default's. Costs are interpolated linearly between sample counts, in logarithms;
-"~" marks extrapolation with the slope -1.
+mean relMSE (README.md) against references (references.py). A scene's two targets are the default's errors at its two
+largest sample counts, usually 64 and 256. A ratio is an option's cost of the target over the default's. Costs are
+interpolated linearly between sample counts, in logarithms; "~" marks extrapolation with the slope -1.
 """
 
 import argparse

@@ -1,6 +1,5 @@
 """Measures the duration of libpt's calls in milliseconds.
 
-    python3 tests/bench/latency.py --library new=build/lib/libpt.so
     python3 tests/bench/latency.py --library old=OLD/libpt.so --library new=build/lib/libpt.so --sizes 1024x512
 
 Libraries are measured in one process, in turn; figures are medians over the rounds, for the coursework scene. The

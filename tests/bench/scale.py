@@ -1,14 +1,13 @@
 """Measures the cost of scenes with 10 to a million spheres over a floor: a cloud with one lamp, or a cloud of lamps.
 
-    python3 tests/bench/scale.py --library pt=build/lib/libpt.so
     DRJIT_LIBLLVM_PATH=libLLVM.so.19.1 python3 tests/bench/scale.py --library old=OLD/libpt.so \\
         --library pt=build/lib/libpt.so --mitsuba mitsuba/bin/python --counts 10,1e3,1e5
 
     python3 tests/bench/scale.py --library pt=build/lib/libpt.so --cloud lamps --counts 1,10,100,1e3,1e4
 
 Lamps have eight balls below them; their brightness spans four powers of ten. "dark-lamps" has balls in their places, so
-the difference is the cost of choosing lamps. Libraries take columns (pt_scene.sphere_arrays); benchmark.py says how to
-install Mitsuba. Every round measures all in turn; figures are medians.
+the difference is the cost of choosing lamps. benchmark.py says how to install Mitsuba. Every round measures all in
+turn; figures are medians.
 
 scene           seconds of pt_set_scene; of building Mitsuba's scene
 bytes           device memory per sphere: pt_stats.device_bytes with and without the cloud
@@ -17,11 +16,10 @@ first           seconds from the scene to a picture of one sample at the first p
 M/s, M/CPU s    million samples per wall and per CPU second (not on a GPU). From path length 3 on a sample follows 1 to
                 4 paths from its first vertex in pt, one in Mitsuba
 
-With --error-samples a second table compares costs at equal error, at the first path length: relMSE, the mean of (x -
-r)^2 / (r^2 + 0.01), at this many samples (4 times as many in Mitsuba), against a reference r by the first library of 64
-times as many samples and another seed, whose own error is included. Ratio: cost x relMSE over the first library's, as
-errors fall as 1 / cost. "off by": difference of the mean from the reference's, relative and in standard errors; above
-1% no ratio is stated.
+With --error-samples a second table compares costs at equal error, at the first path length: relMSE (README.md) at this
+many samples (4 times as many in Mitsuba), against the first library's picture of 64 times as many samples and another
+seed, whose own error is included. Ratio: cost x relMSE over the first library's, as errors fall as 1 / cost. "off by":
+difference of the mean from the reference's, relative and in standard errors; above 1% no ratio is stated.
 """
 
 import argparse
