@@ -66,7 +66,7 @@ vec4 direction_numbers(SampleKey branch, uint begin, uint count)
 // and surfaces with different numbers decide independently.
 uint opacity_number(SampleKey branch, uint vertex)
 {
-    const uint first_block = 1u << 31; // beyond those of all paths
+    const uint first_block = 1u << 31; // beyond all paths' blocks
     uint block = first_block + vertex;
     if (SAMPLER == SAMPLER_RANDOM)
         return sample_words(branch, block).x;
