@@ -7,12 +7,13 @@ from dataclasses import replace
 
 import numpy as np
 import pt
-from pt.figures import _bonds
+from pt.figures import _bonds, _neighbours
 from pt.figures._bonds import bonds_of
+from pt.figures._cell import Cell
 from pt.figures._figure import prepare
 from pt.figures._options import Options
 from pt.figures._overlay import rays_per_side
-from pt.figures._particles import Cell, Particles
+from pt.figures._particles import Bonds, Particles
 from pt.figures._series import frames
 
 ANGLES = np.arange(6)[:, None] * np.pi / 3
@@ -82,6 +83,51 @@ class Known(unittest.TestCase):
         self.assertEqual(count(open_cell), len(inside.atoms) / 2)
 
 
+def residues(*atoms, **more):
+    """Particles of atoms: residue, its number, name, atomic number, and place along x."""
+    names, numbers, words, elements, places = zip(*atoms)
+    positions = np.array([[place, 0, 0] for place in places], float)
+    columns = {"resname": np.array(names), "resid": np.array(numbers), "name": np.array(words)}
+    return Particles(positions, columns, np.array(elements, np.uint8), **more)
+
+
+class Residues(unittest.TestCase):
+    """Names of atoms in known residues say which of those that are near enough are bonded."""
+
+    def pairs(self, particles, notes=None):
+        found = bonds_of(particles, Options(bonds=True), np.ones(1), [] if notes is None else notes)
+        half = len(found.atoms) // 2
+        return sorted(sorted(pair) for pair in zip(found.atoms[:half].tolist(), found.others[:half].tolist()))
+
+    def test_names_within_residues(self):
+        near = residues(("ALA", 1, "N", 7, 0), ("ALA", 1, "CA", 6, 1.45), ("ALA", 1, "O", 8, 2.7), ("ALA", 1, "XYZ", 6, 4.0))
+        self.assertEqual(self.pairs(near), [[0, 1], [2, 3]])  # CA and O are no bond; XYZ is no name that is known
+        self.assertEqual(self.pairs(Particles(near.positions, elements=near.elements)), [[0, 1], [1, 2], [2, 3]])
+
+    def test_hydrogens_have_one_bond(self):
+        water = residues(("SOL", 1, "HW1", 1, 0), ("SOL", 1, "OW", 8, 0.9), ("SOL", 1, "HW2", 1, 1.7), ("SOL", 2, "OW", 8, 2.9),
+                         ("SOL", 2, "HW1", 1, 3.85))
+        self.assertEqual(self.pairs(water), [[0, 1], [1, 2], [3, 4]])
+
+    def test_bonds_between_residues(self):
+        chain = residues(("GLY", 1, "C", 6, 0), ("GLY", 2, "N", 7, 1.3), ("CYS", 3, "SG", 16, 2.5), ("CYS", 4, "SG", 16, 4.5),
+                         ("LIG", 5, "C1", 6, 6.2))
+        self.assertEqual(self.pairs(chain), [[0, 1], [2, 3], [3, 4]])
+
+    def test_ions_have_no_bonds(self):
+        self.assertEqual(self.pairs(residues(("K", 1, "K", 19, 0), ("SOL", 2, "OW", 8, 2.7), ("LIG", 3, "C1", 6, -2.8))), [])
+
+    def test_bonds_of_the_data_come_first(self):
+        stretched = residues(("LIG", 1, "C1", 6, 0), ("LIG", 1, "C2", 6, 5), ("LIG", 1, "C3", 6, 6.5), ("LIG", 1, "C4", 6, 8),
+                             bonds=Bonds.of([[1, 0], [0, 1], [0, 2]]))
+        self.assertEqual(self.pairs(stretched), [[0, 1], [0, 2]])
+        notes = []
+        stretched.bonds = Bonds.of([[0, 1], [0, 2]], is_complete=False)
+        self.assertEqual(self.pairs(stretched, notes), [[0, 1], [0, 2], [2, 3]])  # those that have bonds get no others
+        self.assertEqual(notes, ["bonds are 2 of the data, and 1 by distance"])
+        self.assertEqual(self.pairs(stretched.select(np.array([True, False, True, True]))), [[0, 1], [1, 2]])
+
+
 class BruteForce(unittest.TestCase):
     def test_all_pairs_in_an_oblique_cell(self):
         """Against all images: cells thinner than the cutoff, particles far outside, one edge that is not periodic."""
@@ -108,8 +154,16 @@ class BruteForce(unittest.TestCase):
         positions = np.random.default_rng(3).uniform(size=(500, 3))
         distances = np.linalg.norm(positions[:, None] - positions, axis=2)
         expected = ((distances <= 0.1) & (distances > 0)).sum()
-        with unittest.mock.patch.object(_bonds, "ROWS_AT_ONCE", 7):
+        with unittest.mock.patch.object(_neighbours, "COMPARED_AT_ONCE", 7):
             self.assertEqual(2 * count(Particles(positions), 0.1), expected)
+
+    def test_images_that_the_data_give(self):
+        """Not the nearest ones; wrapping moves the atoms, and the bonds stay what they are."""
+        cell = Cell.of([10, 10, 10])
+        given = Particles(np.array([[0.5, 0, 0], [11, 0, 0]]), elements=np.uint8([6, 6]), cell=cell,
+                          bonds=Bonds.of([[0, 1]], np.array([[-2, 0, 0]])))
+        for particles in given, given.wrapped():
+            np.testing.assert_allclose(found_in(particles).ways[:, 0], [-4.75, 4.75])
 
     def test_given_pairs_take_the_nearest_image(self):
         particles = Particles(np.array([[0.5, 0, 0], [9.5, 0, 0], [5, 0, 0]]), cell=Cell.of([10, 10, 10]))
@@ -244,8 +298,8 @@ class Looks(unittest.TestCase):
                 prepare(Particles(np.eye(3)), Options(**options))
         with self.assertRaisesRegex(ValueError, "the cutoff, or the covalent radii, must be about as large as"):
             found_in(Particles(np.eye(3), cell=Cell.of([1, 1, 1])), 1e3)
-        with (unittest.mock.patch.object(_bonds, "MOST_FOUND", 100),
-              self.assertRaisesRegex(ValueError, "more than 1e[+]02 pairs are within about 9")):
+        with (unittest.mock.patch.object(_neighbours, "MOST_FOUND", 50),
+              self.assertRaisesRegex(ValueError, "more than 5e[+]01 pairs are within about 9")):
             found_in(Particles(np.random.default_rng(0).uniform(size=(11, 3))), 9.0)
 
 

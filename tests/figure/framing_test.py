@@ -6,10 +6,11 @@ import unittest
 
 import numpy as np
 import pt
+from pt.figures._cell import Cell
 from pt.figures._figure import Staged, prepare
 from pt.figures._options import Options
 from pt.figures._overlay import pixels_per_length
-from pt.figures._particles import Cell, Particles
+from pt.figures._particles import Particles
 from pt.figures._radii import COVER, THIN, radii_of
 from pt.figures._rods import cell_corners, cell_edges
 from pt.figures._spread import reaches_of, usual_reach

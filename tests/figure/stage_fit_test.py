@@ -5,10 +5,11 @@ import unittest
 
 import numpy as np
 import pt
+from pt.figures._cell import Cell
 from pt.figures._figure import prepare, view_of
 from pt.figures._layout import MARGIN, VERTICAL_FOV, Layout
 from pt.figures._options import VIEWS, Options
-from pt.figures._particles import Cell, Particles
+from pt.figures._particles import Particles
 from pt.figures._radii import typical_radius
 from pt.figures._series import frames, turntable
 from pt.figures._view import up_vector

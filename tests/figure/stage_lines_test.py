@@ -6,10 +6,11 @@ import unittest.mock
 import numpy as np
 import pt
 from pt.figures import _figure, _overlay
+from pt.figures._cell import Cell
 from pt.figures._figure import Staged
 from pt.figures._options import Options
 from pt.figures._overlay import PER_SIDE, Overlaid, line_width, read_shares
-from pt.figures._particles import Cell, Particles
+from pt.figures._particles import Particles
 from pt.figures._rods import cell_edges
 
 SIZE = (60, 44)

@@ -1,7 +1,8 @@
 """Figures of particles: `pt.figure(data)`, and what reads the data."""
 
 from pt.figures._accept import frames, load
+from pt.figures._cell import Cell
 from pt.figures._figure import Figure, figure
-from pt.figures._particles import Cell, Particles
+from pt.figures._particles import Particles
 
 __all__ = ["Cell", "Figure", "Particles", "figure", "frames", "load"]

@@ -34,6 +34,18 @@ COVALENT_RADII: Final = np.array((
     2.03, 2.01, 1.99, 1.98, 1.98, 1.96, 1.94, 1.92, 1.92, 1.89, 1.9, 1.87, 1.87, 1.75, 1.7, 1.62, 1.51, 1.44, 1.41,
     1.36, 1.36, 1.32, 1.45, 1.46, 1.48, 1.4, 1.5, 1.5, 2.6, 2.21, 2.15, 2.06, 2, 1.96, 1.9, 1.87, 1.8, 1.69), np.float32)
 
+# Daltons: IUPAC 2016; of the longest-lived isotope where none is stable.
+MASSES: Final = np.array((
+    0,
+    1.008, 4.0026, 6.94, 9.01218, 10.81, 12.011, 14.007, 15.999, 18.9984, 20.1797, 22.9898, 24.305, 26.9815,
+    28.085, 30.9738, 32.06, 35.45, 39.948, 39.0983, 40.078, 44.9559, 47.867, 50.9415, 51.9961, 54.938, 55.845,
+    58.9332, 58.6934, 63.546, 65.38, 69.723, 72.63, 74.9216, 78.971, 79.904, 83.798, 85.4678, 87.62, 88.9058,
+    91.224, 92.9064, 95.95, 97.9072, 101.07, 102.906, 106.42, 107.868, 112.414, 114.818, 118.71, 121.76, 127.6,
+    126.904, 131.293, 132.905, 137.327, 138.905, 140.116, 140.908, 144.242, 144.913, 150.36, 151.964, 157.25,
+    158.925, 162.5, 164.93, 167.259, 168.934, 173.054, 174.967, 178.49, 180.948, 183.84, 186.207, 190.23, 192.217,
+    195.084, 196.967, 200.592, 204.38, 207.2, 208.98, 208.982, 209.987, 222.018, 223.02, 226.025, 227.028, 232.038,
+    231.036, 238.029, 237.048, 244.064, 243.061, 247.07))
+
 # sRGB, as in Jmol.
 COLORS: Final = np.frombuffer(bytes.fromhex(
     "ff1493 "
@@ -45,7 +57,8 @@ COLORS: Final = np.frombuffer(bytes.fromhex(
     "a6544d 575961 9e4fb5 ab5c00 754f45 428296 420066 007d00 70abfa 00baff 00a1ff 008fff 0080ff 006bff 545cf2 785ce3"),
     np.uint8).reshape(-1, 3)
 
-_NUMBERS: Final = {symbol.lower(): number for number, symbol in enumerate(SYMBOLS) if number} | {"d": 1, "t": 1}
+NUMBERS: Final = {symbol: number for number, symbol in enumerate(SYMBOLS) if number} | {"D": 1, "T": 1}
+_NUMBERS: Final = {symbol.lower(): number for symbol, number in NUMBERS.items()}
 
 # Atom names of the Protein Data Bank and of water models that are not elements, such as "CB": if one of them is among
 # labels in capitals, CA is a carbon and HG a hydrogen.
@@ -53,6 +66,7 @@ _ATOM_NAMES: Final = frozenset("CB CG CZ CM HA HB HT HW OW OT OXT NZ NH".split()
 _IONS: Final = {"NA": 11, "CL": 17, "MG": 12, "ZN": 30, "FE": 26, "MN": 25, "BR": 35, "LI": 3, "SE": 34, "SOD": 11,
                 "CLA": 17, "POT": 19, "CAL": 20}
 _MOST_LETTERS: Final = 3  # of an atom's name
+_UNITED: Final = (13.019, 14.027, 15.035, 16.043)  # CH to CH4 of united atoms
 
 
 def distinct(labels: Array) -> tuple[Array, Array]:
@@ -99,6 +113,8 @@ def elements_of(labels: Array) -> tuple[Array | None, list[str]]:
     """
     values, codes = distinct(labels)
     names = [str(value) for value in values]
+    if "A" in names and all(len(name) == 1 for name in names):
+        return None, []  # A and B are kinds of particles, as in mixtures of Lennard-Jones
     is_atom_name = bool(_ATOM_NAMES.intersection(map(_letters, names)))
     numbers = [_number(name, is_atom_name) for name in names]
     if not any(numbers):
@@ -111,6 +127,18 @@ def elements_of(labels: Array) -> tuple[Array | None, list[str]]:
         read = [f"{name} is {SYMBOLS[number]}" for name, number in zip(names, numbers) if number]
         notes.append(f"labels are taken for names of atoms: {listed(read)}")
     return np.array(numbers, np.uint8)[codes], notes
+
+
+def elements_of_masses(masses: Array) -> npt.NDArray[np.uint8]:
+    """Atomic numbers of masses in daltons, 0 for those of no element; all are 0 if the masses seem to be in other units, in
+    which most are 1. United atoms of carbon and hydrogen are carbon."""
+    away = np.abs(masses[:, None] - MASSES)
+    away[:, 0] = np.inf
+    nearest = away.argmin(axis=1)
+    near = away[np.arange(len(masses)), nearest] <= np.where(masses < 20, 0.012, 0.07)
+    united = (np.abs(masses[:, None] - _UNITED) <= 0.008).any(axis=1)
+    numbers = np.where(united, 6, np.where(near, nearest, 0)).astype(np.uint8)
+    return numbers if (numbers > 2).any() else np.zeros_like(numbers)
 
 
 def listed(names: list[str], most: int = 8) -> str:

@@ -9,7 +9,8 @@ from typing import Final
 import numpy as np
 
 from pt._fit import Array, chunks
-from pt.figures._particles import Cell, Particles
+from pt.figures._cell import Cell
+from pt.figures._particles import Particles
 from pt.figures._rods import cell_corners
 from pt.figures._spread import middle_of, reaches_of, usual_reach
 

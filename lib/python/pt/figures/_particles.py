@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from pt._fit import chunks, coordinates
+from pt.figures._cell import Cell as Cell
 from pt.figures._elements import elements_of, listed
 from pt.figures._errors import DataError
 
@@ -35,6 +36,7 @@ _COLORS: Final = (("red", "green", "blue", "alpha"), ("r", "g", "b", "a"),
                   *(tuple(f"{name}:{i}" for i in range(4)) for name in ("color", "rgb")))
 _HARMONICS: Final = ("f_dc_0", "f_dc_1", "f_dc_2")  # Gaussian splats: spherical harmonics of degree 0
 _HARMONIC: Final = 0.5 / np.sqrt(np.pi)
+_SHAPES: Final = (("shapex", "shapey", "shapez"), ("c_shape[1]", "c_shape[2]", "c_shape[3]"))  # diameters, in LAMMPS
 _ELEMENTS: Final = ("element", "elements", "species", "symbol", "symbols", "elem", "numbers", "atomic_number",
                     "atomic_numbers")
 _TYPES: Final = ("type", "types", "particle_type", "atom_type", "label", "name", "names")
@@ -42,34 +44,34 @@ LABELS: Final = frozenset(_ELEMENTS + _TYPES)
 
 
 @dataclass(frozen=True)
-class Cell:
-    """A simulation cell, triclinic or not.
+class Bonds:
+    """Bonds that the data give, each of them once.
 
-    origin    shape (3,)
-    vectors   shape (3, 3): a row for each edge
-    periodic  shape (3,): whether the cell repeats along each edge
-    is_crystal_of_macromolecule  whether it is the crystal's cell of a protein or a nucleic acid
+    pairs        shape (k, 2): indices of the particles
+    images       shape (k, 3): the bond leads to the second particle moved by images @ cell.vectors; None: to its
+                 nearest image
+    is_complete  whether there are no other bonds
     """
 
-    origin: Array
-    vectors: Array
-    periodic: Array
-    is_crystal_of_macromolecule: bool = False
-
-    @property
-    def inverse(self) -> Array:
-        """Shape (3, 3): (positions - origin) @ inverse are shares of the edges."""
-        inverse: Array = np.linalg.pinv(self.vectors)
-        return inverse
+    pairs: Array
+    images: Array | None = None
+    is_complete: bool = True
 
     @staticmethod
-    def of(vectors: npt.ArrayLike, origin: npt.ArrayLike = (0, 0, 0), periodic: npt.ArrayLike = True) -> Cell | None:
-        """A cell; None if the vectors are all 0, or span no volume: then there is none."""
-        rows = np.array(vectors, np.float64)
-        rows = np.diag(rows) if rows.shape == (3,) else rows.reshape(3, 3)
-        if not np.isfinite(rows).all() or np.linalg.det(rows) == 0:
-            return None
-        return Cell(np.array(origin, np.float64), rows, np.broadcast_to(np.array(periodic, bool), (3,)).copy())
+    def of(pairs: npt.ArrayLike, images: Array | None = None, is_complete: bool = True) -> Bonds:
+        """Without bonds of particles to themselves, and with none twice."""
+        rows = np.array(pairs, np.intp).reshape(-1, 2)
+        if images is None:
+            rows = np.unique(np.sort(rows[rows[:, 0] != rows[:, 1]], axis=1), axis=0)
+        return Bonds(rows, images, is_complete)
+
+    def among(self, rows: Array, count: int) -> Bonds:
+        """The bonds between some of so many particles, by their new indices. rows: the old indices, in the new order."""
+        new = np.full(count, -1, np.intp)
+        new[rows] = np.arange(len(rows))
+        pairs = new[self.pairs]
+        kept = (pairs >= 0).all(axis=1)
+        return dataclasses.replace(self, pairs=pairs[kept], images=None if self.images is None else self.images[kept])
 
 
 @dataclass
@@ -82,6 +84,7 @@ class Particles:
     types      shape (n,), int or str: labels that are not elements
     radii      shape (n,): a column "radius", or half a column "diameter"
     colors     shape (n, 3) or (n, 4): sRGB, floats from 0 to 1, uint8 or uint16
+    bonds      those of the data; None: they say nothing of bonds
     name       name of the data, for messages
     notes      warnings for the user
     """
@@ -93,6 +96,7 @@ class Particles:
     radii: Array | None = None
     colors: Array | None = None
     cell: Cell | None = None
+    bonds: Bonds | None = None
     name: str = "array"
     notes: list[str] = field(default_factory=list)
 
@@ -109,19 +113,21 @@ class Particles:
             return self
         chosen = {key: None if value is None else value[mask] for key, value in
                   (("elements", self.elements), ("types", self.types), ("radii", self.radii), ("colors", self.colors))}
-        return self._moved(self.positions[mask], mask, **chosen)
+        bonds = None if self.bonds is None else self.bonds.among(np.arange(len(self))[mask], len(self))
+        return self._moved(self.positions[mask], mask, bonds=bonds, **chosen)
 
     def wrapped(self) -> Particles:
         """The particles moved into the cell along its periodic edges."""
         if self.cell is None:
             raise DataError(f"wrap: {self.name} has no cell")
-        positions = self.positions.copy()
-        inverse = np.linalg.inv(self.cell.vectors)
+        cell, bonds, positions = self.cell, self.bonds, self.positions.copy()
         for block in chunks(len(positions)):
             rows = positions[block]
-            turns = np.floor((rows - self.cell.origin) @ inverse) * self.cell.periodic
-            rows -= (turns @ self.cell.vectors).astype(rows.dtype)
-        return self._moved(positions, slice(None))
+            rows -= (cell.turns(rows) @ cell.vectors).astype(rows.dtype)
+        if bonds is not None and bonds.images is not None:
+            first, second = (cell.turns(self.positions[each]) for each in bonds.pairs.T)
+            bonds = dataclasses.replace(bonds, images=bonds.images + second - first)
+        return self._moved(positions, slice(None), bonds=bonds)
 
     def _moved(self, positions: Array, rows: Any, **changed: Any) -> Particles:
         """Particles with other positions, and these rows of the other columns. Columns of coordinates stay views of
@@ -138,14 +144,23 @@ class Particles:
 class Table:
     """The contents of a file or an object, before it is known what the columns mean.
 
-    columns  arrays of one or two dimensions; positions may also be one column of two or three components
-    is_text  whether numbers come from text, so that their type does not tell the scale of colors
+    columns   arrays of one or two dimensions; positions may also be one column of two or three components
+    is_text   whether numbers come from text, so that their type does not tell the scale of colors
+    elements  atomic numbers, 0 if unknown; None: columns may have them
+    types     labels that are not elements, though they may look so
+    rows      indices of the file's atoms that the table has; None: all
+    sites     how many atoms the file has, drawn or not
     """
 
     columns: Mapping[str, npt.ArrayLike]
     cell: Cell | None = None
     notes: list[str] = field(default_factory=list)
     is_text: bool = False
+    elements: Array | None = None
+    types: Array | None = None
+    bonds: Bonds | None = None
+    rows: Array | None = None
+    sites: int = 0
 
 
 def assembled(name: str, given: Table, mapping: Mapping[str, str], drop_nonfinite: bool) -> Particles:
@@ -157,10 +172,13 @@ def assembled(name: str, given: Table, mapping: Mapping[str, str], drop_nonfinit
     positions = _positions(name, parts, table, chosen, given.cell, notes)
     if len(positions) == 0:
         raise DataError(f"{name}: has no particles")
-    found = Particles(positions, parts, cell=given.cell, name=name, notes=notes)
+    found = Particles(positions, parts, given.elements, given.types, cell=given.cell, bonds=given.bonds, name=name, notes=notes)
     found.colors = _colors(parts, chosen, given.is_text, notes)
     _put_radii(found, chosen)
-    _put_labels(found, chosen)
+    if (found.elements is None and found.types is None) or not {"element", "type"}.isdisjoint(chosen):
+        found.elements = found.types = None
+        _put_labels(found, chosen)
+    found = _with_extent(found)
     if len(parts) > MANY_COLUMNS:
         notes.append(f"{len(parts):,} columns, of which a figure uses few: is this a table of particles in rows?")
     return _finite(found, drop_nonfinite)
@@ -348,12 +366,35 @@ def _note_coinciding(particles: Particles) -> None:
 
 
 def _put_radii(particles: Particles, chosen: dict[str, str]) -> None:
+    columns = particles.columns
     for name, factor in (("radius", 1.0), ("radii", 1.0), ("diameter", 0.5), ("diameters", 0.5)):
-        source = chosen.get(name) or _first(particles.columns, (name,))
-        if source is not None and particles.columns[source].dtype.kind in "fiu":
-            radii = particles.columns[source]
-            particles.radii = radii if factor == 1 else radii * factor
-            return
+        source = chosen.get(name) or _first(columns, (name,))
+        if source is not None and columns[source].dtype.kind in "fiu":
+            particles.radii = columns[source] if factor == 1 else columns[source] * factor
+            break
+    names = next((names for names in _SHAPES if all(name in columns for name in names)), None)
+    if names is None or chosen.keys() & {"radius", "diameter"}:
+        return
+    diameters = np.stack([columns[name] for name in names], 1)
+    is_ellipsoid = (diameters > 0).all(axis=1)
+    if is_ellipsoid.any():
+        others = np.zeros(len(particles)) if particles.radii is None else particles.radii
+        particles.radii = np.where(is_ellipsoid, 0.5 * diameters.mean(axis=1), others)
+        particles.notes.append(f"{int(is_ellipsoid.sum()):,} ellipsoids are drawn as balls of their mean diameter "
+                               f"({', '.join(names)})")
+
+
+def _with_extent(particles: Particles) -> Particles:
+    """The particles without those of radius 0. If all have it, the radii say nothing."""
+    if particles.radii is None or (particles.radii != 0).all():
+        return particles
+    count = int((particles.radii == 0).sum())
+    if count == len(particles):
+        particles.radii = None
+        particles.notes.append("the radius is 0 for all particles, and is not used")
+        return particles
+    particles.notes.append(f"{count:,} of {len(particles):,} particles are left out: their radius is 0")
+    return particles.select(particles.radii != 0)
 
 
 def _put_labels(particles: Particles, chosen: dict[str, str]) -> None:
@@ -363,7 +404,7 @@ def _put_labels(particles: Particles, chosen: dict[str, str]) -> None:
     element, kind = (chosen.get(role) or _first(columns, names) for role, names in
                      (("element", _ELEMENTS), ("type", _TYPES)))
     for source in (element, kind):
-        if source is None or (source == kind and columns[source].dtype.kind not in "US"):
+        if source is None or (source != element and _are_numbers(columns[source])):
             continue
         elements, notes = elements_of(columns[source])
         if elements is not None and (source == element or 2 * np.count_nonzero(elements) >= len(elements)):
@@ -374,6 +415,11 @@ def _put_labels(particles: Particles, chosen: dict[str, str]) -> None:
     particles.types = None if source is None else columns[source]
 
 
+def _are_numbers(labels: Array) -> bool:
+    """Whether labels are numbers of types, also as words."""
+    return labels.dtype.kind not in "US" or all(str(label).isdecimal() for label in np.unique(labels))
+
+
 def _colors(columns: Mapping[str, Array], chosen: dict[str, str], is_text: bool, notes: list[str]) -> Array | None:
     """Colors of the particles. The type tells their scale; for other integers and for numbers from text, the largest
     number does."""
@@ -381,6 +427,8 @@ def _colors(columns: Mapping[str, Array], chosen: dict[str, str], is_text: bool,
     found = next((names for names in ([_first(columns, (name,)) for name in choice] for choice in choices)
                   if None not in names[:3]), None)
     if found is None:
+        if incomplete := next((names for names in choices if sum(_first(columns, (name,)) is not None for name in names[:3]) == 2), None):
+            notes.append(f"colors need {', '.join(incomplete[:3])}: one of them is missing")
         if not all(name in columns for name in _HARMONICS):
             return None
         notes.append("colors are those of splats seen from all sides: f_dc_0, f_dc_1, f_dc_2")

@@ -9,9 +9,10 @@ import numpy as np
 
 from pt._columns import check_finite
 from pt._fit import Array, Doubles
+from pt.figures._cell import Cell
 from pt.figures._colors import components
 from pt.figures._options import Vectors
-from pt.figures._particles import Cell, Particles
+from pt.figures._particles import Particles
 from pt.figures._radii import column
 
 LONGEST: Final = 4.0  # of the vectors, in median radii of particles; by taste

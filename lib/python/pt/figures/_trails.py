@@ -27,7 +27,7 @@ def trails_of(particles: Particles, past: Sequence[Particles], radii: Array) -> 
         steps = older - newer
         drawn = known & there & steps.any(axis=1)
         if particles.cell is not None:
-            turns = np.rint(steps @ np.linalg.inv(particles.cell.vectors)) * particles.cell.periodic
+            turns = np.rint(steps @ particles.cell.inverse) * particles.cell.periodic
             drawn &= ~turns.any(axis=1)
         atoms.append(np.flatnonzero(drawn))
         starts.append((newer - positions)[drawn])

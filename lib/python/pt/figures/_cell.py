@@ -1,0 +1,75 @@
+"""The cell of a simulation or a crystal."""
+
+from __future__ import annotations
+
+import functools
+from dataclasses import dataclass
+from typing import Any, Final
+
+import numpy as np
+import numpy.typing as npt
+
+Array = npt.NDArray[Any]
+
+FLAT: Final = 1e-10  # as a share of the product of the lengths: less volume counts as none
+
+
+@dataclass(frozen=True)
+class Cell:
+    """A cell, triclinic or not, left-handed or not.
+
+    origin    shape (3,): where the edges begin
+    vectors   shape (3, 3): a row for each edge; a row of zeros is an edge that does not exist
+    periodic  shape (3,): whether the cell repeats along each edge; never along one that does not exist
+    is_crystal_of_macromolecule  whether it is the crystal's cell of a protein or a nucleic acid
+    """
+
+    origin: Array
+    vectors: Array
+    periodic: Array
+    is_crystal_of_macromolecule: bool = False
+
+    @staticmethod
+    def of(vectors: npt.ArrayLike, origin: npt.ArrayLike = (0, 0, 0), periodic: npt.ArrayLike = True,
+           is_crystal_of_macromolecule: bool = False) -> Cell | None:
+        """A cell; None if the vectors are not finite, all 0, or not independent."""
+        rows = np.array(vectors, np.float64)
+        rows = np.diag(rows) if rows.shape == (3,) else rows.reshape(3, 3)
+        lengths = np.linalg.norm(rows, axis=1)
+        there = lengths > 0
+        if not np.isfinite(rows).all() or not there.any():
+            return None
+        area = np.sqrt(max(np.linalg.det(rows[there] @ rows[there].T), 0.0))
+        if area < FLAT * np.prod(lengths[there]):
+            return None
+        return Cell(np.array(origin, np.float64), rows, np.broadcast_to(np.array(periodic, bool), (3,)) & there,
+                    is_crystal_of_macromolecule)
+
+    @staticmethod
+    def of_lengths(lengths: npt.ArrayLike, angles: npt.ArrayLike, periodic: npt.ArrayLike = True,
+                   is_crystal_of_macromolecule: bool = False) -> Cell | None:
+        """A cell whose first edge lies along x and whose second one lies in the plane of x and y. angles: in degrees,
+        between edges 2 and 3, 1 and 3, 1 and 2. None as from of()."""
+        a, b, c = np.array(lengths, np.float64)
+        alpha, beta, gamma = np.cos(np.radians(np.array(angles, np.float64)))
+        sine = np.sqrt(1 - gamma**2)
+        if not sine > 0:
+            return None
+        across = (alpha - beta * gamma) / sine
+        rest = 1 - beta**2 - across**2
+        if rest < 0:
+            return None
+        rows = np.array([[a, 0, 0], [b * gamma, b * sine, 0], [c * beta, c * across, c * np.sqrt(rest)]])
+        rows[np.abs(rows) < FLAT * np.abs(rows).max(initial=0)] = 0  # cos(90 degrees) is no 0 in floating point
+        return Cell.of(rows, periodic=periodic, is_crystal_of_macromolecule=is_crystal_of_macromolecule)
+
+    @functools.cached_property
+    def inverse(self) -> Array:
+        """Shape (3, 3): (positions - origin) @ inverse are shares of the edges, 0 for an edge that does not exist."""
+        inverse: Array = np.linalg.pinv(self.vectors)
+        return inverse
+
+    def turns(self, positions: Array) -> Array:
+        """By how many periodic edges positions have left the cell, shape (n, 3)."""
+        turns: Array = np.floor((positions - self.origin) @ self.inverse) * self.periodic
+        return turns
