@@ -13,7 +13,10 @@ render_packages="g++ cmake ninja-build libvulkan-dev mesa-vulkan-drivers glslang
 # EXR and JPEG, kernels compiled while a program runs, and Debian packages.
 build_packages="$render_packages pkg-config libopenimageio-dev glslang-dev dpkg-dev file"
 test_packages="$build_packages build-essential vulkan-validationlayers libgtest-dev python3 python3-jsonschema python3-numpy python3-pandas mypy
-    python3-aiohttp python3-ase python3-distributed python3-matplotlib python3-openimageio python3-xxhash doxygen clang-format-14 clang-tidy-14"
+    python3-aiohttp python3-ase python3-distributed python3-gsd python3-matplotlib python3-openimageio python3-pip python3-xxhash doxygen
+    clang-format-14 clang-tidy-14"
+# Debian 12 lacks the one, and the other has no arrays there. The tests of figures look for them in build/python-modules.
+test_modules="gemmi==0.7.5 chemfiles==0.10.4"
 
 install_packages() { # package...
     command -v apt-get >/dev/null || return 0
@@ -27,6 +30,14 @@ install_packages() { # package...
     $as_root apt-get update
     # shellcheck disable=SC2086 # one word a package
     $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $missing
+}
+
+install_modules() {
+    python=python3
+    "$python" -c "import numpy" 2>/dev/null || python=/usr/bin/python3 # the tests' interpreter
+    # shellcheck disable=SC2086 # one word a module
+    PYTHONPATH=build/python-modules "$python" -c "import chemfiles, gemmi; gemmi.FlatStructure" 2>/dev/null ||
+        "$python" -m pip install --quiet --no-deps --upgrade --target build/python-modules $test_modules
 }
 
 build() { # preset, whether with tests [cmake --build arguments]
@@ -69,6 +80,7 @@ build)
     ;;
 test)
     install_packages $test_packages
+    install_modules
     test_all
     ;;
 *)

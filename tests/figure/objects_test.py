@@ -31,6 +31,9 @@ def installed(name):
         return None
 
 
+installed("gemmi")  # which cannot be imported twice
+
+
 def ase_atoms(places):
     if installed("ase"):
         import ase
@@ -217,9 +220,10 @@ class Files(unittest.TestCase):
         self.assertEqual(self.read("a.pdb", text.encode()).elements.tolist(), [row[-1] for row in rows])
 
     def test_a_package_that_is_not_there_or_cannot_read(self):
-        for name, package in (("a.cif", "ase"), ("a.las", "laspy"), ("a.vtk", "pyvista"), ("a.stl", "trimesh"),
-                              ("a.gsd", "MDAnalysis")):
-            with self.assertRaisesRegex(DataError, f"{name}: this format needs the module {package}: pip install 'pt.figure-"):
+        for name, package, extra in (("a.traj", "ase", ""), ("a.las", "laspy", "-points"), ("a.vtk", "pyvista", "-points"),
+                                     ("a.stl", "trimesh", "-points"), ("a.tpr", "MDAnalysis", "")):
+            way = f"'pt.figure{extra}" if extra else package
+            with self.assertRaisesRegex(DataError, f"{name}: this format needs the module {package}: pip install {way}"):
                 self.read(name, b"data", **{package: None, f"{package}.io": None})
 
             def read(*_, **__):

@@ -27,7 +27,7 @@ class Quickstart(unittest.TestCase):
         self.root = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
         (self.root / "cmake").mkdir()
         shutil.copy(SCRIPT, self.root / "cmake" / "quickstart.sh")
-        for name in "cmake", "ctest", "apt-get", "build/bin/pt":
+        for name in "cmake", "ctest", "apt-get", "python3", "build/bin/pt":
             self.stand_in(name, STAND_IN)
         self.stand_in("sudo", '#!/bin/sh\nexec "$@"\n')
         self.stand_in("dpkg-query", '#!/bin/sh\ncase " $INSTALLED " in *" $3 "*) echo install ok installed ;; esac\n')
@@ -97,10 +97,19 @@ class Quickstart(unittest.TestCase):
                  ["release", "sanitize"])):
             with self.subTest(failing=failing):
                 self.assertEqual(self.run_script("test", failing=failing), 1 if failed else 0)
-                ran = [re.split(" -DPT_BUILD_TESTS=| --target ", line)[0] for line in self.lines if "apt-get" not in line]
+                ran = [re.split(" -DPT_BUILD_TESTS=| --target ", line)[0] for line in self.lines if not line.startswith(("apt-get", "python3"))]
                 self.assertEqual(ran, [step for preset in steps for step in steps[preset] if step not in left_out])
                 self.assertEqual(self.output.splitlines()[-1],
                                  "quickstart: " + (f"FAILED: {' '.join(failed)}" if failed else "all passed"))
+
+    def test_modules_that_are_missing_are_installed_for_tests(self):
+        self.run_script("test")
+        self.assertFalse([line for line in self.lines if "pip install" in line])
+        self.run_script("test", failing="python3 -c import chemfiles=1")
+        line, = (line for line in self.lines if "pip install" in line)
+        self.assertRegex(line, "python3 -m pip install .*--target build/python-modules gemmi==.* chemfiles==")
+        self.assertEqual(self.run_script("test", failing="python3 -c import chemfiles=1|python3 -m pip=1"), 1)
+        self.assertFalse([line for line in self.lines if line.startswith("cmake")])
 
     def test_a_build_that_fails_renders_nothing(self):
         self.assertEqual(self.run_script("render", failing="cmake --preset release=3"), 3)

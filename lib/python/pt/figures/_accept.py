@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from pt.figures._elements import listed
 from pt.figures._errors import DataError
 from pt.figures._options import Columns
 from pt.figures._particles import Particles, assembled
@@ -19,17 +20,22 @@ from pt.figures.readers._objects import of_ase, of_mdanalysis, of_ovito
 ROLES = ("x", "y", "z", "radius", "diameter", "element", "type", "red", "green", "blue")
 
 
-def load(data: Any, *, frame: int | None = None, columns: Columns = None, format: str | None = None,
+def load(data: Any, *, frame: int | None = None, model_number: int | None = None, columns: Columns = None,
+         format: str | None = None, topology: str | None = None, atom_style: str | None = None,
          drop_nonfinite: bool = False) -> Particles:
     """Particles of one frame.
 
     data            the name of a file, "-" for standard input; an array of shape (n, 3), (n, 2) or, with frames, (t, n,
                     3); a dict of columns; a frame of pandas or polars; ASE's Atoms or a list of them; a universe or a
                     group of atoms of MDAnalysis; a data collection of OVITO; or Particles
-    frame           counted from 0, or from -1 backwards; None: the last one, or for MDAnalysis the current one
+    frame           counted from 0, or from -1 backwards, without those that have no particles; None: the last one, for
+                    MDAnalysis the current one, and the first of several models
+    model_number    of PDB and mmCIF, the number that the file gives to a model
     columns         names in place of those that are looked for: {"x": "lon", "y": "lat"} or "x=lon,y=lat", for
                     x, y, z, radius, diameter, element, type, red, green, blue
     format          of a file, in place of the one that its first bytes and its name suggest
+    topology        for a trajectory (XTC, TRR, DCD, ...), the file that says what its atoms are
+    atom_style      of LAMMPS data files that do not say it, and whose columns leave more than one
     drop_nonfinite  leaves out particles whose position or radius is not finite; otherwise they are an error
 
     Arrays of float32 and float64 are read in place. Raises DataError.
@@ -37,26 +43,42 @@ def load(data: Any, *, frame: int | None = None, columns: Columns = None, format
     if isinstance(data, Particles):
         return data
     mapping = _mapping(columns)
-    source = _opened(data, format, mapping)
-    if frame is None and isinstance(source, Listed) and source.current is not None:
+    source = _opened(data, format, mapping, topology, atom_style)
+    notes: list[str] = []
+    if model_number is not None:
+        frame = _of_model(source, model_number)
+    elif frame is None and source.current is not None:
         frame = source.current
+        if source.models is not None and source.count() > 1:
+            notes.append(f"model {source.models[frame]} is shown of {source.count():,}: model_number takes another")
     table = source.read(_index(source, -1 if frame is None else frame))
+    table.notes += notes
     return assembled(source.name, table, mapping, drop_nonfinite)
 
 
 def frames(data: Any, first: int = 0, last: int = -1, *, columns: Columns = None, format: str | None = None,
-           drop_nonfinite: bool = False) -> Iterator[Particles]:
+           topology: str | None = None, atom_style: str | None = None, drop_nonfinite: bool = False
+           ) -> Iterator[Particles]:
     """Frames from the first to the last, inclusive; a file is read once, frame after frame."""
     if isinstance(data, Particles):
         yield data
         return
     mapping = _mapping(columns)
-    source = _opened(data, format, mapping)
+    source = _opened(data, format, mapping, topology, atom_style)
     begin, end = _index(source, first), _index(source, last)
     if end < begin:
         raise DataError(f"{source.name}: frames {first} to {last}: the last one comes before the first one")
     for index in range(begin, end + 1):
         yield assembled(source.name, source.read(index), mapping, drop_nonfinite)
+
+
+def _of_model(source: Frames, number: int) -> int:
+    if source.models is None:
+        raise DataError(f"{source.name}: model_number = {number}: these data have no models")
+    if number not in source.models:
+        raise DataError(f"{source.name}: model_number = {number}: must be one of "
+                        f"{listed([str(each) for each in source.models], 20)}")
+    return source.models.index(number)
 
 
 def _index(source: Frames, frame: int) -> int:
@@ -66,7 +88,7 @@ def _index(source: Frames, frame: int) -> int:
         return frame
     count = source.count()
     if not -count <= frame < count:
-        said = f"the data have {count} frames, from 0 or {-count} to {count - 1}" if count else "the data have no frame"
+        said = f"the data have {count} frames, from 0 or {-count} to {count - 1}" if count else "the data have no frame with particles"
         raise DataError(f"{source.name}: frame {frame}: {said.replace('1 frames', '1 frame') if count == 1 else said}")
     return frame % count
 
@@ -81,9 +103,10 @@ def _mapping(columns: Columns) -> dict[str, str]:
     return dict(columns or {})
 
 
-def _opened(data: Any, format: str | None, mapping: Mapping[str, str]) -> Frames:
+def _opened(data: Any, format: str | None, mapping: Mapping[str, str], topology: str | None, atom_style: str | None
+            ) -> Frames:
     if isinstance(data, (str, os.PathLike)):
-        return open_frames(os.fspath(data), format, mapping)
+        return open_frames(os.fspath(data), format, mapping, topology, atom_style)
     package = type(data).__module__.partition(".")[0]
     name = f"{package}.{type(data).__name__}" if package not in ("builtins", "numpy") else "array"
     if package == "MDAnalysis":

@@ -149,7 +149,7 @@ def staged(given: argparse.Namespace, options: Options) -> Any:
         first, last = given.frames
         return zip(range(first, last + 1), frames(lambda: read_frames(given.data, first, last, **options.reading), options,
                                                   given.trails))
-    particles = load(given.data, frame=options.frame, **options.reading)
+    particles = load(given.data, frame=options.frame, model_number=options.model_number, **options.reading)
     if given.turntable:
         return enumerate(turntable(particles, given.turntable, options))
     return [(None, Staged.of(particles, options))]

@@ -7,8 +7,8 @@ from types import ModuleType
 from typing import Final
 
 # For each optional module, the extra of this package that installs it.
-EXTRAS: Final = {"matplotlib": "figure", "PIL": "figure", "pandas": "figure", "zstandard": "figure-atoms",
-                 "ase": "figure-atoms", "MDAnalysis": "figure-atoms", "trimesh": "figure-points",
+EXTRAS: Final = {"matplotlib": "figure", "PIL": "figure", "pandas": "figure", "zstandard": "figure-atoms", "gemmi": "figure-atoms",
+                 "chemfiles": "figure-atoms", "gsd": "figure-atoms", "trimesh": "figure-points",
                  "pyvista": "figure-points", "laspy": "figure-points"}
 
 
@@ -24,5 +24,5 @@ def module(name: str, purpose: str) -> ModuleType:
         package = name.partition(".")[0]
         if (error.name or name).partition(".")[0] != package:
             raise  # the module is there, but something that it needs is not
-        raise DataError(f"{purpose} needs the module {package}: pip install 'pt[{EXTRAS[package]}]', or {package} "
-                        "alone") from None
+        way = f"'pt[{EXTRAS[package]}]', or {package} alone" if package in EXTRAS else package
+        raise DataError(f"{purpose} needs the module {package}: pip install {way}") from None

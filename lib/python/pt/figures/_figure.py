@@ -22,6 +22,7 @@ from pt._image import Image
 from pt._scene import Scene, SphereArray
 from pt.figures._accept import load
 from pt.figures._bonds import ball_radii, bonds_of, meeting_in_sight
+from pt.figures._cell import Cell
 from pt.figures._colors import Legend, colors_of, srgb
 from pt.figures._compose import compose, lay_over
 from pt.figures._files import encode_jpeg, write_scene
@@ -30,7 +31,7 @@ from pt.figures._layout import Balls, Layout, View
 from pt.figures._legend import raster, save
 from pt.figures._options import Options, described
 from pt.figures._overlay import PER_SIDE, Overlaid, Shares, line_width, pixels_per_length, rays_per_side, read_shares
-from pt.figures._particles import Cell, Particles
+from pt.figures._particles import Particles
 from pt.figures._radii import opacities_of, radii_of
 from pt.figures._rods import Rods, cell_corners, cell_edges, vectors_of
 from pt.figures._stage import EDGES, SURROUND_BRIGHTNESS
@@ -372,7 +373,7 @@ def _with_keywords(make: Callable[P, Options]) -> Callable[Concatenate[Any, P], 
     """Makes a function of data and options into one of data and keywords."""
     def figure(data: Any, /, *args: P.args, **keywords: P.kwargs) -> Figure:
         options = make(*args, **keywords)
-        staged = Staged.of(load(data, frame=options.frame, **options.reading), options)
+        staged = Staged.of(load(data, frame=options.frame, model_number=options.model_number, **options.reading), options)
         if options.context is not None:
             return staged.draw(options.context)
         with Context(options.device) as context:

@@ -57,9 +57,13 @@ _data, _particles, _view, _look, _samples, _python = (
 
 @dataclass(frozen=True, kw_only=True)
 class Options:
-    frame: int | None = _data(None, "N", "0 is the first, -1 the last, which is the default", read=int)
+    frame: int | None = _data(None, "N", "0 is the first, -1 the last, which is the default; those without particles do not "
+                              "count", read=int)
+    model_number: int | None = _data(None, "N", "of PDB and mmCIF, by the file's number. By default the first model", read=int)
     format: str | None = _data(None, "NAME", "of the file; by default its first bytes or its name say it",
                                flag="--data-format")
+    topology: str | None = _data(None, "FILE", "what the atoms of a trajectory (XTC, TRR, DCD, ...) are")
+    atom_style: str | None = _data(None, "STYLE", "of a LAMMPS data file whose columns do not say it: atomic, full, ...")
     columns: Columns = _data(None, "x=NAME,...", "columns for x, y, z, radius, diameter, element, type, red, green, blue, in "
                              "place of those that are looked for")
     drop_nonfinite: bool = _data(False, "", "leaves out particles whose position or radius is no finite number")
@@ -156,7 +160,7 @@ class Options:
     @property
     def reading(self) -> dict[str, Any]:
         """The options for load() and frames(), except which frames."""
-        return {"columns": self.columns, "format": self.format, "drop_nonfinite": self.drop_nonfinite}
+        return {name: getattr(self, name) for name in ("columns", "format", "topology", "atom_style", "drop_nonfinite")}
 
     @property
     def bond_rule(self) -> Bonds:

@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from pt._fit import chunks, coordinates
-from pt.figures._cell import Cell as Cell
+from pt.figures._cell import Cell
 from pt.figures._elements import elements_of, listed
 from pt.figures._errors import DataError
 

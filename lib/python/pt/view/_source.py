@@ -96,7 +96,7 @@ class FigureSource:
 
     def read(self) -> Shown:
         options = self.options
-        self.staged = Staged.of(load(str(self.path), frame=options.frame, **options.reading), options)
+        self.staged = Staged.of(load(str(self.path), frame=options.frame, model_number=options.model_number, **options.reading), options)
         settings = RenderSettings(*self.staged.layout.size, max_path_length=options.max_path_length, seed=options.seed)
         exposure = "auto" if options.exposure is None else options.exposure
         return Shown(self.staged.scene, self.staged.layout.camera, settings,

@@ -11,9 +11,16 @@ from pt.figures.readers._lines import Lines
 
 
 class Frames(Protocol):
-    """The frames of a file or an object."""
+    """The frames of a file or an object. Only those that have particles count.
+
+    current  the frame that is meant if none is asked for: the current one of an object that moves through its frames,
+             or the first of several models; None: the last one
+    models   the numbers of the frames that are models of one structure; None: frames are no models
+    """
 
     name: str
+    current: int | None
+    models: list[int] | None
 
     def count(self) -> int: ...
 
@@ -25,12 +32,13 @@ class Frames(Protocol):
 
 
 class Listed:
-    """Frames that are all in memory, or can be read by number. An object that moves through its frames has a current
-    one."""
+    """Frames that are all in memory, or can be read by number."""
 
-    def __init__(self, name: str, count: int, read: Callable[[int], Table], current: int | None = None) -> None:
+    def __init__(self, name: str, count: int, read: Callable[[int], Table], current: int | None = None,
+                 models: list[int] | None = None) -> None:
         self.name = name
         self.current = current
+        self.models = models
         self.read = read
         self._count = count
 
@@ -46,11 +54,21 @@ def one_frame(name: str, read: Callable[[], Table]) -> Listed:
 
 
 class TextFrames:
-    """Formats whose frames have a head that says how many lines follow."""
+    """Formats whose frames have a head that says how many lines follow.
+
+    lines_after  lines that end a frame, after those of its particles
+    """
+
+    lines_after = 0
+
+    current: int | None = None
+    models: list[int] | None = None
 
     def __init__(self, lines: Lines) -> None:
         self.lines = lines
         self.name = lines.name
+        self.notes: list[str] = []  # on the file, for each frame
+        self._empty = 0  # frames without particles that were passed
         self._places = [lines.place()]  # of the known frames, and of what follows them
         self._is_whole = False
 
@@ -73,14 +91,13 @@ class TextFrames:
         return len(self._places) > index + 1
 
     def _pass(self) -> bool:
-        """Finds the end of the next frame."""
+        """Finds the end of the next frame that has particles."""
         if self._is_whole:
             return False
-        lines = self.lines
-        lines.go_to(self._places[-1])
         index = len(self._places) - 1
+        self.lines.go_to(self._places[-1])
         try:
-            count = self.head()
+            count = self._next()
         except DataError:
             if index:
                 self.read(index - 1)  # an error there names the line more precisely: one too many
@@ -88,23 +105,33 @@ class TextFrames:
         if count is None:
             self._is_whole = True
             return False
-        passed = lines.skip(count)
-        if passed < count:
+        passed = self.lines.skip(count + self.lines_after)
+        if passed < count + self.lines_after:
             before = f"; frame {index - 1} is whole" if index else ""
-            raise lines.refuse(f"the file ends after {passed:,} of {count:,} particles of frame {index}: it was cut "
-                               f"short{before}")
-        self._places.append(lines.place())
+            raise self.lines.refuse(f"the file ends after {passed:,} of {count:,} particles of frame {index}: it was cut "
+                                    f"short{before}")
+        self._places.append(self.lines.place())
         return True
 
+    def _next(self) -> int | None:
+        """Reads heads up to that of a frame with particles."""
+        while (count := self.head()) == 0:
+            self._empty += 1
+            self.lines.skip(self.lines_after)
+            self._places[-1] = self.lines.place()
+        return count
+
     def read(self, index: int) -> Table:
-        self.lines.go_to(self._places[index])
-        count = self.head()
+        lines = self.lines
+        lines.go_to(self._places[index])
+        is_new = len(self._places) == index + 1
+        count = self._next() if is_new else self.head()
         if count is None:
             raise DataError(f"{self.name}: there is no frame {index}: the file has {index}")
-        if count == 0:
-            before = f"; frame {index - 1} may have some" if index else ""
-            raise self.lines.refuse(f"frame {index} has no particles{before}")
         table = self.body(count)
-        if len(self._places) == index + 1:
-            self._places.append(self.lines.place())
+        if is_new:
+            self._places.append(lines.place())
+        table.notes += self.notes
+        if self._empty:
+            table.notes.append(f"frames that have no particles are not counted ({self._empty:,})")
         return table

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from pt.figures._particles import Cell, Table, coordinate_names
+from pt.figures._cell import Cell
+from pt.figures._particles import Table, coordinate_names
 from pt.figures.readers._frames import TextFrames
 from pt.figures.readers._lines import Lines
 from pt.figures.readers._rows import Layout, Rows, is_number, shown

@@ -21,6 +21,7 @@ from pt.figures._errors import DataError, module
 STANDARD_INPUT: Final = "-"
 PACKED_ENDINGS: Final = (".gz", ".zst", ".xz", ".bz2")
 BLOCK_BYTES: Final = 1 << 20  # of text that are parsed at a time
+LONGEST_LINE: Final = 1 << 24  # bytes; longer ones are no text, or a packed file that unpacks to anything
 
 
 def _open_zstd(file: IO[bytes]) -> Any:
@@ -115,7 +116,7 @@ class Lines:
     def line(self) -> str | None:
         """The next line without its end; None at the end of the file."""
         while (end := self._buffer.find(b"\n", self._next)) < 0 and self._fill():
-            pass
+            self._check_length()
         if self._next == len(self._buffer):
             return None
         self.is_ended = end >= 0
@@ -124,12 +125,23 @@ class Lines:
         self.number += 1
         return line.decode("utf-8", "replace").rstrip("\r")
 
+    def _check_length(self) -> None:
+        if len(self._buffer) > LONGEST_LINE:
+            raise DataError(f"{self.name}:{self.number + 1}: the line is longer than {LONGEST_LINE:,} bytes: this is no text")
+
+    def text(self) -> bytes:
+        """All lines that are left."""
+        blocks = []
+        while (block := self.block())[1]:
+            blocks.append(block[0])
+        return b"".join(blocks)
+
     def block(self, most: int = sys.maxsize) -> tuple[bytes, int]:
         """The next whole lines, at most so many and at most a block, and their number; 0 at the end."""
         if len(self._buffer) - self._next < BLOCK_BYTES:
             self._fill()
         while (end := self._buffer.rfind(b"\n", self._next) + 1) == 0 and self._fill():
-            pass
+            self._check_length()
         self.is_ended = end > 0 or self._next == len(self._buffer)
         end, count = _after_lines(self._buffer, self._next, end or len(self._buffer), most)
         data = self._buffer[self._next:end]

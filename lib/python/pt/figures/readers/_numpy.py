@@ -13,8 +13,9 @@ from typing import Any, Final, cast
 import numpy as np
 import numpy.typing as npt
 
+from pt.figures._cell import Cell
 from pt.figures._errors import DataError
-from pt.figures._particles import Cell, Table
+from pt.figures._particles import Table
 from pt.figures.readers._frames import Frames, Listed
 from pt.figures.readers._lines import Lines
 

@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 
-from pt.figures._elements import distinct
-from pt.figures._particles import Cell, Table
+from pt.figures._cell import Cell
+from pt.figures._elements import NUMBERS, distinct
+from pt.figures._particles import Bonds, Table
+from pt.figures.readers._atoms import atoms_table
 from pt.figures.readers._frames import Frames, Listed
+
+# Columns, and the attributes of MDAnalysis that have them.
+_ATTRIBUTES: Final = {"element": "elements", "name": "names", "type": "types", "radius": "radii", "mass": "masses",
+                      "charge": "charges", "resid": "resids", "resname": "resnames", "chain": "segids"}
 
 
 def of_ase(atoms: Any) -> Table:
@@ -23,16 +29,24 @@ def of_mdanalysis(group: Any, name: str) -> Frames:
 
     def read(index: int) -> Table:
         step = trajectory[index]
-        columns = {"positions": atoms.positions}  # a copy
-        for key, attribute in (("element", "elements"), ("name", "names"), ("type", "types"), ("radius", "radii"),
-                               ("mass", "masses"), ("charge", "charges"), ("resid", "resids"), ("resname", "resnames"),
-                               ("segid", "segids")):
-            values = getattr(atoms, attribute, None)
-            if values is not None and (key != "element" or any(values)):
-                columns[key] = values
-        return Table(columns, None if step.dimensions is None else Cell.of(step.triclinic_dimensions))
+        columns = {key: np.asarray(values) for key, attribute in _ATTRIBUTES.items()
+                   if (values := getattr(atoms, attribute, None)) is not None}
+        columns = {key: values.astype(str) if values.dtype == object else values for key, values in columns.items()}
+        symbols = columns.pop("element", np.full(len(atoms.positions), "", "U1"))
+        values, codes = np.unique(symbols, return_inverse=True)
+        elements = np.array([NUMBERS.get(value.capitalize(), 0) for value in values.tolist()], np.uint8)[codes.reshape(-1)]
+        cell = None if step.dimensions is None else Cell.of(step.triclinic_dimensions)
+        return atoms_table(atoms.positions, columns, elements, cell, _bonds_of(group))  # positions are a copy
 
     return Listed(name, len(trajectory), read, trajectory.frame)
+
+
+def _bonds_of(group: Any) -> Bonds | None:
+    """The bonds among the atoms of a universe or a group of MDAnalysis; None if it has no topology of bonds."""
+    everything = getattr(group.universe, "bonds", None)
+    if everything is None:
+        return None
+    return Bonds.of(everything.to_indices()).among(group.atoms.indices, len(group.universe.atoms))
 
 
 def of_ovito(data: Any) -> Table:

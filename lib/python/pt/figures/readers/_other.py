@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import io
+import warnings
 from collections.abc import Callable
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 
@@ -13,41 +13,22 @@ from pt.figures._particles import Table
 from pt.figures.readers._frames import Frames, Listed, one_frame
 from pt.figures.readers._objects import of_ase, of_mdanalysis
 
-_PDB: Final = (".pdb", ".ent")
-_LAMMPS_DATA: Final = (".data", ".lmp")
-
-
 def read_ase(path: str) -> Frames:
     read = module("ase.io", f"{path}: this format").read
-    lower = path.lower()
-    if lower.endswith(_PDB):
-        with open(path, encoding="utf-8", errors="replace") as file:
-            lines = io.StringIO("".join(map(_with_element, file)))
-        images = _tried(path, "ASE", lambda: read(lines, index=":", format="proteindatabank"))
-    else:
-        kind = "lammps-data" if lower.endswith(_LAMMPS_DATA) else None  # ASE does not recognise it
-        images = _tried(path, "ASE", lambda: read(path, index=":", format=kind))
+    images = tried(path, "ASE", lambda: read(path, index=":"))
+    if not images:
+        raise DataError(f"{path}: ASE finds no atoms in it")
     return Listed(path, len(images), lambda index: of_ase(images[index]))
 
 
-def _with_element(line: str) -> str:
-    """A line of a PDB file. In proteins and nucleic acids of simulations the element's columns, 77 and 78, are often empty; then
-    the first letter of the name is the element, where ASE takes CA for calcium and HG1 for mercury. Ions have the name
-    of their residue."""
-    name = line[12:16].strip().lstrip("0123456789")
-    if not line.startswith("ATOM") or line[76:78].strip() or name == line[17:21].strip() or name[:1] not in tuple("HCNOPS"):
-        return line
-    return f"{line.rstrip()[:76]:<76} {name[0]}\n"
-
-
-def read_mdanalysis(path: str) -> Frames:
+def read_mdanalysis(path: str, *trajectory: str) -> Frames:
     mdanalysis = module("MDAnalysis", f"{path}: this format")
-    return of_mdanalysis(_tried(path, "MDAnalysis", lambda: mdanalysis.Universe(path)), path)
+    return of_mdanalysis(tried(path, "MDAnalysis", lambda: mdanalysis.Universe(path, *trajectory)), path)
 
 
 def read_pyvista(path: str) -> Frames:
     pyvista = module("pyvista", f"{path}: this format")
-    mesh = _tried(path, "pyvista", lambda: pyvista.read(path))
+    mesh = tried(path, "pyvista", lambda: pyvista.read(path))
     while hasattr(mesh, "combine") and not hasattr(mesh, "points"):
         mesh = mesh.combine()
     columns = {key: np.asarray(mesh.point_data[key]) for key in mesh.point_data.keys()}
@@ -57,7 +38,7 @@ def read_pyvista(path: str) -> Frames:
 
 def read_trimesh(path: str) -> Frames:
     trimesh = module("trimesh", f"{path}: this format")
-    mesh = _tried(path, "trimesh", lambda: trimesh.load(path, process=False))
+    mesh = tried(path, "trimesh", lambda: trimesh.load(path, process=False))
     if hasattr(mesh, "to_mesh"):
         mesh = mesh.to_mesh()
     colors = getattr(getattr(mesh, "visual", None), "vertex_colors", getattr(mesh, "colors", None))
@@ -67,7 +48,7 @@ def read_trimesh(path: str) -> Frames:
 
 def read_laspy(path: str) -> Frames:
     laspy = module("laspy", f"{path}: this format")
-    las = _tried(path, "laspy", lambda: laspy.read(path))
+    las = tried(path, "laspy", lambda: laspy.read(path))
     names = [name for name in las.point_format.dimension_names if name not in ("X", "Y", "Z")]
     columns = {name: np.asarray(las[name]) for name in names}
     if "red" in columns and max(columns[key].max(initial=0) for key in ("red", "green", "blue")) <= 255:
@@ -80,11 +61,14 @@ def _points(positions: Any, columns: dict[str, Any], faces: int) -> Table:
     return Table({"positions": np.asarray(positions), **columns}, notes=notes)
 
 
-def _tried(path: str, package: str, read: Callable[[], Any]) -> Any:
+def tried(path: str, package: str, read: Callable[[], Any]) -> Any:
+    """What a package reads, without its warnings, and with its errors as ours."""
     try:
-        return read()
-    except DataError:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            return read()
+    except (DataError, KeyboardInterrupt, SystemExit, MemoryError):
         raise
-    except Exception as error:  # each package has exceptions of its own
+    except BaseException as error:  # each package has exceptions of its own; those of chemfiles are no Exception
         words = " ".join(str(error).split()) or type(error).__name__
         raise DataError(f"{path}: {package} cannot read it: {words}") from error

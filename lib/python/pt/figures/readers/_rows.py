@@ -21,7 +21,7 @@ Array = npt.NDArray[Any]
 _TABLE: Final = ""  # the key of three columns of positions, which are kept as one table
 FEW_BYTES: Final = 1 << 16  # so few are read without importing pandas
 MISSING: Final = ("", "nan", "NaN", "NAN", "-nan", "NA", "N/A", "n/a", "null", "None", "-")
-_FORTRAN: Final = re.compile(r"([\d.])[dD]([+-]?\d)")
+_EXPONENT: Final = re.compile(r"([\d.])(?:[dD]|\*\^)([+-]?\d)")
 
 
 @dataclass
@@ -46,12 +46,12 @@ class Layout:
 
 
 def number(text: str, decimal: str = ".") -> float:
-    """A number from text, also with Fortran's exponents (1.5D+02); NaN for a missing value. Raises ValueError."""
+    """A number from text, also with exponents of Fortran (1.5D+02) and Mathematica (1.5*^2); NaN for a missing value. Raises ValueError."""
     if text in MISSING:
         return np.nan
     if "_" in text:
         raise ValueError(text)  # Python would accept it
-    return float(_FORTRAN.sub(r"\1e\2", text if decimal == "." else text.replace(decimal, ".")))
+    return float(_EXPONENT.sub(r"\1e\2", text if decimal == "." else text.replace(decimal, ".")))
 
 
 def is_number(text: str, decimal: str = ".") -> bool:

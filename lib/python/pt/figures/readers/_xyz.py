@@ -7,12 +7,13 @@ from typing import Any, Final
 
 import numpy as np
 
-from pt.figures._particles import Cell, Table, coordinate_names
+from pt.figures._cell import Cell
+from pt.figures._particles import Table, coordinate_names
 from pt.figures.readers._frames import TextFrames
 from pt.figures.readers._lines import Lines
 from pt.figures.readers._rows import Layout, Rows, is_number, shown
 
-_PAIR: Final = re.compile(r"""([^\s="]+)\s*=\s*(?:"([^"]*)"|'([^']*)'|\{([^}]*)\}|(\S*))""")
+_PAIR: Final = re.compile(r"""([^\s="]+)\s*=\s*(?:"([^"]*)"|'([^']*)'|\{([^}]*)\}|(\[[^"'=]*\])(?=\s|$)|(\S*))""")
 _MOST_COLUMNS: Final = 65536
 _LEAST: Final = 4  # fields of a plain row: a label and a position
 
@@ -29,11 +30,14 @@ class Xyz(TextFrames):
         if line is None:
             return None
         if not line.strip().isdecimal():
+            if len(self._places) > 1 and not _is_row(line):
+                self.notes.append(f"the text after the last particle is not read, from line {lines.number} on")
+                return None
             raise lines.refuse(f"{shown(line)}: must be the number of particles of a frame")
         comment = lines.line()
         if comment is None:
             raise lines.refuse("the file ends after the number of particles: it was cut short")
-        self._pairs = {found[0]: "".join(found[1:]) for found in _PAIR.findall(comment)}
+        self._pairs = {found[0].lower(): "".join(found[1:]) for found in _PAIR.findall(comment)}
         return int(line)
 
     def body(self, count: int) -> Table:
@@ -46,7 +50,7 @@ class Xyz(TextFrames):
 
     def _names(self) -> tuple[list[str], int | None]:
         """Names of the columns, and the least number of fields in a row if more may follow."""
-        properties = self._pairs.get("Properties")
+        properties = self._pairs.get("properties")
         if properties is None:
             first = self.lines.peek(1 << 16).split(b"\n", 1)[0].decode("utf-8", "replace").split()
             if len(first) == 3 and all(map(is_number, first)):
@@ -65,17 +69,24 @@ class Xyz(TextFrames):
                                 "type is S, R, I or L")
 
     def _numbers(self, key: str, count: int) -> Any:
-        words = re.split(r"[\s,]+", self._pairs[key].strip(" ,[]"))
+        words = re.findall(r"[^\s,\[\]]+", self._pairs[key])
         if len(words) != count or not all(map(is_number, words)):
             raise self.lines.refuse(f"{key} = {shown(self._pairs[key])}: must have {count} numbers")
         return np.array(words, np.float64)
 
     def _cell(self) -> Cell | None:
-        if "Lattice" not in self._pairs:
+        if "lattice" not in self._pairs:
             return None
-        flags = self._pairs.get("pbc", "T T T").replace(",", " ").split()
+        flags = re.findall(r"[^\s,\[\]]+", self._pairs.get("pbc", "T T T"))
         if len(flags) != 3:
             raise self.lines.refuse(f"pbc = {shown(self._pairs['pbc'])}: must have three flags, like T T F")
-        origin = self._numbers("Origin", 3) if "Origin" in self._pairs else np.zeros(3)
+        origin = self._numbers("origin", 3) if "origin" in self._pairs else np.zeros(3)
         periodic = [flag.lower() in ("t", "true", "1") for flag in flags]
-        return Cell.of(self._numbers("Lattice", 9), origin, periodic)
+        return Cell.of(self._numbers("lattice", 9), origin, periodic)
+
+
+def _is_row(line: str) -> bool:
+    """Whether a line looks like one of a particle: a label or an atomic number, and a position."""
+    words = line.split()
+    is_labelled = words[0].isdecimal() or not is_number(words[0])
+    return len(words) >= _LEAST and is_labelled and all(map(is_number, words[1:_LEAST]))

@@ -1,0 +1,110 @@
+"""CIF: crystals and, where it is mmCIF, macromolecules, by gemmi."""
+
+from __future__ import annotations
+
+from typing import Any, Final
+
+import numpy as np
+
+from pt.figures._cell import Cell
+from pt.figures._elements import listed
+from pt.figures._errors import DataError, module
+from pt.figures._neighbours import pairs_within
+from pt.figures._particles import Table
+from pt.figures.readers._atoms import atoms_table
+from pt.figures.readers._frames import Listed
+from pt.figures.readers._lines import Lines
+from pt.figures.readers._other import tried
+from pt.figures.readers._structures import frames_of
+
+SHARED: Final = 0.4  # angstroms: sites that are nearer share one place
+
+WHOLE: Final = 0.99  # occupancy
+ROUNDED: Final = 1e-4  # share of an edge: coordinates this little below 0 stay there
+
+
+def read_cif(lines: Lines) -> Listed:
+    gemmi = module("gemmi", f"{lines.name}: CIF")
+    text = lines.text()
+    document = tried(lines.name, "gemmi", lambda: gemmi.cif.read_string(text))
+    for block in document:
+        if block.find_loop("_atom_site.Cartn_x") or block.find_value("_atom_site.Cartn_x"):
+            return frames_of(lines.name, tried(lines.name, "gemmi", lambda: gemmi.make_structure_from_block(block)))
+    blocks = [block for block in document if block.find_values("_atom_site_fract_x")]
+    if not blocks:
+        raise DataError(f"{lines.name}: has no atoms: no data block has _atom_site.Cartn_x or _atom_site_fract_x")
+    names = [block.name for block in blocks]
+
+    for block in blocks:
+        for tag in ("_symmetry_Int_Tables_number", "_space_group_IT_number"):
+            if value := block.find_value(tag):
+                block.set_pair(tag, gemmi.cif.as_string(value) or "?")  # gemmi reads none in quotation marks
+
+    def read(index: int) -> Table:
+        table = _table(gemmi, tried(lines.name, "gemmi", lambda: gemmi.make_small_structure_from_block(blocks[index])))
+        if len(blocks) > 1:
+            table.notes.append(f"structure {index} of {len(blocks)} is shown, {names[index]}: frame takes another of "
+                               f"{listed(names)}")
+        return table
+
+    return Listed(lines.name, len(blocks), read, current=0)
+
+
+def _table(gemmi: Any, structure: Any) -> Table:
+    notes: list[str] = []
+    _choose_sites(structure, notes)
+    _set_symmetry(gemmi, structure, notes)
+    sites = structure.get_all_unit_cell_sites()
+    cell = Cell.of_lengths(structure.cell.parameters[:3], structure.cell.parameters[3:])
+    if cell is None:
+        raise DataError(f"{structure.name}: the lengths and angles of the cell span no volume")
+    shares = np.array([site.fract.tolist() for site in sites]).reshape(-1, 3)
+    shares -= np.floor(shares + ROUNDED)
+    occupancy = np.array([site.occ for site in sites])
+    kept = _foremost(shares, occupancy, cell)
+    if hidden := sorted({site.label for site in sites} - {sites[row].label for row in kept}):
+        notes.append(f"sites that share a place with another one of no lower occupancy are not drawn: {listed(hidden)}")
+    if partly := int((occupancy[kept] < WHOLE).sum()):
+        notes.append(f"{partly:,} sites are occupied in part, and drawn as if always")
+    elements = np.array([sites[row].element.atomic_number for row in kept], np.uint8)
+    columns = {"name": np.array([sites[row].label for row in kept], str), "occupancy": occupancy[kept]}
+    return atoms_table(shares[kept] @ cell.vectors, columns, np.where(elements > 118, 1, elements).astype(np.uint8), cell, notes=notes)
+
+
+def _set_symmetry(gemmi: Any, structure: Any, notes: list[str]) -> None:
+    structure.determine_and_set_spacegroup("S.H2")
+    if structure.spacegroup is None and not structure.symops:
+        notes.append("the symmetry is not given or not known" + (f" ({structure.spacegroup_hm})" if structure.spacegroup_hm else "") +
+                     ": only the sites of the file are drawn")
+
+
+def _choose_sites(structure: Any, notes: list[str]) -> None:
+    """Keeps the sites that have positions and, of alternative groups of sites, the one of highest occupancy."""
+    sites = [site for site in structure.sites if np.isfinite(site.fract.tolist()).all()]
+    if len(sites) < len(structure.sites):
+        notes.append(f"{len(structure.sites) - len(sites):,} sites without a position are left out")
+    groups: dict[int, list[float]] = {}
+    for site in sites:
+        if site.disorder_group > 0:
+            groups.setdefault(site.disorder_group, []).append(site.occ)
+    best = max(groups, key=lambda group: sum(groups[group]) / len(groups[group]), default=0)
+    kept = [site for site in sites if site.disorder_group <= 0 or site.disorder_group == best]
+    if len(kept) < len(sites):
+        notes.append(f"{len(sites) - len(kept):,} sites of other disorder groups than {best} are not drawn")
+    kept = [site.clone() for site in kept]
+    del structure.sites[:]
+    for site in kept:
+        structure.add_site(site)
+
+
+def _foremost(shares: Any, occupancy: Any, cell: Cell) -> Any:
+    """The sites, each of the highest occupancy within the distance SHARED, in their order."""
+    first, second = pairs_within(shares @ cell.vectors, SHARED, cell)[:2]
+    order = np.argsort(-occupancy, kind="stable")
+    rank = np.empty(len(order), np.intp)
+    rank[order] = np.arange(len(order))
+    lost = np.zeros(len(order), bool)
+    for better, worse in sorted(zip(np.minimum(rank[first], rank[second]).tolist(), np.maximum(rank[first], rank[second]).tolist())):
+        if not lost[better]:
+            lost[worse] = True
+    return np.flatnonzero(~lost[rank])

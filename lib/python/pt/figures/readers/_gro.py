@@ -1,0 +1,90 @@
+"""GROMACS' GRO: columns of fixed width, with as many decimals as the writer chose."""
+
+from __future__ import annotations
+
+from typing import Any, Final
+
+import numpy as np
+import numpy.typing as npt
+
+from pt.figures._cell import Cell
+from pt.figures._errors import DataError
+from pt.figures._particles import Table
+from pt.figures.readers._atoms import atoms_table
+from pt.figures.readers._frames import TextFrames
+from pt.figures.readers._rows import is_number, shown
+
+ANGSTROMS: Final = 10.0  # in a nanometre
+_NAMES: Final = {"resid": slice(0, 5), "resname": slice(5, 10), "name": slice(10, 15)}
+_START: Final = 20  # of the positions
+_BOX: Final = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 0), (1, 2), (2, 0), (2, 1))  # places of its numbers
+
+
+class Gro(TextFrames):
+    lines_after = 1
+
+    def head(self) -> int | None:
+        lines = self.lines
+        title = lines.line()
+        count = lines.line()
+        if count is None:
+            if title is None or not title.strip():
+                return None
+            raise lines.refuse("the file ends after a title: it was cut short")
+        if not count.strip().isdecimal():
+            if not f"{title}{count}".strip():
+                return None
+            raise lines.refuse(f"{shown(count)}: must be the number of atoms")
+        return int(count)
+
+    def body(self, count: int) -> Table:
+        first = self.lines.number + 1
+        rows: list[bytes] = []
+        while len(rows) < count:
+            data, height = self.lines.block(count - len(rows))
+            if not height:
+                raise self.lines.refuse(f"the file ends after {len(rows):,} of {count:,} particles: it was cut short")
+            rows += data.removesuffix(b"\n").split(b"\n")
+        columns = self._columns(np.array(rows, "S"), first)
+        positions = ANGSTROMS * np.stack([columns.pop(axis) for axis in "xyz"], 1)
+        return atoms_table(positions, columns, cell=self._cell())
+
+    def _columns(self, rows: npt.NDArray[np.bytes_], first: int) -> dict[str, npt.NDArray[Any]]:
+        letters = rows.view(np.uint8).reshape(len(rows), -1)
+        points = [place for place in range(_START, letters.shape[1]) if letters[0, place] == ord(".")]
+        if len(points) < 3:
+            raise self.lines.refuse(f"{shown(rows[0].decode('utf-8', 'replace'))}: must have three coordinates from column 21")
+        width = points[1] - points[0]
+        fields = {**_NAMES, **{axis: slice(_START + i * width, _START + (i + 1) * width) for i, axis in enumerate("xyz")}}
+        if len(points) >= 6:
+            fields.update((axis, slice(_START + i * width, _START + (i + 1) * width)) for i, axis in enumerate(("vx", "vy", "vz"), 3))
+        columns: dict[str, npt.NDArray[Any]] = {}
+        for name, place in fields.items():
+            part = np.ascontiguousarray(letters[:, place])
+            words = part.view(f"S{part.shape[1]}").reshape(-1)
+            if name in ("name", "resname"):
+                columns[name] = np.char.strip(np.char.decode(words, "utf-8", "replace"))
+                continue
+            try:
+                columns[name] = words.astype(np.int64 if name == "resid" else np.float64)
+            except ValueError:
+                if name not in "xyz":
+                    continue  # velocities that are not whole, numbers of residues that are none
+                row = next(row for row, word in enumerate(words) if not is_number(word.decode("utf-8", "replace").strip() or "?"))
+                word = words[row].decode("utf-8", "replace").strip()
+                raise DataError(f"{self.lines.name}:{first + row}: {name} = {word!r}: must be a number of {width} columns") from None
+        return columns
+
+    def _cell(self) -> Cell | None:
+        line = self.lines.line() or ""
+        points = [place for place, letter in enumerate(line) if letter == "."]
+        width = points[1] - points[0] if len(points) > 1 else 0
+        words = line.split()
+        if len(words) < 3 <= len(points):  # numbers that touch
+            words = [line[start:start + width] for start in range(0, len(line.rstrip()), width)]
+        if len(words) not in (3, 9) or not all(map(is_number, words)):
+            raise self.lines.refuse(f"{shown(line)}: the cell must have 3 or 9 numbers")
+        vectors = np.zeros((3, 3))
+        for place, word in zip(_BOX, words):
+            vectors[place] = ANGSTROMS * float(word)
+        return Cell.of(vectors)

@@ -1,0 +1,213 @@
+"""LAMMPS' data files (docs.lammps.org/read_data.html)."""
+
+from __future__ import annotations
+
+import re
+from typing import Any, Final
+
+import numpy as np
+import numpy.typing as npt
+
+from pt.figures._cell import Cell
+from pt.figures._elements import SYMBOLS, elements_of_masses, listed
+from pt.figures._errors import DataError
+from pt.figures._particles import Bonds, Table
+from pt.figures.readers._atoms import atoms_table
+from pt.figures.readers._lines import Lines
+from pt.figures.readers._rows import is_number, number, shown
+
+Array = npt.NDArray[Any]
+
+CONTENT: Final = re.compile(rb"(?m)^\s*\d+\s+atoms\s*(?:#.*)?$")
+STYLES: Final = {style: columns.split() for style, columns in {
+    "atomic": "id type x y z", "charge": "id type q x y z", "molecular": "id mol type x y z", "full": "id mol type q x y z",
+    "sphere": "id type diameter density x y z", "ellipsoid": "id type is_ellipsoid density x y z",
+    "dipole": "id type q x y z mux muy muz", "spin": "id type x y z spx spy spz sp", "peri": "id type volume density x y z",
+    "line": "id mol type is_line density x y z", "tri": "id mol type is_triangle density x y z", "body": "id type is_body mass x y z",
+    "electron": "id type q spin eradius x y z", "dpd": "id type theta x y z", "mdpd": "id type rho x y z",
+    "edpd": "id type temperature cv x y z", "tdpd": "id type x y z", "sph": "id type rho esph cv x y z",
+    "template": "id mol index atom type x y z", "dielectric": "id mol type q x y z", "hybrid": "id type x y z",
+    "wavepacket": "id type q spin eradius etag cs_re cs_im x y z",
+    "smd": "id type mol volume mass kernel_radius contact_radius x0 y0 z0 x y z",
+    "mesont": "id mol type tube mass radius length buckling_type x y z"}.items()}
+STYLES.update(bond=STYLES["molecular"], angle=STYLES["molecular"], amoeba=STYLES["full"])
+_OF_COUNT: Final = {5: ("atomic",), 6: ("charge", "molecular"), 7: ("full", "sphere")}  # columns, without image flags
+_SECTION: Final = re.compile(r"[A-Z][A-Za-z]+( [A-Z]?[A-Za-z]+)* ?( Coeffs)?")
+_HEADER: Final = re.compile(r"(\d+)\s+([a-z][a-z ]*)")
+_BOUNDS: Final = re.compile(r"(.+?)\s+(xlo xhi|ylo yhi|zlo zhi|xy xz yz|avec|bvec|cvec|abc origin)")
+_IMAGES: Final = ("ix", "iy", "iz")
+
+
+class LammpsData:
+    """What one file says, section by section."""
+
+    def __init__(self, lines: Lines, style: str | None) -> None:
+        if style is not None and style not in STYLES:
+            raise DataError(f"atom_style = {style!r}: must be one of {listed(sorted(STYLES), 40)}")
+        self.lines = lines
+        self.style = style
+        self.counts: dict[str, int] = {}
+        self.box: dict[str, list[float]] = {}
+        self.masses: dict[str, float] = {}
+        self.names: dict[str, str] = {}
+        self.notes: list[str] = []
+        self.columns: dict[str, Array] = {}
+        self.bonds: list[list[str]] = []
+        self.shapes: list[list[str]] = []
+        self._read()
+
+    def _read(self) -> None:
+        self.lines.line()
+        while (line := self.lines.line()) is not None:
+            text, _, hint = line.partition("#")
+            text = text.strip()
+            if found := _BOUNDS.fullmatch(text):
+                self.box[found[2]] = self._numbers(found[1])
+            elif found := _HEADER.fullmatch(text):
+                self.counts[found[2].strip()] = int(found[1])
+            elif text[:1].isupper() and _SECTION.fullmatch(text):
+                self._section(text, hint.strip())
+
+    def _section(self, name: str, hint: str) -> None:
+        if name == "Atoms":
+            self._atoms(self._rows(self.counts.get("atoms", 0), "atoms"), hint)
+        elif name == "Masses":
+            for row in self._rows(self.counts.get("atom types", 0), "masses", with_comments=True):
+                if len(row) < 2 or not is_number(row[1]):
+                    raise self.lines.refuse(f"{shown(' '.join(row))}: must be a type and its mass")
+                self.masses[row[0]] = number(row[1])
+                self.names.setdefault(row[0], row[2] if len(row) > 2 else "")
+        elif name == "Atom Type Labels":
+            self.names.update((row[0], row[1]) for row in self._rows(self.counts.get("atom types", 0), "labels") if len(row) > 1)
+        elif name == "Bonds":
+            self.bonds = self._rows(self.counts.get("bonds", 0), "bonds")
+        elif name == "Ellipsoids":
+            self.shapes = self._rows(self.counts.get("ellipsoids", 0), "ellipsoids")
+
+    def _rows(self, count: int, what: str, with_comments: bool = False) -> list[list[str]]:
+        """The words of so many lines that are not blank."""
+        rows: list[list[str]] = []
+        while len(rows) < count:
+            line = self.lines.line()
+            if line is None:
+                raise self.lines.refuse(f"the file ends after {len(rows):,} of {count:,} {what}: it was cut short")
+            words = (line.replace("#", " ") if with_comments else line.partition("#")[0]).split()
+            if words:
+                rows.append(words)
+        return rows
+
+    def _numbers(self, text: str) -> list[float]:
+        if not all(map(is_number, text.split())):
+            raise self.lines.refuse(f"{shown(text)}: must be numbers")
+        return [number(word) for word in text.split()]
+
+    def _atoms(self, rows: list[list[str]], hint: str) -> None:
+        if not rows:
+            return
+        first = self.lines.number - len(rows) + 1  # if no line is blank
+        width = len(rows[0])
+        names = STYLES[self._style(rows, hint)]
+        if width < len(names):
+            raise DataError(f"{self.lines.name}:{first}: {shown(' '.join(rows[0]))}: has {width} columns; atom_style {self.style} has "
+                            f"{len(names)}: {' '.join(names)}")
+        if width >= len(names) + 3 and all(is_whole(word) for word in rows[0][-3:]):
+            names = [*names, *(f"column {i}" for i in range(len(names) + 1, width - 2)), *_IMAGES]
+        for i, row in enumerate(rows):
+            if len(row) < len(names):
+                raise DataError(f"{self.lines.name}:{first + i}: {shown(' '.join(row))}: has {len(row)} values, must have {len(names)}")
+        for i, name in enumerate(names):
+            words = np.array([row[i] for row in rows])
+            if name == "type" and not words[0].isdecimal():
+                self.columns[name] = words
+                continue
+            try:
+                values = words.astype(np.float64)
+            except ValueError:
+                bad = next(row for row, word in enumerate(words.tolist()) if not is_number(word))
+                raise DataError(f"{self.lines.name}:{first + bad}: {name} = {words[bad]!r}: must be a number") from None
+            is_integer = name in ("id", "mol", "type", *_IMAGES) and np.isfinite(values).all()
+            self.columns[name] = values.astype(np.int64) if is_integer else values
+
+    def _style(self, rows: list[list[str]], hint: str) -> str:
+        """The atom style that was asked for, of the hint after "Atoms", or of the columns."""
+        hint = hint.split()[0] if hint else ""
+        if self.style is None and hint in STYLES:
+            self.style = hint
+        if self.style is not None:
+            return self.style
+        width = len(rows[0])
+        some = rows[:100]
+        has_images = width >= 8 and all(is_whole(word) for row in some for word in row[-3:])
+        choices = _OF_COUNT.get(width - 3 * has_images, ())
+        types = self.counts.get("atom types", 0)
+        if choices and len(choices) > 1:
+            has_molecules = all(len(row) > 2 and is_whole(row[2]) and 1 <= int(row[2]) <= types for row in some)
+            choices = (choices[0],) if has_molecules == (width - 3 * has_images == 7) else choices[1:]
+            if "sphere" in choices and (self.counts.get("bonds") or any(row[2].startswith("-") for row in some)):
+                choices = ()
+        if not choices:
+            raise self.lines.refuse(f"the atom style is not known: {width} columns, like {shown(' '.join(rows[0]))}, and no hint after "
+                                    "Atoms: atom_style says it")
+        self.style = choices[0]
+        self.notes.append(f"the atom style is taken to be {self.style}, by the columns")
+        return self.style
+
+    def cell(self) -> Cell | None:
+        box = self.box
+        if "avec" in box:
+            return Cell.of([box[key] for key in ("avec", "bvec", "cvec")], box.get("abc origin", [0.0, 0.0, 0.0]))
+        bounds = [box.get(f"{axis}lo {axis}hi", [-0.5, 0.5]) for axis in "xyz"]
+        (x, y, z), (xy, xz, yz) = ([high - low for low, high in bounds], box.get("xy xz yz", [0.0, 0.0, 0.0]))
+        return Cell.of([[x, 0, 0], [xy, y, 0], [xz, yz, z]], [low for low, _ in bounds]) if box else None
+
+    def table(self) -> Table:
+        if not self.columns:
+            raise DataError(f"{self.lines.name}: has no atoms")
+        columns = dict(self.columns)
+        positions = np.stack([columns.pop(axis) for axis in "xyz"], 1)
+        if self.shapes:
+            self._put_shapes(columns)
+        elements = self._elements(columns)
+        pairs = self._pairs(columns["id"]) if "bonds" in self.counts and self.counts["bonds"] else None
+        return atoms_table(positions, columns, elements, self.cell(), pairs, self.notes)
+
+    def _elements(self, columns: dict[str, Array]) -> Array | None:
+        """Elements by the masses of types; types get their labels."""
+        kinds, codes = np.unique(columns["type"].astype(str), return_inverse=True)
+        names = [self.names.get(kind, "") or kind for kind in kinds.tolist()]
+        if not self.masses:
+            return None
+        masses = np.array([self.masses.get(kind, 0.0) for kind in kinds.tolist()])
+        numbers = elements_of_masses(masses)
+        if not numbers.any():
+            return None
+        said = [f"{name} is {SYMBOLS[each]}" for name, each in zip(names, numbers.tolist()) if each]
+        self.notes.append(f"elements are those of the masses: type {listed(said, 8)}")
+        if unknown := [f"{name} ({mass:g})" for name, each, mass in zip(names, numbers, masses) if not each]:
+            self.notes.append(f"no elements: types {listed(unknown)}, by their masses; a ball of mean size stands for each")
+        elements: Array = numbers[codes.reshape(-1)]
+        return elements
+
+    def _pairs(self, ids: Array) -> Bonds:
+        index = dict(zip(ids.tolist(), range(len(ids))))
+        try:
+            return Bonds.of([(index[int(row[2])], index[int(row[3])]) for row in self.bonds])
+        except (KeyError, ValueError, IndexError):
+            raise DataError(f"{self.lines.name}: Bonds: each must have a number, a type and two of the atoms' numbers") from None
+
+    def _put_shapes(self, columns: dict[str, Array]) -> None:
+        index = dict(zip(columns["id"].tolist(), range(len(columns["id"]))))
+        shapes = np.zeros((len(index), 3))
+        for row in self.shapes:
+            if len(row) < 4 or not row[0].isdecimal() or int(row[0]) not in index or not all(map(is_number, row[1:4])):
+                raise DataError(f"{self.lines.name}: Ellipsoids: {shown(' '.join(row))}: must be an atom's number and three diameters")
+            shapes[index[int(row[0])]] = [number(word) for word in row[1:4]]
+        columns.update(zip(("shapex", "shapey", "shapez"), shapes.T))
+
+
+def is_whole(word: str) -> bool:
+    return word.lstrip("+-").isdecimal()
+
+
+def read_lammps_data(lines: Lines, style: str | None) -> Table:
+    return LammpsData(lines, style).table()

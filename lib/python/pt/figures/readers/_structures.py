@@ -1,0 +1,197 @@
+"""Structures of macromolecules, in PDB files, PDBQT and mmCIF, by gemmi."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from typing import Any, Final
+
+import numpy as np
+import numpy.typing as npt
+
+from pt.figures._cell import Cell
+from pt.figures._elements import SYMBOLS
+from pt.figures._errors import DataError, module
+from pt.figures._particles import Bonds, Table
+from pt.figures._residues import AMINO_ACIDS, NUCLEOTIDES, VIRTUAL, autodock_element
+from pt.figures.readers._atoms import atoms_table
+from pt.figures.readers._frames import Listed
+from pt.figures.readers._lines import Lines
+from pt.figures.readers._other import tried
+
+Array = npt.NDArray[Any]
+
+_ATOMS: Final = frozenset((b"ATOM  ", b"HETATM"))
+_OTHERS: Final = frozenset((b"HEADER", b"EXPDTA", b"SSBOND", b"LINK  ", b"CONECT"))
+_ELEMENT_AND_CHARGE: Final = re.compile(rb"( [A-Za-z]|[A-Za-z][A-Za-z]|[A-Za-z] )( *|[1-9][+-])")
+_DEUTERIUM: Final = 119  # in gemmi
+
+
+def read_pdb(lines: Lines, is_pdbqt: bool = False) -> Listed:
+    """The models of a PDB file, each of which gemmi reads on its own: their cells may differ, and numbers be given
+    twice."""
+    gemmi = module("gemmi", f"{lines.name}: PDB")
+    others, models = _split(lines.text().replace(b"\r", b"").split(b"\n"), _with_autodock_element if is_pdbqt else _with_element)
+    if not models:
+        raise DataError(f"{lines.name}: has no atoms: no line begins with ATOM or HETATM")
+
+    def read(index: int) -> Table:
+        text = b"\n".join([*others, *models[index][1]])
+        return frames_of(lines.name, tried(lines.name, "gemmi", lambda: gemmi.read_pdb_string(text))).read(0)
+
+    return Listed(lines.name, len(models), read, current=0, models=[number for number, _ in models])
+
+
+def _split(lines: list[bytes], completed: Callable[[bytes], bytes]) -> tuple[list[bytes], list[tuple[int, list[bytes]]]]:
+    """The lines that are of all models; and for each model that has atoms its number and its own lines."""
+    others: list[bytes] = []
+    models: list[tuple[int, list[bytes]]] = []
+    number, cell, atoms = 1, b"", []
+    whole: set[bytes] = set()  # ends of lines that need no completion
+    for line in (*lines, b"END"):
+        kind = line[:6]
+        if kind in _ATOMS:
+            if line[76:] not in whole:
+                line = completed(line)
+                whole.add(line[76:])
+            atoms.append(line)
+        elif kind == b"TER" or kind == b"TER   ":
+            atoms.append(line)
+        elif kind == b"CRYST1":
+            cell = _in_columns(line)
+        elif kind in _OTHERS:
+            others.append(line)
+        elif kind.rstrip() in (b"MODEL", b"ENDMDL", b"END"):
+            if any(each[:6] in _ATOMS for each in atoms):
+                models.append((number, [cell, *atoms]))
+                number += 1
+            atoms = []
+            if kind.rstrip() == b"MODEL" and line[6:].strip().isdigit():
+                number = int(line[6:])
+    return others, models
+
+
+def _in_columns(line: bytes) -> bytes:
+    """A line of CRYST1 whose numbers are in their columns."""
+    try:
+        a, b, c, alpha, beta, gamma = map(float, line[6:].split()[:6])
+        return f"CRYST1{a:9.3f}{b:9.3f}{c:9.3f}{alpha:7.2f}{beta:7.2f}{gamma:7.2f}".encode() + line.rstrip()[54:]
+    except ValueError:
+        return line  # numbers that touch
+
+
+def _with_element(line: bytes) -> bytes:
+    """A line with X in columns 77 and 78 if there is no element, which gemmi then does not guess, and without what is no
+    charge in the next two."""
+    end = _ELEMENT_AND_CHARGE.match(line[76:80].ljust(2))
+    return line[:76].ljust(76) + (b" X" if end is None else end[0])
+
+
+def _with_autodock_element(line: bytes) -> bytes:
+    """The type of AutoDock, which ends the line, as an element."""
+    number = autodock_element(line.split()[-1].decode("utf-8", "replace"))
+    symbol = SYMBOLS[number] if 0 < number < VIRTUAL else "X"
+    return line[:76].ljust(76) + f"{symbol:>2}".encode()
+
+
+def frames_of(name: str, structure: Any) -> Listed:
+    """The models of a structure of gemmi."""
+    gemmi = module("gemmi", name)
+    ends = np.cumsum([model.count_atom_sites() for model in structure])
+    if not len(ends) or not ends[-1]:
+        raise DataError(f"{name}: has no atoms")
+    flat = gemmi.FlatStructure(structure)
+    kept = [index for index, model in enumerate(structure) if model.count_atom_sites()]
+
+    def read(index: int) -> Table:
+        model = kept[index]
+        return _table(structure, flat, slice(int(ends[model - 1]) if model else 0, int(ends[model])))
+
+    numbers = [getattr(structure[index], "num", index + 1) for index in kept]
+    return Listed(name, len(kept), read, current=0, models=numbers)
+
+
+def _table(structure: Any, flat: Any, rows: slice) -> Table:
+    columns = {"name": _words(flat.atom_names[rows]), "resname": _words(flat.residue_names[rows]), "resid": flat.resnums[rows],
+               "icode": _words(flat.icodes[rows, None]), "chain": _words(flat.chain_ids[rows]),
+               "altloc": _words(flat.altlocs[rows, None]), "occupancy": flat.occ[rows], "b_factor": flat.b_iso[rows],
+               "charge": flat.charge[rows], "id": flat.serials[rows]}
+    elements, positions = np.where(flat.elements[rows] == _DEUTERIUM, 1, flat.elements[rows]), flat.pos[rows]
+    notes: list[str] = []
+    bonds = _bonds(structure, columns, notes)
+    kept = _likeliest(columns)
+    if not kept.all():
+        notes.append(f"{int((~kept).sum()):,} atoms in alternative places are not drawn: those of the highest occupancy are")
+    return atoms_table(np.ascontiguousarray(positions), {key: np.ascontiguousarray(values) for key, values in columns.items()},
+                       elements, _cell(structure, columns["resname"]), bonds, notes, kept)
+
+
+def _words(letters: Array) -> Array:
+    """Words from rows of letters that end in zeros."""
+    rows = np.ascontiguousarray(letters).view(np.uint8)
+    width = max(1, int((rows != 0).any(axis=0).sum()))
+    words: Array = np.char.strip(np.ascontiguousarray(rows[:, :width]).view(f"S{width}").reshape(-1).astype(f"U{width}"))
+    return words
+
+
+def _likeliest(columns: dict[str, Array]) -> Array:
+    """Which atoms belong to the alternative of their residue that has the highest mean occupancy."""
+    kept = np.ones(len(columns["altloc"]), bool)
+    alternatives: dict[tuple[Any, ...], dict[str, list[int]]] = {}
+    for row in np.flatnonzero(columns["altloc"] != ""):
+        residue = columns["chain"][row], columns["resid"][row], columns["icode"][row]
+        alternatives.setdefault(residue, {}).setdefault(columns["altloc"][row], []).append(row)
+    for places in alternatives.values():
+        best = max(places, key=lambda label: float(columns["occupancy"][places[label]].mean()))
+        for label, rows in places.items():
+            kept[rows] = label == best
+    return kept
+
+
+def _cell(structure: Any, residues: Array) -> Cell | None:
+    cell, group = structure.cell, structure.find_spacegroup()
+    if not cell.is_crystal():
+        return None
+    lengths, angles = cell.parameters[:3], cell.parameters[3:]
+    if lengths == (1, 1, 1) or min(lengths) <= 0:
+        return None
+    is_measured = "DIFFRACTION" in structure.info["_exptl.method"] if "_exptl.method" in structure.info else False
+    is_crystal = is_measured or (group is not None and len(group.operations()) > 1)
+    is_of_polymer = not (AMINO_ACIDS | NUCLEOTIDES).isdisjoint(np.unique(residues).tolist())
+    return Cell.of_lengths(lengths, angles, is_crystal_of_macromolecule=bool(is_crystal and is_of_polymer))
+
+
+def _bonds(structure: Any, columns: dict[str, Array], notes: list[str]) -> Bonds | None:
+    pairs = [*_connections(structure, columns), *_conect(structure, columns["id"], notes)]
+    return Bonds.of(pairs, is_complete=False) if pairs else None
+
+
+def _connections(structure: Any, columns: dict[str, Array]) -> Iterator[tuple[int, int]]:
+    """Bonds of struct_conn, or LINK and SSBOND, within the asymmetric unit. Hydrogen bonds are none."""
+    gemmi = module("gemmi", structure.name)
+    wanted = [each for each in structure.connections if each.type != gemmi.ConnectionType.Hydrog and each.asu != gemmi.Asu.Different]
+    if not wanted:
+        return
+    keys = zip(*(columns[key].tolist() for key in ("chain", "resid", "icode", "name", "altloc")))
+    index = {key: row for row, key in enumerate(keys)}
+    for each in wanted:
+        ends = [index.get((end.chain_name, end.res_id.seqid.num, end.res_id.seqid.icode.strip(), end.atom_name, end.altloc.strip("\0 ")))
+                for end in (each.partner1, each.partner2)]
+        if ends[0] is not None and ends[1] is not None and ends[0] != ends[1]:
+            yield ends[0], ends[1]
+
+
+def _conect(structure: Any, serials: Array, notes: list[str]) -> Iterator[tuple[int, int]]:
+    """Bonds of CONECT, without those of numbers that two atoms have."""
+    table = structure.conect_map
+    if not table:
+        return
+    numbers, rows, counts = np.unique(serials, return_index=True, return_counts=True)
+    index = dict(zip(numbers[counts == 1].tolist(), rows[counts == 1].tolist()))
+    ambiguous = set(numbers[counts > 1].tolist())
+    if lost := sum(serial in ambiguous or not ambiguous.isdisjoint(others) for serial, others in table.items()):
+        notes.append(f"{lost:,} lines of CONECT are not used: two atoms have one number")
+    for serial, others in table.items():
+        for other in others:
+            if serial in index and other in index and serial != other:
+                yield index[serial], index[other]
