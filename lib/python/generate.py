@@ -1,7 +1,7 @@
 """Generates from the headers: structs and enumerations in Python (pt/_structs.py, pt/_enums.py), the kernels' numbers
 (shaders/enumerations.h), and the program's names of values (cli/base/enumerations.h).
 
-python3 lib/python/generate.py [HEADERS [ROOT]]; by default those of this tree. The files are committed, because the
+python3 lib/python/generate.py [HEADERS [ROOT]]; by default this tree's. The files are committed, because the
 package is installed without headers and build; a test compares them."""
 
 import pathlib
