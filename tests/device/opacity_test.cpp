@@ -114,8 +114,8 @@ Given::Capsule rod(const glm::dvec3 &from, const glm::dvec3 &to, float opacity, 
     return {{from.x, from.y, from.z}, {to.x, to.y, to.z}, 1.0, material, opacity};
 }
 
-// Different surfaces let the product of their shares pass, even if most of their numbers are equal; duplicates count once.
-// Negative control: the duplicates, which let twice as much pass as the others.
+// Different surfaces let the product of their shares pass, even if most of their numbers are equal; duplicates count
+// once. Negative control: the duplicates, which let twice as much pass as the others.
 TEST_F(Opacity, OfSurfacesThatDifferIsIndependent) {
     const glm::dvec3 atom(0, 0, 1);
     const std::vector<Given::Capsule> bonds{rod(atom, {2, 0, 1}, 0.5F), rod(atom, {0, 2, 1}, 0.5F)};
