@@ -5,8 +5,8 @@
 
 namespace platform {
 
-// Bytes go through as they are, and no file that is opened later gets the number of a stream that is closed. Call it
-// before any file is opened.
+// Bytes go through as they are, no file that is opened later gets the number of a stream that is closed, and a file
+// beyond the limit of its size does not end the process. Call it before any file is opened.
 void prepare_streams();
 
 bool is_terminal(int stream);
