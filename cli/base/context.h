@@ -3,9 +3,11 @@
 
 #include "cli/base/environment.h"
 #include "cli/base/exit_code.h"
+#include "cli/base/interrupt.h"
 #include "cli/base/kernel_folder.h"
 
 #include <pt/pt.h>
+#include <pt/shaders.h>
 #include <pt/stats.h>
 
 #include <cstddef>
@@ -68,6 +70,7 @@ public:
     explicit Context(pt_create_info info) : shader_dir_(info.shader_dir == nullptr ? "" : info.shader_dir) {
         choose_vector_width();
         kernels_.serve(info);
+        const EndAtOnce compiling; // shaders may take as long as they like
         const pt_result result = pt_create(&info, &context_);
         if (result < 0)
             fail(result, cli::last_error(nullptr));
@@ -78,6 +81,11 @@ public:
 
     pt_context *get() const { return context_; }
     LibraryError last_error() const { return cli::last_error(context_); }
+
+    void reload_shaders() const {
+        const EndAtOnce compiling;
+        require(pt_reload_shaders(context_));
+    }
 
     // For calls whose arguments do not come from the scene file.
     void require(pt_result result) const {

@@ -1,6 +1,5 @@
 #include "cli/base/file.h"
 
-#include "cli/base/exit_code.h"
 #include "cli/base/text.h"
 #include "lib/platform/process.h"
 
@@ -45,27 +44,6 @@ bool is_same(const fs::path &one, const fs::path &other) {
     const fs::path first = AtomicFile::target_of(one.string());
     const fs::path second = AtomicFile::target_of(other.string());
     return first.filename() == second.filename() && fs::equivalent(folder_of(first), folder_of(second), error);
-}
-
-[[noreturn]] void fail(const std::string &path) {
-    throw Failure(ExitCode::file, "cannot read " + path + ": " + std::generic_category().message(errno));
-}
-
-// size: expected, to avoid reallocations.
-std::string read_all(int descriptor, const std::string &name, std::size_t size) {
-    constexpr std::size_t block = std::size_t{1} << 20;
-    std::string text;
-    text.reserve(size + block);
-    for (;;) {
-        const std::size_t used = text.size();
-        text.resize(used + block);
-        const std::ptrdiff_t count = platform::read_some(descriptor, std::span(text).subspan(used));
-        if (count < 0)
-            fail(name);
-        text.resize(used + static_cast<std::size_t>(count));
-        if (count == 0)
-            return text;
-    }
 }
 
 } // namespace
@@ -224,16 +202,18 @@ void print_for_people(const std::string &lines, bool standard_output_is_taken) {
         std::cout << lines << std::flush;
 }
 
-// System calls, because a stream opens directories and loses the reason of a failed read.
-std::string read_file(const std::string &path) {
-    const platform::FileDescriptor file(platform::open_to_read(path));
-    if (!file.is_open())
-        fail(path);
-    return read_all(file.get(), path, platform::regular_size(file.get()).value_or(0));
+Failure unreadable(const std::string &path, const platform::InputError &error) {
+    return {ExitCode::file, "cannot read " + path + ": " + error.what()};
 }
 
-std::string read_standard_input() {
-    return read_all(platform::standard_input, "standard input", 0);
+std::string read_text(const std::string &path) {
+    if (path != standard_stream)
+        return read_file(path, [](platform::InputFile &file) { return file.text(); });
+    try {
+        return platform::InputFile().text();
+    } catch (const platform::InputError &error) {
+        throw unreadable("standard input", error);
+    }
 }
 
 std::string_view require_text(std::string_view contents, const std::string &path) {

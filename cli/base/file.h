@@ -2,7 +2,9 @@
 // marks temporary files in use; killed programs leave others.
 #pragma once
 
+#include "cli/base/exit_code.h"
 #include "lib/platform/file.h"
+#include "lib/platform/input_file.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -87,9 +89,22 @@ void write_report_file(const std::string &path, std::string_view text);
 // To stderr if a report takes standard output.
 void print_for_people(const std::string &lines, bool standard_output_is_taken);
 
-// Both throw Failure(ExitCode::file) with the system's reason.
-std::string read_file(const std::string &path);
-std::string read_standard_input();
+// "cannot read PATH: " and the reason, with ExitCode::file.
+Failure unreadable(const std::string &path, const platform::InputError &error);
+
+// Returns what `read` makes of the file. Throws unreadable().
+template <typename Read>
+auto read_file(const std::string &path, Read read) {
+    try {
+        platform::InputFile file(path);
+        return read(file);
+    } catch (const platform::InputError &error) {
+        throw unreadable(path, error);
+    }
+}
+
+// Reads a file or standard input, up to a NUL byte at least. Throws unreadable().
+std::string read_text(const std::string &path);
 
 // Removes a byte order mark. Throws Failure(ExitCode::scene) at a NUL byte, which readers would take for the end.
 std::string_view require_text(std::string_view contents, const std::string &path);

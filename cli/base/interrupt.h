@@ -10,6 +10,15 @@ namespace cli {
 // hangs. SIGUSR1 ends the program before this call.
 void catch_signals();
 
+// While one lives, a signal ends the program at once: for waits in which nothing can be lost.
+class EndAtOnce {
+public:
+    EndAtOnce();
+    EndAtOnce(const EndAtOnce &) = delete;
+    EndAtOnce &operator=(const EndAtOnce &) = delete;
+    ~EndAtOnce();
+};
+
 // 0: none.
 int interrupt_signal();
 

@@ -1,6 +1,5 @@
 #include "cli/film/film.h"
 
-#include "cli/base/exit_code.h"
 #include "cli/base/file.h"
 
 #include <algorithm>
@@ -62,18 +61,19 @@ constexpr std::uint64_t most_ratio = 32768;
     throw Failure(ExitCode::usage, path + ": " + reason);
 }
 
-bool is_packed(std::span<const std::byte> bytes) {
-    std::uint32_t magic = 0;
-    for (std::size_t i = 0; i < sizeof magic && i < bytes.size(); ++i)
-        magic |= std::to_integer<std::uint32_t>(bytes[i]) << (8 * i);
-    return magic == ZSTD_MAGICNUMBER;
+// The size that the frame of a packed film says it has.
+std::size_t unpacked_size(platform::InputFile &file, const std::string &path) {
+    constexpr std::size_t longest_head = 18; // of a frame (RFC 8878, 3.1.1.1)
+    const std::string_view head = file.first(longest_head);
+    const unsigned long long size = ZSTD_getFrameContentSize(head.data(), head.size());
+    if (size == ZSTD_CONTENTSIZE_UNKNOWN || size == ZSTD_CONTENTSIZE_ERROR || size / most_ratio > file.size())
+        refuse(path, "damaged or cut short: the head of its zstd frame is no film's");
+    return size;
 }
 
-std::vector<std::byte> unpacked(const std::string &path, std::span<const std::byte> bytes) {
-    const unsigned long long size = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
-    if (size == ZSTD_CONTENTSIZE_UNKNOWN || size == ZSTD_CONTENTSIZE_ERROR || size / most_ratio > bytes.size())
-        refuse(path, "damaged or cut short: the head of its zstd frame is no film's");
-    std::vector<std::byte> film(size);
+std::vector<std::byte> unpacked(platform::InputFile &file, const std::string &path) {
+    std::vector<std::byte> film(unpacked_size(file, path));
+    const std::string bytes = file.all();
     const std::size_t count = ZSTD_decompress(film.data(), film.size(), bytes.data(), bytes.size());
     if (ZSTD_isError(count) != 0 || count != film.size()) {
         refuse(path, std::string("damaged or cut short: ") +
@@ -214,10 +214,17 @@ void write_film_file(const std::string &path, std::span<const std::byte> film) {
     file.commit();
 }
 
+// Of a file that is no film, the first bytes are enough for the library to say so.
 std::vector<std::byte> read_film_file(const std::string &path) {
-    const std::string text = read_file(path);
-    const auto bytes = std::as_bytes(std::span(text));
-    return is_packed(bytes) ? unpacked(path, bytes) : std::vector<std::byte>(bytes.begin(), bytes.end());
+    return read_file(path, [&](platform::InputFile &file) {
+        constexpr std::string_view packed = "\x28\xb5\x2f\xfd"; // ZSTD_MAGICNUMBER
+        constexpr std::string_view plain = "pt film ";
+        if (file.first(packed.size()) == packed)
+            return unpacked(file, path);
+        const std::string text = file.first(plain.size()) == plain ? file.all() : std::string(file.first(plain.size()));
+        const auto bytes = std::as_bytes(std::span(text));
+        return std::vector<std::byte>(bytes.begin(), bytes.end());
+    });
 }
 
 } // namespace cli

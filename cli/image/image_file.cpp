@@ -1,6 +1,5 @@
 #include "cli/image/image_file.h"
 
-#include "cli/base/exit_code.h"
 #include "cli/base/file.h"
 #include "lib/platform/module.h"
 #include "lib/platform/process.h"
@@ -9,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <fstream>
 #include <stdexcept>
 
 namespace cli {
@@ -84,7 +82,8 @@ void check_image_target(const ImageTarget &target, const ImageWindow &window) {
 std::filesystem::path module_path() {
     const std::filesystem::path folder = platform::program_file().parent_path() / PT_MODULE_DIRECTORY;
     std::filesystem::path path = (folder / platform::module_file("pt-image-file")).lexically_normal();
-    refuse_if(!std::ifstream(path),
+    std::error_code ignored;
+    refuse_if(!std::filesystem::exists(path, ignored),
               "other formats than PNG need the image module, and there is no " + path.string() +
                   ": install the package pt-image-formats, or libopenimageio-dev before building pt",
               ExitCode::file);
@@ -150,6 +149,7 @@ DecodedImage read_image(const std::string &path) {
                             ? &decode_png
                             : reinterpret_cast<DecodeImage *>(load_symbol(module_path(), decode_image_symbol));
     DecodedImage image{};
+    read_file(path, [](const platform::InputFile &) {}); // OpenImageIO would open anything
     try {
         decode(path, image);
     } catch (const Failure &) {

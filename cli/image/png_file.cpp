@@ -145,6 +145,8 @@ bool read(Decoding &decoding) {
     return true;
 }
 
+constexpr std::size_t signature_size = 8;
+
 template <typename Number>
 void append_row(std::vector<float> &values, png_const_bytep row, std::size_t count) {
     std::vector<Number> numbers(count);
@@ -167,7 +169,11 @@ std::vector<unsigned char> encode_png(const ImageData &image) {
 }
 
 void decode_png(const std::string &path, DecodedImage &image) {
-    const std::string file = read_file(path);
+    const std::string file = read_file(path, [](platform::InputFile &input) {
+        const std::string head(input.first(signature_size));
+        const bool is_png = png_sig_cmp(reinterpret_cast<png_const_bytep>(head.data()), 0, head.size()) == 0;
+        return is_png ? input.all() : head; // which libpng refuses
+    });
     Decoding decoding(std::as_bytes(std::span(file)));
     if (!read(decoding))
         throw std::runtime_error(decoding.error);

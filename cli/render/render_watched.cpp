@@ -6,8 +6,6 @@
 #include "cli/render/render_output.h"
 #include "cli/render/source_watch.h"
 
-#include <pt/shaders.h>
-
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
@@ -102,7 +100,7 @@ private:
         if (!context_) {
             context_.emplace(render_create_info(options_, log_));
         } else if (!options_.shader_dir.empty()) {
-            context_->require(pt_reload_shaders(context_->get()));
+            context_->reload_shaders();
         }
     }
 

@@ -46,7 +46,7 @@ std::optional<std::string> SourceWatch::contents_of(const fs::path &path) {
     Kept &kept = kept_[path];
     if (!state || is_fresh(path) || state != kept.state) {
         try {
-            kept = state ? Kept{state, read_file(path.string())} : Kept{};
+            kept = state ? Kept{state, read_text(path.string())} : Kept{};
         } catch (const Failure &) {
             kept = {};
         }

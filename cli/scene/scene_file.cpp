@@ -213,9 +213,7 @@ Display display_of(const std::vector<SceneOverride> &overrides) {
 }
 
 SceneFile read_scene_file(const std::string &path, std::vector<SceneOverride> overrides) {
-    const bool is_stream = path == standard_stream;
-    return parse_scene(is_stream ? read_standard_input() : read_file(path), is_stream ? "standard input" : path,
-                       std::move(overrides));
+    return parse_scene(read_text(path), path == standard_stream ? "standard input" : path, std::move(overrides));
 }
 
 } // namespace cli

@@ -1,6 +1,5 @@
 #include "cli/scene/sphere_columns.h"
 
-#include "cli/base/exit_code.h"
 #include "cli/base/file.h"
 #include "cli/base/text.h"
 #include "cli/scene/scene_keys.h"
@@ -43,21 +42,25 @@ json dictionary_of(std::string_view head) {
 
 class NpyHeader {
 public:
-    NpyHeader(const std::string &file, const std::string &name) : name_(name) {
+    NpyHeader(platform::InputFile &file, const std::string &name) : name_(name) {
         constexpr std::size_t version_place = magic.size();
-        if (!file.starts_with(magic) || file.size() < version_place + 2)
+        constexpr std::size_t longest = 65535; // of version 1; NumPy makes longer ones for named fields alone
+        const std::string start(file.first(version_place + 2 + sizeof(std::uint32_t)));
+        if (!start.starts_with(magic) || start.size() < version_place + 2)
             refuse("is no NPY file, which begins with \\x93NUMPY: write it by numpy.save");
-        const int version = static_cast<unsigned char>(file[version_place]);
+        const int version = static_cast<unsigned char>(start[version_place]);
         if (version != 1 && version != 2)
             refuse("has NPY version " + std::to_string(version) + ", must be 1 or 2, of arrays without named fields");
         const std::size_t size_bytes = version == 1 ? 2 : 4;
         const std::size_t begin = version_place + 2 + size_bytes;
         std::size_t size = 0;
-        for (std::size_t i = 0; i < size_bytes && version_place + 2 + i < file.size(); ++i)
-            size |= std::size_t{static_cast<unsigned char>(file[version_place + 2 + i])} << (8 * i);
+        for (std::size_t i = 0; i < size_bytes && version_place + 2 + i < start.size(); ++i)
+            size |= std::size_t{static_cast<unsigned char>(start[version_place + 2 + i])} << (8 * i);
         if (file.size() < begin || file.size() - begin < size)
             refuse("ends within its head: it was cut short");
-        head_ = dictionary_of(std::string_view(file).substr(begin, size));
+        if (size > longest)
+            refuse(concat("has a head of ", size, " bytes, must have at most ", longest));
+        head_ = dictionary_of(file.first(begin + size).substr(begin));
         end_ = begin + size;
     }
 
@@ -160,7 +163,7 @@ std::uint32_t NpyArray::row_bytes() const {
     return size_of(type) * static_cast<std::uint32_t>(std::max<std::size_t>(row_length, 1));
 }
 
-NpyArray parse_npy(std::string file, const std::string &name) {
+NpyArray read_npy(platform::InputFile &file, const std::string &name) {
     const NpyHeader header(file, name);
     NpyArray array = header.read();
     const std::size_t bytes = file.size() - array.first;
@@ -170,7 +173,9 @@ NpyArray parse_npy(std::string file, const std::string &name) {
                       " rows: it was cut short");
     if (bytes != array.row_count * array.row_bytes())
         header.refuse("goes on after its " + std::to_string(array.row_count) + " rows");
-    array.file = std::move(file);
+    array.file = file.all();
+    if (array.file.size() != file.size())
+        header.refuse("changed while it was read");
     return array;
 }
 
@@ -213,7 +218,7 @@ void load_columns(SceneFile &scene) {
     for_each_file(scene, [&](SphereColumns &each, SphereColumn &column) {
         const std::string path = path_of(scene, column);
         try {
-            column.array = parse_npy(read_file(path), path);
+            column.array = read_file(path, [&](platform::InputFile &file) { return read_npy(file, path); });
             check_fit(*column.key, column.array, each.columns.front().array, path);
         } catch (const Failure &failure) {
             throw Failure(failure.code(), concat(scene.path, ": ", each.section, "[", each.item, "].", column.key->name,

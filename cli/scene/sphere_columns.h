@@ -4,6 +4,7 @@
 #pragma once
 
 #include "cli/base/json.h"
+#include "lib/platform/input_file.h"
 
 #include <nlohmann/json.hpp>
 #include <pt/pt.h>
@@ -29,10 +30,10 @@ struct NpyArray {
     std::uint32_t row_bytes() const;
 };
 
-// Of a whole file. Throws Failure(ExitCode::scene), whose message begins with the name, for all that is not an array of
-// one or two lengths in row order, of float32, float64 or uint8 in little-endian bytes, as numpy.save writes it; and
-// for a file that is cut short or goes on after it.
-NpyArray parse_npy(std::string file, const std::string &name);
+// Reads an array of one or two lengths in row order, of float32, float64 or uint8 in little-endian bytes, as numpy.save
+// writes it. Throws Failure(ExitCode::scene), whose message begins with the name, for anything else, and for a file
+// that is cut short or goes on after the array, before the elements are read.
+NpyArray read_npy(platform::InputFile &file, const std::string &name);
 
 struct SceneFile;
 struct SceneKey;

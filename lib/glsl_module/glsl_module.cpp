@@ -1,6 +1,6 @@
 #include "lib/glsl_module/glsl_module.h"
 
-#include "lib/platform/file.h"
+#include "lib/platform/input_file.h"
 
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
@@ -8,7 +8,6 @@
 #include <spirv-tools/libspirv.hpp>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -29,19 +28,13 @@ namespace {
 namespace fs = std::filesystem;
 using Words = std::vector<std::uint32_t>;
 
-// Throws std::runtime_error with the system's reason.
+// Throws std::runtime_error with the reason.
 std::string read_source(const fs::path &path) {
-    const auto fail = [&] { throw std::runtime_error(path.string() + ": " + std::generic_category().message(errno)); };
-    const platform::FileDescriptor file(platform::open_to_read(path));
-    if (!file.is_open())
-        fail();
     std::string text;
-    char block[4096];
-    for (std::ptrdiff_t count = 1; count > 0;) {
-        count = platform::read_some(file.get(), block);
-        if (count < 0)
-            fail(); // such as a directory
-        text.append(block, static_cast<std::size_t>(count));
+    try {
+        text = platform::InputFile(path).text();
+    } catch (const platform::InputError &error) {
+        throw std::runtime_error(path.string() + ": " + error.what());
     }
     constexpr std::string_view byte_order_mark = "\xef\xbb\xbf"; // of UTF-8, which editors may add
     if (text.starts_with(byte_order_mark))

@@ -44,8 +44,8 @@ private:
 };
 
 // These return -1 if they fail.
-int open_to_read(const std::filesystem::path &path);
-int create_file(const std::filesystem::path &path); // to be written; EEXIST if there is one
+int open_to_read(const std::filesystem::path &path); // without waiting for the writer of a named pipe
+int create_file(const std::filesystem::path &path);  // to be written; EEXIST if there is one
 std::ptrdiff_t read_some(int descriptor, std::span<char> bytes);
 std::ptrdiff_t write_some(int descriptor, std::span<const std::byte> bytes);
 

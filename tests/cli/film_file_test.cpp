@@ -10,8 +10,10 @@ namespace {
 
 TEST(FilmFile, IsReadUnpacked) {
     const TemporaryFolder folder;
-    folder.write("a", std::string(1000, 'x'));
-    EXPECT_EQ(cli::read_film_file(folder.file("a")), std::vector(1000, std::byte{'x'}));
+    const std::string film = "pt film " + std::string(1 << 20, 'x');
+    folder.write("a", film);
+    const auto bytes = std::as_bytes(std::span(film));
+    EXPECT_EQ(cli::read_film_file(folder.file("a")), std::vector(bytes.begin(), bytes.end()));
 }
 
 // No memory is taken for the claim.

@@ -7,12 +7,33 @@
 
 #include <pt/pt.h>
 
+#include <string>
 #include <string_view>
+#include <sys/mman.h>
+#include <unistd.h>
+
+namespace {
+
+// Bytes as a file, by its name.
+class MemoryFile {
+public:
+    MemoryFile(const std::uint8_t *data, std::size_t size) : file_(memfd_create("npy", 0)) {
+        fuzz::require(write(file_.get(), data, size) == static_cast<ssize_t>(size), "there is memory");
+    }
+    std::string path() const { return "/proc/self/fd/" + std::to_string(file_.get()); }
+
+private:
+    platform::FileDescriptor file_;
+};
+
+} // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
     constexpr std::size_t longest_message = 150;
     try {
-        const cli::NpyArray array = cli::parse_npy(std::string(data, data + size), "a.npy");
+        const MemoryFile memory(data, size);
+        platform::InputFile file(memory.path());
+        const cli::NpyArray array = cli::read_npy(file, "a.npy");
         const std::size_t number_bytes = array.type == PT_TYPE_FLOAT64 ? 8 : array.type == PT_TYPE_FLOAT32 ? 4 : 1;
         fuzz::require(number_bytes > 1 || array.type == PT_TYPE_SRGB8, "columns have types that spheres take");
         fuzz::require(array.row_length <= 3, "rows are no longer than positions");

@@ -24,7 +24,7 @@ void close_file(int descriptor) {
 }
 
 int open_to_read(const fs::path &path) {
-    return open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    return open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
 }
 
 int create_file(const fs::path &path) {

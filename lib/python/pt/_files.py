@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import pathlib
+import stat
 import uuid
 from collections.abc import Callable, Sequence
 from typing import BinaryIO, Final, TypeAlias
@@ -20,6 +22,16 @@ def format_of(path: Path, formats: Sequence[str]) -> str:
         *others, last = (f".{each}" for each in formats)
         raise ValueError(f"{os.fspath(path)!r}: must end in {', '.join(others)}{' or ' if others else ''}{last}")
     return ending
+
+
+def regular(path: Path, flags: int) -> int:
+    """For open(opener=): opens regular files alone. A named pipe could wait for its writer for ever, and a device have no
+    end. OSError: it is none."""
+    descriptor = os.open(path, flags | getattr(os, "O_NONBLOCK", 0))
+    if stat.S_ISREG(os.fstat(descriptor).st_mode):
+        return descriptor
+    os.close(descriptor)
+    raise OSError(errno.EINVAL, "not a regular file", os.fspath(path))
 
 
 def write_atomically(path: Path, write: Callable[[BinaryIO], object]) -> None:

@@ -17,7 +17,7 @@ from pt import _zstd
 from pt._callbacks import CallbackGuard
 from pt._enums import Estimator, Format, Quantity, Result, Sampler
 from pt._errors import IncompatibleError
-from pt._files import Path, write_atomically
+from pt._files import Path, regular, write_atomically
 from pt._image import Image
 from pt._library import checked, library
 from pt._pixels import Rectangle, image_struct, new_pixels
@@ -76,7 +76,7 @@ class Film:
     def load(cls, path: Path) -> Film:
         """A film from a file of save() or the program pt (--film, --checkpoint). The program's files are packed: they
         need Python 3.14 or the module zstandard."""
-        with open(path, "rb") as file:
+        with open(path, "rb", opener=regular) as file:
             return cls(file.read())
 
     def save(self, path: Path) -> None:

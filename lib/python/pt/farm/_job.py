@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from pt._camera import Camera, RenderSettings
+from pt._files import regular
 from pt._scene import Scene
 
 
@@ -70,7 +71,8 @@ def read_job(scene: str, options: list[str], device: str | None) -> FileJob:
     in the scene and values of --set; those outside the scene's folder get other names. OSError: a file cannot be read.
     """
     place = pathlib.Path("stdin.json" if scene == "-" else scene)
-    text = sys.stdin.buffer.read() if scene == "-" else place.read_bytes()
+    with sys.stdin.buffer if scene == "-" else open(place, "rb", opener=regular) as file:
+        text = file.read()
     files: dict[str, bytes] = {}
 
     @functools.cache  # scenes repeat few strings often

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from pt._camera import Camera, RenderSettings
+from pt._files import regular
 from pt._scene import Material, Plane, Scene, Sphere, SphereArray
 from pt._vectors import Triple
 from pt.tachyon._lights import Light, Surroundings, dimmed, lamps_of, view_target
@@ -70,7 +71,7 @@ def read(path: str | os.PathLike[str], *, leave_out_others: bool = False) -> Tac
 
     ValueError: the file has anything else; the message names the line. OSError: it cannot be read.
     """
-    with open(path, encoding="utf-8", errors="replace") as lines:
+    with open(path, encoding="utf-8", errors="replace", opener=regular) as lines:
         return parse(lines, os.fspath(path), leave_out_others=leave_out_others)
 
 

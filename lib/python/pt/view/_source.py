@@ -13,6 +13,7 @@ from typing import Any, Protocol
 
 from pt._camera import Camera, RenderSettings
 from pt._errors import Error
+from pt._files import regular
 from pt._film import Film
 from pt._program import Program
 from pt._scene import Scene
@@ -75,7 +76,8 @@ class SceneSource:
 
     def saved(self, camera: Camera) -> tuple[str, bytes]:
         """The text of the file with another section for the camera."""
-        text = self.path.read_text(encoding="utf-8")
+        with open(self.path, encoding="utf-8", opener=regular) as file:
+            text = file.read()
         comments = r"//[^\n]*|/\*.*?\*/"
         blank = re.sub(rf'"(?:[^"\\\n]|\\.)*"|{comments}',
                        lambda found: found[0] if found[0][0] == '"' else " " * len(found[0]), text, flags=re.DOTALL)

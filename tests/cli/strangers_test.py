@@ -1,0 +1,120 @@
+"""Tests of files from strangers: what is no file is refused at once.
+
+Arguments: see command_line.py.
+"""
+
+import json
+import os
+import shutil
+import signal
+import struct
+import time
+
+from command_line import PT, SCENES, CommandLineTest, main, npy
+
+SHADERS = os.path.join(SCENES, "..", "..", "shaders")
+SMALL = ("-o", "a.png", "--size", "2x2", "--spp", "1")
+
+
+def sparse(path, start, size):
+    """A file that says it is large, and whose bytes could not be read in time."""
+    with open(path, "wb") as file:
+        file.write(start)
+        file.truncate(size)
+
+
+class NoFiles(CommandLineTest):
+    """A device, a named pipe that nobody writes to, and a folder, wherever a file is read."""
+
+    def setUp(self):
+        super().setUp()
+        os.mkfifo(self.path("pipe"))
+        os.mkdir(self.path("folder"))
+        self.write("c.npy", npy("<f4", (1, 3), [0, 0, -5]))
+        for name, target in ("zero", "/dev/zero"), ("pipe", "pipe"), ("folder", "folder"):
+            for ending in "json", "npy", "ptfilm", "png", "exr", "glsl":
+                os.symlink(target, self.path(f"{name}.{ending}"))
+
+    def column(self, name):
+        scene = {"materials": {"a": {}}, "spheres": [{"center": "c.npy", "radius": name, "material": "a"}]}
+        self.write("s.json", json.dumps(scene))
+
+    def test_they_are_refused_by_name(self):
+        for name, reason in ("zero", "not a regular file"), ("pipe", "not a regular file"), ("folder", "Is a directory"):
+            for arguments in (("render", f"{name}.json", *SMALL), ("merge", f"{name}.ptfilm", "-o", "a.png"),
+                              ("tonemap", f"{name}.png", "a.png"), ("tonemap", f"{name}.exr", "a.png")):
+                with self.subTest(name=name, command=arguments[0]):
+                    self.expect(6, *arguments, error=f"cannot read {arguments[1]}: {reason}\n")
+            self.column(f"{name}.npy")
+            self.expect(6, "render", "s.json", *SMALL,
+                        error=f"pt: s.json: spheres[0].radius: cannot read {name}.npy: {reason}\n")
+
+    def test_endless_standard_input_ends_at_its_first_zero(self):
+        with open("/dev/zero", "rb") as zero:
+            done = self.piped("render", "-", *SMALL, stdin=zero, text=True)
+        self.assertEqual((done.returncode, done.stderr),
+                         (3, "pt: standard input:1:1: a NUL byte: this is not UTF-8 text\n"))
+
+    def test_a_scene_names_no_standard_input(self):
+        self.column("-")
+        done = self.piped("render", "s.json", *SMALL, input=npy("<f4", (1,), [1]))
+        self.assertEqual(done.returncode, 6)
+        self.assertIn(b"cannot read -: No such file", done.stderr)
+
+    def test_the_beginning_is_checked_before_the_rest_is_read(self):
+        size = 2**40
+        for name, start, error in (("n.npy", b"", "is no NPY file"),
+                                   ("n.npy", npy("<f4", (1,), []), "goes on after its 1 rows"),
+                                   ("n.npy", b"\x93NUMPY\2\0" + struct.pack("<I", 2**31), "has a head of 2147483648 bytes")):
+            sparse(self.path(name), start, size)
+            self.column(name)
+            self.expect(3, "render", "s.json", *SMALL, error=error)
+        sparse(self.path("s.json"), b"{", size)
+        self.expect(3, "render", "s.json", *SMALL, error="s.json:1:2: a NUL byte")
+        sparse(self.path("s.png"), b"\x89PNG", size)
+        self.expect(6, "tonemap", "s.png", "a.png", error="cannot read s.png: ")
+        self.program = PT
+        for start in b"", b"PK\3\4", b"\x28\xb5\x2f\xfd":
+            sparse(self.path("s.ptfilm"), start, size)
+            self.expect(2, "merge", "s.ptfilm", "-o", "a.png", error="pt: s.ptfilm: ")
+
+
+class Compiler(CommandLineTest):
+    program = PT
+
+    def setUp(self):
+        super().setUp()
+        shutil.copytree(SHADERS, self.path("shaders"))
+        self.write("s.json", "{}")
+        self.arguments = ("render", "s.json", *SMALL, "--shader-dir", "shaders")
+
+    def include(self, text):
+        self.write("shaders/pathtrace.comp", "#version 450\n#extension GL_GOOGLE_include_directive : require\n" + text)
+
+    def test_what_is_included_is_a_file(self):
+        os.mkfifo(self.path("shaders/pipe.glsl"))
+        for name in "pipe.glsl", "/dev/zero":
+            self.include(f'#include "{name}"\n')
+            self.expect(3, *self.arguments, error=f"{name}: not a regular file")
+
+    def test_a_signal_ends_it_at_once(self):
+        """2^60 includes have no end."""
+        for i in range(60):
+            self.write(f"shaders/{i}.glsl", f'#include "{i + 1}.glsl"\n' * 2)
+        self.write("shaders/60.glsl", "\n")
+        self.include('#include "0.glsl"\n')
+        process = self.start(*self.arguments)
+        compiling = False
+        while not compiling:
+            self.assertIsNone(process.poll())
+            with open(f"/proc/{process.pid}/maps", encoding="utf-8") as maps:
+                compiling = "libpt-glsl.so" in maps.read()
+            time.sleep(0.01)
+        process.send_signal(signal.SIGTERM)
+        process.communicate(timeout=60)
+        self.assertEqual(process.returncode, -signal.SIGTERM)
+        self.assertEqual(self.files(), ["s.json", "shaders"])
+
+
+if __name__ == "__main__":
+    main()
