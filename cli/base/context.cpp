@@ -1,5 +1,7 @@
 #include "cli/base/context.h"
 
+#include "lib/platform/printable.h"
+
 #include <pt/errors.h>
 
 #include <algorithm>
@@ -61,7 +63,7 @@ std::string rule_text(const std::string &field, const BrokenRule &rule) {
     std::string text = field;
     if (!rule.with.empty())
         text.append(" ").append(rule.with);
-    return text.append(" = ").append(rule.value).append(": ").append(rule.rule);
+    return text.append(" = ").append(platform::printable(rule.value)).append(": ").append(rule.rule);
 }
 
 std::string LibraryError::in_words(const std::function<std::string(const BrokenRule &)> &words) const {

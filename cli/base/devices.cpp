@@ -36,8 +36,8 @@ std::vector<pt_device_info> list_devices() {
 Row table_row(std::size_t index, const pt_device_info &device) {
     return {std::to_string(index),
             kind_name(device.kind),
-            device.name,
-            device.driver,
+            platform::printable(device.name),
+            platform::printable(device.driver),
             memory_text(device.memory_bytes),
             uuid_text(device.uuid),
             device.suitable != 0 ? "yes" : std::string("no: ") + device.reason};

@@ -199,11 +199,11 @@ void print_for_people(const std::string &lines, bool standard_output_is_taken) {
     if (standard_output_is_taken)
         print_message(lines);
     else
-        std::cout << lines << std::flush;
+        std::cout << platform::printable_lines(lines) << std::flush;
 }
 
 Failure unreadable(const std::string &path, const platform::InputError &error) {
-    return {ExitCode::file, "cannot read " + path + ": " + error.what()};
+    return {ExitCode::file, "cannot read " + platform::printable(path) + ": " + error.what()};
 }
 
 std::string read_text(const std::string &path) {

@@ -56,13 +56,13 @@ std::string_view nearest_name(std::string_view name, std::span<const std::string
 
 std::string unknown_name(std::string_view kind, std::string_view name, std::span<const std::string_view> known) {
     constexpr std::size_t longest_list = 12;
-    std::string message = "unknown " + std::string(kind) + " \"" + std::string(name) + "\"";
+    std::string message = concat("unknown ", kind, " \"", name, "\"");
     const std::string_view nearest = nearest_name(name, known);
     if (!nearest.empty())
-        return message + ", did you mean \"" + std::string(nearest) + "\"?";
-    if (known.empty() || known.size() > longest_list)
-        return message;
-    return message + ", known: " + listed(known);
+        message += concat(", did you mean \"", nearest, "\"?");
+    else if (!known.empty() && known.size() <= longest_list)
+        message += ", known: " + listed(known);
+    return platform::printable(message);
 }
 
 } // namespace cli

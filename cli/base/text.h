@@ -1,8 +1,11 @@
 // Texts for people, and messages on stderr.
 #pragma once
 
+#include "lib/platform/printable.h"
+
 #include <cstdarg>
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <iostream>
 #include <sstream>
@@ -31,6 +34,11 @@ __attribute__((format(printf, 1, 2))) inline std::string formatted(const char *f
 // Three significant digits show 0.0031%, without exponent for usual values.
 inline std::string percent_text(double share) {
     return formatted("%.3g%%", 100.0 * share);
+}
+
+// "1 film", "2 films"
+inline std::string counted(std::uint64_t count, const std::string &noun) {
+    return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
 template <typename Texts>
@@ -62,7 +70,7 @@ inline std::string shortened(const std::string &line) {
 inline void print_message(const std::string &message) {
     std::istringstream lines(message);
     for (std::string line; std::getline(lines, line);)
-        std::cerr << "pt: " << shortened(line) << '\n';
+        std::cerr << "pt: " << shortened(platform::printable(line)) << '\n';
     std::cerr << std::flush;
 }
 

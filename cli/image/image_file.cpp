@@ -24,7 +24,7 @@ std::array<std::size_t, 3> channels_of(const DecodedImage &image, const std::str
         refuse_if(name == names.end(),
                   "cannot read " + image.path + ": must have the channels R, G and B" +
                       (layer.empty() ? "" : " of the layer " + layer + ", or a channel of that name") + ", has " +
-                      listed(image.channels),
+                      platform::printable(listed(image.channels)),
                   ExitCode::file);
         channels[i] = static_cast<std::size_t>(std::ranges::find(image.channels, *name) - image.channels.begin());
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "lib/base/error.h"
+#include "lib/platform/printable.h"
 
 #include <cfenv>
 #include <exception>
@@ -19,7 +20,7 @@ public:
     // Never throws: without memory a fixed message replaces it, without rules.
     void store(std::string_view message, std::shared_ptr<const Violations> broken_rules = nullptr) noexcept {
         try {
-            text_.assign(message);
+            text_ = platform::printable_lines(message);
             shown_ = nullptr;
             broken_rules_ = std::move(broken_rules);
         } catch (...) {

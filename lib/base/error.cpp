@@ -1,5 +1,7 @@
 #include "lib/base/error.h"
 
+#include "lib/platform/printable.h"
+
 #include <utility>
 
 namespace pt {
@@ -46,8 +48,10 @@ std::string BrokenRule::text() const {
 }
 
 void Violations::add(BrokenRule rule) {
-    if (!only_count())
+    if (!only_count()) {
+        rule.value = platform::printable(rule.value);
         first_.push_back(std::move(rule));
+    }
     count_one();
 }
 

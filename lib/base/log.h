@@ -1,6 +1,8 @@
 // The caller's log function.
 #pragma once
 
+#include "lib/platform/printable.h"
+
 #include <pt/pt.h>
 
 #include <algorithm>
@@ -19,7 +21,7 @@ struct Log {
         try {
             for (std::string::size_type start = 0; start < message.size();) {
                 const std::string::size_type end = std::min(message.find('\n', start), message.size());
-                function(user, level, message.substr(start, end - start).c_str());
+                function(user, level, platform::printable(message.substr(start, end - start)).c_str());
                 start = end + 1;
             }
         } catch (...) {

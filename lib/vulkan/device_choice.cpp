@@ -1,6 +1,7 @@
 #include "lib/vulkan/device_choice.h"
 
 #include "lib/base/error.h"
+#include "lib/platform/printable.h"
 
 #include <algorithm>
 #include <array>
@@ -148,7 +149,8 @@ std::size_t choose_device(std::span<const pt_device_info> devices, const std::st
     }
     if (best == devices.size())
         throw Error(PT_ERROR_NO_DEVICE,
-                    (wanted.empty() ? "no device fits:" : "no device fits \"" + wanted + "\":") + reasons);
+                    (wanted.empty() ? "no device fits:" : "no device fits \"" + platform::printable(wanted) + "\":") +
+                        reasons);
     return best;
 }
 

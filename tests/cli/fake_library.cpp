@@ -1,5 +1,6 @@
 // A stand-in for libpt without a device that fails on demand (pt_with_fake_library). Environment:
-// FAKE_PT_FAIL=function:result fails the function; name:1 makes the device's name invalid UTF-8.
+// FAKE_PT_FAIL=function:result fails the function; name:1 makes the device's name invalid UTF-8, name:2
+// puts an escape into it.
 // FAKE_PT_MESSAGE: the message of failures.
 // FAKE_PT_SAMPLE_MS: the least duration of a sample.
 // FAKE_PT_SIGNAL=number:submission sends a signal in that submission, counted from 1, four per sample.
@@ -66,7 +67,8 @@ pt_device_info fake_device() {
     device.memory_bytes = std::uint64_t{1} << 30;
     for (int i = 0; i < 16; ++i)
         device.uuid[i] = static_cast<std::uint8_t>(i * 17);
-    std::strcpy(device.name, failure("name") == PT_OK ? "fake device" : "d\xe9vice"); // Latin-1
+    constexpr const char *names[] = {"fake device", "d\xe9vice", "d\x1bvice"}; // Latin-1; an escape
+    std::strcpy(device.name, names[failure("name")]);
     std::strcpy(device.driver, "fake driver 1.0");
     std::strcpy(device.reason, device.suitable != 0 ? "" : "it is not real");
     return device;

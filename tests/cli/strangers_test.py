@@ -1,4 +1,4 @@
-"""Tests of files from strangers: what is no file is refused at once.
+"""Tests of files and texts from strangers: what is no file is refused at once, and what is printed steers no terminal.
 
 Arguments: see command_line.py.
 """
@@ -10,7 +10,7 @@ import signal
 import struct
 import time
 
-from command_line import PT, SCENES, CommandLineTest, main, npy
+from command_line import COURSEWORK, PT, SCENES, CommandLineTest, main, npy
 
 SHADERS = os.path.join(SCENES, "..", "..", "shaders")
 SMALL = ("-o", "a.png", "--size", "2x2", "--spp", "1")
@@ -79,6 +79,45 @@ class NoFiles(CommandLineTest):
             self.expect(2, "merge", "s.ptfilm", "-o", "a.png", error="pt: s.ptfilm: ")
 
 
+class Texts(CommandLineTest):
+    STRANGE = "a\x1b]0;b\x07\x7f\x9b\u202ec\u2066\u2028\nd"
+    SHOWN = "a<U+001B>]0;b<U+0007><U+007F><U+009B><U+202E>c<U+2066><U+2028><U+000A>d"
+
+    def expect_harmless(self):
+        self.assertNotRegex(self.errors, "[\0-\x09\x0b-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069]")
+
+    def test_names_in_scenes(self):
+        for scene, shown in (({self.STRANGE: {}}, f'unknown key "{self.SHOWN}"'),
+                             ({"camera": {self.STRANGE: 1}}, f'camera: unknown key "{self.SHOWN}"'),
+                             ({"render": {"sampler": self.STRANGE}}, f'unknown sampler "{self.SHOWN}"'),
+                             ({"a\0b": {}}, 'unknown key "a<U+0000>b"'),
+                             ({"spheres": [{"center": [0, 0, 0], "radius": 1, "material": self.STRANGE}]},
+                              f'unknown material "{self.SHOWN}"'),
+                             ({"materials": {self.STRANGE: {"diffuse": "x"}}}, "<U+202E>"),
+                             ({"film": {"gamma": self.STRANGE}}, "<U+202E>")):
+            self.write("s.json", json.dumps(scene, ensure_ascii=False))
+            self.expect(3, "render", "s.json", *SMALL, error=shown)
+            self.expect_harmless()
+            self.assertEqual(self.errors.count("\n"), 1)
+
+    def test_names_of_files(self):
+        self.write("c.npy", npy("<f4", (1, 3), [0, 0, -5]))
+        self.write("a", npy("<f4", (1,), [1]))
+        for name, code, shown in (("a\0b.npy", 6, "cannot read a<U+0000>b.npy: a file's name has no NUL byte\n"),
+                                  (self.STRANGE, 6, f"cannot read {self.SHOWN}: No such file")):
+            self.write("s.json", json.dumps({"materials": {"a": {}},
+                                             "spheres": [{"center": "c.npy", "radius": name, "material": "a"}]}))
+            self.expect(code, "render", "s.json", *SMALL, error=shown)
+            self.expect_harmless()
+        self.expect(6, "render", "\x1b[2J.json", *SMALL, error="cannot read <U+001B>[2J.json: ")
+        self.expect(0, "render", COURSEWORK, "-o", "\x1b[2J.png", "--size", "2x2", "--spp", "1")
+        self.assertIn("wrote <U+001B>[2J.png: ", self.output)
+
+    def test_names_of_devices(self):
+        self.expect(0, "devices", FAKE_PT_FAIL="name:2")
+        self.assertIn("d<U+001B>vice", self.output)
+
+
 class Compiler(CommandLineTest):
     program = PT
 
@@ -96,6 +135,11 @@ class Compiler(CommandLineTest):
         for name in "pipe.glsl", "/dev/zero":
             self.include(f'#include "{name}"\n')
             self.expect(3, *self.arguments, error=f"{name}: not a regular file")
+
+    def test_what_it_says_is_printable(self):
+        self.include('#include "\x1b]0;title\x07\u202e"\n')
+        self.expect(3, *self.arguments, error="shaders/<U+001B>]0;title<U+0007><U+202E>: No such file")
+        self.assertNotRegex(self.errors, "[\x07\x1b\u202e]")
 
     def test_a_signal_ends_it_at_once(self):
         """2^60 includes have no end."""

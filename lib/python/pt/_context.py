@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ctypes
-import os
 import weakref
 from types import TracebackType
 from typing import Any
@@ -24,6 +23,7 @@ from pt._library import checked, library
 from pt._pixels import Rectangle, image_struct, new_pixels
 from pt._scene import Scene, SceneStruct
 from pt._stats import DeviceInfo, ErrorEstimate, Stats, device_of, error_estimate_of, stats_of
+from pt._text import c_string
 
 MOST_SAMPLES = 2**32 - 1
 
@@ -70,9 +70,9 @@ class Context:
             raise ValueError("device = '': must name a device; None is the best one")
         if not 1 <= submit_milliseconds <= 1000:
             raise ValueError(f"submit_milliseconds = {submit_milliseconds}: must be in [1, 1000]")
-        info = structs.pt_create_info(device=None if device is None else device.encode(), flags=flags,
+        info = structs.pt_create_info(device=c_string(device), flags=flags,
                                       submit_milliseconds=submit_milliseconds,
-                                      shader_dir=None if shader_dir is None else os.fsencode(shader_dir))
+                                      shader_dir=c_string(shader_dir))
         if log is not None:
             info.log = log_pointer
         handle = ctypes.c_void_p()

@@ -20,6 +20,7 @@ from pt._film import Film
 from pt._image import Image
 from pt._library import checked, library
 from pt._stats import ErrorEstimate, Stats, error_estimate_of
+from pt._text import c_string
 
 if TYPE_CHECKING:
     from pt._callbacks import Progress
@@ -54,7 +55,7 @@ def denoise(first: npt.ArrayLike, second: npt.ArrayLike, albedo: npt.ArrayLike, 
     path = find_library() if library_path is None else os.fspath(library_path)
     pointers = [image.ctypes.data_as(ctypes.POINTER(ctypes.c_float)) for image in (*images, result)]
     info = structs.pt_denoise_info(
-        width=shape[1], height=shape[0], any_device=any_device, library=None if path is None else os.fsencode(path),
+        width=shape[1], height=shape[0], any_device=any_device, library=c_string(path),
         **dict(zip(("first", "second", "albedo", "normal", "denoised"), pointers)))
     error, loaded = structs.pt_error_estimate(), library()
     checked(loaded, loaded.pt_denoise(info, error))

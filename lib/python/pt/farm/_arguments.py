@@ -10,12 +10,13 @@ from typing import NoReturn
 
 from pt._command_line import USAGE, at_least, misnamed, numbered
 from pt._files import PICTURES
+from pt._text import tell
 
 FILM_LAYERS = {"mean", "standard-error", "sample-count"}
 
 
 def refuse(message: str, code: int = USAGE) -> NoReturn:
-    print(f"pt-farm: {message}", file=sys.stderr)
+    tell("pt-farm", message)
     sys.exit(code)
 
 

@@ -22,6 +22,7 @@ from pt._enums import Sampling
 from pt._errors import Error
 from pt._film import Film
 from pt._program import Program, program
+from pt._text import tell
 from pt.farm._arguments import check, frames_of, parser, refuse
 from pt.farm._job import FileJob, read_job
 from pt.farm._options import FarmError, Options
@@ -76,7 +77,7 @@ def write_pictures(film: Film, arguments: argparse.Namespace, facts: dict[str, A
             if not (arguments.film or arguments.checkpoint):
                 kept = tempfile.mkstemp(prefix="pt-farm-", suffix=".ptfilm")[1]
                 shutil.copyfile(path, kept)
-                print(f"pt-farm: the film is kept: pt merge {kept} -o ...", file=sys.stderr)
+                tell("pt-farm", f"the film is kept: pt merge {kept} -o ...")
             sys.exit(done.returncode)
 
 
@@ -112,8 +113,8 @@ def render_pictures(arguments: argparse.Namespace, others: list[str], signals: S
             write_pictures(result.film, arguments, facts, frame)
             signals.is_rendering = False
             if len(result.devices) > 1 and not arguments.quiet:
-                print("pt-farm: devices were mixed, so that the picture is statistically, and not bitwise, that of one "
-                      f"machine: {'; '.join(result.devices)}", file=sys.stderr)
+                tell("pt-farm", "devices were mixed, so that the picture is statistically, and not bitwise, that of one "
+                                f"machine: {'; '.join(result.devices)}")
             if signals.number:
                 break
             if result.progress.ended_by == "limit":
@@ -127,10 +128,10 @@ def main() -> int:
     try:
         return render_pictures(arguments, others, signals)
     except (FarmError, Error) as error:
-        print(f"pt-farm: {error}", file=sys.stderr)
+        tell("pt-farm", str(error))
         return SIGNAL + signals.number if signals.number else CODE_OF_RESULT.get(error.result, INTERNAL)
     except OSError as error:
-        print(f"pt-farm: {error}", file=sys.stderr)
+        tell("pt-farm", str(error))
         return FILES
 
 

@@ -7,6 +7,7 @@ import sys
 
 from pt._film import Film
 from pt._command_line import SIGNAL
+from pt._text import tell
 from pt.farm._options import Progress
 from pt.farm._workers import now
 
@@ -36,7 +37,8 @@ class Shown:
 
     def __call__(self, progress: Progress, _: Film | None) -> bool:
         for message in progress.messages[self._told:]:
-            print(f"\npt-farm: {message}", file=sys.stderr)
+            print(file=sys.stderr)
+            tell("pt-farm", message)
         self._told = len(progress.messages)
         if not self._is_quiet and (now() - self._time >= SHOWN_EVERY or progress.ended_by):
             self._time = now()

@@ -18,6 +18,7 @@ from pt._command_line import (CODE_OF_RESULT, FILES, INTERNAL, SCENE, SIGNAL, TA
 from pt._context import Context
 from pt._errors import Error
 from pt._files import PICTURES
+from pt._text import tell
 from pt.figures._accept import frames as read_frames, load
 from pt.figures._figure import LEGENDS, Figure, Staged
 from pt.figures._options import Options, two
@@ -33,7 +34,7 @@ FILMS = (".gif", ".mp4", ".webm", ".mov", ".avi", ".mkv")
 
 
 def refuse(message: str, code: int = USAGE) -> NoReturn:
-    print(f"pt-figure: {message}", file=sys.stderr)
+    tell("pt-figure", message)
     sys.exit(code)
 
 
@@ -163,7 +164,7 @@ def draw(given: argparse.Namespace, options: Options) -> int:
         if not given.quiet:
             for note in each.notes:
                 if (words := re.sub(r"\d", "", note)) not in told:  # of a series, once for all numbers
-                    print(f"pt-figure: {note}", file=sys.stderr)
+                    tell("pt-figure", note)
                     told.add(words)
         if given.legend and not number:
             each.save_legend(given.legend)
@@ -186,7 +187,7 @@ def write(figure: Figure, number: int | None, given: argparse.Namespace) -> None
             figure.save(numbered(path, number), bits=given.png_bits)
     if not given.quiet:
         names = ", ".join(numbered(path, number) for path in given.output)
-        print(f"wrote {names}: {figure!r}", file=sys.stderr if "-" in given.output else sys.stdout)
+        tell("", f"wrote {names}: {figure!r}", None if "-" in given.output else sys.stdout)
 
 
 def main() -> None:

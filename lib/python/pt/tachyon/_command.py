@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import sys
 from collections.abc import Iterator
 from typing import Any
 
@@ -12,6 +11,7 @@ import numpy as np
 
 from pt._command_line import FILES, SCENE
 from pt._scene import Material, SphereArray
+from pt._text import tell
 from pt.tachyon._reader import TachyonScene, read
 
 
@@ -32,10 +32,10 @@ def main(arguments: list[str] | None = None) -> int:
             with open(options.output, "w", encoding="utf-8") as file:
                 file.write(text + "\n")
     except (OSError, ValueError) as error:
-        print(f"pt-tachyon: {error}", file=sys.stderr)
+        tell("pt-tachyon", str(error))
         return SCENE if isinstance(error, ValueError) else FILES
     for note in found.notes:
-        print(f"pt-tachyon: warning: {note}", file=sys.stderr)
+        tell("pt-tachyon", f"warning: {note}")
     return 0
 
 

@@ -1,0 +1,32 @@
+"""Text from strangers: names of files and keys, and what drivers and compilers say."""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+from typing import Final, TextIO
+
+# What moves the cursor, changes the terminal, begins a line, or reverses the order of others (UAX #9, table 1).
+CONTROL: Final = re.compile("[\0-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069]")
+
+
+def printable(text: str) -> str:
+    """The text with control characters as <U+001B>, as the library and the program pt print them."""
+    return CONTROL.sub(lambda found: f"<U+{ord(found[0]):04X}>", text)
+
+
+def tell(program: str, message: str, stream: TextIO | None = None) -> None:
+    """Prints lines that begin with the program's name, by default on standard error."""
+    for line in message.rstrip("\n").split("\n"):
+        print(f"{program}: {printable(line)}" if program else printable(line), file=stream or sys.stderr)
+
+
+def c_string(text: str | os.PathLike[str] | None) -> bytes | None:
+    """For the library, which would take a NUL byte for the end. ValueError: there is one."""
+    if text is None:
+        return None
+    data = os.fsencode(text)
+    if b"\0" in data:
+        raise ValueError(f"{os.fspath(text)!r}: must have no NUL byte")
+    return data

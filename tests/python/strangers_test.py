@@ -1,0 +1,56 @@
+"""Files and texts from strangers: what is no file is refused at once, and what is printed steers no terminal."""
+
+import contextlib
+import io
+import os
+import pathlib
+import tempfile
+import unittest
+
+import pt
+from pt import tachyon
+from pt._text import c_string, printable, tell
+from pt.farm._job import read_job
+
+
+class Files(unittest.TestCase):
+    def test_only_files_are_read(self):
+        with tempfile.TemporaryDirectory() as folder:
+            pipe = os.path.join(folder, "pipe")
+            os.mkfifo(pipe)
+            for read in pt.Film.load, tachyon.read, lambda path: read_job(path, [], None):
+                for path in pipe, "/dev/zero", folder:
+                    with self.subTest(path=path), self.assertRaisesRegex(OSError, "not a regular file|Is a directory"):
+                        read(path)
+
+    def test_names_have_no_zero(self):
+        for call in (lambda: pt.Context("cpu\0gpu"), lambda: pt.Context(shader_dir="a\0b"),
+                     lambda: pt.Context(shader_dir=pathlib.Path("a\0b")), lambda: c_string("\0")):
+            with self.assertRaisesRegex(ValueError, "must have no NUL byte"):
+                call()
+        self.assertEqual((c_string("ä"), c_string(None)), ("ä".encode(), None))
+
+
+class Texts(unittest.TestCase):
+    def test_what_steers_terminals_is_shown(self):
+        """The cases of tests/cli/input_file_test.cpp."""
+        self.assertEqual(printable("\x1b[2J\r\n\t\x7f\0"), "<U+001B>[2J<U+000D><U+000A><U+0009><U+007F><U+0000>")
+        self.assertEqual(printable("\x9b \u061c\u200e\u200f \u2028\u2029\u202a\u202e \u2066\u2069"),
+                         "<U+009B> <U+061C><U+200E><U+200F> <U+2028><U+2029><U+202A><U+202E> <U+2066><U+2069>")
+        for text in "", "café 世界 \U0001f3a8 \u200d\u0301 ~", "\xa0\u2027\u202f\u2065\u206a":
+            self.assertEqual(printable(text), text)
+
+    def test_every_line_has_the_programs_name(self):
+        with contextlib.redirect_stderr(io.StringIO()) as stream:
+            tell("pt-x", "a\x1b\u2028b\nc\n")
+        self.assertEqual(stream.getvalue(), "pt-x: a<U+001B><U+2028>b\npt-x: c\n")
+
+    def test_the_library_shows_the_same_characters(self):
+        text = "".join(map(chr, [*range(1, 0x3000), 0xfeff, 0xfffd, 0x1f600]))
+        with self.assertRaises(pt.Error) as caught:
+            pt.Context(text)
+        self.assertTrue(f'"{printable(text)}"' in str(caught.exception))  # without a diff of them all
+
+
+if __name__ == "__main__":
+    unittest.main()
