@@ -2,12 +2,14 @@
 (0 or 1)."""
 
 import asyncio
+import contextlib
 import http.client
 import json
 import os
 import pathlib
 import shutil
 import signal
+import socket
 import struct
 import subprocess
 import sys
@@ -112,6 +114,11 @@ class Views(unittest.TestCase):
         status, headers = self.request(good)
         self.assertEqual((status, headers["X-Content-Type-Options"]), (200, "nosniff"))
         self.assertIn("default-src 'self'", headers["Content-Security-Policy"])
+        for path in "/", f"/x{good}", good + "absent", f"/{self.token}/socket":
+            status, headers = self.request(path)
+            self.assertGreaterEqual(status, 400)
+            for name, value in _server.HEADERS.items():
+                self.assertEqual(headers[name], value, path)
         for name in ("view.js", "tone.js", "view.css", "codemirror.js"):
             self.assertEqual(self.request(good + name)[0], 200)
         port = self.host.partition(":")[2]
@@ -333,6 +340,46 @@ class Edits(unittest.TestCase):
 class Command(unittest.TestCase):
     def command(self, *arguments):
         return [sys.executable, "-m", "pt.view._command", *map(str, arguments)]
+
+    def test_garbage_is_answered_without_a_word(self):
+        with tempfile.TemporaryDirectory() as name:
+            scene = pathlib.Path(name, "s.json")
+            scene.write_text(text_of(SCENE_FILE))
+            with subprocess.Popen(self.command(scene, "--no-browser"), stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                  text=True) as process:
+                host = process.stdout.readline().split("/")[2]
+                where = host.partition(":")[0], int(host.partition(":")[2])
+                for garbage in (b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03", b"\0" * 300, b"GET\r\n\r\n", b"GET / HTTP/9.9\r\n\r\n",
+                                b"GET /\x1b[2J HTTP/1.1\r\nHost:\r\n\r\n", b"GET / HTTP/1.1\r\n" + b"a" * 10000 + b"\r\n\r\n",
+                                b"POST / HTTP/1.1\r\nContent-Length: -1\r\n\r\n"):
+                    with socket.create_connection(where) as connection:
+                        connection.sendall(garbage)
+                        connection.shutdown(socket.SHUT_WR)
+                        with contextlib.suppress(ConnectionError):
+                            while connection.recv(4096):
+                                pass
+                process.send_signal(signal.SIGTERM)
+                self.assertEqual((process.communicate(timeout=60)[1], process.returncode), ("", 0))
+
+    @unittest.skipUnless(hasattr(os, "geteuid") and os.geteuid() == 0, "needs root, for a second user")
+    def test_another_users_kernels_are_not_edited(self):
+        with tempfile.TemporaryDirectory() as name:
+            scene = pathlib.Path(name, "s.json")
+            scene.write_text(text_of(SCENE_FILE))
+            folder, target = pathlib.Path(name, "pt-shaders"), pathlib.Path(name, "kernels")
+            environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
+            for owner_of_link, owner in ((None, 65534), (65534, 0), (0, 65534)):
+                shutil.copytree(SHADERS, folder if owner_of_link is None else target)
+                if owner_of_link is not None:
+                    folder.symlink_to(target)
+                    os.lchown(folder, owner_of_link, 0)
+                os.chown(folder, owner, 0)
+                done = subprocess.run(self.command(scene, "--no-browser", "--edit"), cwd=name, env=environment, text=True,
+                                      capture_output=True, timeout=60)  # a view that starts does not end
+                self.assertEqual((done.returncode, done.stderr),
+                                 (6, "pt-view: --edit: pt-shaders is another user's: use another folder\n"))
+                (shutil.rmtree if owner_of_link is None else os.remove)(folder)
+                shutil.rmtree(target, ignore_errors=True)
 
     def test_it_prints_its_address_and_ends(self):
         with tempfile.TemporaryDirectory() as name:

@@ -17,6 +17,7 @@ from typing import IO, NoReturn
 from pt._command_line import CODE_OF_RESULT, FILES, INTERNAL, SCENE, USAGE, at_least
 from pt._errors import Error
 from pt._library import library_path
+from pt._text import tell
 from pt.figures._command import add_option, joined, typed
 from pt.figures._options import Options, two
 
@@ -28,7 +29,7 @@ VECTOR_BITS = "LP_NATIVE_VECTOR_WIDTH"
 
 
 def refuse(message: str, code: int = USAGE) -> NoReturn:
-    print(f"pt-view: {message}", file=sys.stderr)
+    tell("pt-view", message)
     sys.exit(code)
 
 
@@ -60,17 +61,25 @@ def kernels() -> pathlib.Path | None:
     return next((place for place in places if (place / "pathtrace.comp").exists()), None)
 
 
+def is_of_another(path: pathlib.Path) -> bool:
+    """Whether a folder, or the link that leads to it, belongs to another user, who may exchange what is in it."""
+    return hasattr(os, "geteuid") and any(status.st_uid != os.geteuid() for status in (path.lstat(), path.stat()))
+
+
 def shader_dir(given: argparse.Namespace) -> pathlib.Path | None:
     if given.shader_dir:
         return pathlib.Path(given.shader_dir)
     if not given.edit:
         return None
     folder, source = pathlib.Path("pt-shaders"), kernels()
-    if not folder.exists():
+    if folder.is_symlink() or folder.exists():
+        if is_of_another(folder):
+            refuse(f"--edit: {folder} is another user's: use another folder", FILES)
+    else:
         if source is None:
             refuse("--edit: the kernels are not installed; --shader-dir DIR names a copy of shaders/", FILES)
         shutil.copytree(source, folder, ignore=lambda _, names: {name for name in names if name.endswith(".md")})
-    print(f"pt-view: the kernels are in {folder}", file=sys.stderr)
+    tell("pt-view", f"the kernels are in {folder}")
     return folder
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import hmac
 import json
+import logging
 import pathlib
 import re
 import secrets
@@ -14,11 +15,11 @@ import urllib.parse
 from collections.abc import Awaitable, Callable
 from typing import Any, Final, Protocol
 
-from aiohttp import WSMsgType, web
+from aiohttp import WSMsgType, http_exceptions, web
 
 from pt._camera import Camera
 from pt._exr import encode_exr
-from pt._files import write_atomically
+from pt._files import regular, write_atomically
 from pt.view._frame import LAYERS, METHODS, Frame, name_of
 
 PAGE: Final = {path.name: path.read_bytes() for path in pathlib.Path(__file__).with_name("page").iterdir()
@@ -87,7 +88,8 @@ class Server:
         application.add_routes([web.get("/{token}/", self._page), web.get("/{token}/socket", self._connect),
                                 web.get("/{token}/picture.exr", self._exr), web.get("/{token}/scene", self._scene),
                                 web.get("/{token}/{name}", self._page)])
-        runner = web.AppRunner(application, access_log=None)
+        application.on_response_prepare.append(_add_headers)
+        runner = web.AppRunner(application, access_log=None, logger=_log())
         self._loop.run_until_complete(runner.setup())
         self._loop.run_until_complete(web.SockSite(runner, self._socket).start())
         self._loop.call_soon(self._is_ready.set)
@@ -107,10 +109,7 @@ class Server:
             raise web.HTTPForbidden(text="pt view: this host or origin is refused\n")
         if not hmac.compare_digest(request.match_info.get("token", "").encode(), self._token.encode()):
             raise web.HTTPForbidden(text="pt view: the address needs its token\n")
-        response = await handler(request)
-        if not response.prepared:
-            response.headers.update(HEADERS)
-        return response
+        return await handler(request)
 
     async def _page(self, request: web.Request) -> web.StreamResponse:
         name = request.match_info.get("name", "index.html")
@@ -196,7 +195,9 @@ class Server:
                 await connection.send_json({"files": list(self._files())})
             elif "open" in message:
                 path = self._file(message["open"])
-                await connection.send_json({"opened": message["open"], "text": path.read_text("utf-8", "replace")})
+                with open(path, encoding="utf-8", errors="replace", opener=regular) as file:
+                    text = file.read()
+                await connection.send_json({"opened": message["open"], "text": text})
             elif "save" in message:
                 path, data = self._file(message["save"]), str(message["text"]).encode()
                 write_atomically(path, lambda file: file.write(data))
@@ -212,6 +213,19 @@ class Server:
         if not isinstance(name, str) or name not in files:
             raise ValueError("no such file is open to the page")
         return files[name]
+
+
+async def _add_headers(_: web.Request, response: web.StreamResponse) -> None:
+    """Of every answer, also of refusals."""
+    response.headers.update(HEADERS)
+
+
+def _log() -> logging.Logger:
+    """For faults of this server. Requests that are no HTTP are answered, and not worth a line."""
+    log = logging.Logger("pt.view", logging.ERROR)
+    log.addHandler(logging.StreamHandler())
+    log.addFilter(lambda record: not (record.exc_info and isinstance(record.exc_info[1], http_exceptions.HttpProcessingError)))
+    return log
 
 
 def changes_of(message: dict[str, Any]) -> dict[str, Any]:
