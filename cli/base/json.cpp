@@ -213,7 +213,8 @@ std::string shown(const json &value) {
     constexpr std::size_t longest = 40;
     if (value.is_structured() || value.is_null())
         return json_kind(value.type());
-    const std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
+    const std::string text = value.is_number_float() ? number_text(value.get<double>())
+                                                     : value.dump(-1, ' ', false, json::error_handler_t::replace);
     return text.size() > longest ? json_kind(value.type()) : text;
 }
 
@@ -222,7 +223,9 @@ std::uint64_t largest_whole_number(const ValueRule &rule) {
 }
 
 void refuse_unknown_key(const JsonPlace &object, std::string_view key, std::span<const std::string_view> known) {
-    refuse(object, unknown_name("key", key, known));
+    JsonRefusal refusal(object.path(), unknown_name("key", key, known));
+    refusal.cause = object.member(key).path();
+    throw refusal;
 }
 
 } // namespace cli

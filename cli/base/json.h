@@ -56,9 +56,13 @@ struct JsonPlace {
 
 // The caller adds file and line.
 struct JsonRefusal : std::runtime_error {
-    JsonRefusal(JsonPath place, const std::string &rule) : std::runtime_error(rule), path(std::move(place)) {}
+    JsonRefusal(JsonPath place, const std::string &rule) :
+        std::runtime_error(rule),
+        path(place),
+        cause(std::move(place)) {}
 
     JsonPath path;
+    JsonPath cause; // what is on the line that is told: the value, or an unknown key in it
 };
 
 [[noreturn]] inline void refuse(const JsonPlace &place, const std::string &rule) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <type_traits>
 
@@ -23,6 +24,16 @@ std::optional<Number> parse_number(std::string_view text) {
             return std::nullopt;
     }
     return number;
+}
+
+// The shortest text that reads back as the number, but whole numbers of up to 15 digits with all of them: "-300000",
+// "1e+39".
+inline std::string number_text(double number) {
+    if (std::abs(number) < 1e15 && number == std::trunc(number))
+        return std::to_string(static_cast<std::int64_t>(number));
+    std::array<char, 32> text{};
+    const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), number);
+    return {text.data(), end};
 }
 
 // "0.005" or "0.5%", both 0.005.

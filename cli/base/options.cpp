@@ -69,6 +69,14 @@ std::string unknown(std::string_view kind, std::string_view name, const std::vec
     return unknown_name(kind, name, std::vector<std::string_view>(known.begin(), known.end()));
 }
 
+// Empty if no command reads files with that ending.
+std::string_view command_that_reads(std::string_view name) {
+    return name.ends_with(".json")     ? "render"
+           : name.ends_with(".ptfilm") ? "merge"
+           : name.ends_with(".exr")    ? "tonemap"
+                                       : "";
+}
+
 // `unknown option "--expsure", did you mean "--exposure"?`; empty without a leftover argument.
 std::optional<std::string> unknown_argument(const CLI::App &command) {
     const std::vector<std::string> left_over = command.remaining();
@@ -78,11 +86,29 @@ std::optional<std::string> unknown_argument(const CLI::App &command) {
     if (first.starts_with('-'))
         return unknown("option", first.substr(0, first.find('=')), option_names(command));
     const std::vector<std::string> subcommands = command_names(command);
-    return subcommands.empty() ? "unexpected argument \"" + first + "\"" : unknown("command", first, subcommands);
+    if (subcommands.empty())
+        return "unexpected argument \"" + first + "\"";
+    const std::string_view reader = command_that_reads(first);
+    return reader.empty() ? unknown("command", first, subcommands)
+                          : concat("unknown command \"", first, "\", did you mean \"pt ", reader, " ", first, "\"?");
+}
+
+// "--spp: is given 2 times, must be given once": the name is the beginning of CLI11's message.
+std::string mismatch_text(const CLI::App &command, const std::string &message) {
+    const std::string name = message.substr(0, message.find(':'));
+    const CLI::Option *option = command.get_option_no_throw(name);
+    if (option == nullptr)
+        return message;
+    const bool is_too_often = option->count() > static_cast<std::size_t>(option->get_items_expected_max());
+    return is_too_often ? concat(name, ": is given ", option->count(), " times, must be given once")
+                        : concat(name, ": its ", option->get_type_name(), " is missing");
 }
 
 std::string reason_of(const CLI::App &command, const CLI::ParseError &error) {
-    return unknown_argument(command).value_or(error.what());
+    if (const auto unknown = unknown_argument(command))
+        return *unknown;
+    const bool is_mismatch = dynamic_cast<const CLI::ArgumentMismatch *>(&error) != nullptr;
+    return is_mismatch ? mismatch_text(command, error.what()) : error.what();
 }
 
 class HelpFormatter : public CLI::Formatter {

@@ -85,7 +85,7 @@ std::filesystem::path module_path() {
     std::error_code ignored;
     refuse_if(!std::filesystem::exists(path, ignored),
               "other formats than PNG need the image module, and there is no " + path.string() +
-                  ": install the package pt-image-formats, or libopenimageio-dev before building pt",
+                  ": the package pt-image-formats and builds with libopenimageio-dev have it, wheels do not",
               ExitCode::file);
     return path;
 }

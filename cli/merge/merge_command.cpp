@@ -140,15 +140,14 @@ nlohmann::ordered_json stats_json(const MergeReport &report) {
 
 // "8 films of 320x160 pixels: 64 spp, samples [0, 64)", and a line about missing samples, if there are any.
 std::string summary_text(const MergeReport &report) {
-    return concat(report.part_count, report.part_count == 1 ? " film of " : " films of ", report.info.columns, "x",
-                  report.info.rows, " pixels: ", report.picture.stats.sample_count, " spp, samples ",
-                  ranges_text(report.samples));
+    return concat(counted(report.part_count, "film"), " of ", report.info.columns, "x", report.info.rows,
+                  " pixels: ", report.picture.stats.sample_count, " spp, samples ", ranges_text(report.samples));
 }
 
 std::string missing_text(const MergeReport &report) {
     return report.missing.empty() ? ""
-                                  : concat(sample_count_of(report.missing),
-                                           " samples per pixel are missing: ", ranges_text(report.missing));
+                                  : concat(counted(sample_count_of(report.missing), "sample"),
+                                           " per pixel missing: ", ranges_text(report.missing));
 }
 
 // Returns whether all files could be written.

@@ -68,7 +68,8 @@ std::string samples_text(const pt_stats &stats) {
 }
 
 std::string target_text(const RenderReport &report) {
-    const std::string samples = samples_text(report.stats) + " samples";
+    const std::string count = samples_text(report.stats);
+    const std::string samples = count + (count == "1" ? " sample" : " samples");
     if (report.target_reached())
         return "target reached after " + samples;
     const std::string high = std::isfinite(report.error.relative_rmse_high)

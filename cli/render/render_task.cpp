@@ -16,8 +16,8 @@ namespace {
 std::uint32_t limited_samples(std::uint32_t count, std::uint32_t first, bool is_upper_limit) {
     const std::uint64_t left = (std::uint64_t{1} << 32) - first;
     refuse_if(count > left && !is_upper_limit,
-              concat("--first-sample ", first, ": ", count, " samples from there on would pass the last index, ",
-                     std::numeric_limits<std::uint32_t>::max()));
+              concat("--first-sample ", first, ": ", counted(count, "sample"),
+                     " from there on would pass the last index, ", std::numeric_limits<std::uint32_t>::max()));
     return static_cast<std::uint32_t>(std::min<std::uint64_t>(count, left));
 }
 

@@ -4,6 +4,8 @@
 #include "cli/base/text.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -27,16 +29,40 @@ float reflected_share(const pt_material &material) {
     return largest;
 }
 
+// By the sRGB curve (IEC 61966-2-1).
+double light_of_byte(float byte) {
+    const double signal = byte / 255.0;
+    return signal <= 0.04045 ? signal / 12.92 : std::pow((signal + 0.055) / 1.055, 2.4);
+}
+
+// For a color that was probably meant as sRGB bytes, what to write instead; empty for any other.
+std::string byte_color_text(const pt_material &material) {
+    std::array<std::string, 3> bytes;
+    std::array<std::string, 3> shares;
+    const auto is_byte = [](float number) {
+        return number >= 0.0F && number <= 255.0F && number == std::floor(number);
+    };
+    const bool is_color = std::ranges::all_of(material.diffuse, is_byte) && std::ranges::max(material.diffuse) > 1.0F;
+    for (std::size_t i = 0; i < 3 && is_color; ++i) {
+        bytes[i] = formatted("%.0f", material.diffuse[i]);
+        shares[i] = formatted("%.3g", light_of_byte(material.diffuse[i]));
+    }
+    return is_color ? concat("; the sRGB color ", listed(bytes), " is [", listed(shares), "]") : "";
+}
+
 std::optional<std::string> brightening_materials(const SceneFile &scene) {
     constexpr float tolerance = 1e-6F; // 0.1 + 0.9 in float32 may pass 1
     constexpr std::size_t most_names = 3;
     std::vector<std::string> names;
+    std::string hint; // for the first
     std::size_t count = 0;
     float largest = 0.0F;
     for (const std::uint32_t i : scene.used_materials) {
         const float share = reflected_share(scene.materials[i]);
         if (!(share > 1.0F + tolerance))
             continue;
+        if (count == 0)
+            hint = byte_color_text(scene.materials[i]);
         if (++count <= most_names)
             names.push_back(path_text({{"materials"}, {scene.material_names[i]}}));
         largest = std::max(largest, share);
@@ -45,7 +71,7 @@ std::optional<std::string> brightening_materials(const SceneFile &scene) {
         return std::nullopt;
     return listed(names) + (count > most_names ? concat(" and ", count - most_names, " more") : "") +
            ": diffuse + specular = " + formatted("%.3g", largest) + (count == 1 ? "" : " at the most") +
-           ": more light is reflected than received";
+           ": more light is reflected than received" + hint;
 }
 
 bool is_black(std::span<const float> radiance) {
@@ -98,8 +124,8 @@ std::vector<std::string> image_warnings(const RenderReport &report, std::span<co
             static_cast<double>(report.render.width) * report.window.part.height; // of whole rows
         const double sample_count = pixel_count * stats.sample_count;
         const double share = static_cast<double>(stats.rejected_samples) / sample_count;
-        warnings.push_back(std::to_string(stats.rejected_samples) + " samples (" + percent_text(share) +
-                           ") were left out: not finite, negative or too bright");
+        warnings.push_back(counted(stats.rejected_samples, "sample") + " (" + percent_text(share) +
+                           ") left out: not finite, negative or too bright");
     }
     if (auto below = picture_below_its_target(report, radiance))
         warnings.push_back(std::move(*below));

@@ -66,6 +66,19 @@ public:
 
     std::optional<std::size_t> line() const { return line_; }
 
+    // Where a comma is missing; nothing if that is not what is wrong. wrong_end: of the text whose last character ends
+    // the first wrong token.
+    std::optional<std::size_t> missing_comma(std::string_view text, std::size_t wrong_end) const {
+        constexpr std::string_view blanks = " \t\r\n";
+        constexpr std::string_view ends_of_values = "\"{[0123456789el"; // or their beginnings
+        const bool has_another = !levels_.empty() && wrong_end > 0 && wrong_end <= text.size() &&
+                                 ends_of_values.find(text[wrong_end - 1]) != std::string_view::npos;
+        if (!has_another || !after_value_)
+            return std::nullopt;
+        const auto end = static_cast<std::size_t>(value_end_ - begin_);
+        return text.find_last_not_of(blanks, end - 1) + 1;
+    }
+
 private:
     // An array or object that is open, and the step to what is inside it now.
     struct Level {
@@ -79,6 +92,9 @@ private:
 
     // The parser's callback: false if the value is not to be kept.
     bool take(json::parse_event_t event, const json &parsed) {
+        const bool is_end = event == json::parse_event_t::array_end || event == json::parse_event_t::object_end;
+        after_value_ = is_end || event == json::parse_event_t::value;
+        value_end_ = reached_ - (parsed.is_number() ? 1 : 0); // after a number one more character has been read
         switch (event) {
         case json::parse_event_t::object_start:
         case json::parse_event_t::array_start:
@@ -168,6 +184,8 @@ private:
     const JsonPath &wanted_;
     const char *begin_ = nullptr;
     const char *reached_ = nullptr;
+    const char *value_end_ = nullptr; // of the last event
+    bool after_value_ = false;
     std::vector<Level> levels_;
     std::size_t line_depth_; // of what the line is, or of what it may be
     std::optional<std::size_t> line_;
@@ -175,7 +193,11 @@ private:
 
 // "[json.exception...] parse error at line 1, column 2: syntax error while ...", with the place in the file's words.
 // error.byte counts the characters read so far, the wrong one included.
-Failure failure_of(const json::parse_error &error, std::string_view text, const std::string &file_name) {
+Failure failure_of(const json::parse_error &error, const ItemParser &parser, std::string_view text,
+                   const std::string &file_name) {
+    if (const auto comma = parser.missing_comma(text, error.byte))
+        return {ExitCode::scene,
+                file_name + ":" + line_and_column(text.substr(0, *comma)) + ": syntax error: a comma is missing"};
     const std::string_view before =
         text.substr(0, std::min(error.byte, text.size() + 1) - std::min<std::size_t>(error.byte, 1));
     const std::string_view what = error.what();
@@ -194,7 +216,7 @@ void parse_json_items(std::string_view text, const std::string &file_name, JsonI
     try {
         parser.parse(text);
     } catch (const json::parse_error &error) {
-        throw failure_of(error, text, file_name);
+        throw failure_of(error, parser, text, file_name);
     }
 }
 

@@ -200,7 +200,7 @@ SceneFile parse_scene(std::string text, const std::string &path, std::vector<Sce
     try {
         read_sections(scene, require_text(scene.text, path));
     } catch (const JsonRefusal &refusal) {
-        const auto line = line_of(scene.text, refusal.path);
+        const auto line = line_of(scene.text, refusal.cause);
         const std::string name = path_text(refusal.path);
         throw Failure(ExitCode::scene, path + (line ? ":" + std::to_string(*line) : "") +
                                            (name.empty() ? "" : ": " + name) + ": " + refusal.what());

@@ -28,20 +28,27 @@ class Usage(CommandLineTest):
 
     def test_misspelt_names_get_a_suggestion(self):
         render = ["render", COURSEWORK, "-o", "a.png"]
-        for arguments, error in ((["scene.json"], 'command "scene.json", known: render, tonemap, compare, merge, denoise, '
-                                                  'selftest, schema, devices'),
+        for arguments, error in ((["scene"], 'command "scene", known: render, tonemap, compare, merge, denoise, '
+                                             'selftest, schema, devices'),
+                                 (["a.json"], 'unknown command "a.json", did you mean "pt render a.json"? (see pt --help)'),
+                                 (["a.ptfilm"], 'did you mean "pt merge a.ptfilm"?'),
+                                 (["a.exr"], 'did you mean "pt tonemap a.exr"?'),
                                  (["render", COURSEWORK, "--outptu", "a.png"],
                                   'unknown option "--outptu", did you mean "--output"? (see pt render --help)'),
                                  ([*render, "--expsure=-3"], 'unknown option "--expsure",'),
                                  (["selftest", "--devcie", "0"], 'mean "--device"? (see pt selftest --help)'),
-                                 (["render", "a.json", "-o"], "pt: --output: 1 required IMAGE missing (see"),
-                                 ([*render, "--spp", "4", "--spp", "5"], "pt: --spp: At Most 1 required but received 2 (see"),
+                                 (["render", "a.json", "-o"], "pt: --output: its IMAGE is missing (see"),
+                                 ([*render, "--spp", "4", "--spp", "5"], "pt: --spp: is given 2 times, must be given once (see"),
                                  (["--quiet", *render], "pt: --quiet: stands before the command; its options stand"),
                                  ([*render, "-Z"], 'unknown option "-Z" (see'),
                                  (["render", "b.json", *render[1:]], 'unexpected argument "')):
             with self.subTest(arguments=arguments):
                 self.expect(2, *arguments, error=error)
         self.assertEqual(self.files(), [])
+
+    def test_numbers_are_shown_as_they_were_given(self):
+        for option, value in ("--gamma", "-3"), ("--gamma", "0.05"), ("--spp", "-3"), ("--exposure", "100"):
+            self.expect(2, "render", COURSEWORK, "-o", "a.png", option, value, error=f", is {value} (see")
 
     def test_samples_by_the_error_need_one(self):
         arguments = ["render", COURSEWORK, "-o", "a.png", "--size", "2x2", "--spp", "20", "--sampling"]
@@ -269,7 +276,7 @@ class Warnings(CommandLineTest):
         self.assertEqual(self.warnings(scene=COURSEWORK), [])
         self.assertEqual(self.warnings("--error", "2", "--spp", "16", scene=COURSEWORK, FAKE_PT_FAIL="rejected:-1"),
                          ["--error: the target is 200%; two percent are written 2% or 0.02",
-                          "3 samples (0.586%) were left out: not finite, negative or too bright"])
+                          "3 samples (0.586%) left out: not finite, negative or too bright"])
 
     def test_an_error_comes_without(self):
         self.write("s.json", "{}")

@@ -67,12 +67,12 @@ class Merge(CommandLineTest):
     def test_what_is_missing_is_told(self):
         some = [self.parts[i] for i in (6, 1, 2)]
         self.merge(0, *some, "-o", "a.png", "--stats", "a.json")
-        self.assertEqual(self.errors, "pt: 27 samples per pixel are missing: [27, 54)\n")
+        self.assertEqual(self.errors, "pt: 27 samples per pixel missing: [27, 54)\n")
         self.assertIn("27 spp, samples [9, 27), [54, 63)\n", self.output)
         stats = json.loads(self.read("a.json"))
         self.assertEqual((stats["samples"], stats["missing"]), ([[9, 27], [54, 63]], [[27, 54]]))
         self.assertEqual(self.run_pt("merge", *some, "-o", "b.png", "--first-sample", "0", "--spp", "72"), 7)
-        self.assertEqual(self.errors, "pt: 45 samples per pixel are missing: [0, 9), [27, 54), [63, 72)\n")
+        self.assertEqual(self.errors, "pt: 45 samples per pixel missing: [0, 9), [27, 54), [63, 72)\n")
         self.assertEqual(self.contents("a.png"), self.contents("b.png"))
         self.merge(0, *self.parts, "-o", "c.png", "--first-sample", "0", "--spp", "72")
         self.assertEqual(self.errors, "")

@@ -175,6 +175,20 @@ TEST(SceneFile, SyntaxErrorsHaveLineAndColumn) {
     EXPECT_TRUE(refusal("{\n").starts_with("2:1: syntax error"));
 }
 
+TEST(SceneFile, AMissingCommaIsToldWhereItBelongs) {
+    const std::string missing = "syntax error: a comma is missing";
+    EXPECT_EQ(refusal("{\"film\": {\n\"width\": 4\n  \"height\": 2}}"), "2:11: " + missing);
+    EXPECT_EQ(refusal("{\"film\": {\n\"tonemap\": \"agx\" // a remark\n  \"height\": 2}}"), "2:17: " + missing);
+    EXPECT_EQ(refusal("{\"film\": {}\n\n\"render\": {}}"), "1:12: " + missing);
+    EXPECT_EQ(refusal("{\"spheres\": [{}\n{}]}").substr(0, 3), "1: "); // the first one is refused before
+    EXPECT_EQ(refusal("{\"camera\": {\"position\": [1, 2\n3]}}"), "1:30: " + missing);
+    EXPECT_EQ(refusal("{\"camera\": {\"position\": [1, [2]\ntrue]}}"), "1:32: " + missing);
+    EXPECT_NE(refusal("{\"film\": {\"width\": 4 x}}").find("invalid literal"), std::string::npos);
+    EXPECT_EQ(refusal("{\"film\": {\"width\": 4]}").find(missing), std::string::npos);
+    EXPECT_EQ(refusal("{\"film\": {\"width\" 4}}").find(missing), std::string::npos);
+    EXPECT_EQ(refusal("{\"film\": {}} {}").find(missing), std::string::npos);
+}
+
 TEST(SceneFile, DeepNestingIsNotDangerous) {
     constexpr std::size_t depth = 100'000; // a hundred bytes of stack per level would overflow
     const std::string open(depth, '[');
@@ -223,6 +237,19 @@ TEST(SceneFile, UnknownNamesGetASuggestion) {
               "1: spheres[0].material: unknown material \"glod\", did you mean \"gold\"?");
     EXPECT_EQ(refusal(R"({"render":{"sampler":"halton-pc"}})"),
               "1: render.sampler: unknown sampler \"halton-pc\", did you mean \"halton-cp\"?");
+}
+
+TEST(SceneFile, UnknownKeysHaveTheirOwnLine) {
+    EXPECT_EQ(refusal("{\n\"film\": {},\n\"speres\": []}"), "3: unknown key \"speres\", did you mean \"spheres\"?");
+    EXPECT_EQ(refusal("{\"film\": {\n\"widht\": 1}}"), "2: film: unknown key \"widht\", did you mean \"width\"?");
+    EXPECT_EQ(refusal("{\"spheres\": [\n{\"center\": [0, 0, 0],\n\"raduis\": 1}]}"),
+              "3: spheres[0]: unknown key \"raduis\", did you mean \"radius\"?");
+}
+
+TEST(SceneFile, NumbersAreShownAsTheyAreWritten) {
+    for (const char *number : {"-3", "-300000", "-0.1", "1e+300", "-1234567.5"})
+        EXPECT_EQ(refusal(std::string(R"({"film":{"gamma":)") + number + "}}"),
+                  std::string("1: film.gamma: must be a number from 0.1 to 10, is ") + number);
 }
 
 TEST(SceneFile, DuplicatesAreRefused) {

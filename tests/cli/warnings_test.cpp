@@ -71,6 +71,13 @@ TEST(Warnings, ManyMaterialsAreOneWarning) {
                     "more light is reflected than received"});
 }
 
+TEST(Warnings, ColorsOfBytesComeWithTheirLight) {
+    EXPECT_EQ(warnings_of(R"("materials": {"lamp": {"emission": 1}, "red": {"diffuse": [160, 25, 25]}}, "spheres": [)" +
+                          sphere(9, 1, "lamp") + ", " + sphere(20, 1, "red") + "]"),
+              Texts{"s.json: materials.red: diffuse + specular = 160: more light is reflected than received; the sRGB "
+                    "color 160, 25, 25 is [0.352, 0.00972, 0.00972]"});
+}
+
 TEST(Warnings, TargetsThatSayNothing) {
     const cli::SceneFile scene =
         cli::parse_scene(std::string("{").append(scene_of(sphere(9, 1, "lamp"))).append("}"), "s.json");
@@ -89,7 +96,7 @@ TEST(Warnings, SamplesLeftOut) {
     EXPECT_EQ(image_warnings(report, two_pixels), Texts());
     report.stats.rejected_samples = 4;
     EXPECT_EQ(image_warnings(report, two_pixels),
-              Texts{"4 samples (25%) were left out: not finite, negative or too bright"});
+              Texts{"4 samples (25%) left out: not finite, negative or too bright"});
 }
 
 TEST(Warnings, BlackPictures) {

@@ -144,6 +144,14 @@ class Documents(unittest.TestCase):
         self.assertLess(sum(words.values()), MOST_WORDS_IN_ALL)
         self.assertEqual({name for name, most in MOST_WORDS.items() if words[ROOT / name] > most}, set())
 
+    def test_examples_have_their_libraries(self):
+        build = (ROOT / "lib/examples/CMakeLists.txt").read_text(encoding="utf-8")
+        links = re.findall(r"^target_link_libraries\(pt_example_(\w+) PRIVATE (.*)\)", build, re.MULTILINE)
+        sentence = next(line for line in (ROOT / "lib/README.md").read_text(encoding="utf-8").splitlines() if "`-lm`" in line)
+        of_maths, of_vulkan = (set(re.findall(r"`(\w+)\.c`", part)) for part in sentence.split("`-lm`"))
+        self.assertEqual(of_maths, {name for name, libraries in links if "m" in libraries.split()})
+        self.assertEqual(of_vulkan, {name for name, libraries in links if "Vulkan::Vulkan" in libraries})
+
     def test_every_function_is_named(self):
         headers = "".join(path.read_text(encoding="utf-8") for path in (ROOT / "lib/include/pt").glob("*.h"))
         declared = re.findall(r"^PT_API [\w *]*?(pt_\w+)\(", headers, re.MULTILINE)

@@ -45,6 +45,9 @@ class Render(unittest.TestCase):
         through_lens = pt.render(POSITIONS, 0.1, context=self.context, camera=replace(CAMERA, aperture=0.5), **SMALL)
         self.assertFalse(np.array_equal(through_lens, seen_by))
 
+    def test_few_samples_unless_told_otherwise(self):
+        self.assertEqual(pt.render(POSITIONS, 0.1, context=self.context, size=(8, 6)).stats.sample_count, 16)
+
     def test_until_an_error_is_reached(self):
         image = pt.render(POSITIONS, 0.1, context=self.context, size=(WIDTH, HEIGHT), error=0.05)
         self.assertLessEqual(image.error_bounds[1], 0.05)

@@ -18,7 +18,7 @@ def render(positions: npt.ArrayLike, radii: npt.ArrayLike, colors: npt.ArrayLike
            camera: Camera | None = None, up: Direction = "z", floor: bool = False, material: Material | None = None,
            max_path_length: int = 4, denoise: bool = False, seed: int = 0, device: str | None = None,
            context: Context | None = None, progress: Progress | None = None) -> Figure:
-    """Renders spheres like figure(), but from arrays only, and sooner: 640 x 480 pixels, 64 samples.
+    """Renders spheres like figure(), but from arrays only, and sooner: 640 x 480 pixels, 16 samples.
 
     positions   shape (n, 3), n >= 1
     radii       shape (n,), or one number for all; > 0
@@ -33,7 +33,7 @@ def render(positions: npt.ArrayLike, radii: npt.ArrayLike, colors: npt.ArrayLike
     check_finite("positions", centers)
     check_finite("radii", radii, positive=True)
     if samples is None and error is None:
-        samples = 64
+        samples = 16
     return figure(Particles(centers), radius=real_column("radii", radii, 1, len(centers)), color=colors, size=size,
                   samples=samples, error=error, camera=camera, up=up, floor=floor, material=material,
                   max_path_length=max_path_length, denoise=denoise, seed=seed, device=device, context=context,
