@@ -84,9 +84,8 @@ copy_licenses() {
 }
 
 make_wheel() {
-    set -- build-dir="$prefix/build/pt" build.targets="pt;pt-cli" install.strip=false wheel.tags="py3-none-$built"
-    for definition in CMAKE_TOOLCHAIN_FILE="$PWD/cmake/zig.cmake" PT_ZIG="$zig" PT_TARGET="$target" PT_PREFIX="$prefix" \
-        PT_BUILD_CLI=ON; do
+    set -- build-dir="$prefix/build/pt" install.strip=false wheel.tags="py3-none-$built"
+    for definition in CMAKE_TOOLCHAIN_FILE="$PWD/cmake/zig.cmake" PT_ZIG="$zig" PT_TARGET="$target" PT_PREFIX="$prefix"; do
         set -- "$@" "cmake.define.$definition"
     done
     for setting; do

@@ -155,7 +155,7 @@ def _sized(columns: dict[str, list[int]]) -> dict[str, tuple[int, int, int]]:
 
 
 def program() -> str:
-    """This machine's program pt. Some wheels include it."""
+    """This machine's program pt, which an installed package includes."""
     packaged = pathlib.Path(__file__).with_name("bin") / "pt"
     named = os.environ.get("PT_PROGRAM") or (str(packaged) if packaged.exists() else "pt")
     return os.path.abspath(named) if os.sep in named else named
