@@ -175,8 +175,7 @@ struct TreeFrame {
     uint first_color;
     uint first_lamp;
     float shutter_time; // while the shutter is open
-    float steps_per_unit;
-    uint reserved[2];
+    uint reserved[3];
 };
 PT_CONSTANT TREE_REACH = 0x20000000; // coordinates of places in a tree are at most this, 2^29
 

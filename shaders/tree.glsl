@@ -24,22 +24,17 @@ uint tree_first_surface() { return scene_bits.words[TREE_FRAME + 3u].y; }
 uint tree_first_color() { return scene_bits.words[TREE_FRAME + 3u].z; }
 uint tree_first_lamp() { return scene_bits.words[TREE_FRAME + 3u].w; }
 float tree_shutter_time() { return scene_storage.words[TREE_FRAME + 4u].x; }
-float tree_steps_per_unit() { return scene_storage.words[TREE_FRAME + 4u].y; }
 
 // The place of a sphere's centre on the grid, and the bits of its radius.
 uvec4 tree_sphere_word(uint place) { return tree_word(place); }
-
-// Whether spheres of the tree move, or are capsules; the word of such a one.
-const bool TREE_WAYS = MOTION == 1u || TREE_KINDS > KIND_BALL;
-vec4 tree_way(uint place) { return uintBitsToFloat(tree_word(tree_first_motion() + place)); }
 
 // The sphere at a place, which has this word, at a time: as seen from a place of the grid and so many steps from there.
 Ball tree_ball_from(uvec4 word, ivec3 base, vec3 rest, uint place, float time)
 {
     vec3 centre = (vec3(ivec3(word.xyz) - base) - rest) * tree_step();
     vec4 way = vec4(0.0);
-    if (TREE_WAYS)
-        way = tree_way(place);
+    if (MOTION == 1 || TREE_KINDS > KIND_BALL)
+        way = uintBitsToFloat(tree_word(tree_first_motion() + place));
     return ball_from(vec4(centre, uintBitsToFloat(word.w)), way, tree_shutter_open() + time * tree_shutter_time(),
                      TREE_KINDS);
 }

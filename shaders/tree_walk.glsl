@@ -210,21 +210,15 @@ uint next_place(inout Walk walk)
 
 bool is_in_tree(uint surface) { return surface >= SURFACE_COUNT && surface != NO_SURFACE; }
 
-// An odd number of a sphere: a hash of all that tells where it is, in steps of the grid, so that it is the same at any
-// scale. Places on the grid often differ in few bits, so the hash ends like one that Wellons found by search
-// ("Prospecting for hash functions", 2018; lowbias32), where each bit changes half of all.
-uint opacity_generator(uvec4 word, uint place)
+// An odd number of a sphere: a hash of its word, in steps of the grid, so that it is the same at any scale. No two spheres
+// share a word (lib/tree/coincident_spheres.h). Words often differ in few bits, so the hash ends like one that Wellons found
+// by search ("Prospecting for hash functions", 2018; lowbias32), where each bit changes half of all.
+uint opacity_generator(uvec4 word)
 {
     uint radius = word.w - floatBitsToUint(tree_step());
     uint hash = (word.x ^ radius) * 0x9e3779b1u;
     hash = (hash ^ (hash >> 15u) ^ word.y) * 0x85ebca77u;
     hash = (hash ^ (hash >> 13u) ^ word.z) * 0xc2b2ae3du;
-    if (TREE_WAYS) {
-        uvec3 way = floatBitsToUint(tree_way(place).xyz * tree_steps_per_unit());
-        hash = (hash ^ (hash >> 16u) ^ way.x) * 0x27d4eb2fu;
-        hash = (hash ^ (hash >> 15u) ^ way.y) * 0x165667b1u;
-        hash = (hash ^ (hash >> 13u) ^ way.z) * 0x9e3779b1u;
-    }
     hash = (hash ^ (hash >> 16u)) * 0x7feb352du;
     return hash ^ (hash >> 16u) | 1u;
 }
@@ -233,11 +227,11 @@ uint opacity_generator(uvec4 word, uint place)
 // but as a function of the sphere and of the ray's number, so that neither the order in which spheres are tested nor how
 // samples are split matters. Spheres that differ decide independently, and so does each ray of a path: what passes n of
 // them is the product of n shares. See opacity_number().
-bool passes(uvec4 word, uint place, uint opacity_number)
+bool passes(uvec4 word, uint opacity_number)
 {
     if (TREE_OPACITY == 0)
         return false;
-    uint number = opacity_generator(word, place) * opacity_number;
+    uint number = opacity_generator(word) * opacity_number;
     const float steps = float(TREE_OPACITY_STEPS) / 16777216.0; // of 24 bits, which a float holds
     return float(number >> 8u) * steps >= float(word.w & TREE_OPACITY_STEPS);
 }
@@ -252,7 +246,7 @@ void test_sphere(inout Walk walk, bool exists, uint place, uvec4 word, GridRay r
     bool between = blocks_in_tree(walk.start, ray, walk.shadow, direction, distance, surface, word, ball);
     bool meets = exists;
     if (TREE_OPACITY == 1)
-        meets = exists && !passes(word, place, walk.opacity_number);
+        meets = exists && !passes(word, walk.opacity_number);
     walk.blocked = walk.blocked || (in_shadow && meets && between);
     keep_closer_of_tree(walk.hit, walk.hit_word, meets && !in_shadow ? distance : NO_HIT, surface, word);
 }

@@ -13,7 +13,7 @@ namespace pt {
 
 namespace {
 
-// Distinct for up to 2^27 spheres in one place, and at most 2^9 steps, 2^-21 of the grid, along each axis.
+// Distinct for up to 2^27 spheres that share a word, and at most 2^9 steps, 2^-21 of the grid, along each axis.
 glm::uvec4 steps_of(std::uint32_t rank) {
     constexpr std::uint32_t side = 512;
     return {rank % side, rank / side % side, rank / (side * side), 0};
@@ -32,8 +32,8 @@ void set_coincident_apart(std::span<glm::uvec4> places, std::span<const glm::uve
     std::iota(sorted.begin(), sorted.end(), 0U);
     std::ranges::sort(sorted, {}, [&](std::uint32_t place) { return std::pair(words(place), spheres[place]); });
     for (std::size_t first = 0, end = 0; first < sorted.size(); first = end) {
-        const auto shared = words(sorted[first]);
-        for (end = first + 1; end < sorted.size() && words(sorted[end]) == shared; ++end)
+        const glm::uvec4 shared = places[sorted[first]];
+        for (end = first + 1; end < sorted.size() && places[sorted[end]] == shared; ++end)
             places[sorted[end]] += steps_of(static_cast<std::uint32_t>(end - first));
     }
 }

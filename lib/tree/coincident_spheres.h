@@ -1,4 +1,4 @@
-// Spheres of a translucent scene that take up the same space, but differ in color or material. Used by SphereTree.
+// Spheres of a translucent scene that share a word, such as the sticks of an atom. Used by SphereTree.
 #pragma once
 
 #include "lib/base/work_progress.h"
@@ -10,9 +10,10 @@
 
 namespace pt {
 
-// Moves such spheres apart by steps of the grid. Rays pass a sphere by the numbers of its place (opacity_generator() of
-// shaders/tree_walk.glsl), so equal places would let all or none of them pass. places: of the tree's spheres; ways:
-// likewise, or empty; spheres: their indices in the scene, in whose order they are moved farther and farther.
+// Moves such spheres apart by steps of the grid. Rays pass a sphere by a number that is made of its word
+// (opacity_generator() of shaders/tree_walk.glsl), so equal words would let all or none of them pass.
+// places: the words, with the grid places of centers. ways: motions or axes, or empty. spheres: indices in the scene.
+// Those that share a word are moved the farther the later they come, by ways and then by indices.
 void set_coincident_apart(std::span<glm::uvec4> places, std::span<const glm::uvec4> ways,
                           std::span<const std::uint32_t> spheres, WorkProgress &progress);
 

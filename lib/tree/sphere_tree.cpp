@@ -348,7 +348,6 @@ gpu::TreeFrame SphereTree::frame(const Camera &camera) const {
     frame.first_lamp = first_lamp_ - first_sphere_;
     frame.middle = glm::vec3(grid_.middle - camera.position);
     frame.shutter_open = static_cast<float>(camera.shutter_open);
-    frame.steps_per_unit = static_cast<float>(grid_.steps_per_unit);
     frame.shutter_time = static_cast<float>(camera.shutter_close - camera.shutter_open);
     return frame;
 }
