@@ -1,4 +1,4 @@
-// Camera that looks from the origin, or from behind it: a pinhole, or one of parallel rays (ORTHOGRAPHIC).
+// Camera at or behind the origin: a pinhole, or parallel rays (ORTHOGRAPHIC).
 #ifndef CAMERA_GLSL
 #define CAMERA_GLSL
 
@@ -11,15 +11,13 @@ struct CameraRay {
     float time; // from 0 (shutter opens) to 1 (shutter closes)
 };
 
-// Offset of a point from the middle of the image, in pixels to the right and downwards. The point is at a place in [0,
-// 1)^2 within the pixel (column, row), counted from the top left. The part that depends on the pixel is a multiple of
-// 1/2, and so exact, however wide the image is.
+// Offset from the image's middle in pixels, right and down. place: in [0, 1)^2 within the pixel (column, row), counted
+// from the top left. The pixel's part is a multiple of 1/2, hence exact in images of any width.
 vec2 image_place(CameraView camera, uvec2 pixel, vec2 place)
 {
     return 0.5 * vec2(ivec2(2u * pixel) - ivec2(camera.width, camera.height)) + place;
 }
 
-// The unit direction of the ray through that point.
 vec3 camera_direction(CameraView camera, vec2 from_middle)
 {
     if (ORTHOGRAPHIC == 1)
@@ -27,9 +25,8 @@ vec3 camera_direction(CameraView camera, vec2 from_middle)
     return normalize(camera.forward + from_middle.x * camera.right - from_middle.y * camera.up);
 }
 
-// Where the ray through that point starts: at the pinhole or, with STARTS_AHEAD, where it crosses the plane through the
-// origin across the view. Nothing in view lies before that plane, except what parallel rays do not see
-// (lib/kernel/ray_start.h).
+// The ray's start: the pinhole or, with STARTS_AHEAD, on the plane through the origin across the view. Nothing in view
+// is nearer, except surfaces that parallel rays do not see (lib/kernel/ray_start.h).
 vec3 camera_origin(CameraView camera, vec2 from_middle)
 {
     if (STARTS_AHEAD == 0)
@@ -38,7 +35,7 @@ vec3 camera_origin(CameraView camera, vec2 from_middle)
     return start.x * camera.right - start.y * camera.up;
 }
 
-// numbers: the place within the pixel (x, y) and the time (z).
+// numbers: place in the pixel (x, y), time (z).
 CameraRay ray_through(CameraView camera, uvec2 pixel, vec3 numbers)
 {
     vec2 from_middle = image_place(camera, pixel, numbers.xy);

@@ -1,4 +1,4 @@
-// The camera ray of a sample: where its path begins, and what coverage.comp counts. With LENS it starts on a thin lens.
+// A sample's camera ray. With LENS it starts on a thin lens.
 #ifndef CAMERA_RAY_GLSL
 #define CAMERA_RAY_GLSL
 
@@ -6,11 +6,10 @@
 #include "dimensions.glsl"
 #include "sampling.glsl"
 
-// The ray of ray_through(), through a point of the unit disc that is the lens, right and downwards: all rays of a place
-// in the image meet on the plane in focus. With F the length of forward and f how far the plane is from the lens, the
-// pinhole's ray is there at f / F times its place in the image, and the ray that starts a beside it leads there if its
-// place changes by -a F / f. lens_blur is F / f times the lens's radius, lens_radius what is left of that ahead of the
-// lens.
+// disc: the point of the lens in the unit disc, right and down. All rays of a place in the image meet in the plane of
+// focus. With F the length of forward and f the distance of the plane, the pinhole's ray meets it at f / F times its
+// place; a ray that starts a beside it meets it there if its place changes by -a F / f. lens_blur is F / f times the
+// lens's radius, lens_radius the part of it where rays start, ahead of the lens.
 CameraRay ray_through_lens(CameraView camera, uvec2 pixel, vec3 numbers, vec2 disc)
 {
     vec2 from_middle = image_place(camera, pixel, numbers.xy);
@@ -19,7 +18,7 @@ CameraRay ray_through_lens(CameraView camera, uvec2 pixel, vec3 numbers, vec2 di
     return CameraRay(origin, camera_direction(camera, from_middle - camera.lens_blur * disc), numbers.z);
 }
 
-// Samples are spread evenly over the square of the pixel (box filter).
+// Box filter: samples are uniform over the pixel's square.
 CameraRay camera_ray(CameraView camera, uvec2 pixel, SampleKey key)
 {
     if (LENS == 1)

@@ -1,4 +1,4 @@
-// What a ray from the camera meets first: where paths begin, and all that first_hit.comp looks for.
+// The first hit of a camera ray, for paths and first_hit.comp.
 #ifndef CAMERA_WALK_GLSL
 #define CAMERA_WALK_GLSL
 
@@ -15,7 +15,6 @@ Walk walk_from_camera(CameraRay ray, uint opacity_number)
     return walk_from(start, ray.direction, true, NO_SHADOW_RAY, ray.time, opacity_number, hit, false);
 }
 
-// The vertex where a ray has met something.
 Arrival arrival_of(CameraRay ray, Hit hit)
 {
     vec3 point = hit.distance * ray.direction;

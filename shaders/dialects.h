@@ -1,5 +1,5 @@
-// Lets one text be both C++ and GLSL. Headers that include this contain the formulas that host and kernels share. The
-// two differ only in the type of numbers: errors are double on the host and float32 in kernels.
+// Lets one text be both C++ and GLSL, for formulas that host and kernels share. Only the type of numbers differs:
+// double on the host, float32 in kernels.
 #ifndef PT_DIALECTS_H
 #define PT_DIALECTS_H
 
@@ -29,8 +29,7 @@ using std::sqrt;
 
 inline constexpr float infinity = std::numeric_limits<float>::infinity();
 
-// By value, because compilers turn such loops into vector instructions, which they do not with references. If an
-// argument is NaN the first one is returned, as by std::min and std::max.
+// By value, so that compilers vectorise loops. Returns the first argument if either is NaN, like std::min and std::max.
 template <typename Type>
 constexpr Type less_of(Type a, Type b) {
     return b < a ? b : a;
@@ -80,7 +79,7 @@ inline real square_of_quotient(real dividend, real square_of_divisor) {
 #define more_of max
 #define infinity uintBitsToFloat(0x7f800000u)
 
-// Divides before it squares: the square of the dividend may overflow float, and that of a small divisor may be 0.
+// Divides before squaring: the dividend's square may overflow, and a small divisor's may be 0.
 float square_of_quotient(float dividend, float square_of_divisor)
 {
     float quotient = dividend == 0.0 ? 0.0 : dividend * inversesqrt(square_of_divisor);

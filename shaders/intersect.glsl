@@ -1,4 +1,4 @@
-// What rays meet first, and what blocks them: walks over all surfaces of a scene that are not in a tree.
+// Rays against the surfaces outside the tree.
 #ifndef INTERSECT_GLSL
 #define INTERSECT_GLSL
 
@@ -20,12 +20,12 @@ void see_plane(inout Hit hit, vec3 origin, vec3 direction, uint plane, float tim
     keep_closer(hit, plane_distance(level_at(plane, origin, time), direction, false, false, height), plane);
 }
 
-// Spheres that are hidden from the camera: a range of those that emit, and the last of all spheres.
+// Spheres hidden from the camera: a range of the emitting ones, and the last of all.
 const bool EMITTERS_HIDE = HIDDEN_LAMPS + HIDDEN_SKIES > 0u;
 const uint FIRST_HIDDEN = EMITTERS_HIDE ? WALKED_LAMPS - HIDDEN_LAMPS : 0u;
 const uint AFTER_HIDDEN = EMITTERS_HIDE ? WALKED_LAMPS + HIDDEN_SKIES : 0u;
 
-// The first surface that a camera ray meets and that is not hidden from the camera.
+// Ignores surfaces hidden from the camera.
 Hit closest_hit(vec3 origin, vec3 direction, float time)
 {
     Hit hit = Hit(NO_HIT, NO_SURFACE);
@@ -35,7 +35,6 @@ Hit closest_hit(vec3 origin, vec3 direction, float time)
     return hit;
 }
 
-// Whether a shadow ray is blocked.
 bool is_blocked(Start start, float time, ShadowRay shadow)
 {
     bool blocked = false;
@@ -63,8 +62,7 @@ void meet_plane(inout Hit hit, inout bool blocked, Start start, vec3 direction, 
         shade_plane(blocked, start, shadow, plane, level, time);
 }
 
-// One walk over the scene for both rays that leave a vertex: what the next path ray meets first, and whether the shadow
-// ray is blocked.
+// The closest hit of a path's ray and the test of its shadow ray, in one walk.
 Hit closest_hit_and_shadow(Start start, float time, vec3 direction, ShadowRay shadow, out bool blocked)
 {
     Hit hit = Hit(NO_HIT, NO_SURFACE);
@@ -74,7 +72,7 @@ Hit closest_hit_and_shadow(Start start, float time, vec3 direction, ShadowRay sh
     return hit;
 }
 
-// At a grazing angle to a plane, a small height is a long way back.
+// Near a plane, at a grazing angle, a small height is a long way back.
 Hit ahead(Hit hit)
 {
     if (KNOWN_SIDES == 1 && PLANE_COUNT > 0u)

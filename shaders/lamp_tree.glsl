@@ -1,6 +1,5 @@
-// A tree over the lamps, for scenes with so many that looking at all of them from every vertex would take most of the
-// time. lights.glsl asks it for a lamp, and for the probability of a lamp. gpu_layout.h says where it is in the scene
-// buffer, lib/scene/lamp_tree.cpp makes it.
+// The tree of lamps, for scenes with too many lamps to visit from every vertex. gpu_layout.h has the layout;
+// lib/scene/lamp_tree.cpp builds it.
 #ifndef LAMP_TREE_GLSL
 #define LAMP_TREE_GLSL
 
@@ -10,11 +9,11 @@
 
 const bool HAS_LAMP_TREE = LAMP_TREE_LEVELS > 0u;
 
-// Four siblings, one in each component.
+// Four siblings, a component each.
 struct Siblings {
-    vec4 x, y, z; // their middles, as seen from the vertex
-    vec4 power;  // 0: there is no such node
-    vec4 spread; // of their lamps; of lamps, their radius
+    vec4 x, y, z; // middles, relative to the vertex
+    vec4 power;  // 0: no node
+    vec4 spread; // for lamps their radius
 };
 
 Siblings siblings_of(uint group, Vertex vertex, float time)
@@ -32,13 +31,11 @@ Siblings siblings_of(uint group, Vertex vertex, float time)
                     stored_word(word + 3u), stored_word(word + 4u));
 }
 
-// All that leads to a probability is precise, so that no compiler rounds it in one way where a lamp is chosen and in
-// another where the probability of that lamp is asked for.
+// All probabilities are precise: choosing a lamp and querying its probability must round alike.
 
-// What nodes may send to a vertex, up to a factor that all share: power / (d^2 + s / 2) times the mean of the cosines,
-// with d to the middle and the spread s. Heights over the horizon of the vertex that spread about h have a mean of
-// about (h + sqrt(h^2 + s / 3)) / 2 if those below it count as 0. It is never 0: below the horizon it is taken as a
-// quotient, in which nothing cancels.
+// Expected light from nodes, up to a common factor: power / (d^2 + s / 2) times the mean cosine, with distance d and
+// spread s. Lamps' heights over the vertex's horizon, 0 if below, have a mean of about (h + sqrt(h^2 + s / 3)) / 2.
+// Below the horizon this is computed as a quotient, which does not cancel, so it is never 0.
 vec4 node_importance(Siblings nodes, vec3 normal)
 {
     precise vec4 height = nodes.x * normal.x + nodes.y * normal.y + nodes.z * normal.z;
@@ -53,8 +50,7 @@ vec4 node_importance(Siblings nodes, vec3 normal)
     return importance;
 }
 
-// For lamps this is the weight that view_lamp() gives them. The lamp on which a vertex lies needs no special care: it
-// is at the horizon.
+// The weight of view_lamp(). A lamp that the vertex lies on is at the horizon.
 vec4 lamp_importance(Siblings lamps, vec3 normal)
 {
     vec4 radius = lamps.spread;
@@ -73,9 +69,9 @@ float sum_of(vec4 importance)
     return sum;
 }
 
-// The groups at the top as a vertex sees them. Made once for all choices of the vertex.
+// The top groups as seen from a vertex, for all its choices.
 struct LampTreeTop {
-    vec4 importance[LAMP_TREE_TOP_GROUPS]; // of the nodes of each group
+    vec4 importance[LAMP_TREE_TOP_GROUPS]; // per group, of its nodes
 };
 
 LampTreeTop lamp_tree_top(Vertex vertex, float time)
@@ -91,19 +87,19 @@ LampTreeTop lamp_tree_top(Vertex vertex, float time)
     return top;
 }
 
-// One of four components, by an index that may differ between invocations.
+// index may differ between invocations.
 float component_of(vec4 v, uint index) { return index < 2u ? (index == 0u ? v.x : v.y) : (index == 2u ? v.z : v.w); }
 
-// A way down the tree, either to a given lamp or to one that a random number chooses.
+// A way down the tree, to a given lamp or one chosen by a random number.
 struct LampWalk {
     bool chooses;
-    uint slot;         // of the lamp that is given
-    float u;           // what the choices so far have left of the number
+    uint slot;         // of the given lamp
+    float u;           // the rest of the number
     uint finer;        // hash of the number
     float probability; // of the choices so far
 };
 
-// The first of the words that say which lamp each slot holds. The words that say which slot each lamp has follow them.
+// First word of the slots' lamps; the lamps' slots follow.
 uint lamp_tree_slots()
 {
     return LAMP_TREE + lamp_tree_group_words(MOTION) * lamp_tree_groups(LAMP_COUNT, LAMP_TREE_LEVELS);
@@ -117,10 +113,10 @@ LampWalk walk_to(uint lamp)
 
 LampWalk walk_by(uint number) { return LampWalk(true, 0u, float(number >> 8u) * NUMBER_STEP, number, 1.0); }
 
-// Goes on to one of four children, in proportion to `importance` or, if that is 0 for all of them, to `others`. It is the
-// last child of positive importance for which the sum of those before does not exceed the number, so whatever rounding
-// does, no child of importance 0 is ever chosen. A choice of probability p leaves the number 1 / p times as coarse. The
-// bits of a hash fill it up, so that lamps of small probability are chosen as often as they should be.
+// Descends to one of four children, in proportion to `importance` or, if all are 0, to `others`. It takes the last
+// child of positive importance whose predecessors' sum does not exceed the number, so rounding never chooses importance
+// 0. A choice of probability p leaves the number 1 / p times as coarse; bits of a hash refill it, so that improbable
+// lamps keep their frequency.
 uint take_child(inout LampWalk walk, vec4 importance, vec4 others, uint given)
 {
     vec4 part = sum_of(importance) > 0.0 ? importance : others;
@@ -142,7 +138,7 @@ uint take_child(inout LampWalk walk, vec4 importance, vec4 others, uint given)
     return child;
 }
 
-// Takes a walk from the top to a lamp. A group at the top counts as much as its nodes together.
+// Descends from the top to a lamp. Top groups count as much as their nodes together.
 uint walk_down(inout LampWalk walk, LampTreeTop top, Vertex vertex, float time)
 {
     const uint groups = lamp_tree_top_groups(LAMP_COUNT, LAMP_TREE_LEVELS);
@@ -155,7 +151,7 @@ uint walk_down(inout LampWalk walk, LampTreeTop top, Vertex vertex, float time)
     vec4 importance = node < 2u ? (node == 0u ? top.importance[0] : top.importance[1])
                                 : (node == 2u ? top.importance[2] : top.importance[3]);
     node = 4u * node + take_child(walk, importance, even, (walk.slot >> shift) & 3u);
-    uint first = groups; // of the next level's groups
+    uint first = groups; // of the next level
     uint count = 4u * groups;
     if (LAMP_TREE_LEVELS > 1u) {
         uint level = 1u;

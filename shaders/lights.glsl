@@ -1,5 +1,4 @@
-// Lamps: emitting spheres, chosen by what they can contribute and sampled by the solid angle they subtend. Used by
-// path.glsl, which takes lamps by choose() and choice_of() and knows nothing of how they are chosen.
+// Lamps: emitting spheres, chosen by their possible contribution and sampled by solid angle.
 #ifndef LIGHTS_GLSL
 #define LIGHTS_GLSL
 
@@ -8,20 +7,18 @@
 #include "sampling.glsl"
 #include "vertex.glsl"
 
-// A lamp as seen from a vertex.
 struct LampView {
     vec3 to_centre;
-    float squared_distance; // to the centre
+    float squared_distance;
     float inverse_distance;
     float squared_radius;
-    float squared_sine; // of half the angle that the lamp subtends; 1 from inside
-    float weight;       // in the choice among lamps; 0 where it cannot be sampled
+    float squared_sine; // of half the lamp's angle; 1 from inside
+    float weight;       // for choosing a lamp; 0: cannot be sampled
 };
 
-// The lamp's weight, times pi, is an upper bound of the irradiance that it can cause: radiance times (r / d)^2 times
-// min(1, (n . v + r) / d), the cosine to its centre plus the most that its extent can add. So a lamp that is partly
-// above the horizon never has weight 0, even if its centre is below. From inside or on the lamp it is not sampled;
-// directions find it instead.
+// weight times pi bounds the irradiance: radiance (r / d)^2 min(1, (n . v + r) / d). The last factor bounds the cosine
+// over the whole lamp, so a lamp partly above the horizon has a positive weight. Lamps are not sampled from inside or
+// on them; directions find those.
 LampView view_lamp(Vertex vertex, uint lamp, float time)
 {
     vec4 sphere = sphere_of_lamp(lamp, time);
@@ -37,13 +34,11 @@ LampView view_lamp(Vertex vertex, uint lamp, float time)
     return view;
 }
 
-// Share of the choices made uniformly among the lamps in sight, whatever their weights: with weights alone, a strong
-// but hidden lamp would leave the others hardly any samples. Where nothing is hidden it raises the second moment by a
-// ninth at most.
+// Share of the choices made uniformly among the lamps in sight: by weight alone, a strong but hidden lamp would leave
+// few samples to the others. If nothing is hidden, raises the second moment by at most a ninth.
 const float UNIFORM_SHARE = 0.1;
 
-// The lamps as a vertex sees them: made once, and used by choose() and choice_of(). The views of a few lamps are kept;
-// with many lamps a view is made again when it is needed.
+// The lamps as seen from a vertex. Views of a few lamps are kept, others are recomputed.
 const bool KEEP_VIEWS = LAMP_COUNT <= EVERY_LAMP_LIMIT;
 
 struct Lamps {
@@ -51,9 +46,9 @@ struct Lamps {
     float time;
     LampView views[EVERY_LAMP_LIMIT];
     float total_weight;
-    float in_sight;        // lamps with a weight above 0
-    float share_of_weight; // of the choices by weight, for each unit of it
-    float uniform_share;   // of each lamp in sight, of the choices made uniformly
+    float in_sight;        // number of lamps with positive weight
+    float share_of_weight; // probability per unit of weight
+    float uniform_share;   // probability per lamp in sight, from the uniform choices
     LampTreeTop tree;
 };
 
@@ -82,7 +77,7 @@ Lamps lamps_from(Vertex vertex, float time)
     return lamps;
 }
 
-// One of the lamps, by an index that may differ between invocations.
+// lamp may differ between invocations.
 LampView lamp_among(Lamps lamps, uint lamp)
 {
     if (!KEEP_VIEWS)
@@ -103,21 +98,20 @@ float lamp_probability(Lamps lamps, float weight)
     return weight > 0.0 ? (LAMP_COUNT == 1u ? 1.0 : probability) : 0.0;
 }
 
-// With a tree the uniform share is spread over all lamps, since those in sight are not counted.
+// With a tree the uniform share covers all lamps, since those in sight are not counted.
 float lamp_probability_by_tree(LampWalk walk)
 {
     precise float probability = (1.0 - UNIFORM_SHARE) * walk.probability + UNIFORM_SHARE / float(LAMP_COUNT);
     return probability;
 }
 
-// A lamp, and the probability with which choose() takes it.
 struct LampChoice {
     uint lamp;
     LampView view;
     float probability;
 };
 
-// The same for a given lamp, whose index may differ between invocations.
+// What choose() returns if it takes this lamp, which may differ between invocations.
 LampChoice choice_of(Lamps lamps, uint lamp)
 {
     if (HAS_LAMP_TREE) {
@@ -129,8 +123,8 @@ LampChoice choice_of(Lamps lamps, uint lamp)
     return LampChoice(lamp, view, lamp_probability(lamps, view.weight));
 }
 
-// The lamp that a random number, a multiple of 2^-32, chooses by the tree. The uniform share may choose a lamp that
-// cannot be sampled; then there is no light.
+// Chooses by the tree. number: a multiple of 2^-32. The uniform share may choose a lamp that cannot be sampled, which
+// then gives no light.
 LampChoice choose_by_tree(Lamps lamps, uint number)
 {
     const uint uniform_numbers = 429496729u; // UNIFORM_SHARE 2^32; ten times as many fit into 32 bits
@@ -145,9 +139,8 @@ LampChoice choose_by_tree(Lamps lamps, uint number)
     return LampChoice(lamp, view_lamp(lamps.vertex, lamp, lamps.time), lamp_probability_by_tree(walk));
 }
 
-// The lamp that a random number chooses. Its low end chooses uniformly among the lamps in sight, the rest by weight:
-// each part walks over its own numbers in the order in which they were summed, so that no small probability is lost to
-// rounding. If rounding leaves the walk short, the last lamp in sight is taken.
+// Low numbers choose uniformly among the lamps in sight, the rest by weight. Each walk sums in the order of the total,
+// so that rounding loses no small probability; if it ends short, it takes the last lamp in sight.
 LampChoice choose(Lamps lamps, uint number)
 {
     if (HAS_LAMP_TREE)
@@ -168,13 +161,13 @@ LampChoice choose(Lamps lamps, uint number)
     return choice_of(lamps, chosen);
 }
 
-// 1 - cos of half the angle that a lamp subtends, as sin^2 / (1 + cos): no cancellation for small or far lamps.
+// 1 - cos of half the lamp's angle, as sin^2 / (1 + cos), which does not cancel.
 float one_minus_cos(LampView view)
 {
     return view.squared_sine / (1.0 + sqrt(1.0 - view.squared_sine));
 }
 
-// Density over solid angle of directions towards a chosen lamp, 1 / (2 pi (1 - cos)); 0 if it cannot be sampled.
+// Density over solid angle of directions to a chosen lamp, 1 / (2 pi (1 - cos)); 0 if it cannot be sampled.
 float cone_density(LampView view)
 {
     float density = (0.5 / PI) * (1.0 + sqrt(1.0 - view.squared_sine)) / view.squared_sine;
@@ -183,12 +176,11 @@ float cone_density(LampView view)
 
 struct LampSample {
     ShadowRay shadow;
-    float density; // over solid angle, given the lamp; 0: it cannot be sampled from this vertex
+    float density; // over solid angle, given the lamp; 0: cannot be sampled
 };
 
-// Direction uniform in the cone that a lamp subtends, and the distance at which it meets the lamp. An intersection
-// would miss a tiny far lamp about as often as not, so the distance comes from the angle: with h = 1 - cos of the angle
-// from the axis, the near root is d cos - sqrt(r^2 - d^2 sin^2).
+// A direction uniform in the lamp's cone, and the distance to the lamp. An intersection would miss tiny far lamps by
+// rounding; so with h = 1 - cos from the axis, the near root is d cos - sqrt(r^2 - d^2 sin^2).
 LampSample sample_lamp(LampChoice choice, vec2 u)
 {
     LampView view = choice.view;

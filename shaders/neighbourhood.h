@@ -1,5 +1,5 @@
-// What surrounds a pixel of a tile, in one channel: the pixel itself and those of the tile that touch it. Values
-// are floats >= 0; on the host too, since they are only compared.
+// A pixel of a tile and its neighbors in the tile, in one channel. Values are float32 >= 0 on the host too, since they
+// are only compared.
 #ifndef PT_NEIGHBOURHOOD_H
 #define PT_NEIGHBOURHOOD_H
 
@@ -9,10 +9,10 @@
 namespace pt::gpu {
 #endif
 
-// At the edge of a tile, missing neighbours count as below or above all values.
+// Stands for neighbors outside the tile.
 PT_CONSTANT float BELOW_ALL = -1.0f;
 
-// Three values in ascending order.
+// In ascending order.
 struct Sorted {
     float low;
     float middle;
@@ -30,8 +30,8 @@ PT_FUNCTION Sorted sorted(float a, float b, float c)
     return values;
 }
 
-// Of nine values in three rows, each sorted: the median is the middle one of the largest of the low values, the middle
-// one of the middle values and the smallest of the high values (Paeth 1990, Median finding on a 3 x 3 grid).
+// The median of nine values in three sorted rows: the median of the largest low, the median middle and the smallest
+// high value (Paeth 1990, Median finding on a 3 x 3 grid).
 PT_FUNCTION float median_of_rows(Sorted a, Sorted b, Sorted c)
 {
     return sorted(more_of(more_of(a.low, b.low), c.low), sorted(a.middle, b.middle, c.middle).middle,
@@ -49,15 +49,13 @@ PT_FUNCTION Sorted with_missing_above(Sorted row)
 }
 
 struct Neighbourhood {
-    float median; // of an even number of values the lower of the two in the middle, so that the brighter of two pixels
-                  // does not stand for itself; 0 if there is one pixel alone
+    float median; // the lower of two middle values, so that no pixel stands for itself; 0 for a lone pixel
     float largest;
 };
 
-// From rows of three values. Where the tile ends beside the pixel, only k of nine values are there, and missing ones come
-// first in their row. The median wanted has (k - 1) / 2 values below it. It is the fifth of nine if 4 - (k - 1) / 2 of the
-// missing values are taken to lie below all others, and the rest above: two of the three missing beside an edge, three of
-// the five missing about a corner.
+// From rows of three values, missing ones first in their row. With k of nine values present, the median has (k - 1) / 2
+// values below it. It is the fifth of nine if 4 - (k - 1) / 2 missing values count as lowest and the rest as highest:
+// two of three at an edge, three of five at a corner.
 PT_FUNCTION Neighbourhood neighbourhood(Sorted above, Sorted row, Sorted below, bool is_first_row, bool is_last_row,
                                         bool is_beside_edge)
 {
@@ -81,7 +79,7 @@ PT_FUNCTION Neighbourhood neighbourhood(Sorted above, Sorted row, Sorted below, 
     return near;
 }
 
-// For a single row or column, where at most two values touch a pixel.
+// For a single row or column.
 PT_FUNCTION Neighbourhood neighbourhood_in_line(Sorted line)
 {
     Neighbourhood near;
@@ -90,7 +88,7 @@ PT_FUNCTION Neighbourhood neighbourhood_in_line(Sorted line)
     return near;
 }
 
-// Of rows of one value each.
+// A column from rows of one value each.
 PT_FUNCTION Sorted column_of(Sorted above, Sorted row, Sorted below, bool is_first_row, bool is_last_row)
 {
     return sorted(is_first_row ? BELOW_ALL : above.high, row.high, is_last_row ? BELOW_ALL : below.high);

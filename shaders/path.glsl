@@ -1,4 +1,4 @@
-// One path: the light that a sample carries to its pixel.
+// One path: the light of one sample.
 #ifndef PATH_GLSL
 #define PATH_GLSL
 
@@ -11,9 +11,8 @@
 #include "step.glsl"
 #include "vertex.glsl"
 
-// Light that reaches the first vertex from one more vertex, in the direction of a spot. It is weighted against the
-// branches, which find it too (Veach 1997, chapter 9). The path ends there: light over more vertices is left to the
-// branches.
+// Light that reaches the first vertex from a second one, in a spot's direction. Weighted against the branches, which
+// find it too (Veach 1997, chapter 9). Light over more vertices is left to the branches.
 vec3 light_by_way_of_spot(Vertex vertex, Material material, Spots spots, SampleKey key, float time)
 {
     vec3 numbers = spot_numbers(key);
@@ -44,12 +43,12 @@ float share_beside_spots(Spots spots, Path path, Vertex first, float time)
     return density > 0.0 ? power_heuristic(arrival_density, density) : 1.0;
 }
 
-// The light of the first vertex and of all paths that leave it. What it sends to the camera is most of the picture, so
-// it samples every lamp if there are few, and paths leave it in several branches if they go further than one direction.
+// The light of the first vertex and all paths from it. This is most of the picture: hence every lamp is sampled if they
+// are few, and longer paths leave in several branches.
 vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
 {
     const float directions = float(BRANCH_COUNT);
-    const vec3 whole = vec3(1.0); // the throughput
+    const vec3 whole = vec3(1.0); // throughput
     Vertex vertex = vertex_at(arrival, time);
     Material material = material_to_leave(vertex.surface, 1u);
     Lamps lamps;
@@ -116,8 +115,7 @@ vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
 
 vec3 emitted_by(uint surface) { return may_emit(surface) ? emission_of(surface).rgb : vec3(0.0); }
 
-// Radiance of the path of one sample, an estimate of what the pixel sees: emission plus throughput-weighted light at
-// each of up to MAX_PATH_LENGTH vertices.
+// Radiance of one sample: emission plus throughput-weighted light at up to MAX_PATH_LENGTH vertices.
 vec3 path_radiance(CameraView camera, uvec2 pixel, SampleKey key)
 {
     CameraRay ray = camera_ray(camera, pixel, key);

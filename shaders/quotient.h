@@ -1,5 +1,5 @@
-// Quotients of exact sums and counts, as the bits of float32 numbers, computed with integers: Vulkan allows errors in
-// the division of floats and may flush small ones to 0. These bits are the same on every device and on the host.
+// Quotients of exact sums and counts, as float32 bits computed with integers: Vulkan allows errors in float division
+// and may flush small results. The bits are the same on every device and on the host.
 #ifndef PT_QUOTIENT_H
 #define PT_QUOTIENT_H
 
@@ -9,7 +9,7 @@
 namespace pt::gpu {
 #endif
 
-// A whole number of up to 160 bits, least significant word first.
+// Up to 160 bits, least significant word first.
 PT_CONSTANT uint NUMBER_WORDS = 5u;
 struct WholeNumber {
     uint words[NUMBER_WORDS];
@@ -24,8 +24,8 @@ PT_FUNCTION WholeNumber whole_number(uvec4 sum)
     return number;
 }
 
-// Its leading bits: (high * 2^32 + low) * 2^exponent, or more by less than 2^exponent if that is inexact. The top bit
-// of high is set, unless the number is 0.
+// (high 2^32 + low) 2^exponent; if inexact, the number is more by less than 2^exponent. The top bit of high is set,
+// unless the number is 0.
 struct LeadingBits {
     uint high;
     uint low;
@@ -33,7 +33,7 @@ struct LeadingBits {
     bool inexact;
 };
 
-// The upper of two words that are shifted to the left together, by less than 32 bits.
+// The upper of two words shifted left together; bits < 32.
 PT_FUNCTION uint shifted_left(uint upper, uint lower, int bits)
 {
     return upper << bits | (lower >> 1) >> (31 - bits);
@@ -58,27 +58,27 @@ PT_FUNCTION LeadingBits leading_bits(WholeNumber number)
     return leading;
 }
 
-// quotient * 2^exponent, or a little more if that is inexact, rounded to nearest, ties to even. quotient has 25 bits at
-// least. Beyond the largest float lies infinity.
+// Rounds quotient 2^exponent, slightly more if inexact, to nearest, ties to even. quotient has at least 25 bits.
+// Overflow gives infinity.
 PT_FUNCTION uint rounded(uint quotient, int exponent, bool inexact)
 {
     int top = findMSB(quotient);
     int magnitude = top + exponent; // the number is in [2^magnitude, 2^(magnitude + 1))
     if (magnitude > 127)
         return 0x7f800000u;
-    // For exponents of -126 and below, the last bit of a float is 2^-149.
+    // Below 2^-126 a float's last bit is 2^-149.
     int float_exponent = max(magnitude, -126);
     int dropped = min(top - 23 + float_exponent - magnitude, 31);
     uint kept = quotient >> dropped;
     uint rest = quotient & ((1u << dropped) - 1u);
     uint half_of_last = 1u << (dropped - 1);
     bool up = rest > half_of_last || (rest == half_of_last && (inexact || (kept & 1u) == 1u));
-    // The leading one of a normal float adds the last 1 to the bits of the exponent; a carry does the same.
+    // A normal float's leading one increments the exponent's bits; so does a carry.
     return (uint(float_exponent + 126) << 23) + kept + (up ? 1u : 0u);
 }
 
-// dividend * 2^exponent / divisor, rounded once; divisor >= 1. By long division: the quotient of two numbers with their
-// top bits set lies between 1/2 and 2. 26 of its bits are found; the first may be 0.
+// dividend 2^exponent / divisor, rounded once; divisor >= 1. Long division of two numbers with top bits set, so the
+// quotient is in (1/2, 2). Finds 26 bits; the first may be 0.
 PT_FUNCTION uint quotient_bits(LeadingBits dividend, uint divisor, int exponent)
 {
     if (dividend.high == 0u)
@@ -103,13 +103,13 @@ PT_FUNCTION uint quotient_bits(LeadingBits dividend, uint divisor, int exponent)
                    dividend.inexact || (rest | next) != 0u);
 }
 
-// The bits of sum * 2^exponent / count; 0 without samples.
+// The bits of sum 2^exponent / count; 0 without samples.
 PT_FUNCTION uint mean_bits(uvec4 sum, uint count, int exponent)
 {
     return count == 0u ? 0u : quotient_bits(leading_bits(whole_number(sum)), count, exponent);
 }
 
-// The largest whole number whose square is no more than high * 2^32 + low, bit by bit.
+// floor(sqrt(high 2^32 + low)), bit by bit.
 PT_FUNCTION uint square_root(uint high, uint low)
 {
     uint root = 0u;
@@ -157,7 +157,7 @@ PT_FUNCTION WholeNumber weighted_difference(uvec4 sum_a, uint a, uvec4 sum_b, ui
     uint borrow;
     WholeNumber number = difference(product(sum_a, b), product(sum_b, a), borrow);
     first_is_less = borrow == 1u;
-    // The negative of a number is its complement and 1.
+    // Two's complement: -x = ~x + 1.
     uint mask = first_is_less ? 0xffffffffu : 0u;
     uint carry = borrow;
     PT_UNROLL for (uint i = 0u; i < NUMBER_WORDS; ++i)
@@ -165,24 +165,21 @@ PT_FUNCTION WholeNumber weighted_difference(uvec4 sum_a, uint a, uvec4 sum_b, ui
     return number;
 }
 
-// What a weighted difference is divided by for the standard error of the mean of both parts, each of one sample at
-// least: of sums A and B of a and b samples that is
+// The standard error of the mean of both parts, with sums A, B of a, b >= 1 samples:
 //
-//   s = |A / a - B / b| sqrt(a b) / (a + b) = |A b - B a| / ((a + b) sqrt(a b))
+// s = |A / a - B / b| sqrt(a b) / (a + b) = |A b - B a| / ((a + b) sqrt(a b))
 //
-// since if every sample has the variance v, the squared difference of the two means has the expectation v / a + v / b,
-// and the mean of all samples has the variance v / (a + b), which is that expectation times a b / (a + b)^2.
-//
-// The numerator is exact; the root is cut to 32 bits and so is the divisor, each by less than a 2^31th: the rounded
-// quotient is within .52 of its last place.
+// Samples of variance v give (A / a - B / b)^2 the expectation v / a + v / b, and the mean of all the variance v / (a +
+// b), which is a b / (a + b)^2 times that. The numerator is exact. Root and divisor are cut to 32 bits, each by less
+// than 2^-31, so the rounded quotient is within .52 of its last place.
 struct ErrorDivisor {
     uint divisor; // its top bit is set
-    int exponent; // of the power of two that the quotient is to be multiplied with
+    int exponent; // the quotient is times 2^exponent
 };
 
 PT_FUNCTION ErrorDivisor error_divisor(uint a, uint b)
 {
-    // The root of a b 2^(2 shift), shifted so that one of its top two bits is set.
+    // sqrt(a b 2^(2 shift)), one of whose top two bits is set.
     uint square_high, square_low;
     umulExtended(a, b, square_high, square_low);
     int zeros = square_high != 0u ? 31 - findMSB(square_high) : 63 - findMSB(square_low);
@@ -203,7 +200,7 @@ PT_FUNCTION ErrorDivisor error_divisor(uint a, uint b)
     return result;
 }
 
-// The bits of the standard error, times 2^exponent.
+// The standard error's bits, times 2^exponent.
 PT_FUNCTION uint standard_error_bits(WholeNumber numerator, ErrorDivisor divisor, int exponent)
 {
     return quotient_bits(leading_bits(numerator), divisor.divisor, exponent + divisor.exponent);

@@ -1,6 +1,5 @@
-// The pixels of an image that is read back, in each of its formats. Bits of float16 numbers are computed with integers:
-// Vulkan leaves to the device how packHalf2x16 rounds and whether it keeps small numbers. These bits are the same on every
-// device and on the host (lib/film/pixel_format.h).
+// The pixels of an image that is read back, in each format. Float16 bits are computed with integers, because Vulkan
+// leaves packHalf2x16's rounding and small numbers to the device. They equal the host's (lib/film/pixel_format.h).
 #ifndef RESOLVED_GLSL
 #define RESOLVED_GLSL
 
@@ -15,12 +14,12 @@ const uint SIGN_BIT = 0x80000000u;
 const uint HALF_INFINITY_BITS = 0x7c00u;
 const uint HALF_ONE_BITS = 0x3c00u;
 
-// For a float32 that is >= 0, or infinity: rounded to nearest, ties to even. From 65520 on the result is infinity.
+// A float32 >= 0 or infinity, rounded to nearest, ties to even; infinity from 65520 on.
 uint half_bits(uint float_bits)
 {
     const uint smallest_normal = 0x38800000u; // 2^-14
     const uint difference_of_biases = 0x38000000u;
-    // Below 2^-14 the last bit is 2^-24, and below 2^-25 everything becomes 0.
+    // Below 2^-14 the last bit is 2^-24; below 2^-25 the result is 0.
     bool normal = float_bits >= smallest_normal;
     uint number = normal ? float_bits - difference_of_biases : (float_bits & 0x7fffffu) | 0x800000u;
     uint dropped = normal ? 13u : min(126u - (float_bits >> 23), 25u);
@@ -32,7 +31,7 @@ uint half_bits(uint float_bits)
     return min(kept + (up ? 1u : 0u), HALF_INFINITY_BITS);
 }
 
-// The same for a number of either sign.
+// For either sign.
 uint signed_half_bits(uint float_bits)
 {
     return half_bits(float_bits & ~SIGN_BIT) | ((float_bits & SIGN_BIT) >> 16u);
@@ -43,7 +42,7 @@ uint words_of_pixel(uint format)
     return format == FORMAT_R32UI ? 1u : format == FORMAT_RGBA16F ? 2u : format == FORMAT_RGBA32F ? 4u : 3u;
 }
 
-// value: three floats as their bits, or a whole number in the first.
+// value: three floats' bits, or a whole number in the first.
 void write_pixel(uint first_word, uint format, uvec3 value)
 {
     if (format == FORMAT_R32UI) {

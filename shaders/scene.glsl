@@ -1,5 +1,4 @@
-// Access to the scene buffer as gpu_layout.h describes it.
-// Used by intersect.glsl, phong.glsl, lights.glsl and path.glsl.
+// Access to the scene buffer, laid out in gpu_layout.h.
 #ifndef SCENE_GLSL
 #define SCENE_GLSL
 
@@ -17,7 +16,7 @@ layout(set = 0, binding = BINDING_SCENE_STORAGE) readonly buffer SceneStorage { 
 
 const uint SURFACE_COUNT = SPHERE_COUNT + PLANE_COUNT;
 
-// Runs a statement for each index from first to end - 1, both constants. Loops over few indices are unrolled
+// Runs a statement for each index from first to end - 1, both constants. Short loops are unrolled
 // (DevicePolicy::unrolled).
 #define FOR_EACH(index, first, end, statement)                                                                         \
     if ((end) > (first)) {                                                                                             \
@@ -35,13 +34,13 @@ const uint SURFACE_COUNT = SPHERE_COUNT + PLANE_COUNT;
         }                                                                                                              \
     }
 
-// A word of the scene buffer, by an index that may differ between invocations.
+// index may differ between invocations.
 vec4 stored_word(uint index)
 {
     return UNIFORM_READS == 1u ? scene_uniform.words[index] : scene_storage.words[index];
 }
 
-// The same for an index that is a constant once loops are unrolled.
+// index is constant once loops are unrolled.
 vec4 scene_word(uint index)
 {
     if (SCENE_SOURCE == SCENE_IN_CONSTANTS)
@@ -49,9 +48,8 @@ vec4 scene_word(uint index)
     return SCENE_SOURCE == SCENE_IN_UNIFORM ? scene_uniform.words[index] : stored_word(index);
 }
 
-// The word first + index, with an index below count that may differ between invocations: constants have no addresses,
-// so it is selected from all of them. A branch that is never taken stops constant folding where all are alike, so all
-// scene sources round alike.
+// The word first + index; index < count may differ between invocations. Constants have no addresses, so the word is
+// selected from all. The branch never taken stops constant folding, so all scene sources round alike.
 vec4 scene_word_among(uint first, uint count, uint index)
 {
     if (SCENE_SOURCE != SCENE_IN_CONSTANTS)
@@ -67,10 +65,10 @@ vec4 scene_word_among(uint first, uint count, uint index)
     return word;
 }
 
-// Whether surfaces share the words of materials. That pays in large scenes; in small ones the lookup costs more.
+// Whether surfaces share material words: in small scenes the lookup costs more than it saves.
 const bool HAS_TABLE = SCENE_SOURCE == SCENE_IN_STORAGE;
 
-// Where the blocks of the scene buffer begin, ...
+// First words of the scene buffer's blocks ...
 const uint EMISSION = SURFACE_COUNT;
 const uint EMITTING_SPHERES = LAMP_COUNT + SKY_COUNT;
 const uint DIFFUSE = 2u * SURFACE_COUNT;
@@ -86,23 +84,23 @@ const uint TABLE = TREE_FRAME + 5u * TREE;
 
 #include "tree.glsl"
 
-// One of the indices in a block of the storage buffer, which holds four to a word.
+// The storage buffer has four indices per word.
 uint stored_index(uint block, uint index)
 {
     return floatBitsToUint(stored_word(block + index / 4u)[index % 4u]) - MATERIAL_INDEX_BITS;
 }
 
-// Where the words of a surface's material begin in the storage buffer.
+// The first word of a surface's material in the storage buffer.
 uint material_words(uint surface)
 {
     bool in_tree = TREE == 1u && surface >= SURFACE_COUNT;
     return TABLE + (1u + GLOSS) * (in_tree ? tree_material(surface - SURFACE_COUNT) : stored_index(INDICES, surface));
 }
 
-// Lamps have numbers of their own. Those that are not in the tree come first, numbered like their surfaces.
+// Lamps outside the tree come first, numbered like their surfaces.
 const uint WALKED_LAMPS = LAMP_COUNT - TREE_LAMPS;
 
-// The lamp that a surface is; at least LAMP_COUNT if it is none.
+// A surface's lamp number; at least LAMP_COUNT for other surfaces.
 uint lamp_of(uint surface)
 {
     if (TREE_LAMPS == 0u)
@@ -118,7 +116,6 @@ uint surface_of_lamp(uint lamp)
     return SURFACE_COUNT + tree_lamp_place(lamp - WALKED_LAMPS);
 }
 
-// Whether a surface may emit: lamps and skies may, other spheres may not.
 bool may_emit(uint surface)
 {
     bool is_lamp = TREE_LAMPS > 0u && surface >= SURFACE_COUNT && lamp_of(surface) < LAMP_COUNT;
@@ -126,7 +123,7 @@ bool may_emit(uint surface)
     return surface < WALKED_LAMPS + SKY_COUNT || (PLANES_EMIT == 1u && is_plane) || is_lamp;
 }
 
-// The radiance of a surface that may emit, and its mean over channels.
+// Radiance of a surface that may emit; its mean over channels.
 vec4 emission_of(uint surface)
 {
     if (!HAS_TABLE)
@@ -139,7 +136,7 @@ vec4 emission_of(uint surface)
 
 vec4 emission_of_lamp(uint lamp) { return scene_word_among(EMISSION, LAMP_COUNT, lamp); }
 
-// Diffuse reflection, albedo / pi, and the probability of choosing the specular lobe.
+// albedo / pi, and the probability of choosing the specular lobe.
 vec4 diffuse_of(uint surface)
 {
     if (TREE_COLORS == 1u && surface >= SURFACE_COUNT) {
@@ -149,7 +146,7 @@ vec4 diffuse_of(uint surface)
     return HAS_TABLE ? scene_word(material_words(surface)) : scene_word_among(DIFFUSE, SURFACE_COUNT, surface);
 }
 
-// Specular reflection: its factor times (n + 2) / (2 pi), and the glossiness n.
+// Factor times (n + 2) / (2 pi), and the glossiness n.
 vec4 specular_of(uint surface)
 {
     if (GLOSS == 0)
@@ -157,14 +154,13 @@ vec4 specular_of(uint surface)
     return HAS_TABLE ? scene_word(material_words(surface) + 1u) : scene_word_among(SPECULAR, SURFACE_COUNT, surface);
 }
 
-// A sphere at a time from 0 (the shutter opens) to 1 (it closes), for tracing, lamp sampling and densities alike. It is
-// the index of a loop, ...
+// A sphere at a time from 0 (shutter opens) to 1 (closes). The index is a loop's, ...
 Ball ball_at(uint sphere, float time)
 {
     return ball_from(scene_word(sphere), HAS_WAYS ? scene_word(MOTIONS + sphere) : vec4(0.0), time, KINDS);
 }
 
-// ... any of the first count spheres, by an index that may differ between invocations, ...
+// ... or below count and may differ between invocations, ...
 Ball ball_among(uint count, uint sphere, float time)
 {
     vec4 way = HAS_WAYS ? scene_word_among(MOTIONS, count, sphere) : vec4(0.0);
@@ -176,7 +172,7 @@ bool is_sphere(uint surface)
     return surface < SPHERE_COUNT || (TREE == 1u && surface >= SURFACE_COUNT);
 }
 
-// ... any, by its surface, ...
+// ... or any surface that is a sphere, ...
 Ball ball_of(uint surface, float time)
 {
     if (TREE == 1u && surface >= SURFACE_COUNT)
@@ -184,7 +180,7 @@ Ball ball_of(uint surface, float time)
     return ball_among(SPHERE_COUNT, surface, time);
 }
 
-// ... or any lamp, by its number.
+// ... or a lamp's number.
 vec4 sphere_of_lamp(uint lamp, float time)
 {
     if (TREE_LAMPS > 0u && lamp >= WALKED_LAMPS)
@@ -192,22 +188,20 @@ vec4 sphere_of_lamp(uint lamp, float time)
     return ball_among(WALKED_LAMPS, lamp, time).centre_radius;
 }
 
-// Whether a lamp is in the scene buffer, by its surface.
+// Whether a lamp's surface is outside the tree.
 bool is_walked_lamp(uint surface) { return TREE_LAMPS == 0u || surface < WALKED_LAMPS; }
 
-// Where a point lies relative to a plane.
+// A point relative to a plane.
 struct Level {
-    float height;    // above it, on the side of its normal
-    vec3 gradient;   // of the height: the normal, at points of the plane
-    float curvature; // of the plane
+    float height;    // on the side of the normal
+    vec3 gradient;   // of the height; the normal, on the plane
+    float curvature;
 };
 
-// A sphere that is huge against its distance is a plane with the curvature k = 1 / R. With its point nearest to the
-// camera, p = -offset n, the outward unit normal n there, y = x - p and the centre p - n / k, the height is
-//     (|x - centre|^2 - R^2) / (2 R) = n . y + k / 2 |y|^2,
-// 0 on the sphere, and its gradient is n + k y. The left side loses 2^-24 R to rounding; the right one, 2^-24 of the
-// distances in the scene. Its limit k = 0 is the plane.
-// One that moves by m up to the time t is met by a point x where it stood at first by x - t m.
+// A sphere far larger than its distance is a plane of curvature k = 1 / R. With its nearest point p = -offset n to the
+// camera, outward unit normal n and y = x - p, the height is (|x - center|^2 - R^2) / (2 R) = n . y + k / 2 |y|^2, with
+// gradient n + k y. The left side loses 2^-24 R to rounding, the right side 2^-24 of the scene's distances. For motion
+// by m, x - t m replaces x.
 Level level_of(vec4 normal_offset, vec4 curvature_motion, vec3 point, float time)
 {
     vec4 n = normal_offset;
@@ -224,14 +218,13 @@ Level level_of(vec4 normal_offset, vec4 curvature_motion, vec3 point, float time
     return level;
 }
 
-// Relative to a plane that is the index of a loop, ...
 Level level_at(uint plane, vec3 point, float time)
 {
     vec4 curvature = CURVATURE == 1 ? scene_word(CURVATURES + plane - SPHERE_COUNT) : vec4(0.0);
     return level_of(scene_word(plane), curvature, point, time);
 }
 
-// ... or to any plane.
+// Like level_at(), for any plane.
 Level level_among(uint plane, vec3 point, float time)
 {
     uint index = plane - SPHERE_COUNT;
@@ -239,7 +232,6 @@ Level level_among(uint plane, vec3 point, float time)
     return level_of(scene_word_among(SPHERE_COUNT, PLANE_COUNT, index), curvature, point, time);
 }
 
-// The height of the camera above a plane that is the index of a loop.
 float camera_height(uint plane, float time)
 {
     return CURVATURE == 1 && MOTION == 1 ? level_at(plane, vec3(0.0), time).height : scene_word(plane).w;

@@ -1,6 +1,6 @@
-// Spots: what is far brighter than its surroundings, and small. A glow is where a lamp is close to a plane, an image is
-// where a polished sphere or plane mirrors a lamp; lib/kernel/light_spots.h finds them in a scene. The first vertex
-// sends one ray more in the direction of a spot (path.glsl). Derivations: README.md, section 7.
+// Spots: small and far brighter than their surroundings. A glow is where a lamp is close to a plane, an image is where
+// a polished sphere or plane mirrors a lamp; lib/kernel/light_spots.h finds them. The first vertex sends one ray more
+// towards a spot (path.glsl). Derivations: README.md, section 7.
 #ifndef SPOTS_GLSL
 #define SPOTS_GLSL
 
@@ -11,7 +11,7 @@ struct SpotWord {
     uint lamp;
     uint surface;
     float reflectance; // mean of R, G and B
-    float glossiness;  // of a mirror image; negative for a glow
+    float glossiness;  // of a mirror image; negative: a glow
 };
 
 SpotWord spot_word(uint spot)
@@ -29,9 +29,8 @@ bool is_glow(SpotWord word) { return GLOSS == 0u || word.glossiness < 0.0; }
 
 // A spot as seen from a vertex.
 struct Spot {
-    vec4 place;   // image: unit vector towards it, exponent of the lobe about that; glow: middle of its lamp, square of
-                  // the lamp's height above the plane
-    float weight; // in the choice among spots; 0 where it cannot be seen
+    vec4 place;   // image: unit vector, exponent of its lobe; glow: the lamp's middle, squared height over the plane
+    float weight; // for choosing a spot; 0: cannot be seen
 };
 
 struct Spots {
@@ -39,8 +38,7 @@ struct Spots {
     float total_weight;
 };
 
-// Spots are chosen by the irradiance that they may cause, and the less, the more directions find them anyway. (The
-// factor was found by trial.)
+// By possible irradiance, less what directions find anyway. The factor is empirical.
 float spot_weight(float irradiance, float found_anyway)
 {
     return irradiance / (1.0 + 10.0 * found_anyway);
@@ -80,10 +78,9 @@ MirrorPoint mirror_point_of_plane(Vertex vertex, vec4 lamp, uint surface)
     return MirrorPoint(position, height > 0.0 ? plane.xyz : -plane.xyz, 0.0, height * lamp_height > 0.0);
 }
 
-// Alhazen's problem: the normal halves the angle between the ways to the vertex, a, and to the lamp, b. It is found by
-// iteration, from a start that is right for far points, where it halves the angle, and for near ones, where the ratio of
-// heights decides. An error that is left costs variance but no bias: the lobe is then about a slightly wrong direction,
-// and its density is computed about the same one.
+// Alhazen's problem: the normal bisects the angle between the ways to the vertex, a, and to the lamp, b. Iterates from
+// a start that is right for far points (the bisector) and near ones (the ratio of heights). The remaining error costs
+// variance, not bias: direction and density use the same lobe.
 MirrorPoint mirror_point_of_sphere(Vertex vertex, vec4 lamp, uint surface, float time)
 {
     vec4 sphere = ball_of(surface, time).centre_radius;
@@ -107,7 +104,7 @@ MirrorPoint mirror_point_of_sphere(Vertex vertex, vec4 lamp, uint surface, float
     return MirrorPoint(sphere.xyz + radius * normal, normal, 1.0 / radius, exists);
 }
 
-// Directions are float32, so lobes narrower than a thousandth would show their rounding.
+// Narrower lobes would show the rounding of float32 directions.
 const float LARGEST_SPOT_EXPONENT = 1e6;
 
 Spot view_image(Vertex vertex, vec4 lamp, float radiance, SpotWord word, float time)
@@ -154,7 +151,7 @@ Spots spots_from(Vertex vertex, float time)
     return spots;
 }
 
-// The last spot with a positive weight such that the weights before it do not exceed the number.
+// The last spot of positive weight whose predecessors' sum does not exceed the number.
 uint choose_spot(Spots spots, float number)
 {
     float target = number * spots.total_weight;
@@ -170,8 +167,7 @@ uint choose_spot(Spots spots, float number)
     return chosen;
 }
 
-// A direction by way of a spot. An image's has a lobe about it; a glow's leads to where a direction with the density of
-// the cosine, downwards from the middle of the lamp, meets the plane.
+// Image: a lobe about it. Glow: to where a direction of cosine density, down from the lamp's middle, meets the plane.
 vec3 direction_to_spot(Spots spots, uint spot, vec3 position, float time, vec2 place)
 {
     SpotWord word = spot_word(spot);
@@ -195,7 +191,7 @@ vec3 direction_to_spot(Spots spots, uint spot, vec3 position, float time, vec2 p
     return direction;
 }
 
-// Density over solid angle of such a direction, given what it has met. It cannot have found spots of other surfaces.
+// Density over solid angle of directions to spots of the surface that the ray has met.
 float spot_density(Spots spots, Arrival arrival, float distance, float time)
 {
     float density = 0.0;

@@ -1,4 +1,4 @@
-// One step of a path: from one vertex to the next, with the light that both contribute.
+// One step of a path, from a vertex to the next, with the light of both.
 #ifndef STEP_GLSL
 #define STEP_GLSL
 
@@ -9,29 +9,26 @@
 #include "tree_walk.glsl"
 #include "vertex.glsl"
 
-// Lamps are sampled if there are any and the estimator does so. The first vertex samples all of them if they are few;
-// otherwise, and at later vertices, one is chosen.
+// The first vertex samples every lamp if they are few. Otherwise, and at later vertices, one lamp is chosen.
 const bool SAMPLE_LAMPS = (ESTIMATOR == ESTIMATOR_MIS || ESTIMATOR == ESTIMATOR_LIGHT) && LAMP_COUNT > 0u;
 const bool SAMPLE_EVERY_LAMP = SAMPLE_LAMPS && LAMP_COUNT <= EVERY_LAMP_LIMIT;
 
 struct Path {
-    Arrival arrival; // at its last vertex
+    Arrival arrival; // at the last vertex
     vec3 throughput;
     vec3 radiance;
-    uint vertex_count; // so far
-    bool alive;        // whether it goes on from there
+    uint vertex_count;
+    bool alive;        // whether the path goes on
 };
 
-// For kernels with spots: state of the path that an invocation is on. Kernels without spots do not have it.
-float arrival_density; // of the direction to the last vertex, times the number of directions that left the one before
-float departure_share; // weight of light that the next departure finds; the rest is found by way of a spot
+// Spot kernels only: state of the current path.
+float arrival_density; // of the direction to the last vertex, times the directions that left the one before
+float departure_share; // weight of light found by the next departure; a spot's ray finds the rest
 
-// A path at its first vertex.
 Path path_from(Arrival first) { return Path(first, vec3(1.0), vec3(0.0), 1u, true); }
 
-// Weights of light that both lamp sampling and a direction could have found, by multiple importance sampling or all to the
-// lamps: for lamp sampling the weight over its density, for a direction the weight. Densities here are those of a single
-// sample, times the number of such samples that the vertex takes (Veach 1997, section 9.2.2).
+// Weights of light that both lamp sampling and a direction may find: by multiple importance sampling, or all to the
+// lamps. Densities are those of one sample times the vertex's number of such samples (Veach 1997, section 9.2.2).
 float lamp_weight_over_density(float lamp_density, float direction_density)
 {
     return ESTIMATOR == ESTIMATOR_LIGHT ? 1.0 / lamp_density
@@ -45,7 +42,7 @@ float direction_weight_against(float direction_density, float lamp_density)
     return power_heuristic(direction_density, lamp_density);
 }
 
-// A sample of a lamp: its shadow ray, and the light that arrives, still to be weighted, if nothing is in between.
+// A lamp sample: its shadow ray and the unweighted light that arrives if it is not blocked.
 struct LampLight {
     ShadowRay shadow;
     vec3 light;
@@ -54,7 +51,7 @@ struct LampLight {
 
 const LampLight NO_LAMP_LIGHT = LampLight(NO_SHADOW_RAY, vec3(0.0), 0.0);
 
-// Light of a lamp. The vertex takes this many samples of it, and this many directions leave the vertex.
+// samples: of this lamp from the vertex; directions: that leave the vertex.
 LampLight light_of_lamp(vec3 throughput, Vertex vertex, Material material, LampChoice choice, vec2 place,
                         float samples, float directions)
 {
@@ -66,13 +63,12 @@ LampLight light_of_lamp(vec3 throughput, Vertex vertex, Material material, LampC
     return LampLight(found.shadow, light, density > 0.0 ? towards.cosine * weight : 0.0);
 }
 
-// How often a vertex samples a lamp if it chooses lamps this many times; 0 choices mean that it samples each lamp once.
+// Expected samples of a lamp from a vertex that chooses this many lamps; 0 choices: one of each lamp.
 float lamp_samples(LampChoice choice, float choices)
 {
     return choices > 0.0 ? choice.probability * choices : 1.0;
 }
 
-// Light of a lamp that is chosen by what it can contribute: one of the vertex's choices.
 LampLight light_of_chosen_lamp(vec3 throughput, Vertex vertex, Material material, Lamps lamps,
                                ChosenLampNumbers numbers, float choices, float directions)
 {
@@ -81,27 +77,26 @@ LampLight light_of_chosen_lamp(vec3 throughput, Vertex vertex, Material material
     return light_of_lamp(throughput, vertex, material, choice, numbers.place, samples, directions);
 }
 
-// For a branch, the number that chooses the lobe is stratified over all branches. The sum may round up to 1.
+// Stratified over the branches. The sum may round up to 1.
 float lobe_number(float number, uint branch, float directions)
 {
     return at_most((number + float(branch)) / directions, LARGEST_NUMBER);
 }
 
-// How a path leaves a vertex: in one of its directions, together with the light of a lamp.
+// How a path leaves a vertex: one direction, and light of a lamp.
 struct Departure {
     vec3 origin;
     vec3 direction;
-    float density;      // of the direction, times the directions that the vertex takes
-    float strongest;    // component of the path's throughput
+    float density;      // of the direction, times the vertex's directions
+    float strongest;    // largest component of the throughput
     bool carries_light;
-    float survival;     // the number that decides whether the path does
+    float survival;     // random number for Russian roulette
     LampLight lamp;
-    float lamp_choices; // of the vertex; 0: it samples each lamp
+    float lamp_choices; // of the vertex; 0: it samples every lamp
 };
 
-// Multiplies the path's throughput by what the vertex reflects in the direction. Which lamp and which numbers is for the
-// caller to say: on an H200 paths of six vertices took 4 to 7% longer where one function told first and later vertices
-// apart.
+// Applies the vertex's reflection to the throughput. The caller chooses lamp and numbers: branching on the vertex in
+// here costs GPUs time.
 Departure depart(inout Path path, Vertex vertex, Material material, LampLight lamp, float lamp_choices, vec4 numbers,
                  float directions)
 {
@@ -112,14 +107,14 @@ Departure depart(inout Path path, Vertex vertex, Material material, LampLight la
     departure.density = onwards.density * directions;
     path.throughput *= onwards.f * (departure.density > 0.0 ? onwards.cosine / departure.density : 0.0);
     departure.strongest = strongest_of(path.throughput);
-    departure.carries_light = !(departure.strongest <= 0.0); // what is not a number goes on, to be rejected
+    departure.carries_light = !(departure.strongest <= 0.0); // NaN goes on, to be rejected by the film
     departure.survival = numbers.w;
     departure.lamp = lamp;
     departure.lamp_choices = lamp_choices;
     return departure;
 }
 
-// Moves the path to what its ray has met, and adds the light of the lamp if nothing is in between.
+// Moves the path to the hit, and adds the lamp's light unless it is blocked.
 void arrive(inout Path path, Departure departure, Lamps lamps, Hit hit, bool blocked)
 {
     float lamp_weight = departure.lamp.weight;
@@ -127,7 +122,7 @@ void arrive(inout Path path, Departure departure, Lamps lamps, Hit hit, bool blo
         lamp_weight *= departure_share;
     path.radiance += departure.lamp.light * (blocked ? 0.0 : lamp_weight);
 
-    // Adds what the next vertex emits, weighted against lamp sampling if that could have found it too.
+    // The hit surface's emission, weighted against lamp sampling if that could have found it.
     path.alive = hit.surface != NO_SURFACE && departure.carries_light;
     if (path.alive && may_emit(hit.surface)) {
         float weight = 1.0;
@@ -148,9 +143,8 @@ void arrive(inout Path path, Departure departure, Lamps lamps, Hit hit, bool blo
     path.arrival = Arrival(departure.origin + hit.distance * departure.direction, departure.direction, hit.surface);
     ++path.vertex_count;
 
-    // Russian roulette for paths that may get long: from the fourth vertex on a path survives with the probability of
-    // its throughput, as a share of the branch's, and if it does, is weighted up by it. The floor bounds the weight:
-    // random numbers are multiples of 2^-24, which would be too coarse for tiny probabilities.
+    // Russian roulette from the fourth vertex on: survival with the throughput's strongest component relative to the
+    // branch's share, compensated by weight. The floor bounds the weight, as random numbers are multiples of 2^-24.
     if (ROULETTE && path.vertex_count >= 4u) {
         float survival = at_most(at_least(departure.strongest * float(BRANCH_COUNT), 0.05), 1.0);
         path.alive = path.alive && departure.survival < survival;
@@ -158,8 +152,8 @@ void arrive(inout Path path, Departure departure, Lamps lamps, Hit hit, bool blo
     }
 }
 
-// Whether a direction may lead to a surface that emits. hit: what it meets first outside the tree. The last direction of a
-// path finds nothing but emission, so a few tests that may spare a long walk are worth it.
+// Whether a direction may lead to an emitting surface. hit: the first outside the tree. A path's last direction finds
+// only emission, so a few tests may spare a long walk.
 bool may_meet_light(Start start, vec3 direction, Hit hit, float time)
 {
     const uint few_lamps = 16u;
@@ -174,7 +168,6 @@ bool may_meet_light(Start start, vec3 direction, Hit hit, float time)
     return met;
 }
 
-// Whether a shadow ray is blocked.
 bool is_hidden(ShadowRay towards_lamp, Start start, float time, uint opacity_number)
 {
     ShadowRay shadow = ended_as_met(towards_lamp, start, time);
@@ -187,7 +180,7 @@ bool is_hidden(ShadowRay towards_lamp, Start start, float time, uint opacity_num
     return walk.blocked;
 }
 
-// Walks the ray on which a path leaves a vertex, together with the shadow ray to the lamp.
+// Traces the departure's ray and its shadow ray.
 Walk walk_onwards(Vertex vertex, Path path, inout Departure departure, float time, uint opacity_number)
 {
     Start start = Start(vertex.position, vertex.surface, vertex.inside);
@@ -205,7 +198,7 @@ Walk walk_onwards(Vertex vertex, Path path, inout Departure departure, float tim
     return walk;
 }
 
-// Moves the path from a vertex to the next, in one of the directions that leave the vertex.
+// Moves the path to the next vertex, in one of the directions that leave this one.
 void leave(inout Path path, Vertex vertex, Material material, LampLight lamp, Lamps lamps, float lamp_choices,
            float time, vec4 numbers, uint opacity_number, float directions)
 {
@@ -215,8 +208,8 @@ void leave(inout Path path, Vertex vertex, Material material, LampLight lamp, La
     arrive(path, departure, lamps, ahead(walk.hit), walk.blocked);
 }
 
-// The material of a vertex, prepared for sampling the direction in which the path continues. Under a sky, or where
-// planes emit, the last direction is like the others, since only directions find that light.
+// The material, prepared for sampling the next direction. Under a sky, or where planes emit, the last direction is not
+// special, since only directions find that light.
 Material material_to_leave(uint surface, uint vertex_count)
 {
     Material material = material_of(surface);
@@ -224,8 +217,8 @@ Material material_to_leave(uint surface, uint vertex_count)
     return SAMPLE_LAMPS && SKY_COUNT + PLANES_EMIT == 0u && last ? at_last_direction(material) : material;
 }
 
-// Takes a path from a vertex beyond the first to the next, which its material takes for vertex number as_vertex. begin:
-// the first of the vertex's blocks.
+// Moves a path on from a vertex beyond the first. as_vertex: the path length that the material assumes; begin: the
+// vertex's first block.
 void extend(inout Path path, SampleKey key, uint begin, uint as_vertex, float time)
 {
     Vertex vertex = vertex_at(path.arrival, time);

@@ -1,19 +1,18 @@
-// The pixel of an invocation: a workgroup has a tile of the film, and a list says which. Uses FrameConstants frame.
+// An invocation's pixel: a workgroup has a tile of the film, from a list. Uses FrameConstants frame.
 #ifndef TILE_PIXEL_GLSL
 #define TILE_PIXEL_GLSL
 
-// The first pixel of each tile, in the film.
+// Each tile's first pixel in the film.
 layout(set = 0, binding = BINDING_TILES) readonly buffer Tiles { uint first_pixels[]; } tiles;
 
 struct TilePixel {
     uint in_image;
     uint in_strip;
-    bool exists; // tiles at the image's edges, and where a strip ends within them, have fewer pixels than invocations
+    bool exists; // tiles may be cut by the image's edge and by the strip's ends
 };
 
-// What would come before the strip wraps around, and lies far behind it. Within a tile, invocations are along Morton's
-// curve (1966): those that run in step have neighbouring pixels, in rows and in columns, and so their walks over a tree are
-// more alike.
+// Pixels before the strip wrap to huge indices and fail the test. Invocations follow Morton's curve (1966), so that
+// neighboring pixels run in step and their tree walks are alike.
 TilePixel tile_pixel()
 {
     uint corner = tiles.first_pixels[frame.first_entry + gl_WorkGroupID.x];

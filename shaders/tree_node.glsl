@@ -1,24 +1,23 @@
-// A node of the tree over spheres, as gpu_layout.h lays it out, and which of its children a ray enters.
+// A node of the tree of spheres (gpu_layout.h), and the children that a ray enters.
 #ifndef TREE_NODE_GLSL
 #define TREE_NODE_GLSL
 
 #include "scene.glsl"
 
-// A ray on the grid. Its differences from places are exact, so what is computed for a sphere is the more precise the
-// nearer it is, wherever the camera is.
+// A ray on the grid. Differences from grid points are exact, so precision grows as spheres get nearer, wherever the
+// camera is.
 struct GridRay {
-    ivec3 base;    // the place next to the ray's start
-    vec3 rest;     // from there to the start, in steps
-    float advance; // from the ray's origin to the start
-    float margin;  // by which boxes are taken to be larger, in steps
-    bool is_near;  // whether the ray may come near the tree at all
+    ivec3 base;    // grid point next to the start
+    vec3 rest;     // from base to the start, in steps
+    float advance; // of the start beyond the ray's origin
+    float margin;  // of boxes, in steps
+    bool is_near;  // whether the ray may reach the tree
 };
 
-// A ray that comes from far away starts where it comes to the ball about the grid: the rounding there, of 2^-24 of the
-// way, is that of a ray which is a little different, but the same for all spheres. Otherwise each sphere, and the box
-// of each node, would have to be taken for as much larger. Boxes hold the spheres exactly, but a hit is computed with
-// rounding: as if the centre were elsewhere by at most 2^-21 of its distance, which sums a rounding of the distance and
-// four of the dot products; for the sides of boxes it is less. Four times that is the margin.
+// Rays from far away start at the ball about the grid: the start's rounding, 2^-24 of the way, is then common to all
+// spheres, instead of widening each. Boxes hold spheres exactly, but a hit is rounded as if the center moved by 2^-21
+// of its distance: one rounding of the distance, four of dot products; box sides have less. The margin is four times
+// that.
 GridRay grid_ray(vec3 origin, vec3 direction)
 {
     const float reach = float(TREE_REACH);
@@ -29,7 +28,7 @@ GridRay grid_ray(vec3 origin, vec3 direction)
     vec3 to_middle = tree_middle() - origin;
     vec3 far = abs(to_middle);
     if (max(far.x, max(far.y, far.z)) > 2.0 * reach * tree_step()) {
-        float radius = 1.75 * reach * tree_step(); // more than sqrt(3) reaches
+        float radius = 1.75 * reach * tree_step(); // above sqrt(3) reaches
         float b = dot(to_middle, direction);
         vec3 across = to_middle - b * direction;
         ray.is_near = b > 0.0 && dot(across, across) < radius * radius;
@@ -45,7 +44,7 @@ GridRay grid_ray(vec3 origin, vec3 direction)
     return ray;
 }
 
-// 1 / direction, per step of the grid, and finite: a component that is nearly 0 moves the ray by less than the margin.
+// 1 / direction per grid step, kept finite: components near 0 change the ray by less than the margin.
 vec3 inverse_of(vec3 direction)
 {
     const float least = 8.6736174e-19; // 2^-60
@@ -56,29 +55,27 @@ vec3 inverse_of(vec3 direction)
 
 const uint NO_NODE = ~0u;
 
-// A group is up to three children of a node that a ray has yet to enter, nearest first: in a word the number of the
-// first child, which is never 0, and below it their places of two bits each, of which the last is repeated where there
-// are fewer.
+// Up to three children still to be entered, nearest first: the first child's number, never 0, above three places of two
+// bits each, the last one repeated.
 uint next_of(uint group) { return (group >> 6) + (group & 3u); }
 bool has_one(uint group) { return ((group ^ (group >> 2)) & 3u) == 0u; }
 uint without_next(uint group) { return (group & ~15u) | ((group >> 2) & 15u); }
 
-// Byte i of a word as 1 + byte / 256, made of bits.
+// Byte i of a word as 1 + byte / 256.
 float byte_as_float(uint word, uint i)
 {
     uint bits = i == 0u ? word << 15 : i == 1u ? word << 7 : i == 2u ? word >> 1 : word >> 9;
     return uintBitsToFloat((bits & 0x7f8000u) | 0x3f800000u);
 }
 
-// What a ray enters of a node before a distance: the inner children, nearest first, and, as bits, which of its spheres'
-// boxes. Distances are compared as the integers that their bits are: of those that are not negative that is the order,
-// and those that are negative lose against 0, as they should.
+// The part of a node that a ray enters before a distance. Distances are compared as the integers of their bits: the
+// same order for positive ones, and negative ones lose against 0, as they should.
 struct Entered {
-    uint node;   // the nearest child, or NO_NODE
+    uint node;   // nearest child, or NO_NODE
     uint others; // a group, if has_others
     bool has_others;
-    uint first_place; // of the node's spheres
-    uint spheres;     // bit i: of the sphere at first_place + i
+    uint first_place;
+    uint spheres;     // bit i: the ray enters the box of the sphere at first_place + i
 };
 
 struct NodeWords {
@@ -103,7 +100,7 @@ Entered enter_node(NodeWords words, GridRay ray, vec3 inverse, float before)
     uvec3 nearer = uvec3(backwards.x ? high.x : low.x, backwards.y ? high.y : low.y, backwards.z ? high.z : low.z);
     uvec3 farther = uvec3(backwards.x ? low.x : high.x, backwards.y ? low.y : high.y, backwards.z ? low.z : high.z);
 
-    // Along the ray: 256 of the node's own steps, and the node's corner less as much, for what byte_as_float adds.
+    // Along the ray: 256 node steps, and the corner less that, to cancel the 1 in byte_as_float().
     uvec3 exponents = uvec3(head.w, head.w >> 5, head.w >> 10) & 31u;
     vec3 width = uintBitsToFloat((exponents + 135u) << 23) * inverse;
     vec3 corner = (vec3(ivec3(head.xyz) - ray.base) - ray.rest) * inverse - width;
@@ -114,7 +111,7 @@ Entered enter_node(NodeWords words, GridRay ray, vec3 inverse, float before)
 
     uint inner_count = (head.w >> 20) & 7u;
     uint child_count = (head.w >> 16) & 7u;
-    uint keys[TREE_WIDTH]; // of an inner child that is entered: the distance, but for two bits that tell which it is
+    uint keys[TREE_WIDTH]; // per entered child node: distance, with the child's index in the two low bits
     uint entered = 0u;
     uint i = 0u;
     [[unroll]] do {
@@ -130,7 +127,7 @@ Entered enter_node(NodeWords words, GridRay ray, vec3 inverse, float before)
     } while (i < TREE_WIDTH);
     entered &= (1u << child_count) - 1u;
 
-    // The four keys in order, by a sorting network.
+    // Sorts the keys, by a network.
     uint a = min(keys[0], keys[1]);
     uint b = max(keys[0], keys[1]);
     uint c = min(keys[2], keys[3]);

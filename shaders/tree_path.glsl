@@ -1,27 +1,25 @@
-// Paths among the spheres of a tree, step by step. Walks differ in length, and where invocations run in step the
-// longest keeps all of them waiting. So here an invocation does not end one walk after the other: all go on for some
-// trips, then those whose walk has ended take their paths to the next, be it of another branch or sample (Aila and
-// Laine, "Understanding the Efficiency of Ray Traversal on GPUs", HPG 2009, section 3.3). A sample's value is that of
-// path.glsl. On an H200 paths of six vertices were 1.3 to 1.5 times as fast so. lavapipe, where what one invocation
-// does takes all of them the time, lost a third, and ends each walk.
+// Paths among the spheres of a tree, step by step. Walks differ in length, and invocations that run in step wait for
+// the longest. So all walk some trips, then those that are done go on with their path, branch or sample (Aila and
+// Laine, "Understanding the Efficiency of Ray Traversal on GPUs", HPG 2009, section 3.3). A sample's value is the same
+// as in path.glsl. On lavapipe, where all lanes wait for the slowest anyway, each walk is ended instead.
 #ifndef TREE_PATH_GLSL
 #define TREE_PATH_GLSL
 
 #include "path.glsl"
 
-// Where a sample is: its paths follow each other.
+// Progress of a sample, whose paths follow each other.
 struct TreeSample {
     SampleKey key;
     CameraRay camera;
-    bool has_met;   // whether the camera ray has met something, or is still on its way
-    Arrival first;  // what it has met
-    vec3 radiance;  // of its paths so far
+    bool has_met;   // whether the camera ray has hit something
+    Arrival first;  // the camera ray's hit
+    vec3 radiance;  // of the finished paths
     uint branch;
     Path path;
 };
 
-// As many as there are branches, or lamps where the first vertex sends a ray to each: those beyond the branches bring
-// the light of their lamp and nothing else, and come first.
+// One per branch, or per lamp if the first vertex sends a ray to each and they are more. Those beyond the branches
+// carry only their lamp's light, and come first.
 const uint FIRST_DEPARTURES = SAMPLE_EVERY_LAMP && LAMP_COUNT > BRANCH_COUNT ? LAMP_COUNT : BRANCH_COUNT;
 const uint FIRST_BRANCH = FIRST_DEPARTURES > BRANCH_COUNT ? BRANCH_COUNT : 0u;
 
@@ -31,7 +29,6 @@ TreeSample sample_of(SampleKey key, CameraRay ray)
     return TreeSample(key, ray, false, nowhere, vec3(0.0), FIRST_BRANCH, path_from(nowhere));
 }
 
-// The sample's path leaves its last vertex.
 Walk leave_last_vertex(inout TreeSample current, out Departure departure, out Lamps lamps)
 {
     float time = current.camera.time;
@@ -44,7 +41,7 @@ Walk leave_last_vertex(inout TreeSample current, out Departure departure, out La
     Vertex vertex = vertex_at(current.path.arrival, time);
     Material material = material_to_leave(vertex.surface, current.path.vertex_count);
 
-    // The light of a lamp: the branch's own, or one that is chosen.
+    // The branch's own lamp, or a chosen one.
     LampLight lamp = NO_LAMP_LIGHT;
     if (SAMPLE_LAMPS) {
         lamps = lamps_from(vertex, time);
@@ -72,10 +69,10 @@ Walk leave_last_vertex(inout TreeSample current, out Departure departure, out La
     return walk_onwards(vertex, current.path, departure, time, opacity_number(key, current.path.vertex_count));
 }
 
-// Takes what a walk has found into its sample. Tells whether that ends it.
+// Applies a finished walk. Returns whether the sample ends.
 bool ends_with(inout TreeSample current, Walk walk, Departure departure, Lamps lamps)
 {
-    // What the camera sees.
+    // The camera ray's hit.
     if (!current.has_met) {
         current.has_met = true;
         if (walk.hit.surface == NO_SURFACE)
@@ -85,7 +82,7 @@ bool ends_with(inout TreeSample current, Walk walk, Departure departure, Lamps l
         return MAX_PATH_LENGTH == 1u;
     }
 
-    // What a path meets, and the next branch where it ends.
+    // A path's hit, then the next branch if the path ends.
     arrive(current.path, departure, lamps, ahead(walk.hit), walk.blocked);
     if (current.path.alive && current.path.vertex_count < MAX_PATH_LENGTH)
         return false;
@@ -95,7 +92,6 @@ bool ends_with(inout TreeSample current, Walk walk, Departure departure, Lamps l
     return current.branch == FIRST_BRANCH;
 }
 
-// Of a sample that has ended.
 vec3 value_of(TreeSample ended)
 {
     return ended.first.surface == NO_SURFACE ? vec3(0.0) : emitted_by(ended.first.surface) + ended.radiance;

@@ -1,22 +1,21 @@
-// Rays against the spheres of a tree. A walk finds what testing every sphere would find, whatever the tree: which of
-// spheres at equal distances is seen depends on nothing but the spheres, and no box that may hold a nearer one is
-// passed by.
+// Rays against the spheres of a tree. A walk finds the same sphere as a test of all spheres: ties are decided by the
+// spheres alone, and no box that may hold a nearer one is skipped.
 #ifndef TREE_WALK_GLSL
 #define TREE_WALK_GLSL
 
 #include "ray_tests.glsl"
 #include "tree_node.glsl"
 
-// Distances that include an advance are rounded by 2^-24 of it, so that what is a little farther may be as far, and may
-// be what is seen: boxes are entered up to 2^-22 of the advance later.
+// Distances that include an advance are rounded by 2^-24 of it, so a farther sphere may tie with a nearer one: boxes
+// are entered up to 2^-22 of the advance beyond the hit.
 const float ADVANCE_ROUNDED = 0.99999976; // 1 - 2^-22
 
-// Of what is no sphere of the tree: it goes before all of them.
+// Sorts before every tree sphere; for surfaces outside the tree.
 const uvec4 NO_SPHERE_WORD = uvec4(0u, 0u, 0u, ~0u);
 
-// Which of two spheres at equal distances is seen: of those about one centre the larger, which from outside is nearer
-// in truth, and else the one whose word is first, so that it does not depend on the tree's shape. Where two differ by
-// their motion alone it is the lower place; such a tree keeps no shape (sphere_tree.h).
+// Order of spheres at equal distances, independent of the tree's shape: of concentric spheres the larger, which is
+// nearer from outside, otherwise the lower word. The place decides only between spheres that differ by motion alone;
+// such trees have no fixed shape (sphere_tree.h).
 bool goes_before(uvec4 word, uint surface, uvec4 other_word, uint other_surface)
 {
     return word.x != other_word.x   ? word.x < other_word.x
@@ -35,7 +34,7 @@ void keep_closer_of_tree(inout Hit hit, inout uvec4 hit_word, float distance, ui
     hit_word = closer ? word : hit_word;
 }
 
-// Distance along a direction to a sphere of the tree, or NO_HIT, and the sphere as the ray's start sees it.
+// Distance to a tree sphere, or NO_HIT. ball: relative to the ray's start.
 float distance_in_tree(Start start, GridRay ray, vec3 direction, uint surface, Ball ball, float time)
 {
     bool leaving = surface == start.surface;
@@ -48,8 +47,8 @@ float distance_in_tree(Start start, GridRay ray, vec3 direction, uint surface, B
     return ray.advance + ball_distance(ball, to_first, from_side, direction, leaving, start.inside, TREE_KINDS);
 }
 
-// As a ray of the same direction would meet it before the lamp. distance: where that ray meets it. A lamp that is not in
-// the tree goes before all that is.
+// Whether the sphere blocks the shadow ray. distance: where the ray meets it. A lamp outside the tree sorts before all
+// tree spheres.
 bool blocks_in_tree(Start start, GridRay ray, ShadowRay shadow, vec3 direction, float distance, uint surface,
                     uvec4 word, Ball ball)
 {
@@ -63,7 +62,7 @@ bool blocks_in_tree(Start start, GridRay ray, ShadowRay shadow, vec3 direction, 
     return ball_blocks(ball, ball.centre_radius.xyz, direction, at_end, shadow.distance - ray.advance, TREE_KINDS);
 }
 
-// See ended_as_met of ray_tests.glsl.
+// See ended_as_met() in ray_tests.glsl.
 ShadowRay ended_as_met_in_tree(ShadowRay shadow, Start start, float time)
 {
     if (CLOSE_LAMPS == 1 && TREE_LAMPS > 0u && shadow.distance > 0.0 && shadow.lamp >= SURFACE_COUNT) {
@@ -76,49 +75,46 @@ ShadowRay ended_as_met_in_tree(ShadowRay shadow, Start start, float time)
     return shadow;
 }
 
-// The two rays that leave a vertex, on their way through the tree: the shadow ray, if there is one, and then the other,
-// if it is followed. In one walk, as invocations run in step: those whose shadow ray ends early go on with the other,
-// which made walks half as fast again as one after the other.
+// The two rays that leave a vertex: the shadow ray, if any, then the path's ray, if followed. One walk for both,
+// because invocations run in step: where the shadow ray ends early, the path's ray goes on at once.
 struct Walk {
     Start start;
     vec3 direction;
     ShadowRay shadow;
     float time;
-    uint opacity_number; // of the rays (dimensions.glsl)
-    Hit hit;      // of the other surfaces at first, and of all of them at last
-    bool blocked; // likewise
+    uint opacity_number; // see dimensions.glsl
+    Hit hit;      // starts with the closest surface outside the tree
+    bool blocked; // starts with surfaces outside the tree
     uvec4 hit_word;
     GridRay path_ray;
     GridRay shadow_ray;
     vec3 path_inverse;
     vec3 shadow_inverse;
     bool follows_path;
-    bool seeks_light; // and nothing else: where no lamp is in the tree, it ends at any sphere of it
+    bool seeks_light; // seeks nothing but light: without lamps in the tree, any sphere ends the ray
     bool in_shadow;
     uint node;        // to enter next, or NO_NODE
-    uint first_place; // of the spheres of the node that was entered last, and as bits those to be tested
+    uint first_place; // child spheres of the last node; `spheres` has a bit for each that is still to be tested
     uint spheres;
     int height; // of the stack, or ENDED
     bool done;
 };
 
-// Whether the instructions of all branches are executed for all invocations, as on lavapipe, where an invocation ends each
-// walk.
+// Whether all invocations execute all branches, as on lavapipe; each then ends its walk before the next.
 const bool IN_STEP = WALK_TRIPS == 0u;
 
-// Groups to be entered later. Not in Walk, since functions copy what they are given. IN_STEP they are in registers, the last
-// one first: an array is read and written there for one invocation after the other where the places differ, which takes
-// longer than to move all groups along, and the more so the wider vectors are. Otherwise each is at its height.
+// Groups still to be entered. Outside Walk, because functions copy their arguments. IN_STEP they are in registers, the
+// last first: lavapipe reads and writes arrays one invocation at a time where indices differ, which takes longer than
+// moving all groups. Otherwise each is at its height.
 const uint STACK_SIZE = TREE_LEVELS > 0u ? TREE_LEVELS : 1u;
 uint walk_stack[STACK_SIZE];
 
-// The height of a walk that is done. That it is can also be told by done, but what compilers know of done after a loop
-// need not be so where a driver has ended it.
+// The height of a finished walk. Not `done`: a driver may cut the loop while the compiler assumes that it ended.
 const int ENDED = -1;
 
 const uint ROOT = 0u;
 
-// hit and blocked: of the surfaces that are not in the tree. Without a tree that is all.
+// hit and blocked: of surfaces outside the tree. Without a tree the walk ends here.
 Walk walk_from(Start start, vec3 direction, bool is_followed, ShadowRay shadow, float time, uint opacity_number,
                Hit hit, bool blocked)
 {
@@ -149,7 +145,7 @@ Walk walk_from(Start start, vec3 direction, bool is_followed, ShadowRay shadow, 
     return walk;
 }
 
-// Keeps a group for later, or takes the next node of the one that was kept last, in registers that move along.
+// Pushes a group or takes the next node of the top one; the stack moves along in registers.
 void keep_or_take(inout Walk walk, bool keeps, uint group)
 {
     uint last = walk_stack[0];
@@ -183,7 +179,6 @@ void take(inout Walk walk)
     walk.height -= has_one(last) ? 1 : 0;
 }
 
-// The ray that is on its way.
 GridRay ray_of(Walk walk, bool in_shadow)
 {
     GridRay ray = walk.path_ray;
@@ -192,7 +187,7 @@ GridRay ray_of(Walk walk, bool in_shadow)
     return ray;
 }
 
-// The walk's node, as far as its ray has not met anything nearer.
+// Enters the walk's node, up to the nearest hit so far.
 Entered enter(Walk walk, NodeWords words, GridRay ray, bool in_shadow)
 {
     vec3 inverse = in_shadow ? walk.shadow_inverse : walk.path_inverse;
@@ -200,7 +195,7 @@ Entered enter(Walk walk, NodeWords words, GridRay ray, bool in_shadow)
     return enter_node(words, ray, inverse, before - ray.advance * ADVANCE_ROUNDED);
 }
 
-// The place of a sphere that waits to be tested; it waits no longer.
+// Takes the next sphere to be tested.
 uint next_place(inout Walk walk)
 {
     uint place = walk.first_place + uint(findLSB(walk.spheres));
@@ -210,9 +205,9 @@ uint next_place(inout Walk walk)
 
 bool is_in_tree(uint surface) { return surface >= SURFACE_COUNT && surface != NO_SURFACE; }
 
-// An odd number of a sphere: a hash of its word, in steps of the grid, so that it is the same at any scale. No two spheres
-// share a word (lib/tree/coincident_spheres.h). Words often differ in few bits, so the hash ends like one that Wellons found
-// by search ("Prospecting for hash functions", 2018; lowbias32), where each bit changes half of all.
+// An odd hash of a sphere's word, in grid steps, so independent of scale. No two spheres share a word
+// (lib/tree/coincident_spheres.h). Words differ in few bits; the end is similar to lowbias32 (Wellons, "Prospecting for
+// hash functions", 2018), where each input bit flips half of the output.
 uint opacity_generator(uvec4 word)
 {
     uint radius = word.w - floatBitsToUint(tree_step());
@@ -223,20 +218,18 @@ uint opacity_generator(uvec4 word)
     return hash ^ (hash >> 16u) | 1u;
 }
 
-// Whether a ray passes a sphere as though it were not there: at random (Enderton et al. 2010, "Stochastic transparency"),
-// but as a function of the sphere and of the ray's number, so that neither the order in which spheres are tested nor how
-// samples are split matters. Spheres that differ decide independently, and so does each ray of a path: what passes n of
-// them is the product of n shares. See opacity_number().
+// Whether a ray passes through a sphere, at random (Enderton et al. 2010, "Stochastic transparency"). The outcome is a
+// function of sphere and ray number, so neither the order of tests nor the split of samples matters. Spheres, and the
+// rays of a path, decide independently: n spheres let through the product of their shares. See opacity_number().
 bool passes(uvec4 word, uint opacity_number)
 {
     if (TREE_OPACITY == 0)
         return false;
     uint number = opacity_generator(word) * opacity_number;
-    const float steps = float(TREE_OPACITY_STEPS) / 16777216.0; // of 24 bits, which a float holds
+    const float steps = float(TREE_OPACITY_STEPS) / 16777216.0; // of 24 bits, exact in a float
     return float(number >> 8u) * steps >= float(word.w & TREE_OPACITY_STEPS);
 }
 
-// exists: whether there is a sphere.
 void test_sphere(inout Walk walk, bool exists, uint place, uvec4 word, GridRay ray, bool in_shadow)
 {
     uint surface = SURFACE_COUNT + place;
@@ -251,9 +244,8 @@ void test_sphere(inout Walk walk, bool exists, uint place, uvec4 word, GridRay r
     keep_closer_of_tree(walk.hit, walk.hit_word, meets && !in_shadow ? distance : NO_HIT, surface, word);
 }
 
-// A trip takes a node and a sphere at the most. IN_STEP the sphere is of a node before, and is tested last, so that
-// neither waits for the other, which took 0.94 of the time of paths among 10,000 balls. Both are fetched together (0.92),
-// since lavapipe 22.3 fetches by a function and puts what is in registers aside for each call.
+// Processes at most a node and a sphere. IN_STEP the sphere belongs to an earlier node and is tested last, so that
+// neither waits for the other. Both are fetched together, since lavapipe 22.3 spills registers around each fetch.
 void trip_in_step(inout Walk walk, bool in_shadow)
 {
     bool tests = walk.spheres != 0u;
@@ -270,7 +262,7 @@ void trip_in_step(inout Walk walk, bool in_shadow)
     test_sphere(walk, tests, place, word, ray, in_shadow);
 }
 
-// On an H200 walks are a twentieth slower where a node is taken before the trip's sphere is tested.
+// Taking a node before the sphere's test would be slower on GPUs.
 void trip(inout Walk walk, bool in_shadow)
 {
     GridRay ray = ray_of(walk, in_shadow);
@@ -290,8 +282,7 @@ void trip(inout Walk walk, bool in_shadow)
         take(walk);
 }
 
-// Goes on with a walk until it is done, or, unless IN_STEP, for a number of trips.
-// has_shadow: false where it is known that there is no shadow ray.
+// Continues a walk until it is done or, unless IN_STEP, for most_trips. has_shadow: false if no shadow ray is possible.
 void go_on(inout Walk walk, uint most_trips, bool has_shadow)
 {
     uint trips = 0u;
@@ -302,7 +293,7 @@ void go_on(inout Walk walk, uint most_trips, bool has_shadow)
         else
             trip(walk, in_shadow);
 
-        // What is left of this ray, or the other ray.
+        // Ends this ray, and turns to the path's ray.
         bool ray_ends = walk.spheres == 0u && walk.node == NO_NODE;
         if (in_shadow)
             ray_ends = ray_ends || walk.blocked;
@@ -319,7 +310,7 @@ void go_on(inout Walk walk, uint most_trips, bool has_shadow)
     } while (!walk.done && (IN_STEP || trips < most_trips));
 }
 
-// Set where a driver has stopped a walk before its end (some end loops after so many trips): the sample is lost.
+// Set if a driver has ended a walk early, as some limit loops: the sample is lost.
 bool walk_was_cut = false;
 
 void finish(inout Walk walk, bool has_shadow)

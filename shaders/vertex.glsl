@@ -4,24 +4,23 @@
 
 #include "scene.glsl"
 
-// A point of a surface that a path has reached.
 struct Vertex {
     vec3 position;
     vec3 normal; // unit, on the side that the path came from
     vec3 mirror; // unit direction of a mirror's reflection
     uint surface;
-    bool inside; // of the sphere that the surface is; of a plane, on the side away from its normal
+    bool inside; // of the sphere; for a plane, behind its normal
 };
 
-// Where a ray has met a surface.
+// A ray's hit.
 struct Arrival {
-    vec3 point;     // off the surface by the rounding of the distance
+    vec3 point;     // off the surface by the distance's rounding
     vec3 direction; // of the ray, a unit vector
     uint surface;
 };
 
-// The vertex where a ray has arrived. The point is moved onto the surface: the rounding of the distance puts it off along
-// the ray, up to thousands of times farther than rounding of the point itself would.
+// Moves the hit onto the surface: the distance's rounding puts it off along the ray, up to thousands of times farther
+// than a point's own rounding.
 Vertex vertex_at(Arrival arrival, float time)
 {
     uint surface = arrival.surface;
@@ -32,7 +31,7 @@ Vertex vertex_at(Arrival arrival, float time)
         Ball ball = ball_of(surface, time);
         vec3 centre = ball.centre_radius.xyz;
         centre = nearest_centre(ball, centre, centre - position, KINDS);
-        vec3 from_centre = position - centre; // normalize() would be three divisions on lavapipe
+        vec3 from_centre = position - centre; // normalize() is three divisions on lavapipe
         normal = from_centre * inversesqrt(dot(from_centre, from_centre));
         position = centre + ball.centre_radius.w * normal;
     } else {
