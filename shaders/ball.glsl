@@ -1,14 +1,14 @@
-// A ball that may move, or a capsule, a ball swept along a segment: all differences of these kinds are here. KINDS and
-// TREE_KINDS have a bit per kind present. Part of scene.glsl.
+// Balls, which may move, and capsules, balls swept along a segment. KINDS and TREE_KINDS have a bit per kind present.
+// Part of scene.glsl.
 #ifndef BALL_GLSL
 #define BALL_GLSL
 
 #include "maths.glsl"
 
-// Finite, because Vulkan does not promise infinities.
+// Vulkan does not promise infinities.
 const float NO_HIT = 3.0e38;
 
-// A ball at a time, or a capsule's first end; axis: the way to the other end, and 1 / its length.
+// A ball at a time, or a capsule's first end. axis: vector to the other end, and 1 / its length.
 struct Ball {
     vec4 centre_radius;
     vec4 axis;
@@ -27,7 +27,7 @@ Ball ball_from(vec4 centre_radius, vec4 way, float time, uint kinds)
     return Ball(centre_radius, is_capsule ? way : NO_AXIS);
 }
 
-// The swept ball's center nearest to a place. to_first: the way from there to the first center.
+// The swept ball's center nearest to a place. to_first: from the place to the first center.
 vec3 nearest_centre(Ball ball, vec3 centre, vec3 to_first, uint kinds)
 {
     if ((kinds & KIND_CAPSULE) == 0u)
@@ -36,7 +36,7 @@ vec3 nearest_centre(Ball ball, vec3 centre, vec3 to_first, uint kinds)
     return centre + clamp(-dot(to_first, axis.xyz * axis.w) * axis.w, 0.0, 1.0) * axis.xyz;
 }
 
-// sphere_distance() for a sphere that no path enters.
+// sphere_distance() for spheres that no path enters.
 float distance_from_outside(vec3 to_centre, float radius, vec3 direction, bool leaving)
 {
     float b = dot(to_centre, direction);
@@ -46,10 +46,9 @@ float distance_from_outside(vec3 to_centre, float radius, vec3 direction, bool l
     return !leaving && squared_half_chord >= 0.0 && b > 0.0 ? nearer : NO_HIT;
 }
 
-// Distance along the unit vector direction to a sphere, or NO_HIT (shaders/README.md, section 3). to_centre = center -
-// origin; leaving: the ray starts on the sphere; outside: a ray that starts elsewhere is outside. Side and direction
-// decide a hit: rounding may flip the sign of the distance near the sphere, and of b on it. If the camera is outside
-// all spheres, no path gets inside.
+// Distance along a unit vector to a sphere, or NO_HIT (shaders/README.md, section 3). to_centre: center - origin;
+// leaving: the ray starts on the sphere; outside: a ray that starts elsewhere is outside. Side and direction decide,
+// because rounding may flip the sign of the distance near the sphere.
 float sphere_distance(vec3 to_centre, float radius, vec3 direction, bool leaving, bool inside, bool outside)
 {
     if (INSIDE == 0)
@@ -76,17 +75,16 @@ bool sphere_blocks(vec3 to_centre, float radius, vec3 direction, bool at_end, fl
     return !at_end && b > 0.0 && met_before;
 }
 
-// The way from a capsule's first end to the center of the ball that a ray meets first, or leaves last.
+// Vector from a capsule's first center to the center of the ball that a ray meets first, or leaves last.
 //
-// Unit vector u of the axis, length L, c = u . direction, p the part of u across the ray, l the part of to_first
-// across: the ball at s is met at b + s c - sqrt(r^2 - |l + s p|^2), least at s = (n - c h) / |p|, with n = -l . p /
-// |p| and h^2 = r^2 - |l + n p / |p||^2, the half chord at the nearest approach (p . p + c c = 1). The last ball has
-// the other sign of h. Both are convex in s, so s is clamped to [0, L]. Along the axis |p| = 0, and the sign of c h
-// decides.
+// Let u be the axis's unit vector, L its length, c = u . direction, p and l the parts of u and to_first across the ray.
+// The ball at s is met at b + s c - sqrt(r^2 - |l + s p|^2). This is least at s = (n - c h) / |p|, with n = -l . p /
+// |p| and h^2 = r^2 - |l + n p / |p||^2; the last ball has the other sign of h. Both are convex in s, so s is clamped
+// to [0, L]. For |p| = 0 the sign of c h decides.
 //
-// Rounding shifts the ends across the ray by at most d = 2^-22 (|to_first| + L). Then e = d / |p| along the axis delays
-// the hit by e^2 / (2 h |p|), but nearly along the axis, |p|^2 < 2 d / h, the ball might be missed. With h - d for h it
-// is met wherever the ray meets the endless cylinder, at most d / |p| later, no more than by a shift by d.
+// Rounding shifts the ends across the ray by d <= 2^-22 (|to_first| + L), and s by e = d / |p|, which delays the hit by
+// e^2 / (2 h |p|). For |p|^2 < 2 d / h the ball might be missed, so h - d replaces h: the delay is then at most d /
+// |p|, as for a shift by d.
 vec3 swept_to(vec3 to_first, vec4 axis, float radius, vec3 direction, bool to_last)
 {
     vec3 unit = axis.xyz * axis.w;
@@ -105,7 +103,7 @@ vec3 swept_to(vec3 to_first, vec4 axis, float radius, vec3 direction, bool to_la
     return (share >= sine ? 1.0 : share > 0.0 ? share / sine : 0.0) * axis.xyz;
 }
 
-// The way from a ray's origin to the center of that ball.
+// Vector from a ray's origin to the center of that ball.
 vec3 to_met(Ball ball, vec3 to_first, vec3 direction, bool to_last, uint kinds)
 {
     if ((kinds & KIND_CAPSULE) == 0u)
@@ -113,9 +111,8 @@ vec3 to_met(Ball ball, vec3 to_first, vec3 direction, bool to_last, uint kinds)
     return to_first + swept_to(to_first, ball.axis, ball.centre_radius.w, direction, to_last);
 }
 
-// sphere_distance() for a ball; from_side: its place relative to where the side is decided. From outside a capsule's
-// first ball is met, from inside the last. A ray that leaves the capsule inwards usually starts on another ball than it
-// meets.
+// sphere_distance() for a ball. from_side: its place relative to where the side is decided. From inside, a capsule's
+// last ball counts. A ray that leaves inwards usually starts on another ball than it meets.
 float ball_distance(Ball ball, vec3 to_first, vec3 from_side, vec3 direction, bool leaving, bool inside, uint kinds)
 {
     vec3 to_centre = nearest_centre(ball, from_side, from_side, kinds);

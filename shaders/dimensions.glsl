@@ -60,10 +60,10 @@ vec4 direction_numbers(SampleKey branch, uint begin, uint count)
     return GLOSS == 1u ? numbers : numbers.xyzz;
 }
 
-// The number by which the ray that leaves a vertex passes surfaces at random (passes() of tree_walk.glsl); vertex 0 is the
-// camera. Times the odd number of a surface it is a coordinate of an extensible lattice in base 2 (Hickernell, Hong,
-// L'Ecuyer and Lemieux 2000), shifted in each pixel: each of 2^m samples falls into another of 2^m equal parts of [0, 1),
-// and surfaces with different numbers decide independently.
+// The number by which a vertex's ray passes surfaces at random (passes() of tree_walk.glsl); vertex 0 is the camera.
+// Times a surface's odd number it is a coordinate of an extensible lattice in base 2 (Hickernell, Hong, L'Ecuyer and
+// Lemieux 2000), shifted per pixel: 2^m samples fall into different ones of 2^m equal parts of [0, 1), and different
+// surfaces decide independently.
 uint opacity_number(SampleKey branch, uint vertex)
 {
     const uint first_block = 1u << 31; // beyond all paths' blocks

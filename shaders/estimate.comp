@@ -1,5 +1,5 @@
-// Sums the errors of an image's pixels: one workgroup for some adjacent tiles. Tiles are independent and every sum has
-// a fixed order, so a film always gives the same bits.
+// Sums the pixels' errors: one workgroup for adjacent tiles. Tiles are independent and sums have a fixed order, so a
+// film always gives the same bits.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -16,8 +16,8 @@ layout(push_constant) uniform Push { EstimateConstants estimate; };
 
 layout(set = 0, binding = BINDING_RESOLVED) writeonly buffer Groups { TileErrors groups[]; } estimated;
 
-// Of each tile: its samples in the older and the newer part, if tiles differ; on request its squared relative errors,
-// shown by samples and expected from unseen light.
+// Per tile: its samples in the older and newer part, if tiles differ; on request its squared relative errors, shown by
+// samples and expected from unseen light.
 layout(set = 0, binding = BINDING_TILE_COUNTS) readonly buffer TileCounts { uvec2 counts[]; } tile_samples;
 layout(set = 0, binding = BINDING_TILE_SQUARES) writeonly buffer TileSquares { vec2 squares[]; } tile_squares;
 
@@ -50,12 +50,12 @@ struct Errors {
     Findings findings;
 };
 
-// An invocation has one column of a tile, so that invocations read adjacent memory.
+// Each invocation has a tile's column, so that memory reads are adjacent.
 shared float means[TILE_SIZE][ESTIMATE_WORKGROUP_SIZE]; // of one channel
 shared ValueSet column_sets[ESTIMATE_WORKGROUP_SIZE];
 shared Errors errors[ESTIMATE_WORKGROUP_SIZE]; // of columns, then of tiles
 
-// Pixels loaded ahead; the best of 1, 2 and 4 on an H200.
+// Loaded ahead, for speed on GPUs.
 const uint PIXELS_ASKED_FOR = 4u;
 
 // A multiple of 2^-60.
@@ -118,14 +118,14 @@ Sorted row_about(uint y, uint column, uint first, uint last)
     return sorted(left, means[y][column], right);
 }
 
-// Exactly 1 for the whole sum, although division may err: a single tile has no spread, which the host computes as a
-// difference of shares. sum != 0.
+// Exactly 1 for the whole sum, although division may err: the host computes a tile's spread as a difference of shares.
+// sum != 0.
 float share_of(float part, float sum)
 {
     return part == sum ? 1.0 : part / sum;
 }
 
-// Squares of shares, because squares of the summands may leave float32's range.
+// Squares of shares; squares of the summands may leave float32's range.
 Squares squares_of(float values[TILE_SIZE])
 {
     Squares all = Squares(0.0, 0.0);
@@ -200,7 +200,7 @@ void main()
     const uint first_tile = estimate.first_tile + corner.x / TILE_SIZE
                           + gl_WorkGroupID.y * ((estimate.film_width + TILE_SIZE - 1u) / TILE_SIZE);
 
-    // This invocation's pixels, one below the other; the first one replaces those outside the film.
+    // A column of pixels. The first pixel replaces those outside the film.
     const uint pixels = invocation < size.x ? size.y : 0u;
     const uint first_pixel = corner.y * estimate.film_width + corner.x + (pixels > 0u ? invocation : 0u);
     const uint last = size.y - 1u;
@@ -253,8 +253,8 @@ void main()
         }
         barrier();
 
-        // Averages of columns, then of tiles. Reads means back behind a barrier: recomputed, they may round
-        // differently, and a set is asked about its own values.
+        // Averages of columns, then tiles. Reads means back: recomputed, they may round differently, and a set is
+        // queried with its own values.
         ValueSet column_set = empty_set();
         for (uint i = 0u; i < pixels; ++i)
             column_set = with_value(column_set, means[i][invocation]);
@@ -331,7 +331,7 @@ void main()
     barrier();
     write_errors(gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x, invocation, size);
 
-    // On request each tile's own errors, in host-visible memory. Infinite if a pixel lacks samples in a part.
+    // Host-visible memory. Infinite if a pixel lacks samples in a part.
     if (estimate.by_tile == 1u && invocation < TILES && first < size.x)
         tile_squares.squares[first_tile + tile] =
             of_tile.findings.unknown > 0u

@@ -1,4 +1,4 @@
-// Exact sums of samples in 128-bit fixed point (shaders/README.md, section 11). gpu_layout.h has the layout.
+// Exact sums of samples in 128-bit fixed point (shaders/README.md, section 11; layout: gpu_layout.h).
 #ifndef FILM_GLSL
 #define FILM_GLSL
 
@@ -8,7 +8,7 @@
 
 layout(set = 0, binding = BINDING_FILM) buffer Film { uint words[]; } film;
 
-// An invocation's sums of windows, biases included.
+// Sums of windows, biases included.
 struct FilmPixel {
     uvec4 windows[3];
     uint accepted;
@@ -20,13 +20,12 @@ FilmPixel empty_film_pixel()
     return FilmPixel(uvec4[3](uvec4(0u), uvec4(0u), uvec4(0u)), 0u, 0u);
 }
 
-// Biases that round a value to multiples of 2^6, 2^-16, 2^-38 and 2^-60, left in the low bits of the sum (Demmel and
-// Nguyen, "Fast Reproducible Floating-Point Summation", ARITH 2013): 3/2 times a power of two, or 1 for unsigned
-// values. A window holds less than 2^22 units even with rounding towards zero, so 511 fit into 32 bits. Bits below
-// 2^-60 are rounded; values from 2^-37 on have none.
+// Biases that round a value to multiples of 2^6, 2^-16, 2^-38 and 2^-60, left in the sum's low bits (Demmel and Nguyen,
+// "Fast Reproducible Floating-Point Summation", ARITH 2013): 3/2 of a power of two, or 1 for unsigned values. A window
+// is below 2^22 units even with rounding towards zero, so 511 fit into 32 bits.
 const vec4 WINDOW_BIASES = vec4(536870912.0, 192.0, 4.57763671875e-5, 1.0913936421275139e-11);
 
-// Includes the biases' bits, which are subtracted once at the end, modulo 2^32.
+// Includes the biases' bits; subtracted once at the end, modulo 2^32.
 uvec4 windows_of(float value)
 {
     precise float a = value + WINDOW_BIASES.x;
@@ -39,10 +38,10 @@ uvec4 windows_of(float value)
     return floatBitsToUint(vec4(a, b, c, d));
 }
 
-// In film units. NaN, infinite, negative or too bright samples are left out and counted.
+// In film units. Leaves out and counts NaN, infinite, negative and too bright samples.
 void film_add(inout FilmPixel pixel, vec3 value)
 {
-    // As integers, because Vulkan does not define comparisons with NaN: all that is unacceptable lies above the limit.
+    // Integers, because Vulkan does not define comparisons with NaN; all unacceptable bits are above the limit.
     const uint limit = (127u + FILM_MAX_EXPONENT) << 23u;
     uvec3 bits = floatBitsToUint(value);
     bool accepted = max(max(bits.r, bits.g), bits.b) < limit;
@@ -79,8 +78,8 @@ uvec4 fixed_point(uvec4 windows)
     return add_with_carry(add_with_carry(a, b), add_with_carry(c, d));
 }
 
-// Adds to the three low words of a sum at words[first]; returns the addend of the highest. is_first: the sum is 0, and
-// the words are not read, which saves time.
+// Adds to a sum's three low words at words[first]; returns the addend of the highest. is_first: the sum is 0 and its
+// words are not read, to save time.
 uint film_store_sum(uint first, uint stride, uvec4 sum, bool is_first)
 {
     uvec4 old = uvec4(0u);
@@ -93,11 +92,10 @@ uint film_store_sum(uint first, uint stride, uvec4 sum, bool is_first)
     return new.w;
 }
 
-// Planes that hardly ever change: highest words of sums, and the samples left out.
+// Planes that rarely change: the sums' highest words, and the samples left out.
 uint rare_plane(uint i) { return i < 3u ? (i + 1u) * FILM_SUM_WORDS - 1u : FILM_REJECTED; }
 
-// pixel: a pixel's first word in a part. A loop, usually of one trip, because lavapipe 22.3 executes the bodies of all
-// ifs.
+// pixel: its first word in a part. A loop, usually of one trip, because lavapipe 22.3 executes the bodies of all ifs.
 void film_add_rare_words(uint pixel, uint stride, uvec4 addends)
 {
     uint i = addends.x != 0u ? 0u : addends.y != 0u ? 1u : addends.z != 0u ? 2u : 3u;
@@ -109,8 +107,7 @@ void film_add_rare_words(uint pixel, uint stride, uvec4 addends)
     } while (i < 4u);
 }
 
-// For several invocations per pixel: each word takes its addend and the previous carry in any order. Exactly one of
-// them sees a word's overflow.
+// For several invocations per pixel: words may be added in any order; exactly one invocation sees each overflow.
 void film_store_shared_sum(uint first, uint stride, uvec4 sum)
 {
     uint carry = 0u;
@@ -124,8 +121,8 @@ void film_store_shared_sum(uint first, uint stride, uvec4 sum)
     }
 }
 
-// Adds an invocation's sums to its pixel in one part. shared_pixel: others may do so too. is_first: the part has no
-// sample of the pixel, and only its rare words are 0.
+// shared_pixel: other invocations may add to the pixel. is_first: the part has no sample of the pixel, and only its
+// rare words are 0.
 void film_store(uint film_part, uint pixel_in_strip, uint strip_pixel_count, FilmPixel pixel, bool shared_pixel,
                 bool is_first)
 {

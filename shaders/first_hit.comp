@@ -1,6 +1,6 @@
 // First hits of camera rays in a rectangle, one ray per invocation. Depth and object belong to the ray through the
-// pixel's center at half the shutter's time, because means of them are meaningless. Normal and albedo are means over
-// pixel and shutter, like radiance: denoisers need the image's own edges.
+// pixel's center at half the shutter's time, because their means are meaningless. Normal and albedo are means over
+// pixel and shutter: denoisers need the image's own edges.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -25,7 +25,7 @@ vec3 lattice_point(uint ray)
     return (vec3(point) + 0.5) / float(FILTER_RAYS);
 }
 
-// As in dimensions.glsl; the golden ratio (0x9e3779b9 / 2^32) spreads the numbers of neighbouring pixels.
+// As in dimensions.glsl; the golden ratio (0x9e3779b9 / 2^32) spreads neighboring pixels' numbers.
 uint opacity_number(uint pixel_index, uint ray) { return (pixel_index + 1u) * 0x9e3779b9u + bitfieldReverse(ray); }
 
 // Depth along the view. Rays start at the pinhole, or on a plane across the view.

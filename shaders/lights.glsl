@@ -98,7 +98,7 @@ float lamp_probability(Lamps lamps, float weight)
     return weight > 0.0 ? (LAMP_COUNT == 1u ? 1.0 : probability) : 0.0;
 }
 
-// With a tree the uniform share covers all lamps, since those in sight are not counted.
+// The tree's uniform share covers all lamps, since those in sight are not counted.
 float lamp_probability_by_tree(LampWalk walk)
 {
     precise float probability = (1.0 - UNIFORM_SHARE) * walk.probability + UNIFORM_SHARE / float(LAMP_COUNT);
@@ -111,7 +111,7 @@ struct LampChoice {
     float probability;
 };
 
-// What choose() returns if it takes this lamp, which may differ between invocations.
+// The result of choose() if it takes this lamp. The index may differ between invocations.
 LampChoice choice_of(Lamps lamps, uint lamp)
 {
     if (HAS_LAMP_TREE) {

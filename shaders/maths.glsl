@@ -1,5 +1,5 @@
-// Elementary functions with bounded errors; Vulkan's sin, cos, log2 and pow promise too little (shaders/README.md,
-// section 12). lib/kernel/accuracy.cpp derives the bounds.
+// Elementary functions with bounded errors, which Vulkan's sin, cos, log2 and pow lack (shaders/README.md, section 12).
+// lib/kernel/accuracy.cpp derives the bounds.
 #ifndef MATHS_GLSL
 #define MATHS_GLSL
 
@@ -11,12 +11,11 @@ const float PI = 3.14159265358979;
 const float NUMBER_STEP = 1.0 / 16777216.0;
 const float LARGEST_NUMBER = 1.0 - NUMBER_STEP;
 
-// 1.5 * 2^23: added to |x| < 2^22 it leaves round(x) in the low bits. Conversion to int is slow on machines without an
-// instruction for it.
+// 1.5 * 2^23: added to |x| < 2^22 it leaves round(x) in the low bits, where conversion to int may be slow.
 const float ROUNDING_BIAS = 12582912.0;
 
-// min and max, if one argument is not negative: floats then have the order of their bits, which lavapipe compares in
-// one instruction instead of five. An H200 prefers floats.
+// min and max if one argument is not negative: floats then have the order of their bits, which lavapipe compares
+// faster.
 float at_most(float number, float limit)
 {
     if (INTEGER_ORDER == 0u)
@@ -42,9 +41,9 @@ float nearer_to_zero(float a, float b)
     return uintBitsToFloat(min(floatBitsToUint(a), floatBitsToUint(b)));
 }
 
-// sin and cos of 2 pi u for u in [0, 1], within 4.5 ulp, also near zeros. With m = min(u, 1 - u) and w = m - 1/4:
-// cos(2 pi u) = -sin(2 pi w) = w p(w^2), sin(2 pi u) = +-cos(2 pi w) = (1/2 - u) m q(w^2).
-// The factors are exact near their zeros. p and q are minimax (Remez 1934), to 5.3e-9 and 1.0e-9.
+// sin and cos of 2 pi u for u in [0, 1], within 4.5 ulp, also near zeros. With m = min(u, 1 - u) and w = m - 1/4: cos(2
+// pi u) = -sin(2 pi w) = w p(w^2), sin(2 pi u) = +-cos(2 pi w) = (1/2 - u) m q(w^2). p and q are minimax (Remez 1934),
+// to 5.3e-9 and 1.0e-9.
 void sin_cos_turn(float u, out float sine, out float cosine)
 {
     float m = at_most(u, 1.0 - u);
@@ -63,7 +62,7 @@ float log2_one_minus(float y)
     return y < 0.25 ? -y * (1.44269504 + y * tail) : log2(1.0 - y);
 }
 
-// Lobes up to 2^-100 count as 0: denormal numbers cost CPUs hundreds of cycles.
+// Smaller lobes count as 0: denormal numbers are slow on CPUs.
 const float EXP2_UNDERFLOW = -100.0;
 
 // 2^x for x <= 0, within 3 + 2 |x| ulp (Vulkan), so 3 ulp of 1.

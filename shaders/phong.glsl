@@ -26,7 +26,7 @@ Material material_of(uint surface)
 }
 
 // The lobe's share in a path's last direction if lamps are sampled too (shaders/README.md, section 5). Below 1, because
-// lamp sampling cannot find all light, as from within a lamp.
+// lamp sampling cannot find all light.
 const float LAST_SPECULAR_PROBABILITY = 0.97;
 
 Material at_last_direction(Material material)

@@ -5,8 +5,8 @@
 #include "maths.glsl"
 #include "scene.glsl"
 
-// With KNOWN_SIDES the camera decides a path's side of each surface, because a vertex that nearly touches one may lie
-// on the wrong side by rounding: its path would end there, or leak out of a room.
+// With KNOWN_SIDES the camera decides a path's side of each surface: rounding may put a vertex close to another surface
+// on its wrong side, where paths end or leak.
 
 // A ray's start: on which surface, if any, and whether inside a sphere.
 struct Start {
@@ -15,9 +15,9 @@ struct Start {
     bool inside;
 };
 
-// Distance along the unit vector direction to a plane, or NO_HIT: 2 |h| / q or q / k of shaders/README.md, section 3.
-// level: at the origin; leaving: the ray starts on the plane. side: the camera's height above a flat plane; if it
-// decides, a ray towards the plane hits it, at a negative distance if rounding has put the origin behind it.
+// Distance along a unit vector to a plane, or NO_HIT: 2 |h| / q or q / k of shaders/README.md, section 3. level: at the
+// origin; leaving: the ray starts on the plane. side: the camera's height over a flat plane; if it decides, a ray
+// towards the plane hits it, at a negative distance if rounding has put the origin behind it.
 float plane_distance(Level level, vec3 direction, bool leaving, bool inside, float side)
 {
     float slope = dot(level.gradient, direction);
@@ -43,7 +43,7 @@ float plane_distance(Level level, vec3 direction, bool leaving, bool inside, flo
 }
 
 struct Hit {
-    float distance; // NO_HIT for none; negative if rounding has put the start beyond the surface
+    float distance; // NO_HIT: none; negative if rounding has put the start beyond the surface
     uint surface;   // NO_SURFACE for none
 };
 
@@ -107,9 +107,9 @@ void shade_plane(inout bool blocked, Start start, ShadowRay shadow, uint plane, 
     blocked = blocked || blocks(shadow, distance_to_plane(start, shadow.direction, plane, level, time), plane);
 }
 
-// If a lamp nearly coincides with another sphere, a ray to it ends at its intersection: both distances then come from
-// one formula, exactly one is less, and light that both emit counts once. A ray that misses the lamp by rounding ends
-// at the sampled point.
+// For lamps that nearly coincide with another sphere, the ray ends at its intersection: both distances then come from
+// one formula, so exactly one is less, and light that both emit counts once. A ray that misses by rounding ends at the
+// sampled point.
 ShadowRay ended_as_met(ShadowRay shadow, Start start, float time)
 {
     if (CLOSE_LAMPS == 1 && shadow.distance > 0.0 && is_walked_lamp(shadow.lamp)) {

@@ -5,8 +5,8 @@
 #include "maths.glsl"
 #include "scene.glsl"
 
-// The sequence's points, a row of blocks per sample: multiples of 2^-32, the same in every pixel. Uniform: all
-// invocations read one block at a time.
+// The sequence's points, a row of blocks per sample: multiples of 2^-32, the same in every pixel. A uniform buffer, as
+// all invocations read one block at a time.
 layout(set = 0, binding = BINDING_POINTS) uniform Points { uvec4 blocks[POINT_BLOCKS]; } points;
 
 struct SampleKey {
@@ -20,8 +20,7 @@ struct SampleKey {
 // Blocks shared by a sample's branches.
 uint blocks_of_sample() { return shared_blocks(CAMERA_BLOCKS, LAMP_COUNT, SPOT_COUNT); }
 
-// Beyond the shared blocks a branch is sample B i + b. Where that passes 2^32 the seed changes, so that no branch
-// repeats another's numbers.
+// Beyond the shared blocks a branch is sample B i + b; past 2^32 the seed changes, so that numbers do not repeat.
 SampleKey branch_key(SampleKey key, uint branch)
 {
     uint high, low;
@@ -52,8 +51,8 @@ SampleKey key_of_pixel(uvec2 seed, uint pixel)
     return SampleKey(seed, pixel, 0u, 0u, pcg4d(uvec4(pixel, 0u, seed)));
 }
 
-// A number of a block. The pixel's hash times this shifts the block's points (shaders/README.md, section 8). Hashing pixel
-// and block would take three times as many multiplications.
+// The pixel's hash times this shifts the block's points (shaders/README.md, section 8), cheaper than a hash of pixel
+// and block.
 uint odd_number(uint block)
 {
     uint odd = block * 0x9e3779b9u + 0xc2b2ae35u;

@@ -4,7 +4,7 @@
 
 #include "maths.glsl"
 
-// A direction about the z axis. Nothing needs the polar angle itself, for which Vulkan allows acos 4096 ulp.
+// About the z axis. The polar angle itself is not needed; Vulkan allows acos 4096 ulp.
 struct SphericalAngles {
     float cos_polar;
     float sin_polar;
@@ -31,8 +31,8 @@ vec3 uniform_hemisphere_direction(vec3 axis, vec2 u)
     return dot(direction, axis) < 0.0 ? -direction : direction;
 }
 
-// Uniform point of the unit disc (Shirley and Chiu, "A Low Distortion Map Between Disk and Square", Journal of Graphics
-// Tools 2(3), 1997): the larger coordinate is the radius; the ratio gives the angle from the nearer axis.
+// Uniform on the unit disc (Shirley and Chiu, "A Low Distortion Map Between Disk and Square", Journal of Graphics Tools
+// 2(3), 1997): the larger coordinate is the radius, the ratio gives the angle from the nearer axis.
 vec2 concentric_disc(vec2 u)
 {
     vec2 place = 2.0 * u - 1.0;
@@ -45,9 +45,9 @@ vec2 concentric_disc(vec2 u)
     return radius * sign(place) * (along_x ? vec2(cosine, sine) : vec2(sine, cosine));
 }
 
-// Turns a vector about z to be about the unit vector axis, by the basis of Duff et al., "Building an Orthonormal Basis,
+// Turns a vector about z to the unit vector axis, by the basis of Duff et al., "Building an Orthonormal Basis,
 // Revisited" (JCGT 6(1), 2017): s = sign(z), a = -1 / (s + z), vectors (1 + s a x^2, s a x y, -s x), (a x y, s + a y^2,
-// -y), (x, y, z). q = s x v_x + y v_y is common to all components.
+// -y), (x, y, z); q is a common term.
 vec3 rotate_to_axis(vec3 axis, vec3 v)
 {
     float s = axis.z < 0.0 ? -1.0 : 1.0;
@@ -74,7 +74,7 @@ vec2 narrow_cos_sin(float one_minus_cos)
     return vec2(1.0 - one_minus_cos, sqrt(one_minus_cos * (2.0 - one_minus_cos)));
 }
 
-// Power heuristic, exponent 2, of density a > 0 against b >= 0 (Veach 1997, chapter 9). No square overflows unless the
+// Power heuristic, exponent 2, of density a > 0 against b >= 0 (Veach 1997, chapter 9). Squares overflow only where the
 // weight is 0.
 float power_heuristic(float a, float b)
 {

@@ -28,7 +28,7 @@ float departure_share; // weight of light found by the next departure; a spot's 
 Path path_from(Arrival first) { return Path(first, vec3(1.0), vec3(0.0), 1u, true); }
 
 // Weights of light that both lamp sampling and a direction may find: by multiple importance sampling, or all to the
-// lamps. Densities are those of one sample times the vertex's number of such samples (Veach 1997, section 9.2.2).
+// lamps. Densities are multiplied by the vertex's number of such samples (Veach 1997, section 9.2.2).
 float lamp_weight_over_density(float lamp_density, float direction_density)
 {
     return ESTIMATOR == ESTIMATOR_LIGHT ? 1.0 / lamp_density

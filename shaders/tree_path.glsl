@@ -18,7 +18,7 @@ struct TreeSample {
     Path path;
 };
 
-// One per branch, or per lamp if the first vertex sends a ray to each and they are more. Those beyond the branches
+// One per branch, or per lamp if the first vertex sends a ray to each and they are more. Departures beyond the branches
 // carry only their lamp's light, and come first.
 const uint FIRST_DEPARTURES = SAMPLE_EVERY_LAMP && LAMP_COUNT > BRANCH_COUNT ? LAMP_COUNT : BRANCH_COUNT;
 const uint FIRST_BRANCH = FIRST_DEPARTURES > BRANCH_COUNT ? BRANCH_COUNT : 0u;
