@@ -55,6 +55,12 @@ def beyond(least, largest):
     return least - step, largest + step
 
 
+def commands_of(page):
+    """The program's commands in a page's shell blocks, as words."""
+    return [shlex.split(line.split(" # ")[0]) for block in re.findall(r"```sh\n(.*?)```", page, re.DOTALL)
+            for line in block.splitlines() if line.startswith("pt ")]
+
+
 def scene_with(section, values):
     """With required keys beside them."""
     members = json.dumps({**REQUIRED.get(section, {}), **values})
@@ -93,8 +99,7 @@ class RealDevice(CommandLineTest):
             self.assertEqual(example, shipped.read())
 
     def test_commands_of_the_manual_run(self):
-        commands = [shlex.split(line) for block in re.findall(r"```sh\n(.*?)```", MANUAL, re.DOTALL)
-                    for line in block.splitlines() if line.startswith("pt ")]
+        commands = commands_of(MANUAL)
         self.assertGreater(len(commands), 5)
         for command in commands:
             smaller = ["--size", "96x48"] if command[1] == "render" and "--size" not in command else []
@@ -105,6 +110,20 @@ class RealDevice(CommandLineTest):
                 self.expect(0, *words, *smaller)
         for name in "picture.png", "picture.exr", "figures.json", "darker.jpg":
             self.assertIn(name, self.files())
+
+    def test_recipes_run(self):
+        frames, = re.findall(r'```\n( +"animation": .*?)```', MANUAL, re.DOTALL)
+        self.write("animated.json", self.read("scene.json").rstrip().removesuffix("}") + ",\n" + frames + "}\n")
+        with open(os.path.join(os.path.dirname(SCENES), "RECIPES.md"), encoding="utf-8") as file:
+            commands = commands_of(file.read())
+        self.assertGreater(len(commands), 8)
+        for command in commands:
+            smaller = {"--size": "48x24", "--frames": "47"}
+            words = [smaller.get(option, word) for option, word in zip(command, command[1:])]
+            missing = ["--size", "48x24"] if command[1] == "render" and "--size" not in command else []
+            self.expect(0, *words, *missing)
+            written = [name for option, name in zip(command, command[1:]) if option in ("-o", "--film")]
+            self.assertLessEqual({name.replace("##", "47") for name in written}, set(self.files()))
 
     def test_the_first_scene_of_the_readme(self):
         with open(os.path.join(SCENES, "..", "..", "README.md"), encoding="utf-8") as file:
