@@ -12,7 +12,7 @@ constexpr std::uint64_t most_pixel_bytes = pixel_bytes(PT_FORMAT_RGBA32F);
 
 } // namespace
 
-// A binding must begin at a multiple of the alignment, so it may begin that many bytes before the piece.
+// A binding may begin up to the alignment before the piece.
 BufferWriter::PieceLimits BufferWriter::piece_limits(const vulkan::Limits &limits) {
     const std::uint64_t bytes = limits.max_storage_buffer_range - limits.storage_buffer_alignment;
     const std::uint64_t dispatched = std::uint64_t{limits.max_workgroup_count} * gpu::WORKGROUP_SIZE;
@@ -31,7 +31,7 @@ BufferWriter::~BufferWriter() {
     try {
         if (under_way_ && !device_.hangs())
             device_.finish(*under_way_);
-    } catch (...) { // the device is lost, and nobody is left to be told
+    } catch (...) { // the device is lost, and a destructor cannot report it
     }
 }
 

@@ -1,5 +1,4 @@
-// Resolves a film into a buffer that the caller owns. Everything happens on the device; no pixel passes through the
-// host. Owned by RenderDevice; bound to its film.
+// Resolves a film into a buffer of the caller, all on the device. Owned by RenderDevice; bound to its film.
 #pragma once
 
 #include "lib/kernel/pixel_results.h"
@@ -12,7 +11,7 @@
 
 namespace pt {
 
-// Where the pixels go. Offset and distance of rows are multiples of 4.
+// Offset and row distance are multiples of 4.
 struct BufferTarget {
     vk::Buffer buffer;
     std::uint64_t offset;    // of the first pixel, in bytes
@@ -22,9 +21,9 @@ struct BufferTarget {
 
 class BufferWriter {
 public:
-    // The largest part of an image that one dispatch resolves.
+    // The largest piece of an image per dispatch.
     struct PieceLimits {
-        std::uint64_t pixels; // at least one, and whatever their format, they fit the bytes
+        std::uint64_t pixels; // at least one; they fit the bytes in any format
         std::uint64_t bytes;  // of the buffer, gaps between rows included
     };
     static PieceLimits piece_limits(const vulkan::Limits &limits);
@@ -36,13 +35,13 @@ public:
     BufferWriter(const BufferWriter &) = delete;
     BufferWriter &operator=(const BufferWriter &) = delete;
 
-    // Returns when the device has written the pixels. With a semaphore to signal, it returns as soon as the work is
-    // submitted; the next call waits for that work first. Throws PT_ERROR_INTERNAL if a driver lost work; if the lost
-    // work was that of an earlier call, nothing has been written.
+    // Returns when the device has written the pixels; with a semaphore to signal, once the work is submitted, and the
+    // next call waits for it first. Throws PT_ERROR_INTERNAL if a driver lost work; if an earlier call's work was lost,
+    // nothing has been written.
     void write(const ImageQuery &query, const BufferTarget &target);
 
 private:
-    // A piece of the image, and the binding that it has a place in.
+    // A piece of the image and its binding.
     struct Piece {
         ResolvedPiece resolved;
         vulkan::BufferRange range;
@@ -56,8 +55,8 @@ private:
     ResolvePipelines &pipelines_;
     DeviceFilm &film_;
     PieceLimits limits_;
-    PixelResults results_;                    // of pixels only how many were lost
-    std::vector<vulkan::DescriptorSet> sets_; // of the work under way: those of each strip, piece by piece
+    PixelResults results_;                    // counts lost pixels only
+    std::vector<vulkan::DescriptorSet> sets_; // of the work under way, per strip and piece
     std::optional<vulkan::Device::Ticket> under_way_;
 };
 

@@ -1,5 +1,5 @@
-// Counts how many camera rays meet a surface (shaders/coverage.comp), by tracing the camera rays of the samples again.
-// So the film needs no fourth channel. Owned by RenderDevice, which makes it when it is first asked for.
+// Counts the camera rays that meet a surface (shaders/coverage.comp) by tracing them again, so that the film needs no
+// fourth channel. Owned by RenderDevice, made on first use.
 #pragma once
 
 #include "lib/film/film_header.h"
@@ -27,22 +27,22 @@ public:
     // Both arguments must outlive the object.
     Coverage(vulkan::Device &device, std::span<const std::uint32_t> code);
 
-    // Calls receive(counts) for consecutive pieces of the pixels, row by row. tests_per_submission: how many tests of
-    // rays against surfaces one submission should take. Throws PT_ERROR_SHADER if the driver refuses the kernel,
-    // PT_ERROR_INTERNAL if it lost work.
+    // Calls receive(counts) for consecutive pieces of the pixels, row by row. tests_per_submission: aim for the
+    // ray-surface tests of a submission. Throws PT_ERROR_SHADER if the driver refuses the kernel, PT_ERROR_INTERNAL if
+    // it lost work.
     using Receive = std::function<void(std::span<const std::uint32_t>)>;
     void read(const BoundScene &bound, const CoverageQuery &query, double tests_per_submission, const Receive &receive);
 
 private:
-    // The buffers that one piece needs.
+    // Buffers of a piece.
     struct Buffers {
-        vulkan::Buffer covered; // rays that were lost, then the counts
+        vulkan::Buffer covered; // lost rays, then counts
         vulkan::Buffer host;    // the same
         vulkan::Buffer points;
         vulkan::Buffer tile_ranges;
     };
 
-    // What is asked for, and of what.
+    // Arguments of one read.
     struct Look {
         const Features &features;
         const CoverageQuery &query;

@@ -1,5 +1,5 @@
-// Reads what a film says about the error of its image: estimate.comp sums it up over tiles, on the device. Owned by
-// RenderDevice; bound to its film.
+// Reads the error of a film's image: estimate.comp sums it over tiles on the device. Owned by RenderDevice; bound to
+// its film.
 #pragma once
 
 #include "lib/film/error_estimate.h"
@@ -16,27 +16,26 @@
 
 namespace pt {
 
-// Which samples the error is asked for.
 struct ErrorQuery {
     double unit;                 // of the film, a power of two, in radiance
-    const TileSamples &samples;  // that the film has
-    std::span<double> by_tile{}; // receives the own_square() of each tile (tile_errors.h), if it is not empty
+    const TileSamples &samples;  // of the film
+    std::span<double> by_tile{}; // receives each tile's own_square() (tile_errors.h), unless empty
 };
 
 class ErrorReader {
 public:
-    // All arguments must outlive the reader. estimate: from estimate_pipeline(). The strips of the film must be whole
-    // rows of tiles.
+    // All arguments must outlive the reader. estimate: from estimate_pipeline(). The film's strips must be whole rows
+    // of tiles.
     ErrorReader(vulkan::Device &device, const vulkan::ComputePipeline &estimate, DeviceFilm &film);
 
     using Receive = std::function<void(const TileErrors &)>;
 
-    // Calls receive(tiles) for sums over a few tiles of a row each, always in the same order. Throws PT_ERROR_INTERNAL
-    // if a driver lost work.
+    // Calls receive(tiles) for sums over some tiles of a row, in a fixed order. Throws PT_ERROR_INTERNAL if a driver
+    // lost work.
     void read(const ErrorQuery &query, const Receive &receive);
 
-    // The same in two steps, for a film of one strip. record() adds the look behind commands that take samples; no
-    // other such commands may be under way. collect() reads the result once they have ended.
+    // The same in two steps, for a film of one strip. record() appends to commands that take samples; no other such
+    // commands may be under way. collect() reads the result once they have ended.
     void record(const vk::raii::CommandBuffer &commands, const ErrorQuery &query);
     void collect(const ErrorQuery &query, const Receive &receive) const;
 
@@ -52,7 +51,7 @@ private:
     DeviceFilm &film_;
     vulkan::Buffer errors_;                   // of a strip, by workgroup
     vulkan::Buffer tile_counts_;              // by tiles of the film
-    vulkan::Buffer tile_squares_;             // likewise
+    vulkan::Buffer tile_squares_;             // by tiles of the film
     std::vector<vulkan::DescriptorSet> sets_; // one per strip
 };
 

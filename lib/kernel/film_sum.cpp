@@ -9,8 +9,7 @@ namespace pt {
 
 namespace {
 
-// Pixels of a piece, 3.5 MiB: large enough to keep a bus busy, and small enough that the first one arrives soon and is
-// still in the processor's cache when it is copied.
+// Of 3.5 MiB: keeps a bus busy, yet arrives soon and is still in the cache when copied.
 constexpr std::uint32_t most_piece_pixels = 1U << 15;
 
 std::uint64_t words_bytes(std::uint32_t pixel_count) {
@@ -68,8 +67,7 @@ void FilmSum::add_own(const vk::raii::CommandBuffer &commands, std::uint32_t fir
         add(commands, first_pixel, wanted, {home_.film.strips()[i].pixels(), own_sets_[i]});
 }
 
-// Three steps overlap: the host copies a piece, its device copies the next one, and the first device adds the previous
-// one.
+// Overlaps three steps: the host copies a piece, its device copies the next, the first device adds the previous.
 void FilmSum::add_others(vulkan::SubmissionsUnderWay &at_home, std::uint32_t first_pixel, const PixelRange &wanted) {
     const auto piece = [&](std::uint32_t index) -> PixelRange {
         const std::uint32_t first = index * piece_pixels_;
@@ -113,7 +111,7 @@ void FilmSum::add_others(vulkan::SubmissionsUnderWay &at_home, std::uint32_t fir
         }
 }
 
-// Adds the pixels that are wanted, strip by strip.
+// Strip by strip.
 void FilmSum::add(const vk::raii::CommandBuffer &commands, std::uint32_t first_pixel, const PixelRange &wanted,
                   const Added &added) const {
     gpu::AddConstants constants{};

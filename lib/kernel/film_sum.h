@@ -1,5 +1,5 @@
-// The sum of films of several devices, or of some rows of them, in the memory of the first: what the others hold comes
-// through the host's memory, and add.comp adds it. Owned by FilmView; bound to the films.
+// The sum of several devices' films, or some rows of them, in the first device's memory. Other films come through host
+// memory; add.comp adds them. Owned by FilmView; bound to the films.
 #pragma once
 
 #include "lib/kernel/device_film.h"
@@ -23,27 +23,26 @@ public:
         DeviceFilm &film;
     };
 
-    // All arguments must outlive the object. sources: films of one size; the sum lives on the device of the first. add:
-    // from add_pipeline(), on that device. Throws PT_ERROR_OUT_OF_DEVICE_MEMORY.
+    // All arguments must outlive the object. sources: films of one size. add: from add_pipeline(), on the first film's
+    // device. Throws PT_ERROR_OUT_OF_DEVICE_MEMORY.
     FilmSum(const std::vector<Source> &sources, const vulkan::ComputePipeline &add, std::uint32_t row_count);
 
-    // The sum, of as many rows as were asked for.
+    // Has the rows that were gathered.
     DeviceFilm &film() { return film_; }
 
-    // Sums up the rows of the films from first_row on. wanted: pixels of the films; the sums of all others are
-    // undefined.
+    // Sums the films' rows from first_row on. wanted: pixels of the films; other sums are undefined.
     void gather(std::uint32_t first_row, const PixelRange &wanted);
 
 private:
-    // A film of another device, which arrives in pieces of consecutive pixels.
+    // Another device's film, arriving in pieces of consecutive pixels.
     struct Distant {
         Source source;
-        std::vector<vulkan::Buffer> slots; // that the host reads
+        std::vector<vulkan::Buffer> slots; // read by the host
     };
 
-    // Words of consecutive pixels that are to be added, and where they are.
+    // Words of consecutive pixels to be added.
     struct Added {
-        PixelRange pixels;                           // of the films: a plane has a word of each
+        PixelRange pixels;                           // of the films; a plane has a word of each
         std::span<const vulkan::DescriptorSet> sets; // one per strip of the sum
     };
 
@@ -57,9 +56,9 @@ private:
     DeviceFilm film_;
     std::list<Distant> others_;
     std::uint32_t piece_pixels_;
-    std::vector<vulkan::Buffer> slots_;                         // that the host writes
-    std::vector<std::vector<vulkan::DescriptorSet>> slot_sets_; // of each, one per strip of the sum
-    std::vector<std::vector<vulkan::DescriptorSet>> own_sets_;  // likewise of each strip of the first film
+    std::vector<vulkan::Buffer> slots_;                         // written by the host
+    std::vector<std::vector<vulkan::DescriptorSet>> slot_sets_; // of each slot, one per strip of the sum
+    std::vector<std::vector<vulkan::DescriptorSet>> own_sets_;  // of each strip of the first film, per strip of the sum
 };
 
 vulkan::ComputePipeline add_pipeline(vulkan::Device &device, std::span<const std::uint32_t> code);

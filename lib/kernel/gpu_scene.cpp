@@ -23,9 +23,8 @@ float mean(const glm::vec3 &color) {
     return (color.r + color.g + color.b) / 3.0F;
 }
 
-// The lobes are chosen by what they can reflect, but the diffuse one with twice the weight: it gathers from the whole
-// hemisphere, so its samples vary more. (Measured on the coursework scene with six vertices: a tenth less error than
-// with equal weights.) Neither is ever left to chance.
+// In proportion to what the lobes can reflect, but with twice the weight for the diffuse one: it gathers from the whole
+// hemisphere, so its samples vary more.
 float specular_probability(const Material &material) {
     const float specular = mean(material.specular);
     const float diffuse = 2.0F * mean(material.diffuse);
@@ -34,7 +33,7 @@ float specular_probability(const Material &material) {
     return std::clamp(specular / (specular + diffuse), 1e-3F, 1.0F - 1e-3F);
 }
 
-// Writes the words of a surface with a given number in kernels.
+// Writes surfaces by their number in kernels.
 class Writer {
 public:
     Writer(std::vector<glm::vec4> &words, const Features &features) :
@@ -47,9 +46,9 @@ public:
             write_emission(emission_word(surface), material);
     }
 
-    // Writes the reflection of a surface, or of a material of the table.
+    // The reflection of a surface, or of a material in the table.
     void reflection(std::uint32_t index, const Material &material) {
-        // The constants of the two parts of f are in the words, for the kernel to spare them.
+        // The words include the constant factors of f.
         const double lobe = (material.glossiness + 2.0) / (2.0 * std::numbers::pi);
         const glm::dvec3 diffuse = glm::dvec3(material.diffuse) / std::numbers::pi;
         const std::uint64_t word = blocks_.reflection_step * index;
@@ -91,7 +90,7 @@ public:
     }
 
 private:
-    // 0 may be given as -0, which the film would take for a negative number: adding 0 makes it +0.
+    // Adding 0 turns -0 into +0; the film rejects negative numbers.
     void write_emission(std::uint64_t word, const Material &material) {
         words_[word] = glm::vec4(material.emission + 0.0F, mean(material.emission));
     }
@@ -114,8 +113,7 @@ private:
     const SceneBlocks blocks_;
 };
 
-// All lamps, in the order of the tree of lamps: those that are single surfaces, and those in the tree of spheres, which
-// have the last numbers.
+// All lamps in the order of the tree of lamps. Lamps in the tree of spheres have the last numbers.
 std::vector<TreeLamp> tree_lamps(const KernelSurfaces &surfaces, const PreparedScene &scene, const Camera &camera) {
     constexpr std::uint32_t no_lamp = 0xffffffff;
     const auto sphere_count = static_cast<std::uint32_t>(scene.scene.spheres.size());
@@ -182,7 +180,7 @@ gpu::FrameConstants frame_constants(const Camera &camera, const RenderSettings &
     return constants;
 }
 
-// The indices of the surfaces in the caller's scene, where planes follow all spheres.
+// Indices of the surfaces in the caller's scene, where planes follow all spheres.
 std::vector<std::uint32_t> objects_of(const KernelSurfaces &surfaces, const PreparedScene &scene) {
     const Scene &held = scene.scene;
     const std::size_t sphere_count = scene.tree ? scene.tree->scene_sphere_count() : held.spheres.size();

@@ -10,11 +10,11 @@ namespace pt {
 
 namespace {
 
-// The planes that a kernel takes to be 0 in an empty part, numbered as in rare_plane() of film.glsl.
+// Planes that kernels assume to be 0 in an empty part, in the order of rare_plane() of film.glsl.
 constexpr std::array<std::size_t, 4> rare_planes = {gpu::FILM_SUM_WORDS - 1, 2 * gpu::FILM_SUM_WORDS - 1,
                                                     3 * gpu::FILM_SUM_WORDS - 1, gpu::FILM_REJECTED};
 
-// Calls function(words of a part, pixels) for the pixels of a range that each strip has.
+// Calls function(words of a part, pixels) for each strip's pixels in the range.
 template <typename Function>
 void for_each_strip(DeviceFilm &film, const PixelRange &pixels, std::uint32_t part, const Function &function) {
     for (DeviceFilm::Strip &strip : film.strips()) {

@@ -1,6 +1,5 @@
-// Folds a film's parts on the host, for devices whose memory is the host's too. lavapipe's kernel reads and writes
-// memory for one invocation after the other, so there the host is many times as fast. Kernel makes one for the
-// submission that follows.
+// Folds a film's parts on the host, for devices that share its memory: lavapipe's kernel would access memory one
+// invocation at a time. Kernel makes one per submission.
 #pragma once
 
 #include "lib/film/pixel_sums.h"
@@ -21,12 +20,12 @@ public:
     HostFold(const HostFold &) = delete;
     HostFold &operator=(const HostFold &) = delete;
 
-    // Call it once, while the host can see the film's memory and no submission is under way. The words of the other
-    // part stay: the submission that follows takes the part as empty and overwrites it. It assumes that the rare words
-    // (film.glsl) of that part are 0; if one is not, nothing is folded and the result is false.
+    // Call once, with the film in host memory and no submission under way. The other part's words stay: the next
+    // submission takes the part as empty and overwrites it, except its rare words (film.glsl), which it assumes to be
+    // 0. If one is not, nothing is folded, and the result is false.
     bool fold(std::vector<PixelRange> pixels);
 
-    // To be called when the submission has been made.
+    // Call when the submission has been made.
     void keep() noexcept { folded_.clear(); }
 
 private:

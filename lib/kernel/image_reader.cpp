@@ -7,7 +7,7 @@ namespace pt {
 
 namespace {
 
-// Large enough to keep a bus busy, and small enough that the first piece arrives soon: 3 MiB.
+// 3 MiB: keeps a bus busy, yet the first piece arrives soon.
 constexpr std::uint32_t read_pixels = 1U << 18;
 
 } // namespace
@@ -18,7 +18,7 @@ ImageReader::Pieces::Pieces(const ImageQuery &query) :
                                  total)),
     bytes_of_pixel(pixel_bytes(query.format)) {}
 
-// While the host takes a piece, the device resolves and copies the next.
+// The host takes a piece while the device resolves and copies the next.
 void ImageReader::read(const ImageQuery &query, const std::function<void(std::span<const std::byte>)> &receive) {
     const Pieces pieces(query);
     const std::size_t slot_count = std::min<std::uint64_t>(device_.policy().queue_depth, pieces.count());
@@ -88,7 +88,6 @@ ImageReader::Slot &ImageReader::slot(std::size_t index, std::uint64_t bytes, std
     return slots_[index];
 }
 
-// Records commands that resolve a piece.
 void ImageReader::record(const vk::raii::CommandBuffer &commands, const Slot &slot, const ImageQuery &query,
                          const Pieces &pieces, std::uint64_t piece) const {
     const auto [x, y, width, height] = query.pixels;

@@ -1,5 +1,5 @@
-// Reads a film as an image: resolve.comp makes pixels of its sums on the device, and 8 to 16 bytes of each come over
-// the bus. Owned by RenderDevice; bound to its film.
+// Reads a film as an image: resolve.comp makes pixels on the device, so that only 4 to 16 bytes of each cross the bus.
+// Owned by RenderDevice; bound to its film.
 #pragma once
 
 #include "lib/kernel/pixel_results.h"
@@ -28,18 +28,17 @@ public:
     // work.
     void read(const ImageQuery &query, const std::function<void(std::span<const std::byte>)> &receive);
 
-    // Leaves all pixels, without gaps, in memory that the device writes to. They stay until the next call or the end of
-    // this object. Throws likewise.
+    // Leaves all pixels, without gaps, in memory that the device writes. They stay until the next call or the object's
+    // end. Throws likewise.
     std::span<std::byte> map(const ImageQuery &query);
 
 private:
-    // Memory in which the device resolves a piece and the host then reads it.
+    // Memory for a piece, on the device and for the host.
     struct Slot {
         PixelResults results;
         std::vector<vulkan::DescriptorSet> sets; // one per strip of the film
     };
 
-    // The pixels of an image, and how many rows the device makes at a time.
     struct Pieces {
         explicit Pieces(const ImageQuery &query);
         std::uint64_t count() const { return (total + most - 1) / most; }
@@ -58,7 +57,7 @@ private:
     ResolvePipelines &pipelines_;
     DeviceFilm &film_;
     std::vector<Slot> slots_;
-    std::optional<vulkan::Buffer> mapped_; // an image, then findings, once one was mapped
+    std::optional<vulkan::Buffer> mapped_; // an image, then findings; made on first use
 };
 
 } // namespace pt

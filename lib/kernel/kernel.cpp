@@ -22,8 +22,7 @@ std::uint64_t checked_scene_bytes(const vulkan::Device &device, std::size_t word
     return bytes;
 }
 
-// How many samples of a pixel one dispatch may take: some drivers limit its loop trips, and its points must fit into a
-// table.
+// Samples of a pixel per dispatch: limited by the driver's loop trips and the table of points.
 std::uint32_t samples_of_dispatch(const vulkan::Device &device, const Features &features, const PointLayout &layout,
                                   std::uint32_t table_bytes) {
     const std::uint64_t trips = loop_trips_per_sample(features);
@@ -41,7 +40,7 @@ std::uint32_t samples_of_dispatch(const vulkan::Device &device, const Features &
     return static_cast<std::uint32_t>(std::min<std::uint64_t>({budget / trips, rows, gpu::FILM_MAX_GATHERED}));
 }
 
-// Row by row. Adjacent tiles are joined, and then adjacent rows of the film.
+// Row by row, joining adjacent tiles, then adjacent rows.
 std::vector<PixelRange> pixels_of_tiles(const TileGrid &grid, std::span<const std::uint32_t> tiles) {
     std::vector<PixelRange> ranges;
     const auto add = [&](const PixelRange &next) {
@@ -121,8 +120,8 @@ void Kernel::dispatch_nothing() {
     });
 }
 
-// One dispatch for each batch, all in one part of the film as the slice leaves it. The tables are free: slices end in
-// the order in which they were started, and there is room for all that are under way.
+// A dispatch per batch, each in one part of the film after the slice. Tables are free: slices end in order, and there
+// is room for all under way.
 std::vector<Kernel::Batch> Kernel::next_batches(const TileSlice &slice) {
     const std::uint64_t split = slice.split();
     SampleRange before = slice.before;
@@ -151,20 +150,19 @@ void Kernel::upload_points(const std::vector<Batch> &batches) {
     }
 }
 
-// Possible while nothing under way may read the film, neither slices nor an image for a caller that does not wait, and
-// if the emptied part will be overwritten.
+// Only while nothing under way may read the film, and if the emptied part will be overwritten.
 bool Kernel::folds_on_host() const {
     return !overlap_ && film_.is_host_memory() && device_.is_at_rest();
 }
 
-// How many invocations share the samples of a pixel, so that even a few tiles keep the device busy.
+// Invocations that share a pixel's samples, so that even a few tiles keep the device busy.
 std::uint32_t Kernel::sharers_of(std::size_t tile_count, std::uint32_t sample_count) const {
-    constexpr std::uint32_t least_samples = 4; // of each, which makes its adding to the film worth it
+    constexpr std::uint32_t least_samples = 4; // per invocation, to be worth its addition to the film
     const std::size_t wanted = device_.policy().invocations / (tile_count * gpu::WORKGROUP_SIZE);
     return static_cast<std::uint32_t>(std::clamp<std::size_t>(wanted, 1, std::max(sample_count / least_samples, 1U)));
 }
 
-// Dispatches over the tiles that each strip has part of.
+// Dispatches each strip's share of the tiles.
 void Kernel::dispatch(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline,
                       std::span<const std::uint32_t> tiles, gpu::FrameConstants frame,
                       std::uint32_t table_offset) const {
@@ -208,7 +206,7 @@ BoundScene Kernel::bound_scene() {
 vulkan::Device::Ticket Kernel::start(const TileSlice &slice, bool on_cleared_film, const Behind &behind) {
     const std::vector<Batch> batches = slice.takes ? next_batches(slice) : std::vector<Batch>();
     upload_points(batches);
-    // A scene of usual size is sent along with the commands; a larger one has a transfer of its own.
+    // Scenes of usual size go with the commands; larger ones have a transfer of their own.
     if (gpu_scene_->words.size() * sizeof(glm::vec4) > vulkan::max_recorded_bytes)
         upload_scene();
     const vulkan::ComputePipeline &fold = pipelines_.fold();

@@ -1,5 +1,5 @@
-// The path-tracing kernel, ready to run: specialised to what scenes have in common, with the buffers that it reads.
-// Owned by RenderDevice, which makes a new one for a scene with other features.
+// The path-tracing kernel, specialised to a scene's features, with the buffers that it reads. Owned by RenderDevice,
+// which makes a new one for other features.
 #pragma once
 
 #include "lib/kernel/device_film.h"
@@ -26,55 +26,52 @@ namespace pt {
 
 class Kernel {
 public:
-    // device, pipelines, film and tree must outlive the kernel. tree: the buffer of the scene's tree, NULL if it has
-    // none. Throws PT_ERROR_UNSUPPORTED for scenes beyond the device.
+    // device, pipelines, film and tree must outlive the kernel. tree: the scene's tree buffer, NULL without. Throws
+    // PT_ERROR_UNSUPPORTED for scenes beyond the device.
     Kernel(vulkan::Device &device, TracePipelines &pipelines, DeviceFilm &film, const vulkan::Buffer *tree,
            std::shared_ptr<const GpuScene> scene, const RenderSettings &settings);
 
     const Features &features() const { return gpu_scene_->features; }
 
-    // The scene that is rendered next. show() takes scenes that have the same features. Only while no work is under
-    // way.
+    // show() takes scenes of the same features, while no work is under way.
     const GpuScene &scene() const { return *gpu_scene_; }
     bool can_show(const GpuScene &scene) const;
     void show(std::shared_ptr<const GpuScene> scene, const RenderSettings &settings);
 
-    // The scene in its buffers, for other kernels. Only while no work is under way.
+    // For other kernels, while no work is under way.
     BoundScene bound_scene();
 
-    // Builds the pipelines that this kernel runs, in its own cache or in another one of the same device. Throws
-    // PT_ERROR_SHADER if the driver refuses one.
+    // Builds this kernel's pipelines in a cache of the same device. Throws PT_ERROR_SHADER if the driver refuses one.
     void build(TracePipelines &pipelines) const;
 
-    // Dispatches zero workgroups: some drivers compile a kernel only when it is first dispatched. No work may be under
-    // way.
+    // Dispatches zero workgroups: some drivers compile a kernel when it is first dispatched. No work may be under way.
     void dispatch_nothing();
 
-    // How many samples one submission may add to a pixel.
+    // Samples of a pixel per submission, at most.
     std::uint32_t max_samples() const { return max_dispatch_samples_ * (max_tables - 1); }
 
-    // Records commands that follow the samples in their submission.
+    // Records commands after the samples, in the same submission.
     using Behind = std::function<void(const vk::raii::CommandBuffer &)>;
 
-    // Starts to take the samples of a slice. At most queue_depth slices of the device may be under way.
-    // on_cleared_film: all pixels of the film are cleared first.
+    // Starts a slice. At most queue_depth slices of the device may be under way. on_cleared_film: clears all pixels
+    // first.
     vulkan::Device::Ticket start(const TileSlice &slice, bool on_cleared_film, const Behind &behind = {});
 
-    // Waits for a slice that start() began and returns the seconds that it took. Where the device cannot tell, it
-    // returns the nearest estimate to what was expected.
+    // Waits for a slice and returns the seconds that it took, or the best estimate from expected_seconds if the device
+    // cannot measure them.
     double finish(vulkan::Device::Ticket ticket, double expected_seconds = 0.0);
 
 private:
-    // Tables of points for one slice, at most 4 MiB: one for each dispatch. The split of the film may add one more cut.
+    // Tables of points for a slice, at most 4 MiB: one per dispatch. The film's split may add a cut.
     static constexpr std::uint32_t max_tables = 64;
 
-    // The samples of one dispatch, all for one part of the film, and where their points begin in the table.
+    // The samples of one dispatch, all for one part of the film.
     struct Batch {
         std::uint32_t first_sample;
         std::uint32_t sample_count;
         std::uint32_t table_offset; // bytes
         FilmPart part;
-        bool begins_part; // which has no samples of these pixels yet
+        bool begins_part; // the part has no samples of these pixels yet
 
         SampleRange range() const { return {first_sample, std::uint64_t{first_sample} + sample_count}; }
     };
@@ -88,8 +85,7 @@ private:
     std::uint32_t sharers_of(std::size_t tile_count, std::uint32_t sample_count) const;
     bool folds_on_host() const;
 
-    // Whether a dispatch may overwrite its part instead of adding to it. Dispatches that overlap add with atomic
-    // operations.
+    // Whether a dispatch overwrites its part. Overlapping dispatches add by atomic operations instead.
     std::uint32_t overwrites(bool part_is_empty) const { return part_is_empty && !overlap_ ? 1 : 0; }
 
     vulkan::Device &device_;
@@ -99,17 +95,17 @@ private:
     PointLayout layout_;
     std::uint64_t seed_;
     gpu::FrameConstants frame_;
-    std::uint32_t table_bytes_;          // of the points that a dispatch sees
+    std::uint32_t table_bytes_;          // of points, per dispatch
     std::uint32_t max_dispatch_samples_; // per pixel
     bool overlap_;                       // dispatches may add to the film at the same time
     vulkan::Buffer scene_;
     const vulkan::Buffer *tree_; // NULL if there is none
-    vulkan::Buffer points_;      // tables of the slices under way
+    vulkan::Buffer points_;      // used in turn by the slices under way
     TileLists tile_lists_;
     std::vector<vulkan::DescriptorSet> sets_; // one per strip of the film
-    std::uint32_t next_table_ = 0;            // in points_, which is used in turn
-    bool scene_is_old_ = true;                // the buffer does not have the scene yet
-    double seconds_ = 0.0;                    // of all slices of the scene so far
+    std::uint32_t next_table_ = 0;            // in points_
+    bool scene_is_old_ = true;                // the buffer lacks the scene
+    double seconds_ = 0.0;                    // of all slices of the scene
 };
 
 } // namespace pt

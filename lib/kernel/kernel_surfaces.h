@@ -1,4 +1,4 @@
-// The surfaces that one camera sees, in the order in which kernels number them. Made by gpu_scene.
+// The surfaces that one camera sees, in the kernels' order. Made by gpu_scene.
 #pragma once
 
 #include "lib/scene/camera.h"
@@ -11,7 +11,7 @@
 
 namespace pt {
 
-// How many surfaces of each kind the camera does not see. None of them is in the tree.
+// Surfaces outside the tree that the camera does not see.
 struct HiddenCounts {
     std::uint32_t lamps;
     std::uint32_t skies;
@@ -19,28 +19,27 @@ struct HiddenCounts {
     std::uint32_t planes;
 };
 
-// A scene without twins as the kernel has it: lamps, skies, other spheres, planes with curvature, planes; within each
-// kind in the scene's order, except that hidden ones are the last lamps, the first skies, the last other spheres and
-// the first planes. So what the camera sees is two ranges. A sky is an emitting sphere that holds the camera: paths
-// cannot leave it, and from within it cannot be sampled. But a hidden one that lies apart from all that is seen is a
-// lamp.
+// A scene without twins in the kernels' order: lamps, skies, other spheres, curved planes, planes. Each kind keeps the
+// scene's order, except that hidden ones are the last lamps, first skies, last other spheres and first planes, so that
+// the camera sees two ranges. A sky is an emitting sphere around the camera: paths cannot leave it, and it cannot be
+// sampled from inside. A hidden one apart from all that is seen is a lamp.
 struct KernelSurfaces {
-    std::vector<SeenSphere> spheres; // held by centre and radius
+    std::vector<SeenSphere> spheres; // held by center and radius
     std::vector<CurvedPlane> planes;
     std::uint32_t lamp_count;
     std::uint32_t sky_count;
     HiddenCounts hidden;
 };
 
-// Whether a ball lies apart from these, as from a ball (moving_ball.h).
+// Whether a ball lies apart, as in moving_ball.h.
 bool lies_apart(const MovingBall &ball, const CurvedPlane &flat);
 bool lies_apart(const MovingBall &ball, const PointBox &box);
 
-// Whether a hidden sphere lies apart from all that the camera sees. Paths begin there, and so never get into the
-// sphere. tree: NULL if there is none; all of it is seen.
+// Whether a hidden sphere lies apart from all that the camera sees, so that no path gets into it. tree: NULL without;
+// all of it is seen.
 bool lies_apart(const SeenSphere &hidden, const SeenScene &scene, const SphereTree *tree, const Camera &camera);
 
-// tree: NULL if the scene has none.
+// tree: NULL without.
 KernelSurfaces kernel_surfaces(const SeenScene &distinct, const SphereTree *tree, const Camera &camera);
 
 } // namespace pt

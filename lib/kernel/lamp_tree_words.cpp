@@ -12,13 +12,13 @@ namespace pt {
 
 namespace {
 
-// A lamp or node as the kernel sees it, after rounding: nodes contain their lamps as the kernel sees them.
+// A lamp or node after rounding: nodes contain their lamps as the kernel sees them.
 struct Ball {
     glm::vec3 open;
     glm::vec3 way{0.0F};
     float radius = 0.0F;
 
-    // Its centres as the shutter opens and as it closes.
+    // Centers as the shutter opens and closes.
     std::array<glm::dvec3, 2> ends() const { return {glm::dvec3(open), glm::dvec3(open) + glm::dvec3(way)}; }
 };
 
@@ -31,16 +31,16 @@ struct Lamp {
 struct Node {
     Ball ball;
     double power = 0.0;
-    float spread = 0.0F; // of a lamp, its radius
+    float spread = 0.0F; // for a lamp its radius
 };
 
 Ball ball_of(const SeenSphere &sphere) {
     return {glm::vec3(sphere.open), glm::vec3(sphere.way), static_cast<float>(sphere.radius)};
 }
 
-// Powers in units of the largest one's power of two, times the size of the scene of lamps if that is above 1: so that
-// the kernel's quotients by squared distances stay in the range of float, from 1e-17 to 1e17. Lamps below 2^-40 of the
-// largest one count as that much.
+// Powers relative to the largest one's power of two, times the size of the lamps' scene if above 1: the kernel's
+// quotients by squared distances then stay in float's range, from 1e-17 to 1e17. Powers are at least 2^-40 of the
+// largest.
 std::vector<Lamp> scaled_lamps(std::span<const TreeLamp> lamps) {
     double largest_power = 0.0;
     double size = 1.0;
@@ -59,8 +59,8 @@ std::vector<Lamp> scaled_lamps(std::span<const TreeLamp> lamps) {
     return scaled;
 }
 
-// The middle is where the power is: its weighted mean moves on a straight line as all lamps do. At any time the
-// distance of a lamp from it is at most the larger one at the two ends.
+// The middle is the mean by power; like the lamps it moves on a straight line, so distances from it are largest at an
+// end.
 Node node_of(std::span<const Lamp> lamps) {
     Node node;
     glm::dvec3 open(0.0);
@@ -84,7 +84,7 @@ Node node_of(std::span<const Lamp> lamps) {
             spreads[end] += lamp.power * (distance * distance + 3.0 * lamp_radius * lamp_radius);
         }
     }
-    // Between the two ends the kernel rounds places to 2^-24 of their size.
+    // In between, the kernel rounds places to 2^-24 of their size.
     radius += 0x1p-21 * (std::max(glm::length(middles[0]), glm::length(middles[1])) + radius);
     const double spread = std::max(
         {spreads[0] / node.power, spreads[1] / node.power, radius * radius / gpu::LAMP_TREE_BALL * (1.0 + 0x1p-20)});

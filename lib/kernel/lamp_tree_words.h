@@ -10,11 +10,10 @@
 
 namespace pt {
 
-// From this many lamps on, the kernel chooses among them by a tree. Measured on lavapipe, without the rays: with 24
-// lamps a tree is as fast as looking at all of them, with 32 a third faster.
+// From this many lamps on, the tree is faster than looking at all lamps.
 constexpr std::uint32_t least_tree_lamps = 32;
 
-// Words for all nodes, for the lamps in slots, and for the slots of lamps.
+// For nodes, slots' lamps and lamps' slots.
 std::uint64_t lamp_tree_words(std::uint32_t lamp_count, bool motion);
 
 // A lamp as the tree holds it.
@@ -24,7 +23,7 @@ struct TreeLamp {
     std::uint32_t lamp; // its index in the kernel
 };
 
-// Fills the words; there are as many as lamp_tree_words says. lamps: in the tree's order.
+// words: lamp_tree_words() of them. lamps: in the tree's order.
 void write_lamp_tree(std::span<glm::vec4> words, std::span<const TreeLamp> lamps, bool motion);
 
 } // namespace pt

@@ -1,5 +1,5 @@
-// What a kernel finds about pixels, on the device and then where the host reads it: how many of them a driver lost, and
-// the words of each. Used by ImageReader, BufferWriter and FirstHits.
+// A kernel's results per pixel, on the device and for the host: lost pixels, then words. Used by ImageReader,
+// BufferWriter and FirstHits.
 #pragma once
 
 #include "lib/vulkan/buffer.h"
@@ -16,10 +16,10 @@ namespace pt {
 
 class PixelResults {
 public:
-    // Before the pixels, which begin at a multiple of every device's alignment.
+    // Precede the pixels, at a multiple of every device's alignment.
     static constexpr std::uint64_t findings_bytes = 256;
 
-    // The device must outlive it. bytes: room for pixels. what: its name in error messages.
+    // The device must outlive it. bytes: room for pixels. what: for error messages.
     PixelResults(vulkan::Device &device, std::uint64_t bytes, const std::string &what) :
         found_(device, vulkan::BufferUse::Storage, findings_bytes + bytes, what),
         host_(device, vulkan::BufferUse::HostRead, findings_bytes + bytes, what) {}
@@ -31,13 +31,13 @@ public:
     vulkan::BufferRange pixels() const { return {found_.handle(), findings_bytes, room()}; }
     vulkan::BufferRange findings() const { return {found_.handle(), 0, findings_bytes}; }
 
-    // Record commands: before the kernel, and behind it for so many bytes of pixels.
+    // Record commands before the kernel, and after it for these bytes of pixels.
     void clear(const vk::raii::CommandBuffer &commands) const { found_.clear(commands, 0, findings_bytes); }
     void hand_over(const vk::raii::CommandBuffer &commands, std::uint64_t bytes) const {
         host_.copy(commands, found_, vk::BufferCopy{.size = findings_bytes + bytes});
     }
 
-    // What was handed over, once that has ended.
+    // Valid once the handed-over work has ended.
     std::span<const std::byte> bytes() const { return host_.host_memory().subspan(findings_bytes); }
     std::uint32_t lost_pixels() const {
         std::uint32_t count = 0;

@@ -12,8 +12,7 @@ namespace pt {
 
 namespace {
 
-// Primitive polynomial over GF(2), its bits the coefficients from the highest power down, and initial direction
-// numbers.
+// Primitive polynomial over GF(2), highest power first, and initial direction numbers.
 struct SobolDimension {
     std::uint32_t polynomial;
     std::array<std::uint32_t, 9> initial;
@@ -87,7 +86,7 @@ constexpr SobolDimension joe_kuo[sequence_dimensions - 1] = {
     {637, {1, 1, 3, 13, 25, 47, 39, 87, 257}},
 };
 
-using Matrix = std::array<std::uint32_t, 32>; // direction number of each bit of the index, least significant bit first
+using Matrix = std::array<std::uint32_t, 32>; // per bit of the index, least significant first
 
 // Direction numbers v_k = m_k 2^(32 - k) by the recurrence of Bratley and Fox (ACM TOMS 14, 1988, section 2).
 constexpr Matrix direction_numbers(std::uint32_t dimension) {
@@ -119,14 +118,13 @@ constexpr std::array<Matrix, sequence_dimensions> sobol_matrices = [] {
     return matrices;
 }();
 
-// The direction numbers that a bit of the index adds in all dimensions: a point of the table is made of rows of this,
-// many dimensions at a time, which takes a tenth of the time of one coordinate after the other.
+// Direction numbers of one bit of the index in all dimensions: points are made of rows, which is faster than by
+// coordinates.
 using Row = std::array<std::uint32_t, sequence_dimensions>;
 using Rows = std::array<Row, 32>;
 
-// Which dimension of the sequence a sample's number takes. In motion the third one is the time, with which the fifth
-// dimension goes better than the third: over twelve scenes and 16 to 256 samples the square of the error is 0.94 times
-// as large, with direct light 0.8 to 1.0 times.
+// The sequence's dimension for a sample's number. With motion, the third number is the time and takes the fifth
+// dimension, which lowers the error (tests/bench/NOTEBOOK.md).
 constexpr std::uint32_t dimension_of(std::uint32_t number, bool motion) {
     constexpr std::uint32_t order[] = {0, 1, 4, 2, 3};
     return motion && number < std::size(order) ? order[number] : number;
@@ -168,13 +166,13 @@ constexpr std::array<std::uint32_t, sequence_dimensions> primes = [] {
 
 std::uint32_t sobol(std::uint32_t index, std::uint32_t dimension) {
     std::uint32_t x = 0;
-    for (std::uint32_t rest = index; rest != 0; rest &= rest - 1) // the bits of the index that are set
+    for (std::uint32_t rest = index; rest != 0; rest &= rest - 1) // set bits of the index
         x ^= sobol_matrices[dimension][static_cast<std::uint32_t>(std::countr_zero(rest))];
     return x;
 }
 
 std::uint32_t radical_inverse(std::uint64_t index, std::uint32_t dimension) {
-    // index = sum d_k b^k with K digits; reversed = sum d_k b^(K - 1 - k), so the inverse is reversed / b^K.
+    // index = sum d_k b^k with K digits; reversed = sum d_k b^(K - 1 - k); the inverse is reversed / b^K.
     const std::uint64_t base = primes[dimension];
     std::uint64_t reversed = 0;
     std::uint64_t power = 1; // b^K <= 311 * 2^35: no overflow
@@ -186,9 +184,8 @@ std::uint32_t radical_inverse(std::uint64_t index, std::uint32_t dimension) {
     return static_cast<std::uint32_t>((Wide{reversed} << 32) / power);
 }
 
-// With the digits reversed, those before a digit are its lower bits, which carries of sums and products respect
-// (Laine and Karras 2011; Burley, "Practical Hash-based Owen Scrambling", JCGT 9(4), 2020). The constants are those
-// of N. Vegdahl's search for a hash with better avalanche (2021).
+// With digits reversed, those before a digit are its lower bits, which carries respect (Laine and Karras 2011; Burley,
+// "Practical Hash-based Owen Scrambling", JCGT 9(4), 2020). Constants by N. Vegdahl (2021), found for better avalanche.
 std::uint32_t owen_scrambled(std::uint32_t coordinate, std::uint32_t seed) {
     std::uint32_t v = reversed_bits(coordinate);
     v ^= v * 0x3d20adeaU;
@@ -204,8 +201,7 @@ namespace {
 // A point in all dimensions of a layout.
 using Point = std::vector<std::uint32_t>;
 
-// The seeds of Sobol's scrambling, one for each dimension. Indices of 2^32 and more repeat points, with seeds of
-// their own.
+// A seed per dimension. Indices from 2^32 on repeat points, with other seeds.
 std::vector<std::uint32_t> scrambling_seeds(std::uint64_t seed, std::uint64_t repetition, std::uint32_t dimensions) {
     std::vector<std::uint32_t> seeds;
     std::uint64_t state = mixed(seed) + repetition;
@@ -223,7 +219,7 @@ public:
         seed_(seed),
         point_(layout.dimensions_of(layout.block_count())) {}
 
-    // The coordinates of the point with an index in the dimensions [first, end).
+    // Coordinates in the dimensions [first, end).
     std::span<const std::uint32_t> coordinates(std::uint64_t index, std::uint32_t first, std::uint32_t end) {
         const std::span<std::uint32_t> coordinates = std::span(point_).subspan(first, end - first);
         if (sobol_) {
@@ -239,7 +235,7 @@ public:
 private:
     void write_sobol(std::uint32_t index, std::uint32_t first, std::span<std::uint32_t> coordinates) const {
         std::ranges::fill(coordinates, 0U);
-        for (std::uint32_t rest = index; rest != 0; rest &= rest - 1) { // the bits of the index that are set
+        for (std::uint32_t rest = index; rest != 0; rest &= rest - 1) { // set bits of the index
             const std::uint32_t *row = &rows_[static_cast<std::uint32_t>(std::countr_zero(rest))][first];
             for (std::size_t i = 0; i < coordinates.size(); ++i)
                 coordinates[i] ^= row[i];

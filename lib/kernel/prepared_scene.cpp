@@ -13,7 +13,7 @@ namespace pt {
 
 namespace {
 
-// Of the scene's materials, whether some surface has them.
+// Per material, whether some surface has it.
 std::vector<bool> is_used(const Scene &scene) {
     std::vector<bool> used(scene.materials.size());
     for (const Sphere &sphere : scene.spheres)
@@ -29,7 +29,7 @@ double film_unit(const std::vector<Material> &materials) {
         brightest = std::max({brightest, material.emission.r, material.emission.g, material.emission.b});
     if (brightest == 0.0F)
         return 1.0;
-    int exponent = 0; // brightest = fraction * 2^exponent with fraction in [1/2, 1)
+    int exponent = 0; // brightest = fraction * 2^exponent, fraction in [1/2, 1)
     std::frexp(brightest, &exponent);
     // The kernel multiplies by 1 / unit, which must be a normal float32.
     return std::ldexp(1.0, std::clamp(exponent - 8, -120, 120));
@@ -40,14 +40,14 @@ void add_lamps(std::vector<Sphere> &spheres, const SphereTree &tree) {
         spheres.push_back(tree.lamp(lamp));
 }
 
-// With the lamps of a tree behind the scene's own spheres.
+// Appends the tree's lamps to the scene's spheres.
 Scene with_lamps(Scene scene, const SphereTree &tree) {
     add_lamps(scene.spheres, tree);
     return scene;
 }
 
-// The tree has materials by their place among those in use. Its shape does not matter: it is another in another
-// process, where the scenes before were others.
+// Material numbers of the tree are those among the used ones. The tree's shape depends on the process's earlier scenes
+// and is left out.
 std::string digest_with_tree(const PreparedScene &prepared) {
     Digest digest;
     digest.add(digest_of(prepared.scene));
@@ -57,12 +57,12 @@ std::string digest_with_tree(const PreparedScene &prepared) {
     return digest.text();
 }
 
-// Of what is left of the work when a stage begins.
+// Shares of the remaining work, for progress.
 constexpr double share_of_hidden = 0.05;
 constexpr double share_of_outlying = 0.05;
 constexpr double share_of_materials = 0.02;
 
-// Indices of those that the camera does not see, in ascending order.
+// In ascending order.
 std::vector<std::uint32_t> hidden_spheres(const CheckedScene &checked, WorkProgress &progress) {
     std::vector<std::uint32_t> hidden;
     if (std::ranges::none_of(checked.materials, &Material::hidden))
@@ -75,7 +75,7 @@ std::vector<std::uint32_t> hidden_spheres(const CheckedScene &checked, WorkProgr
     return hidden;
 }
 
-// With the hidden ones, so that no ray from the camera need ask what a sphere of the tree is made of.
+// Includes hidden spheres, so that camera rays need not check the materials of tree spheres.
 std::vector<std::uint32_t> left_out_of(const CheckedScene &checked, const std::vector<std::uint32_t> &hidden,
                                        WorkProgress &progress) {
     progress.enter(share_of_outlying, static_cast<double>(checked.spheres.size()));
@@ -84,7 +84,7 @@ std::vector<std::uint32_t> left_out_of(const CheckedScene &checked, const std::v
     return left_out;
 }
 
-// With the shape of the one before, if that will do.
+// Keeps the previous tree's shape if it fits.
 std::shared_ptr<const SphereTree> tree_over(const SphereSource &spheres, const std::vector<std::uint32_t> &left_out,
                                             const std::vector<TreeMaterial> &materials, const SphereTree *before,
                                             WorkProgress &progress) {

@@ -1,5 +1,5 @@
-// The kernel that makes images of films (shaders/resolve.comp): its pipelines, one for each format of pixels, and its
-// dispatches. Owned by RenderDevice; used by ImageReader and BufferWriter.
+// The pipelines and dispatches of shaders/resolve.comp, which makes images of films. Owned by RenderDevice; used by
+// ImageReader and BufferWriter.
 #pragma once
 
 #include "lib/film/film_header.h"
@@ -16,12 +16,11 @@
 
 namespace pt {
 
-// What is read of the pixels of a film.
 struct ImageQuery {
     Rectangle pixels;                        // of the film, at least one
     std::uint32_t quantity;                  // PT_QUANTITY_*
     double unit;                             // of the film, a power of two, in radiance
-    std::optional<PartCounts> samples;       // that every pixel has, if all have as many
+    std::optional<PartCounts> samples;       // of every pixel, if equal
     std::uint32_t format = PT_FORMAT_RGB32F; // PT_FORMAT_*
 };
 
@@ -30,8 +29,7 @@ public:
     // Both arguments must outlive the object.
     ResolvePipelines(vulkan::Device &device, std::span<const std::uint32_t> code) : device_(device), code_(code) {}
 
-    // The pipeline of a format, built when it is first asked for. Buffers bound for one format can be used with all,
-    // since the layouts are the same.
+    // Built on first use. Buffers bound for one format serve all, since the layouts are equal.
     const vulkan::ComputePipeline &of(std::uint32_t format);
 
 private:
@@ -40,15 +38,14 @@ private:
     std::array<std::optional<vulkan::ComputePipeline>, format_count> pipelines_;
 };
 
-// A rectangle of the film, and the words that its pixels go to.
+// A rectangle of the film and its place in the bound words.
 struct ResolvedPiece {
     Rectangle pixels;
     std::uint32_t first_word; // in what is bound
     std::uint32_t row_words;  // from row to row
 };
 
-// Records commands that resolve a piece of what is read, with barriers before and behind. sets: the buffers of each
-// strip of the film.
+// Records commands that resolve a piece, with barriers before and after. sets: one per strip of the film.
 void resolve(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline, const DeviceFilm &film,
              std::span<const vulkan::DescriptorSet> sets, const ImageQuery &query, const ResolvedPiece &piece);
 

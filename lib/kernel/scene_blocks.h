@@ -1,5 +1,4 @@
-// Where the blocks of the scene buffer begin, as shaders/gpu_layout.h describes them. Used by gpu_scene, which fills
-// them, and by features_of, which asks how long they are.
+// First words of the scene buffer's blocks (shaders/gpu_layout.h). Used by gpu_scene and features_of.
 #pragma once
 
 #include "lib/kernel/scene_features.h"
@@ -11,19 +10,18 @@
 
 namespace pt {
 
-// All positions count words of four floats, in 64 bits: the 2^30 surfaces that a scene may have can take more than 5
-// words each.
+// In words of four floats; 64 bits, since 2^30 surfaces can take more than 5 words each.
 struct SceneBlocks {
     std::uint64_t emission;
-    // Reflection of surface i, or of material i of the table: at this + i * reflection_step.
+    // Reflection of surface or table material i: at this + i * reflection_step.
     std::uint64_t diffuse;
     std::uint64_t specular;
     std::uint64_t reflection_step;
     std::uint64_t motion;
     std::uint64_t curvature;
     std::uint64_t lamp_tree;
-    std::uint64_t spots; // only with spots, and then the scene is in the uniform buffer
-    std::uint64_t index; // only if the scene is not in the uniform buffer
+    std::uint64_t spots; // only with spots, in the uniform buffer
+    std::uint64_t index; // only outside the uniform buffer
     std::uint64_t tree;  // only with a tree
     std::uint64_t word_count;
 
@@ -55,7 +53,7 @@ inline SceneBlocks::SceneBlocks(const Features &features) {
     }
 }
 
-// Writes a number at its place in a block of numbers, four to a word.
+// Blocks of numbers have four to a word.
 inline void write_number(std::span<glm::vec4> block, std::uint64_t place, std::uint32_t number) {
     block[place / 4][static_cast<int>(place % 4)] = std::bit_cast<float>(gpu::MATERIAL_INDEX_BITS + number);
 }

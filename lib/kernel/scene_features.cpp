@@ -15,9 +15,8 @@
 
 namespace pt {
 
-// Trips of a walk over the surfaces, and over the tree for two rays. Where invocations go in step it takes as many as
-// any of them: in scenes of 10^6 spheres about 100 on average. Those that take more in all are lost, which is told
-// (tree_walk.glsl).
+// For two rays. Invocations in step take as many trips as the longest walk, about 100 in scenes of 10^6 spheres.
+// Samples with more trips in all are lost and reported (tree_walk.glsl).
 std::uint64_t loop_trips_per_walk(const Features &features) {
     constexpr std::uint64_t tree_trips = 200;
     return features.surface_count() + (features[gpu::ID_TREE] ? tree_trips : 0);
@@ -30,15 +29,15 @@ bool samples_lamps(const Features &features) {
 }
 
 std::vector<std::uint32_t> camera_blocks(const Features &features) {
-    std::vector<std::uint32_t> blocks(1 + features[gpu::ID_LENS], 2); // the place on the lens
+    std::vector<std::uint32_t> blocks(1 + features[gpu::ID_LENS], 2); // place on the lens
     blocks.front() = gpu::camera_dimensions(features[gpu::ID_MOTION]);
     return blocks;
 }
 
 namespace {
 
-// Whether all of a sphere lies where the camera is, in the convex region that planes cut out. Paths stay there, and
-// no plane comes between two points of it.
+// Whether a sphere lies in the camera's convex region between the planes, which paths do not leave: no plane separates
+// two points of it.
 bool is_in_region(const std::vector<CurvedPlane> &planes, const SeenSphere &sphere) {
     const std::array way = {sphere.open, sphere.close()};
     return std::ranges::all_of(planes, [&](const CurvedPlane &plane) {
@@ -48,7 +47,7 @@ bool is_in_region(const std::vector<CurvedPlane> &planes, const SeenSphere &sphe
     });
 }
 
-// Whether all of a box does, of points of the scene.
+// The same for a box of scene points.
 bool is_in_region(const std::vector<CurvedPlane> &planes, const PointBox &box, const Camera &camera) {
     return std::ranges::all_of(planes, [&](const CurvedPlane &plane) {
         const glm::dvec3 nearest = glm::mix(box.low, box.high, glm::lessThan(plane.normal, glm::dvec3(0.0)));
@@ -56,15 +55,13 @@ bool is_in_region(const std::vector<CurvedPlane> &planes, const PointBox &box, c
     });
 }
 
-// Whether the camera is on a side of a plane that float32 can tell, as the shutter opens.
+// Whether float32 can tell the camera's side as the shutter opens.
 bool has_known_side(const CurvedPlane &plane) {
     return static_cast<float>(plane.offset) != 0.0F;
 }
 
-// The most branches of a path among so many spheres. (Time to the same error with 4 branches over that with 2, of 70 to
-// 111 spheres in a list: 0.79 to 1.05; of 1,000 in a tree 1.3 to 1.5. With 1 over that with 2, four vertices: on a CPU
-// 0.85 of 10,000 spheres; on an H200 1.10 of 113, 1.00 or 1.3 of 1,000, 0.95 of 10,000, 0.84 of 10^6; with three
-// vertices no less than 0.93.)
+// Branches of a path by the number of spheres: found by time to equal error on a CPU and an H200
+// (tests/bench/NOTEBOOK.md).
 std::uint32_t branches_among(std::size_t sphere_count, std::uint32_t max_path_length) {
     constexpr std::size_t very_many = 4096;
     if (sphere_count >= very_many && max_path_length > 3)
@@ -77,14 +74,14 @@ std::uint32_t rounded_up(std::uint32_t levels) {
     return (levels + step - 1) / step * step;
 }
 
-// Loop trips for which a vertex looks at the lamps: over all of them once, and once more to choose; or over the top of
-// the tree, and then down it to the lamp that is chosen and to one that a direction meets.
+// For a vertex's lamps: sum and choice over all lamps; or the tree's top, then down to the chosen lamp and to one that
+// a direction meets.
 std::uint64_t lamp_trips(const Features &features) {
     return features[gpu::ID_LAMP_TREE_LEVELS] ? gpu::LAMP_TREE_TOP_GROUPS + 2 * features[gpu::ID_LAMP_TREE_LEVELS]
                                               : 2 * std::uint64_t{features[gpu::ID_LAMP_COUNT]};
 }
 
-// Loop trips of one branch: at each vertex one of a loop, those for the lamps and a walk over the surfaces.
+// Per vertex: its own loop, the lamps and a walk.
 std::uint64_t loop_trips_per_branch(const Features &features) {
     const std::uint64_t vertex = 1 + lamp_trips(features) + loop_trips_per_walk(features);
     return (features[gpu::ID_MAX_PATH_LENGTH] - 1) * vertex;
@@ -105,7 +102,7 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
     const auto may_hold_paths = [&](const SeenSphere &sphere) {
         return sphere.hidden ? !lies_apart(sphere) : is_at_camera(sphere);
     };
-    // The camera looks through hidden surfaces from one side, and paths may be on the other.
+    // The camera looks through hidden surfaces from one side; paths may be on the other.
     const auto is_passed = [&](const SeenSphere &sphere) {
         return sphere.hidden && (may_hold_origin(sphere) || !lies_apart(sphere));
     };
@@ -137,13 +134,12 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
         features[gpu::ID_TREE_OPACITY] || (tree && (tree->may_hold(camera) || tree->divides_start(camera)));
     features[gpu::ID_INSIDE] = features[gpu::ID_TREE_INSIDE] || std::ranges::any_of(surfaces.spheres, may_hold_paths);
     features[gpu::ID_PLANES_EMIT] = std::ranges::any_of(surfaces.planes, glows);
-    // Planes with curvature may bulge towards the camera.
+    // Curved planes may bulge towards the camera.
     features[gpu::ID_PLANES_BLOCK] = features[gpu::ID_CURVATURE] || planes_divide || planes_are_passed ||
                                      std::ranges::any_of(lamps, is_behind_a_plane) ||
                                      (tree_lamps > 0 && !is_in_region(distinct.seen.planes, tree->bounds(), camera));
-    // Of flat planes vertices tell the side as well, and a little faster, where no two all but coincide.
-    // Where rays start on both sides of a surface, or pass it at random or as it is hidden, the camera does not tell
-    // them.
+    // Among flat planes that do not nearly coincide, vertices tell the sides as well, and faster. The camera does not
+    // tell them if rays start on both sides of a surface or pass it, hidden or at random.
     const bool starts_divided = distinct.seen.any_surface(divides) || (tree && tree->divides_start(camera));
     const bool some_are_passed = planes_are_passed || std::ranges::any_of(distinct.seen.spheres, is_passed);
     features[gpu::ID_KNOWN_SIDES] =
@@ -159,7 +155,7 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
     features[gpu::ID_ESTIMATOR] = render.estimator;
     features[gpu::ID_SAMPLER] = render.sampler;
     features[gpu::ID_GLOSS] = scene.gloss;
-    // Of those in the tree the places are kept as they are at time 0.
+    // The tree holds places at time 0.
     const bool tree_is_late = tree && tree->moves() && camera.shutter_open > 0.0;
     features[gpu::ID_MOTION] = scene.moves && (camera.shutter_close > camera.shutter_open || tree_is_late);
     Kinds kinds = tree ? tree->kinds() : Kinds();
@@ -183,14 +179,14 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
 std::uint32_t branch_count(const Features &features) {
     const bool spots_find_most = features[gpu::ID_SPOT_COUNT] > 0 && features[gpu::ID_MAX_PATH_LENGTH] == 3;
     const std::uint32_t branches = std::min(features.most_branches, spots_find_most ? 2U : 4U);
-    constexpr std::uint64_t max_trips = 1 << 14; // a quarter of what those drivers allow: some samples to a submission
+    constexpr std::uint64_t max_trips = 1 << 14; // a quarter of those drivers' limit, for several samples at once
     const bool affordable = branches * loop_trips_per_branch(features) <= max_trips;
     return features[gpu::ID_MAX_PATH_LENGTH] > 2 && affordable ? branches : 1;
 }
 
 namespace {
 
-// Lamps to which the first vertex sends a ray besides those of its branches, where it samples every lamp.
+// Lamps beyond the branches to which the first vertex sends a ray, where it samples every lamp.
 std::uint32_t further_lamps(const Features &features, std::uint32_t branches) {
     const std::uint32_t lamps = features[gpu::ID_LAMP_COUNT] > gpu::EVERY_LAMP_LIMIT ? 0 : features[gpu::ID_LAMP_COUNT];
     return lamps - std::min(lamps, branches);
@@ -206,7 +202,7 @@ PointLayout point_layout(const Features &features) {
     const std::uint32_t branches = branch_count(features);
     if (features[gpu::ID_SAMPLER] == PT_SAMPLER_RANDOM)
         return {{}, 0, branches};
-    blocks.resize(shared, 2); // the place on each lamp
+    blocks.resize(shared, 2); // place on each lamp
     const std::uint32_t direction =
         gpu::direction_dimensions(features[gpu::ID_GLOSS], features[gpu::ID_MAX_PATH_LENGTH]);
     if (features[gpu::ID_SPOT_COUNT] > 0) {
@@ -233,18 +229,17 @@ std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Fe
     auto constants = features.constants;
     constants[gpu::ID_TABLE_BLOCKS] = layout.block_count();
     constants[gpu::ID_BRANCH_COUNT] = layout.branches;
-    constants[gpu::ID_UNROLLED] = gpu::CONSTANT_SCENE_WORDS; // all for which words may be constants
+    constants[gpu::ID_UNROLLED] = gpu::CONSTANT_SCENE_WORDS; // the most for which words may be constants
     return constants;
 }
 
 std::uint64_t loop_trips_per_sample(const Features &features) {
-    // One trip of the sample loop, a walk over the surfaces for the camera ray and one for each further lamp of the
-    // first vertex, what it takes to choose among the lamps there, and the branches.
+    // The sample loop, the walk of the camera ray and of each further lamp, the first vertex's choice of lamps, the
+    // branches.
     const std::uint64_t walk = loop_trips_per_walk(features);
     const std::uint32_t branches = branch_count(features);
     const std::uint64_t first_vertex = further_lamps(features, branches) * (1 + walk) + lamp_trips(features);
-    // By way of a spot: to see and choose it and for its density, once more for each branch, the walk there and one
-    // beyond.
+    // For a spot: to see, choose and weigh it, also once per branch, the walk there and one beyond.
     const std::uint64_t way =
         features[gpu::ID_SPOT_COUNT] > 0
             ? std::uint64_t{4 + branches} * features[gpu::ID_SPOT_COUNT] + 2 * walk + lamp_trips(features)
@@ -252,19 +247,18 @@ std::uint64_t loop_trips_per_sample(const Features &features) {
     return 1 + walk + way + first_vertex + branches * loop_trips_per_branch(features);
 }
 
-// An empty scene still costs something.
+// Never 0, even for an empty scene.
 double surface_tests_per_ray(const Features &features, const SphereTree *tree) {
-    constexpr double tests_of_node = 4.0; // one for each child, about
+    constexpr double tests_of_node = 4.0; // about one per child
     const double tests = features.surface_count() + (tree ? tests_of_node * tree->cost() : 0.0);
     return std::max(1.0, tests);
 }
 
 double surface_tests_per_path(const Features &features, const SphereTree *tree) {
-    // The camera ray, those to further lamps from the first vertex, then from each vertex of a branch the next ray
-    // and one to a lamp.
+    // The camera ray, rays to further lamps, then two rays from each vertex of a branch.
     const std::uint32_t branches = branch_count(features);
     const std::uint64_t vertices = std::uint64_t{branches} * (features[gpu::ID_MAX_PATH_LENGTH] - 1);
-    const std::uint32_t by_spot = features[gpu::ID_SPOT_COUNT] > 0 ? 3 : 0; // the ray to it, and two from there
+    const std::uint32_t by_spot = features[gpu::ID_SPOT_COUNT] > 0 ? 3 : 0; // one to the spot, two from there
     return surface_tests_per_ray(features, tree) *
            static_cast<double>(1 + further_lamps(features, branches) + by_spot + 2 * vertices);
 }

@@ -1,5 +1,5 @@
-// What a scene needs of the kernel: everything else is left out of it. Found by gpu_scene;
-// TracePipelines specialises pathtrace.comp with it.
+// The features of the kernel that a scene needs; others are left out. Found by gpu_scene; TracePipelines specialises
+// pathtrace.comp with them.
 #pragma once
 
 #include "lib/kernel/kernel_surfaces.h"
@@ -17,65 +17,60 @@
 namespace pt {
 
 struct Features {
-    // Values of the specialization constants, by gpu::ID_*, as far as a scene, its camera and settings tell them.
+    // Specialization constants by gpu::ID_*, as far as scene, camera and settings decide them.
     std::array<std::uint32_t, gpu::CONSTANT_COUNT> constants{};
-    std::uint32_t most_branches = 0;   // of a path at its first vertex, by the number of spheres
-    std::uint32_t table_materials = 0; // that the surfaces share if the scene is not in the uniform buffer
+    std::uint32_t most_branches = 0;   // of a path's first vertex, by the number of spheres
+    std::uint32_t table_materials = 0; // in the table, if the scene is not in the uniform buffer
 
     bool operator==(const Features &) const = default;
 
     std::uint32_t &operator[](std::uint32_t id) { return constants[id]; }
     std::uint32_t operator[](std::uint32_t id) const { return constants[id]; }
 
-    // Whether the scene, with the words of a material for each surface, fits into a uniform buffer.
+    // Whether the scene fits a uniform buffer, with material words for each surface.
     bool scene_in_uniform() const { return constants[gpu::ID_SCENE_SOURCE] == gpu::SCENE_IN_UNIFORM; }
-    // Whether the scene buffer has the ways of spheres.
+    // Whether the scene buffer has a motion block.
     bool has_ways() const { return constants[gpu::ID_MOTION] > 0 || constants[gpu::ID_KINDS] > gpu::KIND_BALL; }
     std::uint32_t surface_count() const { return constants[gpu::ID_SPHERE_COUNT] + constants[gpu::ID_PLANE_COUNT]; }
     std::uint32_t emitting_spheres() const { return constants[gpu::ID_LAMP_COUNT] + constants[gpu::ID_SKY_COUNT]; }
     std::uint32_t walked_lamps() const { return constants[gpu::ID_LAMP_COUNT] - constants[gpu::ID_TREE_LAMPS]; }
 };
 
-// All features but gpu::ID_SPOT_COUNT (light_spots.h).
+// All except gpu::ID_SPOT_COUNT (light_spots.h).
 Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfaces, const PreparedScene &scene,
                      const Camera &camera, const RenderSettings &render);
 
-// Whether the estimator samples lamps and paths are long enough for it.
+// Whether the estimator samples lamps, and paths are long enough.
 bool samples_lamps(const Features &features);
 
-// How many numbers each of the blocks of a camera ray has.
+// Numbers in each block of a camera ray.
 std::vector<std::uint32_t> camera_blocks(const Features &features);
 
-// Branches in which a path leaves its first vertex. Where light comes over several vertices, so does most of the noise,
-// and the camera ray, its vertex and the lamps seen from it serve all branches. (Measured on the coursework scene with
-// six vertices, 4 branches against 1: a fourth to a fifth of the error in 2.9 times the time.) The more spheres there
-// are, the more of them a pixel sees, so that more of the noise comes from the camera ray, and the less of the work is
-// rays that branches share: then there are 2 branches or 1. There are 2 where rays by way of spots find most of what
-// comes over three vertices, and paths have no more. Where scene and path are so long that a sample is a long job by
-// itself, they do not branch: some drivers stop a kernel after 65535 loop trips.
+// Branches from a path's first vertex: light over several vertices brings most of the noise, and camera ray, first
+// vertex and its lamps serve all branches. With more spheres, more of the noise comes from the camera ray, and less of
+// the work is shared: then 2 branches or 1. 2 if spots find most of the light over three vertices and paths have no
+// more. 1 if samples are long jobs by themselves: some drivers stop kernels after 65535 loop trips.
 std::uint32_t branch_count(const Features &features);
 
-// What the point table holds for each sample: the dimensions that its paths consume, as far as the sequences have them;
-// nothing for samplers without a sequence.
+// The table's part of the numbers that a sample's paths consume; empty for samplers without a sequence.
 PointLayout point_layout(const Features &features);
 
-// Values of all specialization constants, by constant_id.
+// By constant_id.
 std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Features &features);
 
-// An upper bound of the loop trips that one sample takes, with no loop unrolled.
+// An upper bound, with no loop unrolled.
 std::uint64_t loop_trips_per_sample(const Features &features);
 
-// The same for one walk over the surfaces, with one ray or with two that leave the same vertex.
+// For one ray, or two rays that leave the same vertex.
 std::uint64_t loop_trips_per_walk(const Features &features);
 
-// How many tests of a ray against a surface a path of full length takes: its cost, to within a small factor. tree: NULL
-// if there is none.
+// Cost of a path of full length in ray-surface tests, to within a small factor. tree: NULL without.
 double surface_tests_per_path(const Features &features, const SphereTree *tree);
 
-// The same for a single ray. tree: likewise.
+// For a single ray.
 double surface_tests_per_ray(const Features &features, const SphereTree *tree);
 
-// The features as PT_FEATURE_* bits.
+// As PT_FEATURE_* bits.
 std::uint32_t feature_bits(const Features &features);
 
 } // namespace pt

@@ -37,7 +37,7 @@ SceneKernel::SceneKernel(vulkan::Device &device, std::span<const std::uint32_t> 
     bindings_(std::move(bindings)),
     push_constant_bytes_(push_constant_bytes) {}
 
-// The camera and the places of surfaces may change for nothing but new words.
+// A new camera or moved surfaces need nothing but new words.
 void SceneKernel::fit(std::span<const std::uint32_t> constants) {
     if (pipeline_ && std::ranges::equal(constants_, constants))
         return;
@@ -60,7 +60,7 @@ void SceneKernel::dispatch(const vk::raii::CommandBuffer &commands, const vulkan
 }
 
 std::uint64_t SceneKernel::pixels_at_once(std::uint64_t pixels, std::uint32_t rays_of_pixel, double rays) const {
-    constexpr std::uint64_t most = 1U << 18; // little compared with the image in the caller's memory
+    constexpr std::uint64_t most = 1U << 18; // little compared with the caller's image
     const std::uint64_t dispatched =
         std::uint64_t{device_.limits().max_workgroup_count} * gpu::WORKGROUP_SIZE / rays_of_pixel;
     const std::uint64_t affordable = static_cast<std::uint64_t>(rays) / rays_of_pixel;

@@ -23,9 +23,8 @@ namespace pt {
 
 namespace {
 
-// The module beside the library, so that an installed tree can be moved, else where the system looks for libraries,
-// but never in the working directory, where a relative path would lead. It stays loaded, because glslang keeps tables
-// for the next compilation.
+// Looks beside the library, so that an installed tree can be moved, then on the system's path, but never in the working
+// directory. The module stays loaded, because glslang keeps tables for the next compilation.
 pt_compile_glsl_fn load_compiler(const std::string &shader_directory) {
     const std::filesystem::path folder = platform::folder_with(reinterpret_cast<const void *>(&load_compiler));
     const std::filesystem::path name = platform::module_file("pt-glsl");
@@ -44,7 +43,7 @@ pt_compile_glsl_fn load_compiler(const std::string &shader_directory) {
                                                  .rule = "the compiler's module cannot be loaded: " + reasons});
 }
 
-// What the module hands over: words or a log. It calls back under its own C frame, which no exception may cross.
+// Receives words or a log. No exception may cross the module's C frame.
 struct Compilation {
     std::vector<std::byte> bytes;
     std::exception_ptr error;
@@ -73,7 +72,7 @@ std::vector<std::uint32_t> compile(pt_compile_glsl_fn compiler, const std::strin
     return words;
 }
 
-// Of the words of each kernel, in the order of the members.
+// words: of each kernel, in the members' order.
 KernelCode code_of(std::vector<std::vector<std::uint32_t>> words) {
     const auto kept = std::make_shared<const std::vector<std::vector<std::uint32_t>>>(std::move(words));
     const auto &of = *kept;
@@ -82,7 +81,7 @@ KernelCode code_of(std::vector<std::vector<std::uint32_t>> words) {
 
 } // namespace
 
-// Unpacked when first asked for, in a millisecond, and kept for all contexts.
+// Unpacked on first use, and kept for all contexts.
 KernelCode embedded_code() {
     static const KernelCode code = code_of({pathtrace_spirv(), fold_spirv(), add_spirv(), resolve_spirv(),
                                             estimate_spirv(), accuracy_spirv(), first_hit_spirv(), coverage_spirv()});

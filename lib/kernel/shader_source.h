@@ -1,5 +1,5 @@
-// Where the kernels come from: the SPIR-V that is embedded in the library, or GLSL files that are compiled when they
-// are asked for. Owned by Renderer; its devices make pipelines of what it gives.
+// The kernels' SPIR-V: embedded in the library, or compiled from GLSL files. Owned by Renderer; its devices make
+// pipelines of it.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,6 @@
 
 namespace pt {
 
-// The SPIR-V of all kernels.
 struct KernelCode {
     std::span<const std::uint32_t> pathtrace;
     std::span<const std::uint32_t> fold;
@@ -20,9 +19,8 @@ struct KernelCode {
     std::span<const std::uint32_t> accuracy;
     std::span<const std::uint32_t> first_hit;
     std::span<const std::uint32_t> coverage;
-    std::shared_ptr<const std::vector<std::vector<std::uint32_t>>> words; // what these refer to
+    std::shared_ptr<const std::vector<std::vector<std::uint32_t>>> words; // owns the words of all members
 
-    // Equal if the words are, wherever they are stored.
     bool operator==(const KernelCode &other) const { return *words == *other.words; }
 };
 
@@ -39,7 +37,7 @@ public:
 
     bool is_embedded() const { return directory_.empty(); }
 
-    // Compiles the files as they are now. Throws PT_ERROR_SHADER with the compiler's log, PT_ERROR_UNSUPPORTED if the
+    // Compiles the present files. Throws PT_ERROR_SHADER with the compiler's log, PT_ERROR_UNSUPPORTED if the
     // compiler's module cannot be loaded.
     KernelCode read() const;
 

@@ -14,7 +14,6 @@ namespace spirv {
 
 namespace {
 
-// The result of an operation with up to three operands.
 std::uint32_t result_of(std::uint32_t operation, const std::array<std::uint32_t, 3> &operand) {
     const auto [a, b, c] = operand;
     switch (operation) {
@@ -60,21 +59,19 @@ bool ends_block(Opcode opcode) {
     return opcode >= OpBranch && opcode <= OpUnreachable;
 }
 
-// What is known of an id; each member only for ids of its kind.
+// What is known of an id; members apply to certain kinds.
 struct Fact {
     std::optional<std::uint32_t> value; // of a constant of 32 bits, or a Boolean
     std::optional<std::uint32_t> spec_id;
-    std::uint32_t place = 0; // offset of the block or function
-    std::uint32_t taken = 0; // by the block, whose condition is a constant
-    bool is_reached = false; // the block, by branches, or the function, by calls
-    bool is_merge = false;   // of what is kept, some instruction names the block as one where branches meet again
-    bool is_there = false;   // in what is kept
+    std::uint32_t place = 0; // offset of a block or function
+    std::uint32_t taken = 0; // the block's branch, if its condition is a constant; else 0
+    bool is_reached = false; // a block by branches, a function by calls
+    bool is_merge = false;   // a kept instruction names the block as a merge block
+    bool is_there = false;   // in the kept code
 };
 
-// Learns what the values of specialization constants tell of a module's ids: values of other constants, and which
-// blocks and functions are reached. Then it writes what is kept. Few opcodes are enough: those of constants, and those
-// of blocks and branches. Each id has its facts at one place of an array, so that a kernel of thousands of ids takes
-// few allocations. Throws Unknown.
+// Evaluates constants, finds the blocks and functions that are reached, and writes what is kept. Knows only opcodes of
+// constants, blocks and branches. Facts are an array by id, which takes few allocations. Throws Unknown.
 class Specialiser {
 public:
     Specialiser(Words code, Words constants) : code_(code), constants_(constants), facts_(code[bound_word]) {
@@ -110,7 +107,6 @@ private:
         return facts_[id];
     }
 
-    // The value of a constant.
     std::uint32_t value(std::uint32_t id) {
         if (!fact(id).value)
             throw Unknown();
@@ -180,8 +176,8 @@ private:
         return result_of(instruction[3], operand);
     }
 
-    // Goes from a function to its first block, or from a block to what it calls and where it branches. If the condition
-    // of an `if` is a constant, only the branch that is taken is followed. Branches that end a loop stay as they are.
+    // From a function to its first block, or from a block to its calls and branches. An `if` with a constant condition
+    // has one branch; branches that end a loop stay.
     void follow(std::uint32_t id) {
         const std::size_t place = fact(id).place;
         if (place == 0)
@@ -191,7 +187,7 @@ private:
             switch (opcode_of(instruction)) {
             case OpLabel:
                 if (offset != place)
-                    reach(instruction[1]); // the first of the function
+                    reach(instruction[1]); // the function's first block
                 return offset == place;
             case OpFunctionCall:
                 reach(instruction[3]);
@@ -217,7 +213,7 @@ private:
         });
     }
 
-    // Calls use(instruction) for every instruction that is kept, with its block inside functions, and with 0 outside.
+    // Calls use(instruction, block) for every kept instruction; block is 0 outside functions.
     template <typename Use>
     void for_each_kept(Use &&use) {
         bool keeps_function = true;
@@ -238,8 +234,8 @@ private:
         });
     }
 
-    // Most instructions have their result in the second word after the first. Those without a result have an id there
-    // that is the result of another instruction that is kept, so noting it does no harm.
+    // Most instructions have their result in word 2. Others have there the result of another kept instruction, so
+    // noting it does no harm.
     void note_result(Words instruction, std::uint32_t block) {
         const Opcode opcode = opcode_of(instruction);
         if (block != 0 && !fact(block).is_reached)
@@ -310,7 +306,7 @@ private:
         }
     }
 
-    // Without the values of blocks from which no branch comes any more.
+    // Without values from blocks that no longer branch here.
     void write_phi(Words phi, std::uint32_t block) {
         const std::size_t start = result_.size();
         put(phi.first(3));
@@ -325,7 +321,7 @@ private:
     Words code_;
     Words constants_;
     std::vector<Fact> facts_;            // by id
-    std::vector<std::uint32_t> waiting_; // functions and blocks that are reached, but not yet followed
+    std::vector<std::uint32_t> waiting_; // reached, but not yet followed
     std::uint32_t boolean_type_ = 0;
     std::vector<std::uint32_t> result_;
 };
@@ -336,7 +332,7 @@ private:
 
 std::vector<std::uint32_t> specialised_code(std::span<const std::uint32_t> spirv,
                                             std::span<const std::uint32_t> constants) {
-    constexpr std::uint32_t most_ids = 1U << 22; // that the specification asks implementations to take
+    constexpr std::uint32_t most_ids = 1U << 22; // the limit that the specification asks implementations to take
     if (spirv.size() < spirv::header_words || spirv[spirv::bound_word] > most_ids)
         return {};
     try {

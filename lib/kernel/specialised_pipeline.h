@@ -13,7 +13,7 @@
 
 namespace pt {
 
-// Sets the specialization constants that depend on the device alone, not on the scene.
+// Constants that depend on the device alone.
 inline void set_device_constants(std::span<std::uint32_t> constants, const vulkan::Device &device) {
     constants[gpu::ID_UNROLLED] = device.policy().unrolled;
     constants[gpu::ID_INTEGER_ORDER] = device.policy().compiles_for_cpu ? 1 : 0;

@@ -1,4 +1,4 @@
-// Lists of tiles for dispatches, as kernels read them: the first pixel of each tile, in the film. Owned by Kernel.
+// Lists of tiles for dispatches: each tile's first pixel in the film. Owned by Kernel.
 #pragma once
 
 #include "lib/film/tile_grid.h"
@@ -28,8 +28,7 @@ public:
 
     const vulkan::Buffer &buffer() const { return entries_; }
 
-    // The number of the first entry for these tiles, which ascend. It is valid until as many more slices have begun as
-    // the device has in its queue (queue_depth).
+    // First entry for these tiles, which ascend. Valid until queue_depth more slices have begun.
     std::uint32_t first_entry(std::span<const std::uint32_t> tiles) {
         if (tiles.back() - tiles.front() == tiles.size() - 1)
             return tiles.front();
@@ -47,8 +46,8 @@ private:
 
     std::uint32_t tile_count_;
     std::uint32_t slice_lists_;
-    std::uint32_t next_list_ = 0; // of those for slices
-    vulkan::Buffer entries_;      // a list of all tiles, then those for slices of other tiles than consecutive ones
+    std::uint32_t next_list_ = 0; // among the slices' lists
+    vulkan::Buffer entries_;      // all tiles, then lists for slices of nonconsecutive tiles
 };
 
 } // namespace pt

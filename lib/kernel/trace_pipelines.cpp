@@ -44,7 +44,7 @@ TracePipelines::TracePipelines(vulkan::Device &device, KernelCode code) :
     code_(std::move(code)),
     kernel_key_(device.kernel_key(digest_of(code_))) {}
 
-// What was used longest ago makes place.
+// Evicts the least recently used.
 const vulkan::ComputePipeline &TracePipelines::build(std::vector<std::uint32_t> constants) {
     using Clock = std::chrono::steady_clock;
     const Clock::time_point start = Clock::now();
@@ -70,7 +70,7 @@ const vulkan::ComputePipeline *TracePipelines::find(const std::vector<std::uint3
     return &found->pipeline;
 }
 
-// How long the scene that has a kernel of its own has used it, which is judged once another scene comes.
+// The time of the scene's own kernel is judged once another scene comes.
 void TracePipelines::note_own(const std::vector<std::uint32_t> &constants, double seconds) {
     if (!own_)
         return;
@@ -89,7 +89,7 @@ const vulkan::ComputePipeline &TracePipelines::trace(const Features &features, s
     if (device_.policy().scene_in_constants && features.scene_in_uniform() &&
         words.size() <= gpu::CONSTANT_SCENE_WORDS) {
         std::vector<std::uint32_t> own = with_scene(constants, words);
-        note_own(own, seconds); // own_ is this scene's afterwards, or nobody's
+        note_own(own, seconds); // own_ is now this scene's, or empty
         if (const vulkan::ComputePipeline *const kept = find(own))
             return *kept;
         if (kept_.empty() || own_kernels_ == OwnKernels::at_once ||

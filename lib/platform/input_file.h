@@ -1,4 +1,4 @@
-// Files that are read from their beginning on, as far as the reader wants.
+// Files read from their beginning, as far as the reader wants.
 #pragma once
 
 #include "lib/platform/file.h"
@@ -12,7 +12,7 @@
 
 namespace platform {
 
-// The reason alone, without the file's name.
+// The reason, without the file's name.
 struct InputError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -20,22 +20,22 @@ struct InputError : std::runtime_error {
 // All functions throw InputError.
 class InputFile {
 public:
-    // Opens a regular file. Everything else is refused at once: a named pipe may wait for its writer, and a device have
-    // no end.
+    // Opens a regular file and refuses all else at once: a named pipe may wait for its writer, a device may have no
+    // end.
     explicit InputFile(const std::filesystem::path &path);
 
-    // Standard input, whatever it is.
+    // Standard input, of any kind.
     InputFile() = default;
 
-    // In bytes; 0 for standard input.
+    // Bytes; 0 for standard input.
     std::uint64_t size() const { return size_; }
 
-    // The first `count` bytes; all of a shorter file. Valid until the next call.
+    // The first `count` bytes, or all of a shorter file. Valid until the next call.
     std::string_view first(std::size_t count);
 
     std::string all();
 
-    // All of a text. Anything with a NUL byte is none, and is read up to the block with that byte.
+    // The whole text. Throws if there is a NUL byte, without reading beyond its block.
     std::string text();
 
 private:

@@ -1,4 +1,4 @@
-// Libraries that are loaded while a program runs, and stay loaded.
+// Libraries loaded at run time, which stay loaded.
 #pragma once
 
 #include <filesystem>
@@ -6,19 +6,19 @@
 
 namespace platform {
 
-// A path, or the name of a library that is looked for where the system has its own, never in the working directory.
-// NULL if it cannot be loaded, or the function not found; module_error() then says why.
+// path: or a library's name, looked for in the system's folders, never in the working directory. NULL on failure, with
+// the reason in module_error().
 void *load_module(const std::filesystem::path &path);
 void *find_function(void *module, const char *name);
 std::string module_error();
 
-// Keeps a library loaded if it is.
+// Keeps a loaded library loaded.
 void keep_loaded(const char *name);
 
-// The folder of the library or program that contains this function. Empty if that is not known.
+// The folder of the library or program that contains the function; empty if unknown.
 std::filesystem::path folder_with(const void *function);
 
-// The names of files: of a module of this project, and of Open Image Denoise 2.
+// File names of a module of this project, and of Open Image Denoise 2.
 std::string module_file(const std::string &name);
 extern const char *const denoiser_file;
 

@@ -1,4 +1,4 @@
-// Text from strangers (names of files and keys, compilers, drivers), made harmless for terminals.
+// Makes text from strangers (names of files and keys, compilers, drivers) harmless for terminals.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ struct Character {
     std::size_t size; // bytes of UTF-8
 };
 
-// The first character. A byte that begins no sequence stands for itself, as in Latin-1.
+// A byte that begins no sequence stands for itself, as in Latin-1.
 inline Character first_character(std::string_view text) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
     const std::size_t size = byte(0) < 0xc0 || byte(0) > 0xf7 ? 1 : byte(0) < 0xe0 ? 2 : byte(0) < 0xf0 ? 3 : 4;
@@ -27,13 +27,13 @@ inline Character first_character(std::string_view text) {
     return {code, size};
 }
 
-// Whether it moves the cursor, changes the terminal, begins a line, or reverses the order of others (UAX #9, table 1).
+// Whether a character moves the cursor, changes the terminal, begins a line, or reorders others (UAX #9, table 1).
 constexpr bool is_control(char32_t code) {
     return code < 0x20 || (code >= 0x7f && code < 0xa0) || code == 0x61c || code == 0x200e || code == 0x200f ||
            (code >= 0x2028 && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069);
 }
 
-// The text with such characters as <U+001B>, except those that are kept.
+// Writes such characters as <U+001B>, except those in `kept`.
 inline std::string printable(std::string_view text, std::string_view kept = "") {
     std::string shown;
     while (!text.empty()) {
@@ -51,7 +51,7 @@ inline std::string printable(std::string_view text, std::string_view kept = "") 
     return shown;
 }
 
-// The same for lines.
+// Keeps line breaks.
 inline std::string printable_lines(std::string_view text) {
     return printable(text, "\n");
 }

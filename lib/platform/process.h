@@ -1,4 +1,4 @@
-// This process: where it is from, what it may use, and what it runs.
+// This process: its files, its memory, and programs that it runs.
 #pragma once
 
 #include <cstdint>
@@ -11,24 +11,24 @@ std::int64_t process_number();
 
 std::filesystem::path program_file();
 
-// The most memory that this process has used.
+// The most memory used so far.
 std::uint64_t peak_bytes();
 
-// The most memory that it could ever have: RAM and swap space, within its limits, whatever others use.
+// The most memory that it could ever have: RAM and swap, within its limits.
 std::uint64_t most_bytes();
 
-// Drivers see it too. Not while other threads run: the environment has no lock.
+// Visible to drivers. Not thread-safe: the environment has no lock.
 void set_environment(const char *name, const char *value);
 
-// The user's folder for what can be made again. It need not exist; empty if nothing names it.
+// The user's cache folder, which need not exist; empty if unknown.
 std::filesystem::path cache_folder();
 
-// The path of a program in the first absolute folder of PATH that has it; empty if there is none. Empty and relative
-// entries are skipped, so that nothing in the current folder is run.
+// The program's path in the first absolute folder of PATH that has it, or empty. Skips empty and relative entries, so
+// that nothing in the current folder is run.
 std::filesystem::path find_program(const std::string &name);
 
-// Has another program take this one's place, with the arguments that follow the first two of this program's. Returns an
-// exit code, or -1 and errno if it cannot be run.
+// Replaces this process by another program, with the arguments after the first two. Returns an exit code, or -1 and
+// errno if it cannot be run.
 int run_instead(const std::filesystem::path &program, char *const *arguments);
 
 } // namespace platform

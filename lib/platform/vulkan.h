@@ -5,7 +5,7 @@
 
 namespace platform {
 
-// NULL if there is no loader; module_error() then says why.
+// NULL without a loader, with the reason in module_error().
 PFN_vkGetInstanceProcAddr vulkan_functions();
 
 } // namespace platform
