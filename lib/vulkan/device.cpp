@@ -7,6 +7,7 @@
 #include "lib/vulkan/result.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cstring>
 #include <limits>
 #include <mutex>
@@ -16,9 +17,9 @@ namespace pt::vulkan {
 
 namespace {
 
-// Mesa 22.3.6's llvmpipe ends an invocation's loops after this many trips (LP_MAX_TGSI_LOOP_ITERATIONS). Newer versions
-// do not, but shorter submissions cost them little.
+// Before version 25 Mesa's llvmpipe ends an invocation's loops after this many trips (LP_MAX_TGSI_LOOP_ITERATIONS).
 constexpr std::uint64_t llvmpipe_loop_trips = 65'535;
+constexpr int first_mesa_without_limit = 25;
 
 // More would not help. A multiple of 256 bytes, the largest alignment of offsets.
 constexpr std::uint32_t largest_uniform_range = 65'536;
@@ -39,18 +40,28 @@ constexpr std::uint32_t gpu_walk_trips = 8;
 // Many times the 30 us of falling asleep and waking.
 constexpr std::chrono::microseconds gpu_polling{300};
 
+// llvmpipe tells its version in words alone: "Mesa 22.3.6 (LLVM 15.0.6)".
+bool ends_loops(const vk::PhysicalDeviceDriverProperties &driver) {
+    constexpr std::string_view mesa = "Mesa ";
+    const std::string_view info = driver.driverInfo;
+    int version = 0;
+    if (info.starts_with(mesa))
+        std::from_chars(info.data() + mesa.size(), info.data() + info.size(), version);
+    return driver.driverID == vk::DriverId::eMesaLlvmpipe && version < first_mesa_without_limit;
+}
+
 Limits limits_of(const vk::raii::PhysicalDevice &device) {
     const auto chain = device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceMaintenance3Properties,
                                              vk::PhysicalDeviceDriverProperties>();
     const vk::PhysicalDeviceLimits &limits = chain.get<vk::PhysicalDeviceProperties2>().properties.limits;
-    const bool llvmpipe = chain.get<vk::PhysicalDeviceDriverProperties>().driverID == vk::DriverId::eMesaLlvmpipe;
+    const bool ends = ends_loops(chain.get<vk::PhysicalDeviceDriverProperties>());
     return {.max_storage_buffer_range = limits.maxStorageBufferRange,
             .max_texel_count = limits.maxTexelBufferElements,
             .max_allocation_bytes = chain.get<vk::PhysicalDeviceMaintenance3Properties>().maxMemoryAllocationSize,
             .max_uniform_range = std::min(limits.maxUniformBufferRange, largest_uniform_range) / 256 * 256,
             .max_workgroup_count = limits.maxComputeWorkGroupCount[0],
             .storage_buffer_alignment = limits.minStorageBufferOffsetAlignment,
-            .loop_trip_budget = llvmpipe ? llvmpipe_loop_trips : std::numeric_limits<std::uint64_t>::max()};
+            .loop_trip_budget = ends ? llvmpipe_loop_trips : std::numeric_limits<std::uint64_t>::max()};
 }
 
 // Identifies the model and the driver's version.

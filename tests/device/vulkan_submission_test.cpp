@@ -68,6 +68,16 @@ TEST_F(VulkanTest, ADeviceThatDoesNotEndASubmissionIsLostForGood) {
     gate.open(); // this device does end it, so its buffers may go
 }
 
+// Beyond the budget a driver may end loops without an error.
+TEST_F(VulkanTest, KernelsRunAllLoopTripsOfTheBudget) {
+    constexpr std::uint64_t enough = 1U << 20;
+    const auto steps = static_cast<std::uint32_t>(std::min(device().limits().loop_trip_budget, enough));
+    Recurrence recurrence(device(), 1);
+    recurrence.start_with(zeros(recurrence.value_count()));
+    recurrence.run(steps);
+    EXPECT_EQ(download(recurrence.values(), 0, 1)[0], Recurrence::expected(0, steps));
+}
+
 TEST_F(VulkanTest, ASubmissionIsWaitedForUntilATime) {
     const Gate gate(device().handle());
     const Device::Ticket ticket = device().start([&](const auto &commands) { gate.record(commands); });
