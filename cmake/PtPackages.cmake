@@ -1,8 +1,8 @@
 # Debian packages, made by `cpack -G DEB` in the build folder: libpt0.3, named after the soname, to run programs with,
-# libpt-dev to build them, pt the program, pt-image-formats with which it writes EXR and JPEG, and libpt0.3-glsl with which
+# libpt0.3-dev to build them, pt the program, pt-image-formats with which it writes EXR and JPEG, and libpt0.3-glsl with which
 # programs compile kernels while they run. Dependencies are those that dpkg-shlibdeps finds. Included by the top CMakeLists.txt.
 set(pt_runtime_package libpt${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
-set(pt_development_package libpt-dev)
+set(pt_development_package ${pt_runtime_package}-dev)
 set(pt_program_package pt)
 set(pt_image_formats_package pt-image-formats)
 set(pt_compiler_package ${pt_runtime_package}-glsl)
@@ -17,13 +17,14 @@ if(TARGET pt-glsl)
   list(APPEND CPACK_COMPONENTS_ALL pt_compiler)
 endif()
 
-# Where Debian wants it; an installation without packages does not have it.
+include(PtLicenses)
 foreach(component IN LISTS CPACK_COMPONENTS_ALL)
+  string(REPLACE "pt_" "" part ${component})
+  pt_write_copyright(${PROJECT_BINARY_DIR}/copyright/${part}/copyright ${part})
   install(
-    FILES ${PROJECT_SOURCE_DIR}/LICENSE
-    DESTINATION share/doc/${${component}_package}
-    RENAME copyright
-    COMPONENT ${component} EXCLUDE_FROM_ALL
+    FILES ${PROJECT_BINARY_DIR}/copyright/${part}/copyright
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${${component}_package}
+    COMPONENT ${component}
   )
   string(TOUPPER ${component} upper)
   set(CPACK_DEBIAN_${upper}_PACKAGE_NAME ${${component}_package})
@@ -76,6 +77,7 @@ libraries by CMake and pkg-config."
 )
 set(CPACK_DEBIAN_PT_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_PT_DEVELOPMENT_PACKAGE_DEPENDS "${pt_runtime_package} ${same_version}, libvulkan-dev")
+set(CPACK_DEBIAN_PT_DEVELOPMENT_PACKAGE_CONFLICTS libpt-dev) # PTLib's, up to Debian 10
 
 set(CPACK_DEBIAN_PT_PROGRAM_DESCRIPTION
     "${pt_story}

@@ -71,19 +71,8 @@ build_dependencies() {
     "$zig" cc --target="$target" -shared -Wl,-soname,libvulkan.so.1 -o "$prefix/lib/libvulkan.so" "$prefix/loader.c"
 }
 
-# They go with every copy of what is linked.
-copy_licenses() {
-    mkdir -p "$prefix/licenses"
-    for package in $header_packages; do
-        cp "/usr/share/doc/$package/copyright" "$prefix/licenses/$package"
-    done
-    for package in zlib libpng1.6 libzstd glslang spirv-tools; do
-        cp "$sources/$package"-*/debian/copyright "$prefix/licenses/$package"
-    done
-    cp "$tools"/../lib/python3*/site-packages/ziglang-*/licenses/ziglang/lib/libcxx/LICENSE.TXT "$prefix/licenses/libcxx"
-}
-
 make_wheel() {
+    export SOURCE_DATE_EPOCH=315532800 # of files in the wheel, the first that a ZIP file can tell: 1980
     set -- build-dir="$prefix/build/pt" install.strip=false wheel.tags="py3-none-$built"
     for definition in CMAKE_TOOLCHAIN_FILE="$PWD/cmake/zig.cmake" PT_ZIG="$zig" PT_TARGET="$target" PT_PREFIX="$prefix"; do
         set -- "$@" "cmake.define.$definition"
@@ -117,6 +106,5 @@ once "$folder/tools/made" install_tools
 zig=$(echo "$folder"/tools/lib/python3*/site-packages/ziglang/zig)
 once "$sources/fetched" fetch_sources
 once "$prefix/made" build_dependencies
-copy_licenses
 make_wheel
 ls -l "$folder"/*.whl

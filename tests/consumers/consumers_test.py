@@ -92,6 +92,15 @@ class Steps:
                 for place in self.options.build, SOURCE:
                     require(f"{place}/" not in text, f"{path} names {place}")
 
+    def check_copyrights(self, share, packages):
+        """Every package says whose code it has, by what licences, and has their texts."""
+        for package in packages:
+            text = (share / "doc" / package / "copyright").read_text()
+            holders = re.findall(r"^Files: .*\nCopyright: .*\nLicense: (.*)$", text, re.MULTILINE)
+            texts = re.findall(r"^License: (\S+)\n +\S", text, re.MULTILINE)
+            require(len(holders) > 1, f"{package} has only {holders}")
+            require(sorted(texts) == sorted(set(" and ".join(holders).split(" and "))), f"{package} has {holders}, {texts}")
+
     def check_manual(self, share):
         """Manual pages of all commands, and bash's completion."""
         text = (share / "man/man1/pt.1").read_text()
@@ -235,6 +244,7 @@ class Steps:
 
     def program(self):
         folder = self.folder("program")
+        self.check_copyrights(self.prefix / "share", [path.name for path in (self.prefix / "share/doc").iterdir()])
         self.check_manual(self.prefix / "share")
         self.check_program(self.prefix / "bin" / "pt", folder)
         shutil.copytree(self.prefix, folder / "without", symlinks=True)
@@ -261,12 +271,12 @@ class Steps:
         run(self.options.cpack, "-G", "DEB", "-B", folder, cwd=self.options.build)
         packages = {path.name.split("_")[0]: path for path in folder.glob("*.deb")}
         compiler = "libpt0.3-glsl"  # if its libraries existed when it was built
-        expected = ["libpt-dev", "libpt0.3", *([compiler] if compiler in packages else []), "pt", "pt-image-formats"]
+        expected = ["libpt0.3", "libpt0.3-dev", *([compiler] if compiler in packages else []), "pt", "pt-image-formats"]
         require(sorted(packages) == expected, f"the packages are {sorted(packages)}")
         exact = f"libpt0.3 (= {self.options.version})"
         for name, wanted in {
             "libpt0.3": ["libc6", "libstdc++6", "libvulkan1"],
-            "libpt-dev": [exact, "libvulkan-dev"],
+            "libpt0.3-dev": [exact, "libvulkan-dev"],
             "pt": [exact, "libpng16-16", "libstdc++6"],
             "pt-image-formats": [f"pt (= {self.options.version})", "libopenimageio2."]
         }.items():
@@ -286,8 +296,7 @@ class Steps:
         root = folder / "root"
         for path in packages.values():
             run("dpkg-deb", "--extract", path, root)
-        for name in packages:
-            require((root / "usr/share/doc" / name / "copyright").is_file(), f"{name} has no copyright file")
+        self.check_copyrights(root / "usr/share", packages)
         self.check_manual(root / "usr/share")
         libraries = {"LD_LIBRARY_PATH": str(root / "usr" / self.options.libdir)}
         self.check_program(root / "usr/bin/pt", folder, **libraries)
