@@ -197,8 +197,13 @@ class Steps:
         commands.write_text(run("ninja", "-C", self.options.build, "-t", "compdb") if "CMAKE_GENERATOR:INTERNAL=Ninja\n" in own
                             else "[]")
         reuse = ";".join(map(str, (sys.executable, "-B", HERE / "reuse.py", commands, self.options.build, build / "pt")))
-        self.configure_subproject(build, f"-DCMAKE_CXX_COMPILER_LAUNCHER={reuse}", *(f"-D{each}" for each in settings))
-        run(self.options.cmake, "--build", build, "-j1")  # another test has the second core
+        self.configure_subproject(build, f"-DCMAKE_CXX_COMPILER_LAUNCHER={reuse}", *(f"-D{each}" for each in settings),
+                                  "-DCMAKE_INTERPROCEDURAL_OPTIMIZATION=ON", "-DCMAKE_CXX_FLAGS=-flto=auto")
+        said = run(self.options.cmake, "--build", build, "-j1")  # another test has the second core
+        require("warning" not in said, said)
+        symbols = run("nm", "--defined-only", "--extern-only", "--format=posix", build / "pt" / "lib" / "libpt.a")
+        exported = (SOURCE / "tests/abi/exported_symbols.txt").read_text().split()
+        require(sorted(re.findall(r"^(\w+) ", symbols, re.MULTILINE)) == sorted(exported), f"libpt.a exports {symbols}")
         check_enclosure(build / "enclosure_shared")
         check_enclosure(build / "enclosure_static")
         run(build / "own_names")

@@ -3,6 +3,7 @@
 
 import json
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -12,8 +13,10 @@ words = sys.argv[4:]
 
 
 def plain(text, build, output):
-    """Builds differ in folders, launchers and warnings."""
+    """Builds differ in folders, launchers, warnings, and in link-time optimisation that -fno-lto turns off."""
     text = text.replace(output, "OUT").replace(str(build), "BUILD").replace("\\", "").replace('"', "").replace("'", "")
+    before, off, after = text.rpartition(" -fno-lto")
+    text = re.sub(r" -f(no-fat-lto-objects|lto(=\S+)?)(?= )", "", f"{before} ") + off + after
     return sorted(word for word in text.split() if not word.startswith("-W") and not word.endswith("ccache"))
 
 
