@@ -132,6 +132,12 @@ class Steps:
         check_linkage(folder / "static", shared=False)
         check_enclosure(folder / "static")
 
+        plugin = folder / "plugin"
+        run(*strict, HERE / "c99" / "plugin.c", *self.pkg_config("--cflags"), "-ldl", "-o", plugin)
+        for unload in [], ["unload"]:
+            run(plugin, self.library / "libpt.so.0.3", *unload)
+        run(plugin, self.library / "missing.so", expect=1)
+
         run(*strict, EXAMPLES / "smallest.c", *self.pkg_config("--cflags", "--libs"), "-o", folder / "smallest")
         run(folder / "smallest", cwd=folder, LD_LIBRARY_PATH=str(self.library))
         program, = re.findall(r"```c\n(.*?)```", (SOURCE / "README.md").read_text(encoding="utf-8"), re.DOTALL)
