@@ -12,7 +12,7 @@ target_compile_options(
             -Wconversion
             $<$<CXX_COMPILER_ID:Clang>:-Wno-sign-conversion> # of which GCC's -Wconversion has none for C++
             $<IF:${pt_in_batches},$<$<CXX_COMPILER_ID:GNU>:-Wshadow=local>,-Wshadow>
-            $<$<BOOL:${PROJECT_IS_TOP_LEVEL}>:-Werror> # other projects have other compilers
+            $<$<BOOL:${PT_BUILD_TESTS}>:-Werror> # other projects and packagers have other compilers
             -ffp-contract=off # own arithmetic has the same bits where processors have fused multiplications
 )
 # Without a build type CMake does not optimise, and a project that adds this one as a folder may have none: these targets
