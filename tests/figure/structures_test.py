@@ -15,6 +15,9 @@ from pt.figures import load
 from pt.figures._elements import SYMBOLS
 from pt.figures._errors import DataError
 
+DAMAGES = 6  # of each file
+LETTERS = b" \n0123456789.-+eEdX\"'\t\xff\0"
+
 DATA = pathlib.Path(sys.argv.pop(1))
 HAS = {name: importlib.util.find_spec(name) is not None for name in ("gemmi", "chemfiles", "gsd")}
 NEEDS = {".pdb": "gemmi", ".ent": "gemmi", ".pdbqt": "gemmi", ".cif": "gemmi", ".sdf": "chemfiles", ".mol2": "chemfiles",
@@ -312,6 +315,33 @@ class Small(InAFolder):
             self.read("a.xyz", "1\n\nO 0 0 0\n", topology="a.pdb")
         with self.assertRaisesRegex(DataError, "atom_style = full: only a LAMMPS data file has one"):
             self.read("a.xyz", "1\n\nO 0 0 0\n", atom_style="full")
+
+
+class Damaged(InAFolder):
+    """Files with wrong or missing bytes or lines are read as they are, or refused with a message that names the file."""
+
+    def test_damages(self):
+        generator = np.random.default_rng(1)
+        refused = 0
+        files = [(name, text.encode()) for name, text, *_ in CASES] + [(path.name, path.read_bytes()) for path in DATA.iterdir()]
+        for name, data in files:
+            if not HAS.get(NEEDS.get(pathlib.Path(name).suffix, ""), True):
+                continue
+            for _ in range(DAMAGES):
+                kind, start, size = generator.integers(0, (4, len(data), 9))
+                rows = data.split(b"\n")
+                row = int(generator.integers(0, len(rows)))
+                damaged = (data[:start], data[:start] + data[start + size:],
+                           data[:start] + bytes(generator.choice(np.frombuffer(LETTERS, np.uint8), size)) + data[start + size:],
+                           b"\n".join([*rows[:row], *rows[row + 1:]]))[kind]
+                with self.subTest(name, kind=kind, start=start):
+                    try:
+                        found = self.read(name, damaged)
+                        self.assertTrue(np.isfinite(found.positions).all())
+                    except DataError as error:
+                        refused += 1
+                        self.assertTrue(str(error).startswith(f"{self.folder}/{name}"), error)
+        self.assertGreater(refused, DAMAGES * len(files) // 4)
 
 
 class Binary(InAFolder):

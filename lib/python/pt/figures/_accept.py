@@ -88,7 +88,8 @@ def _index(source: Frames, frame: int) -> int:
         return frame
     count = source.count()
     if not -count <= frame < count:
-        said = f"the data have {count} frames, from 0 or {-count} to {count - 1}" if count else "the data have no frame with particles"
+        said = f"the data have {count} frames, from 0 or {-count} to {count - 1}"
+        said = said if count else "the data have no frame with particles"
         raise DataError(f"{source.name}: frame {frame}: {said.replace('1 frames', '1 frame') if count == 1 else said}")
     return frame % count
 

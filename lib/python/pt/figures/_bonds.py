@@ -130,7 +130,8 @@ def _guessed(particles: Particles, notes: list[str]) -> Bonds:
     radii = radii[rows]
     found = pairs_within(particles.positions[rows], 2.0 * float(radii.max()) + TOLERANCE, particles.cell, radii, TOLERANCE)
     apart = found.squares > LEAST_DISTANCE**2
-    first, second, images, squares = rows[found.first[apart]], rows[found.second[apart]], found.images[apart], found.squares[apart]
+    first, second, images, squares = (each[apart] for each in found)
+    first, second = rows[first], rows[second]
     if is_named:
         kept = agreeing(particles, first, second, squares)
         first, second, images = first[kept], second[kept], images[kept]

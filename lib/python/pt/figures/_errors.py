@@ -7,8 +7,8 @@ from types import ModuleType
 from typing import Final
 
 # For each optional module, the extra of this package that installs it.
-EXTRAS: Final = {"matplotlib": "figure", "PIL": "figure", "pandas": "figure", "zstandard": "figure-atoms", "gemmi": "figure-atoms",
-                 "chemfiles": "figure-atoms", "gsd": "figure-atoms", "trimesh": "figure-points",
+EXTRAS: Final = {"matplotlib": "figure", "PIL": "figure", "pandas": "figure", "zstandard": "figure-atoms",
+                 "gemmi": "figure-atoms", "chemfiles": "figure-atoms", "gsd": "figure-atoms", "trimesh": "figure-points",
                  "pyvista": "figure-points", "laspy": "figure-points"}
 
 

@@ -427,8 +427,10 @@ def _colors(columns: Mapping[str, Array], chosen: dict[str, str], is_text: bool,
     found = next((names for names in ([_first(columns, (name,)) for name in choice] for choice in choices)
                   if None not in names[:3]), None)
     if found is None:
-        if incomplete := next((names for names in choices if sum(_first(columns, (name,)) is not None for name in names[:3]) == 2), None):
-            notes.append(f"colors need {', '.join(incomplete[:3])}: one of them is missing")
+        for choice in choices:
+            if sum(_first(columns, (name,)) is not None for name in choice[:3]) == 2:
+                notes.append(f"colors need {', '.join(choice[:3])}: one of them is missing")
+                break
         if not all(name in columns for name in _HARMONICS):
             return None
         notes.append("colors are those of splats seen from all sides: f_dc_0, f_dc_1, f_dc_2")

@@ -26,17 +26,17 @@ WATERS: Final = frozenset("HOH WAT SOL H2O DOD TIP TIP2 TIP3 TIP4 TIP5 TP3 TP4 T
                           "OPC".split())
 _NUMBERS: Final = {symbol.upper(): number for symbol, number in NUMBERS.items()}
 _ALKALI_AND_HALIDES: Final = frozenset((3, 11, 19, 37, 55, 12, 20, 38, 56, 9, 17, 35, 53))
-_IONS: Final = {symbol: _NUMBERS[symbol] for symbol in
-                "LI NA K RB CS MG CA SR BA ZN FE MN CU NI CO CD HG AG AU AL PB TL CR V Y LA CE EU GD TB YB LU PT F CL BR I".split()
-                } | {"SOD": 11, "CLA": 17, "POT": 19, "CAL": 20, "CES": 55, "RUB": 37, "LIT": 3, "BAR": 56, "IOD": 53,
-                     "CIO": 55, "CIM": 17, "CIP": 11, "IB": 35}
+_IONS: Final = {**{symbol: _NUMBERS[symbol] for symbol in (
+    "LI NA K RB CS MG CA SR BA ZN FE MN CU NI CO CD HG AG AU AL PB TL CR V Y LA CE EU GD TB YB LU PT F CL BR I").split()},
+    "SOD": 11, "CLA": 17, "POT": 19, "CAL": 20, "CES": 55, "RUB": 37, "LIT": 3, "BAR": 56, "IOD": 53, "CIO": 55, "CIM": 17,
+    "CIP": 11, "IB": 35}
 _CHARGED: Final = frozenset(("ION", "IONS", "IB"))  # residues of GROMACS with ions of several kinds
 _TWO_LETTERS: Final = frozenset("CL BR FE ZN MG MN CU SI SE LI AL AG AU PT RU RH IR TI ZR MO AS".split())
 _ONE_LETTER: Final = frozenset("HCNOPSFBID")
 _POLYMERS: Final = frozenset("HCNOPSD")
-_AUTODOCK: Final = {"A": 6, "OA": 8, "NA": 7, "SA": 16, "HD": 1, "HS": 1, "NS": 7, "OS": 8, "G": 6, "GA": 6, "J": 6, "Q": 6, "Z": 6,
-                    "CG0": 6, "CG1": 6, "G0": VIRTUAL, "G1": VIRTUAL, "W": VIRTUAL}
-_SITE: Final = re.compile(r"(M|MW|EP|EPW|EP\d|LP[A-Z]?|L\d?|OM|MP|IW|XX|DUM|VS|VW)\d*")  # besides the atoms of a water, and lone pairs
+_AUTODOCK: Final = {"A": 6, "OA": 8, "NA": 7, "SA": 16, "HD": 1, "HS": 1, "NS": 7, "OS": 8, "G": 6, "GA": 6, "J": 6, "Q": 6,
+                    "Z": 6, "CG0": 6, "CG1": 6, "G0": VIRTUAL, "G1": VIRTUAL, "W": VIRTUAL}
+_SITE: Final = re.compile(r"(M|MW|EP|EPW|EP\d|LP[A-Z]?|L\d?|OM|MP|IW|XX|DUM|VS|VW)\d*")  # in a water
 _ANYWHERE: Final = re.compile(r"(MW|EPW?|LP[A-Z]?|DUM|DU)\d*")
 
 
@@ -112,7 +112,8 @@ def elements_by_residue(names: Array, residues: Array, wanted: Array | None = No
     notes = []
     if len(numbers) and (numbers != VIRTUAL).any():
         # Those that are easily taken for others.
-        odd = [f"{value.removesuffix(' of ')} is {SYMBOLS[number]}" for value, (name, *_), number in zip(values.tolist(), split, numbers.tolist())
+        odd = [f"{value.removesuffix(' of ')} is {SYMBOLS[number]}"
+               for value, (name, *_), number in zip(values.tolist(), split, numbers.tolist())
                if 0 < number < VIRTUAL and len(name) > 1 and name[:2].upper() in _NUMBERS]
         notes.append("elements are guessed from the names of residues and atoms" + (f": {listed(odd, 4)}" if odd else ""))
     if unknown := [value.removesuffix(" of ") for value in values[numbers == 0].tolist()]:

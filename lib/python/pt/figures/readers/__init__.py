@@ -41,8 +41,9 @@ def _molecules(format: str) -> Callable[[Lines], Frames]:
 
 
 FORMATS: Final[dict[str, Callable[[Lines], Frames]]] = {
-    "lammps": LammpsDump, "yaml": DumpYaml, "xyz": Xyz, "gro": Gro, "pdb": read_pdb, "pdbqt": lambda lines: read_pdb(lines, True),
-    "cif": read_cif, **{format: _molecules(format) for format in MOLECULES}, "poscar": _one(read_poscar), "xsf": read_xsf,
+    "lammps": LammpsDump, "yaml": DumpYaml, "xyz": Xyz, "gro": Gro, "pdb": read_pdb,
+    "pdbqt": lambda lines: read_pdb(lines, True), "cif": read_cif,
+    **{format: _molecules(format) for format in MOLECULES}, "poscar": _one(read_poscar), "xsf": read_xsf,
     "npy": read_npy, "npz": read_npz, "ply": _one(read_ply), "pcd": _one(read_pcd)}
 """Read line by line or as a whole, packed or not, also from standard input. "table" and "lammps-data" are, too."""
 
@@ -56,16 +57,17 @@ _FIRST_BYTES: Final = ((b"\x93NUMPY", "npy"), (b"PK\3\4", "npz"), (b"PK\5\6", "n
                        (b"LASF", "laspy"), (b"---\ncreator: LAMMPS", "yaml"), (b"\xdf\x85\xa8\x43", "gsd"))
 _ENDINGS: Final = {".dump": "lammps", ".lammpstrj": "lammps", ".xyz": "xyz", ".extxyz": "xyz", ".ply": "ply",
                    ".pcd": "pcd", ".npy": "npy", ".npz": "npz", ".yaml": "yaml", ".yml": "yaml", ".gro": "gro", ".pdb": "pdb",
-                   ".ent": "pdb", ".pdbqt": "pdbqt", ".cif": "cif", ".mmcif": "cif", ".pdbx": "cif", ".sdf": "sdf", ".sd": "sdf",
-                   ".mol": "sdf", ".mol2": "mol2", ".cml": "cml", ".poscar": "poscar", ".vasp": "poscar", ".xsf": "xsf",
-                   ".axsf": "xsf", ".gsd": "gsd", ".xtc": "xtc", ".trr": "trr", ".dcd": "dcd", ".tng": "tng", ".nc": "netcdf",
-                   ".ncdf": "netcdf", ".psf": "psf",
+                   ".ent": "pdb", ".pdbqt": "pdbqt", ".cif": "cif", ".mmcif": "cif", ".pdbx": "cif", ".sdf": "sdf",
+                   ".sd": "sdf", ".mol": "sdf", ".mol2": "mol2", ".cml": "cml", ".poscar": "poscar", ".vasp": "poscar",
+                   ".xsf": "xsf", ".axsf": "xsf", ".gsd": "gsd", ".xtc": "xtc", ".trr": "trr", ".dcd": "dcd", ".tng": "tng",
+                   ".nc": "netcdf", ".ncdf": "netcdf", ".psf": "psf",
                    **dict.fromkeys((".csv", ".tsv", ".txt", ".dat", ".asc", ".pts", ".xyzrgb", ".3d"), "table"),
                    **dict.fromkeys((".vtk", ".vtp", ".vtu", ".vti", ".vts", ".vtr", ".vtm", ".pvd"), "pyvista"),
                    **dict.fromkeys((".obj", ".stl", ".off", ".glb", ".gltf", ".3mf"), "trimesh"),
                    **dict.fromkeys((".las", ".laz"), "laspy"),
                    **dict.fromkeys((".pqr", ".mmtf", ".tpr", ".prmtop", ".parm7"), "mdanalysis")}
 _BOX: Final = re.compile(rb"(?m)^.*\b(xlo\s+xhi|avec)\b|^\s*\d+\s+atom types")
+_UNKNOWN: Final = ""
 _TEXTS: Final = ("table", "lammps-data", *FORMATS)
 
 
@@ -88,9 +90,11 @@ def open_frames(path: str, format: str | None, mapping: Mapping[str, str], topol
         return FORMATS[format](lines)
     if format == "psf":
         raise DataError(f"{lines.name}: has no positions: give it as the topology of a trajectory")
-    if format not in OTHERS:
+    if format not in (*OTHERS, _UNKNOWN):
         raise DataError(f"{lines.name}: format {format!r}: must be one of {listed([*_TEXTS, *TRAJECTORIES, *OTHERS], 40)}")
     lines.close()
+    if format == _UNKNOWN:
+        return _other.read_unknown(path)
     if not lines.is_file:
         raise DataError(f"{lines.name}: {format} reads files: standard input must be one of {listed(list(_TEXTS), 40)}")
     return OTHERS[format](path)
@@ -98,8 +102,8 @@ def open_frames(path: str, format: str | None, mapping: Mapping[str, str], topol
 
 def _trajectory(path: str, format: str, topology: str | None) -> Frames:
     if topology is None:
-        raise DataError(f"{path}: has positions alone: topology must name a file that says what the atoms are, such as PDB, GRO "
-                        "or PSF")
+        raise DataError(f"{path}: has positions alone: topology must name a file that says what the atoms are, such as "
+                        "PDB, GRO or PSF")
     lines = Lines(topology)
     kind = _format_of(lines)
     if OTHERS.get(kind) is _other.read_mdanalysis:
@@ -129,14 +133,15 @@ def _format_of(lines: Lines) -> str:
         return known
     if not lines.is_file or (name in ("", ".gz") and _is_table(start)):
         return "xyz" if first.isdecimal() and name != ".pts" else "table"
-    return "ase"
+    return _UNKNOWN
 
 
 def _of_content(start: bytes, lines: Lines) -> str | None:
     """The format of text whose first lines give it away, whatever its name."""
     if LAMMPS_DATA.search(start) and _BOX.search(start):
         return "lammps-data"
-    if re.match(rb"(HEADER|TITLE |REMARK|CRYST1|MODEL |ATOM  |HETATM)", start) and re.search(rb"(?m)^(ATOM  |HETATM)", lines.peek(1 << 20)):
+    is_record = re.match(rb"(HEADER|TITLE |REMARK|CRYST1|MODEL |ATOM  |HETATM)", start)
+    if is_record and re.search(rb"(?m)^(ATOM  |HETATM)", lines.peek(1 << 20)):
         return "pdb"
     if re.match(rb"(#.*\n|\s)*data_\S", start):
         return "cif"

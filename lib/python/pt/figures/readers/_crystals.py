@@ -25,7 +25,7 @@ ROUNDED: Final = 1e-4  # share of an edge: coordinates this little below 0 stay 
 
 def read_cif(lines: Lines) -> Listed:
     gemmi = module("gemmi", f"{lines.name}: CIF")
-    text = lines.text()
+    text = lines.text().decode("utf-8", "replace")
     document = tried(lines.name, "gemmi", lambda: gemmi.cif.read_string(text))
     for block in document:
         if block.find_loop("_atom_site.Cartn_x") or block.find_value("_atom_site.Cartn_x"):
@@ -41,7 +41,8 @@ def read_cif(lines: Lines) -> Listed:
                 block.set_pair(tag, gemmi.cif.as_string(value) or "?")  # gemmi reads none in quotation marks
 
     def read(index: int) -> Table:
-        table = _table(gemmi, tried(lines.name, "gemmi", lambda: gemmi.make_small_structure_from_block(blocks[index])))
+        structure = tried(lines.name, "gemmi", lambda: gemmi.make_small_structure_from_block(blocks[index]))
+        table = _table(lines.name, structure)
         if len(blocks) > 1:
             table.notes.append(f"structure {index} of {len(blocks)} is shown, {names[index]}: frame takes another of "
                                f"{listed(names)}")
@@ -50,14 +51,16 @@ def read_cif(lines: Lines) -> Listed:
     return Listed(lines.name, len(blocks), read, current=0)
 
 
-def _table(gemmi: Any, structure: Any) -> Table:
+def _table(name: str, structure: Any) -> Table:
     notes: list[str] = []
     _choose_sites(structure, notes)
-    _set_symmetry(gemmi, structure, notes)
+    _set_symmetry(structure, notes)
     sites = structure.get_all_unit_cell_sites()
+    if not len(sites):
+        raise DataError(f"{name}: no site has a position")
     cell = Cell.of_lengths(structure.cell.parameters[:3], structure.cell.parameters[3:])
     if cell is None:
-        raise DataError(f"{structure.name}: the lengths and angles of the cell span no volume")
+        raise DataError(f"{name}: the lengths and angles of the cell span no volume")
     shares = np.array([site.fract.tolist() for site in sites]).reshape(-1, 3)
     shares -= np.floor(shares + ROUNDED)
     occupancy = np.array([site.occ for site in sites])
@@ -68,14 +71,14 @@ def _table(gemmi: Any, structure: Any) -> Table:
         notes.append(f"{partly:,} sites are occupied in part, and drawn as if always")
     elements = np.array([sites[row].element.atomic_number for row in kept], np.uint8)
     columns = {"name": np.array([sites[row].label for row in kept], str), "occupancy": occupancy[kept]}
-    return atoms_table(shares[kept] @ cell.vectors, columns, np.where(elements > 118, 1, elements).astype(np.uint8), cell, notes=notes)
+    return atoms_table(shares[kept] @ cell.vectors, columns, elements, cell, notes=notes)
 
 
-def _set_symmetry(gemmi: Any, structure: Any, notes: list[str]) -> None:
+def _set_symmetry(structure: Any, notes: list[str]) -> None:
     structure.determine_and_set_spacegroup("S.H2")
     if structure.spacegroup is None and not structure.symops:
-        notes.append("the symmetry is not given or not known" + (f" ({structure.spacegroup_hm})" if structure.spacegroup_hm else "") +
-                     ": only the sites of the file are drawn")
+        named = f" ({structure.spacegroup_hm})" if structure.spacegroup_hm else ""
+        notes.append(f"the symmetry is not given or not known{named}: only the sites of the file are drawn")
 
 
 def _choose_sites(structure: Any, notes: list[str]) -> None:
@@ -104,7 +107,7 @@ def _foremost(shares: Any, occupancy: Any, cell: Cell) -> Any:
     rank = np.empty(len(order), np.intp)
     rank[order] = np.arange(len(order))
     lost = np.zeros(len(order), bool)
-    for better, worse in sorted(zip(np.minimum(rank[first], rank[second]).tolist(), np.maximum(rank[first], rank[second]).tolist())):
+    for better, worse in sorted(np.sort(rank[np.stack([first, second], 1)], axis=1).tolist()):
         if not lost[better]:
             lost[worse] = True
     return np.flatnonzero(~lost[rank])

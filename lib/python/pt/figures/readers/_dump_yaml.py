@@ -10,7 +10,7 @@ from pt.figures._cell import Cell
 from pt.figures._particles import Table, coordinate_names
 from pt.figures.readers._frames import TextFrames
 from pt.figures.readers._lines import Lines
-from pt.figures.readers._rows import Layout, Rows, is_number, shown
+from pt.figures.readers._rows import Layout, Rows, are_numbers, number, shown
 
 
 class DumpYaml(TextFrames):
@@ -30,7 +30,9 @@ class DumpYaml(TextFrames):
             if key == "natoms" and words[0].isdecimal():
                 count = int(words[0])
             elif key == "boundary":
-                periodic = [word.startswith("p") for word in words if word][::2][:3] or periodic
+                if len(words) < 6:
+                    raise lines.refuse(f"{shown(line)}: must have six boundaries, like p, p, p, p, p, p")
+                periodic = [word.startswith("p") for word in words[:6:2]]
             elif key == "keywords":
                 names = [word for word in words if word]
             elif key == "box" and line.lstrip().startswith("-"):
@@ -40,10 +42,12 @@ class DumpYaml(TextFrames):
                     raise lines.refuse("data: natoms and keywords must come before")
                 self._names = names
                 self._cell = None
-                if len(bounds) >= 3:
-                    tilts = bounds[3] if len(bounds) > 3 else [0.0] * 3
-                    (x, y, z), low = ([high - low for low, high in bounds[:3]], [low for low, _ in bounds[:3]])
-                    self._cell = Cell.of([[x, 0, 0], [tilts[0], y, 0], [tilts[1], tilts[2], z]], low, periodic)
+                if bounds:
+                    if [len(row) for row in bounds] not in ([2, 2, 2], [2, 2, 2, 3]):
+                        raise lines.refuse("box: must be three pairs of bounds and, if it is tilted, three tilts")
+                    low, high = np.array(bounds[:3]).T
+                    (x, y, z), (xy, xz, yz) = high - low, bounds[3] if len(bounds) > 3 else (0, 0, 0)
+                    self._cell = Cell.of([[x, 0, 0], [xy, y, 0], [xz, yz, z]], low, periodic)
                 return count
         if count is not None:
             raise lines.refuse("the file ends within the head of a frame: it was cut short")
@@ -51,9 +55,9 @@ class DumpYaml(TextFrames):
 
     def _bounds(self, line: str) -> list[float]:
         words = [word for word in re.split(r"[\s,\[\]]+", line.lstrip(" -")) if word]
-        if len(words) not in (2, 3) or not all(map(is_number, words)):
+        if len(words) not in (2, 3) or not are_numbers(words):
             raise self.lines.refuse(f"{shown(line)}: must be bounds of the box, like - [ 0, 1 ]")
-        return [float(word) for word in words]
+        return [number(word) for word in words]
 
     def body(self, count: int) -> Table:
         rows = Rows(self.lines, Layout(self._names, coordinate_names(self._names)[0]))

@@ -12,7 +12,7 @@ from pt.figures._errors import DataError
 from pt.figures._particles import Table
 from pt.figures.readers._atoms import atoms_table
 from pt.figures.readers._frames import TextFrames
-from pt.figures.readers._rows import is_number, shown
+from pt.figures.readers._rows import are_numbers, is_number, shown
 
 ANGSTROMS: Final = 10.0  # in a nanometre
 _NAMES: Final = {"resid": slice(0, 5), "resname": slice(5, 10), "name": slice(10, 15)}
@@ -55,9 +55,8 @@ class Gro(TextFrames):
         if len(points) < 3:
             raise self.lines.refuse(f"{shown(rows[0].decode('utf-8', 'replace'))}: must have three coordinates from column 21")
         width = points[1] - points[0]
-        fields = {**_NAMES, **{axis: slice(_START + i * width, _START + (i + 1) * width) for i, axis in enumerate("xyz")}}
-        if len(points) >= 6:
-            fields.update((axis, slice(_START + i * width, _START + (i + 1) * width)) for i, axis in enumerate(("vx", "vy", "vz"), 3))
+        axes = ("x", "y", "z", "vx", "vy", "vz")[:6 if len(points) >= 6 else 3]
+        fields = {**_NAMES, **{axis: slice(_START + i * width, _START + (i + 1) * width) for i, axis in enumerate(axes)}}
         columns: dict[str, npt.NDArray[Any]] = {}
         for name, place in fields.items():
             part = np.ascontiguousarray(letters[:, place])
@@ -70,9 +69,10 @@ class Gro(TextFrames):
             except ValueError:
                 if name not in "xyz":
                     continue  # velocities that are not whole, numbers of residues that are none
-                row = next(row for row, word in enumerate(words) if not is_number(word.decode("utf-8", "replace").strip() or "?"))
-                word = words[row].decode("utf-8", "replace").strip()
-                raise DataError(f"{self.lines.name}:{first + row}: {name} = {word!r}: must be a number of {width} columns") from None
+                texts = [word.decode("utf-8", "replace").strip() for word in words]
+                row = next(row for row, text in enumerate(texts) if not text or not is_number(text))
+                raise DataError(f"{self.lines.name}:{first + row}: {name} = {texts[row]!r}: must be a number of {width} "
+                                "columns") from None
         return columns
 
     def _cell(self) -> Cell | None:
@@ -82,7 +82,7 @@ class Gro(TextFrames):
         words = line.split()
         if len(words) < 3 <= len(points):  # numbers that touch
             words = [line[start:start + width] for start in range(0, len(line.rstrip()), width)]
-        if len(words) not in (3, 9) or not all(map(is_number, words)):
+        if len(words) not in (3, 9) or not are_numbers(word.strip() for word in words):
             raise self.lines.refuse(f"{shown(line)}: the cell must have 3 or 9 numbers")
         vectors = np.zeros((3, 3))
         for place, word in zip(_BOX, words):

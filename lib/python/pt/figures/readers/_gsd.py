@@ -32,7 +32,8 @@ def _table(file: Any, index: int, frame: Any) -> Table:
     names = set(particles.types)
     elements = elements_of(kinds)[0] if count and names <= set(SYMBOLS) else None
     bonds = None if frame.bonds is None or frame.bonds.N == 0 else Bonds.of(np.asarray(frame.bonds.group))
-    return Table(columns, _cell(frame.configuration), elements=elements, types=None if elements is not None else kinds, bonds=bonds)
+    types = kinds if elements is None else None
+    return Table(columns, _cell(frame.configuration), elements=elements, types=types, bonds=bonds)
 
 
 def _cell(configuration: Any) -> Cell | None:

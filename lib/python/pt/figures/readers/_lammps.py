@@ -11,7 +11,7 @@ from pt.figures._cell import Cell
 from pt.figures._particles import Table, coordinate_names
 from pt.figures.readers._frames import TextFrames
 from pt.figures.readers._lines import Lines
-from pt.figures.readers._rows import Layout, Rows, is_number, shown
+from pt.figures.readers._rows import Layout, Rows, are_numbers, number, shown
 
 _HEAD_ENDS = "the file ends within the head of a frame: it was cut short"
 
@@ -71,9 +71,9 @@ class LammpsDump(TextFrames):
     def _numbers(self, count: int) -> list[float]:
         line = self._line()
         words = line.split()
-        if len(words) != count or not all(map(is_number, words)):
+        if len(words) != count or not are_numbers(words):
             raise self.lines.refuse(f"{shown(line)}: the cell has {count} numbers in a line")
-        return [float(word) for word in words]
+        return [number(word) for word in words]
 
     def _box(self, words: list[str]) -> Cell | None:
         """Words: "pp pp ff", after "xy xz yz" if the cell is tilted, or "abc origin" if its edges are free."""

@@ -14,7 +14,7 @@ from pt.figures._errors import DataError
 from pt.figures._particles import Bonds, Table
 from pt.figures.readers._atoms import atoms_table
 from pt.figures.readers._lines import Lines
-from pt.figures.readers._rows import is_number, number, shown
+from pt.figures.readers._rows import are_numbers, is_number, number, shown
 
 Array = npt.NDArray[Any]
 
@@ -23,7 +23,8 @@ STYLES: Final = {style: columns.split() for style, columns in {
     "atomic": "id type x y z", "charge": "id type q x y z", "molecular": "id mol type x y z", "full": "id mol type q x y z",
     "sphere": "id type diameter density x y z", "ellipsoid": "id type is_ellipsoid density x y z",
     "dipole": "id type q x y z mux muy muz", "spin": "id type x y z spx spy spz sp", "peri": "id type volume density x y z",
-    "line": "id mol type is_line density x y z", "tri": "id mol type is_triangle density x y z", "body": "id type is_body mass x y z",
+    "line": "id mol type is_line density x y z", "tri": "id mol type is_triangle density x y z",
+    "body": "id type is_body mass x y z",
     "electron": "id type q spin eradius x y z", "dpd": "id type theta x y z", "mdpd": "id type rho x y z",
     "edpd": "id type temperature cv x y z", "tdpd": "id type x y z", "sph": "id type rho esph cv x y z",
     "template": "id mol index atom type x y z", "dielectric": "id mol type q x y z", "hybrid": "id type x y z",
@@ -62,7 +63,7 @@ class LammpsData:
             text, _, hint = line.partition("#")
             text = text.strip()
             if found := _BOUNDS.fullmatch(text):
-                self.box[found[2]] = self._numbers(found[1])
+                self.box[found[2]] = self._numbers(found[1], 2 if "lo" in found[2] else 3)
             elif found := _HEADER.fullmatch(text):
                 self.counts[found[2].strip()] = int(found[1])
             elif text[:1].isupper() and _SECTION.fullmatch(text):
@@ -78,7 +79,8 @@ class LammpsData:
                 self.masses[row[0]] = number(row[1])
                 self.names.setdefault(row[0], row[2] if len(row) > 2 else "")
         elif name == "Atom Type Labels":
-            self.names.update((row[0], row[1]) for row in self._rows(self.counts.get("atom types", 0), "labels") if len(row) > 1)
+            rows = self._rows(self.counts.get("atom types", 0), "labels")
+            self.names.update((row[0], row[1]) for row in rows if len(row) > 1)
         elif name == "Bonds":
             self.bonds = self._rows(self.counts.get("bonds", 0), "bonds")
         elif name == "Ellipsoids":
@@ -96,9 +98,9 @@ class LammpsData:
                 rows.append(words)
         return rows
 
-    def _numbers(self, text: str) -> list[float]:
-        if not all(map(is_number, text.split())):
-            raise self.lines.refuse(f"{shown(text)}: must be numbers")
+    def _numbers(self, text: str, count: int) -> list[float]:
+        if len(text.split()) != count or not are_numbers(text.split()):
+            raise self.lines.refuse(f"{shown(text)}: must be {count} numbers")
         return [number(word) for word in text.split()]
 
     def _atoms(self, rows: list[list[str]], hint: str) -> None:
@@ -108,13 +110,14 @@ class LammpsData:
         width = len(rows[0])
         names = STYLES[self._style(rows, hint)]
         if width < len(names):
-            raise DataError(f"{self.lines.name}:{first}: {shown(' '.join(rows[0]))}: has {width} columns; atom_style {self.style} has "
-                            f"{len(names)}: {' '.join(names)}")
+            raise DataError(f"{self.lines.name}:{first}: {shown(' '.join(rows[0]))}: has {width} columns; atom_style "
+                            f"{self.style} has {len(names)}: {' '.join(names)}")
         if width >= len(names) + 3 and all(is_whole(word) for word in rows[0][-3:]):
             names = [*names, *(f"column {i}" for i in range(len(names) + 1, width - 2)), *_IMAGES]
         for i, row in enumerate(rows):
             if len(row) < len(names):
-                raise DataError(f"{self.lines.name}:{first + i}: {shown(' '.join(row))}: has {len(row)} values, must have {len(names)}")
+                raise DataError(f"{self.lines.name}:{first + i}: {shown(' '.join(row))}: has {len(row)} values, must have "
+                                f"{len(names)}")
         for i, name in enumerate(names):
             words = np.array([row[i] for row in rows])
             if name == "type" and not words[0].isdecimal():
@@ -123,8 +126,9 @@ class LammpsData:
             try:
                 values = words.astype(np.float64)
             except ValueError:
-                bad = next(row for row, word in enumerate(words.tolist()) if not is_number(word))
-                raise DataError(f"{self.lines.name}:{first + bad}: {name} = {words[bad]!r}: must be a number") from None
+                if (bad := next((row for row, word in enumerate(words.tolist()) if not is_number(word)), None)) is not None:
+                    raise DataError(f"{self.lines.name}:{first + bad}: {name} = {words[bad]!r}: must be a number") from None
+                values = np.array([number(word) for word in words.tolist()])
             is_integer = name in ("id", "mol", "type", *_IMAGES) and np.isfinite(values).all()
             self.columns[name] = values.astype(np.int64) if is_integer else values
 
@@ -146,8 +150,8 @@ class LammpsData:
             if "sphere" in choices and (self.counts.get("bonds") or any(row[2].startswith("-") for row in some)):
                 choices = ()
         if not choices:
-            raise self.lines.refuse(f"the atom style is not known: {width} columns, like {shown(' '.join(rows[0]))}, and no hint after "
-                                    "Atoms: atom_style says it")
+            raise self.lines.refuse(f"the atom style is not known: {width} columns, like {shown(' '.join(rows[0]))}, and no "
+                                    "hint after Atoms: atom_style says it")
         self.style = choices[0]
         self.notes.append(f"the atom style is taken to be {self.style}, by the columns")
         return self.style
@@ -193,14 +197,16 @@ class LammpsData:
         try:
             return Bonds.of([(index[int(row[2])], index[int(row[3])]) for row in self.bonds])
         except (KeyError, ValueError, IndexError):
-            raise DataError(f"{self.lines.name}: Bonds: each must have a number, a type and two of the atoms' numbers") from None
+            raise DataError(f"{self.lines.name}: Bonds: each must have a number, a type and two of the atoms' numbers"
+                            ) from None
 
     def _put_shapes(self, columns: dict[str, Array]) -> None:
         index = dict(zip(columns["id"].tolist(), range(len(columns["id"]))))
         shapes = np.zeros((len(index), 3))
         for row in self.shapes:
             if len(row) < 4 or not row[0].isdecimal() or int(row[0]) not in index or not all(map(is_number, row[1:4])):
-                raise DataError(f"{self.lines.name}: Ellipsoids: {shown(' '.join(row))}: must be an atom's number and three diameters")
+                raise DataError(f"{self.lines.name}: Ellipsoids: {shown(' '.join(row))}: must be an atom's number and three "
+                                "diameters")
             shapes[index[int(row[0])]] = [number(word) for word in row[1:4]]
         columns.update(zip(("shapex", "shapey", "shapez"), shapes.T))
 

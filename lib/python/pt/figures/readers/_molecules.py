@@ -24,15 +24,11 @@ TRAJECTORIES: Final = {"xtc": "XTC", "trr": "TRR", "dcd": "DCD", "tng": "TNG", "
 _NUMBERS: Final = {**NUMBERS, **dict.fromkeys(("Du", "LP", "Lp", "Xx"), VIRTUAL)}
 
 
-def _chemfiles(name: str, format: str) -> Any:
-    chemfiles = module("chemfiles", f"{name}: {format}")
-    chemfiles.set_warnings_callback(lambda message: None)
-    return chemfiles
-
-
 def read_molecules(lines: Lines, format: str) -> Listed:
-    chemfiles = _chemfiles(lines.name, format)
+    chemfiles = module("chemfiles", f"{lines.name}: {format}")
     text = lines.text().decode("utf-8", "replace")
+    if format == "mol2" and "@<TRIPOS>BOND" not in text:
+        text += "\n@<TRIPOS>BOND\n"  # chemfiles wants one
     file = tried(lines.name, "chemfiles", lambda: chemfiles.MemoryTrajectory(text, "r", MOLECULES[format]))
     count = file.nsteps
     if not count:
@@ -64,12 +60,12 @@ def _cell(frame: Any) -> Cell | None:
 
 def read_trajectory(path: str, format: str, topology: Callable[[], Table]) -> Frames:
     """The frames of a trajectory. topology: what its atoms are."""
-    chemfiles = _chemfiles(path, format)
+    chemfiles = module("chemfiles", f"{path}: {format}")
     file = tried(path, "chemfiles", lambda: chemfiles.Trajectory(path, "r", TRAJECTORIES[format]))
     atoms = topology()
     positions = next(iter(atoms.columns.values()))
     sites = atoms.sites or len(np.asarray(positions))
-    columns = {key: values for key, values in atoms.columns.items() if key not in ("positions", "x", "y", "z", "vx", "vy", "vz")}
+    columns = {key: values for key, values in atoms.columns.items() if key not in ("positions", "vx", "vy", "vz")}
 
     def read(index: int) -> Table:
         frame = tried(path, "chemfiles", lambda: file.read_step(index))

@@ -13,12 +13,16 @@ from pt.figures._particles import Table
 from pt.figures.readers._frames import Frames, Listed, one_frame
 from pt.figures.readers._objects import of_ase, of_mdanalysis
 
-def read_ase(path: str) -> Frames:
+def read_ase(path: str, asked: str = "ASE") -> Frames:
     read = module("ase.io", f"{path}: this format").read
-    images = tried(path, "ASE", lambda: read(path, index=":"))
+    images = tried(path, asked, lambda: read(path, index=":"))
     if not images:
-        raise DataError(f"{path}: ASE finds no atoms in it")
+        raise DataError(f"{path}: {asked} finds no atoms in it")
     return Listed(path, len(images), lambda index: of_ase(images[index]))
+
+
+def read_unknown(path: str) -> Frames:
+    return read_ase(path, "neither its name nor its first lines say the format, and ASE")
 
 
 def read_mdanalysis(path: str, *trajectory: str) -> Frames:

@@ -12,7 +12,7 @@ from pt.figures._elements import elements_of
 from pt.figures._particles import Table
 from pt.figures.readers._atoms import atoms_table
 from pt.figures.readers._lines import Lines
-from pt.figures.readers._rows import Layout, Rows, is_number, shown
+from pt.figures.readers._rows import Layout, Rows, are_numbers, is_number, number, shown
 
 
 def read_poscar(lines: Lines) -> Table:
@@ -24,7 +24,7 @@ def read_poscar(lines: Lines) -> Table:
     scale = np.array(scales if len(scales) == 3 else scales * 3)
     line = _line(lines)
     symbols = comment.split()
-    if not line.split()[0].isdecimal():
+    if not line.strip()[:1].isdecimal():
         symbols, line = line.split(), _line(lines)
     counts = [int(word) for word in line.split("!")[0].split() if word.isdecimal()]
     if not counts or len(counts) > len(symbols):
@@ -55,6 +55,6 @@ def _numbers(lines: Lines, counts: tuple[int, ...]) -> list[Any]:
     words = line.split("!")[0].split()
     while words and not is_number(words[-1]):
         words.pop()
-    if len(words) not in counts or not all(map(is_number, words)):
+    if len(words) not in counts or not are_numbers(words):
         raise lines.refuse(f"{shown(line)}: must have {' or '.join(map(str, counts))} numbers")
-    return [float(word) for word in words]
+    return [number(word) for word in words]

@@ -6,6 +6,7 @@ from __future__ import annotations
 import csv
 import io
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any, Final
 
@@ -21,6 +22,7 @@ Array = npt.NDArray[Any]
 _TABLE: Final = ""  # the key of three columns of positions, which are kept as one table
 FEW_BYTES: Final = 1 << 16  # so few are read without importing pandas
 MISSING: Final = ("", "nan", "NaN", "NAN", "-nan", "NA", "N/A", "n/a", "null", "None", "-")
+_WHOLE: Final = re.compile(r"[+-]?\d+")
 _EXPONENT: Final = re.compile(r"([\d.])(?:[dD]|\*\^)([+-]?\d)")
 
 
@@ -46,7 +48,8 @@ class Layout:
 
 
 def number(text: str, decimal: str = ".") -> float:
-    """A number from text, also with exponents of Fortran (1.5D+02) and Mathematica (1.5*^2); NaN for a missing value. Raises ValueError."""
+    """A number from text, also with exponents of Fortran (1.5D+02) and Mathematica (1.5*^2); NaN for a missing value.
+    Raises ValueError."""
     if text in MISSING:
         return np.nan
     if "_" in text:
@@ -60,6 +63,11 @@ def is_number(text: str, decimal: str = ".") -> bool:
     except ValueError:
         return False
     return True
+
+
+def are_numbers(words: Iterable[str]) -> bool:
+    """Whether all words are numbers, none of them missing."""
+    return all(word not in MISSING and is_number(word) for word in words)
 
 
 def is_comment(line: str) -> bool:
@@ -224,7 +232,7 @@ class Rows:
         name = self.layout.names[column]
         if self._are_words[column]:
             return np.array(words, str)
-        if all(word.lstrip("+-").isdecimal() and len(word) < 19 for word in words):
+        if all(len(word) < 19 and _WHOLE.fullmatch(word) for word in words):
             return np.array([int(word) for word in words], np.int64)
         values = np.empty(len(words))
         for i, word in enumerate(words):

@@ -31,7 +31,8 @@ def read_pdb(lines: Lines, is_pdbqt: bool = False) -> Listed:
     """The models of a PDB file, each of which gemmi reads on its own: their cells may differ, and numbers be given
     twice."""
     gemmi = module("gemmi", f"{lines.name}: PDB")
-    others, models = _split(lines.text().replace(b"\r", b"").split(b"\n"), _with_autodock_element if is_pdbqt else _with_element)
+    rows = lines.text().replace(b"\r", b"").split(b"\n")
+    others, models = _split(rows, _with_autodock_element if is_pdbqt else _with_element)
     if not models:
         raise DataError(f"{lines.name}: has no atoms: no line begins with ATOM or HETATM")
 
@@ -68,6 +69,9 @@ def _split(lines: list[bytes], completed: Callable[[bytes], bytes]) -> tuple[lis
             atoms = []
             if kind.rstrip() == b"MODEL" and line[6:].strip().isdigit():
                 number = int(line[6:])
+    cells = [model[0] for _, model in models if model[0]]
+    for _, model in models:
+        model[0] = model[0] or next(iter(cells), b"")  # a cell may come after its model
     return others, models
 
 
@@ -130,7 +134,9 @@ def _words(letters: Array) -> Array:
     """Words from rows of letters that end in zeros."""
     rows = np.ascontiguousarray(letters).view(np.uint8)
     width = max(1, int((rows != 0).any(axis=0).sum()))
-    words: Array = np.char.strip(np.ascontiguousarray(rows[:, :width]).view(f"S{width}").reshape(-1).astype(f"U{width}"))
+    packed = np.ascontiguousarray(rows[:, :width]).view(f"S{width}").reshape(-1)
+    is_plain = rows.max(initial=0) < 128
+    words: Array = np.char.strip(packed.astype(f"U{width}") if is_plain else np.char.decode(packed, "utf-8", "replace"))
     return words
 
 
@@ -169,14 +175,15 @@ def _bonds(structure: Any, columns: dict[str, Array], notes: list[str]) -> Bonds
 def _connections(structure: Any, columns: dict[str, Array]) -> Iterator[tuple[int, int]]:
     """Bonds of struct_conn, or LINK and SSBOND, within the asymmetric unit. Hydrogen bonds are none."""
     gemmi = module("gemmi", structure.name)
-    wanted = [each for each in structure.connections if each.type != gemmi.ConnectionType.Hydrog and each.asu != gemmi.Asu.Different]
+    wanted = [each for each in structure.connections
+              if each.type != gemmi.ConnectionType.Hydrog and each.asu != gemmi.Asu.Different]
     if not wanted:
         return
     keys = zip(*(columns[key].tolist() for key in ("chain", "resid", "icode", "name", "altloc")))
     index = {key: row for row, key in enumerate(keys)}
     for each in wanted:
-        ends = [index.get((end.chain_name, end.res_id.seqid.num, end.res_id.seqid.icode.strip(), end.atom_name, end.altloc.strip("\0 ")))
-                for end in (each.partner1, each.partner2)]
+        ends = [index.get((end.chain_name, end.res_id.seqid.num, end.res_id.seqid.icode.strip(), end.atom_name,
+                           end.altloc.strip("\0 "))) for end in (each.partner1, each.partner2)]
         if ends[0] is not None and ends[1] is not None and ends[0] != ends[1]:
             yield ends[0], ends[1]
 

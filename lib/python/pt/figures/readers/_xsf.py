@@ -14,7 +14,7 @@ from pt.figures._particles import Table
 from pt.figures.readers._atoms import atoms_table
 from pt.figures.readers._frames import Listed
 from pt.figures.readers._lines import Lines
-from pt.figures.readers._rows import is_number, shown
+from pt.figures.readers._rows import are_numbers, number, shown
 
 _PERIODIC: Final = {"CRYSTAL": (True, True, True), "SLAB": (True, True, False), "POLYMER": (True, False, False)}
 
@@ -44,6 +44,7 @@ def read_xsf(lines: Lines) -> Listed:
         elif word.startswith("BEGIN_BLOCK"):
             break  # grids of numbers
         line = lines.line()
+    steps = [step for step in steps if step[1]]
     if not steps:
         raise DataError(f"{lines.name}: has no atoms: neither PRIMCOORD nor ATOMS")
     return Listed(lines.name, len(steps), lambda index: _table(kind, *steps[index]))
@@ -52,18 +53,18 @@ def read_xsf(lines: Lines) -> Listed:
 def _table(kind: str, vectors: npt.NDArray[Any] | None, rows: list[list[str]]) -> Table:
     elements, notes = elements_of(np.array([row[0] for row in rows], str))
     cell = None if vectors is None else Cell.of(vectors, periodic=_PERIODIC.get(kind, False))
-    return atoms_table(np.array([row[1:4] for row in rows], np.float64).reshape(-1, 3), {}, elements, cell, notes=notes)
+    return atoms_table(np.array([[number(word) for word in row[1:4]] for row in rows]), {}, elements, cell, notes=notes)
 
 
 def _row(lines: Lines, line: str) -> list[str]:
     words = line.split()
-    if len(words) < 4 or not all(map(is_number, words[1:4])):
+    if len(words) < 4 or not are_numbers(words[1:4]):
         raise lines.refuse(f"{shown(line)}: must be an element and three coordinates")
     return words
 
 
 def _numbers(lines: Lines, count: int) -> list[float]:
     line = lines.line() or ""
-    if len(line.split()) < count or not all(map(is_number, line.split()[:count])):
+    if len(line.split()) < count or not are_numbers(line.split()[:count]):
         raise lines.refuse(f"{shown(line)}: must have {count} numbers")
-    return [float(word) for word in line.split()[:count]]
+    return [number(word) for word in line.split()[:count]]

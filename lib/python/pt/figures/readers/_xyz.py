@@ -11,7 +11,7 @@ from pt.figures._cell import Cell
 from pt.figures._particles import Table, coordinate_names
 from pt.figures.readers._frames import TextFrames
 from pt.figures.readers._lines import Lines
-from pt.figures.readers._rows import Layout, Rows, is_number, shown
+from pt.figures.readers._rows import Layout, Rows, are_numbers, is_number, number, shown
 
 _PAIR: Final = re.compile(r"""([^\s="]+)\s*=\s*(?:"([^"]*)"|'([^']*)'|\{([^}]*)\}|(\[[^"'=]*\])(?=\s|$)|(\S*))""")
 _MOST_COLUMNS: Final = 65536
@@ -70,9 +70,9 @@ class Xyz(TextFrames):
 
     def _numbers(self, key: str, count: int) -> Any:
         words = re.findall(r"[^\s,\[\]]+", self._pairs[key])
-        if len(words) != count or not all(map(is_number, words)):
+        if len(words) != count or not are_numbers(words):
             raise self.lines.refuse(f"{key} = {shown(self._pairs[key])}: must have {count} numbers")
-        return np.array(words, np.float64)
+        return np.array([number(word) for word in words])
 
     def _cell(self) -> Cell | None:
         if "lattice" not in self._pairs:
