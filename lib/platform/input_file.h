@@ -35,7 +35,7 @@ public:
 
     std::string all();
 
-    // The whole text. Throws if there is a NUL byte, without reading beyond its block.
+    // The whole text. A file with a NUL byte is no text, and is read only up to the block with that byte.
     std::string text();
 
 private:

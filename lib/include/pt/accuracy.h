@@ -1,6 +1,5 @@
 /** @file
- * pt: how well a device computes the kernel's elementary functions, for self-tests of devices and drivers.
- */
+ * pt: accuracy of the kernel's elementary functions, for self-tests of devices and drivers. */
 #ifndef PT_ACCURACY_H
 #define PT_ACCURACY_H
 
@@ -10,21 +9,20 @@
 extern "C" {
 #endif
 
-/** How well a device evaluates one of the kernel's elementary functions. Errors are in ulp of the exact value y, which
- * is 2^(e - 23) for 2^e <= |y| < 2^(e + 1). */
+/** A device's accuracy in one elementary function. Errors are in ulp of the exact value y, 2^(e - 23) for 2^e <= |y|
+ * < 2^(e + 1). */
 typedef struct pt_function_accuracy {
     char name[40];      /**< UTF-8, zero-terminated */
-    double worst_error; /**< the largest found, >= 0; infinite where the device gave NaN, infinity or nothing */
-    double bound;       /**< what it stays within on every device that keeps Vulkan's promises */
-    double worst_input; /**< argument at which it was found */
+    double worst_error; /**< the largest, >= 0; infinite where the device gave NaN, infinity or nothing */
+    double bound;       /**< holds on every device that keeps Vulkan's promises */
+    double worst_input; /**< argument of worst_error */
 } pt_function_accuracy;
 
-/** Evaluates the kernel's elementary functions on this context's device over fixed inputs and compares them with
- * double precision.
+/** Compares the kernel's elementary functions on this context's device with double precision, for fixed inputs.
  *
  * Changes nothing, and needs no scene. If rows is NULL, *count receives the number of functions and nothing is
- * evaluated. Otherwise at most *count rows are written, and *count receives how many were. A worst_error above its
- * bound is what this call is meant to find: the call itself succeeds.
+ * evaluated. Otherwise at most *count rows are written, and *count receives how many were. The call also succeeds if a
+ * worst_error is above its bound.
  *
  * One thread at a time per context. PT_ERROR_SHADER, PT_ERROR_OUT_OF_DEVICE_MEMORY, PT_ERROR_DEVICE_LOST: the driver
  * said so. */

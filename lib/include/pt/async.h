@@ -1,9 +1,8 @@
 /** @file
- * pt: samples that are taken while the program does something else.
+ * pt: samples in the background, while the program does something else.
  *
- * pt_start begins what pt_accumulate does and returns at once; pt_poll goes on with it; pt_cancel ends it early.
- * Whatever the pattern of polls, the image has the bits that pt_accumulate gives it, and a target error is reached at
- * the same number of samples.
+ * pt_start begins a pt_accumulate and returns at once; pt_poll goes on with it; pt_cancel ends it early. The pattern of
+ * polls changes neither the image's bits nor the number of samples at which a target error is reached.
  *
  *     result = pt_start(context, &info);
  *     while (result == PT_PENDING) {
@@ -13,22 +12,20 @@
  *     if (result >= 0)
  *         result = pt_readback(context, &image);
  *
- * - Threads: the library starts none. Between calls each device works through the submissions that it has been given,
- *   at most two (pt_create_info.submit_milliseconds), and nothing happens on the host: only pt_poll gives devices more
- *   work. To keep them busy, let pt_poll wait for as long as the program can spare, or make submissions longer than the
- *   time between two polls. Any thread may poll, one at a time, and cancel, also while another one polls.
+ * - Threads: the library starts none. Between calls each device works through at most two submissions
+ *   (pt_create_info.submit_milliseconds); only pt_poll gives devices more work. To keep them busy, let pt_poll wait for
+ *   as long as the program can spare, or make submissions longer than the time between two polls. Any thread may poll,
+ *   one at a time, and cancel, also while another one polls.
  * - While samples are under way, from a pt_start that returns PT_PENDING to the first pt_poll that returns anything
  *   else, all other calls on the context are refused (PT_ERROR_INVALID_STATE) and change nothing, except pt_cancel,
  *   pt_get_context_device, pt_last_error, pt_get_broken_rule and pt_destroy, which waits for the submissions under way.
  *   To change the scene or the camera earlier, call pt_cancel and then pt_poll to the end: until the submissions under
  *   way have ended and, where one sample of all pixels takes several, those that complete it.
- * - Ownership: pt_start copies what it is given, so nothing has to outlive the call, except what has to outlive the
- *   context anyway, such as a lent device (pt/vulkan.h).
- * - Callbacks: info.progress must be NULL, since pt_poll says how far the samples are. The log, the functions that keep
- *   kernels and those that lock a lent queue are called within pt_start and pt_poll, on the thread that calls them,
- *   never between calls.
- * - Failures: whole samples are kept, as by pt_accumulate. A pt_poll that fails has ended what was under way, and may
- *   have waited for that longer than it was asked to. Any call on the context may follow, unless the device is lost.
+ * - Ownership: pt_start copies its arguments; only a lent device (pt/vulkan.h) must outlive the context as always.
+ * - Callbacks: info.progress must be NULL, since pt_poll returns the progress. All others are called within pt_start
+ * and pt_poll, on their thread, never between calls.
+ * - Failures: whole samples are kept, as by pt_accumulate. A pt_poll that fails has ended the work under way, perhaps
+ *   after waiting longer than asked. Any call on the context may follow, unless the device is lost.
  */
 #ifndef PT_ASYNC_H
 #define PT_ASYNC_H
@@ -39,7 +36,7 @@
 extern "C" {
 #endif
 
-/** Begins to add samples to every pixel without waiting for them.
+/** Begins to add samples without waiting for them.
  *
  * Returns PT_PENDING if samples are now under way, to be polled. PT_TARGET_REACHED: the image has the target error
  * already, and nothing is under way. All kernels that the samples may need are built here (pt_prepare builds most of
@@ -49,12 +46,11 @@ extern "C" {
  * not NULL. */
 PT_API pt_result pt_start(pt_context *context, const pt_accumulate_info *info);
 
-/** Takes in what the devices have done since the last call, gives them more work, and waits for them, for at most the
- * given number of nanoseconds.
+/** Takes in finished work, gives the devices more, and waits for them, for at most this many nanoseconds.
  *
  * With 0 it does not wait; with UINT64_MAX it waits until all is done. It may take longer when a target error is
- * checked, which reads the image. It never builds a kernel: a scene that has been rendered for long enough to get its
- * own kernel (PT_CREATE_NO_SCENE_KERNELS) gets it from the next pt_start.
+ * checked, which reads the image. It builds no kernel: a scene that deserves its own (PT_CREATE_NO_SCENE_KERNELS) gets
+ * it from the next pt_start.
  *
  * fraction may be NULL. Otherwise it receives, unless the call fails, the share of the samples that is done, in [0, 1],
  * which never falls.
@@ -62,16 +58,16 @@ PT_API pt_result pt_start(pt_context *context, const pt_accumulate_info *info);
  * One thread at a time per context. PT_PENDING: samples are still under way. Every other result ends what pt_start
  * began, except when a call is refused because it comes from a callback or while another thread is in a call. PT_OK:
  * all samples are taken. PT_TARGET_REACHED: fewer were enough. PT_CANCELLED: pt_cancel was called; there are fewer
- * samples than asked for, all of them whole. PT_ERROR_INVALID_STATE: nothing is under way.
- * PT_ERROR_OUT_OF_DEVICE_MEMORY, PT_ERROR_SHADER, PT_ERROR_DEVICE_LOST: the driver said so. */
+ * samples, all of them whole. PT_ERROR_INVALID_STATE: nothing is under way. PT_ERROR_OUT_OF_DEVICE_MEMORY,
+ * PT_ERROR_SHADER, PT_ERROR_DEVICE_LOST: the driver said so. */
 PT_API pt_result pt_poll(pt_context *context, uint64_t nanoseconds, double *fraction);
 
 /** Asks for no more samples, and returns at once. pt_poll then ends what pt_start began, and a pt_accumulate under way
- * ends by itself, as after a pt_progress_fn that asks to stop: with PT_CANCELLED, or with PT_OK if no sample was left
- * to begin. A second call does nothing more.
+ * ends as if pt_progress_fn had asked to stop: with PT_CANCELLED, or with PT_OK if no sample was left to begin. A
+ * second call does nothing more.
  *
  * Any thread, at any time before pt_destroy, also in callbacks and while another thread is in a call on the context.
- * PT_ERROR_INVALID_STATE: nothing is under way, which is normal if another thread has just polled to the end. */
+ * PT_ERROR_INVALID_STATE: nothing is under way, as when another thread has just polled to the end. */
 PT_API pt_result pt_cancel(pt_context *context);
 
 #ifdef __cplusplus

@@ -1,12 +1,11 @@
 /** @file
- * pt: which Vulkan devices there are, and which one a context runs on, for programs that let their users choose.
+ * pt: the Vulkan devices, and the choice among them.
  *
  * pt_create_info.device is NULL for the best one (discrete, integrated, virtual, CPU, in that order). Otherwise it is
  * an index into pt_get_devices in decimal, "gpu" or "cpu", a UUID as 32 hexadecimal digits (dashes allowed), or a part
  * of a name, ignoring case. Several devices share the samples of a context, with the same bits if they are of one kind
- * and driver: "all" means all devices of the best kind that there is; or list indices or UUIDs separated by commas,
- * each device once. UTF-8, zero-terminated.
- */
+ * and driver: "all" for all devices of the best kind, or indices or UUIDs separated by commas, each device once. UTF-8,
+ * zero-terminated. */
 #ifndef PT_DEVICES_H
 #define PT_DEVICES_H
 
@@ -44,8 +43,8 @@ typedef struct pt_device_info {
  * Any thread. PT_ERROR_NO_DEVICE: Vulkan is not installed, or has no device. */
 PT_API pt_result pt_get_devices(pt_device_info *devices, uint32_t *count);
 
-/** Writes which device this context runs on; of several devices, the first. One thread at a time per context, also
- * while samples are under way (pt/async.h). */
+/** Writes the device of this context, or the first of several. One thread at a time per context, also while samples
+ * are under way (pt/async.h). */
 PT_API pt_result pt_get_context_device(pt_context *context, pt_device_info *device);
 
 #ifdef __cplusplus

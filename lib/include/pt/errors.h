@@ -1,9 +1,8 @@
 /** @file
  * pt: the last error as data, for programs that show their users where a wrong value came from.
  *
- * A message of pt_last_error about fields has a line for each broken rule, put together from the members of a
- * pt_broken_rule: "spheres[3].center[0] = nan: must be finite", "render.width * height = 0: ...".
- */
+ * A message of pt_last_error about fields has a line per broken rule, made of the members of a pt_broken_rule:
+ * "spheres[3].center[0] = nan: must be finite", "render.width * height = 0: ...". */
 #ifndef PT_ERRORS_H
 #define PT_ERRORS_H
 
@@ -13,26 +12,26 @@
 extern "C" {
 #endif
 
-/** A field and the rule that it breaks. Strings are UTF-8, zero-terminated and the library's; they live as long as the
- * message of pt_last_error does. */
+/** A field and the rule that it breaks. Strings are UTF-8, zero-terminated and the library's, valid as long as the
+ * message of pt_last_error. */
 typedef struct pt_broken_rule {
     uint32_t struct_size; /**< sizeof(pt_broken_rule); must be set by the caller */
-    int32_t component;    /**< which element of member, if that is an array or a pt_column; otherwise -1 */
-    int64_t index;        /**< which element of subject, if that is an array of structs; otherwise -1 */
+    int32_t component;    /**< element of member, if that is an array or a pt_column; otherwise -1 */
+    int64_t index;        /**< element of subject, if that is an array of structs; otherwise -1 */
     /** "materials", "spheres", "planes" or "sphere_arrays" of pt_scene; "scene", "camera", "render", "accumulate",
      * "image", "stats", "create", "vulkan" or "denoise" for the struct itself; or the name of another argument */
     const char *subject;
     const char *member; /**< of the subject's struct, or "center.type"; "" for a rule about the argument itself */
-    const char *with;   /**< what else enters the value, as "* height" beside "width"; else "" */
+    const char *with;   /**< other factors of the value, as "* height" beside "width"; else "" */
     const char *value;  /**< "-1", "NULL" */
     const char *rule;   /**< "must be > 0" */
 } pt_broken_rule;
 
-/** Returns how many broken rules the message of pt_last_error is about; 0 if it is about no field.
+/** Returns the number of broken rules in the message of pt_last_error; 0 if it is about no field.
  *
- * If rule is not NULL, the broken rule with the given index is written to it, rule->struct_size bytes of it. Only the
- * first eight are kept, which the message shows; for an index beyond these all other fields are 0 or NULL. If there was
- * no memory left for the message, there are no rules.
+ * If rule is not NULL, receives the broken rule with the given index, rule->struct_size bytes of it. Only the first
+ * eight are kept, as in the message; for an index beyond these all other fields are 0 or NULL. If there was no memory
+ * left for the message, there are no rules.
  *
  * context, NULL or not, and threads are as for pt_last_error; never fails, and does not change the last error. */
 PT_API uint64_t pt_get_broken_rule(const pt_context *context, uint32_t index, pt_broken_rule *rule);

@@ -1,10 +1,8 @@
 /** @file
  * pt: films, the exact sums behind an image, as bytes that can be kept, sent and added.
  *
- * On the same model of device with the same driver, a rendering that goes on from a saved film comes to the same bits
- * as one that was never interrupted, and parts of an image that were rendered apart (pt_render.first_sample) add up, in
- * any order, to the bits of one that was rendered whole.
- */
+ * On one model of device and driver, a rendering continued from a saved film has the bits of an uninterrupted one, and
+ * parts rendered apart (pt_render.first_sample) add up, in any order, to the bits of the whole. */
 #ifndef PT_FILM_H
 #define PT_FILM_H
 
@@ -17,22 +15,22 @@ extern "C" {
 
 /** Writes the samples so far as exact sums, with everything that decides their bits, and a checksum.
  *
- * If data is NULL, *size_bytes receives how many bytes the film takes, up to 112 for each pixel and some hundred more.
- * Otherwise *size_bytes is the size of data, which must suffice, and receives how many bytes were written. Equal
- * samples of equal pictures are equal bytes, however they were taken or added. lib/film/FORMAT.md describes the bytes
- * for other programs; later versions of this library can read them.
+ * If data is NULL, *size_bytes receives the film's size, up to 112 bytes a pixel and some hundred more. Otherwise
+ * *size_bytes is the size of data, which must suffice, and receives how many bytes were written. Equal samples of equal
+ * pictures are equal bytes, however they were taken or added. lib/film/FORMAT.md describes the bytes; later versions of
+ * this library can read them.
  *
  * One thread at a time per context. PT_ERROR_INVALID_STATE: there is no sample. PT_ERROR_INVALID_ARGUMENT: *size_bytes
  * is too small. PT_ERROR_DEVICE_LOST. After a failure *size_bytes is as before, and the contents of data are
  * undefined. */
 PT_API pt_result pt_save_film(pt_context *context, void *data, uint64_t *size_bytes);
 
-/** Adds the samples of a film that pt_save_film has written to those of the context.
+/** Adds a saved film's samples to the context's.
  *
  * Needs the scene, camera and render settings with which the film was made, except that pt_render.first_sample may
  * differ. Later calls of pt_accumulate take the samples that are missing from pt_render.first_sample on. With
- * PT_SAMPLER_SOBOL, for samples that are not the first ones or have gaps, the error stated by pt_get_error_estimate was
- * measured to be 0.76 to 3.7 times the true one.
+ * PT_SAMPLER_SOBOL, and samples that are not the first ones or have gaps, pt_get_error_estimate states 0.76 to 3.7
+ * times the true error.
  *
  * The bytes need not be trusted: they are checked as a whole before anything changes.
  *
@@ -44,14 +42,13 @@ PT_API pt_result pt_add_film(pt_context *context, const void *data, uint64_t siz
 
 /* ---- Films without a context ------------------------------------------------------------------------------------ */
 
-/** A film in memory: for adding films, and for seeing what they show, without a device or the scene.
+/** A film in memory, for adding and reading films without a device or the scene.
  *
  * Made by pt_open_film and owned by its caller until pt_close_film. Different films are independent; one film is used
- * by one thread at a time. The messages of failures are in pt_last_error(NULL), as for all calls without a context.
- */
+ * by one thread at a time. Messages of failures are in pt_last_error(NULL), as for all calls without a context. */
 typedef struct pt_film pt_film;
 
-/** Which picture a film belongs to, and which part of it the film has. */
+/** The picture that a film belongs to, and its part of it. */
 typedef struct pt_film_info {
     uint32_t struct_size;     /**< sizeof(pt_film_info); must be set by the caller */
     uint32_t width;           /**< of the whole image, pixels */
@@ -62,11 +59,11 @@ typedef struct pt_film_info {
     uint32_t rows;            /**< its height, pixels */
     uint32_t max_path_length; /**< as in pt_render */
     uint64_t seed;            /**< as in pt_render */
-    uint32_t estimator;       /**< PT_ESTIMATOR_*; never BEST, but what it stands for */
-    uint32_t sampler;         /**< PT_SAMPLER_*, likewise */
+    uint32_t estimator;       /**< PT_ESTIMATOR_*, never BEST */
+    uint32_t sampler;         /**< PT_SAMPLER_*, never BEST */
     uint32_t tile_count;      /**< rectangles of pixels with the same samples; 1 if all pixels have the same */
     uint32_t reserved;        /**< 0 */
-    /** models and drivers of the devices that took the samples; ASCII, owned by the film, valid until it is closed */
+    /** models and drivers of the devices that took the samples; ASCII, owned by the film */
     const char *device;
 } pt_film_info;
 
@@ -86,71 +83,70 @@ typedef struct pt_sample_range {
     uint64_t end;   /**< > first, <= 2^32 */
 } pt_sample_range;
 
-/** Opens a film from the bytes of pt_save_film, pt_write_film or pt_stream_film. They are copied, and need not be
- * trusted: they are checked as a whole.
+/** Opens a film from the bytes of pt_save_film, pt_write_film or pt_stream_film. They are copied and checked as a
+ * whole, so need not be trusted.
  *
- * The film takes 112 bytes of memory for each of its pixels. On success the caller owns it and frees it by
- * pt_close_film; on failure *film is NULL. Any thread. PT_ERROR_INCOMPATIBLE: the bytes are not a film, damaged or cut
- * short. */
+ * The film takes 112 bytes of memory a pixel. On success the caller owns it and frees it by pt_close_film; on failure
+ * *film is NULL. Any thread. PT_ERROR_INCOMPATIBLE: the bytes are not a film, damaged or cut short. */
 PT_API pt_result pt_open_film(const void *data, uint64_t size_bytes, pt_film **film);
 
 /** Frees a film. NULL is allowed. One thread, after all other calls on it; never fails. */
 PT_API void pt_close_film(pt_film *film);
 
-/** Adds the samples of a film, given as bytes like those for pt_open_film; they may be of other pixels of the image.
- * Films add up to the same bits in any order.
+/** Adds the samples of a film, given as bytes as for pt_open_film; it may have other pixels of the image. Films add up
+ * to the same bits in any order.
  *
- * During the call it takes as much memory as opening the other film does, and a little more. One thread at a time per
- * film. PT_ERROR_INCOMPATIBLE: the bytes are not a film, damaged, cut short, of another picture, or have samples of
- * some pixel that are in the film already; the message has a line for each difference. */
+ * Takes a little more memory than opening the other film. One thread at a time per film. PT_ERROR_INCOMPATIBLE: the
+ * bytes are not a film, damaged, cut short, of another picture, or have samples of some pixel that are in the film
+ * already; the message has a line for each difference. */
 PT_API pt_result pt_merge_film(pt_film *film, const void *data, uint64_t size_bytes);
 
-/** Writes a film as bytes: the same that pt_save_film writes for a context with the same samples. data and *size_bytes
- * are as for pt_save_film.
+/** Writes a film as bytes, the same as pt_save_film for a context with the same samples. data and *size_bytes are as
+ * there.
  *
  * One thread at a time per film. PT_ERROR_INVALID_ARGUMENT: *size_bytes is too small; it stays as it was. */
 PT_API pt_result pt_write_film(const pt_film *film, void *data, uint64_t *size_bytes);
 
-/** Receives the next bytes of a film, which are valid until it returns. Called within pt_stream_film, on its thread.
- * Return 0 to go on; anything else ends pt_stream_film. */
+/** Receives the next bytes of a film, valid until it returns. Called within pt_stream_film, on its thread. Return 0
+ * to go on; anything else ends pt_stream_film. */
 typedef int32_t (*pt_take_bytes_fn)(void *user, const void *data, uint64_t size_bytes);
 
-/** Hands the bytes that pt_write_film would write to take, in order and in pieces of at most a megabyte, so that a film
- * can be saved or sent without being in memory twice.
+/** Hands the bytes of pt_write_film to take, in order and in pieces of at most a megabyte, so that a film is not in
+ * memory twice.
  *
  * take must not call any function on this film; user is handed to it. One thread at a time per film. PT_CANCELLED: take
  * asked to end it. */
 PT_API pt_result pt_stream_film(const pt_film *film, pt_take_bytes_fn take, void *user);
 
-/** Writes mean radiance, its standard error or the counts of samples, like pt_readback: the same bits as those of a
- * context with the same samples.
+/** Writes mean radiance, its standard error or the counts of samples: the same bits as pt_readback of a context with
+ * the same samples.
  *
  * The image is the rectangle in pt_film_info, so pt_image.x counts from its first column and pt_image.y from its first
- * row. Pixels that the film does not have are black, with a standard error of INFINITY. One thread at a time per film.
- * PT_ERROR_INVALID_ARGUMENT: the image breaks a rule; among others, it asks for what camera rays meet first, which a
- * film does not know. */
+ * row. Pixels that the film lacks are black, with a standard error of INFINITY. One thread at a time per film.
+ * PT_ERROR_INVALID_ARGUMENT: the image breaks a rule, for instance asks for first hits, which a film does not know. */
 PT_API pt_result pt_read_film(const pt_film *film, const pt_image *image);
 
-/** Writes what a film is of. info->struct_size must be set; no more bytes than that are written. One thread at a time
- * per film. */
+/** Describes a film. info->struct_size must be set; no more bytes than that are written. One thread at a time per
+ * film. */
 PT_API pt_result pt_get_film_info(const pt_film *film, pt_film_info *info);
 
 /** Writes a tile. index must be below pt_film_info.tile_count. tile->struct_size must be set; no more bytes than that
  * are written.
  *
- * Tiles do not overlap, and the same samples of the same pixels are always the same tiles. One thread at a time per
- * film. PT_ERROR_INVALID_ARGUMENT: there is no such tile. */
+ * Tiles do not overlap; equal samples of equal pixels give equal tiles. One thread at a time per film.
+ * PT_ERROR_INVALID_ARGUMENT: there is no such tile. */
 PT_API pt_result pt_get_film_tile(const pt_film *film, uint32_t index, pt_film_tile *tile);
 
-/** Writes which samples the pixels of a tile have, as ranges in ascending order with gaps between them.
+/** Writes the samples of a tile's pixels, as ranges in ascending order with gaps between them.
  *
  * If ranges is NULL, *count receives how many ranges there are. Otherwise at most *count elements are written, and
  * *count receives how many were. One thread at a time per film. PT_ERROR_INVALID_ARGUMENT: there is no such tile. */
 PT_API pt_result pt_get_film_ranges(const pt_film *film, uint32_t tile, pt_sample_range *ranges, uint32_t *count);
 
-/** Writes how many samples a film has. sample_count is the fewest that a pixel of the rectangle in pt_film_info has, 0
- * if a pixel there has none; max_sample_count, mean_sample_count and rejected_samples are as for a context; all other
- * fields are 0. stats->struct_size must be set; no more bytes than that are written. One thread at a time per film. */
+/** Writes a film's numbers of samples. sample_count is the fewest that a pixel of the rectangle in pt_film_info has,
+ * 0 if a pixel there has none; max_sample_count, mean_sample_count and rejected_samples are as for a context; all
+ * other fields are 0. stats->struct_size must be set; no more bytes than that are written. One thread at a time per
+ * film. */
 PT_API pt_result pt_get_film_stats(const pt_film *film, pt_stats *stats);
 
 /** Writes how good a film's image is, as pt_get_error_estimate does for a context; the last bits may differ, since they

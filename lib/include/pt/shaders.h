@@ -18,16 +18,15 @@
 extern "C" {
 #endif
 
-/** Compiles the GLSL files of pt_create_info.shader_dir as they are now.
+/** Compiles the present GLSL files of pt_create_info.shader_dir.
  *
- * If the kernels differ from those before, they replace them on all devices, and the samples so far are discarded as by
- * the setters; if not, nothing changes. After a failure the kernels and the samples are as before.
+ * If the kernels differ from those before, they replace them on all devices, and the samples are discarded; if not,
+ * nothing changes. After a failure kernels and samples are as before.
  *
  * One thread at a time per context. PT_ERROR_SHADER: a file is missing or does not compile, with the compiler's
- * messages (one line each, with the name of the file and the line) in pt_last_error; or a driver refuses the kernels
- * for the scene that is being rendered (if it has no samples yet, only the next pt_accumulate finds that out).
- * PT_ERROR_INVALID_STATE: there is no shader_dir. PT_ERROR_OUT_OF_DEVICE_MEMORY, PT_ERROR_DEVICE_LOST: the driver said
- * so. */
+ * messages (a line each, with file and line number) in pt_last_error; or a driver refuses the kernels for the present
+ * scene (without samples, only the next pt_accumulate finds that out). PT_ERROR_INVALID_STATE: there is no shader_dir.
+ * PT_ERROR_OUT_OF_DEVICE_MEMORY, PT_ERROR_DEVICE_LOST: the driver said so. */
 PT_API pt_result pt_reload_shaders(pt_context *context);
 
 #ifdef __cplusplus

@@ -1,6 +1,5 @@
 /** @file
- * pt: what has been done, what it took, and how good the image is.
- */
+ * pt: statistics of the work done, and the image's error. */
 #ifndef PT_STATS_H
 #define PT_STATS_H
 
@@ -26,14 +25,14 @@ enum {
     PT_FEATURE_OPACITY = 512      /**< rays pass some spheres at random */
 };
 
-/** What has been done, and what it took. */
+/** Statistics of a context or a film. */
 typedef struct pt_stats {
     uint32_t struct_size;      /**< sizeof(pt_stats); must be set by the caller */
     uint32_t sample_count;     /**< whole samples in every pixel; if they differ, the fewest */
     uint64_t rejected_samples; /**< samples left out, over all pixels: NaN, infinite, negative or too bright */
     uint64_t device_bytes;     /**< memory that the context has allocated on all its devices now */
     uint64_t submit_count;     /**< submissions that took samples since pt_create, to all devices */
-    double device_seconds;     /**< summed time of these; with pt_poll, as far as it saw them end */
+    double device_seconds;     /**< their total time; with pt_poll, as far as it saw them end */
     uint32_t features;         /**< PT_FEATURE_*; 0 before the first pt_accumulate */
     uint32_t device_count;     /**< devices that share the samples */
     uint32_t max_sample_count; /**< the most that a pixel has (PT_SAMPLING_ADAPTIVE) */
@@ -47,8 +46,8 @@ typedef struct pt_stats {
 enum {
     PT_UNCERTAIN_RMSE = 1,          /**< rmse comes from fewer than 8 pixels: rare bright samples, or a small lamp */
     PT_UNCERTAIN_RELATIVE_RMSE = 2, /**< relative_rmse comes from fewer than 8 pixels */
-    /** More than a twentieth of the square of relative_rmse is light that no sample has met, but that is to be expected
-     * in dark pixels beside very bright ones. */
+    /** More than a twentieth of the square of relative_rmse is expected from dark pixels beside very bright ones, as
+     * light that no sample has met. */
     PT_UNCERTAIN_UNSEEN = 4,
     /** Either lamps in view, smaller than half a pixel, which a pixel's samples are expected to meet fewer than 8
      * times: by their sizes, they add more than the samples show. Or lamps that are found by chance (uniform, cosine,
@@ -75,18 +74,18 @@ typedef struct pt_error_estimate {
 } pt_error_estimate;
 
 /** Returns the next number of samples, above sample_count, at which a target error is checked while all pixels have
- * equally many: 16, 20, 24, 28, 32, 40, 48, 56, 64, 80, ..., in steps of a quarter of a power of two; UINT32_MAX if
- * there is none. Any thread; never fails. */
+ * equally many: 16, 20, 24, 28, 32, 40, 48, 56, 64, 80, ..., in steps of a quarter of a power of two; UINT32_MAX
+ * beyond the last. Any thread; never fails. */
 PT_API uint32_t pt_next_check(uint32_t sample_count);
 
-/** Writes what has been done. Works for a lost device too; refused while samples are under way (pt/async.h).
+/** Writes the statistics. Works for a lost device too; refused while samples are under way (pt/async.h).
  *
  * The first call after samples were taken reads 8 bytes a pixel for rejected_samples, unless pt_get_error_estimate has
- * counted them; all else costs nothing. stats->struct_size must be set; no more bytes than that are written. One thread
- * at a time per context. PT_ERROR_DEVICE_LOST: the device was lost while its samples were read. */
+ * counted them. stats->struct_size must be set; no more bytes than that are written. One thread at a time per context.
+ * PT_ERROR_DEVICE_LOST: the device was lost while its samples were read. */
 PT_API pt_result pt_get_stats(pt_context *context, pt_stats *stats);
 
-/** Writes how good the image is. The first call after samples were taken examines the whole image, which takes about as
+/** Estimates the image's error. The first call after samples were taken examines the whole image, which takes about as
  * long as reading it; further calls repeat its result.
  *
  * error->struct_size must be set, as for pt_get_stats; refused while samples are under way. Without render settings, or

@@ -21,27 +21,23 @@ typedef void (*pt_queue_fn)(void *user);
  *            Vulkan 1.2: the kernels are SPIR-V 1.5. No feature and no extension is needed, except
  *            VK_KHR_portability_subset if the device has it, as Vulkan demands. The device was created from one
  *            physical device, not from a group. The queue's family has VK_QUEUE_COMPUTE_BIT.
- * Lifetime   all handles must outlive the context, which destroys none of them. What it has made it destroys at the
+ * Lifetime   all handles must outlive the context, which destroys none of them. Its own objects are destroyed at the
  *            latest in pt_destroy, without allocation callbacks. It waits only for its own submissions, by fences.
- * Threads    Vulkan wants a queue used by one thread at a time. The context calls lock_queue and unlock_queue around
- *            every vkQueueSubmit, and does not hold the queue while it waits or calls back; they may be a mutex that
- *            all users of the queue lock, other contexts included. Without them nobody else may use the queue during a
- *            call on this context, not even by vkDeviceWaitIdle. Everything else that the context does needs no lock,
- *            since Vulkan lets threads share a device.
+ * Threads    Vulkan allows a queue one thread at a time. The context calls lock_queue and unlock_queue around every
+ *            vkQueueSubmit, and does not hold the queue while it waits or calls back; they may lock a mutex that all
+ *            users of the queue share, other contexts included. Without them nobody else may use the queue during a
+ *            call on this context, not even by vkDeviceWaitIdle. All other use of the device needs no lock.
  * Order      the context uses only its own buffers and those that pt_readback_to_buffer names. Its pipeline barriers
  *            are for compute and transfers; they may delay other commands in the queue, but never change what these do.
- * Time       other work that is ahead of the context's in the queue must not wait for the calling thread. Its time
- *            counts as that of the context's submissions: it makes these smaller, and on a GPU a submission that has
- *            not ended after 10 seconds means that the device is lost.
- * Rounding   the threads with which a driver computes inherit the floating-point mode of the thread that starts them,
- *            so the caller must create the device while rounding to nearest.
- * Loss       once the device is lost, by whomever, calls fail with PT_ERROR_DEVICE_LOST. If it hangs, so that
- *            submissions of this context have not ended by pt_destroy, what they use is left on the device until the
- *            process ends.
+ * Time       other work ahead in the queue must not wait for the calling thread. Its time counts as the context's own:
+ * it makes submissions smaller, and on a GPU the device counts as lost if one has not ended after 10 seconds. Rounding
+ * drivers' threads inherit the floating-point mode of the thread that starts them, so the caller must create the device
+ * while rounding to nearest. Loss       once the device is lost, calls fail with PT_ERROR_DEVICE_LOST. If submissions
+ * of this context hang at pt_destroy, their objects are left on the device until the process ends.
  *
- * Errors of pt_create: PT_ERROR_INVALID_ARGUMENT for a field that breaks a rule given here, as far as the library can
- * see. It cannot see whether the handles are alive and belong together (except that it looks for the physical device in
- * the instance), nor that an instance is older than 1.2 if the driver offers newer functions all the same.
+ * Errors of pt_create: PT_ERROR_INVALID_ARGUMENT for a field that breaks a rule, as far as the library can see. It
+ * cannot see whether handles are alive and belong together (except that it looks for the physical device in the
+ * instance), nor that an instance is older than 1.2 if the driver offers newer functions all the same.
  * PT_ERROR_UNSUPPORTED if the physical device is not suitable (pt_device_info.reason). Other errors are as without
  * pt_vulkan.
  */

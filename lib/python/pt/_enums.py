@@ -12,11 +12,11 @@ class Quantity(enum.IntEnum):
 
     RADIANCE = 0  # mean of the samples
     STANDARD_ERROR = 1
-    SAMPLE_COUNT = 2  # samples that the pixel has, rounded to float32, the same in all channels
-    DEPTH = 3  # depth along the viewing direction, as in compositing programs
-    NORMAL = 4  # unit normal in world coordinates x, y, z, on the side of the camera
+    SAMPLE_COUNT = 2  # the pixel's samples, rounded to float32, the same in all channels
+    DEPTH = 3  # depth along the viewing direction
+    NORMAL = 4  # unit normal in world coordinates, on the side of the camera
     ALBEDO = 5  # diffuse + specular, each component at most 1
-    OBJECT = 6  # index of the surface whose depth PT_QUANTITY_DEPTH tells
+    OBJECT = 6  # index of the surface of PT_QUANTITY_DEPTH
     COVERAGE = 7  # share of the pixel's samples whose camera rays meet a surface, the same in all channels
 
 
@@ -32,7 +32,7 @@ class Format(enum.IntEnum):
 class MaterialFlag(enum.IntFlag):
     """What else a material is."""
 
-    HIDDEN_FROM_CAMERA = 1  # Rays from the camera pass through surfaces of the material
+    HIDDEN_FROM_CAMERA = 1  # Camera rays pass through surfaces of the material
 
 
 class Projection(enum.IntEnum):
@@ -85,7 +85,7 @@ class LogLevel(enum.IntEnum):
 
     ERROR = 1  # something is wrong
     WARNING = 2  # something may be wrong
-    INFO = 3  # something to know
+    INFO = 3  # devices, the kernels that drivers build, and how long that takes
 
 
 class CreateFlag(enum.IntFlag):
@@ -146,4 +146,4 @@ class Result(enum.IntEnum):
     ERROR_DEVICE_LOST = -8  # the device or its driver gave up
     ERROR_SHADER = -9  # the driver refused to build the kernel, or its GLSL does not compile
     ERROR_INTERNAL = -10  # a bug in this library or in the driver
-    ERROR_INCOMPATIBLE = -11  # a film that does not belong to what is rendered (pt/film.h)
+    ERROR_INCOMPATIBLE = -11  # bytes that are no film of this picture (pt/film.h)
