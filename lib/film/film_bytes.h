@@ -14,14 +14,14 @@
 
 namespace pt {
 
-// Where the sums of each tile and part are in the bytes of a film.
+// Positions of sums in a film's bytes.
 class FilmLayout {
 public:
     explicit FilmLayout(const FilmHeader &header);
 
     std::uint64_t size_bytes() const { return size_bytes_; }
 
-    // The position of the first pixel's word in a plane of a part of a tile. Parts without samples are not stored.
+    // Returns the first pixel's word in a plane. Parts without samples are not stored.
     std::uint64_t plane_offset(std::size_t tile, std::uint32_t part, std::size_t plane) const;
     bool has_part(std::size_t tile, std::uint32_t part) const { return tiles_[tile].counts[part] > 0; }
     const PartCounts &counts(std::size_t tile) const { return tiles_[tile].counts; }
@@ -37,10 +37,10 @@ private:
     std::uint64_t size_bytes_;
 };
 
-// Throws PT_ERROR_INVALID_ARGUMENT if a caller's memory is too small for a film.
+// Throws PT_ERROR_INVALID_ARGUMENT if the caller's memory is too small.
 void require_room(std::uint64_t size_bytes, std::uint64_t needed);
 
-// Writes a film into memory of the size of its layout: the sums of each tile in any pieces, then end().
+// Writes a film into memory of its layout's size: each tile's sums in any pieces, then end().
 class FilmWriter {
 public:
     FilmWriter(const FilmHeader &header, std::span<std::byte> bytes);
@@ -53,8 +53,8 @@ private:
     std::span<std::byte> bytes_;
 };
 
-// Hands on a film's bytes from the first to the last, in pieces of no more than a megabyte: the words of each plane of
-// each part that has samples, tile by tile, then end().
+// Hands on a film's bytes in order, in pieces of at most a megabyte: the words of each plane of each part that has
+// samples, tile by tile, then end().
 class FilmStream {
 public:
     using Receive = std::function<void(std::span<const std::byte>)>; // may throw
@@ -73,15 +73,15 @@ private:
     std::vector<std::byte> piece_;
 };
 
-// Reads a film from bytes, which must outlive it.
+// The bytes must outlive the reader.
 class FilmReader {
 public:
-    // Throws PT_ERROR_INCOMPATIBLE if the bytes are no film, damaged, or more or fewer than a film's.
+    // Throws PT_ERROR_INCOMPATIBLE if the bytes are no film, damaged, or of another size.
     explicit FilmReader(std::span<const std::byte> bytes);
 
     const FilmHeader &header() const { return header_; }
 
-    // Reads the sums of consecutive pixels of a tile. Throws PT_ERROR_INCOMPATIBLE if no samples can have such sums.
+    // Reads consecutive pixels of a tile. Throws PT_ERROR_INCOMPATIBLE if no samples can have such sums.
     void read(std::size_t tile, std::uint64_t first_pixel, PixelSums &sums) const;
 
 private:

@@ -15,7 +15,7 @@ namespace pt {
 
 namespace {
 
-// A limit that no film of this library exceeds: its unit exponents are those of radiance up to 2^60 times 10^18.
+// Above all films of this library, with radiance up to 2^60 times 10^18.
 constexpr int most_unit_exponent = 300;
 
 std::optional<std::string> value_in(const FilmIdentity &identity, const std::string &name) {
@@ -23,8 +23,8 @@ std::optional<std::string> value_in(const FilmIdentity &identity, const std::str
     return fact == identity.end() ? std::nullopt : std::optional(fact->value);
 }
 
-// A fact that is a number within bounds, written in the one way there is. If it is none, that is added to the
-// violations, and the least number stands for it.
+// Reads a fact that is a number within bounds, in its only spelling. On failure records a violation and returns
+// `least`.
 template <typename Number>
 Number number_in(const FilmIdentity &identity, const char *name, Number least, Number most, Violations &violations) {
     const std::string text = value_in(identity, name).value_or("nothing");

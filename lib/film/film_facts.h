@@ -1,5 +1,4 @@
-// The identity of a film as numbers, for callers that have nothing but the film, and what films must have in common, or
-// not, to be added.
+// A film's identity as numbers, and the conditions under which films can be added.
 #pragma once
 
 #include "lib/film/film_header.h"
@@ -20,18 +19,18 @@ struct FilmFacts {
     std::string device;
 };
 
-// Throws PT_ERROR_INCOMPATIBLE if a fact is missing, or is something that pt_save_film cannot have written.
+// Throws PT_ERROR_INCOMPATIBLE if a fact is missing or cannot be pt_save_film's.
 FilmFacts facts_of(const FilmIdentity &identity);
 
-// Throws PT_ERROR_INCOMPATIBLE with a rule for each fact in which two identities differ: a film's, and that of what it
-// is to be added to. place: what that is, "as in this context".
+// Throws PT_ERROR_INCOMPATIBLE with a rule for each fact that differs. other: of the film or context that it is added
+// to; place: its name, "as in this context".
 void require_same(const FilmIdentity &film, const FilmIdentity &other, const std::string &place);
 
-// Throws PT_ERROR_INCOMPATIBLE if samples cannot be added to those of the same pixels: they have some in common, or are
-// too many together. where: " in" which pixels, for the message, or nothing.
+// Throws PT_ERROR_INCOMPATIBLE if the sets overlap or have too many samples together. where: " in" which pixels, for
+// the message, or empty.
 void require_apart(const SampleSet &added, const SampleSet &present, const std::string &where);
 
-// Throws PT_ERROR_INCOMPATIBLE: a film breaks a rule.
+// Throws PT_ERROR_INCOMPATIBLE.
 [[noreturn]] void refuse_film(const std::string &member, const std::string &value, const std::string &rule);
 
 } // namespace pt

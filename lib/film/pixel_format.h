@@ -1,5 +1,4 @@
-// The formats of images, PT_FORMAT_*: pixels as the host writes them, with the bytes that the kernel writes
-// (shaders/resolve.comp).
+// Pixels in each PT_FORMAT_*, byte for byte as shaders/resolve.comp writes them.
 #pragma once
 
 #include "shaders/gpu_layout.h"
@@ -23,11 +22,11 @@ constexpr std::uint32_t pixel_bytes(std::uint32_t format) {
     return components * component_bytes(format);
 }
 
-// The float16 nearest to a number >= 0, ties to even; infinity from 65520 on. In whole numbers, as in
+// The float16 nearest to a number >= 0, ties to even; infinity from 65520 on. With integers, like
 // shaders/resolved.glsl.
 std::uint16_t half_bits(float value);
 
-// Writes pixels, given as R, G and B, in a format that has them.
+// values: R, G and B per pixel. The format must have them.
 void write_pixels(std::span<const float> values, std::uint32_t format, std::byte *to);
 
 } // namespace pt

@@ -37,13 +37,13 @@ private:
     std::size_t pixel_;
 };
 
-// What a word becomes, and the carry into the next more significant one: 0 or 1.
+// carry: into the next more significant word, 0 or 1.
 struct WordAndCarry {
     std::uint32_t word;
     std::uint32_t carry;
 };
 
-// In 32 bits, so that compilers do several pixels at once.
+// In 32 bits, so that compilers vectorise over pixels.
 WordAndCarry sum_of(std::uint32_t a, std::uint32_t b, std::uint32_t carry) {
     const std::uint32_t sum = a + b;
     const std::uint32_t with_carry = sum + carry;
@@ -55,11 +55,11 @@ WordAndCarry difference_of(std::uint32_t a, std::uint32_t b, std::uint32_t borro
     return {difference - borrow, static_cast<std::uint32_t>(a < b) | static_cast<std::uint32_t>(difference < borrow)};
 }
 
-// Plane by plane: a sum's carries go from each word to the next.
+// Plane by plane: a sum's carries go from word to word.
 template <typename Operation>
 void combine(const PartWords<std::uint32_t> &to, const PartWords<const std::uint32_t> &from, std::size_t pixel_count,
              const Operation &operation) noexcept {
-    constexpr std::size_t block_pixels = 256; // whose carries and planes stay in the fastest cache
+    constexpr std::size_t block_pixels = 256; // their carries and planes stay in the fastest cache
     std::array<std::uint32_t, block_pixels> carries;
     for (std::size_t done = 0; done < pixel_count; done += block_pixels) {
         const std::size_t block = std::min(block_pixels, pixel_count - done);

@@ -1,5 +1,5 @@
-// Exact sums of samples in consecutive pixels, on the host: a value. Read from devices (device_film.h) and from bytes
-// (film_bytes.h), added, and turned into radiance and its error.
+// Exact sums of samples in consecutive pixels, on the host. Read from devices (device_film.h) and bytes (film_bytes.h),
+// added, and turned into radiance and its error.
 #pragma once
 
 #include "lib/film/film_header.h"
@@ -15,14 +15,14 @@
 
 namespace pt {
 
-// The words of a part, plane by plane, as in gpu_layout.h. Word: std::uint32_t, or const.
+// A part's words, plane by plane (gpu_layout.h). Word: std::uint32_t, or const.
 template <typename Word>
 struct PartWords {
-    Word *first;        // of the first pixel's
-    std::size_t stride; // from a plane to the next
+    Word *first;        // of the first pixel
+    std::size_t stride; // between planes
 };
 
-// Adds the exact sums of consecutive pixels in one part to those in another part.
+// Adds consecutive pixels' sums in one part to another part's.
 void add_words(const PartWords<std::uint32_t> &to, const PartWords<const std::uint32_t> &from,
                std::size_t pixel_count) noexcept;
 
@@ -36,7 +36,7 @@ public:
 
     std::size_t pixel_count() const { return pixel_count_; }
 
-    // Afterwards the sums are undefined until they are set.
+    // The sums are then undefined until they are set.
     void resize(std::size_t pixel_count) {
         words_.resize(pixel_count * words_per_pixel);
         pixel_count_ = pixel_count;
@@ -44,7 +44,7 @@ public:
 
     void clear() noexcept;
 
-    // One word of every pixel: a plane of a part, as in gpu_layout.h.
+    // One word of every pixel: a plane of a part (gpu_layout.h).
     std::span<std::uint32_t> plane(std::uint32_t part, std::size_t index) {
         return std::span(words_).subspan((std::size_t{part} * gpu::FILM_WORDS + index) * pixel_count_, pixel_count_);
     }
@@ -54,30 +54,29 @@ public:
 
     void add(const PixelSums &other) noexcept;
 
-    // Adds one part of consecutive pixels of another object to a part of the pixels from to_first on.
+    // Adds one part of another object's consecutive pixels to a part of the pixels from to_first on.
     void add_part(std::uint32_t to_part, std::size_t to_first, const PixelSums &from, std::uint32_t from_part,
                   std::size_t first, std::size_t count) noexcept;
 
-    // Adds the other part of consecutive pixels to this one and empties it.
+    // Adds consecutive pixels' other part to this one and empties it.
     void fold_into(std::uint32_t part, std::size_t first, std::size_t count) noexcept;
 
-    // Moves the sums of consecutive pixels, which are of these samples, to the split that a larger set has. That may
-    // put all of them on one side.
+    // Moves consecutive pixels' sums, of these samples, to a larger set's split, which may put all of them on one side.
     void split_for(const SampleSet &samples, std::uint64_t split, std::size_t first, std::size_t count) noexcept;
 
-    // Copies consecutive pixels of another object.
+    // Copies consecutive pixels of `from`.
     void copy(const PixelSums &from, std::size_t first, std::size_t count, std::size_t to_first) noexcept;
 
-    // Copies the pixels that two rectangles of an image have in common: own is of this object, of_from of the other.
+    // Copies the intersection of two rectangles of an image: `own` of this object, of_from of the other.
     void copy(const Rectangle &own, const PixelSums &from, const Rectangle &of_from) noexcept;
 
-    // Samples of a pixel in each part, accepted or rejected.
+    // Accepted or rejected samples.
     PartCounts samples_of(std::size_t pixel) const;
 
-    // Whether this many samples can have such sums: each accepted sample is below 2^FILM_MAX_EXPONENT.
+    // Whether this many samples can have such sums: each accepted one is below 2^FILM_MAX_EXPONENT.
     bool holds(const PartCounts &expected) const;
 
-    // R, G and B of each pixel of a PT_QUANTITY_* of samples. unit: as for PixelValues.
+    // R, G and B of each pixel. quantity: a PT_QUANTITY_* of samples; unit: as for PixelValues.
     std::vector<float> values(std::uint32_t quantity, double unit) const;
 
     bool operator==(const PixelSums &) const = default;
@@ -87,21 +86,20 @@ private:
     std::vector<std::uint32_t> words_;
 };
 
-// What the samples of a pixel say in one channel.
+// One channel of a pixel.
 struct PixelValue {
-    float mean;           // of all samples; 0 where all were rejected
-    float standard_error; // of that mean, from the difference of its parts; infinity where one is empty and with up to
-                          // 8 samples
-    float lesser;         // of the means of the parts; 0 where the standard error is infinity
+    float mean;           // 0 if all samples were rejected
+    float standard_error; // of the mean, from its parts; infinity if one is empty, as with up to 8 samples
+    float lesser;         // of the parts' means; 0 where the standard error is infinity
 };
 
-// Finds these values, rounded as quotient.h says. The sums must outlive it.
+// Rounds as in quotient.h. The sums must outlive it.
 class PixelValues {
 public:
     // unit: of the sums, a power of two, in radiance.
     PixelValues(const PixelSums &sums, double unit);
 
-    // In each channel.
+    // Per channel.
     std::array<float, 3> means(std::size_t pixel);
     std::array<PixelValue, 3> of(std::size_t pixel);
 
@@ -110,10 +108,10 @@ private:
 
     const PixelSums &sums_;
     int exponent_;
-    PartQuotients quotients_; // of the pixel before: most have the same samples
+    PartQuotients quotients_; // of the previous pixel: most have the same samples
 };
 
-// Throws PT_ERROR_INTERNAL if a pixel does not hold the expected samples: a driver lost work.
+// Throws PT_ERROR_INTERNAL if the samples differ: a driver lost work.
 void require_samples(const PartCounts &done, const PartCounts &expected);
 
 } // namespace pt

@@ -13,19 +13,18 @@ gpu::uvec4 words_of(WideSum sum) {
             static_cast<std::uint32_t>(sum >> 64), static_cast<std::uint32_t>(sum >> 96)};
 }
 
-// Off by at most a 2^52th of itself: the upper half is rounded, and so are the lower half and the sum of the two. The
-// lower half by words, since a number of 64 bits without a sign takes a branch that nobody can foresee.
+// Relative error at most 2^-52: both halves and their sum are rounded. The lower half by words, since converting
+// unsigned 64-bit numbers takes an unpredictable branch.
 double nearly(WideSum number) {
     const double lower = static_cast<double>(static_cast<std::uint32_t>(number >> 32)) * 0x1p32 +
                          static_cast<double>(static_cast<std::uint32_t>(number));
     return static_cast<double>(static_cast<std::uint64_t>(number >> 64)) * 0x1p64 + lower;
 }
 
-// The float nearest to a product, if every number within 2^-50 of that in double, relatively, is rounded to it (Ziv
-// 1991, Fast evaluation of elementary mathematical functions with correctly rounded last bit); else nothing, which is
-// rare.
+// The float nearest to a product, if all doubles within a relative 2^-50 of it round to that float (Ziv 1991, Fast
+// evaluation of elementary mathematical functions with correctly rounded last bit); rarely nothing.
 std::optional<float> rounded_product(WideSum number, double factor) {
-    constexpr std::uint64_t tie = std::uint64_t{1} << 28; // of the 29 bits that a float does not have
+    constexpr std::uint64_t tie = std::uint64_t{1} << 28; // half of the 29 bits that a float lacks
     const double product = nearly(number) * factor;
     const std::uint64_t below_float = std::bit_cast<std::uint64_t>(product) % (2 * tie);
     const bool decided = below_float + 8 < tie || below_float > tie + 8;
@@ -34,7 +33,7 @@ std::optional<float> rounded_product(WideSum number, double factor) {
     return std::nullopt;
 }
 
-// Rounded once. Where that is beyond the normal numbers of double, so is 2^128 times it beyond those of float.
+// Rounded once. Outside double's normal numbers, 2^128 times it is outside float's.
 double factor_of(std::uint32_t divisor, int exponent) {
     return std::ldexp(1.0 / divisor, exponent);
 }

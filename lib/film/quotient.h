@@ -1,4 +1,4 @@
-// Quotients of exact sums and counts, as the kernels compute them (shaders/quotient.h): the same bits, sooner.
+// Quotients of exact sums and counts, with the bits of shaders/quotient.h, but faster.
 #pragma once
 
 #include "shaders/quotient.h"
@@ -7,23 +7,23 @@
 
 namespace pt {
 
-// Sums of samples, as whole numbers.
+// Sums of samples.
 __extension__ using WideSum = unsigned __int128;
 
-// For the sums of a and b samples in two parts, in units of 2^exponent.
+// For two parts with a and b samples, sums in units of 2^exponent.
 class PartQuotients {
 public:
     PartQuotients(std::uint32_t a, std::uint32_t b, int exponent);
 
     bool are_of(std::uint32_t a, std::uint32_t b) const { return a == a_ && b == b_; }
 
-    // Of all samples, rounded once, to nearest; 0 without samples.
+    // The mean of all samples, rounded once to nearest; 0 without samples.
     float mean(WideSum sum_a, WideSum sum_b) const { return mean_of(sum_a + sum_b, a_ + b_, factor_); }
 
-    // For parts with at least one sample each. The standard error is that of the mean, as gpu::ErrorDivisor derives it.
+    // For parts with at least one sample each. standard_error: of the mean, derived at gpu::ErrorDivisor.
     struct Difference {
         float standard_error;
-        float lesser; // of the means of the parts
+        float lesser; // of the parts' means
     };
     Difference difference(WideSum sum_a, WideSum sum_b) const;
 
@@ -34,7 +34,7 @@ private:
     std::uint32_t b_;
     int exponent_;
     gpu::ErrorDivisor divisor_{1, 0};
-    double factor_; // of sums to means, in double
+    double factor_; // from sums to means, in double
     double factor_a_;
     double factor_b_;
     double factor_of_error_;

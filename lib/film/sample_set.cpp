@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint64_t min_part = 8; // samples
 
-// The smallest multiple that is not below an index.
+// The smallest multiple of factor >= index.
 std::uint64_t multiple_from(std::uint64_t index, std::uint64_t factor) {
     return (index + factor - 1) / factor * factor;
 }
@@ -43,7 +43,7 @@ SampleRange SampleSet::hull() const {
     return empty() ? SampleRange{} : SampleRange{ranges_.front().first, ranges_.back().end};
 }
 
-// A single pass along both sets, since the header of a film may have a great many ranges.
+// A single pass along both sets, since a film may have very many ranges.
 std::optional<SampleRange> SampleSet::overlap(const SampleSet &other) const {
     auto own = ranges_.begin();
     for (const SampleRange &range : other.ranges_) {
@@ -100,8 +100,8 @@ std::string text_of(const SampleSet &samples) {
     return text;
 }
 
-// The common leading digits of two numbers, then a one, then zeros: no other number above the first and up to the
-// second ends with as many zeros.
+// The common leading digits of two numbers, then a one, then zeros: of the numbers above the first and up to the
+// second, this ends with most zeros.
 std::uint64_t split_of(const SampleRange &hull) {
     if (hull.count() < 2)
         return multiple_from(hull.end, min_part);

@@ -1,4 +1,4 @@
-// The tiles of a film, row by row: squares of TILE_SIZE pixels, smaller at the right and bottom edges.
+// A film's tiles, row by row: squares of TILE_SIZE pixels, smaller at the right and bottom edges.
 #pragma once
 
 #include "lib/film/film_header.h"
@@ -12,13 +12,13 @@ namespace pt {
 
 struct TileGrid {
     std::uint32_t width = 0;  // pixels of the film
-    std::uint32_t height = 0; // likewise
+    std::uint32_t height = 0; // pixels of the film
 
     std::uint32_t columns() const { return (width + gpu::TILE_SIZE - 1) / gpu::TILE_SIZE; }
     std::uint32_t rows() const { return (height + gpu::TILE_SIZE - 1) / gpu::TILE_SIZE; }
     std::size_t count() const { return std::size_t{columns()} * rows(); }
 
-    // Of the film.
+    // In the film.
     Rectangle pixels(std::size_t tile) const {
         const auto x = static_cast<std::uint32_t>(tile % columns()) * gpu::TILE_SIZE;
         const auto y = static_cast<std::uint32_t>(tile / columns()) * gpu::TILE_SIZE;
@@ -29,8 +29,8 @@ struct TileGrid {
         return std::size_t{y / gpu::TILE_SIZE} * columns() + x / gpu::TILE_SIZE;
     }
 
-    // Calls function(first, count, tile) for consecutive pixels of the film, counted from the first of them, that lie
-    // in one row of a tile each.
+    // Calls function(first, count, tile) for runs of consecutive pixels within a row of a tile. first counts from
+    // first_pixel.
     template <typename Function>
     void for_each_run(std::uint32_t first_pixel, std::size_t pixel_count, const Function &function) const {
         for (std::size_t done = 0; done < pixel_count;) {

@@ -12,7 +12,7 @@ namespace pt {
 
 namespace {
 
-// In ascending order, each once.
+// Sorts and removes duplicates.
 std::vector<std::uint32_t> distinct(std::vector<std::uint32_t> numbers) {
     std::sort(numbers.begin(), numbers.end());
     numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
@@ -27,8 +27,7 @@ struct RangesBefore {
     static std::pair<std::uint64_t, std::uint64_t> ends(const SampleRange &range) { return {range.first, range.end}; }
 };
 
-// For each tile, the first one with equal samples: comparing these indices is faster than comparing sets of many
-// ranges.
+// Index of the first tile with equal samples, per tile: faster to compare than sets of many ranges.
 std::vector<std::size_t> first_equals(const std::vector<FilmTile> &tiles) {
     std::map<const SampleSet *, std::size_t, RangesBefore> known;
     std::vector<std::size_t> firsts;
@@ -38,7 +37,7 @@ std::vector<std::size_t> first_equals(const std::vector<FilmTile> &tiles) {
     return firsts;
 }
 
-// Neighbours in a band with equal samples become one span; its tile is the first with these samples.
+// Joins neighbors in a band with equal samples; a span's tile is the first with these samples.
 std::vector<TileMap::Span> runs_of(const TileMap::Band &band, const std::vector<std::size_t> &firsts) {
     std::vector<TileMap::Span> runs;
     for (const TileMap::Span &span : band.spans) {
@@ -51,7 +50,7 @@ std::vector<TileMap::Span> runs_of(const TileMap::Band &band, const std::vector<
     return runs;
 }
 
-// The pieces of rows that meet the same tiles, from left to right.
+// From left to right, for rows that meet the same tiles.
 std::vector<TileMap::Piece> cut_rows(const std::vector<TileMap::Span> &spans, const Rectangle &rows) {
     std::vector<TileMap::Piece> pieces;
     std::uint32_t x = rows.x;
@@ -69,8 +68,7 @@ std::vector<TileMap::Piece> cut_rows(const std::vector<TileMap::Span> &spans, co
     return pieces;
 }
 
-// Whether these pieces continue others that lie above them, in the same columns and tiles. Both rows have the same
-// width.
+// Whether both rows of pieces, of equal width, have the same columns and tiles.
 bool continue_below(std::span<const TileMap::Piece> pieces, std::span<const TileMap::Piece> below) {
     return std::ranges::equal(pieces, below, [](const TileMap::Piece &a, const TileMap::Piece &b) {
         return a.pixels.x == b.pixels.x && a.tile == b.tile;
@@ -81,8 +79,7 @@ Rectangle shifted(const Rectangle &pixels, const Rectangle &origin) {
     return {pixels.x + origin.x, pixels.y + origin.y, pixels.width, pixels.height};
 }
 
-// The samples of the pixels of a rectangle, if all have the same: none if no tile has these pixels. Nothing if they
-// differ.
+// The samples of a rectangle's pixels, empty if no tile has them; no value if they differ.
 std::optional<SampleSet> samples_of(const TileMap &map, const std::vector<FilmTile> &tiles, const Rectangle &pixels) {
     const SampleSet none;
     const auto samples_in = [&](const TileMap::Piece &piece) -> const SampleSet & {
@@ -133,7 +130,7 @@ const TileMap::Span *TileMap::find(std::uint32_t x, std::uint32_t y) const {
 
 std::vector<TileMap::Piece> TileMap::cut(const Rectangle &pixels) const {
     std::vector<Piece> pieces;
-    std::size_t above = 0; // the first piece of the rows above
+    std::size_t above = 0; // first piece of the rows above
     auto band = std::ranges::upper_bound(bands_, pixels.y, {}, &Band::end);
     for (std::uint32_t y = pixels.y; y < pixels.bottom();) {
         const bool is_free = band == bands_.end() || band->first > y;

@@ -23,7 +23,7 @@ float mean(const glm::vec3 &color) {
     return (color.r + color.g + color.b) / 3.0F;
 }
 
-// In proportion to what the lobes can reflect, but with twice the weight for the diffuse one: it gathers from the whole
+// Proportional to the lobes' reflectances, but with twice the weight for the diffuse one: it gathers from the whole
 // hemisphere, so its samples vary more.
 float specular_probability(const Material &material) {
     const float specular = mean(material.specular);

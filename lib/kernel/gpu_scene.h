@@ -15,7 +15,7 @@ namespace pt {
 
 struct GpuScene {
     Features features;
-    // The scene buffer. Positions are made relative to the camera in double before rounding. Motion is that of the
+    // The scene buffer. Positions are made relative to the camera in double before rounding. Motion covers the
     // shutter's time.
     std::vector<glm::vec4> words;
     gpu::FrameConstants frame;              // the constant part

@@ -99,7 +99,7 @@ private:
     std::uint32_t max_dispatch_samples_; // per pixel
     bool overlap_;                       // dispatches may add to the film at the same time
     vulkan::Buffer scene_;
-    const vulkan::Buffer *tree_; // NULL if there is none
+    const vulkan::Buffer *tree_; // NULL without a tree
     vulkan::Buffer points_;      // used in turn by the slices under way
     TileLists tile_lists_;
     std::vector<vulkan::DescriptorSet> sets_; // one per strip of the film

@@ -46,8 +46,8 @@ Scene with_lamps(Scene scene, const SphereTree &tree) {
     return scene;
 }
 
-// Material numbers of the tree are those among the used ones. The tree's shape depends on the process's earlier scenes
-// and is left out.
+// Material numbers in the tree count used materials only. The tree's shape depends on the process's earlier scenes and
+// is left out.
 std::string digest_with_tree(const PreparedScene &prepared) {
     Digest digest;
     digest.add(digest_of(prepared.scene));

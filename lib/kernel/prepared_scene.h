@@ -30,7 +30,7 @@ struct PreparedScene {
     // Without a tree.
     explicit PreparedScene(Scene of);
 
-    // With a tree if the camera may see tree_from spheres, default: as many as pay. Keeps the shape of the tree of
+    // Makes a tree if the camera may see tree_from spheres, default: as many as pay. Keeps the shape of the tree of
     // `before` (may be NULL) if it fits. The caller's memory is not read afterwards.
     PreparedScene(CheckedScene checked, std::optional<std::uint32_t> tree_from, const PreparedScene *before,
                   WorkProgress &progress);

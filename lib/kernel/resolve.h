@@ -41,7 +41,7 @@ private:
 // A rectangle of the film and its place in the bound words.
 struct ResolvedPiece {
     Rectangle pixels;
-    std::uint32_t first_word; // in what is bound
+    std::uint32_t first_word; // in the bound buffer
     std::uint32_t row_words;  // from row to row
 };
 

@@ -74,8 +74,8 @@ std::uint32_t rounded_up(std::uint32_t levels) {
     return (levels + step - 1) / step * step;
 }
 
-// For a vertex's lamps: sum and choice over all lamps; or the tree's top, then down to the chosen lamp and to one that
-// a direction meets.
+// A vertex's trips for lamps: sum and choice over all lamps; or the tree's top, then down to the chosen lamp and to one
+// that a direction meets.
 std::uint64_t lamp_trips(const Features &features) {
     return features[gpu::ID_LAMP_TREE_LEVELS] ? gpu::LAMP_TREE_TOP_GROUPS + 2 * features[gpu::ID_LAMP_TREE_LEVELS]
                                               : 2 * std::uint64_t{features[gpu::ID_LAMP_COUNT]};
@@ -239,7 +239,7 @@ std::uint64_t loop_trips_per_sample(const Features &features) {
     const std::uint64_t walk = loop_trips_per_walk(features);
     const std::uint32_t branches = branch_count(features);
     const std::uint64_t first_vertex = further_lamps(features, branches) * (1 + walk) + lamp_trips(features);
-    // For a spot: to see, choose and weigh it, also once per branch, the walk there and one beyond.
+    // A spot's trips: to see, choose and weigh it, also once per branch, the walk there and one beyond.
     const std::uint64_t way =
         features[gpu::ID_SPOT_COUNT] > 0
             ? std::uint64_t{4 + branches} * features[gpu::ID_SPOT_COUNT] + 2 * walk + lamp_trips(features)

@@ -67,7 +67,7 @@ std::uint64_t loop_trips_per_walk(const Features &features);
 // Cost of a path of full length in ray-surface tests, to within a small factor. tree: NULL without.
 double surface_tests_per_path(const Features &features, const SphereTree *tree);
 
-// For a single ray.
+// The same for a single ray.
 double surface_tests_per_ray(const Features &features, const SphereTree *tree);
 
 // As PT_FEATURE_* bits.

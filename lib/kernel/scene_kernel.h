@@ -1,4 +1,4 @@
-// A kernel beside the path tracer's that reads the scene and is specialised to it likewise. Owned by FirstHits and
+// A kernel beside the path tracer's that reads the scene and is also specialised to it. Owned by FirstHits and
 // Coverage.
 #pragma once
 

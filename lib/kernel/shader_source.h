@@ -26,7 +26,7 @@ struct KernelCode {
 
 KernelCode embedded_code();
 
-// Of the code that makes pixels.
+// Digest of the code that makes pixels.
 std::string digest_of(const KernelCode &code);
 
 class ShaderSource {

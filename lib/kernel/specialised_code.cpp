@@ -59,7 +59,7 @@ bool ends_block(Opcode opcode) {
     return opcode >= OpBranch && opcode <= OpUnreachable;
 }
 
-// What is known of an id; members apply to certain kinds.
+// Knowledge about an id; members apply to certain kinds.
 struct Fact {
     std::optional<std::uint32_t> value; // of a constant of 32 bits, or a Boolean
     std::optional<std::uint32_t> spec_id;
@@ -176,8 +176,8 @@ private:
         return result_of(instruction[3], operand);
     }
 
-    // From a function to its first block, or from a block to its calls and branches. An `if` with a constant condition
-    // has one branch; branches that end a loop stay.
+    // Goes from a function to its first block, or from a block to its calls and branches. An `if` with a constant
+    // condition has one branch; branches that end a loop stay.
     void follow(std::uint32_t id) {
         const std::size_t place = fact(id).place;
         if (place == 0)

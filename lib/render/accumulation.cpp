@@ -37,9 +37,8 @@ bool Accumulation::set(TileTasks tasks, std::optional<double> unit_of_error) {
     return !tasks_.empty();
 }
 
-// When the time is over, slices that have ended by now are still taken in before anything is dealt, and what is dealt
-// is left to the next call. So a call returns however short the slices are, and a call that finds nothing under way
-// waits for nothing.
+// Once the time is over, takes in slices that have ended, but deals nothing: so a call returns however short slices
+// are, and waits for nothing if nothing is under way.
 bool Accumulation::run(Clock::time_point until) {
     const bool begins = !is_under_way();
     for (const auto &device : devices_)
@@ -56,7 +55,7 @@ bool Accumulation::run(Clock::time_point until) {
     return !is_under_way();
 }
 
-// Starts as many slices as there is room for. A cancellation that comes during this counts from here on.
+// Starts as many slices as there is room for. Cancellations from now on count.
 void Accumulation::deal() {
     if (cancellation_.is_asked())
         stop();
@@ -76,7 +75,7 @@ bool Accumulation::deal_to(RenderDevice &device) {
     if (!has_room_for(slice, device))
         return false;
     const bool is_last = tasks_.ends_all(slice.tiles.size());
-    // Before anything is started: what is must be counted.
+    // Before anything is started: started samples must be counted.
     Begun next{slice, &device, samples_,
                is_last && unit_of_error_ && devices_.size() == 1 && device.estimates_behind()};
     next.samples.add(slice.tiles, slice.samples);
@@ -93,14 +92,14 @@ bool Accumulation::deal_to(RenderDevice &device) {
     return true;
 }
 
-// To take the samples of one slice, every device may have to make room.
+// Every device may have to make room for the samples of a slice.
 bool Accumulation::has_room_for(const TileSlice &slice, const RenderDevice &taker) const {
     return taker.has_room() && (!slice.moves_split() ||
                                 std::ranges::all_of(devices_, [](const auto &device) { return device->has_room(); }));
 }
 
-// One device takes the samples of the slice. The others fold, so that all films have the same samples in each part and
-// can be added part by part.
+// One device takes the slice's samples. The others fold, so that all films have the same samples in each part and can
+// be added part by part.
 void Accumulation::start_begun() {
     const ErrorQuery estimate{unit_of_error_.value_or(1.0), begun_->samples};
     for (; begun_->next_device < devices_.size(); ++begun_->next_device) {
@@ -137,8 +136,8 @@ double Accumulation::fraction() const {
     return std::min(static_cast<double>(done_) / static_cast<double>(wanted_), 1.0);
 }
 
-// The device whose slice ends first, if one ends by that time. With several devices it is the first that is seen to be
-// done, since Vulkan can wait for only one.
+// The device whose slice ends first, if any by that time. Among several devices the first that is seen to be done,
+// since Vulkan can wait for only one.
 RenderDevice *Accumulation::next_to_finish(Clock::time_point until) const {
     constexpr std::chrono::microseconds pause{50}; // a thousandth of a slice
     if (devices_.size() == 1)

@@ -9,7 +9,7 @@ namespace pt {
 
 namespace {
 
-// Printable ASCII, as a film's header is.
+// Printable ASCII for a film's header.
 std::string printable(std::string text) {
     std::ranges::replace_if(
         text, [](char letter) { return letter < ' ' || letter > '~'; }, '?');

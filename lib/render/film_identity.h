@@ -1,4 +1,4 @@
-// What decides the bits of a picture's samples.
+// The identity of a picture's samples: everything that decides their bits.
 #pragma once
 
 #include "lib/film/film_header.h"
@@ -13,12 +13,12 @@
 
 namespace pt {
 
-// To be raised whenever a change affects the bits of any sample, in the kernel or in what the host prepares for it, or
-// which samples a target error takes.
+// To be raised by any change to the bits of samples, in the kernel or its input, or to the samples that a target error
+// takes.
 inline constexpr std::uint32_t estimator_version = 7;
 
-// What changes no bit is not part of a film's identity: rows, ranges, submissions, the number of equal devices, and
-// whether kernels have the numbers of the scene as constants (trace_pipelines.h).
+// Leaves out what changes no bits: rows, ranges, submissions, the number of equal devices, kernels with the scene as
+// constants (trace_pipelines.h).
 FilmIdentity identity_of(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings,
                          const KernelCode &code, const std::vector<pt_device_info> &devices);
 

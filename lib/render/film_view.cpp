@@ -7,7 +7,7 @@ namespace pt {
 
 namespace {
 
-// Pixels of a band, 56 MiB: many times what is in transit between two devices, and little beside a large film.
+// 56 MiB: far more than is in transit between devices, little beside a large film.
 constexpr std::uint32_t most_band_pixels = 1U << 19;
 
 } // namespace
@@ -19,7 +19,7 @@ std::vector<DeviceFilm *> FilmView::films(const RenderDevices &devices) {
     return films;
 }
 
-// As few bands of whole rows of tiles as possible, all of one size except the last.
+// As few as possible, of whole rows of tiles, of equal size except the last.
 std::vector<FilmView::Band> FilmView::bands() const {
     const TileGrid grid = home().film().grid();
     const std::uint32_t most = std::max<std::uint32_t>(most_band_pixels / gpu::TILE_SIZE / grid.width, 1);
@@ -85,7 +85,7 @@ std::optional<std::span<std::byte>> FilmView::map(const ImageQuery &query) {
     return home().image_reader().map(query);
 }
 
-// Reads only the rows that the image covers.
+// Reads only the image's rows.
 void FilmView::read_on_host(const Image &image, const ImageQuery &query, const TileSamples &samples) const {
     ImageRows rows(image);
     const std::uint32_t width = home().film().width();
@@ -97,12 +97,12 @@ void FilmView::read_on_host(const Image &image, const ImageQuery &query, const T
     });
 }
 
-// The kernels of a device need whole tiles.
+// Device kernels need whole tiles.
 bool FilmView::reads_on_device() const {
     return home().device().policy().resolve_on_device && home().film().has_whole_tiles();
 }
 
-// Tiles always come in the same order and in the same sums, on one device and on several.
+// Tiles come in the same order and sums on one device or several.
 void FilmView::estimate(ErrorEstimator &estimator, const ErrorQuery &query, bool is_recorded) {
     const auto add = [&](const TileErrors &tiles) { estimator.add(tiles); };
     if (!reads_on_device())
@@ -125,7 +125,7 @@ void FilmView::estimate_on_host(const ErrorQuery &query, const ErrorReader::Rece
         std::ranges::transform(tiles, query.by_tile.begin(), &TileErrors::own_square);
 }
 
-// Each band is a film of its own, with its own tiles.
+// Each band is a film with tiles of its own.
 void FilmView::estimate_bands(const ErrorQuery &query, const ErrorReader::Receive &receive) {
     films(devices_);
     const TileGrid &grid = query.samples.grid();

@@ -1,5 +1,5 @@
-// The image in the films of a context's devices together, and its error. Found on the first device if its kernels do
-// that, otherwise on the host. Owned by Renderer.
+// The image of a context's films together, and its error: computed on the first device if its policy says so, otherwise
+// on the host. Owned by Renderer.
 #pragma once
 
 #include "lib/film/error_estimate.h"
@@ -28,33 +28,31 @@ public:
     // The devices must outlive it.
     explicit FilmView(const RenderDevices &devices) : devices_(devices) {}
 
-    // Reads the image of the films' samples, in the format that it asks for. Throws PT_ERROR_INTERNAL if a driver lost
-    // work.
+    // Reads the samples in the image's format. Throws PT_ERROR_INTERNAL if a driver lost work.
     void read(const Image &image, const ImageQuery &query, const TileSamples &samples);
 
-    // The same, without gaps, in memory of the first device, if that device makes images. The memory stays until the
-    // film is replaced, or the next call. Otherwise nothing.
+    // The image without gaps in the first device's memory, if that device makes images; otherwise nothing. Valid until
+    // the next call or a new film.
     std::optional<std::span<std::byte>> map(const ImageQuery &query);
 
-    // Gives the estimator everything that is known about the error of the films, and answers what the query asks about
-    // tiles. is_recorded: the only device has done this already, in the submission that took the samples. Throws
-    // likewise.
+    // Gives the estimator all tiles' errors, and fills in query.by_tile. is_recorded: the only device has done this in
+    // the submission that took the samples. Throws likewise.
     void estimate(ErrorEstimator &estimator, const ErrorQuery &query, bool is_recorded);
 
-    // Forgets what is known, because the samples have changed.
+    // Call when the samples have changed.
     void forget_samples() noexcept { errors_.forget(); }
 
-    // Builds the kernels that it needs beyond those of each device.
+    // Builds its own kernels, beyond each device's.
     void prepare();
 
-    // To be called before films or kernels are replaced.
+    // Call before films or kernels are replaced.
     void drop() noexcept { sums_.clear(); }
 
-    // The films of the devices, brought up to date.
+    // The devices' films, brought up to date.
     static std::vector<DeviceFilm *> films(const RenderDevices &devices);
 
 private:
-    // The sum of some rows of the films, with its readers.
+    // The sum of some rows of the films, and its readers.
     struct Sum {
         Sum(const std::vector<FilmSum::Source> &sources, RenderDevice &home, std::uint32_t row_count);
 
@@ -63,7 +61,7 @@ private:
         std::optional<ErrorReader> error;
     };
 
-    // Rows of the films that are summed on the first device at one time.
+    // Rows summed on the first device at a time.
     struct Band {
         std::uint32_t first_row;
         std::uint32_t row_count;
@@ -79,8 +77,8 @@ private:
     void read_on_host(const Image &image, const ImageQuery &query, const TileSamples &samples) const;
 
     const RenderDevices &devices_;
-    FilmErrors errors_;   // as far as the host finds them
-    std::list<Sum> sums_; // of the sizes that bands have: two at the most
+    FilmErrors errors_;   // if computed on the host
+    std::list<Sum> sums_; // by the sizes of bands, at most two
 };
 
 } // namespace pt

@@ -13,9 +13,9 @@ namespace pt {
 
 namespace {
 
-constexpr std::uint32_t buffer_word_bytes = 4; // what a kernel writes
+constexpr std::uint32_t buffer_word_bytes = 4; // of a kernel's writes
 
-// The part of an image of width x height pixels that is asked for.
+// The part of a width x height image that is wanted.
 template <typename Source>
 Rectangle rectangle_of(const Source &source, std::uint32_t width, std::uint32_t height) {
     if (source.x == 0 && source.y == 0 && source.width == 0 && source.height == 0)
@@ -23,7 +23,7 @@ Rectangle rectangle_of(const Source &source, std::uint32_t width, std::uint32_t 
     return {source.x, source.y, source.width, source.height};
 }
 
-// Checks the columns or the rows of a rectangle: at least one, all within the image.
+// Checks a rectangle's columns or rows: at least one, all within the image.
 bool check_extent(const Subject &image, const char *name, std::uint32_t extent, const Member &begin,
                   std::uint32_t first, std::uint32_t limit) {
     image.require(extent >= 1, name, extent, "must be >= 1, but where x, y, width and height are all 0");
@@ -33,7 +33,7 @@ bool check_extent(const Subject &image, const char *name, std::uint32_t extent, 
     return within && extent >= 1;
 }
 
-// Only object numbers are whole numbers, so they have a format of their own.
+// Only object numbers are integers and have a format of their own.
 void check_quantity(const Subject &image, std::uint32_t quantity, std::uint32_t format, ImageSource of) {
     const bool is_known = quantity <= gpu::LAST_QUANTITY;
     image.require(is_known, "quantity", quantity, "must be a PT_QUANTITY_* of pt.h");
@@ -47,7 +47,7 @@ void check_quantity(const Subject &image, std::uint32_t quantity, std::uint32_t 
                                                  : "PT_FORMAT_R32UI is for PT_QUANTITY_OBJECT alone");
 }
 
-// The rules for images in any kind of memory. alignment: of rows, in bytes. offset: of the image in its memory.
+// The rules for images in any memory. alignment: of rows, bytes; offset: of the image in its memory.
 template <typename Source>
 ImageLayout checked_layout(const Subject &image, const Source &source, std::uint32_t alignment, std::uint64_t offset,
                            std::uint32_t width, std::uint32_t height, ImageSource of) {
@@ -58,7 +58,7 @@ ImageLayout checked_layout(const Subject &image, const Source &source, std::uint
     const bool columns_fit = check_extent(image, "width", pixels.width, {"x", "+ width"}, pixels.x, width);
     const bool rows_fit = check_extent(image, "height", pixels.height, {"y", "+ height"}, pixels.y, height);
     if (!columns_fit || !rows_fit || source.format >= format_count)
-        return layout; // how much memory it takes is not known
+        return layout; // the size is unknown
 
     const std::string width_text = "width * " + number_text(pixel_bytes(source.format));
     const std::uint64_t width_bytes = std::uint64_t{pixels.width} * pixel_bytes(source.format);
@@ -67,7 +67,7 @@ ImageLayout checked_layout(const Subject &image, const Source &source, std::uint
                   "must be a multiple of " + number_text(alignment));
     image.require(row_bytes >= width_bytes, "row_bytes", row_bytes,
                   "must be >= " + width_text + " (" + number_text(width_bytes) + ")");
-    // offset + (height - 1) * row_bytes + width_bytes <= size_bytes, by division: the product may pass 2^64.
+    // offset + (height - 1) * row_bytes + width_bytes <= size_bytes, by division, since the product may pass 2^64.
     const std::uint64_t room = source.size_bytes - std::min(source.size_bytes, offset);
     const bool large_enough = room >= width_bytes && (room - width_bytes) / row_bytes >= pixels.height - 1;
     const std::string before = offset == 0 ? "" : "offset_bytes + ";

@@ -1,4 +1,4 @@
-// Where a caller wants an image: in memory or in a buffer of the device, checked against its size, and filled.
+// A caller's image, in memory or a device's buffer, checked and filled.
 #pragma once
 
 #include "lib/film/film_header.h"
@@ -12,9 +12,8 @@
 
 namespace pt {
 
-// What is read, and how its rows lie in memory.
 struct ImageLayout {
-    Rectangle pixels;        // of what is rendered, at least one
+    Rectangle pixels;        // within the rendered pixels, at least one
     std::uint32_t quantity;  // PT_QUANTITY_*
     std::uint32_t format;    // PT_FORMAT_*
     std::uint64_t row_bytes; // distance between rows
@@ -30,25 +29,25 @@ struct BufferImage {
     std::uint64_t buffer; // VkBuffer
     std::uint64_t offset_bytes;
     std::uint64_t wait_semaphore;   // VkSemaphore, or 0
-    std::uint64_t signal_semaphore; // likewise
+    std::uint64_t signal_semaphore; // VkSemaphore, or 0
 };
 
-// Which quantities can be read: a context has all of them, films and lent buffers only those of samples.
+// A context has all quantities, films and lent buffers only samples' quantities.
 enum class ImageSource { Context, Samples };
 
-// Checks an image whose struct_size is settled, of width x height pixels that are rendered, both >= 1. Throws
+// Checks an image with a known struct_size; width and height of the rendered pixels are >= 1. Throws
 // PT_ERROR_INVALID_ARGUMENT with all broken rules.
 Image validated_image(const pt_image &source, std::uint32_t width, std::uint32_t height, ImageSource of);
-// The same for an image in memory of the library: without gaps.
+// The same for an image in the library's memory, without gaps.
 ImageLayout validated_mapped_layout(const pt_image &source, std::uint32_t width, std::uint32_t height);
 BufferImage validated_image(const pt_buffer_image &source, std::uint32_t width, std::uint32_t height);
 
-// The caller's memory for an image, filled pixel by pixel in the order of rows.
+// The caller's memory, filled pixel by pixel, row by row.
 class ImageRows {
 public:
     explicit ImageRows(const Image &image);
 
-    // Takes the next pixels, in the format of the image, or as R, G and B of each.
+    // Takes the next pixels, in the image's format, or as R, G and B.
     void put(std::span<const std::byte> pixels);
     void put(std::span<const float> values);
 

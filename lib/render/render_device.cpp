@@ -12,7 +12,7 @@ namespace pt {
 
 namespace {
 
-// How much of a learnt rate to trust for another kernel, whose tests may take longer than the measured ones.
+// Share of a learnt rate that is trusted for another kernel, whose tests may take longer.
 constexpr double share_assumed_of_learnt = 0.125;
 
 } // namespace
@@ -28,14 +28,13 @@ RenderDevice::RenderDevice(vulkan::Instance &instance, const vk::raii::PhysicalD
     under_way_.reserve(device_.policy().queue_depth);
 }
 
-// Waits for work under way before destroying what that work uses. If the device hangs, that is leaked
-// (vulkan/device_object.h).
+// Waits for work under way before destroying its objects; if the device hangs, leaks them (vulkan/device_object.h).
 RenderDevice::~RenderDevice() {
     if (!device_.comes_to_rest())
         device_.abandon();
 }
 
-// The film that it replaces does not count, because that is freed before this one is touched.
+// Ignores the film to be replaced, which is freed before this one is touched.
 DeviceFilm RenderDevice::make_film(const RenderSettings &settings) {
     const std::uint64_t bytes = std::uint64_t{settings.width} * settings.row_count * DeviceFilm::bytes_per_pixel;
     if (!device_.has_memory(bytes))
@@ -104,8 +103,8 @@ void RenderDevice::save_kernels() noexcept {
         device_.pipeline_cache().save(device_.log());
 }
 
-// If the kernel stays, so does the schedule, since a sample costs about the same. For another kernel the schedule
-// starts from what this device is known to manage.
+// Keeps the schedule with the kernel, as samples cost about the same. For another kernel it starts from the device's
+// known rate.
 void RenderDevice::prepare(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings) {
     pipelines_->build_own(TracePipelines::OwnKernels::when_they_pay);
     if (kernel_ && &kernel_->scene() == scene.get())
@@ -123,7 +122,7 @@ void RenderDevice::prepare(const std::shared_ptr<const GpuScene> &scene, const R
                                      .max_samples = kernel_->max_samples()});
 }
 
-// A tree is uploaded once, for all kernels that will use it.
+// Uploads a tree once, for all kernels.
 void RenderDevice::plant(const std::shared_ptr<const SphereTree> &tree) {
     if (tree == tree_)
         return;
@@ -185,7 +184,7 @@ BufferWriter &RenderDevice::buffer_writer() {
     return *buffer_writer_;
 }
 
-// The path tracer's kernel is prepared as well: it decides whether the scene is beyond the device, and has the buffers.
+// Also prepares the path tracer's kernel, which has the buffers and decides whether the scene is beyond the device.
 void RenderDevice::read_first_hits(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings,
                                    const FirstHitQuery &query, const FirstHits::Receive &receive) {
     prepare(scene, settings);
@@ -231,7 +230,7 @@ ErrorReader &RenderDevice::bound_error_reader() {
     return *error_reader_;
 }
 
-// A void film has nothing to make room in. It is cleared together with the first samples that it takes.
+// A void film needs no room. It is cleared with its first samples.
 void RenderDevice::start(const TileSlice &slice, const ErrorQuery *estimate) {
     if (!slice.takes && film_is_void_)
         return;

@@ -1,5 +1,5 @@
-// One device's share of the rendering: its film, its kernel, and its slices under way. Owned by Renderer, which deals
-// samples to its devices. The sums of the film are exact, so it does not matter which device takes which sample.
+// A device's share of the rendering: its film, kernel and slices under way. Owned by Renderer, which deals samples to
+// its devices. Films are exact sums, so it does not matter which device takes a sample.
 #pragma once
 
 #include "lib/kernel/buffer_writer.h"
@@ -28,11 +28,11 @@ namespace pt {
 
 class RenderDevice {
 public:
-    // The instance must outlive it. target_seconds: how long a slice should take. caller: see vulkan::Device.
+    // The instance must outlive it. target_seconds: aim for a slice; caller: see vulkan::Device.
     RenderDevice(vulkan::Instance &instance, const vk::raii::PhysicalDevice &physical_device,
                  const vulkan::DevicePolicy &policy, const KernelCode &code, double target_seconds,
                  const vulkan::CallerVulkan *caller = nullptr);
-    // Waits for work under way, for as long as the patience of the device allows.
+    // Waits for work under way, within the device's patience.
     ~RenderDevice();
     RenderDevice(const RenderDevice &) = delete;
     RenderDevice &operator=(const RenderDevice &) = delete;
@@ -40,52 +40,49 @@ public:
     vulkan::Device &device() { return device_; }
     const vulkan::Device &device() const { return device_; }
 
-    // The film with the samples that this device has taken. Only while no work is under way.
+    // Only while no work is under way.
     DeviceFilm &film();
 
-    // Reads the film.
     ImageReader &image_reader();
     BufferWriter &buffer_writer();
     ErrorReader &error_reader();
 
-    // Pixels of what camera rays meet first; see FirstHits::read(). Only while no work is under way.
+    // See FirstHits::read(). Only while no work is under way.
     void read_first_hits(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings,
                          const FirstHitQuery &query, const FirstHits::Receive &receive);
 
-    // How many camera rays of the samples meet a surface, by pixel; see Coverage::read(). Only while no work is under
-    // way.
+    // See Coverage::read(). Only while no work is under way.
     void read_coverage(const std::shared_ptr<const GpuScene> &scene, const CoverageQuery &query,
                        const Coverage::Receive &receive);
 
-    // The kernels, for use with films other than this device's own.
+    // For films other than the device's own.
     ResolvePipelines &resolve_pipelines();
     const vulkan::ComputePipeline &estimate_pipeline();
     const vulkan::ComputePipeline &add_pipeline();
 
-    // Takes over kernels that the caller has kept, and hands over those that are built.
+    // Takes over kernels that the caller has kept, and hands over built ones.
     void keep_kernels(const vulkan::KernelStore &store);
     void save_kernels() noexcept;
 
-    // Makes a film for these settings on this device. Throws PT_ERROR_UNSUPPORTED if the device is too small for it.
+    // Throws PT_ERROR_UNSUPPORTED if the device is too small.
     DeviceFilm make_film(const RenderSettings &settings);
     void set_film(DeviceFilm film);
 
-    // The film is void from here on.
+    // The film is void from now on.
     void discard_samples() noexcept;
 
-    // Pipelines for other code, built as far as the present kernel needs them. Throws PT_ERROR_SHADER if the driver
-    // refuses the code.
+    // Pipelines for other code, as far as the present kernel needs them. Throws PT_ERROR_SHADER if the driver refuses
+    // the code.
     std::unique_ptr<TracePipelines> make_pipelines(const KernelCode &code);
     void set_pipelines(const KernelCode &code, std::unique_ptr<TracePipelines> pipelines) noexcept;
 
-    // Makes a kernel for this scene, or shows the scene to the one that is there. After set_film, and only while no
-    // work is under way.
+    // Makes a kernel for this scene, or shows the scene to the present one. After set_film, while no work is under way.
     void prepare(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings);
 
-    // The same, and builds everything that the kernel will need, in its fastest form.
+    // Also builds everything that the kernel will need, in its fastest form.
     void prepare_ahead(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings);
 
-    // Builds everything that samples of the scene need until the next prepare(), and what looks at errors.
+    // Builds everything for the scene's samples until the next prepare(), and for errors.
     void prepare_for_polls(bool with_errors);
 
     bool has_room() const { return under_way_.size() < device_.policy().queue_depth; }
@@ -93,29 +90,27 @@ public:
 
     const Schedule &schedule() const { return *schedule_; }
 
-    // Whether the error of the film can be estimated in the submission that takes samples.
+    // Whether a submission can take samples and estimate the error.
     bool estimates_behind() const { return device_.policy().resolve_on_device && film_->strips().size() == 1; }
 
-    // Starts a slice. has_room() must hold. estimate: if given, the error of the film with these samples is estimated
-    // after them, for error_reader().collect(); estimates_behind() must hold.
+    // has_room() must hold. estimate: also estimates the error with these samples, for error_reader().collect();
+    // estimates_behind() must hold.
     void start(const TileSlice &slice, const ErrorQuery *estimate = nullptr);
 
-    // Whether finish() would return at once, after waiting for that until a given time. Only while work is under way.
+    // Whether finish() would return at once, after waiting until the given time. Only while work is under way.
     bool is_done(vulkan::Device::Clock::time_point until) { return device_.is_done(under_way_.front().ticket, until); }
 
-    // Notes which slices have ended while nobody waited for them. Without this, a slice counts as ended when somebody
-    // looks.
+    // Notes slices that have ended meanwhile. Otherwise a slice counts as ended when it is looked at.
     void look() { device_.look(); }
 
-    // Waits for the slice that was started first. seconds: its duration, or if nobody saw it end, the nearest estimate
-    // to what was expected.
+    // Waits for the oldest slice. seconds: its duration, or an estimate if nobody saw it end.
     struct Finished {
-        std::uint64_t tile_samples; // tiles times samples; 0 where another device took them
+        std::uint64_t tile_samples; // tiles times samples; 0 if another device took them
         double seconds;
     };
     Finished finish();
 
-    // Waits for all slices that were started, and knows nothing of them afterwards.
+    // Waits for all slices and forgets them.
     void drain() noexcept;
 
 private:
@@ -126,34 +121,34 @@ private:
 
     void plant(const std::shared_ptr<const SphereTree> &tree);
     void drop_kernel() noexcept;
-    void drop_bound() noexcept; // the kernel and whatever else has descriptor sets with the film
+    void drop_bound() noexcept; // the kernel and everything with descriptor sets of the film
     ErrorReader &bound_error_reader();
 
     vulkan::Device device_;
     KernelCode code_;
     std::unique_ptr<TracePipelines> pipelines_; // never NULL
     double target_seconds_;
-    double tests_per_second_;                 // that it is taken to manage with a kernel that has not been measured
-    std::optional<ResolvePipelines> resolve_; // of the code, once an image was read
-    std::optional<vulkan::ComputePipeline> estimate_; // likewise, once an error was asked for
-    std::optional<vulkan::ComputePipeline> add_;      // once films of several devices met on this one
+    double tests_per_second_;                         // assumed for kernels not measured yet
+    std::optional<ResolvePipelines> resolve_;         // of the code; made on first use
+    std::optional<vulkan::ComputePipeline> estimate_; // likewise
+    std::optional<vulkan::ComputePipeline> add_;      // for films of several devices
     std::optional<DeviceFilm> film_;
-    std::optional<ImageReader> image_reader_; // of the film, likewise
+    std::optional<ImageReader> image_reader_; // of the film; made on first use
     std::optional<BufferWriter> buffer_writer_;
     std::optional<ErrorReader> error_reader_;
-    std::shared_ptr<const SphereTree> tree_; // that is in the buffer
+    std::shared_ptr<const SphereTree> tree_; // in the buffer
     std::optional<vulkan::Buffer> tree_buffer_;
-    std::optional<FirstHits> first_hits_; // of the code, once they were asked for
+    std::optional<FirstHits> first_hits_; // of the code; made on first use
     std::optional<Coverage> coverage_;    // likewise
     std::optional<Kernel> kernel_;
     std::optional<Schedule> schedule_; // of the kernel
-    std::vector<Work> under_way_;      // in the order of their starts; has room for all that there may be
-    bool film_is_void_ = true;         // it is to be cleared before it is used
+    std::vector<Work> under_way_;      // in order of start; has room for all
+    bool film_is_void_ = true;         // to be cleared before use
 };
 
 using RenderDevices = std::vector<std::unique_ptr<RenderDevice>>; // of a renderer, at least one
 
-// Hands to the caller, at the end of a call, the kernels that were built in it.
+// Hands kernels built in a call to the caller, at its end.
 class KernelsKept {
 public:
     explicit KernelsKept(const RenderDevices &devices) : devices_(devices) {}

@@ -11,20 +11,19 @@
 
 namespace pt {
 
-// Writes the sum of films of one size, which together hold these samples, into memory of the size that FilmLayout asks
-// for. The header has the same samples. pixels: those of the image that the films cover; the header may lack some.
+// Writes the sum of films of one size, which together hold these samples, into memory of FilmLayout's size. The header
+// has the same samples. pixels: the films', in the image; the header may lack some.
 void save(std::span<DeviceFilm *const> films, const TileSamples &samples, const FilmHeader &header,
           const Rectangle &pixels, std::span<std::byte> bytes);
 
-// The samples of a film, by tile of a context with these pixels. Throws PT_ERROR_INCOMPATIBLE if the film has other
-// pixels or cuts tiles.
+// By tile of a context with these pixels. Throws PT_ERROR_INCOMPATIBLE if the film has other pixels or cuts tiles.
 TileSamples samples_of_film(const FilmHeader &film, const Rectangle &pixels);
 
-// The union. Throws PT_ERROR_INCOMPATIBLE if a tile has the same sample in both.
+// Throws PT_ERROR_INCOMPATIBLE if a tile has the same sample in both.
 TileSamples united(const TileSamples &present, const TileSamples &added);
 
-// Adds a saved film and all of the films to the first of them, or changes nothing: throws PT_ERROR_INCOMPATIBLE if its
-// sums are impossible for its samples. all: united(present, added).
+// Adds a saved film and all films to the first of them, or throws PT_ERROR_INCOMPATIBLE and changes nothing if its sums
+// are impossible for its samples. all: united(present, added).
 void add(const FilmReader &film, const TileSamples &added, std::span<DeviceFilm *const> films,
          const TileSamples &present, const TileSamples &all, const Rectangle &pixels, vulkan::Device &device);
 

@@ -9,8 +9,7 @@ namespace pt {
 
 namespace {
 
-// How many times larger a submission may be than the largest measured one. A wrong guess must not run into the seconds
-// after which drivers kill a submission.
+// Limit to growth over the largest measured submission: a wrong guess must not run into drivers' timeouts.
 constexpr double max_growth = 2.0;
 
 constexpr double paths_of_tile = gpu::WORKGROUP_SIZE; // with one sample
@@ -31,8 +30,8 @@ std::uint64_t Schedule::samples(std::size_t tile_count, std::uint64_t most) cons
                                      std::min<std::uint64_t>(most, limits_.max_samples));
 }
 
-// One of as few equal shares as the budget allows. They are equal because a small last share would waste the overhead
-// of a submission. If one share is not enough, each is larger than half of the budget.
+// As few equal shares as the budget allows: a small last share would waste a submission's overhead. If there are
+// several, each exceeds half of the budget.
 std::size_t Schedule::tiles(std::size_t left, std::uint64_t sample_count) const {
     const auto affordable = static_cast<std::size_t>(std::clamp(budget_ / paths_of(1, sample_count), 1.0, 0x1p32));
     const std::size_t shares = (left + affordable - 1) / affordable;
@@ -43,11 +42,10 @@ double Schedule::expected_seconds(double paths) const {
     return limits_.target_seconds * paths / budget_;
 }
 
-// A submission takes an overhead, about 0.1 ms, and a time per path, and one measurement cannot tell the two apart.
-// So the excess over the expected time is treated as fixed overhead: exact for submissions of the whole budget, while
-// small ones, which are mostly overhead, change little. Repeated, it converges to the budget that takes target_seconds
-// with its overhead: for overhead o and rate r the step is x -> x t / (o + x / r), whose only stable fixed point is
-// x = r (t - o).
+// A submission takes an overhead, about 0.1 ms, and a time per path, which one measurement cannot tell apart. So the
+// excess over the expected time is treated as overhead: exact for submissions of the whole budget, while small ones
+// change little. For overhead o and rate r the step x -> x t / (o + x / r) has the only stable fixed point x = r (t -
+// o), the budget that takes target_seconds with its overhead.
 void Schedule::measured(double paths, double seconds) {
     if (!(seconds >= 0.0))
         return;

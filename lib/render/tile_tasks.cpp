@@ -4,7 +4,7 @@
 
 namespace pt {
 
-// Tiles with fewer samples come first: there are more of them, and they keep a device busiest.
+// Tiles with fewer samples come first: they are more and keep a device busiest.
 TileTasks::TileTasks(const TileSamples &present, std::uint32_t first_sample, std::span<const std::uint32_t> tiles,
                      const Goal &goal) {
     for (const std::uint32_t tile : tiles) {
@@ -15,7 +15,7 @@ TileTasks::TileTasks(const TileSamples &present, std::uint32_t first_sample, std
         const auto same =
             std::ranges::find_if(tasks_, [&](const Task &task) { return task.set == set && task.wanted == wanted; });
         Task &task = same != tasks_.end() ? *same : add_task(set, wanted, present.of(tile), first_sample);
-        task.found.push_back(tile); // there are a few dozen tasks at the most, and thousands of tiles
+        task.found.push_back(tile); // a few dozen tasks at most, for thousands of tiles
     }
     for (Task &task : tasks_)
         task.tiles = task.found;
@@ -52,7 +52,7 @@ bool TileTasks::ends_all(std::size_t tile_count) const {
     return tasks_.size() == 1 && ends_samples(tile_count) && tasks_.back().chunk.end == tasks_.back().samples.end;
 }
 
-// Moves on to the tiles after these, or to the next samples of all.
+// Moves on to the next tiles, or the next samples of all.
 void TileTasks::leave_behind(std::size_t tile_count) noexcept {
     Task &task = tasks_.back();
     task.next_tile += tile_count;
