@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <functional>
@@ -122,11 +123,9 @@ Stated over_seeds(const char *wish, double deviation, int seed_count = 6) {
     return stated;
 }
 
-// Where nothing is chosen, as with a filter that does nothing, there is no bias at all. Else the choice makes the
-// square too small by less than a twentieth, and places whose faults count for 0 at least make it too large by less
-// than a third. Faults of the filter are in it, to which the difference of the filtered halves is blind.
-TEST(Denoise, StatesTheSquareOfItsErrorWithoutBias) {
-    double without_fault = 0.0;
+// With a filter that does nothing there is no bias at all. Else limits, which know both halves, make the square too
+// small by at most a quarter, and places whose faults count for 0 at least make it too large by less than a third.
+TEST(Denoise, StatesTheSquareOfItsError) {
     for (const char *wish : {"identity", "", "shift", "darken"}) {
         const Stated stated = over_seeds(wish, much_noise, 24);
         const statistics::Moments moments = statistics::moments(stated.differences);
@@ -134,14 +133,12 @@ TEST(Denoise, StatesTheSquareOfItsErrorWithoutBias) {
                              std::sqrt(moments.variance / static_cast<double>(stated.differences.size()));
         const double chosen = std::string(wish) == "identity" ? 0.0 : stated.mean_true;
         EXPECT_LT(moments.mean, bound + chosen / 3) << wish;
-        EXPECT_GT(moments.mean, -bound - 0.05 * chosen) << wish;
+        EXPECT_GT(moments.mean, -bound - 0.25 * chosen) << wish;
         EXPECT_LT(bound, 0.15 * stated.mean_true) << wish; // or it would say nothing
         for (const double ratio : {stated.mean_ratio, stated.mean_relative_ratio}) {
-            EXPECT_GT(ratio, 0.9) << wish;
+            EXPECT_GT(ratio, 0.87) << wish; // the root of 1 - 1/4
             EXPECT_LT(ratio, 1.3) << wish;
         }
-        EXPECT_GT(stated.mean_true, 1.1 * without_fault) << wish; // there is something to be seen
-        without_fault = *wish == '\0' ? stated.mean_true : without_fault;
     }
 }
 
@@ -176,24 +173,102 @@ TEST(Denoise, IsNoWorseThanTheRawImage) {
         }
 }
 
-// Noise in the left half alone, of opposite signs in the two images, so that their mean is 1 and what is left of the
-// darkening shows the choice: most of it at the left, none at the right, and between them no step. A linear ramp over a
-// tile of 8 pixels that goes all the way has steps of an 8th.
+// A ramp, which rises in the upper half and falls in the lower one, so that a filter that shifts it by a pixel keeps
+// the mean. Noise of opposite signs in the two images is a checkerboard, so that their mean is the ramp, and what is
+// left of the shift shows the choice: nearly all of it at the left, where noise is large, little at the right, and no
+// step. A linear ramp over a tile of 8 pixels that goes all the way has steps of an 8th.
 TEST(Denoise, HasNoSeams) {
-    Pixels halves[2] = {Pixels(value_count, 1.0F), Pixels(value_count, 1.0F)};
-    for (std::size_t i = 0; i < value_count; ++i)
-        if (i / 3 % width < width / 2) {
-            halves[0][i] = 1.3F;
-            halves[1][i] = 0.7F;
-        }
+    constexpr float slope = 0.02F;
+    constexpr std::size_t noisy_width = 100; // ends within a tile
+    const auto ramp_at = [](std::size_t x, std::size_t y) {
+        return 1.0F + slope * static_cast<float>(y < height / 2 ? x : width - 1 - x);
+    };
+    Pixels halves[2] = {Pixels(value_count), Pixels(value_count)};
+    for (std::size_t i = 0; i < value_count; ++i) {
+        const std::size_t x = i / 3 % width;
+        const std::size_t y = i / 3 / width;
+        const float noise = (x < noisy_width ? 0.3F : 0.01F) * ((x + y) % 2 == 0 ? 1.0F : -1.0F);
+        halves[0][i] = ramp_at(x, y) + noise;
+        halves[1][i] = ramp_at(x, y) - noise;
+    }
     Denoising denoising(halves[0], halves[1]);
-    ASSERT_EQ(denoising.run("darken"), PT_OK);
-    const std::size_t row = std::size_t{3} * width * (height / 2);
-    EXPECT_LT(denoising.denoised[row], 0.951F);
-    EXPECT_EQ(denoising.denoised[row + 3 * (width - 1)], 1.0F);
-    for (std::size_t x = 1; x < width; ++x)
-        EXPECT_LT(std::abs(denoising.denoised[row + 3 * x] - denoising.denoised[row + 3 * (x - 1)]), 0.05 / 8 + 1e-6)
-            << x;
+    ASSERT_EQ(denoising.run("shift"), PT_OK);
+    const std::size_t y = height / 4;
+    const auto share = [&](std::size_t x) { return (denoising.denoised[3 * (y * width + x)] - ramp_at(x, y)) / slope; };
+    EXPECT_GT(share(8), 0.9F);
+    EXPECT_LT(share(width - 16), 0.5F);
+    for (std::size_t x = 9; x < width - 8; ++x) {
+        const bool has_other_limits = x + 3 >= noisy_width && x <= noisy_width + 3; // within the filter's reach
+        EXPECT_LT(std::abs(share(x) - share(x - 1)), has_other_limits ? 1.0 : 0.125 + 1e-3) << x;
+    }
+}
+
+// Noise that grows downwards, from none at the top, about a lamp. Two standard errors of a half are 2 sqrt(2) s, and s
+// counts up to 16 times where it is larger about a value.
+TEST(Denoise, MovesNoValueBeyondWhatHalvesSupport) {
+    Pixels halves[2] = {noisy(1, 1.0), noisy(2, 1.0)};
+    for (std::size_t i = 0; i < value_count; ++i) {
+        const std::size_t x = i / 3 % width;
+        const std::size_t y = i / 3 / width;
+        const auto share = static_cast<float>(y) / height;
+        const bool is_lamp = x >= 64 && x < 68 && y % 40 >= 20 && y % 40 < 24;
+        for (Pixels &half : halves)
+            half[i] = is_lamp ? 800.0F : std::lerp(static_cast<float>(limit_at(i)), half[i], share);
+    }
+    Denoising denoising(halves[0], halves[1]);
+    ASSERT_EQ(denoising.run("shift"), PT_OK);
+    std::size_t moved = 0;
+    for (std::size_t i = 0; i < value_count; ++i) {
+        const double mean = 0.5 * (double{halves[0][i]} + halves[1][i]);
+        const double spread = 0.5 * std::abs(double{halves[0][i]} - halves[1][i]);
+        const double move = std::abs(denoising.denoised[i] - mean);
+        const double rounding = 1e-6 * mean;
+        ASSERT_LE(move, 16.0 * 2.0 * std::sqrt(2.0) * spread + rounding) << i;
+        moved += move > rounding ? 1 : 0;
+        float lowest = halves[0][i];
+        float highest = lowest;
+        for (std::size_t k = 0; k < 9; ++k) {
+            const std::size_t x = std::clamp<std::size_t>(i / 3 % width + k % 3, 1, width) - 1;
+            const std::size_t y = std::clamp<std::size_t>(i / 3 / width + k / 3, 1, height) - 1;
+            for (const Pixels &half : halves) {
+                lowest = std::min(lowest, half[3 * (y * width + x) + i % 3]);
+                highest = std::max(highest, half[3 * (y * width + x) + i % 3]);
+            }
+        }
+        ASSERT_GE(denoising.denoised[i], lowest - rounding) << i;
+        ASSERT_LE(denoising.denoised[i], highest + rounding) << i;
+    }
+    EXPECT_GT(moved, value_count / 2);
+}
+
+// Whether the filter darkens all of the picture, or takes rare light away.
+TEST(Denoise, KeepsTheMeanWithinItsNoise) {
+    for (const char *wish : {"darken", "cut"}) {
+        Denoising denoising(3, 0.2);
+        for (std::size_t i = 0; i < value_count; i += 300) // in one half each
+            (i % 600 == 0 ? denoising.first : denoising.second)[i] += 60.0F;
+        ASSERT_EQ(denoising.run(wish), PT_OK);
+        double square = 0.0;
+        double shift = 0.0;
+        for (std::size_t i = 0; i < value_count; i += 3) {
+            square += std::pow(0.5 * (double{denoising.first[i]} - denoising.second[i]), 2);
+            shift += denoising.denoised[i] - 0.5 * (double{denoising.first[i]} + denoising.second[i]);
+        }
+        EXPECT_LE(std::abs(shift), 1.001 * std::sqrt(square)) << wish;
+        EXPECT_LT(shift, -0.9 * std::sqrt(square)) << wish; // the filter would take more
+    }
+}
+
+// A value that differs between the halves, alone in its tile and those about it, may be a lamp or noise.
+TEST(Denoise, IsNotPersuadedByOnePixel) {
+    Pixels halves[2] = {Pixels(value_count, 1.0F), Pixels(value_count, 1.0F)};
+    for (std::size_t y = 4; y < height; y += 40)
+        for (std::size_t x = 4; x < width; x += 40)
+            halves[0][3 * (y * width + x)] = 3.0F;
+    Denoising denoising(halves[0], halves[1]);
+    ASSERT_EQ(denoising.run(), PT_OK);
+    for (std::size_t i = 0; i < value_count; ++i)
+        ASSERT_EQ(denoising.denoised[i], 0.5F * (halves[0][i] + halves[1][i])) << i;
 }
 
 // The filter spreads a lamp over two pixels to each side, where relative errors would be a million times those of the

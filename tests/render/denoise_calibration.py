@@ -100,7 +100,7 @@ def measured(name, count, arrays):
 
     relative, absolute = ([square(image, weight) for image in (raw, denoised)] for weight in (1 / (truth ** 2 + 0.01), 1))
     true = math.sqrt(relative[1])
-    noise = math.sqrt(float(((first.astype(float) - second) ** 2).sum())) / 2 / raw.size
+    noise = math.sqrt(float(((first.astype(float) - second).sum(axis=2) ** 2).sum())) / 2 / raw.size
     shift = float(denoised.mean(dtype=float) - raw.mean())
     return Case(name, count, math.sqrt(relative[1] / relative[0]), math.sqrt(absolute[1] / absolute[0]),
                 relative[0] / relative[1], shift / noise if noise else 0.0,

@@ -2,8 +2,13 @@
  * pt: a denoised picture that states its error, by Open Image Denoise.
  *
  * Two images A and B are made of one scene with other seeds and equally many samples each, so that each tells the error
- * of what a filter D makes of the other: B is the limit plus noise that D(A) knows nothing of. What comes out lies
- * between the raw image (A + B) / 2 and the denoised one (D(A) + D(B)) / 2, at each place where the error is least.
+ * of what a filter D makes of the other: B is the limit plus noise that D(A) knows nothing of. The picture lies between
+ * the raw image (A + B) / 2 and the filtered one (D(A) + D(B)) / 2, where the error is least. It moves towards the
+ * latter only as far as both images support:
+ * - a value by no more than 2 sqrt(2) |A - B| / 2, which counts up to 16 times where most of the 3x3 pixels about it
+ *   differ more; equal values keep their mean,
+ * - to no value beyond those that A and B have within the 3x3 pixels about it,
+ * - the mean of a channel by no more than its standard error.
  */
 #ifndef PT_DENOISE_H
 #define PT_DENOISE_H
@@ -41,12 +46,10 @@ typedef struct pt_denoise_info {
  * On the CPU the result is independent of the number of threads, which Open Image Denoise starts itself. Nothing is
  * taken from, or changed in, any context.
  *
- * error receives the error of the denoised picture, and error->struct_size must be set. Its squares are estimated
- * without bias, but for the choice by places and for what the filter makes wrong, which counts nowhere less than 0, and
- * with a standard error, as tiles of 8 x 8 pixels differ: rmse and relative_rmse are 1.28 of these above the estimate,
- * bounds 1.96 to both sides. PT_UNCERTAIN_RMSE and
- * PT_UNCERTAIN_RELATIVE_RMSE: what is known comes from fewer than 8 such tiles, and the upper bound is doubled. Light
- * that no sample has met is not in it.
+ * error receives the error of the denoised picture, and error->struct_size must be set. Its squares are estimated with
+ * a standard error, as tiles of 8 x 8 pixels differ: rmse and relative_rmse are 1.28 of these above the estimate,
+ * bounds 1.96 to both sides. PT_UNCERTAIN_RMSE and PT_UNCERTAIN_RELATIVE_RMSE: what is known comes from fewer than 8
+ * such tiles, and the upper bound is doubled. Light that no sample has met is not in it.
  *
  * Any thread; the message of a failure is that of pt_last_error(NULL). PT_ERROR_INVALID_ARGUMENT: a rule is broken.
  * PT_ERROR_UNSUPPORTED: the library is not there, is of another version, or does not run on this processor. */
