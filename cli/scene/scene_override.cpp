@@ -154,7 +154,7 @@ std::vector<double> AnimatedValue::at(double time) const {
     return numbers;
 }
 
-void read_animation_item(SceneFile &scene, const JsonPlace &place, const json &value) {
+AnimatedValue read_animated_value(const JsonPlace &place, const json &value) {
     const std::string name(place.key);
     const auto parsed = parse_path(name);
     if (!parsed || !parsed->rest.empty() || !can_move(parsed->path)) {
@@ -176,7 +176,7 @@ void read_animation_item(SceneFile &scene, const JsonPlace &place, const json &v
         if (animated.keys[i].frame <= before.frame)
             refuse(element.element(0), "must be a later frame than the one before");
     }
-    scene.animation.push_back(std::move(animated));
+    return animated;
 }
 
 std::vector<SceneOverride> overrides_of_frame(const SceneFile &scene, std::uint32_t frame) {

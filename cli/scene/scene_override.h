@@ -60,8 +60,8 @@ struct AnimatedValue {
     std::vector<double> at(double time) const;
 };
 
-// Of one value; throws JsonRefusal.
-void read_animation_item(SceneFile &scene, const JsonPlace &place, const nlohmann::json &value);
+// Throws JsonRefusal.
+AnimatedValue read_animated_value(const JsonPlace &place, const nlohmann::json &value);
 
 // What takes the place of the scene's values in a frame. A frame lasts from its number to the next one, and the
 // shutter's times are shares of that: spheres move within the frame, on a straight way from where they are at its begin

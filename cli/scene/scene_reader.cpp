@@ -84,7 +84,10 @@ private:
         return chosen;
     }
 
+    // The file's own value has to be right too: whether a file is refused does not depend on options.
     void read_changed(const JsonPlace &place, json value, const std::vector<std::size_t> &changes) {
+        if (!value.is_null())
+            check_item(place, value);
         for (const std::size_t index : changes) {
             scene_.overrides[index].apply_to(value);
             used_overrides_.insert(index);
@@ -102,32 +105,56 @@ private:
     }
 
     void read(const JsonPlace &place, const json &value) {
+        check_item(place, value);
         if (section_ == nullptr)
-            read_animation_item(scene_, place, value);
+            scene_.animation.push_back(read_animated_value(place, value));
         else if (section_->form == SectionForm::members)
             read_member(place, value);
         else
             read_element(place, value);
     }
 
-    void read_member(const JsonPlace &place, const json &value) {
-        const SceneKey *key = find_key(*section_, place.key);
+    // Checks what an item has, not whether it has all that it needs.
+    void check_item(const JsonPlace &place, const json &value) const {
+        if (section_ == nullptr)
+            read_animated_value(place, value);
+        else if (section_->form == SectionForm::members)
+            check(key_of(*place.parent, place.key).rule, value, place);
+        else
+            check_element(place, value);
+    }
+
+    const SceneKey &key_of(const JsonPlace &object, std::string_view name) const {
+        const SceneKey *key = find_key(*section_, name);
         if (key == nullptr)
-            refuse_unknown_key(*place.parent, place.key, key_names(*section_));
-        check(key->rule, value, place);
+            refuse_unknown_key(object, name, key_names(*section_));
+        return *key;
+    }
+
+    // Whether an element is many, by columns.
+    bool is_many(const json &element) const {
+        return section_->may_be_many() && element.contains("center") && element["center"].is_string();
+    }
+
+    void check_element(const JsonPlace &place, const json &value) const {
+        if (!value.is_object())
+            refuse(place, "must be an object, is " + shown(value));
+        for (const auto &member : value.items()) {
+            const SceneKey &key = key_of(place, member.key());
+            if (key.column == nullptr || !member.value().is_string() || !is_many(value))
+                check(key.rule, member.value(), place.member(key.name));
+        }
+    }
+
+    void read_member(const JsonPlace &place, const json &value) {
         SceneItem item{scene_};
-        key->store(item, value);
+        key_of(*place.parent, place.key).store(item, value);
         scene_.given.push_back(place.path());
     }
 
     void read_element(const JsonPlace &place, const json &value) {
-        if (!value.is_object())
-            refuse(place, "must be an object, is " + shown(value));
-        for (const auto &member : value.items())
-            if (find_key(*section_, member.key()) == nullptr)
-                refuse_unknown_key(place, member.key(), key_names(*section_));
         SceneItem item{scene_};
-        const bool is_many = section_->may_be_many() && value.contains("center") && value["center"].is_string();
+        const bool has_columns = is_many(value);
         SphereColumns columns{section_->name, place.index};
         for (const SceneKey &key : section_->keys) {
             const auto found = value.find(key.name);
@@ -135,17 +162,15 @@ private:
                 refuse(place, concat('"', key.name, "\" is missing"));
             if (found == value.end())
                 continue;
-            const JsonPlace member = place.member(key.name);
-            if (is_many && key.column != nullptr && found->is_string()) {
-                columns.add_file(key, found->get_ref<const std::string &>(), member);
+            if (has_columns && key.column != nullptr && found->is_string()) {
+                columns.add_file(key, found->get_ref<const std::string &>(), place.member(key.name));
                 continue;
             }
-            check(key.rule, *found, member);
             key.store(item, *found);
-            if (is_many && key.column != nullptr)
+            if (has_columns && key.column != nullptr)
                 columns.add_value(key, *found);
         }
-        if (is_many) {
+        if (has_columns) {
             columns.material = number_of_material(item.material_name, place.member("material"));
             scene_.sphere_columns.push_back(std::move(columns));
         } else {

@@ -1,6 +1,8 @@
 // cli/scene/scene_override: replaced values and animations.
+#include "cli/base/text.h"
 #include "cli/render/render_options.h"
 #include "cli/scene/scene_file.h"
+#include "cli/scene/scene_keys.h"
 #include "cli/scene/scene_override.h"
 #include "tests/cli/refusal_of.h"
 
@@ -93,7 +95,47 @@ TEST(SceneOverride, MistakesOfTheFileAreItsOwn) {
     const Refusal refused = refusal_of_settings({"film.height=2"}, "{\n\"film\": {\"width\": -1}}");
     EXPECT_EQ(refused.code, cli::ExitCode::scene);
     EXPECT_TRUE(refused.message.starts_with("s.json:2: film.width: must be")) << refused.message;
-    EXPECT_EQ(refusal_of_settings({"film.width=1"}, "{\"film\": {\"width\": -1}}").message, ""); // mended
+}
+
+// Whether a file is refused does not depend on what takes the place of its values.
+TEST(SceneOverride, MistakesOfTheFileStayMistakes) {
+    const auto expect = [](const std::string &setting, const std::string &file, const std::string &reason) {
+        const std::string alone = refusal_of_settings({}, file.c_str()).message;
+        const Refusal refused = refusal_of_settings({setting}, file.c_str());
+        EXPECT_EQ(refused.code, cli::ExitCode::scene) << setting;
+        EXPECT_EQ(refused.message, "s.json:1: " + reason);
+        EXPECT_EQ(refused.message, alone);
+    };
+    expect("film.width=1", R"({"film": {"width": "480"}})",
+           "film.width: must be a whole number from 1 to 4294967295, is \"480\"");
+    expect("render.spp=1", R"({"render": {"spp": 0}})",
+           "render.spp: must be a whole number from 1 to 4294967295, is 0");
+    expect("render.sampler=sobol", R"({"render": {"sampler": "soboll"}})",
+           "render.sampler: unknown sampler \"soboll\", did you mean \"sobol\"?");
+    expect("spheres[0].radius=1", R"({"spheres": [{"center": [0, 0, 0], "radius": [1], "material": "a"}]})",
+           "spheres[0].radius: must be a number, is an array");
+    expect("materials.a.diffuse[0]=1", R"({"materials": {"a": {"diffuse": [1, 2]}}})",
+           "materials.a.diffuse: must be a number or an array of 3 numbers, has 2");
+    expect("animation[\"camera.up\"]=[[0, [0, 1, 0]]]", R"({"animation": {"camera.up": []}})",
+           "animation[\"camera.up\"]: must be an array of key frames, [frame, value] each");
+}
+
+TEST(SceneOverride, EveryKeyWithAnOptionIsCheckedInTheFileToo) {
+    int count = 0;
+    for (const cli::SceneSection &section : cli::scene_sections()) {
+        for (const cli::SceneKey &key : section.keys) {
+            if (key.option.empty())
+                continue;
+            ++count;
+            const std::string name = cli::concat(section.name, ".", key.name);
+            const std::string file = cli::concat("{\"", section.name, "\": {\"", key.name, "\": []}}");
+            const std::string value(key.rule.names.empty() ? "1" : key.rule.names[0]);
+            const Refusal refused = refusal_of_settings({name + "=" + value}, file.c_str());
+            EXPECT_EQ(refused.code, cli::ExitCode::scene) << name;
+            EXPECT_TRUE(refused.message.starts_with("s.json:1: " + name + ": must be ")) << refused.message;
+        }
+    }
+    EXPECT_GT(count, 7);
 }
 
 TEST(SceneOverride, TheLibrarysRulesLeadBackToIt) {
