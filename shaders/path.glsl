@@ -31,7 +31,7 @@ vec3 light_by_way_of_spot(Vertex vertex, Material material, Spots spots, SampleK
     path.vertex_count = 2u;
     departure_share = 1.0;
     extend(path, key, blocks_at_spot(), MAX_PATH_LENGTH - 1u, time);
-    return path.radiance;
+    return met ? path.radiance : vec3(0.0); // after a miss it may be NaN
 }
 
 // The weight of light that reaches the first vertex over the one where the branch has arrived: a ray to a spot may find it
