@@ -108,6 +108,8 @@ class Residues(unittest.TestCase):
         water = residues(("SOL", 1, "HW1", 1, 0), ("SOL", 1, "OW", 8, 0.9), ("SOL", 1, "HW2", 1, 1.7), ("SOL", 2, "OW", 8, 2.9),
                          ("SOL", 2, "HW1", 1, 3.85))
         self.assertEqual(self.pairs(water), [[0, 1], [1, 2], [3, 4]])
+        between = residues(("ALA", 1, "CB", 6, 0), ("ALA", 1, "HB1", 1, 1.0), ("ALA", 1, "C", 6, 2.1))
+        self.assertEqual(self.pairs(between), [[0, 1]])
 
     def test_bonds_between_residues(self):
         chain = residues(("GLY", 1, "C", 6, 0), ("GLY", 2, "N", 7, 1.3), ("CYS", 3, "SG", 16, 2.5), ("CYS", 4, "SG", 16, 4.5),

@@ -46,7 +46,7 @@ def element_of(name: str, residue: str) -> int:
     capitals, kind = letters.upper(), re.sub(r"[-+\d]", "", residue).upper()
     if not letters:
         return 0
-    if capitals in _IONS and (capitals == kind or kind in _CHARGED or _IONS[capitals] == _IONS.get(kind)):
+    if capitals in _IONS and (kind in _CHARGED or _IONS[capitals] == _IONS.get(kind)):
         return _IONS[capitals]
     is_water, residue = residue.upper() in WATERS, residue.upper()
     if _ANYWHERE.fullmatch(name.upper()) or (is_water and _SITE.fullmatch(name.upper())):
