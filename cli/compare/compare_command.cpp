@@ -1,4 +1,4 @@
-// The command `pt compare`: two images, in numbers.
+// The command `pt compare`: the differences of two images.
 #include "cli/base/exit_code.h"
 #include "cli/base/file.h"
 #include "cli/base/json.h"
@@ -19,13 +19,13 @@ namespace cli {
 namespace {
 
 struct ImageDifference {
-    // Means over the channels of those pixels that are finite in both images; 0 if there are none.
-    double mse;          // of (x - r)^2 for a value x and the reference's r
-    double relative_mse; // of (x - r)^2 / (r^2 + 0.01): a dark pixel's error counts as much as a bright one's
+    // Means over channels of pixels that are finite in both images; 0 without any.
+    double mse;          // of (x - r)^2, for values x and the reference's r
+    double relative_mse; // of (x - r)^2 / (r^2 + 0.01): dark pixels' errors count as much as bright ones'
 
-    // The largest |x - r| among them.
+    // The largest |x - r|.
     double maximum;
-    std::size_t maximum_value; // where it is: an index into the values
+    std::size_t maximum_value; // index into the values
 
     std::size_t not_finite; // pixels with a channel that is not finite in either image
 };
@@ -39,7 +39,7 @@ bool is_finite(Values pixel) {
     return std::all_of(pixel.begin(), pixel.end(), [](float value) { return std::isfinite(value); });
 }
 
-// Both have the same number of values, three for each pixel.
+// Equally many values, three per pixel.
 ImageDifference compare_images(Values image, Values reference) {
     ImageDifference total{};
     for (std::size_t i = 0; i < image.size(); i += 3) {
@@ -73,7 +73,7 @@ struct CompareOptions {
     std::string json;
     bool quiet = false;
 
-    // Limits; nothing: none.
+    // Limits, if any.
     std::optional<double> mse;
     std::optional<double> relative_mse;
     std::optional<double> maximum;
@@ -103,18 +103,18 @@ void require_comparable(const DecodedImage &image, const DecodedImage &reference
                      ": they must be of one kind"));
 }
 
-// The figures, and the limits that they exceed.
+// The figures, and exceeded limits.
 struct CompareReport {
     const CompareOptions &options;
     const DecodedImage &image; // as large as the reference
     ImageDifference difference;
 
-    // Where the largest difference is, in the picture.
+    // Place of the largest difference in the picture.
     std::int64_t x() const { return image.x + static_cast<std::int64_t>(difference.maximum_value / 3 % image.width); }
     std::int64_t y() const { return image.y + static_cast<std::int64_t>(difference.maximum_value / 3 / image.width); }
     std::string channel() const { return {"RGB"[difference.maximum_value % 3]}; }
 
-    // One line for each limit that is exceeded, and for pixels that are not finite if there is a limit.
+    // A line per exceeded limit, and one for pixels that are not finite if there is a limit.
     std::vector<std::string> exceeded() const {
         std::vector<std::string> lines;
         const auto check_limit = [&](const char *name, double figure, std::optional<double> limit) {
@@ -143,7 +143,6 @@ struct CompareReport {
                 {"exceeded", exceeded()}};
     }
 
-    // Lines for people.
     std::string text() const {
         std::string text = formatted("mse           %.6g\nrelative_mse  %.6g\nmaximum       %.6g", difference.mse,
                                      difference.relative_mse, difference.maximum);

@@ -13,13 +13,13 @@
 namespace cli {
 namespace {
 
-// For calls whose arguments do not come from the user.
+// For calls with arguments that do not come from the user.
 void require(pt_result result) {
     if (result < 0)
         throw Failure(exit_code_of(result), pt_last_error(nullptr));
 }
 
-// Facts that are digests: they tell people only that something differs.
+// Facts that are digests, whose values mean nothing to people.
 constexpr std::array<std::string_view, 3> digests{"scene", "camera", "kernel"};
 
 std::string words_of(const std::string &path, const BrokenRule &rule) {
@@ -31,39 +31,38 @@ std::string words_of(const std::string &path, const BrokenRule &rule) {
                                    : text;
 }
 
-// Without the library's own subject, which is no name that the user gave.
+// Removes the library's subject, which no user has named.
 std::string without_subject(const std::string &message) {
     constexpr std::string_view subject = "film: ";
     return message.starts_with(subject) ? message.substr(subject.size()) : message;
 }
 
-// "part.ptfilm: seed = 7: must be 8, as in this context", a line for each difference.
+// A line per difference: "part.ptfilm: seed = 7: must be 8, as in this context".
 std::string film_words(const std::string &path, const LibraryError &error) {
     if (error.rules.empty())
         return path + ": " + without_subject(error.message);
     return error.in_words([&](const BrokenRule &rule) { return words_of(path, rule); });
 }
 
-// For calls whose film comes from the user.
+// For calls with a user's film.
 void require_film(pt_result result, const std::string &path, const pt_context *context = nullptr) {
     if (result < 0)
         throw Failure(exit_code_of(result), film_words(path, last_error(context)));
 }
 
-// Level 1 packs the sums of 1920x1080 pixels to a seventh of their size, at 1.2 GB/s a processor. Level -1 does 2.9
-// GB/s and makes files 6% larger.
+// Faster than level 1, for 6% larger files.
 constexpr int compression_level = -1;
 
-// A block of at most 128 KiB takes 4 bytes at the least (RFC 8878, 3.1.1.2): what claims more is damaged.
+// A block of at most 128 KiB takes at least 4 bytes (RFC 8878, 3.1.1.2); a higher ratio means damage.
 constexpr std::uint64_t most_ratio = 32768;
 
 [[noreturn]] void refuse(const std::string &path, const std::string &reason) {
     throw Failure(ExitCode::usage, path + ": " + reason);
 }
 
-// The size that the frame of a packed film says it has.
+// Reads the size in a packed film's frame header.
 std::size_t unpacked_size(platform::InputFile &file, const std::string &path) {
-    constexpr std::size_t longest_head = 18; // of a frame (RFC 8878, 3.1.1.1)
+    constexpr std::size_t longest_head = 18; // of a frame header (RFC 8878, 3.1.1.1)
     const std::string_view head = file.first(longest_head);
     const unsigned long long size = ZSTD_getFrameContentSize(head.data(), head.size());
     if (size == ZSTD_CONTENTSIZE_UNKNOWN || size == ZSTD_CONTENTSIZE_ERROR || size / most_ratio > file.size())
@@ -128,7 +127,7 @@ pt_sample_range FilmHandle::hull() const {
     return hull;
 }
 
-// Films of two seeds cannot be added, so the library names all in which they differ.
+// The library refuses to add films of two seeds and names all their differences.
 void FilmHandle::require_same_picture(const std::string &path, std::span<const std::byte> bytes) {
     constexpr std::array<std::string_view, 4> allowed{"seed", "estimator_version", "kernel", "device"};
     const pt_result result = pt_merge_film(film_, bytes.data(), bytes.size());
@@ -214,7 +213,7 @@ void write_film_file(const std::string &path, std::span<const std::byte> film) {
     file.commit();
 }
 
-// Of a file that is no film, the first bytes are enough for the library to say so.
+// The first bytes of another file are enough for the library to refuse it.
 std::vector<std::byte> read_film_file(const std::string &path) {
     return read_file(path, [&](platform::InputFile &file) {
         constexpr std::string_view packed = "\x28\xb5\x2f\xfd"; // ZSTD_MAGICNUMBER

@@ -1,4 +1,4 @@
-// The command `pt merge`: films of one picture in, images and their sum out.
+// The command `pt merge`: adds films of one picture, and writes images and their sum.
 #include "cli/base/devices.h"
 #include "cli/base/enumerations.h"
 #include "cli/base/file.h"
@@ -24,21 +24,21 @@ using Ranges = std::vector<pt_sample_range>;
 struct MergeOptions {
     std::vector<std::string> parts;
 
-    // The range in which missing samples are listed; by default from the first to the last sample of the parts.
+    // Range in which missing samples are listed; default: the hull of the parts.
     std::optional<std::uint32_t> first_sample;
     std::optional<std::uint32_t> sample_count;
 
     OutputOptions output;
-    std::vector<SceneOverride> display; // overrides of the scene's display section
+    std::vector<SceneOverride> display; // of the scene's display section
 };
 
-// What a sum of films contains, and what is missing.
+// A sum of films, and what is missing.
 struct MergeReport {
     RenderReport picture; // as far as a film knows it
     pt_film_info info;
     std::size_t part_count;
     Ranges samples; // that all pixels have
-    Ranges missing; // those that some pixel should have but lacks
+    Ranges missing; // that some pixel lacks
 };
 
 void check(const MergeOptions &options) {
@@ -51,7 +51,7 @@ void check(const MergeOptions &options) {
     check_names(output, parts);
 }
 
-// Adds up the parts. Looks at all of them, so that everything wrong is reported at once.
+// Adds all parts, so that everything wrong is reported at once.
 std::unique_ptr<FilmHandle> sum_of(const std::vector<std::string> &parts) {
     std::unique_ptr<FilmHandle> sum;
     std::optional<ExitCode> failed;
@@ -72,7 +72,7 @@ std::unique_ptr<FilmHandle> sum_of(const std::vector<std::string> &parts) {
     return sum;
 }
 
-// The samples in any of these ranges, as ranges in ascending order.
+// The union, in ascending order.
 Ranges united(Ranges ranges) {
     std::sort(ranges.begin(), ranges.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
     Ranges all;
@@ -138,7 +138,7 @@ nlohmann::ordered_json stats_json(const MergeReport &report) {
     return stats;
 }
 
-// "8 films of 320x160 pixels: 64 spp, samples [0, 64)", and a line about missing samples, if there are any.
+// "8 films of 320x160 pixels: 64 spp, samples [0, 64)", and a line about missing samples, if any.
 std::string summary_text(const MergeReport &report) {
     return concat(counted(report.part_count, "film"), " of ", report.info.columns, "x", report.info.rows,
                   " pixels: ", report.picture.stats.sample_count, " spp, samples ", ranges_text(report.samples));
@@ -150,7 +150,7 @@ std::string missing_text(const MergeReport &report) {
                                            " per pixel missing: ", ranges_text(report.missing));
 }
 
-// Returns whether all files could be written.
+// Returns whether all files were written.
 bool write_outputs(const FilmHandle &film, const MergeOptions &options, MergeReport &report) {
     const OutputOptions &output = options.output;
     RenderedImage image{report.picture.window.part, film.read_image(PT_QUANTITY_RADIANCE), {}};
@@ -196,7 +196,7 @@ void add_merge_command(CLI::App &program, Run &chosen) {
     command.add_option("PART", options.parts, "Films of one picture (pt render --film or --checkpoint), in any order")
         ->required()
         ->type_name("PART");
-    constexpr std::size_t film_layers = 3; // the first ones; a film does not know what camera rays meet first
+    constexpr std::size_t film_layers = 3; // the first ones; a film has no first hits
     add_output_options(command, options.output, file_layers.names().first(film_layers));
     command.option_defaults()->group("Samples");
     add_number<std::uint32_t>(command, "--first-sample", natural_number, options.first_sample,

@@ -1,4 +1,4 @@
-// Keeps a film of the samples so far in a file, from which another run can continue.
+// Keeps a film of the samples so far in a file, for another run to continue.
 #pragma once
 
 #include "cli/base/context.h"
@@ -16,16 +16,15 @@ namespace cli {
 
 class Checkpoint {
 public:
-    // seconds: interval between checkpoints. say: shows a message.
+    // seconds: between checkpoints; say: shows a message.
     Checkpoint(const Context &context, std::string path, double seconds, std::function<void(const std::string &)> say);
 
     bool is_due() const { return Clock::now() >= due_ && !task_.is_under_way(); }
 
-    // Writes a checkpoint if one is due. sample_count: the mean over pixels.
+    // Writes a checkpoint if due. sample_count: mean over pixels.
     void step(std::uint32_t sample_count);
 
-    // Writes the film if the file does not have all of these samples yet. Afterwards nothing is being written. Returns
-    // whether the file has all of them.
+    // Writes the film unless the file has all of these samples, and waits for it. Returns whether the file has all.
     bool finish(std::uint32_t sample_count);
 
 private:
@@ -43,16 +42,16 @@ private:
     Clock::time_point due_;
     Clock::time_point saved_at_;
     std::chrono::duration<double> write_time_{0}; // of the last checkpoint
-    std::uint32_t saved_count_ = 0;               // samples in the film that was written last or is being written
-    std::uint32_t written_count_ = 0;             // samples in the file, as far as this run has written it
+    std::uint32_t saved_count_ = 0;               // in the film that was written last or is being written
+    std::uint32_t written_count_ = 0;             // in the file, written by this run
     bool has_told_failure_ = false;
     std::vector<std::byte> film_;
     BackgroundTask task_; // destroyed first: it uses the others
 };
 
-// Adds the checkpoint's samples; call it after pt_set_render. Returns how many samples of a pixel it had: 0 if there is
-// no file yet, because an earlier run ended too early to write one. Throws Failure(ExitCode::usage) if the checkpoint
-// is of another picture, and says what differs, or if it has samples that this run does not take.
+// Adds the checkpoint's samples, after pt_set_render. Returns its samples per pixel, 0 without a file, as an earlier
+// run may have ended too early. Throws Failure(ExitCode::usage), and says what differs, if the checkpoint is of another
+// picture or has samples that this run does not take.
 std::uint32_t resume(const Context &context, const RenderTask &task);
 
 } // namespace cli

@@ -12,7 +12,7 @@
 namespace cli {
 namespace {
 
-// size: width and height. Both halves, albedo and normal of three numbers a pixel.
+// size: width and height. images: both halves, albedo and normal, three numbers a pixel.
 pt_error_estimate denoise(const std::string &library, const Rectangle &size, const std::array<const float *, 4> &images,
                           float *to) {
     auto info = sized<pt_denoise_info>();

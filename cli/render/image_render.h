@@ -1,6 +1,5 @@
-// Takes the samples of an image: in steps, between which it attends to progress, previews, checkpoints and the time
-// limit; and in pieces of rows, one after the other, if the device has not enough memory for the whole image. However
-// they are split, the image has the same bits.
+// Takes an image's samples in steps, between which it attends to progress, previews, checkpoints and the time limit,
+// and in pieces of rows, if the device lacks memory for the whole image. The split does not change the image's bits.
 #pragma once
 
 #include "cli/base/context.h"
@@ -21,58 +20,56 @@
 
 namespace cli {
 
-// Between steps the device idles for a moment, and work can be divided best if a step has many samples. So a step has
-// at least as many samples as the first one, and aims at this duration.
+// Between steps the device idles, and long steps divide best. So a step has at least the first one's samples, and aims
+// at this duration.
 inline constexpr std::uint32_t first_step_length = 16;
 inline constexpr double step_seconds = 2.0;
 
-// The length of the step after one of this length and duration. The first step also builds the kernel, so its duration
-// suggests too few samples rather than too many.
+// Length of the next step after one of this length and duration. The first step also builds the kernel, so it suggests
+// too few samples rather than too many.
 inline std::uint32_t next_step_length(std::uint32_t length, double seconds) {
-    constexpr double most = 1U << 30; // if the clock saw no time pass
+    constexpr double most = 1U << 30; // if no time has passed by the clock
     const double wanted = seconds > 0.0 ? std::floor(length * (step_seconds / seconds)) : most;
     return static_cast<std::uint32_t>(std::clamp(wanted, double{first_step_length}, most));
 }
 
-// Returns true if no more samples should be taken, because a signal has come or they would not be used. Once true, it
-// stays true.
+// Whether to take no more samples, because of a signal or because they would not be used. Once true, it stays true.
 using Stop = std::function<bool()>;
 
-// Calls pt_set_render for the first piece, and returns how many rows a piece has: as many as the options say, or all
-// rows of the window, halved until the device has enough memory. Throws Failure.
+// Calls pt_set_render for the first piece, and returns the rows of a piece: as the options say, or all rows of the
+// window, halved until the device has enough memory. Throws Failure.
 std::uint32_t fit_pieces(const Context &context, const RenderTask &task);
 
-// The style of progress on stderr, from the options and whether stderr is a terminal.
+// Progress on stderr, from the options and whether stderr is a terminal.
 ProgressStyle progress_style(const RenderOptions &options);
 
 class ImageRender {
 public:
-    // Writes a preview, in a thread of its own. If it returns false, because a file could not be written, no more
-    // previews are written unless SIGUSR1 asks.
+    // Writes a preview, in a thread of its own. After false (a file could not be written), only SIGUSR1 brings further
+    // previews.
     using WritePreview = std::function<bool(const RenderedImage &)>;
 
-    // rows: of a piece, from fit_pieces(), which must have been called. The task's time limit begins now.
+    // rows: from fit_pieces(), already called. The task's time limit begins now.
     ImageRender(const Context &context, const RenderTask &task, std::uint32_t rows, Stop stop,
                 WritePreview write_preview);
 
     struct Result {
         RenderedImage image;
-        std::optional<std::string> ended_by; // as of StoppingTest
+        std::optional<std::string> ended_by; // see StoppingTest
         bool has_checkpoint;                 // the checkpoint has all samples
     };
 
-    // The samples that a run takes: of a picture that is denoised, those of a half, in one or several rounds.
+    // The samples of a run; for a denoised picture, of one half in one or several rounds.
     struct Round {
-        std::uint32_t half;                    // only the last one has layers, in its first round
+        std::uint32_t half;                    // only the second one has layers, in its first round
         std::uint32_t end;                     // samples of the half at the end
-        std::uint32_t other;                   // samples that the other half has
-        std::uint32_t expected;                // of a half, after all rounds
-        std::vector<std::byte> *film{nullptr}; // of the half: takes what earlier rounds left, leaves its own
+        std::uint32_t other;                   // samples of the other half
+        std::uint32_t expected;                // samples of a half, after all rounds
+        std::vector<std::byte> *film{nullptr}; // film of the half: from earlier rounds, then with this one's samples
     };
 
-    // Renders whole rows, since the library renders nothing less, and reads the window's columns. Samples that the
-    // context has already are the first ones of the first piece. Ends early, between or within pieces, once stop() is
-    // true. Afterwards nothing is being written. Throws Failure.
+    // Renders whole rows, as the library does, and reads the window's columns. The context's present samples are the
+    // first ones of the first piece. Ends early once stop() is true. All writing has then ended. Throws Failure.
     Result run(const Round &round);
 
 private:
@@ -96,18 +93,18 @@ private:
     const RenderTask &task_;
     std::uint32_t rows_;
     Stop stop_;
-    WritePreview write_preview_; // empty for halves, and for frames: a frame's file means that the frame is done
+    WritePreview write_preview_; // empty for halves and frames: a frame's file means that the frame is done
     Clock::time_point start_ = Clock::now();
     Progress progress_;
     Round round_{};
     RenderedImage image_{};
-    std::uint32_t piece_rows_ = 0; // rows of the present piece
+    std::uint32_t piece_rows_ = 0; // of the present piece
 
-    Clock::time_point next_error_; // when the error is next computed for progress
-    StoppingTest stopping_;        // without rules for a half, whose rounds are tested when both are there
+    Clock::time_point next_error_; // next computation of the error, for progress
+    StoppingTest stopping_;        // without rules for a half: rounds are tested with both halves
     Clock::time_point last_preview_ = start_;
     std::atomic<bool> has_preview_failed_ = false;
-    RenderedImage preview_{}; // the preview that is being written
+    RenderedImage preview_{}; // being written
     BackgroundTask preview_task_;
     std::optional<Checkpoint> checkpoint_;
 };

@@ -1,5 +1,4 @@
-// The layers of a picture: what the options --layers and --alpha add to an image beside the radiance, read from the
-// library and named by the customs of OpenEXR.
+// The layers of --layers and --alpha beside the radiance, with the names that OpenEXR uses.
 #pragma once
 
 #include "cli/base/context.h"
@@ -16,15 +15,15 @@ namespace cli {
 struct FileLayer {
     std::uint32_t quantity; // PT_QUANTITY_*
     const char *name;
-    std::size_t channel_count; // one if all are equal
+    std::size_t channel_count;
     LayerKind kind;
 };
 
-// By the names of the option. Z, N.X, N.Y, N.Z and id are the names that programs look for in a file. Each of the
-// others is a layer with its own name ("OpenEXR: Technical Introduction", channel names).
+// Layers by the option's names. Z, N.X, N.Y, N.Z and id are the names that programs look for; the others are layers
+// with their own names ("OpenEXR: Technical Introduction", channel names).
 inline constexpr ValueNames<7, FileLayer> file_layers({
-    {"mean", {PT_QUANTITY_RADIANCE, "", 3, LayerKind::color}}, // which is always there
-    // From the difference between the means of two parts of the samples.
+    {"mean", {PT_QUANTITY_RADIANCE, "", 3, LayerKind::color}}, // always present
+    // The difference of two parts' means gives it.
     {"standard-error", {PT_QUANTITY_STANDARD_ERROR, "standard_error", 3, LayerKind::color}},
     {"sample-count", {PT_QUANTITY_SAMPLE_COUNT, "sample_count", 1, LayerKind::color}},
     {"depth", {PT_QUANTITY_DEPTH, "Z", 1, LayerKind::color}},
@@ -33,32 +32,32 @@ inline constexpr ValueNames<7, FileLayer> file_layers({
     {"object-id", {PT_QUANTITY_OBJECT, "id", 1, LayerKind::numbers}},
 });
 
-// A layer of the part of a picture that is rendered.
+// A layer of the rendered part of a picture.
 struct PictureLayer {
     std::uint32_t quantity;             // PT_QUANTITY_*
-    std::vector<float> values;          // pixel by pixel, row by row from the top; empty for objects
-    std::vector<std::uint32_t> numbers; // for objects: one index a pixel, in the same order
+    std::vector<float> values;          // per pixel, row by row from the top; empty for objects
+    std::vector<std::uint32_t> numbers; // for objects: one index per pixel, in the same order
 
-    // All values start as 0.
+    // Values start as 0.
     PictureLayer(std::uint32_t of_quantity, std::size_t pixel_count);
 
-    // Takes over the library's numbers, three a pixel, for pixels from first_pixel on.
+    // Takes the library's numbers, three a pixel, from first_pixel on.
     void take(std::span<const float> triples, std::size_t first_pixel);
 
-    // Reads rows of the part from a context that renders them as its first rows.
+    // The context renders these rows of the part as its first.
     void read(const Context &context, const Rectangle &part, std::uint32_t first_row, std::uint32_t rows);
 
-    // The layer as it goes into a file; refers to this object.
+    // The layer in a file; refers to this object.
     ImageLayer in_file() const;
 };
 
-// The rendered part of a picture, from which its files are made.
+// The rendered part of a picture.
 struct RenderedImage {
     Rectangle part;                     // of the picture
-    std::vector<float> radiance{};      // of this part; black below rows_done
-    std::vector<float> raw{};           // of a denoised picture, the mean of its samples; else empty
-    std::vector<PictureLayer> layers{}; // all go into files of radiance; alpha also into others
-    std::uint32_t rows_done = 0;        // rows of the part that have samples
+    std::vector<float> radiance{};      // black below rows_done
+    std::vector<float> raw{};           // of a denoised picture, its samples' mean; else empty
+    std::vector<PictureLayer> layers{}; // for files of radiance; alpha also for others
+    std::uint32_t rows_done = 0;        // rows with samples
     pt_stats stats{};                   // of these rows; sample_count is the least of all pieces
     pt_error_estimate error{};          // likewise
 };

@@ -1,5 +1,5 @@
-// The command `pt render`: scene file and options in, images out. Declares its variants --frames, --parts and --watch,
-// and how all of them render one picture on a context.
+// The command `pt render`, with its variants --frames, --parts and --watch, and the rendering of one picture that all
+// of them share.
 #pragma once
 
 #include "cli/base/context.h"
@@ -15,28 +15,28 @@
 
 namespace cli {
 
-// outcome: ExitCode::signal for a stopped rendering. signal: the one that stopped it or came later; 0: none.
+// outcome: ExitCode::signal if the rendering was stopped. signal: the one that stopped it or came later; 0: none.
 constexpr int exit_code_of(ExitCode outcome, int signal) {
     if (outcome != ExitCode::done && outcome != ExitCode::signal)
         return static_cast<int>(outcome);
     return signal == 0 ? static_cast<int>(ExitCode::done) : exit_code_of_signal(signal);
 }
 
-// For the report: when everything began, and when the preparation of the context began.
+// Starts of the run and of the context's preparation, for the report.
 struct RenderTimes {
     std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
     std::chrono::steady_clock::time_point create_start{};
 };
 
-// Sets scene, camera and settings, takes samples and writes the files. A signal stops it with the samples so far; so
-// does superseded(), but then nothing is written. Returns how it ended. Throws Failure.
+// Sets scene, camera and settings, takes samples and writes the files. A signal stops it and keeps the samples so far;
+// superseded() stops it, and then nothing is written. Throws Failure.
 ExitCode render_picture(const Context &context, const RenderTask &task, const RenderTimes &times,
                         const Stop &superseded);
 
 // Returns the exit code; throws Failure. So do the functions below.
 int run_render(const RenderOptions &options);
 
-// Messages of the validation layer. Each means a mistake in this program or its library.
+// Counts the validation layer's messages: each shows a mistake in this program or its library.
 struct ValidationLog {
     std::uint64_t count = 0;
 
@@ -48,25 +48,25 @@ struct ValidationLog {
     }
 };
 
-// The pt_create_info that the options ask for. It refers to both arguments.
+// Refers to both arguments.
 pt_create_info render_create_info(const RenderOptions &options, ValidationLog &log);
 
-// Renders parts of a picture for another program, which shares it among machines and adds their films, as pt-farm does.
+// Renders parts of a picture for another program that shares it among machines, such as pt-farm.
 //
-// First writes one line to standard output: an object of JSON with what decides which parts there are (width, height,
-// first_sample, samples, target_error as in pt_accumulate_info, sampling as PT_SAMPLING_*) and how the picture is shown
-// (exposure, a number or "auto"; tonemap; gamma, null for the sRGB curve). Then answers requests until standard input
-// ends; without any, no device is looked for.
+// First writes a line of JSON: an object with the quantities that decide the parts (width, height, first_sample,
+// samples, target_error as in pt_accumulate_info, sampling as PT_SAMPLING_*) and the display (exposure, a number or
+// "auto"; tonemap; gamma, null for the sRGB curve). Then answers requests until standard input ends; the first one
+// starts the device.
 //
-// A request consists of 32-bit words in the machine's byte order: the first sample, the sample after the last, the
-// number of tiles, and their indices (pt_accumulate_info.tile_samples), each once. Its answer is a line with two
-// numbers, the kind of device (PT_DEVICE_*) and the bytes that follow: the film. Three words of 0 ask for the scene, as
-// write_scene has it, without a device. An invalid request ends the program with ExitCode::usage.
+// A request has 32-bit words in the machine's byte order: first sample, sample after the last, number of tiles, and
+// their indices (pt_accumulate_info.tile_samples), each once. The answer is a line with the kind of device
+// (PT_DEVICE_*) and the number of bytes that follow: the film. Three words of 0 ask for the scene in the form of
+// write_scene, without a device. An invalid request ends the program with ExitCode::usage.
 int render_parts(const RenderTask &task, ValidationLog &log);
 
-// Renders the picture again, on one context, whenever its sources change. Ends when a signal has come; with 0 if it
-// came while waiting. Throws Failure if no change of a source could help, and for the first picture if the fault is not
-// in a scene or shader.
+// Renders again, on one context, whenever the sources change. Ends after a signal; with 0 if it came while waiting.
+// Throws Failure if no change of a source could help, and for the first picture if the fault is not in a scene or
+// shader.
 int render_watched(const RenderOptions &options, ValidationLog &log);
 
 } // namespace cli

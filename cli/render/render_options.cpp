@@ -18,7 +18,7 @@
 namespace cli {
 namespace {
 
-// The quantities of a text such as "depth,normal", except the radiance. known: the names that are allowed.
+// Parses a text such as "depth,normal"; leaves out the radiance. known: allowed names.
 std::vector<std::uint32_t> parse_layers(const std::string &text, std::span<const std::string_view> known) {
     const ValueRule rule{.form = ValueRule::Form::name, .kind = "layer", .names = known};
     std::vector<std::uint32_t> quantities;
@@ -34,7 +34,7 @@ std::vector<std::uint32_t> parse_layers(const std::string &text, std::span<const
     return quantities;
 }
 
-// Adds an option whose text parse() turns into an optional value. rule: what the message says if it cannot.
+// parse: returns an optional value. rule: for the message if it is empty.
 template <typename Target, typename Parse>
 CLI::Option *add_parsed(CLI::App &command, const std::string &name, Target &target, Parse parse,
                         const std::string &rule, const std::string &help) {
@@ -98,7 +98,7 @@ void add_lasting_options(CLI::App &command, RenderOptions &options) {
                               "Index of the first sample: parts have samples of one sequence (default: 0)");
 }
 
-// Adds --parts, for another program: it reads standard output and writes the outputs that are refused here.
+// Adds --parts, for another program that reads standard output and writes the outputs refused here.
 void add_parts_option(CLI::App &command, RenderOptions &options) {
     command.option_defaults()->group("Checkpoints and parts");
     CLI::Option *parts = command.add_flag("--parts", options.parts,

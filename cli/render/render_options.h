@@ -1,4 +1,4 @@
-// Frames of an animation, and their numbers in the names of files.
+// The options of `pt render`, and the frames of an animation.
 #pragma once
 
 #include "cli/base/number.h"
@@ -23,10 +23,10 @@ namespace cli {
 
 struct FrameRange {
     std::uint32_t first;
-    std::uint32_t last; // not before the first
+    std::uint32_t last; // >= first
 };
 
-// Parses "0-23", or just "5"; nothing for any other text.
+// Parses "0-23" or "5"; empty for other texts.
 inline std::optional<FrameRange> parse_frames(std::string_view text) {
     const std::size_t dash = text.find('-');
     const auto first = parse_number<std::uint32_t>(text.substr(0, dash));
@@ -34,8 +34,7 @@ inline std::optional<FrameRange> parse_frames(std::string_view text) {
     return first && last && *first <= *last ? std::optional(FrameRange{*first, *last}) : std::nullopt;
 }
 
-// The name of a frame's file: the last run of # signs is replaced by its number, with leading zeros to as many digits.
-// Nothing if there is no #.
+// Replaces the last run of # signs by the number, with leading zeros to as many digits. Empty without a #.
 inline std::optional<std::string> numbered_name(const std::string &pattern, std::uint32_t frame) {
     const std::size_t last = pattern.rfind('#');
     if (last == std::string::npos)
@@ -48,21 +47,21 @@ inline std::optional<std::string> numbered_name(const std::string &pattern, std:
 }
 
 struct OutputOptions {
-    std::vector<std::string> images;   // paths, like all here
+    std::vector<std::string> images;   // paths
     std::optional<ImageFormat> format; // of an image to standard output
-    std::vector<std::uint32_t> layers; // in each .exr beside the radiance: PT_QUANTITY_*
-    std::string film;                  // empty: none; so for the report
+    std::vector<std::uint32_t> layers; // PT_QUANTITY_*, in each .exr beside the radiance
+    std::string film;                  // empty: none; so for stats
     std::string stats;
     bool quiet = false;
 
-    // The images to be written. Their names must have been checked.
+    // Their names must have been checked.
     std::vector<ImageTarget> targets() const;
 
-    // Whether an image or the report goes to standard output, so that messages for people must not.
+    // Whether an image or the report goes to standard output, so that messages must not.
     bool takes_standard_output() const;
 };
 
-// Calls use(option, path) for every file that is to be written.
+// Calls use(option, path) for every file to be written.
 template <typename Options, typename Use>
 void for_each_output(Options &options, Use use) {
     for (auto &path : options.images)
@@ -71,46 +70,46 @@ void for_each_output(Options &options, Use use) {
     use("--stats", options.stats);
 }
 
-// Adds the options for images and the report; they write into `options` when the command line is parsed.
+// Options for images and the report; parsing writes into `options`.
 void add_image_outputs(CLI::App &command, OutputOptions &options);
 
-// Adds all output options except --quiet. layers: those that the command can write.
+// All output options except --quiet. layers: that the command can write.
 void add_output_options(CLI::App &command, OutputOptions &options, std::span<const std::string_view> layers);
 
-// Adds --format, for an image to standard output. names: the formats that the command can write.
+// --format, for an image to standard output. names: formats that the command can write.
 void add_format(CLI::App &command, std::optional<ImageFormat> &format, std::span<const std::string_view> names);
 
 struct RenderOptions {
     std::string scene;
-    std::vector<SceneOverride> overrides; // of the scene's values, including those by options of their own
+    std::vector<SceneOverride> overrides; // including those by options of their own
     OutputOptions output;
     bool alpha = false;
-    std::string denoiser; // file of Open Image Denoise; empty: the picture is as its samples make it
+    std::string denoiser; // file of Open Image Denoise; empty: not denoised
     std::optional<Rectangle> crop;
 
     StoppingRules stopping;
     std::uint32_t sampling = PT_SAMPLING_BEST;
     std::uint32_t first_sample = 0;
 
-    bool parts = false;     // render parts on request, without other outputs
-    std::string checkpoint; // path of the film; empty: none
+    bool parts = false;     // on request, without other outputs
+    std::string checkpoint; // path; empty: none
     bool resume = false;
-    std::optional<double> checkpoint_seconds; // nothing: 30
-    std::optional<double> preview_seconds;    // nothing: only when SIGUSR1 asks
+    std::optional<double> checkpoint_seconds; // empty: 30
+    std::optional<double> preview_seconds;    // empty: only after SIGUSR1
 
-    std::optional<FrameRange> frames; // of an animation; nothing: a single picture
+    std::optional<FrameRange> frames; // empty: a single picture
     bool skip_existing = false;       // frames whose files exist
 
     std::string device;
     std::uint32_t submit_milliseconds = 0; // 0: the library's default
-    std::uint32_t piece_rows = 0;          // 0: as many as the device has memory for
+    std::uint32_t piece_rows = 0;          // 0: as many as fit the device's memory
     bool validation = false;
 
-    std::string shader_dir; // empty: the library's own kernels
+    std::string shader_dir; // empty: the library's kernels
     bool watch = false;
     std::string progress = "auto";
 
-    // The quantities that have to be read for the layers, alpha and denoising: PT_QUANTITY_*.
+    // PT_QUANTITY_* to be read for layers, alpha and denoising.
     std::vector<std::uint32_t> wanted_layers() const;
 };
 

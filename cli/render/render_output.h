@@ -1,4 +1,4 @@
-// The outputs of a rendering: checks before it, images after it.
+// The outputs of a rendering: checks before, files after.
 #pragma once
 
 #include "cli/base/file.h"
@@ -19,32 +19,31 @@ namespace cli {
 std::vector<NamedFile> outputs_of(const OutputOptions &options, const std::string &checkpoint = "");
 
 // Throws Failure(ExitCode::usage) if options contradict each other, an output's name has no known format, or an output
-// is the same file as another or as a source.
+// is also another output or a source.
 void check_names(const RenderOptions &options);
 
-// The same for images made from other files, which must not be overwritten.
+// For images made from other files, which must not be overwritten.
 void check_names(const OutputOptions &options, const std::vector<NamedFile> &sources);
 
-// Throws Failure if an image is too large for its format (ExitCode::usage) or, as far as that can be known before, if a
-// file cannot be written (ExitCode::file). window: of the images.
+// Throws Failure if an image is too large for its format (ExitCode::usage) or, as far as can be known now, a file
+// cannot be written (ExitCode::file). window: of the images.
 void check_files(const OutputOptions &options, const ImageWindow &window);
 
-// Checks these files and everything else about the outputs that can be known before an hour of rendering.
+// Checks all that can be known about the outputs before rendering.
 void check_outputs(const RenderTask &task);
 
-// Writes every image that can be written even if another cannot, and says on stderr which could not. Returns the paths
-// of those written.
+// Writes every image that can be written, and reports the others on stderr. Returns the paths written.
 std::vector<std::string> write_images(ImageWriter &writer, const OutputOptions &options, const RenderReport &report,
                                       const RenderedImage &image);
 
-// Writes a film. If that fails, says so on stderr and returns false.
+// On failure prints a message on stderr and returns false.
 bool write_film(const std::string &path, std::span<const std::byte> film);
 
-// Whether any output is in a format that the image module encodes; whether any is for a display.
+// Whether an output needs the image module to encode it, and whether one is for displays.
 bool needs_module(const OutputOptions &options);
 bool needs_tone_map(const OutputOptions &options);
 
-// Leaves only the images that go to files.
+// Keeps only images that go to files.
 OutputOptions without_standard_output(OutputOptions options);
 
 } // namespace cli

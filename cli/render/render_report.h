@@ -1,4 +1,4 @@
-// The facts of a finished rendering, as image metadata, as the --stats file and as a line for people.
+// The facts of a finished rendering: image metadata, the --stats file, and lines for people.
 #pragma once
 
 #include "cli/film/film.h"
@@ -31,29 +31,29 @@ struct RenderReport {
     double create_seconds;
     double accumulate_seconds;
     double total_seconds;
-    std::optional<ToneMap> tone_map; // of files for displays; nothing if none is written
-    std::string ended_by;            // "samples", "error", "signal", or another rule, as of StoppingTest
+    std::optional<ToneMap> tone_map; // of files for displays; empty without any
+    std::string ended_by;            // "samples", "error", "signal", or another rule (StoppingTest)
     std::vector<std::string> warnings;
 
     bool target_reached() const { return target_error > 0.0 && error.relative_rmse_high <= target_error; }
 };
 
-// What a film knows of the rendering that made it: neither times nor the scene's name.
+// The facts in a film, without times and the scene's name.
 RenderReport film_report(const FilmHandle &film);
 
 nlohmann::ordered_json stats_json(const RenderReport &report);
 
-// The parts of that file about the error and the tone map.
+// The sections of the error and the tone map.
 nlohmann::ordered_json error_json(const pt_error_estimate &error);
 nlohmann::ordered_json tone_map_json(const RenderReport &report);
 
 // "256x128, 64 spp in 1.23 s on llvmpipe"
 std::string summary_text(const RenderReport &report);
 
-// "error 0.42% (0.40% to 0.44%); target reached after 64 samples", for the relative error.
+// The relative error: "error 0.42% (0.40% to 0.44%); target reached after 64 samples".
 std::string error_text(const RenderReport &report);
 
-// An image's metadata about the rendering. tone_map: how the radiance was mapped for a display; nullptr if it was not.
+// Metadata about the rendering. tone_map: nullptr if the radiance was not mapped.
 std::vector<ImageAttribute> image_metadata(const RenderReport &report, const ToneMap *tone_map);
 
 } // namespace cli

@@ -12,7 +12,7 @@
 namespace cli {
 namespace {
 
-// The number of samples that fit: an index is at most 2^32 - 1.
+// Limits or refuses a number of samples: an index is at most 2^32 - 1.
 std::uint32_t limited_samples(std::uint32_t count, std::uint32_t first, bool is_upper_limit) {
     const std::uint64_t left = (std::uint64_t{1} << 32) - first;
     refuse_if(count > left && !is_upper_limit,
@@ -35,12 +35,12 @@ ImageWindow chosen_window(const std::optional<Rectangle> &crop, const pt_render 
 }
 
 std::uint32_t image_count(const RenderOptions &options) {
-    // The other half, both filtered, the result; and what the filter reads and writes.
+    // The other half, both filtered, the result, the filter's inputs and outputs.
     const std::uint32_t of_denoising = options.denoiser.empty() ? 0 : 8;
     return 1 + static_cast<std::uint32_t>(options.wanted_layers().size()) + of_denoising;
 }
 
-// Whatever the library refuses about a scene is the scene's fault, even if the message names no field.
+// The library's refusals about a scene are the scene's fault, even if the message names no field.
 void require_scene(const Context &context, const SceneFile &scene, pt_result result) {
     if (result < 0) {
         const LibraryError error = context.last_error();

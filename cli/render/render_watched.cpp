@@ -1,4 +1,4 @@
-// The option --watch of `pt render`.
+// The option --watch.
 #include "cli/base/file.h"
 #include "cli/base/interrupt.h"
 #include "cli/base/text.h"
@@ -18,10 +18,10 @@
 namespace cli {
 namespace {
 
-// A signal that comes just before a wait begins goes unnoticed for so long at the most.
+// The longest delay of a signal that comes just before a wait.
 constexpr std::chrono::milliseconds patience{200};
 
-// Refuses pipes: one can be read only once, and reading it waits for its writer.
+// Refuses pipes, which can be read only once, and wait for their writers.
 void require_files(const RenderOptions &options) {
     const std::vector<std::string> &images = options.output.images;
     refuse_if(options.frames.has_value(), "--watch: shows one picture, not --frames");
@@ -41,7 +41,6 @@ public:
         log_(log),
         sources_(options.scene, options.shader_dir) {}
 
-    // Returns the exit code.
     int run() {
         for (;;) {
             sources_.begin();
@@ -59,8 +58,8 @@ private:
     // Ending a watch while it waits is success.
     int exit_code() const { return exit_code_of(outcome_, outcome_ == ExitCode::signal ? interrupt_signal() : 0); }
 
-    // Renders. If it fails and an edit can help, prints the message and waits for the edit. Edited shaders may also
-    // lose samples or the device, after which another context is needed.
+    // Renders. If it fails and an edit can help, prints the message and waits for the edit. Edited shaders may lose
+    // samples or the device, which then takes another context.
     void render_or_tell() {
         outcome_ = ExitCode::done;
         try {
@@ -95,7 +94,7 @@ private:
             edited_.clear();
     }
 
-    // One context serves all pictures: starting another would take longer than most edits are worth.
+    // One context for all pictures: starting another takes longer than most renderings.
     void refresh_context() {
         if (!context_) {
             context_.emplace(render_create_info(options_, log_));
@@ -124,7 +123,7 @@ private:
         print_unless_quiet("changed: " + listed(names));
     }
 
-    // Prints the names of the files edited since the last good picture.
+    // Files edited since the last good picture.
     void tell_suspects() const {
         if (!edited_.empty())
             print_message("the likely cause: " + listed(edited_) + ", edited since the last picture");
@@ -134,8 +133,8 @@ private:
     ValidationLog &log_;
     SourceWatch sources_;
     std::optional<Context> context_;
-    ExitCode outcome_ = ExitCode::done; // of the last rendering, also if it failed: an edit may fix that
-    std::set<std::string> edited_;      // files edited since the last picture
+    ExitCode outcome_ = ExitCode::done; // of the last rendering, even a failed one, since an edit may repair it
+    std::set<std::string> edited_;      // since the last picture
     bool is_first_ = true;
     bool is_told_ = false;
 };

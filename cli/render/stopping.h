@@ -1,5 +1,5 @@
-// What may end a rendering before it has all samples, and the test of it between steps. A further rule is a field here,
-// its test in StoppingTest, and its option in render_options.cpp.
+// Rules that end a rendering before it has all samples, and their test between steps. A new rule is a field here, its
+// test in StoppingTest, and its option in render_options.cpp.
 #pragma once
 
 #include <pt/stats.h>
@@ -15,16 +15,16 @@
 namespace cli {
 
 struct StoppingRules {
-    double target_error = 0.0;        // relative; 0: none. The library tests it, within its steps
-    std::optional<double> time_limit; // seconds for each frame
+    double target_error = 0.0;        // relative; 0: none; tested by the library within steps
+    std::optional<double> time_limit; // seconds per frame
 
     bool has_target() const { return target_error > 0.0; }
     bool has_any() const { return has_target() || time_limit; }
 
-    // Of a pixel, unless the scene or an option says it.
+    // Samples of a pixel, unless the scene or an option sets them.
     std::uint32_t usual_samples() const { return has_any() ? 65536 : 64; }
 
-    // By which factor the samples may grow after so many seconds, if others take as long.
+    // Factor by which the samples may grow after this time, if others take as long.
     double growth_left(double seconds) const {
         return time_limit.value_or(std::numeric_limits<double>::infinity()) / seconds;
     }
@@ -33,10 +33,9 @@ struct StoppingRules {
 inline constexpr const char *stopping_options = "--error or --time";
 inline constexpr const char *ended_by_time = "time";
 
-// A guess how many samples a target error takes in all, if `sample_count` samples have the error `error`, which may be
-// infinite. The error of independent samples falls with the root of their number; stratified samples need fewer, so the
-// guess falls as they come. It is more than the samples at the next look, so that progress does not show 100% before
-// the target is reached.
+// Estimates the total samples for a target error, if sample_count samples have `error`, which may be infinite.
+// Independent samples' error falls with the root of their number; stratified ones need fewer, so the estimate falls. It
+// exceeds the next look's samples, so that progress does not show 100% before the target is reached.
 inline std::uint32_t forecast_sample_count(std::uint32_t sample_count, double error, double target_error,
                                            std::uint32_t most) {
     const double ratio = error / target_error;
@@ -45,7 +44,7 @@ inline std::uint32_t forecast_sample_count(std::uint32_t sample_count, double er
     return static_cast<std::uint32_t>(std::min(std::max(std::ceil(guess), least), static_cast<double>(most)));
 }
 
-// Asked between the steps of a rendering, which takes the pieces of an image one after the other.
+// Asked between the steps of a rendering, piece by piece.
 class StoppingTest {
 public:
     using Clock = std::chrono::steady_clock;
@@ -54,8 +53,8 @@ public:
 
     const StoppingRules &rules() const { return rules_; }
 
-    // The next piece ends at this share of the image. Each gets its share of the time, plus what earlier pieces have
-    // not used.
+    // end: the share of the image after the next piece. Each piece gets its share of the time, plus what earlier ones
+    // left.
     void enter_piece(double end) {
         if (rules_.time_limit)
             end_ = start_ +
@@ -63,10 +62,10 @@ public:
         is_over_ = false;
     }
 
-    // Whether a step is to end as soon as it has a whole sample.
+    // Whether a step should end at its next whole sample.
     bool is_due() const { return Clock::now() >= end_; }
 
-    // After a step that has left the piece with a sample at the least, but not with all.
+    // After a step that leaves the piece with some samples, but not all.
     void look(Clock::time_point now) {
         is_over_ = now >= end_;
         if (is_over_)
@@ -76,7 +75,7 @@ public:
     // Whether the piece gets no more samples.
     bool is_over() const { return is_over_; }
 
-    // The rule by which some piece has fewer samples; nothing if none has.
+    // The rule that left some piece with fewer samples, if any.
     std::optional<std::string> ended_by() const { return ended_by_; }
 
 private:

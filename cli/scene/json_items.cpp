@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-// Tells how far the parser has come.
+// Reports how far the parser has come.
 class TellingIterator {
 public:
     using iterator_category = std::input_iterator_tag;
@@ -40,13 +40,13 @@ private:
 
 class ItemParser {
 public:
-    // wanted: of what the line is looked for.
+    // wanted: path whose line is looked for.
     ItemParser(JsonItemHandler &handler, const JsonPath &wanted) :
         handler_(handler),
         wanted_(wanted),
         line_depth_(wanted.empty() ? 0 : 1) {}
 
-    // Throws what the parser does, and JsonRefusal.
+    // Throws the parser's exceptions and JsonRefusal.
     void parse(std::string_view text) {
         constexpr bool throws = true;
         constexpr bool ignore_comments = true;
@@ -66,8 +66,7 @@ public:
 
     std::optional<std::size_t> line() const { return line_; }
 
-    // Where a comma is missing; nothing if that is not what is wrong. wrong_end: of the text whose last character ends
-    // the first wrong token.
+    // The place of a missing comma, if that is the fault. wrong_end: end of the first wrong token.
     std::optional<std::size_t> missing_comma(std::string_view text, std::size_t wrong_end) const {
         constexpr std::string_view blanks = " \t\r\n";
         constexpr std::string_view ends_of_values = "\"{[0123456789el"; // or their beginnings
@@ -80,7 +79,7 @@ public:
     }
 
 private:
-    // An array or object that is open, and the step to what is inside it now.
+    // An open array or object, and the step to its present member.
     struct Level {
         JsonStep step;
         std::set<std::string> keys{}; // so far
@@ -90,7 +89,7 @@ private:
     static constexpr std::size_t section_depth = 1;
     static constexpr std::size_t element_depth = 2;
 
-    // The parser's callback: false if the value is not to be kept.
+    // The parser's callback; false discards the value.
     bool take(json::parse_event_t event, const json &parsed) {
         const bool is_end = event == json::parse_event_t::array_end || event == json::parse_event_t::object_end;
         after_value_ = is_end || event == json::parse_event_t::value;
@@ -112,7 +111,7 @@ private:
         }
     }
 
-    // A number that is too large for double is a value that has a place.
+    // Names the place of a number too large for double.
     [[noreturn]] void refuse_overflow(const std::string &what) {
         enter_value(json::value_t::number_float);
         const std::size_t quote = what.find('\'');
@@ -127,8 +126,7 @@ private:
         return path;
     }
 
-    // The parser reads one character beyond a number, which may end the line: the last one that was read does not
-    // count.
+    // The parser reads one character beyond a number, perhaps the line's end, so the last character does not count.
     void enter() {
         const bool leads_there =
             levels_.size() >= line_depth_ && levels_.size() <= wanted_.size() &&
@@ -148,7 +146,7 @@ private:
             throw JsonRefusal(path(), "is given twice");
     }
 
-    // A member has a line since its key was read. Array elements have no such event: a value that begins is the next.
+    // Members get their line from their key; array elements, without a key, from the beginning of the value.
     void enter_value(json::value_t kind) {
         if (levels_.empty()) {
             enter();
@@ -169,7 +167,7 @@ private:
         levels_.push_back({{{}, is_array ? static_cast<std::size_t>(-1) : 0, is_array}}); // the first makes it 0
     }
 
-    // Items are handed out, and not kept.
+    // Items are handed out and discarded.
     bool hand_out(const json &value) {
         if (levels_.size() != element_depth)
             return true;
@@ -187,12 +185,12 @@ private:
     const char *value_end_ = nullptr; // of the last event
     bool after_value_ = false;
     std::vector<Level> levels_;
-    std::size_t line_depth_; // of what the line is, or of what it may be
+    std::size_t line_depth_; // of the value that has the line, or may have it
     std::optional<std::size_t> line_;
 };
 
-// "[json.exception...] parse error at line 1, column 2: syntax error while ...", with the place in the file's words.
-// error.byte counts the characters read so far, the wrong one included.
+// Turns "[json.exception...] parse error at line 1, column 2: syntax error while ..." into the file's words. error.byte
+// counts characters read, including the wrong one.
 Failure failure_of(const json::parse_error &error, const ItemParser &parser, std::string_view text,
                    const std::string &file_name) {
     if (const auto comma = parser.missing_comma(text, error.byte))
@@ -209,7 +207,7 @@ Failure failure_of(const json::parse_error &error, const ItemParser &parser, std
 } // namespace
 
 void parse_json_items(std::string_view text, const std::string &file_name, JsonItemHandler &handler) {
-    if (text.empty()) // for which versions of nlohmann-json have different words
+    if (text.empty()) // nlohmann-json's versions word this differently
         throw Failure(ExitCode::scene, file_name + ":1:1: syntax error: the file is empty");
     const JsonPath none;
     ItemParser parser(handler, none);
@@ -228,7 +226,7 @@ std::optional<std::size_t> line_of(std::string_view text, const JsonPath &path) 
     ItemParser parser(nobody, path);
     try {
         parser.parse(text);
-    } catch (const std::exception &) { // told when it was read
+    } catch (const std::exception &) { // reported when it was read
     }
     return parser.line();
 }

@@ -17,7 +17,7 @@ bool is_opaque(const Look &look) {
     return look.opacity == 1.0F;
 }
 
-// Rays ask for opacities only where there are some.
+// Opacities are set only if some sphere has one, since they cost rays time.
 void put_looks(pt_sphere_array &array, const Look &first, std::uint32_t stride, bool are_opaque) {
     array.color = {&first.color, stride, PT_TYPE_FLOAT32};
     if (!are_opaque)
@@ -48,7 +48,7 @@ pt_sphere_array array_of(std::span<const Capsule> capsules) {
     return array;
 }
 
-// Keys of the file that pt.h calls otherwise.
+// Keys of the file with other names in pt.h.
 constexpr std::array<std::array<std::string_view, 2>, 6> renamed{{{"camera.target", "camera.look_at"},
                                                                   {"camera.shutter_open", "camera.shutter[0]"},
                                                                   {"camera.shutter_close", "camera.shutter[1]"},
@@ -56,8 +56,8 @@ constexpr std::array<std::array<std::string_view, 2>, 6> renamed{{{"camera.targe
                                                                   {"render.height", "film.height"},
                                                                   {"accumulate.sample_count", "render.spp"}}};
 
-// The path of a field of pt_scene.sphere_arrays, whose component is a sphere's index. The file's single spheres and
-// capsules, if they are arrays, come before the items that are many.
+// Path of a field of pt_scene.sphere_arrays; component: a sphere's index. Single spheres and capsules, if they are
+// arrays, come before items that are many.
 JsonPath path_in_arrays(const SceneFile &scene, const BrokenRule &rule) {
     const std::size_t of_spheres = scene.looks.empty() ? 0 : 1;
     const std::size_t of_single = of_spheres + (scene.capsules.empty() ? 0 : 1);
@@ -66,12 +66,12 @@ JsonPath path_in_arrays(const SceneFile &scene, const BrokenRule &rule) {
     const std::string_view section = many ? many->section : *rule.index < of_spheres ? "spheres" : "capsules";
     const std::size_t item = many ? many->item : scene.item_of(section, rule.component.value_or(0));
     JsonPath path{{std::string(section)}, {{}, item, true}, {rule.member}};
-    if (rule.component && !is_single && rule.member != "material") // which is one for all
+    if (rule.component && !is_single && rule.member != "material") // one for all
         path.push_back({{}, *rule.component, true});
     return path;
 }
 
-// The rule with the name of a material in place of its index.
+// Replaces a material's index by its name.
 BrokenRule with_names(const SceneFile &scene, const BrokenRule &rule) {
     BrokenRule named = rule;
     if (rule.subject == "sphere_arrays" && rule.member == "material")
@@ -79,7 +79,7 @@ BrokenRule with_names(const SceneFile &scene, const BrokenRule &rule) {
     return named;
 }
 
-// The path in the file of the field that breaks a rule; empty if the file has no such field.
+// Path in the file of the field that breaks a rule; empty if the file has no such field.
 JsonPath path_of(const SceneFile &scene, const BrokenRule &rule) {
     if (rule.subject == "sphere_arrays" && rule.index)
         return path_in_arrays(scene, rule);
@@ -104,14 +104,14 @@ JsonPath path_of(const SceneFile &scene, const BrokenRule &rule) {
     return path;
 }
 
-// What has taken the place of the file's value there; nullptr if nothing has.
+// The override of the file's value at the path, or nullptr.
 const SceneOverride *find_override(const SceneFile &scene, const JsonPath &path) {
     const auto found = std::find_if(scene.overrides.rbegin(), scene.overrides.rend(),
                                     [&](const SceneOverride &each) { return is_within(path, each.path); });
     return found == scene.overrides.rend() ? nullptr : &*found;
 }
 
-// A rule of what neither the file nor an option gave, or of a field that the file does not know, is the command's.
+// If neither the file nor an option has such a value, blame the command line.
 bool is_of_command(const SceneFile &scene, const BrokenRule &rule, const JsonPath &path) {
     return find_option(rule) != nullptr && (path.empty() || !scene.gives(path));
 }

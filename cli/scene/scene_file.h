@@ -1,5 +1,5 @@
-// The scene file: JSON -> the structs of pt.h. Names, types and units are checked
-// here, the rules of a scene by the library; explain() leads its messages back to the file.
+// Reads scene files: JSON to the structs of pt.h. Checks names, types and units; the library checks the rules, and
+// explain() leads its messages back to the file.
 #pragma once
 
 #include "cli/base/context.h"
@@ -21,7 +21,7 @@
 
 namespace cli {
 
-// The camera of files without one: it looks from (0, 0, 1) at the origin.
+// For files without a camera: from (0, 0, 1) to the origin.
 constexpr pt_camera default_camera() {
     auto camera = sized<pt_camera>();
     camera.position[2] = 1.0;
@@ -37,7 +37,7 @@ constexpr pt_render default_render() {
     return render;
 }
 
-// What a sphere can have of its own beside its material.
+// A sphere's own properties beside its material.
 struct Look {
     std::array<float, 3> color{1.0F, 1.0F, 1.0F};
     float opacity = 1.0F;
@@ -51,51 +51,52 @@ struct Capsule {
 
 struct SceneFile {
     std::string path;
-    std::string text;                        // for the line numbers in refusals
-    std::vector<SceneOverride> overrides;    // that have taken the place of its values
-    std::vector<JsonPath> given;             // keys of `camera`, `film` and `render`, of the file or of overrides
-    std::vector<std::string> material_names; // like all arrays from here on in the order of the file
+    std::string text;                        // for line numbers in refusals
+    std::vector<SceneOverride> overrides;    // of its values
+    std::vector<JsonPath> given;             // keys of `camera`, `film` and `render` in the file or overrides
+    std::vector<std::string> material_names; // in the file's order, like all arrays from here on
     std::vector<pt_material> materials;
-    std::vector<std::uint32_t> used_materials; // in ascending order: those of surfaces
+    std::vector<std::uint32_t> used_materials; // of surfaces, in ascending order
     std::vector<pt_sphere> spheres;
-    std::vector<Look> looks; // of each sphere where any has one, else empty
+    std::vector<Look> looks; // per sphere if any has one, else empty
     std::vector<Capsule> capsules;
     std::vector<pt_plane> planes;
-    std::vector<SphereColumns> sphere_columns; // without what their files have, before load_columns
+    std::vector<SphereColumns> sphere_columns; // without their files' contents before load_columns
     std::vector<AnimatedValue> animation;
     pt_camera camera = default_camera();
-    pt_render render = default_render();       // the sections `film` and `render`, with these two
+    pt_render render = default_render();       // from the sections `film` and `render`, like the next two
     std::optional<std::uint32_t> sample_count; // of a pixel
     Display display;
 
     void add_sphere(const pt_sphere &sphere, const std::optional<Look> &look);
 
-    // Both point into this object. Spheres are in the first array if any of them has a look, capsules in the next;
-    // each item that is many of either is another.
+    // Both point into this object. The first array has all single spheres if any has a look, the next one capsules,
+    // then each item that is many.
     pt_scene scene() const;
     std::vector<pt_sphere_array> sphere_arrays() const;
-    std::size_t item_of(std::string_view section, std::size_t index) const; // among all of its items, of single ones
+    std::size_t item_of(std::string_view section,
+                        std::size_t index) const; // index of a single item among all items of the section
 
     bool gives(const JsonPath &key) const;
 
-    // What the library says of materials[1].glossiness in the words of whoever gave the value: of the file, with its
-    // line, "scene.json:7: materials.gold.glossiness = -1: must be >= 0", or of an option.
+    // Explains the library's message about a field by its source: with the file's key and line, "scene.json:7:
+    // materials.gold.glossiness = -1: must be >= 0", or by an option.
     std::string explain(const BrokenRule &rule) const;
     std::string explain(const LibraryError &error) const;
 
-    // Where the fault is if that rule is broken: in the file (ExitCode::scene), or in what gave a value in place of it.
+    // Exit code for a broken rule: of the file (ExitCode::scene) or of the override.
     ExitCode blame(const BrokenRule &rule) const;
     ExitCode blame(const LibraryError &error) const;
 };
 
-// overrides: what takes the place of its values; a later one counts more. Throws Failure(ExitCode::scene) if the text
-// is not a scene file, and blames an override that does not fit.
+// overrides: later ones win. Throws Failure(ExitCode::scene) if the text is not a scene file, and blames an override
+// that does not fit.
 SceneFile parse_scene(std::string text, const std::string &path, std::vector<SceneOverride> overrides = {});
 
-// What overrides of the section `film` say, where there is no scene file.
+// From overrides of the section `film`, without a scene file.
 Display display_of(const std::vector<SceneOverride> &overrides);
 
-// The same of a file, and of standard input, whose path is -. Throws Failure(ExitCode::file) if it cannot be read.
+// path: - for standard input. Throws Failure(ExitCode::file) if it cannot be read.
 SceneFile read_scene_file(const std::string &path, std::vector<SceneOverride> overrides = {});
 
 } // namespace cli

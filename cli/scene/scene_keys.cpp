@@ -69,7 +69,7 @@ constexpr std::array camera_keys{
              [](Item item, Value value) {
                  item.scene.camera.projection = projections.find(value.get_ref<const std::string &>()).value();
              }},
-    // The library's rule, [1e-8, pi), in the file's unit; 0 would be pt.h's default, here and for the extent.
+    // The library's rule, [1e-8, pi), in degrees; 0 would be pt.h's default, here and for the extent.
     SceneKey{"vertical_fov",
              {.least = 6e-7, .largest = 180.0, .excludes_largest = true, .unit = "degrees"},
              "Of a perspective: the angle of the picture's height",

@@ -65,7 +65,7 @@ Schema value_of(const ValueRule &rule) {
     return number(rule);
 }
 
-// of_many: of an item that is many spheres, whose properties may be files, and whose center is one.
+// of_many: an item of many spheres, whose properties may be files, and whose center is one.
 Schema object_of(const SceneSection &section, bool of_many) {
     const Schema file{{"type", "string"}, {"minLength", 1}};
     Schema schema{{"type", "object"}, {"additionalProperties", false}};
@@ -119,9 +119,9 @@ Schema animation() {
             {"additionalProperties", {{"type", "array"}, {"items", key}, {"minItems", 1}}}};
 }
 
-// The JSON Schema of scene files, for editors and programs that write them: draft 7 (json-schema.org/draft-07). What it
-// refuses `pt` refuses too; what needs two values to be known (names of materials, a look_at that is not the position,
-// an up along the view), `pt` refuses alone.
+// For editors and programs that write scene files: draft 7 (json-schema.org/draft-07). `pt` refuses all that it
+// refuses; rules on two values (names of materials, look_at equal to the position, up along the view) are checked by
+// `pt` alone.
 Schema scene_schema() {
     Schema schema{{"$schema", "http://json-schema.org/draft-07/schema#"},
                   {"title", "Scene of pt"},

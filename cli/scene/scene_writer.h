@@ -1,4 +1,4 @@
-// A scene for another program that uses the library itself, so that there is one reader of scene files.
+// Writes a scene for other programs that use the library, so that scene files have one reader.
 #pragma once
 
 #include "cli/scene/scene_file.h"
@@ -7,9 +7,9 @@
 
 namespace cli {
 
-// Writes one line of JSON with the fields of pt.h by their names (camera, render, materials, spheres, planes,
-// sphere_arrays), and the files with columns. For each column of a sphere array it has the type and the number of rows,
-// of which 1 is for all spheres; their numbers follow the line as bytes, in that order.
+// Writes a line of JSON with the fields of pt.h by name (camera, render, materials, spheres, planes, sphere_arrays) and
+// the files of columns. A sphere array's column has a type and a number of rows, 1 for all spheres; the numbers follow
+// the line as bytes, in that order.
 void write_scene(std::ostream &stream, const SceneFile &file, const pt_render &render);
 
 } // namespace cli

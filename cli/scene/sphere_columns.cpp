@@ -23,8 +23,8 @@ std::uint32_t size_of(std::uint32_t type) {
     return type == PT_TYPE_FLOAT64 ? 8 : type == PT_TYPE_FLOAT32 ? 4 : 1;
 }
 
-// The head is a dictionary of Python, {'descr': '<f4', 'fortran_order': False, 'shape': (10, 3), }, which is JSON but
-// for its quotes, parentheses, capitals and last commas. What is no dictionary is discarded.
+// The head is a Python dictionary, {'descr': '<f4', 'fortran_order': False, 'shape': (10, 3), }, JSON but for quotes,
+// parentheses, capitals and last commas. Other heads are discarded.
 json dictionary_of(std::string_view head) {
     constexpr std::string_view python = "'()FT";
     constexpr std::string_view in_json = "\"[]ft";
@@ -119,7 +119,7 @@ private:
     std::size_t end_ = 0;
 };
 
-// Numbers of a sphere.
+// Numbers per sphere.
 std::size_t length_of(const SceneKey &key) {
     return key.rule.form == ValueRule::Form::number ? 1 : 3;
 }
@@ -140,7 +140,7 @@ void for_each_file(AnyScene &scene, Use use) {
                 use(each, column);
 }
 
-// centers: with as many rows.
+// The array must have as many rows as centers.
 void check_fit(const SceneKey &key, const NpyArray &array, const NpyArray &centers, const std::string &path) {
     const auto refuse_to_have = [&](bool is_refused, const std::string &what) {
         refuse_if(is_refused, path + ": has " + what, ExitCode::scene);

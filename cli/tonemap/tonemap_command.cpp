@@ -1,4 +1,4 @@
-// The command `pt tonemap`: makes a picture for a display from a file of radiance, without rendering again.
+// The command `pt tonemap`: makes a displayable picture from a file of radiance.
 #include "cli/base/devices.h"
 #include "cli/base/exit_code.h"
 #include "cli/base/file.h"
@@ -19,7 +19,7 @@ struct TonemapOptions {
     std::string input;
     std::string output;
     std::optional<ImageFormat> format;  // of an output to standard output
-    std::vector<SceneOverride> display; // overrides of the display section
+    std::vector<SceneOverride> display; // of the display section
     bool quiet = false;
 };
 
@@ -30,8 +30,7 @@ void check(const TonemapOptions &options) {
     require_distinct_files({{"the image", options.input}}, {{"the output", options.output}});
 }
 
-// The window of a picture, or of a part of it. In another program's file, pixels may lie outside the picture: then they
-// are a picture of their own.
+// The window of a picture or a part. Another program's pixels outside the picture are a picture of their own.
 ImageWindow window_of(const DecodedImage &image) {
     const auto inside = [](std::int32_t first, std::uint32_t count, std::uint32_t full) {
         return first >= 0 && static_cast<std::uint64_t>(first) + count <= full;
@@ -61,7 +60,7 @@ std::vector<float> radiance_of(const DecodedImage &image) {
     return radiance;
 }
 
-// Alpha of each pixel, if the file has the channel A and the format takes it; otherwise empty.
+// Per pixel, if the file has channel A and the format takes it; otherwise empty.
 std::vector<float> alpha_of(const DecodedImage &image, const ImageFormat &format) {
     const auto channel = std::find(image.channels.begin(), image.channels.end(), "A");
     if (channel == image.channels.end() || !format.has_alpha)
@@ -78,7 +77,7 @@ std::vector<float> alpha_of(const DecodedImage &image, const ImageFormat &format
     return alpha;
 }
 
-// What the file says about its rendering, and how it is tone-mapped now.
+// The file's facts about its rendering, and the present tone mapping.
 std::vector<ImageAttribute> attributes_of(const DecodedImage &image, const ToneMap &tone_map) {
     std::vector<ImageAttribute> attributes{{"software", "pt " + version_text()}};
     for (const ImageAttribute &each : image.attributes) {
