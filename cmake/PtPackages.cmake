@@ -77,6 +77,7 @@ libraries by CMake and pkg-config."
 )
 set(CPACK_DEBIAN_PT_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_PT_DEVELOPMENT_PACKAGE_DEPENDS "${pt_runtime_package} ${same_version}, libvulkan-dev")
+set(CPACK_DEBIAN_PT_DEVELOPMENT_PACKAGE_RECOMMENDS g++) # the C++ runtime, for programs with the static library
 set(CPACK_DEBIAN_PT_DEVELOPMENT_PACKAGE_CONFLICTS libpt-dev) # PTLib's, up to Debian 10
 
 set(CPACK_DEBIAN_PT_PROGRAM_DESCRIPTION
