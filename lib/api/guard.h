@@ -20,7 +20,8 @@ public:
     // Never throws: without memory a fixed message replaces it, without rules.
     void store(std::string_view message, std::shared_ptr<const Violations> broken_rules = nullptr) noexcept {
         try {
-            text_ = platform::printable_lines(message);
+            const std::string shown = platform::printable_lines(message);
+            text_ = std::string_view(shown); // copied, so that memory is kept for later messages
             shown_ = nullptr;
             broken_rules_ = std::move(broken_rules);
         } catch (...) {

@@ -122,7 +122,7 @@ TEST_F(ReloadTest, AContextIsCreatedWithTheFolderAsItIs) {
 }
 
 TEST_F(ReloadTest, AContextIsNotCreatedOfWhatDoesNotCompile) {
-    const std::string place = shaders_.break_after_line("film.glsl", 30);
+    const std::string place = shaders_.break_film();
     const std::string folder = shaders_.path();
     pt_create_info info{};
     info.struct_size = sizeof info;
@@ -137,7 +137,7 @@ TEST_F(ReloadTest, AFailureKeepsKernelsAndSamples) {
     accumulate_on(own(), 3);
     double_the_radiance(); // must not take effect while another file is broken
     const std::string film = shaders_.read("film.glsl");
-    expect_refusal(shaders_.break_after_line("film.glsl", 30));
+    expect_refusal(shaders_.break_film());
     expect_samples(own(), 3, 1);
     accumulate_on(own(), 2);
     expect_samples(own(), 5, 1);

@@ -3,6 +3,7 @@
 
 #include "tests/cli/temporary_folder.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -23,13 +24,13 @@ public:
         write(name, text.replace(place, old_part.size(), new_part));
     }
 
-    // Returns the place as the compiler names it.
-    std::string break_after_line(const std::string &name, int line) const {
-        std::string text = read(name);
-        std::size_t place = 0;
-        for (int i = 0; i < line; ++i)
-            place = text.find('\n', place) + 1;
-        write(name, text.insert(place, "float broken = nothing_like_it;\n"));
-        return file(name) + ":" + std::to_string(line + 1) + ": 'nothing_like_it' : undeclared identifier";
+    // Inserts a faulty line before the function windows_of. Returns its place as the compiler names it.
+    std::string break_film() const {
+        std::string text = read("film.glsl");
+        const std::size_t place = text.find("uvec4 windows_of(");
+        EXPECT_NE(place, std::string::npos);
+        const auto line = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(place), '\n') + 1;
+        write("film.glsl", text.insert(place, "float broken = nothing_like_it;\n"));
+        return file("film.glsl") + ":" + std::to_string(line) + ": 'nothing_like_it' : undeclared identifier";
     }
 };

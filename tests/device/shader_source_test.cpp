@@ -86,13 +86,13 @@ TEST_F(ShaderSourceTest, TheEmbeddedCodeIsNotCopied) {
 }
 
 TEST_F(ShaderSourceTest, AnErrorNamesTheIncludedFileAndTheLine) {
-    const std::string place = shaders.break_after_line("film.glsl", 30);
+    const std::string place = shaders.break_film();
     expect_complaint("pathtrace.comp does not compile:\nERROR: " + place);
     EXPECT_EQ(count_of("undeclared identifier", complaint()), 1U);
 }
 
 TEST_F(ShaderSourceTest, TheLogIsWhole) {
-    const std::string first = shaders.break_after_line("film.glsl", 30);
+    const std::string first = shaders.break_film();
     shaders.replace("pathtrace.comp", "film_add(gathered, ", "film_add(gathered, gathered, ");
     expect_complaint(first);
     expect_complaint("'film_add' : no matching overloaded function found");
