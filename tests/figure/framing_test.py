@@ -110,16 +110,23 @@ class Cells(unittest.TestCase):
         for beyond, told in ((0.05, 0), (0.15, 1)):  # a hundredth of the edge does not count
             self.assertEqual(len(drawn_of(np.vstack([few, CUBE[:20] * 0.01 + (5, 10 + beyond, 5)]), TEN).notes), told)
         self.assertEqual(drawn_of(CUBE + 15, TEN, box="none").notes, [])
-        self.assertEqual(drawn_of(CUBE + 15, TEN, wrap=True).notes, [])
+        self.assertEqual(drawn_of(CUBE * 2 + 15, TEN, wrap=True).notes, [])
 
     def test_a_cell_far_from_its_particles_is_not_drawn(self):
         chain = np.arange(8.0)[:, None] * (3, 2, 0) + (872, -495, 2.5)
         drawn = drawn_of(chain, TEN)
         self.assertIsNone(drawn.cell)
-        self.assertEqual([note[:25] for note in drawn.notes], ["8 of 8 particles are outs", "the cell is not drawn: it"])
+        self.assertEqual([note[:25] for note in drawn.notes], ["8 of 8 particles are outs", "the cell is not drawn, fo"])
         self.assertIsNotNone(drawn_of(chain, TEN, box="lines").cell)
-        for positions in (chain - chain.mean(axis=0) + (24, 0, 5), CUBE + (0, 0, 19), CUBE * 0.1 + 1):  # beside it, or in a corner
+        for positions in (chain - chain.mean(axis=0) + (24, 0, 5), CUBE * 3 + (0, 0, 19), CUBE * 0.9 + 1):  # beside it, or in a corner
             self.assertIsNotNone(drawn_of(positions, TEN).cell)
+
+    def test_a_cell_much_larger_than_its_particles_is_not_drawn(self):
+        """One ball in the middle of a cell with corners 5 away."""
+        for radius, is_drawn in ((0.52, True), (0.48, False)):
+            drawn = drawn_of([[5.0, 5, 5]], TEN, radius=radius)
+            self.assertEqual((drawn.cell is not None, len(drawn.notes)), (is_drawn, 1 - is_drawn))
+            self.assertIsNotNone(drawn_of([[5.0, 5, 5]], TEN, radius=radius, box="lines").cell)
 
 
 class Blank(unittest.TestCase):

@@ -122,7 +122,7 @@ def prepare(particles: Particles, options: Options, scale: float | None = None, 
         colors = colors[shown] if colors.ndim == 2 else colors
         opacities = opacities[shown] if opacities is not None and len(opacities) > 1 else opacities
         rods = [each.among(shown) for each in rods]
-    cell = drawn_cell(particles, options.box, positions, notes)
+    cell = drawn_cell(particles, options.box, positions, radii, notes)
     centers, radii, cell, scale = _in_range(positions, radii, cell, scale)
     return Drawn(centers, np.broadcast_to(radii, len(centers)) if len(radii) == 1 else radii, colors, legend, cell,
                  scale, notes, [each.times(scale, LEAST_LENGTH) for each in rods], settled,

@@ -16,6 +16,7 @@ from pt.figures._spread import middle_of, reaches_of, usual_reach
 
 FAR: Final = 4.0  # times as far from the middle as all others
 BEYOND: Final = 1.25  # times as far as these: is left out
+LARGE: Final = 10.0  # times as far as all particles: of a cell that leaves little of the picture to them; by taste
 OUTSIDE: Final = 0.1  # share of the particles that may be outside of the cell unmentioned
 WALL: Final = 0.01  # of the cell's edges: how far outside does not count
 LEAST_COVER: Final = 0.1  # of the picture, by balls that are narrower than a pixel
@@ -38,10 +39,10 @@ def far_away(positions: Array, radii: Array, notes: list[str]) -> Array | None:
     return far
 
 
-def drawn_cell(particles: Particles, box: str, positions: Array, notes: list[str]) -> Cell | None:
-    """The cell if it is drawn: by default, unless it is a protein's crystal cell or far from the particles.
+def drawn_cell(particles: Particles, box: str, positions: Array, radii: Array, notes: list[str]) -> Cell | None:
+    """The cell if it is drawn: by default, unless it is a protein's crystal cell, far from the particles or far larger.
 
-    positions   of the particles that are drawn
+    positions, radii   of the particles that are drawn
     """
     cell = particles.cell
     if cell is None or box == "none" or (box == "auto" and cell.is_crystal_of_macromolecule):
@@ -50,8 +51,9 @@ def drawn_cell(particles: Particles, box: str, positions: Array, notes: list[str
     if outside > OUTSIDE * len(positions):
         notes.append(f"{outside:,} of {len(positions):,} particles are outside of their periodic cell: --wrap (wrap=True) brings "
                      "them back")
-    if box == "auto" and _is_far(cell, positions):
-        notes.append("the cell is not drawn: it is far from the particles. --box lines (box=\"lines\") draws it")
+    if box == "auto" and _hides(cell, positions, radii):
+        notes.append("the cell is not drawn, for a picture with it would show little of the particles: --box lines (box=\"lines\") "
+                     "draws it")
         return None
     return cell
 
@@ -65,11 +67,12 @@ def _count_outside(cell: Cell, positions: Array) -> int:
     return count
 
 
-def _is_far(cell: Cell, positions: Array) -> bool:
-    """Whether a picture of both would show little of the cell and of the particles."""
+def _hides(cell: Cell, positions: Array, radii: Array) -> bool:
+    """Whether a picture with the cell would show little of the particles, or of both."""
     corners, middle = cell_corners(cell), middle_of(positions)
-    alone = max(float(reaches_of(positions, np.zeros(1)).max()), 0.5 * float(np.ptp(corners, axis=0).max()))
-    return float(np.abs(corners - middle).max()) > FAR * alone
+    reach, half = float(reaches_of(positions, radii).max()), 0.5 * float(np.ptp(corners, axis=0).max())
+    whole = float(np.abs(corners - middle).max())
+    return whole > FAR * max(reach, half) or whole > LARGE * reach
 
 
 def narrow_note(radii: Array, pixels: float, size: tuple[int, int], scale: float) -> str | None:

@@ -128,7 +128,7 @@ class Options:
     floor: bool = _look(False, "", "a floor that shows the shadows alone")
     background: Any = _look("white", "COLOR", "a color, or transparent")
     box: str = _look("auto", "", "what is shown of the cell, where the data have one. auto is lines, except of a protein's crystal "
-                     "and of a cell far from its particles", choices=("auto", "lines", "none"))
+                     "and of a cell far from its particles, or ten times as large", choices=("auto", "lines", "none"))
     exposure: float | None = _look(0.0, "EV", "stops by which balls are brightened; auto, in Python None: as pt render",
                                    read=_stops, rule=(lambda stops: -64.0 <= stops <= 64.0, "from -64 to 64"))
 
