@@ -13,6 +13,7 @@ from pt.figures._overlay import pixels_per_length
 from pt.figures._particles import Particles
 from pt.figures._radii import COVER, THIN, radii_of
 from pt.figures._rods import cell_corners, cell_edges
+from pt.figures._series import frames
 from pt.figures._spread import reaches_of, usual_reach
 
 RANDOM = np.random.default_rng(8)
@@ -116,10 +117,13 @@ class Cells(unittest.TestCase):
         chain = np.arange(8.0)[:, None] * (3, 2, 0) + (872, -495, 2.5)
         drawn = drawn_of(chain, TEN)
         self.assertIsNone(drawn.cell)
-        self.assertEqual([note[:25] for note in drawn.notes], ["8 of 8 particles are outs", "the cell is not drawn, fo"])
+        self.assertEqual([note[:25] for note in drawn.notes], ["8 of 8 particles are outs", "the cell is not drawn: mo"])
         self.assertIsNotNone(drawn_of(chain, TEN, box="lines").cell)
-        for positions in (chain - chain.mean(axis=0) + (24, 0, 5), CUBE * 3 + (0, 0, 19), CUBE * 0.9 + 1):  # beside it, or in a corner
+        for positions in (CUBE * 3 + (5, 5, 19), CUBE * 0.9 + 1):  # beside it, or in a corner
             self.assertIsNotNone(drawn_of(positions, TEN).cell)
+        for count, is_drawn in ((50, True), (51, False)):
+            positions = np.vstack([CUBE[:count] * 2 + (15, 5, 5), CUBE[count:100] * 2 + 5])
+            self.assertEqual(drawn_of(positions, TEN).cell is not None, is_drawn)
 
     def test_a_cell_much_larger_than_its_particles_is_not_drawn(self):
         """One ball in the middle of a cell with corners 5 away."""
@@ -178,6 +182,22 @@ class Radii(unittest.TestCase):
             self.assertAlmostEqual(radius / span, share)
             self.assertRegex(notes[0], "^the radius is .* would hardly be seen$")
         self.assertEqual(self.automatic(CUBE)[1], [])
+
+    def test_atoms_that_are_not_bonded_are_larger(self):
+        """An element whose covalent radius is 1.06 angstroms, on a lattice."""
+        for apart, radius in ((2.5, 1.06), (2.6, 1.3), (3.8, 1.9), (20, 3.18)):
+            particles = Particles(np.stack(np.meshgrid(*3 * [np.arange(4.0)]), -1).reshape(-1, 3) * apart,
+                                  elements=np.full(64, 18, np.uint8))
+            drawn = prepare(particles, Options())
+            np.testing.assert_allclose(drawn.radii, radius, rtol=1e-6)
+            self.assertEqual(len(drawn.notes), int(radius != 1.06))
+            for model, share in (("auto", 1.0), ("ball-and-stick", 0.5)):
+                options = Options(model=model, bonds=None if model == "auto" else apart * 1.01)
+                staged = list(frames(lambda: iter([particles, particles]), options))
+                np.testing.assert_allclose(staged[1].drawn.radii, share * radius, rtol=1e-6)
+
+    def test_one_atom_alone_has_its_covalent_radius(self):
+        self.assertAlmostEqual(float(prepare(Particles(np.zeros((1, 3)), elements=np.ones(1, np.uint8)), Options()).radii[0]), 0.31)
 
     def test_one_far_away_is_not_the_fourth_neighbour_of_all_others(self):
         for count in (5, 8, 11):

@@ -65,7 +65,7 @@ class Fit(unittest.TestCase):
 
     def test_corners_of_a_cell_are_in_the_picture_too(self):
         cell = Cell(np.array([-3.0, 0, 0]), np.array([[6.0, 0, 0], [2, 5, 0], [0, 1, 4]]), np.ones(3, bool))
-        drawn, layout = layout_of(Particles(np.zeros((1, 3)), cell=cell), radius=0.1)
+        drawn, layout = layout_of(Particles(np.zeros((1, 3)), cell=cell), radius=0.1, box="lines")
         corners = np.array([cell.origin + np.array(k) @ cell.vectors for k in np.ndindex(2, 2, 2)])
         self.assertAlmostEqual(max(float(rim.max()) for rim in rims(layout.camera, layout.size, corners, 0.0)),
                                1 - 2 * MARGIN)

@@ -99,7 +99,8 @@ class Lines(unittest.TestCase):
         for size in ((1250, 100), (200, 100)):
             for projection in ("perspective", "orthographic"):
                 def width():
-                    staged = Staged.of(flat, Options(radius=0.01, size=size, projection=projection, view="front"))
+                    staged = Staged.of(flat, Options(radius=0.01, size=size, projection=projection, view="front",
+                                                        box="lines"))
                     shapes = shares_of(staged, self.context).shapes[20:80]
                     return shapes.sum(axis=1).mean() * 0.5 * np.cos(np.arctan(2.3 / 6))
                 expected = 1.0 if size[0] == 200 else 2.0
@@ -111,7 +112,7 @@ class Lines(unittest.TestCase):
         """There a pixel is measured half of the extent away."""
         camera = pt.Camera((0, 0, 0), (0, 0, -1), vertical_fov=np.pi / 2)
         particles = Particles(np.array([[0.0, 0, -3]]), cell=Cell.of([8, 8, 8], (-4, -4, -4)))
-        edges = Staged.of(particles, Options(radius=0.1, camera=camera, size=(80, 64))).scene.sphere_arrays[1]
+        edges = Staged.of(particles, Options(radius=0.1, camera=camera, size=(80, 64), box="lines")).scene.sphere_arrays[1]
         np.testing.assert_allclose(edges.radius, 0.5 * 8 / 64)
 
     def test_outlines_go_round_the_balls(self):

@@ -40,7 +40,8 @@ def far_away(positions: Array, radii: Array, notes: list[str]) -> Array | None:
 
 
 def drawn_cell(particles: Particles, box: str, positions: Array, radii: Array, notes: list[str]) -> Cell | None:
-    """The cell if it is drawn: by default, unless it is a protein's crystal cell, far from the particles or far larger.
+    """The cell if it is drawn: by default, unless it is a protein's crystal cell, or most particles are outside of it or small
+    beside it.
 
     positions, radii   of the particles that are drawn
     """
@@ -51,9 +52,9 @@ def drawn_cell(particles: Particles, box: str, positions: Array, radii: Array, n
     if outside > OUTSIDE * len(positions):
         notes.append(f"{outside:,} of {len(positions):,} particles are outside of their periodic cell: --wrap (wrap=True) brings "
                      "them back")
-    if box == "auto" and _hides(cell, positions, radii):
-        notes.append("the cell is not drawn, for a picture with it would show little of the particles: --box lines (box=\"lines\") "
-                     "draws it")
+    if box == "auto" and (2 * outside > len(positions) or _hides(cell, positions, radii)):
+        notes.append("the cell is not drawn: most particles are outside of it, or would be small beside it. --box lines "
+                     "(box=\"lines\") draws it")
         return None
     return cell
 

@@ -91,7 +91,8 @@ class Options:
     radius: Radius = _particles(
         None, "R|COLUMN|...", "a number in the units of the data; a column; covalent or van-der-waals (of elements, in "
         "angstroms); of all types, \"O=0.7,H=0.3\", in Python {\"O\": 0.7} and arrays too; with a factor, \"0.5*diameter\". By "
-        "default the data's, else covalent where distances are of angstroms, else half of what most neighbours are apart")
+        "default the data's, else covalent where distances are of angstroms, up to 3 times that where neighbours are not bonded, "
+        "else half of what most neighbours are apart")
 
     opacity: Opacity = _particles(
         None, "A|COLUMN", "share of rays from 0 to 1 that meet the particles, and their bonds and vectors: a number or a column, "
@@ -128,7 +129,7 @@ class Options:
     floor: bool = _look(False, "", "a floor that shows the shadows alone")
     background: Any = _look("white", "COLOR", "a color, or transparent")
     box: str = _look("auto", "", "what is shown of the cell, where the data have one. auto is lines, except of a protein's crystal "
-                     "and of a cell far from its particles, or ten times as large", choices=("auto", "lines", "none"))
+                     "and of a cell with most particles outside, or ten times as large as all", choices=("auto", "lines", "none"))
     exposure: float | None = _look(0.0, "EV", "stops by which balls are brightened; auto, in Python None: as pt render",
                                    read=_stops, rule=(lambda stops: -64.0 <= stops <= 64.0, "from -64 to 64"))
 

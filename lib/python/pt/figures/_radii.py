@@ -22,6 +22,8 @@ MOST_PAIRS: Final = 4_000_000
 TABLE_BITS: Final = 20
 COVER: Final = 0.01  # share of the picture that balls cover at least, where nothing says their radii; by taste
 THIN: Final = 0.001  # least radius of such balls, as a share of the picture: together, a radius of a pixel
+SLACK: Final = 0.225  # half of what bonded atoms are farther apart than their covalent radii at most, in angstroms
+MOST_FACTOR: Final = 3.0  # of covalent radii: some balls of dilute gases have to stay apart; by taste
 STEPS: Final = np.indices((3, 3, 3)).reshape(3, 1, 27) - 1
 
 
@@ -107,15 +109,32 @@ def _numbers(name: str, values: npt.ArrayLike, count: int) -> Array:
 def _automatic(particles: Particles, notes: list[str]) -> Array:
     if particles.radii is not None:
         return np.atleast_1d(particles.radii)
+    factor = covalent_factor(particles)
+    if factor is None or particles.elements is None:
+        return np.array([_seen(typical_radius(particles.positions), particles.positions, notes)])
+    radii = _of_elements(particles, particles.elements, "covalent", notes)
+    if factor == 1.0:
+        return radii
+    notes.append(f"neighbours are not bonded: radii are {factor:.3g} times the covalent ones")
+    larger: Array = radii * radii.dtype.type(factor)
+    return larger
+
+
+def covalent_factor(particles: Particles) -> float | None:
+    """By what covalent radii are multiplied if nothing says the radii: 1 if neighbours are bonded, more if they are farther
+    apart, such as in noble gases and of the C-alphas of a protein. None: distances are not in angstroms, or there are no
+    elements."""
+    if particles.elements is None:
+        return None
+    radii = elements.COVALENT_RADII[np.unique(particles.elements)]
+    radii = radii[radii > 0]
     typical = typical_radius(particles.positions)
-    if particles.elements is not None:
-        radii = elements.COVALENT_RADII[np.unique(particles.elements)]
-        radii = radii[radii > 0]
-        # The distance between neighbours is two covalent radii in a bond, up to three times that in a solid without
-        # bonds, 16 times in a gas at 0 degrees Celsius and 1 bar: other distances are not in angstroms.
-        if len(radii) and 0.7 * radii.min() <= typical <= 30.0 * radii.max():
-            return _of_elements(particles, particles.elements, "covalent", notes)
-    return np.array([_seen(typical, particles.positions, notes)])
+    # The distance between neighbours is two covalent radii in a bond, up to three times that in a solid without bonds,
+    # 16 times in a gas at 0 degrees Celsius and 1 bar: other distances are not in angstroms.
+    if not len(radii) or not 0.7 * radii.min() <= typical <= 30.0 * radii.max():
+        return None
+    largest = float(radii.max())
+    return 1.0 if typical <= largest + SLACK or len(particles) == 1 else min(typical / largest, MOST_FACTOR)
 
 
 def _seen(typical: float, positions: Array, notes: list[str]) -> float:

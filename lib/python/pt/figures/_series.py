@@ -17,6 +17,7 @@ from pt.figures._figure import Drawn, Staged, prepare, view_of
 from pt.figures._layout import Layout, View
 from pt.figures._options import Options, Radius
 from pt.figures._particles import Particles
+from pt.figures._radii import covalent_factor
 
 
 def frames(read: Callable[[], Iterator[Particles]], options: Options, trails: int = 0) -> Iterator[Staged]:
@@ -63,9 +64,10 @@ def _rule(particles: Particles, drawn: Drawn, options: Options) -> Radius:
     distances."""
     if options.radius is not None or particles.radii is not None:
         return options.radius
-    if drawn.radii.strides == (0,):
+    factor = covalent_factor(particles)
+    if factor is None:
         return float(drawn.radii[0]) / drawn.scale
-    return f"{BALL_SHARE}*covalent" if options.drawn_model == "ball-and-stick" else "covalent"
+    return f"{(BALL_SHARE if options.drawn_model == 'ball-and-stick' else 1.0) * factor!r}*covalent"
 
 
 def turntable(particles: Particles, count: int, options: Options) -> Iterator[Staged]:
