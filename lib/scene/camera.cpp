@@ -15,15 +15,14 @@ namespace {
 
 constexpr double default_vertical_fov = std::numbers::pi / 4.0;
 
-// The angle between up and the viewing direction must have at least this sine. With u = 2^-53, rounding moves forward
-// by at most 2 u (a subtraction, then a division), up by u and each of the two products in a component of their cross
-// product by u, in all less than 5 u; division by the sine s makes that 5 u / s in the camera's unit vectors. It is
-// lost in their rounding to float32, 2^-24, as long as s >= 5 * 2^-53 / 2^-24 = 5 * 2^-29 < 2^-26.
+// Least sine of the angle between up and the viewing direction. With u = 2^-53, rounding moves forward by at most 2 u,
+// up by u, and the products of their cross product by 2 u, so the camera's unit vectors by 5 u / s for the sine s.
+// Their rounding to float32, 2^-24, hides this if s >= 5 * 2^-29 < 2^-26.
 constexpr double min_sine = 0x1p-26;
 
-// The kernel holds the distance of the image plane, height / (2 tan(fov / 2)) pixels, as a length: at most 1e18. That
-// is kept for any height below 2^32 if tan(fov / 2) >= 2^31 / 1e18 = 2.1e-9. Towards pi no such margin is needed: the
-// largest double below pi leaves a distance above 1e-16.
+// The image plane's distance in pixels, height / (2 tan(fov / 2)), must be a length, at most 1e18. With heights below
+// 2^32 this takes tan(fov / 2) >= 2^31 / 1e18 = 2.1e-9. Towards pi no margin is needed: the largest double below pi
+// gives more than 1e-16.
 constexpr double min_vertical_fov = 1e-8;
 
 const char *fov_rule(double value) {
@@ -76,15 +75,14 @@ void check_fields(const pt_camera &camera) {
     }
     subject.check("shutter_open", camera.shutter_open, shutter_rule);
     subject.check("shutter_close", camera.shutter_close, shutter_rule);
-    // Written so that NaN passes: it has a line of its own already.
+    // NaN passes here, as it has been refused already.
     subject.require(!(camera.shutter_close < camera.shutter_open), "shutter_close", camera.shutter_close,
                     "must be >= shutter_open (" + number_text(camera.shutter_open) + ")");
     violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
 }
 
-// Libraries of systems differ in the last bit or two of a tangent, of 53, and films of different systems are to be
-// merged. Rounded to 40 bits two of them are the same but once in 2^12 times or so; the kernel, which holds lengths in
-// 24 bits, loses nothing by it.
+// Systems' tangents differ in the last bits, but films of different systems are to be merged. Rounded to 40 bits, two
+// differ about once in 2^12 times; the kernel has only 24.
 double tangent(double angle) {
     int exponent = 0;
     const double mantissa = std::frexp(std::tan(angle), &exponent);
@@ -104,8 +102,8 @@ Camera validated_camera(const pt_camera &source) {
     subject.require(target != position, "target", target, "must differ from position");
     violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
 
-    // The kernel holds the image of a far point, which is radius / focus times as large as the image plane is far away,
-    // as a length; with a radius of at most the focus it is no longer than that distance.
+    // The blur of a far point, radius / focus times the image plane's distance, must also be a length: true if the
+    // radius is at most the focus.
     const double focus = camera.focus > 0.0 ? camera.focus : glm::distance(target, position);
     subject.require(camera.aperture <= 2.0 * focus, "aperture", camera.aperture,
                     "must be at most twice the focus (" + number_text(focus) + ")");

@@ -1,4 +1,4 @@
-// The rules of a scene, one line each; those of columns are in sphere_array_rules.cpp. See checked_scene.h.
+// The rules of a scene, one line each; columns have theirs in sphere_array_rules.cpp. See checked_scene.h.
 #include "lib/scene/checked_scene.h"
 
 #include "lib/base/rules.h"
@@ -15,17 +15,17 @@ namespace pt {
 
 namespace {
 
-// Surface indices, and positions in the scene buffer, which are a few times as many, are 32-bit numbers.
+// Surface indices, and positions in the scene buffer, a few times as many, have 32 bits.
 constexpr std::uint64_t max_surface_count = std::uint64_t{1} << 30;
 
-// The share of pt_set_scene when there are many spheres: measured, 8% for a million with float colors.
+// Share of pt_set_scene with many spheres, as measured.
 constexpr double share_of_checks = 0.08;
 
 glm::vec3 color(const float (&components)[3]) {
     return {components[0], components[1], components[2]};
 }
 
-// Up to 1e18 the product of two colors is a float32 number: 1e36 < 2^128 = 3.4e38.
+// Products of two colors up to 1e18 are float32 numbers: 1e36 < 2^128.
 const char *color_rule(double value) {
     if (!std::isfinite(value))
         return "must be finite";
@@ -34,9 +34,9 @@ const char *color_rule(double value) {
     return value <= 1e18 ? nullptr : "must be <= 1e18";
 }
 
-// The lobe about the mirror direction r falls as exp(-n a^2 / 2) with the angle a, by e at a = sqrt(2 / n). float32
-// unit vectors are off by up to d = 2^-23, which changes n a^2 / 2 there by n a d = sqrt(2 n) d: 0.5 % of the lobe
-// for n = 1e9. A sharper lobe would show the rounding of directions rather than the material.
+// The lobe falls as exp(-n a^2 / 2) with the angle a from the mirror direction, to 1 / e at a = sqrt(2 / n). There the
+// error d = 2^-23 of float32 unit vectors changes the exponent by n a d = sqrt(2 n) d: 0.5 % of the lobe for n = 1e9.
+// Sharper lobes would show the rounding of directions.
 const char *glossiness_rule(double value) {
     if (!std::isfinite(value))
         return "must be finite";
@@ -45,7 +45,7 @@ const char *glossiness_rule(double value) {
     return value <= 1e9 ? nullptr : "must be <= 1e9";
 }
 
-// The plane with a unit normal. Normals of any length are allowed, also where the square of the length is no double.
+// Returns a unit normal. The square of the given length need not be a double.
 Plane normalized(const pt_plane &plane) {
     const auto [normal, exponent] = scaled(vector(plane.normal));
     const double length = glm::length(normal);
@@ -57,7 +57,6 @@ Material owned(const pt_material &material) {
             (material.flags & PT_MATERIAL_HIDDEN_FROM_CAMERA) != 0};
 }
 
-// Checks the surfaces' and materials' fields.
 class Checker {
 public:
     Checker(Violations &violations, std::uint32_t material_count) :
@@ -111,7 +110,7 @@ private:
     std::string material_rule_;
 };
 
-// The elements of one of the arrays of the scene. A missing array is a violation and has no elements.
+// A missing array is a violation and has no elements.
 template <typename Element>
 std::span<const Element> elements(const Element *array, std::uint32_t count, const std::string &name,
                                   Violations &violations) {
@@ -150,7 +149,7 @@ CheckedScene checked_scene(const pt_scene &scene, WorkProgress &progress) {
     const Subject whole(violations, "scene");
     check_counts(whole, scene, arrays);
     whole.require(scene.reserved == 0, "reserved", scene.reserved, "must be 0");
-    // If these counts are wrong the arrays probably do not exist, so they are not read.
+    // With wrong counts the arrays probably do not exist, so they are not read.
     violations.throw_if_any(PT_ERROR_INVALID_SCENE);
 
     const auto materials = elements(scene.materials, scene.material_count, "material", violations);

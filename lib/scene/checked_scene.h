@@ -1,4 +1,4 @@
-// A scene that obeys the rules of pt.h. Its spheres still lie in the caller's memory.
+// A valid scene, whose spheres are still in the caller's memory.
 #pragma once
 
 #include "lib/base/work_progress.h"
@@ -17,8 +17,8 @@ struct CheckedScene {
     std::vector<Plane> planes;
 };
 
-// Checks a scene whose struct_size is settled, with its share of the progress of a longer call. Throws
-// PT_ERROR_INVALID_SCENE with all broken rules.
+// scene.struct_size is checked already. Takes a share of a longer call's progress. Throws PT_ERROR_INVALID_SCENE with
+// all broken rules.
 CheckedScene checked_scene(const pt_scene &scene, WorkProgress &progress);
 
 } // namespace pt

@@ -26,8 +26,7 @@ int widest_axis(std::span<const Place> places) {
     return width.x >= width.y && width.x >= width.z ? 0 : width.y >= width.z ? 1 : 2;
 }
 
-// Sorts the lamps of a range of slots: divides them along their widest extent into two parts, each a whole number of
-// nodes.
+// Sorts a range of slots' lamps: divides them along their widest extent into two parts of whole nodes.
 void split(const LampTreeShape &shape, std::span<Place> places, std::uint64_t first_slot, std::uint64_t slot_count) {
     if (slot_count == 1)
         return;

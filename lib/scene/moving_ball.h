@@ -1,6 +1,5 @@
-// A ball that moves along a straight line, or a capsule, which is a ball swept along one. Whatever tells these kinds of
-// surfaces apart is here, for the tree, twins, digests and the words of kernels alike; others ask, at the most, whether
-// a surface is a mere ball.
+// A ball that moves along a straight line, or a capsule, a ball swept along one. All that distinguishes these kinds is
+// here, for tree, twins, digests and kernel words; others only ask whether a surface is a plain ball.
 #pragma once
 
 #include "lib/base/digest.h"
@@ -17,7 +16,7 @@ namespace pt {
 
 enum class Kind : std::uint8_t { ball = gpu::KIND_BALL, capsule = gpu::KIND_CAPSULE };
 
-// The bits of all kinds that there are.
+// The set of kinds present.
 class Kinds {
 public:
     void add(Kind kind) { bits_ |= static_cast<std::uint32_t>(kind); }
@@ -29,8 +28,8 @@ private:
 };
 
 struct MovingBall {
-    glm::dvec3 open; // the centre at first
-    glm::dvec3 way;  // of the centre from then to the end
+    glm::dvec3 open; // center at the beginning
+    glm::dvec3 way;  // of the center until the end
     double radius;
     Kind kind = Kind::ball; // a capsule is at all places of its way at once
 
@@ -43,12 +42,12 @@ struct PointBox {
     glm::dvec3 high;
 };
 
-// All that a surface takes up over time.
+// Over all time.
 inline PointBox box_about(const MovingBall &ball) {
     return {glm::min(ball.open, ball.close()) - ball.radius, glm::max(ball.open, ball.close()) + ball.radius};
 }
 
-// A ball from when the shutter opens until it closes, or all of a capsule, relative to the camera.
+// While the shutter is open, relative to the camera. Capsules are whole.
 inline MovingBall seen_ball(const MovingBall &ball, const Camera &camera) {
     if (ball.kind != Kind::ball)
         return {ball.open - camera.position, ball.way, ball.radius, ball.kind};
@@ -56,34 +55,33 @@ inline MovingBall seen_ball(const MovingBall &ball, const Camera &camera) {
             (camera.shutter_close - camera.shutter_open) * ball.way, ball.radius};
 }
 
-// If a point is nearer to a surface than this share of the radius, float32 may put it on the other side.
+// Share of the radius within which float32 may put a point on the surface's other side.
 inline constexpr double side_margin = 0x1p-16;
 
-// Balls that differ by more than this share of their radii are different, however far away they are. A distance d is
-// known to a few roundings, 2^-22 d. That amounts to this share only from d = 2^20 radii on, where the rounding of a
-// centre, 2^-24 d, is a 16th of the radius and shows whatever is done about twins.
+// Balls that differ by more than this share of their radii are different, at any distance. A distance d is known to a
+// few roundings, 2^-22 d, which reach this share at 2^20 radii. There the rounding of a center, 2^-24 d, is a 16th of
+// the radius and visible anyway.
 inline constexpr double two_spheres = 0.25;
 
-// Adds a margin to a length, so that float32 cannot see it differently.
+// Adds a margin beyond float32's rounding.
 inline double with_margin(double length) {
     return length * (1.0 + side_margin);
 }
 
-// The least distance from the origin of a point that starts at open and moves along a straight line.
+// Least distance from the origin to a point that moves along a straight line.
 inline double least_distance(const glm::dvec3 &open, const glm::dvec3 &way) {
     const double length = glm::dot(way, way);
     const double nearest = length > 0.0 ? std::clamp(-glm::dot(open, way) / length, 0.0, 1.0) : 0.0;
     return glm::length(open + nearest * way);
 }
 
-// Whether the origin is inside the ball at any time, or so close to it that float32 cannot tell. slack: how much
-// farther away still counts.
+// Whether the origin is ever inside the ball, or float32 cannot tell. slack: additional distance.
 inline bool may_hold_origin(const MovingBall &ball, double slack = 0.0) {
     return !(least_distance(ball.open, ball.way) > with_margin(ball.radius) + slack);
 }
 
-// Whether a ball and another surface nearly coincide: no point of either is far from the other, compared with their
-// size. If the other is a capsule, whether the ball, at some time, may do so with one of those that make it up.
+// Whether no point of either surface is far from the other, compared with their size. A capsule counts if this may hold
+// at some time for one of its balls.
 inline bool nearly_coincide(const MovingBall &ball, const MovingBall &other) {
     const double apart = other.kind == Kind::capsule
                              ? std::max(least_distance(other.open - ball.open, other.way) - glm::length(ball.way), 0.0)
@@ -91,7 +89,7 @@ inline bool nearly_coincide(const MovingBall &ball, const MovingBall &other) {
     return apart + std::abs(ball.radius - other.radius) < two_spheres * std::min(ball.radius, other.radius);
 }
 
-// Stands for a surface that does not move: a ball about all of it. A ball is itself.
+// A ball at rest that contains a capsule. A ball is returned as it is.
 inline MovingBall ball_about(const MovingBall &ball) {
     if (ball.kind == Kind::ball)
         return ball;
@@ -99,9 +97,8 @@ inline MovingBall ball_about(const MovingBall &ball) {
     return {ball.open + half, glm::dvec3(0.0), ball.radius + glm::length(half)};
 }
 
-// Whether a ball and a surface have no point in common while the shutter is open, and no point of the surface is in the
-// ball: the surface is beside it, or a shell around it. Both move evenly, so one passes the other on a straight line,
-// and the greatest distance is at one of its ends.
+// Whether a ball and a surface never meet while the shutter is open, and the surface is not inside the ball: it is
+// beside it, or a shell around it. Their relative motion is straight, so the greatest distance is at an end.
 inline bool lies_apart(const MovingBall &ball, const MovingBall &surface) {
     const MovingBall about = ball_about(surface);
     const glm::dvec3 from = ball.open - about.open;
@@ -112,22 +109,22 @@ inline bool lies_apart(const MovingBall &ball, const MovingBall &surface) {
     return is_beside || is_within;
 }
 
-// The way as kernels read it (shaders/gpu_layout.h); of a capsule also 1 / its length. Where that overflows, the way is
-// far shorter than any radius (at least 1e-18), and the capsule is held as a ball.
+// The way as kernels read it (shaders/gpu_layout.h). Where a capsule's 1 / length overflows, it is far shorter than any
+// radius (at least 1e-18), and is held as a ball.
 inline glm::vec4 way_word(const MovingBall &ball) {
-    const glm::vec3 rounded = glm::vec3(ball.way) + 0.0F; // -0 is made +0, for twins
+    const glm::vec3 rounded = glm::vec3(ball.way) + 0.0F; // turns -0 into +0, for twins
     if (ball.kind == Kind::ball)
         return {rounded, 0.0F};
     const auto inverse = static_cast<float>(1.0 / glm::length(ball.way));
     return std::isfinite(inverse) ? glm::vec4(rounded, inverse) : glm::vec4(0.0F);
 }
 
-// The surface with such a way.
+// The inverse of way_word().
 inline MovingBall surface_of(const glm::dvec3 &open, double radius, const glm::vec4 &way) {
     return {open, glm::dvec3(way), radius, way.w > 0.0F ? Kind::capsule : Kind::ball};
 }
 
-// Balls add nothing, so that scenes of them alone keep the digest that their films have.
+// Balls add nothing, which keeps the digests of scenes without capsules.
 inline void add_kind(Digest &digest, Kind kind) {
     if (kind != Kind::ball)
         digest.add(std::uint64_t{static_cast<std::uint8_t>(kind)} - 1);

@@ -10,7 +10,7 @@ namespace pt {
 
 namespace {
 
-// Indices of pixels are 32-bit numbers, and so is their count.
+// Pixels' indices and number have 32 bits.
 constexpr std::uint64_t max_pixel_count = UINT32_MAX;
 
 } // namespace

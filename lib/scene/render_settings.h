@@ -1,4 +1,4 @@
-// Render settings that obey the rules of pt.h, with defaults applied.
+// Valid render settings, with defaults applied.
 #pragma once
 
 #include <pt/pt.h>
@@ -13,13 +13,13 @@ struct RenderSettings {
     std::uint32_t max_path_length;
     std::uint64_t seed;
     std::uint32_t first_sample;
-    std::uint32_t estimator; // never PT_ESTIMATOR_BEST: the one that it stands for
+    std::uint32_t estimator; // never PT_ESTIMATOR_BEST
     std::uint32_t sampler;   // never PT_SAMPLER_BEST
     std::uint32_t first_row;
-    std::uint32_t row_count; // >= 1; the rows lie in the image
+    std::uint32_t row_count; // >= 1; rows within the image
 };
 
-// Takes over settings whose struct_size is settled. Throws PT_ERROR_INVALID_ARGUMENT with all broken rules.
+// source.struct_size is checked already. Throws PT_ERROR_INVALID_ARGUMENT with all broken rules.
 RenderSettings validated_render(const pt_render &source);
 
 } // namespace pt

@@ -11,28 +11,27 @@ namespace pt {
 
 namespace {
 
-// A sphere counts as nearly flat if its radius is this many times its distance from the camera: below, its centre and
-// radius cost at most 5 of the 24 bits that a hit near the camera has.
+// Radius over distance from which a sphere is nearly flat: below, center and radius cost at most 5 of the 24 bits of a
+// hit near the camera.
 constexpr double nearly_flat = 32.0;
 
-// A lamp held by its centre is sampled by the cone that it subtends; one held as a plane is found by directions alone.
-// That is as good where the lamp fills half of the view, but directions rarely hit its rim, so noise rises there.
-// Therefore lamps are held by their centres as long as these are precise enough: up to this ratio, where the surface is
-// off by 2^-24 R, 1/256 of the distance.
+// The same for lamps. Held as a plane, a lamp is found by directions alone, which rarely hit its rim: noise rises
+// there. So lamps are held by center while that is precise enough: up to this ratio, where the surface is off by 2^-24
+// R, 1/256 of the distance.
 constexpr double nearly_flat_lamp = 65536.0;
 
 bool is_large(const SeenSphere &sphere, double ratio) {
     return sphere.kind == Kind::ball && sphere.radius > ratio * std::abs(sphere.height());
 }
 
-// A moving sphere is seen as if the camera moved the other way, so that its way counts like a distance.
+// A moving sphere is seen as if the camera moved, so its way counts like a distance.
 bool moves_little(const SeenSphere &sphere) {
     return sphere.radius > nearly_flat * glm::length(sphere.way);
 }
 
-// Whether its surface is so near that it has to be held as a plane, although it moves too far for that. Held by its
-// centre, a sphere's surface is off by 2^-24 of the radius. Where that is more than 1/256 of its distance, the picture
-// would be wrong. Where rays start on a disc, an error that is small beside the disc does no harm.
+// Whether the surface is so near that it must be held as a plane, but moves too far for that: held by its center it
+// would be off by 2^-24 R, more than 1/256 of its distance. Where rays start on a disc, an error small beside the disc
+// does no harm.
 bool moves_too_far(const SeenSphere &sphere, const Camera &camera) {
     return is_large(sphere, nearly_flat_lamp) && sphere.radius > nearly_flat_lamp * camera.start_radius &&
            !moves_little(sphere);
@@ -100,10 +99,10 @@ void require_held_motions(const SeenScene &seen, const Scene &scene, const Camer
                                    ") must move less than a 32nd of it while the shutter is open"});
 }
 
-// Let the centre of a ball lie at a distance a before the plane of the disc and c from its axis. The points of the disc
-// have distances between the roots of a^2 + max(c - radius, 0)^2 and a^2 + (c + radius)^2 from it. A ball that moves,
-// and a surface of another kind, is taken to be larger by half its way, unless all of the way is too far from the disc.
-// Float32 can tell the sides apart up to a share of the size of the ball or, for a huge ball, of its distance.
+// Let the center be at a distance a before the disc's plane and c from its axis. The disc's points have squared
+// distances from a^2 + max(c - radius, 0)^2 to a^2 + (c + radius)^2. Moving balls and other kinds count as larger by
+// half their way, unless all of the way is too far from the disc. Float32 tells sides apart up to a share of the ball's
+// size or, for a huge ball, of its distance.
 bool divides_start(const MovingBall &ball, const Camera &camera, double slack) {
     if (camera.start_radius == 0.0 || !may_hold_origin(ball, camera.start_radius + slack))
         return false;

@@ -15,13 +15,13 @@ namespace pt {
 
 namespace {
 
-// Enough for every use, and few enough that an uninitialised count is noticed before the arrays are read.
+// Enough for every use, yet an uninitialised count is noticed before the arrays are read.
 constexpr std::uint32_t max_array_count = 65536;
 
-// This refuses negative strides too, which NumPy has and C does not.
+// Also refuses negative strides, which NumPy has and C has not.
 constexpr std::uint32_t max_stride = (std::uint32_t{1} << 31) - 1;
 
-// What the elements of a column may be.
+// Allowed types of a column.
 struct ElementType {
     bool (*is)(std::uint32_t type);
     const char *rule;
@@ -34,26 +34,26 @@ constexpr ElementType index_type{[](std::uint32_t type) { return type == PT_TYPE
 constexpr ElementType color_type{[](std::uint32_t type) { return real_type.is(type) || type == PT_TYPE_SRGB8; },
                                  "must be PT_TYPE_FLOAT32 (1), PT_TYPE_FLOAT64 (2) or PT_TYPE_SRGB8 (4)"};
 
-// is_length without a branch on the sign, which would be mispredicted for every other coordinate.
+// is_length without a branch on the sign, which would often be mispredicted.
 bool is_coordinate(double value) {
     return is_length(std::abs(value));
 }
 
-// Lamps are chosen and sampled by the cone that a ball subtends.
+// Lamps are chosen and sampled by a ball's cone.
 const char *const dark_rule = "must be of a material without emission: capsules are no lamps";
 
 bool is_dark(const pt_material &material) {
     return std::ranges::all_of(material.emission, [](float component) { return component == 0.0F; });
 }
 
-// Shadow rays never ask whether their lamp is there, nor camera rays of the tree whether a sphere is hidden.
+// Shadow rays do not check whether their lamp lets them pass, nor camera rays whether a tree sphere is hidden.
 const char *const plain_rule = "must be of a material that neither emits nor is hidden, as its opacity is below 1";
 
 bool is_plain(const pt_material &material) {
     return is_dark(material) && (material.flags & PT_MATERIAL_HIDDEN_FROM_CAMERA) == 0;
 }
 
-// The rule that the first bad component breaks.
+// The first broken rule of a component.
 template <typename Vector>
 const char *broken(const Vector &value, Rule rule) {
     const char *x = rule(value.x);
@@ -63,7 +63,7 @@ const char *broken(const Vector &value, Rule rule) {
 
 class ColumnChecker;
 
-// Where a column is in its array, which types it may have, and how its elements are checked.
+// A column's place in its array, its types and its check.
 struct ColumnKind {
     const char *name;
     pt_column pt_sphere_array::*column;
@@ -73,7 +73,7 @@ struct ColumnKind {
     void (ColumnChecker::*check)(const ColumnKind &kind) const;
 };
 
-// Checks the columns of one array, all of which can be read.
+// All columns must be readable.
 class ColumnChecker {
 public:
     ColumnChecker(const Subject &subject, const pt_sphere_array &array, std::span<const pt_material> materials,
@@ -116,7 +116,7 @@ public:
             dark_rule);
     }
 
-    // Of spheres that a tree would hold with an opacity below 1, the materials too.
+    // If a tree would hold opacities below 1, the materials too.
     void opacities(const ColumnKind &kind) const {
         numbers<is_share, share_rule>(kind);
         constexpr std::uint32_t none = UINT32_MAX;
@@ -130,7 +130,7 @@ public:
     }
 
 private:
-    // A single value for all spheres is looked at once.
+    // A single value for all spheres is checked once.
     std::size_t elements(const pt_column &column) const { return column.stride_bytes == 0 ? 1 : array_.count; }
 
     std::uint32_t material(std::size_t i) const {
@@ -187,7 +187,7 @@ std::string member(const ColumnKind &kind, const char *name) {
     return std::string(kind.name) + '.' + name;
 }
 
-// Whether a column can be read, or may be missing and is.
+// Whether a column can be read, or is missing and may be.
 bool check_layout(const Subject &array, const pt_column &column, std::uint32_t count, const ColumnKind &kind) {
     const auto refuse = [&](const char *name, const std::string &value, const std::string &rule) {
         array.refuse(member(kind, name).c_str(), value, rule);

@@ -13,18 +13,17 @@
 
 namespace pt {
 
-// The limit for all arrays together, for which indices of spheres and the memory of a scene are designed.
+// Limit for all arrays together; indices and memory are designed for it.
 constexpr std::uint64_t max_sphere_count = std::uint64_t{1} << 26;
 
-// The arrays as structs of this version of the library, if their number is possible at all. Throws
-// PT_ERROR_INVALID_ARGUMENT or PT_ERROR_UNSUPPORTED for a bad struct_size.
+// As structs of this library's version, if their number is possible. Throws PT_ERROR_INVALID_ARGUMENT or
+// PT_ERROR_UNSUPPORTED for a bad struct_size.
 std::vector<pt_sphere_array> copied_sphere_arrays(const pt_scene &scene, Violations &violations);
 
-// At most how many elements of columns have to be looked at.
+// Upper bound of the elements to be checked.
 double elements_of(std::span<const pt_sphere_array> arrays);
 
-// Checks the columns and their contents; each element is a unit of work. If the columns of an array cannot be read,
-// nothing else of that array is checked.
+// Each element is a unit of work. If an array's columns cannot be read, nothing else of it is checked.
 void check_sphere_arrays(std::span<const pt_sphere_array> arrays, std::span<const pt_material> materials,
                          Violations &violations, WorkProgress &progress);
 

@@ -1,4 +1,4 @@
-// The spheres that were given to pt_set_scene, as structs or by columns, read in the caller's memory.
+// The spheres of pt_set_scene, structs or columns, in the caller's memory.
 #pragma once
 
 #include "lib/base/work_progress.h"
@@ -18,35 +18,33 @@
 
 namespace pt {
 
-// Refers to the caller's memory, so it is valid only during the call. Several threads may read it.
+// Valid only during the call. Several threads may read it.
 class SphereSource {
 public:
-    // The structs come first, then the arrays, as in the scene. Their contents obey the rules (sphere_array_rules.h).
+    // Structs first, then arrays, as in the scene. All obey sphere_array_rules.h.
     SphereSource(std::span<const pt_sphere> spheres, std::span<const pt_sphere_array> arrays);
 
     std::size_t size() const { return starts_.back(); }
 
-    // Whether spheres may have colors of their own; otherwise all colors are 1.
+    // Otherwise all colors are 1.
     bool has_colors() const { return has_colors_; }
 
-    // Whether rays may pass spheres; otherwise none has an opacity.
+    // Otherwise no sphere has an opacity.
     bool has_opacities() const { return has_opacities_; }
 
     bool are_mere_balls() const { return others_count_ == 0; }
 
-    // Indices of the surfaces of other kinds in ascending order; none if they are more than most.
+    // Indices of surfaces of other kinds, ascending; none if they are more than `most`.
     std::vector<std::uint32_t> other_kinds(std::size_t most) const;
 
-    // One sphere. For many, for_each is faster.
+    // For many, for_each is faster.
     Sphere operator[](std::uint32_t index) const;
     glm::vec3 color(std::uint32_t index) const;
 
-    // Marks the materials that spheres have. A unit of work is a sphere, or an array with one material for all its
-    // spheres.
+    // Marks the materials of spheres. A unit of work is a sphere, or an array with one material.
     void mark_materials(std::vector<bool> &used, WorkProgress &progress) const;
 
-    // Calls use(index, sphere, color) for each, in order; each is a unit of work. color: the factor for the diffuse of
-    // the sphere's material.
+    // Calls use(index, sphere, color) in order; each is a unit of work. color: factor of the material's diffuse.
     template <typename Use>
     void for_each(WorkProgress &progress, Use use) const {
         std::array<std::uint32_t, chunk_size> indices;
@@ -59,8 +57,7 @@ public:
             use);
     }
 
-    // The same for chosen spheres, in the order of the indices: use(i, sphere, color) is called for the sphere
-    // indices[i].
+    // Calls use(i, sphere, color) for the sphere indices[i], in this order.
     template <typename Use>
     void for_each(std::span<const std::uint32_t> indices, WorkProgress &progress, Use use) const {
         for_each_read(
@@ -68,13 +65,13 @@ public:
             [&](std::size_t first, std::size_t count) { return indices.subspan(first, count); }, use);
     }
 
-    // The index of the first sphere of each array, or where it would be.
+    // The index of each array's first sphere, even if it has none.
     std::span<const std::uint32_t> array_starts() const { return {starts_.begin() + 1, starts_.end() - 1}; }
 
 private:
-    static constexpr std::size_t chunk_size = 256; // 19 KiB, which stay in the first cache
+    static constexpr std::size_t chunk_size = 256; // 19 KiB, within the first cache
 
-    // Reads blocks of spheres: from(first, count) has their indices.
+    // Reads blocks of spheres; from(first, count) returns their indices.
     template <typename From, typename Use>
     void for_each_read(std::size_t all, WorkProgress &progress, From from, Use use) const {
         std::array<Sphere, chunk_size> spheres;
@@ -91,21 +88,19 @@ private:
         }
     }
 
-    // Reads the spheres with these indices. Their memory may be anywhere, so all of it is requested before the first is
-    // used.
+    // Requests all memory before using the first, since it may be anywhere.
     void read(std::span<const std::uint32_t> indices, std::span<Sphere> spheres) const;
     void read_colors(std::span<const std::uint32_t> indices, std::span<glm::vec3> colors) const;
 
-    // Calls read_part(columns, at, elements) for each run of spheres that lie in one array; at(i) is the row of the
-    // i-th of them.
+    // Calls read_part(columns, at, elements) for each run of spheres in one array; at(i) is the i-th one's row.
     template <typename Element, typename Read>
     void read_parts(std::span<const std::uint32_t> indices, std::span<Element> elements, Read read_part) const;
 
     std::vector<pt_sphere_array> parts_; // the structs as columns, then the arrays
-    std::vector<std::uint32_t> starts_;  // index of the first sphere of each part, and the number of all
+    std::vector<std::uint32_t> starts_;  // index of each part's first sphere, then the number of all
     bool has_colors_;
     bool has_opacities_;
-    std::size_t others_count_ = 0; // that are no balls
+    std::size_t others_count_ = 0; // no balls
 };
 
 } // namespace pt

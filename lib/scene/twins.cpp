@@ -10,30 +10,28 @@ namespace pt {
 
 namespace {
 
-// Relative to a sphere's own size, differences up to this count as none. It is 64 times the rounding of float32: a
-// distance along a ray is off by a dozen roundings of its length, and paths look at a surface from a few times as far
-// away as the camera.
+// Largest difference of twins relative to a sphere's size: 64 times float32's rounding, because a distance along a ray
+// is off by a dozen roundings of its length, and paths see surfaces from a few times the camera's distance.
 constexpr double same_size = 0x1p-18;
-// The same relative to the distance from the camera: four times the spacing of the numbers that hold the centre.
+// Relative to the distance from the camera: four times the spacing of numbers that hold the center.
 constexpr double same_place = 0x1p-21;
-// Planes that differ by more than this share are told apart by their vertices, whose places are known to 2^-22 of their
-// distance. Planes at this angle to each other are nearer than that in a band of 2^-22 / 2^-8 = 2^-14 of the distance
-// about the line where they meet; parallel ones, this share of the camera's height above them apart, from 2^14 heights
-// on, which is a strip of 2^-14 below the horizon. Either is less than a pixel of an image that is a right angle wide
-// in 2^14 pixels.
+// Beyond this difference, vertices tell planes apart, as their places are known to 2^-22 of the distance. Planes at
+// this angle are closer than that in a band of 2^-22 / 2^-8 = 2^-14 of the distance about their common line; parallel
+// ones, this share of the camera's height apart, from 2^14 heights on, a strip of 2^-14 below the horizon. Both are
+// less than a pixel in an image that is a right angle wide in 2^14 pixels.
 constexpr double two_planes = 0x1p-8;
 
-// Spheres on a lattice have different places along a line in this direction, whose components are incommensurable: 1,
-// the roots of 2 and 3, over that of 6.
+// Spheres on a lattice have different places along this direction, with incommensurable components: 1 and the roots of
+// 2 and 3, over the root of 6.
 constexpr glm::dvec3 generic_direction(0.40824829046386307, 0.5773502691896258, 0.7071067811865476);
 
-// How far the centre of a twin may be away.
+// Largest distance of a twin's center.
 double tolerance(const SeenSphere &sphere) {
     return std::min(same_size * sphere.radius + same_place * sphere.distance, two_spheres * sphere.radius);
 }
 
-// The same, if it may be held as a plane. Planes that agree to same_size in normal, offset and curvature have centres
-// and radii that agree to three times that, where the offset is small against the radius.
+// The same, also if it may be held as a plane: planes equal to same_size in normal, offset and curvature have centers
+// and radii equal to three times that, if the offset is small against the radius.
 double reach(const SeenSphere &sphere) {
     return sphere.is_flat ? 4.0 * same_size * sphere.radius : tolerance(sphere);
 }
@@ -70,7 +68,7 @@ double reach(const CurvedPlane &) {
     return same_size;
 }
 
-// Indices of elements, sorted by their positions on a line, which are nearly equal for similar elements.
+// Indices of elements sorted by positions on a line; similar elements have similar positions.
 class Line {
 public:
     template <typename Element>
@@ -83,7 +81,7 @@ public:
     std::size_t size() const { return points_.size(); }
     std::uint32_t index(std::size_t i) const { return points_[i].index; }
 
-    // Whether some other element within reach of the i-th one has a property.
+    // Whether another element within reach of the i-th one has a property.
     template <typename Property>
     bool any_near(std::size_t i, double reach, Property &&property) const {
         for (std::size_t k = i; k > 0 && points_[i].place - points_[k - 1].place <= reach; --k)
@@ -103,7 +101,7 @@ private:
     std::vector<Point> points_;
 };
 
-// Removes the elements that are twins of an earlier one that is not itself a twin.
+// Removes twins of earlier elements that are not themselves twins.
 template <typename Element>
 void merge_twins(std::vector<Element> &elements) {
     const Line line(elements);

@@ -11,12 +11,12 @@ namespace {
 
 constexpr int most_bins = 16;
 
-// With fewer spheres more bins would change only the time.
+// For fewer spheres, more bins would only cost time.
 int bins_for(std::size_t spheres) {
     return spheres > 64 ? most_bins : 8;
 }
 
-// Divides centres along the longest axis into bins of equal width. The other axes are nearly never better for so many.
+// Bins of equal width along the longest axis. Other axes are hardly ever better for many spheres.
 class Bins {
 public:
     explicit Bins(const Part &part) :
@@ -31,7 +31,7 @@ public:
         return std::min(static_cast<int>((item.centre_radius[axis_] - low_) * scale_), count_ - 1);
     }
 
-    // Whether an item lies in a bin before this one, which is not the first.
+    // Whether an item lies before this bin, which is not the first.
     bool is_before(const TreeItem &item, int bin) const {
         return (item.centre_radius[axis_] - low_) * scale_ < static_cast<float>(bin);
     }
@@ -43,15 +43,15 @@ private:
     float scale_;
 };
 
-// A cut of a part: everything before this bin, and the rest.
+// Everything before this bin, and the rest.
 struct BinCut {
-    float cost = std::numeric_limits<float>::infinity(); // none, then
+    float cost = std::numeric_limits<float>::infinity(); // no cut
     int bin = 0;
     float first_surface = 0.0F;
     float second_surface = 0.0F;
 };
 
-// How many items each bin has, and their boxes.
+// Numbers of items per bin, and their boxes.
 struct BinContents {
     std::array<Box, most_bins> balls;
     std::array<std::size_t, most_bins> counts{};
@@ -66,7 +66,7 @@ struct BinContents {
 };
 
 BinCut best_cut(const BinContents &contents, const Bins &bins) {
-    std::array<float, most_bins> surfaces_from{}; // of the balls in a bin and those after it
+    std::array<float, most_bins> surfaces_from{}; // of the balls from each bin on
     Box after;
     for (int bin = bins.count() - 1; bin > 0; --bin) {
         after.add(contents.balls[static_cast<std::size_t>(bin)]);
@@ -89,7 +89,7 @@ BinCut best_cut(const BinContents &contents, const Bins &bins) {
     return best;
 }
 
-// Uses all spheres if those of the sample are in a single bin.
+// Uses all spheres if the sample is in a single bin.
 BinCut best_cut(const Part &part, const Bins &bins) {
     BinContents sample;
     for_each_or_sample(part.items, [&](const TreeItem &item) { sample.add(item, bins); });
@@ -108,7 +108,7 @@ BinCut best_cut(const Part &part, const Bins &bins) {
 Halves binned_halves(const Part &part) {
     const Bins bins(part);
     const BinCut cut = best_cut(part, bins);
-    std::size_t count = 0; // on the first side so far; up to the item that is looked at, the others are on the second
+    std::size_t count = 0; // items in the first half so far; the other visited ones are in the second
     for (TreeItem &item : part.items) {
         const TreeItem looked_at = item;
         item = part.items[count];
@@ -120,7 +120,7 @@ Halves binned_halves(const Part &part) {
     return {{first, centres_of(first), cut.first_surface}, {second, centres_of(second), cut.second_surface}};
 }
 
-// Sorting by places that are counted takes no branches, most of which would be mispredicted.
+// Sorts by counted places, without branches, most of which would be mispredicted.
 Halves swept_halves(const Part &part) {
     const std::size_t count = part.items.size();
     std::array<TreeItem, most_swept> best_items{};
@@ -129,7 +129,7 @@ Halves swept_halves(const Part &part) {
     float first_surface = 0.0F;
     float second_surface = 0.0F;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        std::array<std::uint32_t, most_swept> places{}; // along the axis; equal ones keep their order
+        std::array<std::uint32_t, most_swept> places{}; // along the axis, stable
         for (std::size_t i = 0; i < count; ++i)
             for (std::size_t other = 0; other < i; ++other) {
                 const bool is_before = part.items[other].centre_radius[axis] <= part.items[i].centre_radius[axis];
@@ -139,7 +139,7 @@ Halves swept_halves(const Part &part) {
         std::array<TreeItem, most_swept> items;
         for (std::size_t i = 0; i < count; ++i)
             items[places[i]] = part.items[i];
-        std::array<float, most_swept> surfaces_from{}; // of a ball and those after it
+        std::array<float, most_swept> surfaces_from{}; // of the balls from each place on
         Box after;
         for (std::size_t i = count - 1; i > 0; --i) {
             after.add_ball(items[i]);

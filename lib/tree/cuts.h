@@ -1,5 +1,4 @@
-// Divides spheres in two: few of them at the best of all cuts, many at one that is close to it. Used to make the shape
-// of a tree.
+// Divides spheres in two: few at the best of all cuts, many at nearly the best. Used to shape a tree.
 #pragma once
 
 #include "lib/tree/part.h"
@@ -8,14 +7,14 @@
 
 namespace pt {
 
-// The two parts with the least sum of surface times expected nodes, among the cuts between bins along the longest axis
-// (Wald 2007). The centres must not all be at one point; equal centres stay together.
+// The halves with the least sum of surface times expected nodes, among cuts between bins along the longest axis (Wald
+// 2007). The centers must not all be at one point; equal centers stay together.
 Halves binned_halves(const Part &part);
 
-// For so few spheres sorting costs less than bins.
+// Up to here sorting costs less than bins.
 inline constexpr std::size_t most_swept = 12;
 
-// The same among all cuts between two of at most most_swept spheres, along each axis.
+// The same among all cuts along each axis, for at most most_swept spheres.
 Halves swept_halves(const Part &part);
 
 } // namespace pt

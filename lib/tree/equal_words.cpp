@@ -16,15 +16,15 @@ namespace {
 
 constexpr std::uint32_t empty = ~std::uint32_t{0};
 constexpr unsigned place_bits = 26;
-constexpr std::uint32_t tag_count = 63; // of the six other bits of a slot, so that none is empty
+constexpr std::uint32_t tag_count = 63; // of a slot's six other bits, so that no used slot looks empty
 
 std::uint64_t hash_of(const glm::uvec4 &word) {
     const auto two = [](std::uint32_t low, std::uint32_t high) { return std::uint64_t{high} << 32 | low; };
     return mixed(mixed(two(word.x, word.y)) ^ two(word.z, word.w));
 }
 
-// A slot holds the place of a word and some further bits of its hash, so words that differ are hardly ever compared. At
-// most three quarters of the slots are filled.
+// A slot holds a word's place and further bits of its hash, so different words are hardly ever compared. At most three
+// quarters of the slots are used.
 class Slots {
 public:
     explicit Slots(std::span<const glm::uvec4> words) :
@@ -33,7 +33,7 @@ public:
 
     void fetch(std::uint64_t hash) const { __builtin_prefetch(&slots_[hash & (slots_.size() - 1)]); }
 
-    // Returns false if there is an equal word, or no free slot within this many.
+    // Returns false if there is an equal word, or no free slot nearby.
     bool add(std::uint32_t place, std::uint64_t hash) {
         constexpr std::size_t most_looks = 1000;
         const std::uint32_t tag = static_cast<std::uint32_t>(hash >> 32) % tag_count << place_bits;
@@ -51,12 +51,12 @@ public:
 
 private:
     std::span<const glm::uvec4> words_;
-    std::vector<std::uint32_t> slots_; // a power of two of them
+    std::vector<std::uint32_t> slots_; // a power of two
 };
 
 } // namespace
 
-// Handles several words at a time, so that memory is fetched for one while others are compared.
+// Several words at a time, to fetch memory for one while comparing others.
 bool has_equal_words(std::span<const glm::uvec4> words, WorkProgress &progress) {
     Slots slots(words);
     std::array<std::uint64_t, 32> hashes;

@@ -1,5 +1,4 @@
-// The integer grid on which a tree holds places. Differences of places are exact, so nothing has to be rebuilt when the
-// camera moves.
+// The integer grid of a tree's places. Differences of places are exact, so nothing is rebuilt when the camera moves.
 #pragma once
 
 #include "shaders/gpu_layout.h"
@@ -14,45 +13,44 @@
 namespace pt {
 
 struct Grid {
-    // The largest coordinate of a box, in steps. The camera may be twice as far away, and differences still fit into 32
+    // Largest coordinate of a box, in steps. The camera may be twice as far away, and differences still fit into 32
     // bits.
     static constexpr double reach = gpu::TREE_REACH;
 
-    glm::dvec3 middle; // of the grid, in the scene's units
+    glm::dvec3 middle; // in the scene's units
     double step;       // a power of two, in the scene's units
     double steps_per_unit;
 
-    // The finest grid that reaches a distance from its middle, along each axis.
+    // The finest grid that reaches this distance from its middle along each axis.
     Grid(const glm::dvec3 &middle_of, double distance) :
         middle(middle_of),
         step(step_for(distance)),
         steps_per_unit(1.0 / step) {}
 
-    // The grid place nearest to a point, which the grid must reach.
+    // The nearest grid place. The grid must reach the point.
     glm::ivec3 place(const glm::dvec3 &point) const {
         const glm::dvec3 steps = (point - middle) * steps_per_unit;
         return {nearest(steps.x), nearest(steps.y), nearest(steps.z)};
     }
 
-    // Where a place is.
     glm::dvec3 point(const glm::ivec3 &at) const { return middle + step * glm::dvec3(at); }
 
 private:
-    // The smallest power of two that, times 'reach', is at least a distance; float32 must hold it and its inverse.
+    // The smallest power of two such that `reach` steps cover the distance; float32 must hold it and its inverse.
     static double step_for(double distance) {
         int exponent = 0; // distance / reach = fraction * 2^exponent with fraction in [1/2, 1)
         std::frexp(distance / reach, &exponent);
         return std::ldexp(1.0, std::clamp(exponent, -120, 120));
     }
 
-    // The last bit of such a large number counts ones, so adding to it rounds to whole numbers, ties to even.
+    // The last bit of so large a number counts ones, so adding rounds to whole numbers, ties to even.
     static int nearest(double number) {
         constexpr double ones_are_last = 0x1.8p52;
         return static_cast<int>(static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(number + ones_are_last)));
     }
 };
 
-// A box of places that includes both ends. A default box is empty.
+// Includes both ends. A default box is empty.
 struct GridBox {
     glm::ivec3 low{INT32_MAX};
     glm::ivec3 high{INT32_MIN};
@@ -71,7 +69,6 @@ struct GridBox {
 
     glm::vec3 extent() const { return glm::vec3(high) - glm::vec3(low); }
 
-    // Half of its surface area.
     double surface() const {
         const glm::dvec3 sides = glm::dvec3(high) - glm::dvec3(low);
         return sides.x * sides.y + sides.y * sides.z + sides.z * sides.x;

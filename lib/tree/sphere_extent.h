@@ -1,4 +1,4 @@
-// Which spheres are in a tree, the space that they take up over time, and how many of them emit. Used by SphereTree.
+// The spheres in a tree, their extent over time, and the number of lamps. Used by SphereTree.
 #pragma once
 
 #include "lib/base/work_progress.h"
@@ -12,14 +12,12 @@
 
 namespace pt {
 
-// What the tree needs to know about a material.
 struct TreeMaterial {
-    std::uint32_t index; // in the table of those in use
+    std::uint32_t index; // in the table of used ones
     bool emits;
 };
 
-// Calls use(index, sphere) for all spheres but those left out, by their indices in ascending order. Each is a unit of
-// work.
+// Calls use(index, sphere) for all spheres but those left out, in ascending order. Each is a unit of work.
 template <typename Use>
 void for_each_in_tree(const SphereSource &spheres, std::span<const std::uint32_t> left_out, WorkProgress &progress,
                       Use use) {
@@ -35,14 +33,14 @@ struct SphereExtent {
     PointBox box{glm::dvec3(std::numeric_limits<double>::infinity()),
                  glm::dvec3(-std::numeric_limits<double>::infinity())};
     double largest_radius = 0.0;
-    bool moves = false; // some sphere does, in the tree or left out: a kernel reads the ways of all or of none
+    bool moves = false; // some sphere moves, in the tree or left out: a kernel reads the ways of all or of none
     Kinds kinds;        // of the tree
     std::uint32_t lamp_count = 0;
 
-    // materials: all materials of the scene.
+    // materials: all of the scene.
     SphereExtent(const SphereSource &spheres, std::span<const std::uint32_t> left_out,
                  std::span<const TreeMaterial> materials, WorkProgress &progress) {
-        constexpr double share_of_extent = 0.06; // of what is left of the work, as measured with a million spheres
+        constexpr double share_of_extent = 0.06; // of the remaining work, for a million spheres
         progress.enter(share_of_extent, static_cast<double>(spheres.size()));
         for_each_in_tree(spheres, left_out, progress, [&](std::uint32_t, const Sphere &sphere) {
             const PointBox own = box_about(sphere.ball());
@@ -56,8 +54,8 @@ struct SphereExtent {
             moves = moves || spheres[index].ball().moves();
     }
 
-    // A grid that reaches all of them. With one step more than needed on each side, because places are rounded: the box
-    // of tiny distant balls may consist of nothing but rounding.
+    // Reaches all of them, with a step more on each side, because places are rounded: the box of tiny distant balls may
+    // be nothing but rounding.
     Grid grid() const {
         const glm::dvec3 half = 0.5 * box.high - 0.5 * box.low;
         return {0.5 * box.low + 0.5 * box.high, std::max({half.x, half.y, half.z, largest_radius}) * (1.0 + 0x1p-28)};

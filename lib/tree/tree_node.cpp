@@ -7,10 +7,10 @@ namespace pt {
 
 namespace {
 
-constexpr std::uint32_t most_steps = 255; // that a byte counts
+constexpr std::uint32_t most_steps = 255; // of a byte
 
-// The exponent of the smallest step, a power of two, with which a byte reaches far enough. (Half of the step that gives
-// the extent eight bits would be too small.)
+// The smallest power-of-two step with which a byte covers the extent; half the step that gives the extent eight bits is
+// too small.
 std::uint32_t exponent_for(std::uint32_t extent) {
     const auto bits = static_cast<std::uint32_t>(std::bit_width(extent));
     std::uint32_t exponent = bits > 8 ? bits - 8 : 0;

@@ -1,4 +1,4 @@
-// A node of a tree as the kernel reads it (gpu_layout.h): links, and the boxes of its children in bytes.
+// A tree node as the kernel reads it (gpu_layout.h): links, and the children's boxes in bytes.
 #pragma once
 
 #include "lib/tree/grid.h"
@@ -12,7 +12,7 @@ namespace pt {
 
 using TreeNodeWords = std::array<glm::uvec4, gpu::TREE_NODE_WORDS>;
 
-// A node with only its links filled in.
+// Only the links are filled in.
 TreeNodeWords words_of(const TreeLinks &links);
 
 class TreeNode {
@@ -27,7 +27,7 @@ public:
     // The box of all children, before rounding.
     const GridBox &box() const { return box_; }
 
-    // The children's boxes are rounded outwards.
+    // Rounds the children's boxes outwards.
     TreeNodeWords words() const;
 
 private:
@@ -36,7 +36,7 @@ private:
     std::array<GridBox, tree_width> boxes_{};
 };
 
-// Reads a node from the words that begin with it.
+// words: beginning with the node's.
 class TreeNodeView {
 public:
     explicit TreeNodeView(std::span<const glm::uvec4> words) : words_(words.first(gpu::TREE_NODE_WORDS)) {}
@@ -51,7 +51,7 @@ public:
     std::uint32_t first_child() const { return words_[1].x; }
     std::uint32_t first_place() const { return words_[1].y; }
 
-    // A child's box, as it was rounded.
+    // As rounded.
     GridBox box(std::uint32_t child) const;
 
 private:
