@@ -23,14 +23,12 @@ layout(set = 0, binding = BINDING_TILE_SQUARES) writeonly buffer TileSquares { v
 
 const uint TILES = ESTIMATE_WORKGROUP_SIZE / TILE_SIZE;
 
-// Counts beside the sums.
 struct Findings {
     uvec2 rejected; // samples, low and high word
     uint unknown;   // pixels without a sample in either part
     uint lost;      // pixels with unexpected sample counts
 };
 
-// The squares of TileErrors (gpu_layout.h).
 const uint SQUARE = 0u;
 const uint RELATIVE_SQUARE = 1u;
 const uint MET_ONCE = 2u;
@@ -110,7 +108,7 @@ Findings findings_of(PartCount older, PartCount newer, uvec2 expected)
                     uvec2(older.done, newer.done) != expected ? 1u : 0u);
 }
 
-// The values left of a pixel, in it and right of it, within a tile's columns.
+// In a row of the tile: left of the pixel, the pixel, right of it.
 Sorted row_about(uint y, uint column, uint first, uint last)
 {
     float left = column > first ? means[y][max(column, 1u) - 1u] : BELOW_ALL;
@@ -253,8 +251,7 @@ void main()
         }
         barrier();
 
-        // Averages of columns, then tiles. Reads means back: recomputed, they may round differently, and a set is
-        // queried with its own values.
+        // Averages of columns, then tiles. Reads means back: recomputed, they may round differently.
         ValueSet column_set = empty_set();
         for (uint i = 0u; i < pixels; ++i)
             column_set = with_value(column_set, means[i][invocation]);
@@ -306,7 +303,7 @@ void main()
     errors[invocation].unseen = unseen;
     errors[invocation].findings = findings;
     barrier();
-    // An invocation sums one kind of squares of a tile; one per tile sums the rest.
+    // One kind of squares of a tile per invocation; one per tile also sums the rest.
     const uint tile = invocation % TILES;
     const uint kind = min(invocation / TILES, SQUARE_KINDS - 1u);
     const uint first = tile * TILE_SIZE;

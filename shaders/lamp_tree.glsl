@@ -33,9 +33,9 @@ Siblings siblings_of(uint group, Vertex vertex, float time)
 
 // All probabilities are precise: choosing a lamp and querying its probability must round alike.
 
-// Expected light from nodes, up to a common factor: power / (d^2 + s / 2) times the mean cosine, with distance d and
-// spread s. Lamps' heights over the vertex's horizon, 0 if below, have a mean of about (h + sqrt(h^2 + s / 3)) / 2.
-// Below the horizon this is computed as a quotient, which does not cancel, so it is never 0.
+// Expected light, up to a common factor: power / (d^2 + s / 2) times the mean cosine, with distance d and spread s.
+// Lamps' heights over the horizon, at least 0, have a mean of about (h + sqrt(h^2 + s / 3)) / 2; as a quotient below
+// the horizon, which does not cancel and is never 0.
 vec4 node_importance(Siblings nodes, vec3 normal)
 {
     precise vec4 height = nodes.x * normal.x + nodes.y * normal.y + nodes.z * normal.z;
@@ -113,10 +113,9 @@ LampWalk walk_to(uint lamp)
 
 LampWalk walk_by(uint number) { return LampWalk(true, 0u, float(number >> 8u) * NUMBER_STEP, number, 1.0); }
 
-// Descends to one of four children, in proportion to `importance` or, if all are 0, to `others`. It takes the last
-// child of positive importance whose predecessors' sum does not exceed the number, so rounding never chooses importance
-// 0. A choice of probability p leaves the number 1 / p times as coarse; bits of a hash refill it, so that improbable
-// lamps keep their frequency.
+// Descends to one of four children, in proportion to `importance` or, if all are 0, to `others`: the last child of
+// positive importance whose predecessors' sum does not exceed the number, so rounding never chooses importance 0. A
+// choice of probability p leaves the number 1 / p times as coarse; bits of a hash refill it.
 uint take_child(inout LampWalk walk, vec4 importance, vec4 others, uint given)
 {
     vec4 part = sum_of(importance) > 0.0 ? importance : others;

@@ -16,9 +16,8 @@ struct LampView {
     float weight;       // for choosing a lamp; 0: cannot be sampled
 };
 
-// weight times pi bounds the irradiance: radiance (r / d)^2 min(1, (n . v + r) / d). The last factor bounds the cosine
-// over the whole lamp, so a lamp partly above the horizon has a positive weight. Lamps are not sampled from inside or
-// on them; directions find those.
+// weight times pi bounds the irradiance: radiance (r / d)^2 min(1, (n . v + r) / d). A lamp partly above the horizon
+// thus has a positive weight. Directions find lamps that hold or touch the vertex.
 LampView view_lamp(Vertex vertex, uint lamp, float time)
 {
     vec4 sphere = sphere_of_lamp(lamp, time);
@@ -139,8 +138,8 @@ LampChoice choose_by_tree(Lamps lamps, uint number)
     return LampChoice(lamp, view_lamp(lamps.vertex, lamp, lamps.time), lamp_probability_by_tree(walk));
 }
 
-// Low numbers choose uniformly among the lamps in sight, the rest by weight. Each walk sums in the order of the total,
-// so that rounding loses no small probability; if it ends short, it takes the last lamp in sight.
+// Low numbers choose uniformly among the lamps in sight, the rest by weight, summed in the order of the total, so that
+// rounding loses no small probability. A walk that ends short takes the last lamp in sight.
 LampChoice choose(Lamps lamps, uint number)
 {
     if (HAS_LAMP_TREE)
@@ -179,8 +178,8 @@ struct LampSample {
     float density; // over solid angle, given the lamp; 0: cannot be sampled
 };
 
-// A direction uniform in the lamp's cone, and the distance to the lamp. An intersection would miss tiny far lamps by
-// rounding; so with h = 1 - cos from the axis, the near root is d cos - sqrt(r^2 - d^2 sin^2).
+// A direction uniform in the lamp's cone, and the distance to the lamp, d cos - sqrt(r^2 - d^2 sin^2), with h = 1 - cos
+// from the axis: an intersection would miss tiny far lamps by rounding.
 LampSample sample_lamp(LampChoice choice, vec2 u)
 {
     LampView view = choice.view;

@@ -1,5 +1,5 @@
-// Quotients of exact sums and counts, as float32 bits computed with integers: Vulkan allows errors in float division
-// and may flush small results. The bits are the same on every device and on the host.
+// Quotients of exact sums and counts, as float32 bits computed with integers, equal on every device and the host:
+// Vulkan allows errors in float division and may flush small results.
 #ifndef PT_QUOTIENT_H
 #define PT_QUOTIENT_H
 
@@ -77,8 +77,8 @@ PT_FUNCTION uint rounded(uint quotient, int exponent, bool inexact)
     return (uint(float_exponent + 126) << 23) + kept + (up ? 1u : 0u);
 }
 
-// dividend 2^exponent / divisor, rounded once; divisor >= 1. Long division of two numbers with top bits set, so the
-// quotient is in (1/2, 2). Finds 26 bits; the first may be 0.
+// dividend 2^exponent / divisor, rounded once; divisor >= 1. Long division of numbers with top bits set, so the
+// quotient is in (1/2, 2): 26 bits, of which the first may be 0.
 PT_FUNCTION uint quotient_bits(LeadingBits dividend, uint divisor, int exponent)
 {
     if (dividend.high == 0u)
@@ -165,13 +165,13 @@ PT_FUNCTION WholeNumber weighted_difference(uvec4 sum_a, uint a, uvec4 sum_b, ui
     return number;
 }
 
-// The standard error of the mean of both parts, with sums A, B of a, b >= 1 samples:
+// The standard error of the mean of both parts, with sums A, B of a, b >= 1 samples (shaders/README.md, section 11):
 //
 // s = |A / a - B / b| sqrt(a b) / (a + b) = |A b - B a| / ((a + b) sqrt(a b))
 //
-// Samples of variance v give (A / a - B / b)^2 the expectation v / a + v / b, and the mean of all the variance v / (a +
-// b), which is a b / (a + b)^2 times that. The numerator is exact. Root and divisor are cut to 32 bits, each by less
-// than 2^-31, so the rounded quotient is within .52 of its last place.
+// For samples of variance v, (A / a - B / b)^2 has the expectation v / a + v / b, and the mean of all the variance v /
+// (a + b). The numerator is exact. Root and divisor are cut to 32 bits, each by less than 2^-31, so the rounded
+// quotient is within .52 of its last place.
 struct ErrorDivisor {
     uint divisor; // its top bit is set
     int exponent; // the quotient is times 2^exponent

@@ -48,8 +48,8 @@ vec4 scene_word(uint index)
     return SCENE_SOURCE == SCENE_IN_UNIFORM ? scene_uniform.words[index] : stored_word(index);
 }
 
-// The word first + index; index < count may differ between invocations. Constants have no addresses, so the word is
-// selected from all. The branch never taken stops constant folding, so all scene sources round alike.
+// The word first + index; index < count may differ between invocations. Constants have no addresses, so it is selected
+// from all. The branch never taken stops constant folding, so all scene sources round alike.
 vec4 scene_word_among(uint first, uint count, uint index)
 {
     if (SCENE_SOURCE != SCENE_IN_CONSTANTS)
@@ -198,10 +198,9 @@ struct Level {
     float curvature;
 };
 
-// A sphere far larger than its distance is a plane of curvature k = 1 / R. With its nearest point p = -offset n to the
-// camera, outward unit normal n and y = x - p, the height is (|x - center|^2 - R^2) / (2 R) = n . y + k / 2 |y|^2, with
-// gradient n + k y. The left side loses 2^-24 R to rounding, the right side 2^-24 of the scene's distances. For motion
-// by m, x - t m replaces x.
+// A sphere far larger than its distance is a plane of curvature k = 1 / R (shaders/README.md, section 3). With its
+// nearest point p = -offset n to the camera, outward unit normal n and y = x - p, the height is (|x - center|^2 - R^2)
+// / (2 R) = n . y + k / 2 |y|^2, with gradient n + k y. For motion by m, x - t m replaces x.
 Level level_of(vec4 normal_offset, vec4 curvature_motion, vec3 point, float time)
 {
     vec4 n = normal_offset;

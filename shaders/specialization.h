@@ -12,8 +12,8 @@ namespace pt::gpu {
 #define PT_SPECIALIZED(name, id, initial) layout(constant_id = id) const uint name = initial;
 #endif
 
-PT_SPECIALIZED(SPHERE_COUNT, 0, 1)        // outside the tree, held by center and radius; emitting ones first
-PT_SPECIALIZED(PLANE_COUNT, 1, 0)         // planes, and spheres held as curved planes (seen_scene.h)
+PT_SPECIALIZED(SPHERE_COUNT, 0, 1)        // outside the tree; emitting ones first
+PT_SPECIALIZED(PLANE_COUNT, 1, 0)         // and spheres held as curved planes (seen_scene.h)
 PT_SPECIALIZED(LAMP_COUNT, 2, 0)          // emitting spheres that can be sampled, in the tree or not
 PT_SPECIALIZED(MAX_PATH_LENGTH, 3, 2)     // surface vertices after the camera
 PT_SPECIALIZED(ESTIMATOR, 4, ESTIMATOR_MIS)

@@ -1,6 +1,6 @@
-// Spots: small and far brighter than their surroundings. A glow is where a lamp is close to a plane, an image is where
-// a polished sphere or plane mirrors a lamp; lib/kernel/light_spots.h finds them. The first vertex sends one ray more
-// towards a spot (path.glsl). Derivations: README.md, section 7.
+// Spots: small and far brighter than their surroundings (README.md, section 7). A glow is where a lamp is close to a
+// plane, an image is where a polished sphere or plane mirrors a lamp; lib/kernel/light_spots.h finds them. The first
+// vertex sends one ray more towards a spot (path.glsl).
 #ifndef SPOTS_GLSL
 #define SPOTS_GLSL
 
@@ -79,8 +79,8 @@ MirrorPoint mirror_point_of_plane(Vertex vertex, vec4 lamp, uint surface)
 }
 
 // Alhazen's problem: the normal bisects the angle between the ways to the vertex, a, and to the lamp, b. Iterates from
-// a start that is right for far points (the bisector) and near ones (the ratio of heights). The remaining error costs
-// variance, not bias: direction and density use the same lobe.
+// a start that is right for far points (the bisector) and near ones (the ratio of heights). A remaining error costs
+// variance, not bias.
 MirrorPoint mirror_point_of_sphere(Vertex vertex, vec4 lamp, uint surface, float time)
 {
     vec4 sphere = ball_of(surface, time).centre_radius;

@@ -42,7 +42,7 @@ float direction_weight_against(float direction_density, float lamp_density)
     return power_heuristic(direction_density, lamp_density);
 }
 
-// A lamp sample: its shadow ray and the unweighted light that arrives if it is not blocked.
+// The unweighted light of a lamp if the shadow ray is not blocked.
 struct LampLight {
     ShadowRay shadow;
     vec3 light;
@@ -51,7 +51,7 @@ struct LampLight {
 
 const LampLight NO_LAMP_LIGHT = LampLight(NO_SHADOW_RAY, vec3(0.0), 0.0);
 
-// samples: of this lamp from the vertex; directions: that leave the vertex.
+// samples: of this lamp; directions: from the vertex.
 LampLight light_of_lamp(vec3 throughput, Vertex vertex, Material material, LampChoice choice, vec2 place,
                         float samples, float directions)
 {
@@ -63,7 +63,7 @@ LampLight light_of_lamp(vec3 throughput, Vertex vertex, Material material, LampC
     return LampLight(found.shadow, light, density > 0.0 ? towards.cosine * weight : 0.0);
 }
 
-// Expected samples of a lamp from a vertex that chooses this many lamps; 0 choices: one of each lamp.
+// Expected samples of the lamp; choices: of the vertex, 0: it samples every lamp once.
 float lamp_samples(LampChoice choice, float choices)
 {
     return choices > 0.0 ? choice.probability * choices : 1.0;
@@ -83,7 +83,7 @@ float lobe_number(float number, uint branch, float directions)
     return at_most((number + float(branch)) / directions, LARGEST_NUMBER);
 }
 
-// How a path leaves a vertex: one direction, and light of a lamp.
+// One direction from a vertex, and light of a lamp.
 struct Departure {
     vec3 origin;
     vec3 direction;
@@ -92,11 +92,11 @@ struct Departure {
     bool carries_light;
     float survival;     // random number for Russian roulette
     LampLight lamp;
-    float lamp_choices; // of the vertex; 0: it samples every lamp
+    float lamp_choices; // 0: the vertex samples every lamp
 };
 
-// Applies the vertex's reflection to the throughput. The caller chooses lamp and numbers: branching on the vertex in
-// here costs GPUs time.
+// Applies the vertex's reflection to the throughput. The caller chooses lamp and numbers, which is faster on GPUs than
+// a branch here.
 Departure depart(inout Path path, Vertex vertex, Material material, LampLight lamp, float lamp_choices, vec4 numbers,
                  float directions)
 {
@@ -143,8 +143,8 @@ void arrive(inout Path path, Departure departure, Lamps lamps, Hit hit, bool blo
     path.arrival = Arrival(departure.origin + hit.distance * departure.direction, departure.direction, hit.surface);
     ++path.vertex_count;
 
-    // Russian roulette from the fourth vertex on: survival with the throughput's strongest component relative to the
-    // branch's share, compensated by weight. The floor bounds the weight, as random numbers are multiples of 2^-24.
+    // Russian roulette from the fourth vertex on, by the throughput's strongest component relative to the branch's
+    // share. The floor bounds the weight, as random numbers are multiples of 2^-24.
     if (ROULETTE && path.vertex_count >= 4u) {
         float survival = at_most(at_least(departure.strongest * float(BRANCH_COUNT), 0.05), 1.0);
         path.alive = path.alive && departure.survival < survival;
@@ -152,8 +152,8 @@ void arrive(inout Path path, Departure departure, Lamps lamps, Hit hit, bool blo
     }
 }
 
-// Whether a direction may lead to an emitting surface. hit: the first outside the tree. A path's last direction finds
-// only emission, so a few tests may spare a long walk.
+// Whether a direction may lead to an emitting surface. hit: the first outside the tree. The last direction finds only
+// emission, so a few tests may spare a long walk.
 bool may_meet_light(Start start, vec3 direction, Hit hit, float time)
 {
     const uint few_lamps = 16u;
@@ -208,8 +208,7 @@ void leave(inout Path path, Vertex vertex, Material material, LampLight lamp, La
     arrive(path, departure, lamps, ahead(walk.hit), walk.blocked);
 }
 
-// The material, prepared for sampling the next direction. Under a sky, or where planes emit, the last direction is not
-// special, since only directions find that light.
+// Under a sky, or where planes emit, the last direction is not special, since only directions find that light.
 Material material_to_leave(uint surface, uint vertex_count)
 {
     Material material = material_of(surface);

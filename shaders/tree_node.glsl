@@ -15,9 +15,8 @@ struct GridRay {
 };
 
 // Rays from far away start at the ball about the grid: the start's rounding, 2^-24 of the way, is then common to all
-// spheres, instead of widening each. Boxes hold spheres exactly, but a hit is rounded as if the center moved by 2^-21
-// of its distance: one rounding of the distance, four of dot products; box sides have less. The margin is four times
-// that.
+// spheres. Boxes hold spheres exactly, but a hit is rounded as if the center moved by 2^-21 of its distance: one
+// rounding of the distance, four of dot products. The margin is four times that.
 GridRay grid_ray(vec3 origin, vec3 direction)
 {
     const float reach = float(TREE_REACH);
@@ -68,8 +67,8 @@ float byte_as_float(uint word, uint i)
     return uintBitsToFloat((bits & 0x7f8000u) | 0x3f800000u);
 }
 
-// The part of a node that a ray enters before a distance. Distances are compared as the integers of their bits: the
-// same order for positive ones, and negative ones lose against 0, as they should.
+// The part of a node that a ray enters before a distance. Distances are compared as the integers of their bits:
+// negative ones lose against 0, as they should.
 struct Entered {
     uint node;   // nearest child, or NO_NODE
     uint others; // a group, if has_others

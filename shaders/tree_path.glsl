@@ -1,7 +1,6 @@
-// Paths among the spheres of a tree, step by step. Walks differ in length, and invocations that run in step wait for
-// the longest. So all walk some trips, then those that are done go on with their path, branch or sample (Aila and
-// Laine, "Understanding the Efficiency of Ray Traversal on GPUs", HPG 2009, section 3.3). A sample's value is the same
-// as in path.glsl. On lavapipe, where all lanes wait for the slowest anyway, each walk is ended instead.
+// Paths among the spheres of a tree, step by step. Invocations that run in step wait for the longest walk. So all walk
+// some trips, then those that are done go on with their path, branch or sample (Aila and Laine, "Understanding the
+// Efficiency of Ray Traversal on GPUs", HPG 2009, section 3.3). Samples have the values of path.glsl.
 #ifndef TREE_PATH_GLSL
 #define TREE_PATH_GLSL
 

@@ -6,16 +6,16 @@
 #include "ray_tests.glsl"
 #include "tree_node.glsl"
 
-// Distances that include an advance are rounded by 2^-24 of it, so a farther sphere may tie with a nearer one: boxes
-// are entered up to 2^-22 of the advance beyond the hit.
+// Rounding by 2^-24 of an advance may make a farther sphere tie with a nearer one: boxes are entered up to 2^-22 of it
+// beyond the hit.
 const float ADVANCE_ROUNDED = 0.99999976; // 1 - 2^-22
 
 // Sorts before every tree sphere; for surfaces outside the tree.
 const uvec4 NO_SPHERE_WORD = uvec4(0u, 0u, 0u, ~0u);
 
-// Order of spheres at equal distances, independent of the tree's shape: of concentric spheres the larger, which is
-// nearer from outside, otherwise the lower word. The place decides only between spheres that differ by motion alone;
-// such trees have no fixed shape (sphere_tree.h).
+// Order of spheres at equal distances, independent of the tree's shape: of concentric ones the larger, nearer from
+// outside, otherwise the lower word. The place decides only if spheres differ by motion alone; such trees have no fixed
+// shape (sphere_tree.h).
 bool goes_before(uvec4 word, uint surface, uvec4 other_word, uint other_surface)
 {
     return word.x != other_word.x   ? word.x < other_word.x
@@ -75,8 +75,8 @@ ShadowRay ended_as_met_in_tree(ShadowRay shadow, Start start, float time)
     return shadow;
 }
 
-// The two rays that leave a vertex: the shadow ray, if any, then the path's ray, if followed. One walk for both,
-// because invocations run in step: where the shadow ray ends early, the path's ray goes on at once.
+// The shadow ray of a vertex, if any, then the path's ray, if followed. One walk for both: where invocations run in
+// step and the shadow ray ends early, the path's ray goes on at once.
 struct Walk {
     Start start;
     vec3 direction;
@@ -94,18 +94,17 @@ struct Walk {
     bool seeks_light; // seeks nothing but light: without lamps in the tree, any sphere ends the ray
     bool in_shadow;
     uint node;        // to enter next, or NO_NODE
-    uint first_place; // child spheres of the last node; `spheres` has a bit for each that is still to be tested
+    uint first_place; // child spheres of the last node; `spheres` marks those still to be tested
     uint spheres;
     int height; // of the stack, or ENDED
     bool done;
 };
 
-// Whether all invocations execute all branches, as on lavapipe; each then ends its walk before the next.
+// Whether all invocations execute all branches, as on lavapipe; every walk is then ended.
 const bool IN_STEP = WALK_TRIPS == 0u;
 
-// Groups still to be entered. Outside Walk, because functions copy their arguments. IN_STEP they are in registers, the
-// last first: lavapipe reads and writes arrays one invocation at a time where indices differ, which takes longer than
-// moving all groups. Otherwise each is at its height.
+// Groups still to be entered, outside Walk because functions copy arguments. IN_STEP they are in registers, the last
+// first: lavapipe accesses arrays one invocation at a time where indices differ. Otherwise each is at its height.
 const uint STACK_SIZE = TREE_LEVELS > 0u ? TREE_LEVELS : 1u;
 uint walk_stack[STACK_SIZE];
 
@@ -205,9 +204,9 @@ uint next_place(inout Walk walk)
 
 bool is_in_tree(uint surface) { return surface >= SURFACE_COUNT && surface != NO_SURFACE; }
 
-// An odd hash of a sphere's word, in grid steps, so independent of scale. No two spheres share a word
-// (lib/tree/coincident_spheres.h). Words differ in few bits; the end is similar to lowbias32 (Wellons, "Prospecting for
-// hash functions", 2018), where each input bit flips half of the output.
+// An odd hash of a sphere's word in grid steps, so independent of scale. No two spheres share a word
+// (lib/tree/coincident_spheres.h). Ends like lowbias32 (Wellons, "Prospecting for hash functions", 2018), where each
+// input bit flips half of the output.
 uint opacity_generator(uvec4 word)
 {
     uint radius = word.w - floatBitsToUint(tree_step());
@@ -218,9 +217,9 @@ uint opacity_generator(uvec4 word)
     return hash ^ (hash >> 16u) | 1u;
 }
 
-// Whether a ray passes through a sphere, at random (Enderton et al. 2010, "Stochastic transparency"). The outcome is a
-// function of sphere and ray number, so neither the order of tests nor the split of samples matters. Spheres, and the
-// rays of a path, decide independently: n spheres let through the product of their shares. See opacity_number().
+// Whether a ray passes a sphere, at random (Enderton et al. 2010, "Stochastic transparency"), but as a function of
+// sphere and ray number, so that neither the order of tests nor the split of samples matters. Spheres, and rays of a
+// path, decide independently. See opacity_number().
 bool passes(uvec4 word, uint opacity_number)
 {
     if (TREE_OPACITY == 0)
@@ -244,8 +243,8 @@ void test_sphere(inout Walk walk, bool exists, uint place, uvec4 word, GridRay r
     keep_closer_of_tree(walk.hit, walk.hit_word, meets && !in_shadow ? distance : NO_HIT, surface, word);
 }
 
-// Processes at most a node and a sphere. IN_STEP the sphere belongs to an earlier node and is tested last, so that
-// neither waits for the other. Both are fetched together, since lavapipe 22.3 spills registers around each fetch.
+// At most a node and a sphere. IN_STEP the sphere is of an earlier node and tested last, so that neither waits for the
+// other. Both are fetched together, since lavapipe 22.3 spills registers around each fetch.
 void trip_in_step(inout Walk walk, bool in_shadow)
 {
     bool tests = walk.spheres != 0u;
@@ -282,7 +281,7 @@ void trip(inout Walk walk, bool in_shadow)
         take(walk);
 }
 
-// Continues a walk until it is done or, unless IN_STEP, for most_trips. has_shadow: false if no shadow ray is possible.
+// Continues until the walk is done or, unless IN_STEP, for most_trips. has_shadow: false if no shadow ray is possible.
 void go_on(inout Walk walk, uint most_trips, bool has_shadow)
 {
     uint trips = 0u;

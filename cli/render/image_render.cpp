@@ -21,7 +21,7 @@ std::chrono::steady_clock::duration clock_duration(double seconds) {
     return std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(seconds));
 }
 
-// The settings of a piece. first_row: counted from the top of the window.
+// A piece's settings. first_row: from the window's top.
 pt_render piece_of(const RenderTask &task, std::uint32_t half, std::uint32_t first_row, std::uint32_t rows) {
     constexpr std::uint64_t other_seed = std::uint64_t{1} << 63; // as in the package pt for Python
     const Rectangle &part = task.window.part;
@@ -32,8 +32,7 @@ pt_render piece_of(const RenderTask &task, std::uint32_t half, std::uint32_t fir
     return piece;
 }
 
-// Adds the figures of a piece of so many rows to those of earlier pieces. Bounds are joined as if all pieces erred in
-// the same direction.
+// Joins the figures of a piece with earlier pieces', the bounds as if all pieces erred in the same direction.
 void join(RenderedImage &image, const pt_stats &piece, const pt_error_estimate &error, std::uint32_t rows) {
     if (image.rows_done == 0) {
         image.stats = piece;
@@ -49,7 +48,7 @@ void join(RenderedImage &image, const pt_stats &piece, const pt_error_estimate &
     whole.mean_sample_count = mean(whole.mean_sample_count, piece.mean_sample_count);
     whole.rejected_samples += piece.rejected_samples;
     whole.device_bytes = std::max(whole.device_bytes, piece.device_bytes);
-    whole.submit_count = piece.submit_count; // a total of the context's already
+    whole.submit_count = piece.submit_count; // the context's total already
     whole.device_seconds = piece.device_seconds;
     image.error.uncertain |= error.uncertain;
     using Error = pt_error_estimate;
@@ -60,7 +59,7 @@ void join(RenderedImage &image, const pt_stats &piece, const pt_error_estimate &
     }
 }
 
-// Adds the samples of a piece that the context has; returns false if there are none.
+// Adds the samples of the context's piece; returns false without any.
 bool add_piece(const Context &context, std::uint32_t rows, RenderedImage &image) {
     const pt_stats stats = context.stats();
     if (stats.sample_count == 0)
@@ -158,10 +157,10 @@ void ImageRender::enter_piece() {
     stopping_.enter_piece(end);
 }
 
-// Continues from the samples that the context has until there are enough, the target error is reached, or stop() says
-// so. The library checks the target error at counts that do not depend on the steps.
+// Continues from the context's samples until they suffice, the target error is reached, or stop() is true. The library
+// checks the error at counts that do not depend on the steps.
 void ImageRender::render_piece() {
-    constexpr std::uint32_t first_end = 16; // the first number at which an error is known; from there on tiles double
+    constexpr std::uint32_t first_end = 16; // the first count with a known error; tiles double from there on
     pt_stats done = context_.stats();
     std::uint32_t wanted = first_step_length;
     bool ended = done.sample_count >= round_.end;
@@ -174,13 +173,13 @@ void ImageRender::render_piece() {
         const pt_result result = take(length, done.mean_sample_count);
         const double seconds = seconds_between(start, Clock::now());
         done = look(result);
-        if (done.max_sample_count > before) // otherwise it ended within a sample: its duration says nothing
+        if (done.max_sample_count > before) // otherwise it ended within a sample, and its duration means nothing
             wanted = next_step_length(done.max_sample_count - before, seconds);
         ended = has_ended(result, done);
     }
 }
 
-// Takes a step. done: mean number of samples of a pixel before it.
+// done: mean samples of a pixel before the step.
 pt_result ImageRender::take(std::uint32_t length, double done) {
     std::function<bool(double)> goes_on = [&](double fraction) {
         const double taken = fraction * std::max(length, 1U);
@@ -204,8 +203,8 @@ bool ImageRender::has_ended(pt_result result, const pt_stats &done) const {
     return result == PT_TARGET_REACHED || (result == PT_OK && done.max_sample_count >= round_.end);
 }
 
-// Runs after a step. Finding the error means examining the whole image, so if it is only needed for progress, that may
-// take a hundredth of the time.
+// Runs after a step. The error takes a look at the whole image; if only progress needs it, that may take a hundredth of
+// the time.
 pt_stats ImageRender::look(pt_result result) {
     constexpr double share = 0.01;
     const Clock::time_point start = Clock::now();
@@ -228,7 +227,7 @@ pt_stats ImageRender::look(pt_result result) {
     return done;
 }
 
-// With a target error the total number of samples is a guess, which is corrected at each check of the error.
+// The total is a guess if there is a target error, corrected at each check.
 void ImageRender::show(const pt_stats &done, bool ended, const std::optional<pt_error_estimate> &error,
                        Clock::time_point now) {
     const auto sample_count = static_cast<std::uint32_t>(std::lround(done.mean_sample_count));
@@ -262,7 +261,7 @@ void ImageRender::preview(Clock::time_point now) {
     preview_task_.start([this] { has_preview_failed_ = !write_preview_(preview_); });
 }
 
-// Whether a step is to end as soon as it has a whole sample, so that look() sees it.
+// Whether the step should end at its next whole sample, for look().
 bool ImageRender::pauses() const {
     return wants_preview() || (checkpoint_ && checkpoint_->is_due()) || stopping_.is_due();
 }

@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-// The value at that step of a parent, made if it may be.
+// The value at a step of a parent, made if possible.
 json &enter(json &parent, const JsonStep &step, const SceneOverride &cause) {
     if (!step.in_array && parent.is_null())
         parent = json::object(); // just made
@@ -30,7 +30,7 @@ SceneOverride override_of(const SceneSection &section, const SceneKey &key, nloh
 
 void add_size(CLI::App &command, std::vector<SceneOverride> &overrides) {
     const auto read = [&overrides](const std::string &text) {
-        const auto size = parse_numbers<2>(text, 'x'); // which are possible is the library's to say
+        const auto size = parse_numbers<2>(text, 'x'); // the library checks them
         if (!size)
             refuse_option("--size", "must be two whole numbers like 1920x1080", text);
         overrides.push_back({{{"film"}, {"width"}}, (*size)[0], "--size: width", ExitCode::usage, true});
@@ -41,7 +41,7 @@ void add_size(CLI::App &command, std::vector<SceneOverride> &overrides) {
         ->group("Picture");
 }
 
-// Before the others, which count more.
+// Applied first, so that later ones override it.
 void add_set(CLI::App &command, std::vector<SceneOverride> &overrides) {
     const auto read = [&overrides](const std::vector<std::string> &texts) {
         for (const std::string &text : texts)
@@ -91,7 +91,7 @@ bool is_center(const JsonPath &path) {
     return path[0].key == "spheres" && path[2].key == "center";
 }
 
-// From the begin of a frame to its end.
+// From the beginning of a frame to its end.
 json way_of(const AnimatedValue &value, std::uint32_t frame) {
     const std::vector<double> begin = value.at(frame);
     std::vector<double> way = value.at(frame + 1.0);

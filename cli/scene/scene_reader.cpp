@@ -1,4 +1,4 @@
-// Reads the sections of a scene file by the table of its keys, with the values that take the place of its own.
+// Reads the sections of a scene file by the table of keys, and applies the overrides.
 #include "cli/base/names.h"
 #include "cli/base/text.h"
 #include "cli/scene/scene_keys.h"
@@ -42,10 +42,10 @@ void check_projection(const pt_camera &camera, const JsonPlace &place) {
 
 class SceneReader : public JsonItemHandler {
 public:
-    // With the overrides that the scene has.
+    // scene: has its overrides already.
     explicit SceneReader(SceneFile &scene) : scene_(scene) {}
 
-    // All throw JsonRefusal, or Failure for an override that does not fit or whose value is refused.
+    // All throw JsonRefusal, or Failure for an override that does not fit or is refused.
     void begin_section(const JsonPlace &place, json::value_t kind) override {
         section_ = find_section(place.key);
         if (section_ == nullptr && place.key != "animation")
@@ -57,7 +57,7 @@ public:
         begun_.insert(section_);
     }
 
-    // A scene may have millions of items: most of them are looked up and read as they are.
+    // Items may be millions, and most have no override.
     void item(const JsonPlace &place, const json &value) override {
         const std::vector<std::size_t> changes =
             scene_.overrides.empty() ? std::vector<std::size_t>() : overrides_of(place.path());
@@ -67,8 +67,8 @@ public:
             read_changed(place, value, changes);
     }
 
-    // At the end of the file: adds what overrides have and the file has not, checks what can be known only now, and
-    // resolves the names of materials, which may stand behind the spheres.
+    // After the file's end: adds overrides without a value in the file, makes the checks that need all of it, and
+    // resolves names of materials, which may follow the spheres.
     void finish() {
         add_items_of_overrides();
         require_members();
@@ -84,7 +84,7 @@ private:
         return chosen;
     }
 
-    // The file's own value has to be right too: whether a file is refused does not depend on options.
+    // The file's own value must be valid too, so that options do not decide whether a file is refused.
     void read_changed(const JsonPlace &place, json value, const std::vector<std::size_t> &changes) {
         if (!value.is_null())
             check_item(place, value);
@@ -114,7 +114,7 @@ private:
             read_element(place, value);
     }
 
-    // Checks what an item has, not whether it has all that it needs.
+    // Checks present members, not missing ones.
     void check_item(const JsonPlace &place, const json &value) const {
         if (section_ == nullptr)
             read_animated_value(place, value);
@@ -265,7 +265,7 @@ private:
     std::set<const SceneSection *> begun_;
     std::set<std::size_t> used_overrides_;
 
-    // Names of materials are numbered as surfaces have them.
+    // Names are numbered, like surfaces' materials.
     struct UsedName {
         std::string name;
         JsonPath first_place;
