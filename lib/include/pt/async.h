@@ -39,8 +39,8 @@ extern "C" {
 /** Begins to add samples without waiting for them.
  *
  * Returns PT_PENDING if samples are now under way, to be polled. PT_TARGET_REACHED: the image has the target error
- * already, and nothing is under way. All kernels that the samples may need are built here (pt_prepare builds most of
- * them ahead). If the image has a number of samples at which a target error is checked, it is checked first.
+ * already, and nothing is under way. All kernels for the samples are built here (pt_prepare builds most of them ahead).
+ * If the image has a number of samples at which a target error is checked, it is checked first.
  *
  * One thread at a time per context. Fails as pt_accumulate does, and with PT_ERROR_INVALID_ARGUMENT if info.progress is
  * not NULL. */

@@ -11,10 +11,9 @@
  *   linear RGB radiance, unclamped. Row 0 of an image is the top row.
  * - Numbers: all finite. Lengths are 0 or lie in [1e-18, 1e18], where their squares are float32 numbers too.
  * - Structs: one passed by pointer begins with struct_size = sizeof(the struct) as the caller compiled it and grows
- *   only at its tail; a zero field means "default". A shorter struct is read as if zeros followed; a longer one is
- *   accepted only if the tail that this library does not know is zero (otherwise PT_ERROR_UNSUPPORTED). Elements of
- *   arrays have no struct_size and are frozen, except pt_sphere_array, which grows like the others. Reserved fields
- *   must be zero.
+ *   only at its tail; a zero field means "default". A shorter struct is read as if zeros followed; in a longer one the
+ *   unknown tail must be zero (otherwise PT_ERROR_UNSUPPORTED). Elements of arrays have no struct_size and are frozen,
+ *   except pt_sphere_array. Reserved fields must be zero.
  * - Ownership: arguments are copied or no longer needed when a call returns, except callbacks, their user pointers and
  *   where a comment says so. Pointers may be NULL only where a comment says so.
  * - Results: a call that fails (result < 0) has changed nothing, except that a lost device stays lost (destroy the

@@ -61,8 +61,7 @@ struct pt_vulkan {
  *            the image. vkCmdCopyBufferToImage copies it into a VkImage.
  * Before     the caller's earlier accesses to the memory must have ended, as a fence shows, or wait_semaphore is
  *            signalled after them: the kernel's writes wait for it in VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT. Its signal
- *            operation must have been submitted already. (On Mesa's lavapipe the call does not return before the
- *            earlier work has ended.)
+ *            operation must have been submitted already. (On Mesa's lavapipe the call waits for the earlier work.)
  * After      the writes are VK_ACCESS_SHADER_WRITE_BIT in VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT. Without
  *            signal_semaphore the call returns when they have ended and are available, also to the host
  *            (VK_ACCESS_HOST_READ_BIT): mapped memory that is not coherent is to be invalidated, and commands on the
@@ -74,7 +73,7 @@ struct pt_vulkan {
  *            pt_readback_to_buffer wait for it. */
 typedef struct pt_buffer_image {
     uint32_t struct_size;      /**< sizeof(pt_buffer_image) */
-    uint32_t quantity;         /**< PT_QUANTITY_*, except what camera rays meet first and COVERAGE: see pt_readback */
+    uint32_t quantity;         /**< PT_QUANTITY_RADIANCE, STANDARD_ERROR or SAMPLE_COUNT: see pt_readback */
     uint64_t buffer;           /**< VkBuffer, cast to uint64_t also where handles are pointers; never 0 */
     uint64_t offset_bytes;     /**< of the first pixel in the buffer, a multiple of 4 */
     uint64_t size_bytes;       /**< of the buffer; at least offset_bytes and, as in pt_image, what the rows take */
@@ -89,11 +88,11 @@ typedef struct pt_buffer_image {
     uint64_t signal_semaphore; /**< binary VkSemaphore to signal, cast, or 0: the call waits for the device */
 } pt_buffer_image;
 
-/** Writes what pt_readback writes, with the same bits, into a buffer of the device that pt_create_info.vulkan lent.
+/** Does a pt_readback, with the same bits, into a buffer of the device that pt_create_info.vulkan lent.
  *
  * If the driver has lost samples, a call without signal_semaphore fails with PT_ERROR_INTERNAL after it has written;
- * for a call with one, the next pt_readback_to_buffer reports it and then does nothing else. A call that fails
- * otherwise has left buffer and semaphores alone, unless the device was lost.
+ * after a call with one, the next pt_readback_to_buffer fails and writes nothing. Other failures leave buffer and
+ * semaphores alone, unless the device was lost.
  *
  * One thread at a time per context. PT_ERROR_INVALID_STATE: the context has a device of its own, or there is no sample.
  * PT_ERROR_INVALID_ARGUMENT: the image breaks a rule. PT_ERROR_SHADER, PT_ERROR_OUT_OF_DEVICE_MEMORY,
