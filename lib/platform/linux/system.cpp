@@ -19,13 +19,12 @@ std::uint64_t peak_bytes() {
 }
 
 std::uint64_t most_bytes() {
-    // The limit of a container, as seen from inside (cgroup v2). The file says "max" if there is no limit, and does not
-    // exist outside containers.
+    // The container's limit (cgroup v2): "max" without a limit; the file is missing outside containers.
     std::uint64_t container = 0;
     if (!(std::ifstream("/sys/fs/cgroup/memory.max") >> container))
         container = std::numeric_limits<std::uint64_t>::max();
     struct sysinfo system {};
-    rlimit address_space{}; // without a limit it is the largest number
+    rlimit address_space{}; // the largest number without a limit
     sysinfo(&system);
     getrlimit(RLIMIT_AS, &address_space);
     const auto bytes = [&](std::uint64_t units) { return units * system.mem_unit; };

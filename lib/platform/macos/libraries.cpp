@@ -5,8 +5,7 @@ namespace platform {
 
 const char *const denoiser_file = "libOpenImageDenoise.2.dylib";
 
-// Loaded when it is needed, so that a machine without it is told what to install. MoltenVK is a driver and its own
-// loader.
+// Loaded on demand, so that a message can name what to install. MoltenVK is a driver and its own loader.
 PFN_vkGetInstanceProcAddr vulkan_functions() {
     static void *const loader = [] {
         void *const vulkan = load_module("libvulkan.1.dylib");

@@ -28,7 +28,7 @@ int open_to_read(const fs::path &path) {
 }
 
 int create_file(const fs::path &path) {
-    constexpr mode_t permissions = 0666; // of which the system takes away what the umask says
+    constexpr mode_t permissions = 0666; // less the umask
     return open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, permissions);
 }
 
@@ -85,9 +85,9 @@ bool may_write(const fs::path &path) {
     return access(path.c_str(), W_OK) == 0;
 }
 
-// The kernel's rule for protected symbolic links (proc_sys_fs(5)), which it cannot apply here because it does not
-// follow them: where everybody may put links that nobody else can remove, only those of the user and of the folder's
-// owner count. Another user's cannot be put in their place between this and the reading of the link.
+// The kernel's rule for protected symbolic links (proc_sys_fs(5)), which it does not apply to links that are not
+// followed: in a folder like /tmp, only links of the user and of the folder's owner are safe. Nobody else can replace
+// these before the link is read.
 bool may_follow(const fs::path &link) {
     constexpr mode_t open_to_all = S_ISVTX | S_IWOTH;
     struct stat of_link {};

@@ -19,11 +19,10 @@ std::string module_error() {
 
 void keep_loaded(const char *name) {
     if (void *const loaded = dlopen(name, RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE))
-        dlclose(loaded); // which only counts one user less
+        dlclose(loaded); // only drops the reference just taken
 }
 
-// A relative path, as of a relative LD_LIBRARY_PATH, may name another file by now, or none: it counts if the file that
-// it names is one that is loaded.
+// A relative path, as from a relative LD_LIBRARY_PATH, counts only if its file is still the loaded one.
 std::filesystem::path folder_with(const void *function) {
     Dl_info info{};
     if (dladdr(function, &info) == 0 || !info.dli_fname)
@@ -42,7 +41,7 @@ std::filesystem::path folder_with(const void *function) {
 }
 
 std::string module_file(const std::string &name) {
-    return "lib" + name + ".so"; // on macOS too, of modules that CMake builds
+    return "lib" + name + ".so"; // on macOS too, for CMake's modules
 }
 
 } // namespace platform

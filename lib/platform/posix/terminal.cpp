@@ -20,7 +20,7 @@ extern "C" void note_end(int signal) {
     if (!end_of_process(signal))
         return;
     std::signal(signal, SIG_DFL);
-    raise(signal); // comes when this handler returns
+    raise(signal); // arrives when this handler returns
 }
 
 extern "C" void note_picture_request(int) {
@@ -40,8 +40,8 @@ void handle(int signal, void (*handler)(int)) {
 void prepare_streams() {
     for (const int stream : {standard_input, standard_output, standard_error}) {
         if (fcntl(stream, F_GETFD) == -1 && errno == EBADF) {
-            // open() takes the lowest free number. That is this stream's, since those below it are in use. The stream
-            // still fails with EBADF afterwards.
+            // open() takes the lowest free number, this stream's, since those below are in use. The stream still fails
+            // with EBADF afterwards.
             static_cast<void>(open("/dev/null", stream == standard_input ? O_WRONLY : O_RDONLY));
         }
     }
@@ -63,7 +63,7 @@ void catch_signals(bool (*end)(int), void (*picture)()) {
     for (const int signal : {interruption, termination, hangup}) {
         struct sigaction old {};
         sigaction(signal, nullptr, &old);
-        if (old.sa_handler != SIG_IGN) // whoever started this program wants that: a background job, nohup
+        if (old.sa_handler != SIG_IGN) // set by the parent, as for a background job or nohup
             handle(signal, &note_end);
     }
     handle(SIGUSR1, &note_picture_request);

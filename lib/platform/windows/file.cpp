@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The runtime library reads and writes at most so much at once.
+// The runtime library's limit for one read or write.
 template <typename Byte>
 unsigned size_of_part(std::span<Byte> bytes) {
     constexpr std::size_t most = std::size_t{1} << 30;
@@ -43,7 +43,7 @@ void close_file(int descriptor) {
     _close(descriptor);
 }
 
-// Others may rename and remove meanwhile, as elsewhere.
+// Others may rename and remove the file meanwhile, as elsewhere.
 int open_to_read(const fs::path &path) {
     constexpr DWORD sharing = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
     return opened(
@@ -51,7 +51,7 @@ int open_to_read(const fs::path &path) {
         _O_RDONLY | _O_BINARY);
 }
 
-// Others may not remove it: that is its lock.
+// Locked: others may not remove it.
 int create_file(const fs::path &path) {
     return opened(CreateFileW(path.c_str(), GENERIC_WRITE | DELETE, FILE_SHARE_READ, nullptr, CREATE_NEW,
                               FILE_ATTRIBUTE_NORMAL, nullptr),
@@ -74,7 +74,7 @@ void remove_abandoned(const fs::path &path) {
     DeleteFileW(path.c_str());
 }
 
-// By its handle, so that nobody can remove it before.
+// By handle, so that nobody can remove it before.
 bool rename_written(int descriptor, const fs::path &from, const fs::path &to) {
     static_cast<void>(from);
     const std::wstring name = fs::absolute(to).make_preferred().wstring();
@@ -107,7 +107,7 @@ std::optional<std::string> file_state(const fs::path &path) {
 }
 
 bool may_write(const fs::path &path) {
-    return _waccess(path.c_str(), 2) == 0; // it is not read-only
+    return _waccess(path.c_str(), 2) == 0; // not read-only
 }
 
 // Only administrators and developers can make links.

@@ -10,7 +10,7 @@ namespace platform {
 namespace fs = std::filesystem;
 
 void *load_module(const fs::path &path) {
-    constexpr DWORD beside = LOAD_LIBRARY_SEARCH_DLL_LOAD_DIR; // is asked for absolute paths alone
+    constexpr DWORD beside = LOAD_LIBRARY_SEARCH_DLL_LOAD_DIR; // requires absolute paths
     std::error_code error;
     const bool is_name = !path.has_parent_path();
     const fs::path file = is_name ? path : fs::absolute(path, error).make_preferred();

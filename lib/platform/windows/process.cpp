@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A word of a command line as this project's programs have it: quotes stand round the whole word.
+// Skips a word of this project's command lines, where quotes enclose whole words.
 const wchar_t *after_word(const wchar_t *line) {
     const wchar_t end = *line == L'"' ? L'"' : L' ';
     line += *line == L'"' ? 1 : 0;
@@ -49,7 +49,7 @@ std::uint64_t most_bytes() {
     MEMORYSTATUSEX status{};
     status.dwLength = sizeof status;
     GlobalMemoryStatusEx(&status);
-    return status.ullTotalPageFile; // with RAM
+    return status.ullTotalPageFile; // including RAM
 }
 
 void set_environment(const char *name, const char *value) {
@@ -74,7 +74,7 @@ fs::path find_program(const std::string &name) {
     return {};
 }
 
-// No process takes another's place here: this one waits. The other gets the rest of the command line as it was written.
+// No process can replace this one, so it waits. The other one gets the rest of the command line as written.
 int run_instead(const fs::path &program, char *const *) {
     std::wstring line = L'"' + program.wstring() + L"\" " + after_word(after_word(GetCommandLineW()));
     STARTUPINFOW start{};

@@ -11,12 +11,12 @@ namespace {
 
 bool (*end_of_process)(int) = nullptr;
 
-// Runs on a thread of its own. For what is not handled here the system ends the process.
+// Runs on its own thread. The system ends the process for events not handled here.
 BOOL WINAPI note_end(DWORD event) {
     const bool is_key = event == CTRL_C_EVENT || event == CTRL_BREAK_EVENT;
     if (end_of_process(is_key ? interruption : hangup))
         return FALSE;
-    if (!is_key) // once this returns the process ends, after some seconds in any case
+    if (!is_key) // when this returns the process ends; after some seconds anyway
         Sleep(INFINITE);
     return TRUE;
 }
