@@ -30,7 +30,7 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Sets the scene. Returns false if it was stopped.
+// Returns false if it was stopped.
 bool take_scene(const Context &context, const RenderTask &task, const Stop &superseded) {
     Progress progress(std::cerr, progress_style(task.options), 0, 0, Clock::now());
     return describe_scene(context, task.scene, [&](double share) {
@@ -39,7 +39,7 @@ bool take_scene(const Context &context, const RenderTask &task, const Stop &supe
     });
 }
 
-// A film of only one piece of the image could not be continued for the other pieces.
+// The film of one piece of an image could not be continued for the others.
 void require_one_piece(const RenderTask &task, std::uint32_t rows) {
     const RenderOptions &options = task.options;
     const std::string option = !options.checkpoint.empty()    ? "--checkpoint"
@@ -52,7 +52,7 @@ void require_one_piece(const RenderTask &task, std::uint32_t rows) {
                                           : concat("has room for ", rows, " rows at a time")));
 }
 
-// Takes over the samples of the checkpoint, if the options ask for that.
+// Adds the checkpoint's samples if the options say so.
 void resume_if_asked(const Context &context, const RenderTask &task) {
     const RenderOptions &options = task.options;
     if (!options.resume)
@@ -65,12 +65,12 @@ void resume_if_asked(const Context &context, const RenderTask &task) {
     }
 }
 
-// An image that another rule has ended may happen to have the target error, although some pixels lack samples.
+// An image ended by another rule may have the target error, although some pixels lack samples.
 std::string ending_of(const RenderReport &report, const ImageRender::Result &rendered, bool interrupted) {
     return interrupted ? "signal" : rendered.ended_by.value_or(report.target_reached() ? "error" : "samples");
 }
 
-// Unless a signal has stopped it. A missing file matters more than missing samples, which a checkpoint can still
+// For a rendering that no signal has stopped. A missing file outweighs missing samples, which a checkpoint can still
 // supply.
 ExitCode outcome_of(const RenderReport &report, const ImageRender::Result &rendered, bool all_written) {
     if (!all_written)
@@ -80,7 +80,7 @@ ExitCode outcome_of(const RenderReport &report, const ImageRender::Result &rende
     return report.target_error > 0.0 && !report.target_reached() ? ExitCode::target_missed : ExitCode::done;
 }
 
-// Prints, before an image is rendered in pieces, how much memory it takes.
+// Prints the memory that an image in pieces takes.
 void print_pieces(const Context &context, const RenderTask &task, std::uint32_t rows) {
     print_message(concat((task.window.part.height + rows - 1) / rows, " pieces of up to ", rows,
                          " rows: ", memory_text(context.stats().device_bytes), " on the device, ",
@@ -93,7 +93,7 @@ void print_summary(const OutputOptions &output, const RenderReport &report, cons
                      output.takes_standard_output());
 }
 
-// Returns whether all images and the film could be written.
+// Returns whether all images and the film were written.
 bool write_outputs(ImageWriter &writer, const Context &context, const RenderTask &task, RenderReport &report,
                    const RenderedImage &image, Clock::time_point start) {
     const OutputOptions &output = task.options.output;
@@ -114,12 +114,12 @@ bool write_outputs(ImageWriter &writer, const Context &context, const RenderTask
     return written.size() == output.images.size() + (output.film.empty() ? 0 : 1);
 }
 
-// The tone map of the outputs; nothing if none is tone-mapped.
+// Nothing if no output is tone-mapped.
 std::optional<ToneMap> tone_map_of(const RenderTask &task, std::span<const float> radiance) {
     return needs_tone_map(task.options.output) ? std::optional(task.scene.display.tone_map(radiance)) : std::nullopt;
 }
 
-// The second half has the guides; only layers that are asked for are kept.
+// The second half has the guides. Keeps only the wanted layers.
 RenderedImage denoised_halves(const RenderOptions &options, const RenderedImage &first, RenderedImage second) {
     const auto guide = [&](std::uint32_t quantity) -> std::span<const float> {
         return std::ranges::find(second.layers, quantity, &PictureLayer::quantity)->values;
@@ -133,15 +133,14 @@ RenderedImage denoised_halves(const RenderOptions &options, const RenderedImage 
     return image;
 }
 
-// Takes both halves of the samples. With a target error or a time limit they grow in rounds by a half, as in the
-// package pt for Python, and each round is denoised, which tells its error. A stop leaves the picture of the last
-// round, if any.
+// Takes both halves of the samples. A target error or a time limit makes them grow in rounds by a half, as in the
+// package pt for Python; each round is denoised, which gives its error. A stop leaves the last round's picture, if any.
 ImageRender::Result render_halves(const RenderTask &task, ImageRender &render, const Stop &stop) {
     constexpr double growth = 1.5;
     const Clock::time_point start = Clock::now();
     const StoppingRules &rules = task.options.stopping;
     std::array<std::vector<std::byte>, 2> films;
-    std::vector<PictureLayer> layers; // which samples do not change
+    std::vector<PictureLayer> layers; // independent of samples
     ImageRender::Result result{};
     std::uint32_t done = 0;
     std::uint32_t expected = task.sample_count;
@@ -215,7 +214,7 @@ ExitCode render_picture(const Context &context, const RenderTask &task, const Re
         print_pieces(context, task, rows);
     report.create_seconds = seconds_since(times.create_start);
 
-    // Not earlier: drivers are shared objects, too, and loading them would wait until the image module is loaded.
+    // Not earlier: drivers are shared objects too, and their loading would wait for the image module's.
     ImageWriter writer;
     if (needs_module(options.output))
         writer.load_module();

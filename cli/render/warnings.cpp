@@ -21,7 +21,7 @@ bool is_lit(const SceneFile &scene) {
     return std::ranges::any_of(scene.used_materials, [&](std::uint32_t i) { return emits(scene.materials[i]); });
 }
 
-// The largest of the channels' sums. Specular lobes reflect all of their weight if light arrives along the normal.
+// The largest of the channels' sums. Lobes reflect all of their weight for light along the normal.
 float reflected_share(const pt_material &material) {
     float largest = 0.0F;
     for (std::size_t i = 0; i < 3; ++i)
@@ -29,13 +29,13 @@ float reflected_share(const pt_material &material) {
     return largest;
 }
 
-// By the sRGB curve (IEC 61966-2-1).
+// Decodes sRGB (IEC 61966-2-1).
 double light_of_byte(float byte) {
     const double signal = byte / 255.0;
     return signal <= 0.04045 ? signal / 12.92 : std::pow((signal + 0.055) / 1.055, 2.4);
 }
 
-// For a color that was probably meant as sRGB bytes, what to write instead; empty for any other.
+// Suggests values for a color probably meant as sRGB bytes; empty for others.
 std::string byte_color_text(const pt_material &material) {
     std::array<std::string, 3> bytes;
     std::array<std::string, 3> shares;
@@ -78,11 +78,10 @@ bool is_black(std::span<const float> radiance) {
     return !radiance.empty() && std::ranges::all_of(radiance, [](float value) { return value == 0.0F; });
 }
 
-// For the relative error, light far below 0.1 counts as none (pt_error_estimate), so a picture that is dark everywhere
-// reaches its target with any noise. Pictures in units in which emission is only some hundredths may be so dark.
-// Scaling all emission scales the picture and its noise.
+// Relative errors treat light far below 0.1 as none (pt_error_estimate), so a dark picture reaches its target with any
+// noise, as in units in which emission is only some hundredths. Scaling all emission scales the picture and its noise.
 std::optional<std::string> picture_below_its_target(const RenderReport &report, std::span<const float> radiance) {
-    // The average is 0.18 / 2^4.5 = 1/126, a twelfth of 0.1: a target of 1% allows noise of an eighth of the average.
+    // Average 0.18 / 2^4.5 = 1/126, a twelfth of 0.1: a target of 1% allows noise of an eighth of the average.
     constexpr double most_stops = 4.5;
     if (report.target_error <= 0.0 || is_black(radiance))
         return std::nullopt;
@@ -95,7 +94,7 @@ std::optional<std::string> picture_below_its_target(const RenderReport &report, 
            formatted("%.0f", stops) + ", or ask for much less";
 }
 
-// Whether an earlier warning has said that the picture is black.
+// Whether an earlier warning explains the black picture.
 bool is_known_to_be_black(const RenderReport &report) {
     return std::ranges::any_of(report.warnings,
                                [](const auto &warning) { return warning.ends_with("the picture is black"); });

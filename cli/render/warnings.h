@@ -1,5 +1,5 @@
-// Warnings about what can be rendered but is surely not intended. Each is printed once on stderr, unless -q is given,
-// and listed in the --stats file.
+// Warnings about input that is valid but surely not intended. Printed once on stderr, unless -q is given, and listed in
+// the --stats file.
 #pragma once
 
 #include "cli/render/render_report.h"
@@ -15,8 +15,8 @@ namespace cli {
 // more (0: none).
 std::vector<std::string> input_warnings(const SceneFile &scene, double target_error);
 
-// Known from the image: samples left out, a picture so dark that any noise reaches its target error, and a black
-// picture that the scene does not explain. report.warnings: those from before rendering.
+// Known from the image: samples left out, a picture so dark that any noise reaches its target error, an unexplained
+// black picture. report.warnings: from before rendering.
 std::vector<std::string> image_warnings(const RenderReport &report, std::span<const float> radiance);
 
 void print_warnings(std::span<const std::string> warnings);

@@ -21,15 +21,15 @@ constexpr double out_of_view = std::numeric_limits<double>::infinity();
 // float32.
 constexpr double farthest_start = 6e18;
 
-// Components of a direction are off by 2^-24: from here on, by more than 1/1024 of a pixel.
-constexpr double narrow_pixel = 0x1p-14; // its side at distance 1
+// Below this the 2^-24 error of a direction's components exceeds 1/1024 of a pixel.
+constexpr double narrow_pixel = 0x1p-14; // side of a pixel at distance 1
 
-// The pyramid of the rays of an image, and the cone about it; with a lens, of the rays through its middle.
+// The pyramid of an image's rays, through the lens's middle, and the cone about it.
 struct View {
     std::array<glm::dvec3, 4> corners; // at depth 1
     glm::dvec3 forward;
     double half_angle;
-    double aside; // how far a lens's rays are from these at most, up to twice the depth of the plane in focus
+    double aside; // largest distance of a lens's rays from these, up to twice the depth of focus
 
     View(const Camera &camera, const RenderSettings &settings) : forward(camera.forward), aside(camera.lens_radius) {
         const double up = camera.tan_half_fov;
@@ -40,8 +40,8 @@ struct View {
     }
 };
 
-// A plane's depth along a direction of depth 1 is -offset / (normal . direction), least at a corner. With a
-// lens, the plane is taken to be nearer by `aside`.
+// A plane's depth along a direction of depth 1 is -offset / (normal . direction), least at a corner. A lens brings the
+// plane nearer by `aside`.
 double nearest_depth(const CurvedPlane &plane, const View &view) {
     const double offset = std::max(plane.offset - view.aside, 0.0);
     double nearest = offset == 0.0 ? 0.0 : out_of_view;
@@ -57,11 +57,11 @@ double angle_from_middle(const glm::dvec3 &point, const View &view) {
     return std::atan2(glm::length(point - along * view.forward), along);
 }
 
-// Of the directions of the cone, the one nearest to the ball's centre meets it first. With b = d cos(angle) the root is
-// b - sqrt(r^2 - d^2 sin^2(angle)), or (d^2 - r^2) / (b + the same): nothing cancels for small far balls.
+// The cone's direction nearest to the ball's center meets it first. With b = d cos(angle) the root is b - sqrt(r^2 -
+// d^2 sin^2(angle)), or (d^2 - r^2) / (b + the same), which does not cancel for small far balls.
 double depth_of_ball(const glm::dvec3 &centre, double radius, const View &view) {
     const double distance = glm::length(centre);
-    const double power = (distance - radius) * (distance + radius); // of the camera with respect to the ball
+    const double power = (distance - radius) * (distance + radius); // of the camera, with respect to the ball
     if (power <= 0.0)
         return 0.0;
     const double angle = angle_from_middle(centre, view);
@@ -78,7 +78,7 @@ bool starts_within(const glm::dvec3 &centre, double radius, const View &) {
     return glm::length(centre) <= radius;
 }
 
-// From within, the direction farthest from the centre meets the sphere first.
+// From inside, the direction farthest from the center meets the sphere first.
 double depth_from_within(const glm::dvec3 &centre, double radius, const View &view) {
     const double distance = glm::length(centre);
     const double angle = angle_from_middle(centre, view);
@@ -88,12 +88,12 @@ double depth_from_within(const glm::dvec3 &centre, double radius, const View &vi
     return (distance * std::cos(farthest) + half_chord) * std::cos(view.half_angle);
 }
 
-// The ball about the way says enough.
+// The ball about the way suffices.
 double depth_on_way(const MovingBall &, const View &) {
     return 0.0;
 }
 
-// The box of the parallel rays of an image, and the cylinder about it.
+// The box of an image's parallel rays, and the cylinder about it.
 struct ParallelView {
     glm::dvec3 half_right;
     glm::dvec3 half_up;
@@ -108,8 +108,8 @@ struct ParallelView {
         radius(std::hypot(glm::length(half_right), glm::length(half_up))) {}
 };
 
-// A plane's depth, -height / (normal . forward) for the height of where a ray starts, changes evenly across the view:
-// it is least at a corner. Where rays start on both sides there is no room before the plane.
+// A plane's depth, -height / (normal . forward), is linear across the view, hence least at a corner. If rays start on
+// both sides, there is no room before the plane.
 double nearest_depth(const CurvedPlane &plane, const ParallelView &view) {
     const double across =
         std::abs(glm::dot(plane.normal, view.half_right)) + std::abs(glm::dot(plane.normal, view.half_up));
@@ -119,9 +119,9 @@ double nearest_depth(const CurvedPlane &plane, const ParallelView &view) {
     return slope > 0.0 ? (plane.offset - across) / slope : out_of_view;
 }
 
-// Of the lines of the cylinder those nearest to the centre meet the ball first, at a - sqrt(r^2 - c^2) for a centre at
-// depth a and c from the line. That is (a^2 + c^2 - r^2) / (a + sqrt(r^2 - c^2)), in which nothing cancels for small
-// far balls: the centre is at a distance d, and d^2 - r^2 is a product.
+// The cylinder's lines nearest to the center meet the ball first. For a center at depth a and c from the line, at a
+// distance d, the root a - sqrt(r^2 - c^2) is (a^2 + c^2 - r^2) / (a + sqrt(r^2 - c^2)), which does not cancel for
+// small far balls, as d^2 - r^2 is a product.
 double depth_of_ball(const glm::dvec3 &centre, double radius, const ParallelView &view) {
     const double depth = glm::dot(centre, view.forward);
     const double across = glm::length(centre - depth * view.forward);
@@ -136,7 +136,7 @@ double depth_of_ball(const glm::dvec3 &centre, double radius, const ParallelView
     return depth > 0.0 && power > 0.0 ? power / (depth + half_chord) : 0.0;
 }
 
-// The farthest that a ray starts from the axis through the centre.
+// Largest distance of a ray's start from the axis through the center.
 double most_across(const glm::dvec3 &centre, const ParallelView &view) {
     return glm::length(centre - glm::dot(centre, view.forward) * view.forward) + view.radius;
 }
@@ -151,14 +151,13 @@ double depth_from_within(const glm::dvec3 &centre, double radius, const Parallel
     return glm::dot(centre, view.forward) + std::sqrt((radius - most) * (radius + most));
 }
 
-// A sphere comes no nearer than at an end of its way, while the ball about the way of one that moves across the view
-// reaches before all that it passes.
+// A sphere is nearest at an end of its way; the ball about a way across the view would reach farther.
 double depth_on_way(const MovingBall &sphere, const ParallelView &view) {
     const double open = glm::dot(sphere.open, view.forward);
     return open + std::min(glm::dot(sphere.way, view.forward), 0.0) - sphere.radius;
 }
 
-// No more than the depth of any point that the ball takes up on its way.
+// A lower bound of the depth of all that the ball takes up on its way.
 template <typename AnyView>
 double depth_of_region(const MovingBall &ball, const AnyView &view) {
     const double radius = ball.radius + 0.5 * glm::length(ball.way) + view.aside;
@@ -166,8 +165,8 @@ double depth_of_region(const MovingBall &ball, const AnyView &view) {
     return ball.way == glm::dvec3(0.0) ? depth : std::max(depth, depth_on_way(ball, view));
 }
 
-// A sphere is hollow: where the camera is inside, its far wall is what rays meet. margin: how far before the surface
-// the depth is to be, on either side, as a share of the radius.
+// Spheres are hollow: from inside, rays meet the far wall. margin: how far before the surface, on either side, as a
+// share of the radius.
 template <typename AnyView>
 double depth_of_sphere(const MovingBall &sphere, const AnyView &view, double margin = 0.0) {
     const double inner = sphere.radius * (1.0 - margin) - view.aside;
@@ -176,9 +175,8 @@ double depth_of_sphere(const MovingBall &sphere, const AnyView &view, double mar
     return depth_of_region({sphere.open, sphere.way, sphere.radius * (1.0 + margin)}, view);
 }
 
-// How near the first surface in view can be. Spheres of the tree are held by their centres however near they are, so
-// that rays keep a distance from them at which float32 tells the side: it costs no precision, as the centre is known
-// no better.
+// Least possible depth of a visible surface. Tree spheres are held by center however near, so rays keep a distance at
+// which float32 tells the side; the center is known no better.
 template <typename AnyView>
 double first_depth(const Scene &scene, const SphereTree *tree, const Camera &camera, const AnyView &view) {
     double depth = out_of_view;
@@ -194,7 +192,7 @@ double first_depth(const Scene &scene, const SphereTree *tree, const Camera &cam
     return depth;
 }
 
-// In a wider view the squares of distances would overflow float32.
+// Wider views would overflow float32 with squared distances.
 void require_held_view(const Camera &camera, const RenderSettings &settings) {
     const double width = camera.vertical_extent * settings.width / settings.height;
     if (width > max_length)
@@ -207,8 +205,7 @@ void require_held_view(const Camera &camera, const RenderSettings &settings) {
                                        number_text(width)});
 }
 
-// Stays as far before the first surface as the view is wide, and a little more, so that no surface in view divides the
-// disc.
+// Stays ahead of the first surface by the view's width and a little more, so that no visible surface divides the disc.
 Camera starting_in_parallel(const Scene &scene, const SphereTree *tree, const Camera &camera,
                             const RenderSettings &settings) {
     require_held_view(camera, settings);
@@ -236,9 +233,8 @@ Camera starting_ahead(const Scene &scene, const SphereTree *tree, const Camera &
     const double depth = first_depth(scene, tree, camera, view);
     if (depth > farthest_start)
         return ahead;
-    // Stays before the first surface by as much as the view is wide there, so that rounding puts no start behind the
-    // surface, and by the radius of the lens. Towards the plane in focus the lens's rays come together, so they start
-    // on a smaller disc.
+    // Stays ahead of the first surface by the view's width there, so that rounding puts no start behind it, and by the
+    // lens's radius. A lens's rays converge towards the plane in focus, so they start on a smaller disc.
     const double tangent = std::tan(view.half_angle);
     ahead.start_distance = std::max((1.0 - tangent) * depth - camera.lens_radius, 0.0);
     if (camera.has_lens()) {

@@ -1,4 +1,4 @@
-// Where camera rays start: ahead of the camera in narrow views of distant things, and in any view with parallel rays.
+// Where camera rays start: ahead of the camera in narrow views of distant things, and with parallel rays.
 #pragma once
 
 #include "lib/scene/camera.h"
@@ -9,11 +9,11 @@
 
 namespace pt {
 
-// The camera, moved ahead along its axis to the first surface that may be in view, if the view is so narrow that the
-// rounding of directions and of distant coordinates would show. The kernel's coordinates begin there, and its rays
-// start on the plane across the view there. They are the same rays, but known to the rounding of what is in view rather
-// than of its distance. Parallel rays start on such a plane anyway, on the disc around the image (start_radius). tree:
-// holds further spheres, or NULL. Throws PT_ERROR_UNSUPPORTED if a view with parallel rays is too wide.
+// Moves the camera ahead to the first surface that may be in view, if the view is so narrow that the rounding of
+// directions and distant coordinates would show. The kernel's coordinates begin there, and rays start on the plane
+// across the view there: the same rays, rounded by the scale of the visible things instead of their distance. Parallel
+// rays always start on such a plane, on the disc around the image (start_radius). tree: further spheres, or NULL.
+// Throws PT_ERROR_UNSUPPORTED if a view with parallel rays is too wide.
 Camera starting_ahead(const Scene &scene, const SphereTree *tree, const Camera &camera, const RenderSettings &settings);
 
 // Such a camera as kernels read it.

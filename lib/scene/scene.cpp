@@ -1,4 +1,4 @@
-// Takes a scene over from the caller, and tells scenes apart; see scene.h.
+// Takes over the caller's scene, and computes digests; see scene.h.
 #include "lib/scene/scene.h"
 
 #include "lib/scene/checked_scene.h"
@@ -12,7 +12,7 @@ namespace pt {
 
 namespace {
 
-// All of a material. In comparisons -0 equals 0, as in the material.
+// All of a material; -0 equals 0, as in comparisons of materials.
 using MaterialKey = std::array<float, 11>;
 
 MaterialKey key_of(const Material &material) {
@@ -21,7 +21,7 @@ MaterialKey key_of(const Material &material) {
             emission.r, emission.g, emission.b, glossiness, hidden ? 1.0F : 0.0F};
 }
 
-// Makes a material for each sphere color, or reuses an equal one that exists already.
+// A material per sphere color, reused for equal ones.
 class ColoredMaterials {
 public:
     explicit ColoredMaterials(std::vector<Material> &materials) : materials_(materials) {}
@@ -81,11 +81,11 @@ void add(Digest &digest, const Material &material) {
     digest.add(material.specular);
     digest.add(material.emission);
     digest.add(static_cast<double>(material.glossiness));
-    if (material.hidden) // so that scenes without such keep the digest that their films have
+    if (material.hidden) // keeps the digests of scenes without hidden materials
         digest.add(std::uint64_t{PT_MATERIAL_HIDDEN_FROM_CAMERA});
 }
 
-// Materials are numbers, in the order in which they are met. Where a number is new, the whole material follows it.
+// Materials are numbered as they occur, each new one followed by all of it.
 std::string digest_of(const Scene &scene) {
     Digest digest;
     std::map<MaterialKey, std::uint64_t> numbers;

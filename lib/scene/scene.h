@@ -1,4 +1,4 @@
-// A scene that obeys the rules of pt.h, owned.
+// A valid scene that owns its data.
 #pragma once
 
 #include "lib/base/digest.h"
@@ -32,22 +32,22 @@ inline bool is_glossy(const Material &material) {
     return material.specular != glm::vec3(0.0F);
 }
 
-// Opacities are held in steps of 1 / TREE_OPACITY_STEPS. no_opacity: of spheres in scenes where all are opaque.
+// Opacities are in steps of 1 / TREE_OPACITY_STEPS; no_opacity in scenes where all spheres are opaque.
 inline constexpr std::int16_t no_opacity = -1;
 inline constexpr auto opaque = static_cast<std::int16_t>(gpu::TREE_OPACITY_STEPS);
-inline constexpr double least_opaque = 1.0 - 0.5 / gpu::TREE_OPACITY_STEPS; // is rounded to opaque
+inline constexpr double least_opaque = 1.0 - 0.5 / gpu::TREE_OPACITY_STEPS; // rounds to opaque
 
 struct Sphere {
     glm::dvec3 center;
     double radius;
-    glm::dvec3 motion;      // or, of another kind, the way from one end to the other
+    glm::dvec3 motion;      // for capsules the vector from one end to the other
     std::uint32_t material; // index into Scene::materials
     Kind kind = Kind::ball;
-    std::int16_t opacity = no_opacity; // in steps, as above
+    std::int16_t opacity = no_opacity; // in steps
 
     bool is_translucent() const { return opacity != no_opacity && opacity < opaque; }
 
-    MovingBall ball() const { return {center, motion, radius, kind}; } // in the time from 0 to 1
+    MovingBall ball() const { return {center, motion, radius, kind}; } // from time 0 to 1
 };
 
 // dot(normal, x) + offset = 0
@@ -58,23 +58,23 @@ struct Plane {
 };
 
 struct Scene {
-    std::vector<Material> materials; // the caller's, and those that spheres with colors of their own have
-    std::vector<Sphere> spheres;     // pt_scene.spheres, and those of the arrays
+    std::vector<Material> materials; // the caller's, then materials of spheres with their own colors
+    std::vector<Sphere> spheres;     // pt_scene.spheres, then the arrays
     std::vector<Plane> planes;
-    std::vector<std::uint32_t> array_starts = {}; // index of the first sphere of each of pt_scene.sphere_arrays
-    std::vector<std::uint32_t> indices = {};      // of the spheres in the caller's scene, where they are not all of it
+    std::vector<std::uint32_t> array_starts = {}; // of each of pt_scene.sphere_arrays
+    std::vector<std::uint32_t> indices = {};      // in the caller's scene, if these are not all of its spheres
 };
 
 struct CheckedScene;
 
-// Takes over all spheres or, if only is not NULL, those with these indices, which ascend.
+// Takes over all spheres, or the ones with these ascending indices if only is not NULL.
 Scene owned_scene(CheckedScene checked, const std::vector<std::uint32_t> *only = nullptr);
 
-// Where a sphere is in the caller's scene, as the members of a BrokenRule.
+// A sphere's place in the caller's scene, for a BrokenRule.
 struct SpherePlace {
     const char *subject;
     std::int64_t index;
-    std::int32_t component; // -1: of no array
+    std::int32_t component; // -1: in no array
 };
 
 SpherePlace place_of_sphere(const Scene &scene, std::size_t position);
@@ -84,7 +84,6 @@ SpherePlace place_of_sphere(const Scene &scene, std::size_t position);
 // are, or in which order and how often materials are listed.
 std::string digest_of(const Scene &scene);
 
-// Adds all of a material to a digest.
 void add(Digest &digest, const Material &material);
 
 } // namespace pt

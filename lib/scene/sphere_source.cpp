@@ -10,7 +10,7 @@ namespace pt {
 
 namespace {
 
-// A column that consists of one member of consecutive structs.
+// A column of one member of consecutive structs.
 pt_column column_of(const void *first, std::uint32_t type) {
     return {first, sizeof(pt_sphere), type};
 }
@@ -153,8 +153,7 @@ void SphereSource::read_colors(std::span<const std::uint32_t> indices, std::span
     });
 }
 
-// A sphere is in the last part that begins at or before its index. Empty parts begin where the next one does; that next
-// one is meant.
+// A sphere is in the last part that begins at or before its index: an empty part begins where the next one does.
 template <typename Element, typename Read>
 void SphereSource::read_parts(std::span<const std::uint32_t> indices, std::span<Element> elements,
                               Read read_part) const {

@@ -1,4 +1,4 @@
-// Groups of spheres that have not been divided yet while the shape of a tree is made, and the boxes around them.
+// Undivided groups of spheres, and the boxes around them, while a tree is shaped.
 #pragma once
 
 #include "lib/base/mixed.h"
@@ -12,7 +12,7 @@
 
 namespace pt {
 
-using Vector = float __attribute__((vector_size(16))); // three coordinates and one that is not used, in one register
+using Vector = float __attribute__((vector_size(16))); // three coordinates and an unused one, in a register
 using Items = std::span<TreeItem>;
 
 struct Box {
@@ -40,7 +40,7 @@ struct Box {
     float extent(std::size_t axis) const { return high[axis] - low[axis]; }
     bool is_point() const { return extent(0) == 0.0F && extent(1) == 0.0F && extent(2) == 0.0F; }
 
-    // Half of its surface area. For an empty box it is not smaller than any number.
+    // Half of the surface area; for an empty box not below any number.
     float surface() const {
         const Vector sides = high - low;
         const Vector products = sides * __builtin_shufflevector(sides, sides, 1, 2, 0, 3);
@@ -53,16 +53,13 @@ struct Box {
     }
 };
 
-// A sample of this many spheres shows nearly as well as all of them where to divide a part. With 10^6 spheres in even
-// clouds, clumps and shells, rays take the same number of trips through the tree to 0.5%, and 1% more if one sphere in
-// 10^4 is 30 times as large as the others.
+// A sample of this size shows nearly as well as all spheres where to divide a part (tests/bench/NOTEBOOK.md).
 inline constexpr std::size_t sample_size = 4096;
 
 inline constexpr std::size_t sampled_from = 4 * sample_size;
 
-// Calls use(item) for all, or for a sample if there are many. A sample has one item of each of sample_size runs of
-// equal length, anywhere in the run, so that no pattern in the order matters; it stays the same until the order
-// changes.
+// Calls use(item) for all, or a sample of many: one item from anywhere in each of sample_size equal runs, so that no
+// pattern in the order matters. It stays the same while the order does.
 template <typename Use>
 void for_each_or_sample(Items items, Use use) {
     if (items.size() < sampled_from) {
@@ -79,7 +76,7 @@ void for_each_or_sample(Items items, Use use) {
     }
 }
 
-// The box around all centres, or around a sample of them unless the sample is a single point.
+// Box of all centers, or of a sample unless that is a single point.
 inline Box centres_of(Items items) {
     Box box;
     for_each_or_sample(items, [&](const TreeItem &item) { box.add_centre(item); });
@@ -89,14 +86,14 @@ inline Box centres_of(Items items) {
     return box;
 }
 
-// The same for balls.
+// Box of the balls, or of a sample.
 inline Box balls_of(Items items) {
     Box box;
     for_each_or_sample(items, [&](const TreeItem &item) { box.add_ball(item); });
     return box;
 }
 
-// A group of spheres that has not been divided yet. If there are many, its boxes are those of a sample.
+// An undivided group. If it is large, its boxes are a sample's.
 struct Part {
     Items items;
     Box centres;          // a point only if all are there
@@ -108,7 +105,7 @@ struct Halves {
     Part second;
 };
 
-// How many nodes of the lowest level this many spheres take.
+// Nodes of the lowest level for this many spheres.
 inline float nodes_for(std::size_t count) {
     return static_cast<float>((count + tree_width - 1) / tree_width);
 }

@@ -12,7 +12,7 @@ namespace pt {
 
 namespace {
 
-// From this depth on nodes are halved: another log4(2^26) = 13 levels hold all the spheres that a scene may have.
+// Nodes from this depth on are halved: another log4(2^26) = 13 levels hold all spheres of a scene.
 constexpr std::uint32_t free_depth = 14;
 
 Part part_of(Items items) {
@@ -33,13 +33,13 @@ Halves divided(const Part &part, std::uint32_t depth) {
     return part.items.size() <= most_swept ? swept_halves(part) : binned_halves(part);
 }
 
-// What the work needs besides the spheres: which of them are twins, and where to report progress.
+// The context of the work.
 struct Making {
     const SphereOrder &order;
     WorkProgress &progress;
 };
 
-// Whether any two of these few spheres may be twins.
+// Whether any two of a few spheres may be twins.
 bool have_equals(Items items) {
     for (std::size_t i = 0; i < items.size(); ++i)
         for (std::size_t other = 0; other < i; ++other)
@@ -77,13 +77,13 @@ struct Children {
     std::span<Part> all() { return std::span(parts).first(count); }
 };
 
-// Whether a part is to be divided before another one. That is the part with the larger surface; deep in the tree it is
-// the part with more spheres, so that no child has more than a quarter of them.
+// Whether a part is divided before another: the one with the larger surface or, deep in the tree, with more spheres, so
+// that no child has more than a quarter of them.
 bool goes_before(const Part &part, const Part &other, std::uint32_t depth) {
     return depth < free_depth ? part.surface > other.surface : part.items.size() > other.items.size();
 }
 
-// The part to divide next, or NULL.
+// NULL if none can be divided.
 Part *next_of(std::span<Part> parts, std::uint32_t depth) {
     Part *next = nullptr;
     for (Part &part : parts)
@@ -92,9 +92,8 @@ Part *next_of(std::span<Part> parts, std::uint32_t depth) {
     return next;
 }
 
-// The children of a node: its parts are divided one after the other until there are enough. Twins have equal centres,
-// so no cut separates them until everything left is at one point or very few. Halving could separate them, so twins are
-// looked for before that.
+// Divides a node's parts until there are enough children. Twins have equal centers, so cuts separate them only among
+// few spheres or at one point; halving could, so twins are removed before it.
 Children children_of(Part node, const Making &making, std::uint32_t depth) {
     Children children;
     if (node.items.size() <= tree_width || node.centres.is_point() || depth == free_depth)

@@ -1,4 +1,4 @@
-// The shape of a tree over spheres: which spheres and nodes are children of which node. Made by SphereTree.
+// The shape of a tree: the spheres and nodes that are each node's children. Made by SphereTree.
 #pragma once
 
 #include "lib/base/work_progress.h"
@@ -13,17 +13,15 @@
 
 namespace pt {
 
-// All that the shape depends on: roughly where a sphere is and how large it is, in any unit. A moving sphere counts as
-// a ball around its way.
+// The input of the shape: approximate center and radius, in any unit. A moving sphere counts as a ball around its way.
 struct TreeItem {
     std::array<float, 4> centre_radius;
     std::uint32_t sphere;
 };
 
-inline constexpr std::uint32_t tree_width = gpu::TREE_WIDTH; // children of a node, at most
+inline constexpr std::uint32_t tree_width = gpu::TREE_WIDTH; // of a node, at most
 
-// Inner children come first. Children that are nodes are consecutive nodes, and children that are spheres have
-// consecutive places.
+// Child nodes come first, and are consecutive; child spheres have consecutive places.
 struct TreeLinks {
     std::uint32_t first_child;
     std::uint32_t first_place;
@@ -32,9 +30,9 @@ struct TreeLinks {
 };
 
 struct TreeShape {
-    std::vector<TreeLinks> nodes;       // the root first, and each before its children
-    std::vector<std::uint32_t> spheres; // the sphere of each place
-    std::uint32_t depth;                // nodes from the root to the deepest, both counted
+    std::vector<TreeLinks> nodes;       // the root first, each before its children
+    std::vector<std::uint32_t> spheres; // by place
+    std::uint32_t depth;                // nodes on the longest way down, root included
 };
 
 // Any strict order of spheres. Spheres that are equal in it have equal items; of such twins the one with the lower

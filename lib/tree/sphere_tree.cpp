@@ -20,15 +20,13 @@ namespace pt {
 
 namespace {
 
-constexpr std::uint32_t nowhere = ~std::uint32_t{0}; // a place that there is not
+constexpr std::uint32_t nowhere = ~std::uint32_t{0}; // no place
 
-// The tree is rebuilt when keeping its shape would slow rays by about an eighth: when its cost has changed by more than
-// this factor, up or down (down means that more than places has changed). On lavapipe, with 10^3 to 10^6 spheres that
-// went astray, rays take 2% longer at 1.04, 7% at 1.12, an eighth to a seventh at 1.25, a quarter at 1.5, twice as long
-// at 2.7 and four times at 6.4. A new tree takes twice as long as one whose shape is kept.
+// A new tree is made once the cost with the old shape differs by this factor, up or down (down: more than places has
+// changed). Rays are then about an eighth slower; a new tree takes twice the time of a kept shape.
 constexpr double most_growth = 1.25;
 
-// The share of each stage in the work that remains when the stage begins, measured with a million spheres.
+// Shares of the remaining work, for a million spheres.
 constexpr double share_of_items = 0.1;
 constexpr double share_of_shape = 0.65;
 constexpr double share_of_spheres = 0.5;
@@ -122,7 +120,7 @@ SphereTree::SphereTree(const SphereExtent &extent, const SphereSource &spheres,
     lamp_materials_.reserve(extent.lamp_count);
 }
 
-// Allocates memory for all blocks. The block of lamps starts empty and can grow in place.
+// Allocates all blocks. The lamps' block starts empty and grows in place.
 void SphereTree::make_room(std::size_t node_count, WorkProgress &progress) {
     sphere_count_ = static_cast<std::uint32_t>(spheres_->size());
     const std::uint32_t quarter = (sphere_count_ + 3) / 4;
@@ -134,7 +132,7 @@ void SphereTree::make_room(std::size_t node_count, WorkProgress &progress) {
     first_color_ = first_surface_ + quarter;
     first_lamp_ = first_color_ + (has_colors_ ? quarter : 0);
     words_.reserve(first_lamp_ + lamp_materials_.capacity());
-    // In pieces, since touching memory for the first time takes long.
+    // In pieces, since touching new memory takes long.
     constexpr std::size_t some = std::size_t{1} << 20;
     while (words_.size() < first_lamp_) {
         words_.resize(std::min<std::size_t>(words_.size() + some, first_lamp_));
@@ -146,8 +144,7 @@ std::span<glm::uvec4> SphereTree::words_of_node(std::size_t node) {
     return std::span(words_).subspan(node * gpu::TREE_NODE_WORDS, gpu::TREE_NODE_WORDS);
 }
 
-// Writes all blocks except the nodes, in the order of the tree: to read the caller's memory in random order takes less
-// time than to write in random order.
+// All blocks except nodes, in the tree's order: random reads of the caller's memory are faster than random writes.
 void SphereTree::write_spheres(const SphereSource &spheres, std::span<const TreeMaterial> materials,
                                WorkProgress &progress) {
     std::vector<FoundLamp> lamps;
@@ -179,7 +176,7 @@ void SphereTree::write_lamps(std::vector<FoundLamp> lamps, std::span<const TreeM
     }
 }
 
-// Uses the links that are there already.
+// The links must be written already.
 void SphereTree::write_nodes(WorkProgress &progress) {
     progress.enter(share_of_nodes, static_cast<double>(node_count()));
     cost_ = 0.0;
@@ -187,8 +184,8 @@ void SphereTree::write_nodes(WorkProgress &progress) {
     cost_ /= box_.surface();
 }
 
-// Writes a node after its children, because their boxes make up its own, and adds all surfaces to the cost. The
-// recursion is as deep as the tree. It goes from the last child to the first, which is the order of nodes and places.
+// Writes a node after its children, whose boxes make up its own, and adds up the cost. Recurses as deep as the tree.
+// Children go from the last to the first, in the order of nodes and places.
 GridBox SphereTree::write_node(std::uint32_t node, WorkProgress &progress) {
     const TreeLinks links = TreeNodeView(words_of_node(node)).links();
     TreeNode written(links);
@@ -202,7 +199,7 @@ GridBox SphereTree::write_node(std::uint32_t node, WorkProgress &progress) {
     return written.box();
 }
 
-// Whether two spheres are equal in everything that the tree holds, except their motion.
+// Whether two spheres are equal in all that the tree holds, except motion.
 bool SphereTree::has_alike(WorkProgress &progress) const {
     progress.enter(share_of_alike, static_cast<double>(sphere_count_));
     return has_equal_words(std::span(words_).subspan(first_sphere_, sphere_count_), progress);
@@ -211,9 +208,9 @@ bool SphereTree::has_alike(WorkProgress &progress) const {
 void SphereTree::add_to(Digest &digest) const {
     digest.add(grid_.middle);
     digest.add(grid_.step);
-    if (has_opacities_) // then the last bits of radii mean something else
+    if (has_opacities_) // the last bits of radii then differ in meaning
         digest.add(std::uint64_t{gpu::TREE_OPACITY_STEPS});
-    std::vector<std::uint32_t> places(scene_sphere_count_, nowhere); // where a sphere is left out, or a twin
+    std::vector<std::uint32_t> places(scene_sphere_count_, nowhere); // for spheres left out, and twins
     for (std::uint32_t place = 0; place < sphere_count_; ++place)
         places[(*spheres_)[place]] = place;
     std::erase(places, nowhere);
@@ -241,7 +238,7 @@ bool SphereTree::is_far(const Camera &camera) const {
     return !(std::max({steps.x, steps.y, steps.z}) <= 2.0 * Grid::reach);
 }
 
-// Whether some place whose rounded box meets a given box has a property.
+// Whether a place whose rounded box meets the box has the property.
 template <typename Property>
 bool SphereTree::any_in(const GridBox &box, Property &&property) const {
     std::vector<std::uint32_t> nodes{0};
@@ -282,7 +279,7 @@ bool SphereTree::divides_start(const Camera &camera) const {
         return false;
     const glm::dvec3 middle = (camera.position - grid_.middle) / grid_.step;
     const double radius = camera.start_radius / grid_.step + 1.0;
-    const double beyond = 2.0 * Grid::reach; // where no box of the tree is
+    const double beyond = 2.0 * Grid::reach; // outside all boxes
     const glm::ivec3 low(glm::floor(glm::clamp(middle - radius, -beyond, beyond)));
     const glm::ivec3 high(glm::ceil(glm::clamp(middle + radius, -beyond, beyond)));
     return any_in({low, high}, [&](std::uint32_t place) {
@@ -318,7 +315,7 @@ double SphereTree::least_depth(const Camera &camera, const std::function<double(
 }
 
 bool SphereTree::finds_close_lamps(WorkProgress &progress) const {
-    constexpr std::size_t as_many_spheres = 16; // as take the time of a lamp, to within a small factor
+    constexpr std::size_t as_many_spheres = 16; // spheres that take the time of a lamp, approximately
     progress.enter(share_of_close_lamps, static_cast<double>(lamp_materials_.size()));
     for (std::uint32_t lamp = 0; lamp < lamp_materials_.size(); ++lamp) {
         progress.add(1.0, as_many_spheres);
@@ -327,7 +324,7 @@ bool SphereTree::finds_close_lamps(WorkProgress &progress) const {
         const auto is_close = [&](std::uint32_t other) {
             return other != place && nearly_coincide(ball, surface_of(other));
         };
-        // A sphere that nearly coincides with the lamp holds its centre.
+        // A sphere that nearly coincides with the lamp contains its center.
         const glm::ivec3 centre(words_[first_sphere_ + place]);
         if (any_in({centre, centre}, is_close))
             return true;
@@ -335,8 +332,8 @@ bool SphereTree::finds_close_lamps(WorkProgress &progress) const {
     return false;
 }
 
-// A camera within twice the grid's reach is a place of the grid, and differences from it are exact. For a farther one
-// the middle of the grid takes its place, and rounding is small against the distance.
+// A camera within twice the grid's reach is a grid point with exact differences. Otherwise the grid's middle stands for
+// it, and rounding is small against the distance.
 gpu::TreeFrame SphereTree::frame(const Camera &camera) const {
     gpu::TreeFrame frame{};
     frame.camera = is_far(camera) ? glm::ivec3(0) : grid_.place(camera.position);

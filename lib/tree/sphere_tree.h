@@ -1,8 +1,8 @@
-// A tree over spheres as the kernel reads it, for scenes of so many that testing each would take too long. It does not
-// depend on the camera. Made by PreparedScene, shared by the kernels of all devices.
+// The tree of spheres as the kernel reads it, for scenes with too many to test each. Independent of the camera. Made by
+// PreparedScene, shared by all devices.
 //
-// Its shape changes nothing that is seen. So spheres that have moved a little can keep the shape of an earlier tree,
-// which takes a fraction of the time.
+// Its shape changes nothing visible. So spheres that have moved a little can keep an earlier tree's shape, which takes
+// a fraction of the time.
 #pragma once
 
 #include "lib/base/digest.h"
@@ -28,36 +28,33 @@ namespace pt {
 
 class SphereTree {
 public:
-    // Over all spheres except those left out, which are indices in ascending order; at least one sphere must remain.
-    // materials: all materials of the scene.
+    // Over all spheres except left_out, ascending indices; at least one must remain. materials: all of the scene.
     SphereTree(const SphereSource &spheres, std::span<const std::uint32_t> left_out,
                std::span<const TreeMaterial> materials, WorkProgress &progress);
 
-    // Reuses the shape of another tree over as many spheres: each sphere gets the place that its index has there.
-    // Nothing if a new tree is needed: it would be much better, other spheres are left out, or one of the two trees has
-    // twins, which share a place.
+    // Reuses another tree's shape: each sphere gets the place of its index there. Nothing if a new tree is needed,
+    // because it would be much better, other spheres are left out, or one of the trees has twins, which share a place.
     static std::optional<SphereTree> with_shape_of(const SphereTree &other, const SphereSource &spheres,
                                                    std::span<const std::uint32_t> left_out,
                                                    std::span<const TreeMaterial> materials, WorkProgress &progress);
 
     const Grid &grid() const { return grid_; }
 
-    // The tree buffer of gpu_layout.h: the whole, and its parts.
+    // The tree buffer (gpu_layout.h) and its parts.
     const std::vector<glm::uvec4> &words() const { return words_; }
     std::span<const glm::uvec4> node_words() const { return std::span(words_).first(first_sphere_); }
     std::span<const glm::uvec4> sphere_words() const { return std::span(words_).subspan(first_sphere_); }
 
-    // The tree as a camera sees it.
+    // For a camera.
     gpu::TreeFrame frame(const Camera &camera) const;
 
-    // Adds the grid and what is held of each sphere, in the order of the scene, wherever its place is.
+    // Adds the grid and each sphere's words, in the scene's order, independent of places.
     void add_to(Digest &digest) const;
 
-    // Roughly how many nodes a ray through the tree meets: the sum of their surface areas as shares of that of the
-    // root.
+    // Approximate number of nodes that a ray through the tree meets: the sum of their surface areas over the root's.
     double cost() const { return cost_; }
 
-    // The number of spheres without twins, the number of nodes, and the number of nodes on the way to the deepest one.
+    // Spheres without twins, nodes, and nodes on the longest way down.
     std::uint32_t sphere_count() const { return sphere_count_; }
     std::uint32_t node_count() const { return node_count_; }
     std::uint32_t depth() const { return depth_; }
@@ -65,21 +62,21 @@ public:
     Kinds kinds() const { return kinds_; }
     bool has_opacities() const { return has_opacities_; }
 
-    // For each place, the index of its sphere in the scene; and the number of spheres in the scene.
+    // Per place the sphere's index in the scene, and the scene's number of spheres.
     std::span<const std::uint32_t> spheres() const { return *spheres_; }
     std::uint32_t scene_sphere_count() const { return scene_sphere_count_; }
     bool has_colors() const { return has_colors_; }
 
-    // The material of each lamp. Lamps are numbered in the order of the scene.
+    // By lamp number. Lamps are numbered in the scene's order.
     const std::vector<std::uint32_t> &lamp_materials() const { return lamp_materials_; }
 
-    // The sphere of a lamp, as the kernel holds it.
+    // As the kernel holds it.
     Sphere lamp(std::uint32_t number) const;
 
-    // Whether the camera is inside some sphere at any time, or so close to one that float32 cannot tell.
+    // Whether the camera is ever inside a sphere, or float32 cannot tell.
     bool may_hold(const Camera &camera) const;
 
-    // Whether parallel rays of the camera may start on both sides of some sphere (seen_scene.h).
+    // Whether parallel rays may start on both sides of a sphere (seen_scene.h).
     bool divides_start(const Camera &camera) const;
 
     // The least depth of the spheres from a camera. of_region: a lower bound of the depth of everything in a ball.
@@ -89,18 +86,18 @@ public:
     // The box of all spheres at any time.
     PointBox bounds() const { return {grid_.point(box_.low), grid_.point(box_.high)}; }
 
-    // Whether some lamp and another sphere nearly coincide (twins.h).
+    // Whether a lamp and another sphere nearly coincide (twins.h).
     bool has_close_lamps() const { return close_lamps_; }
 
 private:
-    // An emitting sphere, with its index and that of its material in the scene.
+    // An emitting sphere; indices are the scene's.
     struct FoundLamp {
         std::uint32_t sphere;
         std::uint32_t place;
         std::uint32_t material;
     };
 
-    // Without a shape yet, so without words.
+    // Without shape and words yet.
     SphereTree(const SphereExtent &extent, const SphereSource &spheres, std::span<const std::uint32_t> left_out);
 
     void make_room(std::size_t node_count, WorkProgress &progress);
@@ -124,15 +121,14 @@ private:
     bool has_colors_;
     bool has_opacities_;
     std::uint32_t scene_sphere_count_;
-    std::vector<std::uint32_t> left_out_; // of these
+    std::vector<std::uint32_t> left_out_; // scene indices
     std::uint32_t depth_ = 0;
     std::uint32_t sphere_count_ = 0;
     std::uint32_t node_count_ = 0;
-    std::shared_ptr<const std::vector<std::uint32_t>>
-        spheres_; // of the places, by their indices; shared with the shape
+    std::shared_ptr<const std::vector<std::uint32_t>> spheres_; // scene indices by place; shared with the shape
     double cost_ = 0.0;
     double cost_as_made_ = 0.0;      // of the tree for which the shape was made
-    std::uint32_t first_sphere_ = 0; // words of the buffer, each the end of the block before
+    std::uint32_t first_sphere_ = 0; // first words of the blocks
     std::uint32_t first_motion_ = 0;
     std::uint32_t first_surface_ = 0;
     std::uint32_t first_color_ = 0;

@@ -5,8 +5,7 @@ namespace pt {
 
 namespace {
 
-// The float next to a radius whose last bits are the opacity, so that reading it takes no time: a word of its own took
-// walks on lavapipe a fifth longer.
+// The float next to the radius whose last bits are the opacity; a word of its own would cost walks time.
 std::uint32_t radius_bits(const Sphere &sphere) {
     const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(sphere.radius));
     if (sphere.opacity == no_opacity)
@@ -16,7 +15,7 @@ std::uint32_t radius_bits(const Sphere &sphere) {
     return ((bits + half - opacity) & ~gpu::TREE_OPACITY_STEPS) + opacity;
 }
 
-// For numbers that fit into an int: std::ceil is a function call in code for old processors.
+// For int-sized numbers: std::ceil is a function call for old processors.
 int ceiling(double number) {
     const auto whole = static_cast<int>(number);
     return whole + (whole < number ? 1 : 0);

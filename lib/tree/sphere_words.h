@@ -1,4 +1,4 @@
-// A surface as the kernel reads it from a tree (gpu_layout.h), and back. Which kind it is only moving_ball.h knows.
+// A surface in the words of a tree (gpu_layout.h), and back. Only moving_ball.h tells kinds apart.
 #pragma once
 
 #include "lib/scene/scene.h"
@@ -12,9 +12,8 @@
 
 namespace pt {
 
-// Everything that the kernel knows about where a surface is.
 struct SphereWords {
-    glm::uvec4 place; // of its centre on the grid; the bits of its radius
+    glm::uvec4 place; // center on the grid; the radius's bits
     glm::uvec4 way{0};
 
     SphereWords(const glm::uvec4 &place_of, const glm::uvec4 &way_of) : place(place_of), way(way_of) {}
@@ -22,13 +21,13 @@ struct SphereWords {
 
     std::array<std::uint32_t, 8> all() const { return std::bit_cast<std::array<std::uint32_t, 8>>(*this); }
 
-    // From time 0 to 1 or from end to end.
+    // From time 0 to 1, or from end to end.
     MovingBall surface(const Grid &grid) const;
 
     // The box of all that the surface takes up. The margin of the kernel covers what rounding adds.
     GridBox box(const Grid &grid) const;
 
-    // Centre and radius, in grid steps, of the ball around the surface. Equal for twins.
+    // Center and radius, in grid steps, of the ball around the surface. Equal for twins.
     std::array<float, 4> ball(const Grid &grid) const;
 
 private:
@@ -36,7 +35,7 @@ private:
     double radius() const { return std::bit_cast<float>(place.w); }
 };
 
-// Ten bits for the square root of each component, so that dark colors are kept apart as well as bright ones.
+// Ten bits for each component's square root, which resolves dark colors as well as bright ones.
 std::uint32_t color_word(const glm::vec3 &color);
 
 } // namespace pt

@@ -11,18 +11,16 @@ namespace pt {
 
 namespace {
 
-// Every ray tests each of these spheres. Testing this many takes as long as a walk through a tree (default_tree_from),
-// so a picture takes at most twice as long. In the tree they would cost more: its boxes grow by 2^-19 of its reach, and
-// rays test all spheres that are closer together than that.
+// Every ray tests these spheres. As many take the time of a walk through a tree (default_tree_from), so a picture takes
+// at most twice the time. In the tree they would cost more: boxes grow by 2^-19 of its reach, and rays test all spheres
+// that are closer together.
 constexpr std::size_t most_outlying = 50;
 
-// Spheres nearer than this stay in the tree. They cost its grid up to four of 29 bits, which leaves more than float32
-// has.
+// Spheres nearer than this stay in the tree, at up to four of the grid's 29 bits, which leaves more than float32 has.
 constexpr double much_farther = 16.0;
 
-// So many surfaces that are no balls are left out of the tree at the most, such as the twelve edges of a cell. Every
-// ray tests them, but a walk then takes all of the tree for balls: 300 or 3,000 in a cell took .81 and .77 of the CPU
-// seconds.
+// Largest number of surfaces that are no balls outside a tree, such as the twelve edges of a cell. Every ray tests
+// them, but walks are faster in a tree of balls alone.
 constexpr std::size_t few_others = 16;
 
 // The medians of the coordinates of about a thousand spheres.
@@ -50,7 +48,7 @@ std::vector<std::uint32_t> outlying_spheres(const SphereSource &spheres, WorkPro
     const std::size_t few = std::min(most_outlying, spheres.size() / 2);
     const glm::dvec3 middle = middle_of(spheres);
 
-    // The farthest spheres and one more, the farthest first.
+    // The farthest spheres and one more, farthest first.
     using Reach = std::pair<double, std::uint32_t>;
     std::vector<Reach> farthest;
     spheres.for_each(progress, [&](std::size_t i, const Sphere &sphere, const glm::vec3 &) {
@@ -76,7 +74,7 @@ std::uint32_t tree_pays_from(const SphereSource &spheres) {
     return spheres.are_mere_balls() ? default_tree_from : tree_of_others_from;
 }
 
-// Only walks through the tree know opacities; of hidden spheres, none is below 1.
+// Only walks through the tree know opacities; hidden spheres have none below 1.
 std::vector<std::uint32_t> spheres_beside_tree(const SphereSource &spheres, WorkProgress &progress) {
     const std::vector<std::uint32_t> outlying = outlying_spheres(spheres, progress);
     std::vector<std::uint32_t> beside;
