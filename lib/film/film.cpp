@@ -14,8 +14,7 @@ namespace pt {
 
 namespace {
 
-// The largest tile in memory, 7 MB, unless a single row is longer. So little is held twice while another film's tiles
-// cut it.
+// Largest tile in memory, 7 MB, unless a row is longer: so little is held twice while another film's tiles cut it.
 constexpr std::uint32_t most_tile_pixels = 1U << 16;
 
 std::string where(const Rectangle &pixels) {
@@ -62,7 +61,7 @@ std::vector<FilmTile> Film::list() const {
     return tiles;
 }
 
-// Throws PT_ERROR_INCOMPATIBLE if a pixel has a sample both here and in others, whose map is given.
+// Throws PT_ERROR_INCOMPATIBLE if a pixel has a sample both here and in others. map: of others.
 void Film::require_disjoint(const std::vector<FilmTile> &others, const TileMap &map) const {
     for (const Tile &own : tiles_)
         for (const TileMap::Piece &piece : map.cut(own.pixels))
@@ -70,8 +69,7 @@ void Film::require_disjoint(const std::vector<FilmTile> &others, const TileMap &
                 require_apart(others[*piece.tile].samples, own.samples, where(piece.pixels));
 }
 
-// Cuts tile by tile, so that only one tile at a time is held twice. Afterwards each tile lies within one tile of the
-// map, or outside all of them.
+// Tile by tile, so that only one is held twice. Each tile then lies within one tile of the map, or outside all of them.
 void Film::cut_along(const TileMap &map) {
     const std::size_t count = tiles_.size();
     for (std::size_t i = 0; i < count; ++i) {
@@ -87,7 +85,7 @@ void Film::cut_along(const TileMap &map) {
     }
 }
 
-// The parts of these tiles that lie outside all tiles of a map.
+// The parts of tiles outside all tiles of the map.
 std::vector<Film::Tile> Film::outside(const TileMap &map, std::vector<Tile> tiles) {
     std::vector<Tile> found;
     for (Tile &tile : tiles)
@@ -101,8 +99,8 @@ std::vector<Film::Tile> Film::outside(const TileMap &map, std::vector<Tile> tile
     return found;
 }
 
-// Adds the pixels that another tile shares with this one. samples: of both together. If a film has to move to another
-// split, all its samples are on one side of that.
+// Adds the pixels that another tile shares with this one. samples: of both. If a film moves to another split, all its
+// samples are on one side of it.
 void Film::add_to(Tile &tile, const Tile &other, SampleSet samples) noexcept {
     const std::uint64_t split = split_of(samples.hull());
     const std::uint64_t others_split = split_of(other.samples.hull());
@@ -130,7 +128,7 @@ void Film::add(Film other) {
     cut_along(theirs);
     std::vector<FilmTile> sum = list();
     const TileMap own(sum);
-    std::vector<std::pair<std::size_t, std::size_t>> meetings; // an own tile, and that of the other with its pixels
+    std::vector<std::pair<std::size_t, std::size_t>> meetings; // an own tile, and the other's with its pixels
     for (std::size_t i = 0; i < tiles_.size(); ++i)
         if (const TileMap::Span *const span = theirs.find(tiles_[i].pixels.x, tiles_[i].pixels.y)) {
             meetings.emplace_back(i, span->tile);
@@ -170,8 +168,7 @@ void Film::stream(const FilmStream::Receive &receive) const {
     stream.end();
 }
 
-// One plane of a tile in the bytes, whose pixels are in these pieces, each from one tile in memory: row by row, in the
-// order of the bytes.
+// Streams a plane of a tile, row by row. Each piece is in one tile in memory.
 void Film::stream_plane(const std::vector<TileMap::Piece> &pieces, std::uint32_t part, std::size_t plane,
                         FilmStream &stream) const {
     for (auto first = pieces.begin(); first != pieces.end();) {
@@ -227,15 +224,15 @@ void Film::read(const Rectangle &pixels, std::uint32_t quantity, const ReceiveRo
 }
 
 void Film::read_rows_from(std::uint32_t first_row, PixelSums &sums) const {
-    sums.clear(); // where no tile is
+    sums.clear(); // for pixels without a tile
     const Rectangle rows{bounds_.x, bounds_.y + first_row, bounds_.width,
                          static_cast<std::uint32_t>(sums.pixel_count() / bounds_.width)};
     for (const Tile &tile : tiles_)
         sums.copy(rows, tile.sums, tile.pixels);
 }
 
-// The error as a context states it for a film with these samples. If no context can have such tiles, all pixels are
-// treated as if they had the fewest samples, and nothing is known about what has changed.
+// As in a context with these samples. If no context can have such tiles, all pixels count as if they had the fewest
+// samples, and every tile as changed.
 ErrorEstimate Film::error() const {
     if (const std::optional<TileSamples> samples = tile_samples(header_.tiles, bounds_))
         return error(*samples, errors_);
@@ -246,7 +243,7 @@ ErrorEstimate Film::error() const {
 ErrorEstimate Film::error(const TileSamples &samples, FilmErrors &errors) const {
     if (samples.least() < min_estimate_samples)
         return unknown_error();
-    // How small the scene's lamps are the film does not know.
+    // A film has no scene, so small lamps are ignored.
     const bool by_chance = finds_lamps_by_chance(facts_.estimator, facts_.max_path_length);
     ErrorEstimator estimator({facts_.sampler, by_chance, by_chance});
     for (const TileErrors &tile : look_at(samples, errors))

@@ -1,5 +1,5 @@
-// A film as a value on the host: its header, and the exact sums of its tiles. It is opened from bytes, added to, read
-// as an image and written again, without a device. Behind pt_film.
+// A film on the host: its header, and its tiles' exact sums. Opened from bytes, added to, read as an image and written
+// again, without a device. Behind pt_film.
 #pragma once
 
 #include "lib/film/adaptive_rule.h"
@@ -22,52 +22,50 @@ namespace pt {
 
 class Film {
 public:
-    // Throws PT_ERROR_INCOMPATIBLE if the bytes are not a film, are damaged, or claim what no picture can have.
+    // Throws PT_ERROR_INCOMPATIBLE if the bytes are no film, damaged, or of an impossible picture.
     explicit Film(std::span<const std::byte> bytes);
 
     const FilmFacts &facts() const { return facts_; }
 
-    // With its tiles in canonical form.
+    // Tiles are in canonical form.
     const FilmHeader &header() const { return header_; }
 
-    // The smallest rectangle of the image that contains all pixels of the film.
+    // The smallest rectangle of the image with all of the film's pixels.
     const Rectangle &bounds() const { return bounds_; }
 
-    // Adds the samples of another film in place; beyond that film it takes little memory. Throws PT_ERROR_INCOMPATIBLE
-    // if that is of another picture or a pixel has the same sample in both. If it throws, or memory is lacking, nothing
-    // has changed.
+    // Adds another film in place, with little more memory. Throws PT_ERROR_INCOMPATIBLE if it is of another picture or
+    // a pixel has the same sample in both. After an exception nothing has changed.
     void add(Film other);
 
-    // Writes into memory of the size that the layout of header() asks for.
+    // bytes: of the size of header()'s layout.
     void write(std::span<std::byte> bytes) const;
 
-    // Hands out the same bytes, piece by piece.
+    // Hands out the same bytes piece by piece.
     void stream(const FilmStream::Receive &receive) const;
 
-    // The fewest samples of any pixel within the bounds; 0 if some pixel has none.
+    // The fewest of any pixel within the bounds; 0 if one has none.
     std::uint64_t sample_count() const;
     std::uint64_t max_sample_count() const;
-    std::uint64_t total_samples() const; // of all pixels together
+    std::uint64_t total_samples() const; // summed over pixels
 
-    // Calls receive(x, y, values) for all pixels of the film that lie in a rectangle of the image: consecutive ones of
-    // a row, row by row from the left to the right. quantity: as for PixelSums::values().
+    // Calls receive(x, y, values) for the film's pixels in a rectangle of the image: runs within rows, in order.
+    // quantity: as for PixelSums::values().
     using ReceiveRow = std::function<void(std::uint32_t x, std::uint32_t y, const std::vector<float> &values)>;
     void read(const Rectangle &pixels, std::uint32_t quantity, const ReceiveRow &receive) const;
 
-    // The error of the image within the bounds.
+    // Of the image within the bounds.
     ErrorEstimate error() const;
 
-    // Samples left out of all pixels.
+    // Summed over pixels.
     std::uint64_t rejected_samples() const;
 
-    // The samples by tile of a grid over the bounds. Throws PT_ERROR_INCOMPATIBLE if the tiles of the film cut those of
-    // the grid.
+    // For a grid over the bounds. Throws PT_ERROR_INCOMPATIBLE if the film's tiles cut the grid's.
     TileSamples samples_by_tile() const;
 
     // What the tiles are to take next (adaptive_rule.h). Moves on to the next round where one is over.
     std::optional<TileStep> plan(const TileSamples &samples, double target_error, std::uint64_t most);
 
-    // The number of tiles in the grid over the bounds, as in samples_by_tile().
+    // Of the grid over the bounds.
     std::size_t tile_count() const { return TileGrid{bounds_.width, bounds_.height}.count(); }
 
 private:
@@ -80,7 +78,7 @@ private:
     ErrorEstimate error(const TileSamples &samples, FilmErrors &errors) const;
     std::span<const TileErrors> look_at(const TileSamples &samples, FilmErrors &errors) const;
     double unit() const { return std::ldexp(1.0, facts_.unit_exponent); }
-    void read_rows_from(std::uint32_t first_row, PixelSums &sums) const; // as many as these are, of the bounds
+    void read_rows_from(std::uint32_t first_row, PixelSums &sums) const; // fills sums with rows of the bounds
     std::vector<FilmTile> list() const;
     void require_disjoint(const std::vector<FilmTile> &others, const TileMap &map) const;
     void cut_along(const TileMap &map);
@@ -91,9 +89,9 @@ private:
 
     FilmFacts facts_;
     std::vector<Tile> tiles_;
-    FilmHeader header_; // of them
+    FilmHeader header_; // of the tiles
     Rectangle bounds_;
-    mutable FilmErrors errors_; // of looks before, so that the next is at what has changed
+    mutable FilmErrors errors_; // of earlier looks, so that the next sees only changed tiles
 };
 
 } // namespace pt

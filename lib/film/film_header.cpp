@@ -20,17 +20,17 @@ constexpr std::string_view tile_name = "tile";
 constexpr std::string_view samples_name = "samples";
 constexpr std::string_view round_name = "round";
 
-// Far more rounds than any error in double precision can take.
+// Far more rounds than double-precision errors can take.
 constexpr std::uint64_t max_round = 10'000;
 
-// Several times the number that exists. Without a limit, short lines would take many times their length in memory.
+// Several times the present number. Limits memory, as short lines would take many times their length.
 constexpr std::size_t max_facts = 100;
 
 [[noreturn]] void refuse(const std::string &message) {
     throw Error(PT_ERROR_INCOMPATIBLE, "film: " + message);
 }
 
-// Removes a line from the beginning of a text and returns it.
+// Removes a text's first line and returns it.
 std::string_view take_line(std::string_view &text) {
     const std::size_t end = text.find('\n');
     if (end == std::string_view::npos)
@@ -42,7 +42,7 @@ std::string_view take_line(std::string_view &text) {
     return line;
 }
 
-// The numbers of a line, separated by blanks. Nothing if there are more or fewer of them, or anything else.
+// Numbers separated by blanks; nothing if there are more, fewer, or anything else.
 template <std::size_t Count>
 std::optional<std::array<std::uint64_t, Count>> numbers(std::string_view text) {
     std::array<std::uint64_t, Count> values{};

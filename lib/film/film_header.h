@@ -1,5 +1,5 @@
-// What a film's bytes say before its sums: of which picture it is, and which samples of which pixels it has. Text, a
-// line for each fact; FORMAT.md describes it. Written and read by film_bytes.
+// A film's header: its picture, and the samples of its pixels. Text, a line per fact (FORMAT.md). Written and read by
+// film_bytes.
 #pragma once
 
 #include "lib/film/sample_set.h"
@@ -14,7 +14,7 @@
 
 namespace pt {
 
-// Everything that decides the bits of the samples, as names and values. Films can be added only if these are equal.
+// All that decides the samples' bits, as names and values. Films can be added only if these are equal.
 struct FilmFact {
     std::string name;
     std::string value;
@@ -23,7 +23,7 @@ struct FilmFact {
 };
 using FilmIdentity = std::vector<FilmFact>;
 
-// A rectangle of the image, in pixels from its top left corner.
+// In pixels from the image's top left corner.
 struct Rectangle {
     std::uint32_t x, y, width, height;
 
@@ -31,7 +31,7 @@ struct Rectangle {
     std::uint32_t right() const { return x + width; }
     std::uint32_t bottom() const { return y + height; }
 
-    // The index of a pixel of the image among those of the rectangle, row by row.
+    // Index of an image's pixel within the rectangle, row by row.
     std::size_t index_of(std::uint32_t column, std::uint32_t row) const {
         return std::size_t{row - y} * width + (column - x);
     }
@@ -39,14 +39,14 @@ struct Rectangle {
     bool operator==(const Rectangle &) const = default;
 };
 
-// The pixels that both have; without width or height if there are none.
+// The intersection; width or height 0 if empty.
 inline Rectangle common(const Rectangle &a, const Rectangle &b) {
     const std::uint32_t x = std::max(a.x, b.x);
     const std::uint32_t y = std::max(a.y, b.y);
     return {x, y, std::max(std::min(a.right(), b.right()), x) - x, std::max(std::min(a.bottom(), b.bottom()), y) - y};
 }
 
-// Pixels that have the same samples.
+// Pixels with the same samples.
 struct FilmTile {
     Rectangle pixels;
     SampleSet samples;
@@ -54,17 +54,17 @@ struct FilmTile {
     bool operator==(const FilmTile &) const = default;
 };
 
-// How far a film has come on its way to a target error, by the rule of adaptive_rule.h.
+// Progress towards a target error, by adaptive_rule.h.
 struct AdaptiveRound {
     static constexpr std::int32_t none = std::numeric_limits<std::int32_t>::min();
 
-    std::int32_t number = none; // the bound is 2^(-number / 2), of squared relative error a sample and pixel
+    std::int32_t number = none; // the bound is 2^(-number / 2), of squared relative error per sample and pixel
     std::uint64_t floor = 0;    // samples that every pixel is to have
 
     bool operator==(const AdaptiveRound &) const = default;
 };
 
-// The round of two films that are added.
+// Of two films that are added.
 inline AdaptiveRound later_of(const AdaptiveRound &a, const AdaptiveRound &b) {
     return {std::max(a.number, b.number), std::max(a.floor, b.floor)};
 }
@@ -77,10 +77,10 @@ struct FilmHeader {
     bool operator==(const FilmHeader &) const = default;
 };
 
-// The text ends with an empty line.
+// Ends with an empty line.
 std::string text_of(const FilmHeader &header);
 
-// Reads what text_of has written. Throws PT_ERROR_INCOMPATIBLE if a letter differs from that, or the version.
+// The inverse of text_of. Throws PT_ERROR_INCOMPATIBLE for any other text or version.
 FilmHeader parsed_film_header(std::string_view text);
 
 } // namespace pt

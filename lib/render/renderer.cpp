@@ -1,5 +1,5 @@
-// What a renderer has: devices, scene, camera, settings, kernels; see renderer.h. How it takes samples is in
-// renderer_samples.cpp, what it gives of them in renderer_output.cpp.
+// A renderer's state: devices, scene, camera, settings, kernels; see renderer.h. renderer_samples.cpp takes samples,
+// renderer_output.cpp reads them.
 #include "lib/render/renderer.h"
 
 #include "lib/base/error.h"
@@ -27,7 +27,7 @@ std::vector<pt_device_info> list_devices() {
     return describe_all(vulkan::Instance(Log{}, false));
 }
 
-// The code first: where it does not compile, no device is touched.
+// The code first: if it does not compile, no device is touched.
 Renderer::Renderer(const CreateSettings &settings) :
     source_(settings.shader_directory),
     code_(source_.read()),

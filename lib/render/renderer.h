@@ -1,4 +1,5 @@
-// The loop from settings to exact sums: specialise, dispatch slices, read back. One per pt_context, called by api.cpp.
+// From settings to exact sums: specialises kernels, dispatches slices, reads back. One per pt_context, called by
+// api.cpp.
 #pragma once
 
 #include "lib/base/log.h"
@@ -36,28 +37,28 @@
 
 namespace pt {
 
-// pt_create_info, checked, with its defaults applied.
+// A valid pt_create_info, with defaults applied.
 struct CreateSettings {
     bool validation = false;
-    bool scene_kernels = true;    // with a scene's numbers as constants, where they are faster
+    bool scene_kernels = true;    // with a scene's numbers as constants, if faster
     std::string device;           // empty: the best
-    std::string shader_directory; // empty: the kernels in the library
+    std::string shader_directory; // empty: the library's kernels
     Log log;
     std::uint32_t submit_milliseconds = 50;
-    std::optional<vulkan::CallerVulkan> vulkan; // the device, without validation; or else the library makes its own
+    std::optional<vulkan::CallerVulkan> vulkan; // empty: the library makes its own device; else without validation
     vulkan::KernelStore kernel_store;
-    std::uint32_t devices_of_each = 1; // render devices on each that is named: tests share work where there is one
-    bool like_gpus = false;            // CPUs are used as GPUs are: for tests without one
+    std::uint32_t devices_of_each = 1;          // render devices per named one, so that tests can share work on one
+    bool like_gpus = false;                     // treats CPUs like GPUs, for tests without a GPU
     std::optional<std::uint32_t> tree_from{};   // for tests of trees over few spheres
-    std::optional<std::uint32_t> adaptive_from; // likewise: for tests of few samples
+    std::optional<std::uint32_t> adaptive_from; // for tests of few samples
 };
 
 // All Vulkan devices of this machine.
 std::vector<pt_device_info> list_devices();
 
-// Methods throw pt::Error. A method that fails has changed nothing, except that a lost device stays lost, and that
-// methods that take samples keep whole ones. While samples are under way, only poll(), cancel() and const methods may
-// be called.
+// Methods throw pt::Error. A failed method has changed nothing, except that a lost device stays lost, and that methods
+// that take samples keep whole ones. While samples are under way, only poll(), cancel() and const methods may be
+// called.
 class Renderer {
 public:
     explicit Renderer(const CreateSettings &settings);
@@ -65,44 +66,43 @@ public:
     const Log &log() const { return instance_.log(); }
     const pt_device_info &device() const { return devices_.front()->device().info(); }
 
-    // The size of what is rendered and read back: all columns of the image, and the rows that the settings ask for.
+    // Of the rendered image: all columns, and the rows in the settings.
     std::uint32_t width() const { return settings_ ? settings_->width : 0; }
     std::uint32_t row_count() const { return settings_ ? settings_->row_count : 0; }
 
-    // Whether the caller has lent it its device.
     bool is_on_lent_device() const { return devices_.front()->device().is_borrowed(); }
 
-    // Each setter discards the samples so far.
+    // Setters discard the samples.
     void set_scene(CheckedScene scene, WorkProgress &progress);
     void set_camera(const Camera &camera);
     void set_render(const RenderSettings &settings);
 
-    // Compiles the kernels again. If any has changed, the samples so far are discarded.
+    // Compiles the kernels again; discards the samples if any has changed.
     void reload_shaders();
 
-    // Replaces the kernels on all devices, or on none if a driver refuses them.
+    // On all devices, or on none if a driver refuses.
     void set_code(const KernelCode &code);
 
-    // Builds what accumulate() will need.
+    // Builds the kernels of accumulate().
     void prepare();
 
-    // Takes samples: PT_OK, PT_CANCELLED or PT_TARGET_REACHED.
+    // Returns PT_OK, PT_CANCELLED or PT_TARGET_REACHED.
     pt_result accumulate(const pt_accumulate_info &wanted);
 
-    // The same, without waiting: PT_PENDING if samples are under way when it returns, or PT_TARGET_REACHED.
+    // The same without waiting: PT_PENDING if samples are under way, or PT_TARGET_REACHED.
     pt_result start(const pt_accumulate_info &wanted);
 
     struct Advance {
-        pt_result result; // PT_PENDING while samples are under way, then that of accumulate()
-        double fraction;  // of the samples
+        pt_result result; // PT_PENDING while samples are under way, then accumulate()'s
+        double fraction;  // done share of the samples
     };
 
-    // Takes in samples that are done and deals out the next, for at most this long. If it throws, no samples are under
-    // way any more.
+    // Takes in finished samples and deals out the next, for at most this long. If it throws, no samples are under way
+    // any more.
     Advance poll(std::uint64_t nanoseconds);
 
-    // Begins no more samples; poll() tells when those under way have ended. False if there are none. May be called by
-    // any thread.
+    // Begins no more samples; poll() returns when the present ones have ended. False if nothing is under way. Any
+    // thread.
     bool cancel() noexcept { return cancellation_.ask(); }
     static constexpr const char *nothing_under_way = "no samples are under way: call pt_start first";
 
@@ -111,7 +111,7 @@ public:
     void readback(const Image &image);
     void readback(const BufferImage &image);
 
-    // The same for an image without gaps, in memory that stays until the next call, set_render() or reload_shaders().
+    // An image without gaps, in memory valid until the next call, set_render() or reload_shaders().
     std::span<std::byte> map(const ImageLayout &layout);
 
     // The film of the samples so far.
@@ -125,11 +125,11 @@ public:
     // rendering, because films that are added elsewhere do not know about lamps.
     ErrorEstimate error_with_lamps();
 
-    // The accuracy of the kernel's elementary functions on the first device. Leaves the samples alone.
+    // Of the first device's elementary functions. Leaves the samples alone.
     std::vector<pt_function_accuracy> accuracy();
 
 private:
-    // The samples that are being taken.
+    // A call that takes samples.
     struct Job {
         double target_error;              // relative; 0: none
         std::uint64_t most;               // samples that a pixel is to have
@@ -179,17 +179,17 @@ private:
     FilmView view_{devices_};
     std::optional<PreparedScene> scene_;
     std::optional<Camera> camera_;
-    std::optional<RenderSettings> settings_;            // the devices have films if it is there
-    std::shared_ptr<const GpuScene> gpu_scene_;         // of the three above; NULL where one has changed
-    TileSamples samples_;                               // whole ones
-    AdaptiveRound round_;                               // that they have come to
-    std::optional<ErrorEstimate> error_;                // of them, once it has been asked for
+    std::optional<RenderSettings> settings_;            // if set, the devices have films
+    std::shared_ptr<const GpuScene> gpu_scene_;         // of the three above; NULL after a change
+    TileSamples samples_;                               // in the films
+    AdaptiveRound round_;                               // reached by the samples
+    std::optional<ErrorEstimate> error_;                // of the samples; computed on demand
     std::optional<std::uint64_t> rejected_samples_;     // likewise
     std::vector<double> tile_squares_;                  // likewise; empty until then
     std::vector<std::byte> mapped_image_;               // as far as the host makes images that are mapped
     std::optional<std::vector<LampPiece>> small_lamps_; // of the scene, camera and settings, once they are asked for
     DeviceWork work_;
-    Cancellation cancellation_; // of what job_ is, or is about to be
+    Cancellation cancellation_; // of job_, present or about to begin
     std::unique_ptr<Job> job_;  // while samples are under way
 };
 

@@ -1,4 +1,4 @@
-// What a renderer gives of its samples, and takes in of others: the error, images, films, figures; see renderer.h.
+// A renderer's output: errors, images, films, statistics; see renderer.h.
 #include "lib/base/error.h"
 #include "lib/film/film_bytes.h"
 #include "lib/film/film_facts.h"
@@ -20,7 +20,7 @@ namespace pt {
 
 namespace {
 
-// Of a quantity that is_of_first_hits. Kernels know surfaces by other numbers than callers.
+// quantity: must satisfy is_of_first_hits(). Translates kernels' surface numbers to callers'.
 void read_first_hits(const Image &image, const RenderSettings &settings, const std::shared_ptr<const GpuScene> &scene,
                      RenderDevice &device) {
     FirstHitQuery query{image.layout.pixels, image.layout.quantity, image.layout.format};
@@ -39,8 +39,8 @@ void read_first_hits(const Image &image, const RenderSettings &settings, const s
     });
 }
 
-// Both numbers are below 2^32, so the quotient in double, rounded to float, is the correctly rounded one, except within
-// 2^-53 of the middle of two floats.
+// Both numbers are below 2^32, so the double quotient, rounded to float, is correctly rounded, except within 2^-53 of
+// the middle of two floats.
 void read_coverage(const Image &image, const TileSamples &samples, const RenderSettings &settings,
                    const std::shared_ptr<const GpuScene> &scene, RenderDevice &device) {
     const Rectangle &pixels = image.layout.pixels;
@@ -62,8 +62,7 @@ void read_coverage(const Image &image, const TileSamples &samples, const RenderS
 
 } // namespace
 
-// Parallel rays may come from anywhere far away, so the size of a lamp is judged from where the kernel's coordinates
-// begin.
+// Parallel rays may start far away, so lamps' sizes are judged from where the kernel's coordinates begin.
 Camera Renderer::ray_start() {
     Camera start = *camera_;
     if (start.is_orthographic())
@@ -134,7 +133,7 @@ void Renderer::readback(const Image &image) {
     const bool is_of_hits = is_of_first_hits(image.layout.quantity);
     if (!is_of_hits)
         require_samples();
-    if (is_of_hits) // a few rays a pixel: one device does
+    if (is_of_hits) // few rays per pixel, so one device
         read_first_hits(image, *settings_, gpu_scene_of_settings(), *devices_.front());
     else if (image.layout.quantity == PT_QUANTITY_COVERAGE)
         read_coverage(image, samples_, *settings_, gpu_scene_of_settings(), *devices_.front());
@@ -142,7 +141,7 @@ void Renderer::readback(const Image &image) {
         view_.read(image, query(image.layout), samples_);
 }
 
-// If no device makes the image in memory that the host can read, the host makes it in its own.
+// If no device makes the image in memory that the host can read, the host makes it.
 std::span<std::byte> Renderer::map(const ImageLayout &layout) {
     require_settings();
     if (layout.quantity <= PT_QUANTITY_SAMPLE_COUNT) {
@@ -193,7 +192,7 @@ void Renderer::save_film(const FilmHeader &header, std::span<std::byte> bytes) c
     save(FilmView::films(devices_), samples_, header, pixels(), bytes);
 }
 
-// Afterwards all samples are in the first device's film.
+// All samples are then in the first device's film.
 void Renderer::add_film(std::span<const std::byte> bytes) {
     require_settings();
     const FilmReader film(bytes);

@@ -1,4 +1,4 @@
-// How a renderer takes samples: as many as are asked for, or until an error is reached; see renderer.h.
+// Takes samples: a given number, or up to a target error; see renderer.h.
 #include "lib/base/error.h"
 #include "lib/film/adaptive_rule.h"
 #include "lib/kernel/gpu_scene.h"
@@ -22,7 +22,7 @@ Error too_many_samples(std::uint32_t sample_count, const std::string &reason, st
                                                   .rule = reason + std::to_string(number) + ")"}};
 }
 
-// The largest possible amount: tiles times samples.
+// Upper bound of tiles times samples.
 std::uint64_t amount_of(const pt_accumulate_info &wanted, const TileGrid &grid) {
     return wanted.tile_samples == nullptr
                ? std::uint64_t{wanted.sample_count} * grid.count()
@@ -31,7 +31,7 @@ std::uint64_t amount_of(const pt_accumulate_info &wanted, const TileGrid &grid) 
 
 } // namespace
 
-// The next sample is the first one, from first_sample on, that the film lacks.
+// The next sample is the first missing one from first_sample on.
 void Renderer::require_room_for(std::uint32_t sample_count) const {
     const std::uint64_t first = settings_->first_sample;
     for (const SampleSet &samples : samples_.sets()) {
@@ -64,7 +64,7 @@ void Renderer::begin(const pt_accumulate_info &wanted, bool is_polled) {
     }
 }
 
-// If samples will be polled, all kernels are built here; otherwise when they are needed.
+// is_polled: builds all kernels now; otherwise they are built on demand.
 void Renderer::make_job(const pt_accumulate_info &wanted, bool is_polled) {
     require_settings();
     require_tiles(wanted);
@@ -106,7 +106,7 @@ void Renderer::end_job() noexcept {
     cancellation_.end();
 }
 
-// Where paths are short, a look takes the time of more samples, so tiles are told apart later.
+// With short paths a look costs the time of more samples, so tiles are treated differently later.
 std::uint64_t Renderer::adaptive_from() const {
     const std::uint64_t samples = devices_.front()->device().policy().adaptive_from;
     return settings_->max_path_length > 2 ? samples : 4 * samples;
@@ -163,7 +163,7 @@ pt_result Renderer::advance(Accumulation::Clock::time_point until) {
     }
 }
 
-// Decides what to do next, or that everything is done.
+// Returns nothing if a step has begun, otherwise the result.
 std::optional<pt_result> Renderer::next_step() {
     const auto unless_done = [](bool goes_on) { return goes_on ? std::nullopt : std::optional<pt_result>(PT_OK); };
     if (job_->is_together && samples_.of(0).count() < job_->together_to)
@@ -173,7 +173,7 @@ std::optional<pt_result> Renderer::next_step() {
     job_->is_together = false;
     if (!job_->goals.empty())
         return unless_done(job_->accumulation.set_goal_of_all([&](std::uint32_t tile) { return job_->goals[tile]; }));
-    // A film whose tiles are not to be told apart yet comes here if it may take no sample.
+    // A film too small for adaptive sampling comes here if it may take no sample.
     if (samples_.even() && samples_.of(0).count() < adaptive_from())
         return PT_OK;
     const AdaptivePlan plan(
@@ -184,7 +184,7 @@ std::optional<pt_result> Renderer::next_step() {
     return unless_done(job_->accumulation.set_goal(step->tiles, step->goal));
 }
 
-// With a target error: from one sample count at which the error is checked to the next.
+// Goes from one sample count with an error check to the next.
 std::optional<pt_result> Renderer::next_step_together() {
     const std::uint64_t count = samples_.of(0).count();
     if (is_on_target(job_->target_error))
@@ -207,7 +207,7 @@ void Renderer::forget_error() noexcept {
     rejected_samples_.reset();
 }
 
-// Completes what has been begun, so that the films hold whole samples. If that fails as well, the films are void.
+// Completes begun samples, so that the films hold whole ones. If that fails too, the films are void.
 void Renderer::give_up() noexcept {
     try {
         if (job_->accumulation.complete())
