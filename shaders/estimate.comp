@@ -108,7 +108,7 @@ Findings findings_of(PartCount older, PartCount newer, uvec2 expected)
                     uvec2(older.done, newer.done) != expected ? 1u : 0u);
 }
 
-// In a row of the tile: left of the pixel, the pixel, right of it.
+// The pixel and its neighbors left and right, within its tile.
 Sorted row_about(uint y, uint column, uint first, uint last)
 {
     float left = column > first ? means[y][max(column, 1u) - 1u] : BELOW_ALL;

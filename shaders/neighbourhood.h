@@ -79,7 +79,7 @@ PT_FUNCTION Neighbourhood neighbourhood(Sorted above, Sorted row, Sorted below, 
     return near;
 }
 
-// In a single row or column.
+// A pixel's neighbors in a single row or column.
 PT_FUNCTION Neighbourhood neighbourhood_in_line(Sorted line)
 {
     Neighbourhood near;

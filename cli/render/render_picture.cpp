@@ -70,8 +70,7 @@ std::string ending_of(const RenderReport &report, const ImageRender::Result &ren
     return interrupted ? "signal" : rendered.ended_by.value_or(report.target_reached() ? "error" : "samples");
 }
 
-// For a rendering that no signal has stopped. A missing file outweighs missing samples, which a checkpoint can still
-// supply.
+// The outcome if no signal came. A missing file outweighs missing samples, which a checkpoint can still supply.
 ExitCode outcome_of(const RenderReport &report, const ImageRender::Result &rendered, bool all_written) {
     if (!all_written)
         return ExitCode::file;

@@ -91,7 +91,7 @@ bool is_center(const JsonPath &path) {
     return path[0].key == "spheres" && path[2].key == "center";
 }
 
-// From the beginning of a frame to its end.
+// The change from a frame's beginning to its end.
 json way_of(const AnimatedValue &value, std::uint32_t frame) {
     const std::vector<double> begin = value.at(frame);
     std::vector<double> way = value.at(frame + 1.0);

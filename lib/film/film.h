@@ -53,19 +53,19 @@ public:
     using ReceiveRow = std::function<void(std::uint32_t x, std::uint32_t y, const std::vector<float> &values)>;
     void read(const Rectangle &pixels, std::uint32_t quantity, const ReceiveRow &receive) const;
 
-    // Of the image within the bounds.
+    // The error of the image within the bounds.
     ErrorEstimate error() const;
 
     // Summed over pixels.
     std::uint64_t rejected_samples() const;
 
-    // For a grid over the bounds. Throws PT_ERROR_INCOMPATIBLE if the film's tiles cut the grid's.
+    // The samples by tile of a grid over the bounds. Throws PT_ERROR_INCOMPATIBLE if the film's tiles cut the grid's.
     TileSamples samples_by_tile() const;
 
     // What the tiles are to take next (adaptive_rule.h). Moves on to the next round where one is over.
     std::optional<TileStep> plan(const TileSamples &samples, double target_error, std::uint64_t most);
 
-    // Of the grid over the bounds.
+    // Tiles of the grid over the bounds.
     std::size_t tile_count() const { return TileGrid{bounds_.width, bounds_.height}.count(); }
 
 private:

@@ -46,7 +46,7 @@ void ImageReader::read(const ImageQuery &query, const std::function<void(std::sp
     }
 }
 
-// In a single submission, since the host has nothing else to do.
+// Uses a single submission, since the host has nothing else to do.
 std::span<std::byte> ImageReader::map(const ImageQuery &query) {
     const Pieces pieces(query);
     const std::uint64_t image_bytes = pieces.total * pieces.bytes_of_pixel;

@@ -119,8 +119,8 @@ double nearest_depth(const CurvedPlane &plane, const ParallelView &view) {
     return slope > 0.0 ? (plane.offset - across) / slope : out_of_view;
 }
 
-// The cylinder's lines nearest to the center meet the ball first. For a center at depth a and c from the line, at a
-// distance d, the root a - sqrt(r^2 - c^2) is (a^2 + c^2 - r^2) / (a + sqrt(r^2 - c^2)), which does not cancel for
+// The cylinder's lines nearest to the center meet the ball first. Let the center be at depth a and c from the line, at
+// a distance d. The root a - sqrt(r^2 - c^2) is (a^2 + c^2 - r^2) / (a + sqrt(r^2 - c^2)), which does not cancel for
 // small far balls, as d^2 - r^2 is a product.
 double depth_of_ball(const glm::dvec3 &centre, double radius, const ParallelView &view) {
     const double depth = glm::dot(centre, view.forward);

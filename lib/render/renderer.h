@@ -66,7 +66,7 @@ public:
     const Log &log() const { return instance_.log(); }
     const pt_device_info &device() const { return devices_.front()->device().info(); }
 
-    // Of the rendered image: all columns, and the rows in the settings.
+    // Size of the rendered image: all columns, and the rows in the settings.
     std::uint32_t width() const { return settings_ ? settings_->width : 0; }
     std::uint32_t row_count() const { return settings_ ? settings_->row_count : 0; }
 
@@ -125,7 +125,7 @@ public:
     // rendering, because films that are added elsewhere do not know about lamps.
     ErrorEstimate error_with_lamps();
 
-    // Of the first device's elementary functions. Leaves the samples alone.
+    // Accuracy of the first device's elementary functions. Leaves the samples alone.
     std::vector<pt_function_accuracy> accuracy();
 
 private:

@@ -70,7 +70,7 @@ public:
     // By lamp number. Lamps are numbered in the scene's order.
     const std::vector<std::uint32_t> &lamp_materials() const { return lamp_materials_; }
 
-    // As the kernel holds it.
+    // A lamp's sphere as the kernel holds it.
     Sphere lamp(std::uint32_t number) const;
 
     // Whether the camera is ever inside a sphere, or float32 cannot tell.
