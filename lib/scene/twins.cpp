@@ -124,7 +124,7 @@ bool has_close_lamps(const std::vector<SeenSphere> &spheres) {
     for (std::size_t i = 0; i < line.size(); ++i) {
         const SeenSphere &lamp = spheres[line.index(i)];
         const auto is_close = [&](std::uint32_t other) { return nearly_coincide(lamp, spheres[other]); };
-        // Other kinds are on the line where they begin, however far from there they come near the lamp.
+        // Other kinds are sorted by where they begin, perhaps far from where they come near the lamp.
         const auto is_in = [&](const SeenSphere &other) {
             return other.kind != Kind::ball && nearly_coincide(lamp, other);
         };

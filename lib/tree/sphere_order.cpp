@@ -33,7 +33,7 @@ Halves divided(const Part &part, std::uint32_t depth) {
     return part.items.size() <= most_swept ? swept_halves(part) : binned_halves(part);
 }
 
-// The context of the work.
+// Input that all steps share.
 struct Making {
     const SphereOrder &order;
     WorkProgress &progress;

@@ -1,6 +1,6 @@
-// The kernel to begin the coursework with, in place of pathtrace.comp; shaders/COURSEWORK.md has the steps. It finds
-// what a pixel's ray meets and shows its shape, without any light. Surfaces, camera and exact sums are those of the
-// library; everything else stands here, as plain as it can be.
+// The first kernel of the coursework, in place of pathtrace.comp; shaders/COURSEWORK.md has the steps. It shows the
+// shape of the surface that a pixel's ray meets, without any light. The library's code provides surfaces, camera and
+// exact sums; everything else stands here, as plain as it can be.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -33,7 +33,7 @@ uint hash(uint word)
 // A word as a multiple of 2^-24 in [0, 1).
 float unit_number(uint word) { return float(word >> 8u) / 16777216.0; }
 
-// The sample's next random number in [0, 1). The same sample always has the same numbers, whoever takes it.
+// The sample's next random number in [0, 1). A sample has the same numbers on every device.
 float next_number()
 {
     ++dimension;
@@ -64,7 +64,7 @@ struct Material {
     float glossiness;
 };
 
-// In the scene buffer the factors of reflection are in the colors already.
+// The scene buffer's colors include the factors of reflection.
 Material material_of(uint surface)
 {
     vec4 specular = specular_of(surface);
@@ -115,7 +115,7 @@ Hit nearest(Ray ray)
 
 // ---- Light --------------------------------------------------------------------------------------------------------
 
-// What a sample of the pixel sees: radiance, red, green and blue.
+// Radiance of a sample of the pixel: red, green and blue.
 vec3 sample_of(uvec2 pixel)
 {
     vec2 from_middle = image_place(frame.camera, pixel, vec2(0.5)); // through the middle of the pixel
