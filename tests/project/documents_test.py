@@ -12,9 +12,9 @@ CURRENT = [page for page in PAGES if page.name not in ("CHANGELOG.md", "NOTEBOOK
 CODE = re.compile(r"\.(h|c|cpp|glsl|comp|py|json|csv|cmake|sh)$|^CMakeLists\.txt$")
 
 # Limits of words: of a page, and of all pages but the changes.
-MOST_WORDS = {"README.md": 1260, "CONTRIBUTING.md": 1350, "cli/README.md": 5290, "shaders/README.md": 7210,
+MOST_WORDS = {"README.md": 1260, "CONTRIBUTING.md": 1350, "cli/README.md": 5290, "shaders/README.md": 7190,
               "tests/bench/README.md": 1550}
-MOST_WORDS_IN_ALL = 25_820
+MOST_WORDS_IN_ALL = 25_970
 
 # A file and its text, with groups in the same order.
 NUMBERS = (
