@@ -183,16 +183,15 @@ int run_merge(const MergeOptions &options) {
 }
 
 constexpr const char *merge_help =
-    "Samples are added exactly: the picture has the bits of one that was rendered whole, on the same\n"
-    "model of device with the same driver, in whatever order the films are named. Needs no device. A film\n"
-    "of another picture, one that is damaged and one with samples that another has already are refused,\n"
-    "with the difference, and nothing is written.\n";
+    "Samples are added exactly: in any order of films the picture has the bits of one rendering on that\n"
+    "model of device and driver. Needs no device. A film that is damaged, of another picture or repeats\n"
+    "samples is refused, with the difference, and nothing is written.\n";
 
 } // namespace
 
 void add_merge_command(CLI::App &program, Run &chosen) {
-    const auto [command, options] = add_command(
-        program, chosen, "merge", "Add films of one picture that were rendered apart", merge_help, &run_merge);
+    const auto [command, options] =
+        add_command(program, chosen, "merge", "Add films of one picture", merge_help, &run_merge);
     command.add_option("PART", options.parts, "Films of one picture (pt render --film or --checkpoint), in any order")
         ->required()
         ->type_name("PART");
@@ -200,11 +199,11 @@ void add_merge_command(CLI::App &program, Run &chosen) {
     add_output_options(command, options.output, file_layers.names().first(film_layers));
     command.option_defaults()->group("Samples");
     add_number<std::uint32_t>(command, "--first-sample", natural_number, options.first_sample,
-                              "First of the samples that there should be (default: the first there is)");
+                              "First expected sample (default: the first of the films)");
     add_number<std::uint32_t>(
         command, "--spp", positive_number, options.sample_count,
-        "How many there should be from there on; those missing are told, with exit code 7 (default: up to the "
-        "last there is)");
+        "Expected number of samples; missing ones are reported, with exit code 7 (default: up to the last of the "
+        "films)");
     add_scene_options(command, options.display, false);
     command.option_defaults()->group("Messages");
     add_quiet(command, options.output.quiet);

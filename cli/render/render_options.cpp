@@ -79,31 +79,30 @@ void add_sampling_options(CLI::App &command, RenderOptions &options) {
     add_name(
         command, "--sampling", options.sampling, [](std::string_view name) { return samplings.find(name); },
         "way to sample", samplings.names(),
-        "Which pixels get more samples: adaptive, which is best with --error, those where they lessen the error "
-        "most; uniform none (default: best)");
+        "Take the same samples in all pixels (uniform), or more where they reduce the error most (adaptive, which is "
+        "best with --error; default: best)");
     add_seconds(command, "--time", options.stopping.time_limit,
-                "Stop after S seconds of taking samples, one sample at the least (default: take all samples)");
+                "Stop after S seconds of sampling, with at least one sample (default: take all samples)");
 }
 
 void add_lasting_options(CLI::App &command, RenderOptions &options) {
     command.option_defaults()->group("Checkpoints and parts");
     add_text(command, "--checkpoint", options.checkpoint, "FILM",
-             "Keep the samples so far in FILM (.ptfilm), from which --resume goes on");
+             "Keep the samples so far in FILM (.ptfilm), for --resume");
     add_seconds(command, "--checkpoint-every", options.checkpoint_seconds,
                 "Write the checkpoint every S seconds, and at the end (default: 30)");
-    command.add_flag(
-        "--resume", options.resume,
-        "Go on from the checkpoint, to the same bytes as without a stop; from the start if there is none yet");
+    command.add_flag("--resume", options.resume,
+                     "Continue from the checkpoint, if there is one, to the same bytes as without a stop");
     add_number<std::uint32_t>(command, "--first-sample", natural_number, options.first_sample,
-                              "Index of the first sample: parts have samples of one sequence (default: 0)");
+                              "Index of the first sample, for parts of one picture (default: 0)");
 }
 
 // Adds --parts, for another program that reads standard output and writes the outputs refused here.
 void add_parts_option(CLI::App &command, RenderOptions &options) {
     command.option_defaults()->group("Checkpoints and parts");
     CLI::Option *parts = command.add_flag("--parts", options.parts,
-                                          "Render the parts that are asked for on standard input, and write their "
-                                          "films to standard output: for programs that share a picture, as pt-farm");
+                                          "Render the parts that standard input names, and write their films to "
+                                          "standard output, for programs such as pt-farm");
     for (const char *other :
          {"--output", "--format", "--layers", "--alpha", "--denoise", "--film", "--stats", "--crop", "--time",
           "--checkpoint", "--resume", "--preview-every", "--piece-rows", "--watch", "--skip-existing"}) {
@@ -118,10 +117,9 @@ void add_device_options(CLI::App &command, RenderOptions &options) {
                               "Aim for the length of one submission to the device (default: 50)");
     add_number<std::uint32_t>(
         command, "--piece-rows", positive_number, options.piece_rows,
-        "Render the image in pieces of so many rows, for less memory on the device (default: the whole, or what "
-        "its memory holds)");
+        "Render so many rows at a time, for less memory on the device (default: all, or as many as its memory holds)");
     command.add_flag("--validation", options.validation,
-                     "Run with the Khronos validation layer; any message of it makes the exit code 1");
+                     "Run with the Khronos validation layer; its messages make the exit code 1");
 }
 
 void add_live_options(CLI::App &command, RenderOptions &options) {
@@ -142,11 +140,9 @@ void add_animation_options(CLI::App &command, RenderOptions &options) {
     command.option_defaults()->group("Animation");
     CLI::Option *frames =
         add_parsed(command, "--frames", options.frames, &parse_frames, "must be two whole numbers like 0-23, or one",
-                   "Render these frames of the scene's animation; # signs in the names of files become the frame's "
-                   "number")
+                   "Render these frames of the scene's animation; # signs in file names become the frame's number")
             ->type_name("A-B");
-    command.add_flag("--skip-existing", options.skip_existing, "Leave out frames whose files are all there")
-        ->needs(frames);
+    command.add_flag("--skip-existing", options.skip_existing, "Skip frames whose files all exist")->needs(frames);
 }
 
 constexpr const char *render_help =
@@ -163,13 +159,12 @@ constexpr const char *render_help =
     "again. `pip install pyoidn` brings the library.\n\n"
     "With --error or --time, --spp is the most samples of a pixel, by default 65536.\n\n"
     "--exposure auto brings the average of the picture to middle grey, 0.18 (Reinhard et al. 2002): the\n"
-    "exponential of the mean of the logarithms of its pixels, each the mean of its three channels; black\n"
-    "ones do not count. It is rounded to hundredths and shown, so that it can be given as a number where\n"
-    "pictures are to be compared.\n\n"
-    "A file that cannot be written whole is left as it was. The metadata of images say what made them,\n"
-    "and no time: equal runs give equal files.\n\n"
-    "With --watch, what is wrong with a scene, its data or a shader is told once, and the picture stays\n"
-    "as it was until that is mended. A change stops the rendering under way.\n";
+    "exponential of the mean of the logarithms of its pixels, each the mean of its three channels, without\n"
+    "black ones. It is rounded to hundredths and printed. To compare pictures, give them one number.\n\n"
+    "A file that cannot be written whole keeps its content. The metadata of images have no time: equal\n"
+    "runs give equal files.\n\n"
+    "With --watch, a mistake in a scene, its data or a shader is reported once, and the picture stays until\n"
+    "it is corrected. A change stops the rendering under way.\n";
 
 } // namespace
 
@@ -185,8 +180,7 @@ bool OutputOptions::takes_standard_output() const {
 }
 
 void add_format(CLI::App &command, std::optional<ImageFormat> &format, std::span<const std::string_view> names) {
-    add_name(command, "--format", format, &format_of_name, "format", names,
-             "Format of the image that goes to standard output")
+    add_name(command, "--format", format, &format_of_name, "format", names, "Format of the image on standard output")
         ->group("Output");
 }
 
@@ -202,7 +196,7 @@ void add_image_outputs(CLI::App &command, OutputOptions &options) {
         ->type_name("IMAGE");
     add_format(command, options.format, image_format_names);
     add_text(command, "--stats", options.stats, "JSON",
-             "Write what is known of the image as JSON; - is standard output, the summary then goes to stderr");
+             "Write a report as JSON; - is standard output, the summary then goes to stderr");
 }
 
 void add_output_options(CLI::App &command, OutputOptions &options, std::span<const std::string_view> layers) {

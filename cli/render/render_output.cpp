@@ -60,10 +60,9 @@ void check_combinations(const RenderOptions &options) {
     refuse_if(options.watch && has_checkpoint, "--checkpoint: a picture under --watch has none");
     refuse_if(options.watch && !output.film.empty(), "--film: a picture under --watch has none");
     refuse_if(options.frames && has_checkpoint,
-              "--checkpoint: --frames have none; --skip-existing goes on after the frames that are done");
+              "--checkpoint: not with --frames; --skip-existing continues after the finished frames");
     refuse_if(options.frames && options.preview_seconds,
-              "--preview-every: --frames have none, as --skip-existing takes a file that is there for a frame that is "
-              "done");
+              "--preview-every: not with --frames, since an existing file is a finished frame");
     refuse_if(options.preview_seconds && without_standard_output(output).images.empty(),
               "--preview-every: needs the name of a file, which -o gives");
 }

@@ -73,7 +73,7 @@ def check(arguments: argparse.Namespace) -> None:
     if arguments.tls and not arguments.scheduler:
         refuse("--tls: needs --scheduler, as tls://host:8786")
     if arguments.frames and arguments.checkpoint:
-        refuse("--checkpoint: --frames have none; --skip-existing goes on after the frames that are done")
+        refuse("--checkpoint: not with --frames; --skip-existing continues after the finished frames")
     if arguments.checkpoint and not arguments.resume and pathlib.Path(arguments.checkpoint).exists():
         refuse(f"--checkpoint {arguments.checkpoint}: is there already; go on from it by --resume")
     check_files(arguments)
