@@ -123,8 +123,8 @@ typedef struct pt_sphere {
     double radius;    /**< > 0 */
     /** Displacement from time 0 to time 1. A sphere whose surface is nearer to the camera than 1/65536 of its radius
      * when the shutter opens must move by less than 1/32 of its radius while it is open (otherwise pt_accumulate
-     * returns PT_ERROR_UNSUPPORTED). With an orthographic projection the distance is the first visible surface's,
-     * and the rule applies only if the view's half diagonal is below the limit, too. */
+     * returns PT_ERROR_UNSUPPORTED). If the projection is orthographic, the distance is the first visible surface's,
+     * and the rule applies only if the view's half diagonal is below 1/65536 of the radius, too. */
     double motion[3];
     uint32_t material; /**< index into pt_scene.materials */
     uint32_t reserved; /**< 0 */
@@ -324,10 +324,10 @@ typedef struct pt_accumulate_info {
 /** Values of pt_image.quantity. */
 enum {
     PT_QUANTITY_RADIANCE = 0, /**< mean of the samples */
-    /** standard error of that mean, from the difference between the means of two parts of the samples; half of it for
-     * equal parts. The first part has the largest power of two below the number of samples. A single pixel's value
-     * is only a hint: with one degree of freedom, a quarter of all values are below a third of the true one.
-     * INFINITY if a part has no sample: up to 8 samples are all in the first. */
+    /** standard error of that mean, from the difference between the means of two parts of the samples: half of its
+     * magnitude if the parts are equal. The first part has the largest power of two below the number of samples. A
+     * single pixel's value is only a hint: it has one degree of freedom, and a quarter of all values are below a
+     * third of the true one. INFINITY if a part has no sample: up to 8 samples are all in the first. */
     PT_QUANTITY_STANDARD_ERROR = 1,
     PT_QUANTITY_SAMPLE_COUNT = 2, /**< the pixel's samples, rounded to float32, the same in all channels */
     /* The next four are about the first hit of camera rays in the present scene, for compositing, denoising and
@@ -395,10 +395,10 @@ enum {
  * pt_create_info.log_user. */
 typedef void (*pt_log_fn)(void *user, int32_t level, const char *line);
 
-/** Returns a value of pt_store_kernels_fn, perhaps stored by another process.
+/** Hands out bytes that pt_store_kernels_fn has stored under a key, perhaps in another process.
  *
- * Returns its size in bytes, 0 for none, and writes it to data if it is no larger than size_bytes. Called first with
- * NULL and 0, to learn the size. Bytes that are damaged or of another driver or version are ignored: kernels are then
+ * Returns their number, 0 for none, and writes them to data if they are no more than size_bytes. Called first with NULL
+ * and 0, to learn the number. Bytes that are damaged or of another driver or version are ignored: kernels are then
  * built anew, and no call fails. key is as for pt_store_kernels_fn, user is pt_create_info.kernels_user. */
 typedef uint64_t (*pt_load_kernels_fn)(void *user, const char *key, void *data, uint64_t size_bytes);
 
@@ -462,14 +462,14 @@ PT_API const char *pt_result_name(pt_result result);
  * kernel, or a file of shader_dir does not compile. */
 PT_API pt_result pt_create(const pt_create_info *info, pt_context **context);
 
-/** Message of the last failed call on this context ("" if none), valid until the next call on it.
+/** Message of the last failed call on this context ("" if none), valid until the next call on it. Call it on the thread
+ * that uses the context.
  *
  * If this thread's last call was refused because another call was under way, the message of that refusal. While another
  * thread is in a call, a message that says so.
  *
- * With NULL: the message of this thread's last failed call without a context (pt_create, pt_get_devices, films), valid
- * until the next such call. UTF-8, never NULL, owned by the library. Call it on the thread that uses the context. Never
- * fails. */
+ * If context is NULL: the message of this thread's last failed call without a context (pt_create, pt_get_devices,
+ * films), valid until the next such call. UTF-8, never NULL, owned by the library. Never fails. */
 PT_API const char *pt_last_error(const pt_context *context);
 
 /* -- one thread at a time per context -- */
