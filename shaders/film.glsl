@@ -92,7 +92,7 @@ uint film_store_sum(uint first, uint stride, uvec4 sum, bool is_first)
     return new.w;
 }
 
-// Planes that rarely change: the sums' highest words, and the samples left out.
+// Planes that rarely change: the sums' highest words, and samples left out.
 uint rare_plane(uint i) { return i < 3u ? (i + 1u) * FILM_SUM_WORDS - 1u : FILM_REJECTED; }
 
 // pixel: its first word in a part. A loop, usually of one trip, because lavapipe 22.3 executes the bodies of all ifs.

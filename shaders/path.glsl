@@ -34,8 +34,7 @@ vec3 light_by_way_of_spot(Vertex vertex, Material material, Spots spots, SampleK
     return met ? path.radiance : vec3(0.0); // after a miss it may be NaN
 }
 
-// The weight of light that reaches the first vertex over the one where the branch has arrived: a ray to a spot may find it
-// too.
+// Weight of light over the branch's second vertex, which a ray to a spot may find too.
 float share_beside_spots(Spots spots, Path path, Vertex first, float time)
 {
     float distance = dot(path.arrival.point - first.position, path.arrival.direction);

@@ -1,4 +1,4 @@
-// Takes an image's samples in steps, between which it attends to progress, previews, checkpoints and the time limit,
+// Takes an image's samples: in steps, between which it attends to progress, previews, checkpoints and the time limit;
 // and in pieces of rows, if the device lacks memory for the whole image. The split does not change the image's bits.
 #pragma once
 

@@ -69,7 +69,8 @@ void Film::require_disjoint(const std::vector<FilmTile> &others, const TileMap &
                 require_apart(others[*piece.tile].samples, own.samples, where(piece.pixels));
 }
 
-// Tile by tile, so that only one is held twice. Each tile then lies within one tile of the map, or outside all of them.
+// Cuts tile by tile, so that only one is held twice. Each tile then lies within one tile of the map, or outside all of
+// them.
 void Film::cut_along(const TileMap &map) {
     const std::size_t count = tiles_.size();
     for (std::size_t i = 0; i < count; ++i) {

@@ -54,14 +54,15 @@ public:
 
     void add(const PixelSums &other) noexcept;
 
-    // Adds one part of another object's consecutive pixels to a part of the pixels from to_first on.
+    // Adds one part of consecutive pixels of `from` to a part of the pixels from to_first on.
     void add_part(std::uint32_t to_part, std::size_t to_first, const PixelSums &from, std::uint32_t from_part,
                   std::size_t first, std::size_t count) noexcept;
 
-    // Adds consecutive pixels' other part to this one and empties it.
+    // Adds the other part of consecutive pixels to this one and empties it.
     void fold_into(std::uint32_t part, std::size_t first, std::size_t count) noexcept;
 
-    // Moves consecutive pixels' sums, of these samples, to a larger set's split, which may put all of them on one side.
+    // Moves sums of consecutive pixels, of these samples, to a larger set's split, which may put all of them on one
+    // side.
     void split_for(const SampleSet &samples, std::uint64_t split, std::size_t first, std::size_t count) noexcept;
 
     // Copies consecutive pixels of `from`.
