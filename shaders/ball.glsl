@@ -111,13 +111,27 @@ vec3 to_met(Ball ball, vec3 to_first, vec3 direction, bool to_last, uint kinds)
     return to_first + swept_to(to_first, ball.axis, ball.centre_radius.w, direction, to_last);
 }
 
+// Whether a ray that starts on another surface is outside of a sphere. Where rays pass surfaces, the other surface may
+// coincide with the sphere, as an atom does with the end of its bond: within `rounding` of the sphere the start counts as on
+// it, and is outside if the ray leads outwards.
+bool is_outside(vec3 to_centre, float radius, vec3 direction, float rounding)
+{
+    float squared = dot(to_centre, to_centre);
+    if (TREE_OPACITY == 0)
+        return squared > radius * radius;
+    float above = squared - radius * radius;
+    float nearly = 2.0 * radius * rounding;
+    return above > nearly || (above > -nearly && dot(to_centre, direction) < 0.0);
+}
+
 // sphere_distance() for a ball. from_side: its place relative to where the side is decided. From inside, a capsule's
 // last ball counts. A ray that leaves inwards usually starts on another ball than it meets.
-float ball_distance(Ball ball, vec3 to_first, vec3 from_side, vec3 direction, bool leaving, bool inside, uint kinds)
+float ball_distance(Ball ball, vec3 to_first, vec3 from_side, vec3 direction, bool leaving, bool inside, float rounding,
+                    uint kinds)
 {
     vec3 to_centre = nearest_centre(ball, from_side, from_side, kinds);
     float radius = ball.centre_radius.w;
-    bool outside = dot(to_centre, to_centre) > radius * radius;
+    bool outside = is_outside(to_centre, radius, direction, rounding);
     if ((kinds & KIND_CAPSULE) == 0u)
         return sphere_distance(to_first, radius, direction, leaving, inside, outside);
     bool to_last = INSIDE == 1 && (leaving ? inside : !outside);

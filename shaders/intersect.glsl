@@ -11,7 +11,7 @@ void see_sphere(inout Hit hit, vec3 origin, vec3 direction, uint sphere, float t
     vec3 from_side = ball.centre_radius.xyz;
     if (STARTS_ON_DISC && KNOWN_SIDES == 0)
         from_side = to_centre;
-    keep_closer(hit, ball_distance(ball, to_centre, from_side, direction, false, false, KINDS), sphere);
+    keep_closer(hit, ball_distance(ball, to_centre, from_side, direction, false, false, 0.0, KINDS), sphere);
 }
 
 void see_plane(inout Hit hit, vec3 origin, vec3 direction, uint plane, float time)

@@ -68,7 +68,7 @@ float distance_to_sphere(Start start, vec3 direction, uint sphere, Ball ball)
 {
     vec3 to_first = ball.centre_radius.xyz - start.origin;
     vec3 from_side = KNOWN_SIDES == 1 ? ball.centre_radius.xyz : to_first;
-    return ball_distance(ball, to_first, from_side, direction, sphere == start.surface, start.inside, KINDS);
+    return ball_distance(ball, to_first, from_side, direction, sphere == start.surface, start.inside, 0.0, KINDS);
 }
 
 // A lamp is a plain ball.

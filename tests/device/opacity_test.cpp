@@ -214,14 +214,14 @@ Given sticks() {
     return given;
 }
 
-// Negative control: opacities larger by a sixth.
+// Negative control: opacities larger by a third.
 TEST_F(Opacity, HasTheLightOfAPathTracerInDouble) {
     for (const Given &given : {shells(), sticks()}) {
         const Blocks exact = exact_blocks(given, 1200);
         EXPECT_LT(largest_error(given, exact, PT_SAMPLER_SOBOL), most_errors);
         Given denser = given;
         for (Given::Capsule &each : denser.capsules)
-            each.opacity = std::min(each.opacity * 7.0F / 6.0F, 1.0F);
+            each.opacity = std::min(each.opacity * 4.0F / 3.0F, 1.0F);
         EXPECT_GT(largest_error(denser, exact, PT_SAMPLER_SOBOL), most_errors);
     }
 }
