@@ -96,8 +96,9 @@ inline Box balls_of(Items items) {
 // An undivided group. If it is large, its boxes are a sample's.
 struct Part {
     Items items;
-    Box centres;          // a point only if all are there
-    float surface = 0.0F; // of the box about the spheres
+    Box centres;               // a point only if all are there
+    float surface = 0.0F;      // of the box about the spheres
+    bool has_no_twins = false; // otherwise it may have some
 };
 
 struct Halves {

@@ -1,6 +1,7 @@
 // Divides spheres, top down; see sphere_order.h.
 #include "lib/tree/sphere_order.h"
 
+#include "lib/base/mixed.h"
 #include "lib/tree/cuts.h"
 
 #include <algorithm>
@@ -24,7 +25,9 @@ Halves halved(const Part &part) {
     const auto order = [axis](const TreeItem &item) { return std::tuple(item.centre_radius[axis], item.sphere); };
     const std::size_t half = part.items.size() / 2;
     std::ranges::nth_element(part.items, part.items.begin() + static_cast<std::ptrdiff_t>(half), {}, order);
-    return {part_of(part.items.first(half)), part_of(part.items.subspan(half))};
+    Halves halves{part_of(part.items.first(half)), part_of(part.items.subspan(half))};
+    halves.first.has_no_twins = halves.second.has_no_twins = part.has_no_twins;
+    return halves;
 }
 
 Halves divided(const Part &part, std::uint32_t depth) {
@@ -35,7 +38,7 @@ Halves divided(const Part &part, std::uint32_t depth) {
 
 // Input that all steps share.
 struct Making {
-    const SphereOrder &order;
+    const BitsOfSphere &bits_of;
     WorkProgress &progress;
 };
 
@@ -48,24 +51,46 @@ bool have_equals(Items items) {
     return false;
 }
 
+std::uint64_t hash_of(const SphereBits &bits) {
+    std::uint64_t hash = 0;
+    for (const std::uint32_t word : bits)
+        hash = mixed(hash ^ word);
+    return hash;
+}
+
+// Sorts by hashes, since bits take long to read, and compares the bits of spheres with equal hashes.
 Part without_twins(Part part, const Making &making) {
     const std::size_t count = part.items.size();
-    if (count <= tree_width && !have_equals(part.items))
+    if (part.has_no_twins || (count <= tree_width && !have_equals(part.items)))
         return part;
-    std::ranges::sort(part.items, [&](const TreeItem &a, const TreeItem &b) {
-        making.progress.add(0.0, 1);
-        if (a.centre_radius != b.centre_radius)
-            return a.centre_radius < b.centre_radius;
-        const std::strong_ordering order = making.order(a.sphere, b.sphere);
-        return order < 0 || (order == 0 && a.sphere < b.sphere);
-    });
-    const auto are_twins = [&](const TreeItem &a, const TreeItem &b) {
-        return a.centre_radius == b.centre_radius && making.order(a.sphere, b.sphere) == 0;
+    struct Hashed {
+        std::uint64_t hash;
+        TreeItem item;
     };
-    // Not std::ranges, whose result Clang 14 cannot compile.
-    const auto twins = std::unique(part.items.begin(), part.items.end(), are_twins);
-    part.items = part.items.first(static_cast<std::size_t>(twins - part.items.begin()));
-    making.progress.add(static_cast<double>(count - part.items.size()), 0);
+    std::vector<Hashed> hashed;
+    hashed.reserve(count);
+    for (const TreeItem &item : part.items) {
+        hashed.push_back({hash_of(making.bits_of(item.sphere)), item});
+        making.progress.add(0.0, 1);
+    }
+    std::ranges::sort(hashed, [&](const Hashed &a, const Hashed &b) {
+        making.progress.add(0.0, 1);
+        return std::tie(a.hash, a.item.sphere) < std::tie(b.hash, b.item.sphere);
+    });
+    std::size_t kept = 0;
+    for (const Hashed &each : hashed) {
+        bool is_twin = false;
+        for (std::size_t i = kept; !is_twin && i > 0 && hashed[i - 1].hash == each.hash; --i)
+            is_twin = making.bits_of(hashed[i - 1].item.sphere) == making.bits_of(each.item.sphere);
+        making.progress.add(0.0, 1);
+        if (is_twin)
+            continue;
+        part.items[kept] = each.item;
+        hashed[kept++] = each;
+    }
+    part.items = part.items.first(kept);
+    part.has_no_twins = true;
+    making.progress.add(static_cast<double>(count - kept), 0);
     return part;
 }
 
@@ -121,7 +146,7 @@ Children children_of(Part node, const Making &making, std::uint32_t depth) {
 
 } // namespace
 
-TreeShape tree_shape(std::vector<TreeItem> items, const SphereOrder &order, WorkProgress &progress) {
+TreeShape tree_shape(std::vector<TreeItem> items, const BitsOfSphere &bits_of, WorkProgress &progress) {
     struct Task {
         Part part;
         std::uint32_t node;
@@ -135,7 +160,7 @@ TreeShape tree_shape(std::vector<TreeItem> items, const SphereOrder &order, Work
         const Task task = tasks.back();
         tasks.pop_back();
         shape.depth = std::max(shape.depth, task.depth);
-        Children children = children_of(task.part, {order, progress}, task.depth);
+        Children children = children_of(task.part, {bits_of, progress}, task.depth);
 
         TreeLinks &links = shape.nodes[task.node];
         links.first_child = static_cast<std::uint32_t>(shape.nodes.size());

@@ -5,7 +5,6 @@
 #include "shaders/gpu_layout.h"
 
 #include <array>
-#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -35,13 +34,14 @@ struct TreeShape {
     std::uint32_t depth;                // nodes on the longest way down, root included
 };
 
-// Any strict order of spheres. Spheres that are equal in it have equal items; of such twins the one with the lower
-// number is kept.
-using SphereOrder = std::function<std::strong_ordering(std::uint32_t, std::uint32_t)>;
+// All that tells spheres apart: where a sphere is and, if rays may pass it, its look. Spheres with equal bits are twins
+// and have equal items; the one with the lowest number is kept.
+using SphereBits = std::array<std::uint32_t, 10>;
+using BitsOfSphere = std::function<SphereBits(std::uint32_t)>;
 
 // Nodes are divided where surface times expected nodes, summed over both sides, is least (Goldsmith and Salmon 1987; in
 // bins: Wald 2007). Deep in the tree they are halved, which bounds its depth for any spheres: for 2^26 of them it
 // is 27. The work is one unit for each item.
-TreeShape tree_shape(std::vector<TreeItem> items, const SphereOrder &order, WorkProgress &progress);
+TreeShape tree_shape(std::vector<TreeItem> items, const BitsOfSphere &bits_of, WorkProgress &progress);
 
 } // namespace pt

@@ -10,7 +10,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <compare>
 #include <cstddef>
 #include <limits>
 #include <queue>
@@ -53,21 +52,21 @@ std::vector<TreeItem> items_of(const SphereSource &spheres, std::span<const std:
 SphereTree::SphereTree(const SphereSource &spheres, std::span<const std::uint32_t> left_out,
                        std::span<const TreeMaterial> materials, WorkProgress &progress) :
     SphereTree(SphereExtent(spheres, left_out, materials, progress), spheres, left_out) {
-    const auto order = [&](std::uint32_t a, std::uint32_t b) {
-        const std::array pair{spheres[a], spheres[b]};
-        const auto places = SphereWords(pair[0], grid_).all() <=> SphereWords(pair[1], grid_).all();
-        if (places != 0 || !pair[0].is_translucent())
-            return places;
-        const auto look = [&](std::uint32_t index, const Sphere &sphere) {
-            return std::pair(materials[sphere.material].index, color_word(spheres.color(index)));
-        };
-        return look(a, pair[0]) <=> look(b, pair[1]);
+    const auto bits_of = [&](std::uint32_t index) {
+        const Sphere sphere = spheres[index];
+        SphereBits bits{};
+        std::ranges::copy(SphereWords(sphere, grid_).all(), bits.begin());
+        if (sphere.is_translucent()) {
+            bits[8] = materials[sphere.material].index;
+            bits[9] = color_word(spheres.color(index));
+        }
+        return bits;
     };
     progress.enter(share_of_items, static_cast<double>(spheres.size()));
     std::vector<TreeItem> items = items_of(spheres, left_out, grid_, progress);
     progress.enter(share_of_shape, static_cast<double>(items.size()));
     {
-        TreeShape shape = tree_shape(std::move(items), order, progress);
+        TreeShape shape = tree_shape(std::move(items), bits_of, progress);
         depth_ = shape.depth;
         spheres_ = std::make_shared<const std::vector<std::uint32_t>>(std::move(shape.spheres));
         make_room(shape.nodes.size(), progress);

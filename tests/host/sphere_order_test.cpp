@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <random>
@@ -28,11 +29,11 @@ std::vector<pt::TreeItem> items_of(std::uint32_t count, const std::function<Ball
 }
 
 // Without twins.
-const pt::SphereOrder by_number = [](std::uint32_t a, std::uint32_t b) { return a <=> b; };
+const pt::BitsOfSphere own_number = [](std::uint32_t sphere) { return pt::SphereBits{sphere}; };
 
-pt::TreeShape shape_of(std::vector<pt::TreeItem> items, const pt::SphereOrder &order) {
+pt::TreeShape shape_of(std::vector<pt::TreeItem> items, const pt::BitsOfSphere &bits_of) {
     pt::WorkProgress nobody;
-    return pt::tree_shape(std::move(items), order, nobody);
+    return pt::tree_shape(std::move(items), bits_of, nobody);
 }
 
 void expect_well_linked(const pt::TreeShape &shape) {
@@ -111,7 +112,7 @@ TEST(SphereOrder, GivesEachSphereOnePlaceInATreeThatTheStackHolds) {
     for (const Kind &kind : kinds())
         for (const std::uint32_t count : {1U, 2U, 4U, 5U, 17U, 1000U, many}) {
             SCOPED_TRACE(std::string(kind.name) + ", " + std::to_string(count));
-            const pt::TreeShape shape = shape_of(items_of(count, kind.ball), by_number);
+            const pt::TreeShape shape = shape_of(items_of(count, kind.ball), own_number);
             expect_each_once(shape.spheres, count);
             expect_well_linked(shape);
         }
@@ -124,11 +125,24 @@ TEST(SphereOrder, LeavesTheFirstOfTwins) {
         const std::uint32_t point = i % different / 3;
         return Ball{std::exp2(2.0F * static_cast<float>(point) - 60.0F), 0, 0, 1e-20F};
     };
-    const auto kind = [](std::uint32_t i) { return i % different; };
-    const auto by_kind = [&](std::uint32_t a, std::uint32_t b) { return kind(a) <=> kind(b); };
-    const pt::TreeShape shape = shape_of(items_of(20 * different, ball), by_kind);
+    const auto kind = [](std::uint32_t i) { return pt::SphereBits{i % different}; };
+    const pt::TreeShape shape = shape_of(items_of(20 * different, ball), kind);
     expect_each_once(shape.spheres, different);
     expect_well_linked(shape);
+}
+
+// Bits take long to read: once for a hash, and for two spheres of the same hash once more each.
+TEST(SphereOrder, ReadsTheBitsOfASphereThreeTimesAtTheMost) {
+    for (const bool are_twins : {false, true})
+        for (const Kind &kind : kinds()) {
+            SCOPED_TRACE(std::string(kind.name) + (are_twins ? ", twins" : ""));
+            std::size_t count = 0;
+            shape_of(items_of(many, kind.ball), [&](std::uint32_t sphere) {
+                ++count;
+                return pt::SphereBits{are_twins ? 0 : sphere};
+            });
+            EXPECT_LE(count, std::size_t{3} * many);
+        }
 }
 
 struct Told {
@@ -149,7 +163,7 @@ TEST(SphereOrder, TellsHowFarItIs) {
         Told told;
         pt::WorkProgress progress(&Told::receive, &told);
         progress.enter(0.5, 2.0 * many);
-        pt::tree_shape(items_of(many, kind.ball), by_number, progress);
+        pt::tree_shape(items_of(many, kind.ball), own_number, progress);
         EXPECT_GT(told.shares.size(), 5U);
         progress.add(0.0, std::size_t{1} << 30); // forces a report
         EXPECT_EQ(told.shares.back(), 0.25);
@@ -163,7 +177,7 @@ TEST(SphereOrder, EndsWhereItIsAskedTo) {
         Told told{.shares = {}, .stop_at = 0.0};
         pt::WorkProgress progress(&Told::receive, &told);
         progress.enter(1.0, many);
-        EXPECT_THROW(pt::tree_shape(items_of(many, kind.ball), by_number, progress), pt::Cancelled);
+        EXPECT_THROW(pt::tree_shape(items_of(many, kind.ball), own_number, progress), pt::Cancelled);
         EXPECT_EQ(told.shares.size(), 1U);
         EXPECT_LT(told.shares.back(), 0.5);
     }
