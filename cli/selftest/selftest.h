@@ -42,6 +42,11 @@ std::vector<SelftestScene> selftest_scenes();
 
 SelftestScene lamp_in_a_ball();
 
+// Scenes whose light is found in several ways, each of which has a good part of it. A weight of multiple importance
+// sampling that is wrong by 2% moves the mean by at least twice the bound, so it is noticed as surely as a right one
+// passes.
+std::vector<SelftestScene> weight_scenes();
+
 // Samples are cosines of sampled directions: means, second moments, and the share on each side.
 std::vector<SelftestScene> direction_scenes();
 

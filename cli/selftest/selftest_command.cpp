@@ -17,6 +17,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <numeric>
 #include <span>
 
@@ -116,9 +117,14 @@ std::vector<SelftestCheck> check_scenes(const Context &context, const std::vecto
     return checks;
 }
 
+std::vector<SelftestScene> with_weights(std::vector<SelftestScene> scenes) {
+    std::ranges::move(weight_scenes(), std::back_inserter(scenes));
+    return scenes;
+}
+
 std::vector<SelftestCheck> run_selftest_checks(const Context &context) {
     std::vector<SelftestCheck> checks = check_functions(context);
-    const std::vector<SelftestCheck> scenes = check_scenes(context, selftest_scenes(), "scene");
+    const std::vector<SelftestCheck> scenes = check_scenes(context, with_weights(selftest_scenes()), "scene");
     checks.insert(checks.end(), scenes.begin(), scenes.end());
     checks.push_back(check_splits(context));
     return checks;
@@ -132,8 +138,8 @@ int run_selftest(const SelftestOptions &options) {
     const Context context(info);
     SelftestReport report{};
     context.require(pt_get_context_device(context.get(), &report.device));
-    report.checks =
-        options.directions ? check_scenes(context, direction_scenes(), "directions") : run_selftest_checks(context);
+    report.checks = options.directions ? check_scenes(context, with_weights(direction_scenes()), "directions")
+                                       : run_selftest_checks(context);
 
     print_for_people(selftest_text(report), options.json == standard_stream);
     write_report_file(options.json, json_text(selftest_json(report)));
@@ -150,13 +156,13 @@ constexpr const char *selftest_help =
 
 void add_selftest_command(CLI::App &program, Run &chosen) {
     const auto [command, options] =
-        add_command(program, chosen, "selftest", "Check a device against exact answers, in a second or so",
-                    selftest_help, &run_selftest);
+        add_command(program, chosen, "selftest", "Check a device against exact answers, in some seconds", selftest_help,
+                    &run_selftest);
     add_device(command, options.device);
     add_text(command, "--json", options.json, "JSON",
              "Write the same as JSON; - is standard output, the text then goes to stderr");
     command.add_flag("--directions", options.directions,
-                     "Check the directions that kernels sample alone: means, second moments and sides");
+                     "Check the directions that kernels sample and the weights of lamps alone");
     add_shader_dir(command, options.shader_dir);
 }
 

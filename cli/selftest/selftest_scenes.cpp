@@ -63,11 +63,24 @@ SelftestScene white_furnace() {
 }
 
 // A point of a floor: in this view light varies by 1e-8.
-SceneFile floor_scene(const std::string &members) {
-    return scene_of(32, 64,
-                    R"(, "max_path_length": 2},
-        "camera": {"position": [0, 0, 0], "look_at": [0, -1, -2], "vertical_fov": 0.0057}, )" +
-                        members);
+SceneFile floor_scene(const std::string &members, std::uint32_t side = 32, std::uint32_t sample_count = 64,
+                      std::uint32_t max_path_length = 2) {
+    return scene_of(side, sample_count, concat(R"(, "max_path_length": )", max_path_length, R"(},
+        "camera": {"position": [0, 0, 0], "look_at": [0, -1, -2], "vertical_fov": 0.0057}, )" + members));
+}
+
+struct SeenLamp {
+    double cosine; // of the direction to its centre
+    double sine;   // of its radius
+};
+
+// As the floor sees it from where the camera looks.
+SeenLamp lamp_seen(const pt_sphere &lamp, const pt_camera &camera) {
+    std::array<double, 3> way{};
+    for (std::size_t i = 0; i < 3; ++i)
+        way[i] = lamp.center[i] - camera.target[i];
+    const double distance = std::hypot(way[0], way[1], way[2]);
+    return {way[1] / distance, lamp.radius / distance};
 }
 
 // A sphere of radius r at distance d above a plane gives pi L (r / d)^2 cos, like a point (Snyder 1996); times albedo /
@@ -75,17 +88,10 @@ SceneFile floor_scene(const std::string &members) {
 // probability p = sin^2 a cos, and has a weight of at most p^2.
 SelftestScene floor_under_lamp(const std::string &name, const std::string &members) {
     const SceneFile scene = floor_scene(members);
-    const pt_sphere &lamp = scene.spheres[0];
-    std::array<double, 3> way{};
-    for (std::size_t i = 0; i < 3; ++i)
-        way[i] = lamp.center[i] - scene.camera.target[i];
-    const double distance = std::hypot(way[0], way[1], way[2]);
-    const double cosine = way[1] / distance;
-    const double sine_of_radius = lamp.radius / distance;
-    const double seen = sine_of_radius * sine_of_radius * cosine;
-    return {name, scene, double{scene.materials[1].diffuse[0]} * double{scene.materials[0].emission[0]} * seen,
-            sine_of_radius * std::sqrt(1.0 / (cosine * cosine) - 1.0) + sine_of_radius * sine_of_radius + seen,
-            sample_rounding};
+    const auto [cosine, sine] = lamp_seen(scene.spheres[0], scene.camera);
+    const double share = sine * sine * cosine;
+    return {name, scene, double{scene.materials[1].diffuse[0]} * double{scene.materials[0].emission[0]} * share,
+            sine * std::sqrt(1.0 / (cosine * cosine) - 1.0) + sine * sine + share, sample_rounding};
 }
 
 SelftestScene lamp_above_a_floor() {
@@ -137,6 +143,66 @@ SelftestScene receding_lamp() {
     const double area = std::numbers::pi / (to - from) * (integral(to) - integral(from));
     const double share = area / (4.0 * half_side * half_side);
     return {"receding lamp", scene, share, std::sqrt((1.0 - share) / share), sample_rounding};
+}
+
+// The three scenes of weights have standard deviations by quadrature, rounded up, and so many samples that the bound is
+// less than 1% of the smallest share of the value that one kind of weight carries.
+
+// The lamp fills a cone of 30 degrees, where four directions together have nearly the density of the lamp's sample:
+// each way of finding it has half of the value.
+SelftestScene weights_of_a_lamp() {
+    const SceneFile scene = floor_scene(R"(
+        "materials": {"lamp": {"emission": 4}, "floor": {"diffuse": 1}},
+        "spheres": [{"center": [0, 1, -2], "radius": 1, "material": "lamp"}],
+        "planes": [{"normal": [0, 1, 0], "offset": 1, "material": "floor"}])",
+                                        64, 128, 3);
+    const double sine = lamp_seen(scene.spheres[0], scene.camera).sine;
+    return {"weights of a lamp", scene, 4.0 * sine * sine, 0.45, sample_rounding};
+}
+
+// Five lamps in a ring, from which the floor chooses one. A direction has 27% of the value.
+SelftestScene weights_of_a_chosen_lamp() {
+    constexpr int lamp_count = 5;
+    constexpr double polar = 50.0 / 180.0 * std::numbers::pi;
+    std::string lamps;
+    for (int i = 0; i < lamp_count; ++i) {
+        const double azimuth = 2.0 * std::numbers::pi * (i + 0.5) / lamp_count;
+        lamps += concat(i == 0 ? "" : ", ", R"({"center": [)", 5.0 * std::sin(polar) * std::sin(azimuth), ", ",
+                        5.0 * std::cos(polar) - 1.0, ", ", 5.0 * std::sin(polar) * std::cos(azimuth) - 2.0,
+                        R"(], "radius": 2.1, "material": "lamp"})");
+    }
+    const SceneFile scene = floor_scene(concat(R"(
+        "materials": {"lamp": {"emission": 1}, "floor": {"diffuse": 1}}, "spheres": [)",
+                                               lamps, R"(],
+        "planes": [{"normal": [0, 1, 0], "offset": 1, "material": "floor"}])"),
+                                        64, 128);
+    double expected = 0.0;
+    for (const pt_sphere &lamp : scene.spheres) {
+        const auto [cosine, sine] = lamp_seen(lamp, scene.camera);
+        expected += sine * sine * cosine;
+    }
+    return {"weights of a chosen lamp", scene, expected, 0.3, sample_rounding};
+}
+
+// A lamp of radiance L and radius r hangs h below a ceiling of albedo A, which is H above the floor. Straight below,
+// the floor has the radiance L r^2 / (H - h)^2 from the lamp and, integrated over the ceiling at distances v from the
+// lamp, with a^2 = H^2 - h^2, from the ceiling
+//     L r^2 A 2 h H^2 int_h^inf dv / (v^2 (v^2 + a^2)^2).
+// The ray to the glow has 71% of the light from the ceiling, the two directions have 29%, the lamp has 5% of all.
+SelftestScene weights_of_a_glow() {
+    constexpr double albedo = 20.0;
+    constexpr double h = 1.0;
+    constexpr double H = 6.5;
+    const SceneFile scene = floor_scene(R"(
+        "materials": {"lamp": {"emission": 1e6}, "floor": {"diffuse": 1}, "ceiling": {"diffuse": 20}},
+        "spheres": [{"center": [0, 4.5, -2], "radius": 1e-3, "material": "lamp"}],
+        "planes": [{"normal": [0, 1, 0], "offset": 1, "material": "floor"},
+                   {"normal": [0, -1, 0], "offset": 5.5, "material": "ceiling"}])",
+                                        64, 256, 3);
+    const double a = std::sqrt(H * H - h * h);
+    const double integral = (1.0 / h - 1.5 * std::atan(a / h) / a + 0.5 * h / (H * H)) / (a * a * a * a);
+    return {"weights of a glow", scene, 1.0 / ((H - h) * (H - h)) + albedo * 2.0 * h * H * H * integral, 0.4,
+            sample_rounding};
 }
 
 struct DirectionKind {
@@ -213,6 +279,10 @@ SelftestScene lamp_in_a_ball() {
 std::vector<SelftestScene> selftest_scenes() {
     return {inside_a_lamp(),      white_furnace(), lamp_in_a_ball(), lamp_above_a_floor(),
             huge_ball_as_floor(), tiny_far_lamp(), sharp_lobe(),     receding_lamp()};
+}
+
+std::vector<SelftestScene> weight_scenes() {
+    return {weights_of_a_lamp(), weights_of_a_chosen_lamp(), weights_of_a_glow()};
 }
 
 // A sample is reflection times cosine c over density: 2 c for white diffuse and uniform directions; (n + 2) / 2 c^n for

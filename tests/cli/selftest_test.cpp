@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 namespace {
 
@@ -16,8 +19,15 @@ std::vector<float> image_of(const SelftestScene &scene, double radiance) {
                               static_cast<float>(radiance));
 }
 
+std::vector<SelftestScene> all_scenes() {
+    std::vector<SelftestScene> scenes = cli::selftest_scenes();
+    for (const SelftestScene &scene : cli::weight_scenes())
+        scenes.push_back(scene);
+    return scenes;
+}
+
 TEST(SelftestScene, WrongImagesFail) {
-    for (const SelftestScene &scene : cli::selftest_scenes()) {
+    for (const SelftestScene &scene : all_scenes()) {
         for (const double factor :
              {1.0 + 1.2 * scene.bound() + 0x1p-22, 1.0 - 1.2 * scene.bound() - 0x1p-22, 0.0, -1.0})
             EXPECT_FALSE(scene.judge(image_of(scene, scene.expected * factor)).passed()) << scene.name << factor;
@@ -26,7 +36,7 @@ TEST(SelftestScene, WrongImagesFail) {
 }
 
 TEST(SelftestScene, ASingleNumberThatIsNotFiniteFails) {
-    for (const SelftestScene &scene : cli::selftest_scenes()) {
+    for (const SelftestScene &scene : all_scenes()) {
         for (const float wrong : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
             for (const std::size_t place : {std::size_t{0}, image_of(scene, 0.0).size() - 1}) {
                 std::vector<float> radiance = image_of(scene, scene.expected);
@@ -75,6 +85,95 @@ TEST(SelftestScene, RecedingLampByQuadrature) {
         sum += std::numbers::pi / (z * z - 1.0) / (side * side);
     }
     EXPECT_NEAR(scene.expected, sum / steps, 1e-8);
+}
+
+// Light that a sample of one kind and some directions find, each weighted by the power heuristic: integrals over the
+// places that it comes from.
+class TwoWays {
+public:
+    explicit TwoWays(int directions) : directions_(directions) {}
+
+    // A part of the integral, with the densities of the sample and of one direction there.
+    void add(double part, double measure, double sample_density, double direction_density) {
+        const double a = sample_density;
+        const double b = directions_ * direction_density;
+        const double weight = a * a / (a * a + b * b);
+        const double value = part / measure;
+        of_sample_ += weight * part;
+        of_directions_ += (1.0 - weight) * part;
+        squares_ += (std::pow(weight * value / a, 2) * a +
+                     directions_ * std::pow((1.0 - weight) * value / b, 2) * direction_density) *
+                    measure;
+    }
+
+    double all() const { return of_sample_ + of_directions_; }
+    double least() const { return std::min(of_sample_, of_directions_); }
+    double deviation() const {
+        return std::sqrt(squares_ - of_sample_ * of_sample_ - of_directions_ * of_directions_ / directions_);
+    }
+
+private:
+    int directions_;
+    double of_sample_ = 0.0;
+    double of_directions_ = 0.0;
+    double squares_ = 0.0;
+};
+
+constexpr double pi = std::numbers::pi;
+
+// Lamps of radiance 1 whose middles are at this angle from the normal, of which one is chosen; sine: of their radius.
+TwoWays light_of_lamps(int count, double polar, double sine, int directions) {
+    constexpr int steps = 400;
+    const double cap = 1.0 - std::sqrt(1.0 - sine * sine);
+    TwoWays light(directions);
+    for (int i = 0; i < steps; ++i) {
+        const double along = 1.0 - cap * (i + 0.5) / steps;
+        for (int k = 0; k < steps; ++k) {
+            const double across = std::sqrt(1.0 - along * along) * std::cos(2.0 * pi * (k + 0.5) / steps);
+            const double cosine = std::cos(polar) * along + std::sin(polar) * across;
+            const double measure = count * 2.0 * pi * cap / (steps * steps);
+            light.add(cosine / pi * measure, measure, 1.0 / (count * 2.0 * pi * cap), cosine / pi);
+        }
+    }
+    return light;
+}
+
+// A ceiling of albedo 20 at height 6.5, lit by a lamp of power 1 below it; by the share of the lamp's directions, which
+// have the density of the cosine.
+TwoWays light_of_glow() {
+    constexpr int steps = 1000000;
+    constexpr double height = 6.5;
+    TwoWays light(2);
+    for (int i = 0; i < steps; ++i) {
+        const double squared_way = steps / (i + 0.5); // from the lamp
+        const double squared_distance = squared_way - 1.0 + height * height;
+        const double density = 1.0 / (pi * squared_way * squared_way);
+        const double form = height * height / (pi * squared_distance * squared_distance);
+        const double measure = 1.0 / (steps * density);
+        light.add(20.0 / std::pow(squared_way, 1.5) * form * measure, measure, density, form);
+    }
+    return light;
+}
+
+// What the comment of weight_scenes() says.
+TEST(SelftestScene, AWeightThatIsWrongByTwoPercentMovesTheMeanByTwiceTheBound) {
+    const std::vector<SelftestScene> scenes = cli::weight_scenes();
+    ASSERT_EQ(scenes.size(), 3U);
+    struct Light {
+        TwoWays ways;
+        double factor; // the lamps' radiance
+        double other;  // light with another weight
+    };
+    const std::vector<Light> lights{{light_of_lamps(1, 0.0, 0.5, 4), 4.0, 0.0},
+                                    {light_of_lamps(5, pi * 50.0 / 180.0, 0.42, 1), 1.0, 0.0},
+                                    {light_of_glow(), 1.0, 1.0 / (5.5 * 5.5)}};
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+        const auto &[ways, factor, other] = lights[i];
+        const double mean = factor * ways.all() + other;
+        EXPECT_NEAR(scenes[i].expected / mean, 1.0, 1e-4) << scenes[i].name;
+        EXPECT_GT(scenes[i].relative_std, factor * ways.deviation() / mean) << scenes[i].name;
+        EXPECT_GT(0.02 * factor * ways.least() / mean, 2.0 * scenes[i].bound()) << scenes[i].name;
+    }
 }
 
 TEST(SelftestReport, AnErrorAtItsBoundPassesAndBeyondFails) {
