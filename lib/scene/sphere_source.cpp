@@ -29,6 +29,17 @@ pt_sphere_array columns_of(std::span<const pt_sphere> spheres) {
     return columns;
 }
 
+bool is_any_translucent(const pt_sphere_array &array) {
+    const std::uint32_t rows = array.opacity.stride_bytes == 0 ? std::min(array.count, 1U) : array.count;
+    bool any = false;
+    if (is_there(array.opacity))
+        with_numbers(array.opacity, [&](auto opacity) {
+            for (std::uint32_t i = 0; i < rows && !any; ++i)
+                any = opacity(i) < least_opaque;
+        });
+    return any;
+}
+
 // at(i) is the row of the i-th sphere, here and below.
 template <typename At>
 void read_columns(const pt_sphere_array &columns, At at, std::span<Sphere> spheres) {
@@ -97,10 +108,12 @@ SphereSource::SphereSource(std::span<const pt_sphere> spheres, std::span<const p
             arrays, [column](const pt_sphere_array &array) { return array.count > 0 && is_there(array.*column); });
     };
     has_colors_ = any_has(&pt_sphere_array::color);
-    has_opacities_ = any_has(&pt_sphere_array::opacity);
+    has_opacities_ = std::ranges::any_of(arrays, is_any_translucent);
     static constexpr float whole = 1.0F;
     for (pt_sphere_array &part : parts_)
-        if (has_opacities_ && !is_there(part.opacity))
+        if (!has_opacities_)
+            part.opacity = {};
+        else if (!is_there(part.opacity))
             part.opacity = {&whole, 0, PT_TYPE_FLOAT32};
     for (const pt_sphere_array &array : arrays)
         others_count_ += is_there(array.end) ? array.count : 0;

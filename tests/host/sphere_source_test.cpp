@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sphere_arrays {
@@ -127,6 +128,28 @@ TEST(Scene, KnowsWhereTheCallerHasASphere) {
     EXPECT_EQ(place(4), "sphere_arrays 1 2");
     EXPECT_EQ(place(5), "sphere_arrays 2 0");
     EXPECT_EQ(place(9), "sphere_arrays 2 4");
+}
+
+// An opacity that is held as 1 is none.
+TEST(SphereSource, KnowsOpacitiesThatLetRaysPass) {
+    const std::vector<float> center{0, 0, 0, 4, 0, 0, 8, 0, 0};
+    const float radius = 1.0F;
+    const auto read = [&](const std::vector<float> &opacities) {
+        pt_sphere_array array{};
+        array.struct_size = sizeof array;
+        array.count = 3;
+        array.center = {center.data(), 12, PT_TYPE_FLOAT32};
+        array.radius = {&radius, 0, PT_TYPE_FLOAT32};
+        array.opacity = {opacities.data(), opacities.size() == 1 ? 0U : 4U, PT_TYPE_FLOAT32};
+        const pt::SphereSource source({}, {&array, 1});
+        return std::pair(source.has_opacities(), source[1].opacity);
+    };
+    EXPECT_EQ(read({1.0F, 1.0F, 1.0F}), std::pair(false, pt::no_opacity));
+    EXPECT_EQ(read({0.9999F}), std::pair(false, pt::no_opacity));
+    EXPECT_EQ(read({0.9981F, 0.9999F, 1.0F}), std::pair(false, pt::no_opacity));
+    EXPECT_EQ(read({0.998F, 0.9999F, 1.0F}), std::pair(true, pt::opaque));
+    EXPECT_EQ(read({1.0F, 0.5F, 1.0F}), std::pair(true, std::int16_t{128}));
+    EXPECT_EQ(read({0.0F}), std::pair(true, std::int16_t{0}));
 }
 
 } // namespace
