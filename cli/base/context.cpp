@@ -77,16 +77,23 @@ std::string LibraryError::in_words(const std::function<std::string(const BrokenR
     return lines;
 }
 
+std::optional<BrokenRule> broken_rule(const pt_broken_rule &rule) {
+    if (rule.subject == nullptr)
+        return std::nullopt;
+    return BrokenRule{rule.subject, known(rule.index), rule.member, known(rule.component),
+                      rule.with,    rule.value,        rule.rule};
+}
+
 LibraryError last_error(const pt_context *context) {
     LibraryError error{pt_last_error(context), {}, 0};
     const std::uint64_t count = pt_get_broken_rule(context, 0, nullptr);
     for (std::uint32_t i = 0; i < count; ++i) {
-        auto rule = sized<pt_broken_rule>();
-        pt_get_broken_rule(context, i, &rule);
-        if (rule.subject == nullptr)
+        auto kept = sized<pt_broken_rule>();
+        pt_get_broken_rule(context, i, &kept);
+        const auto rule = broken_rule(kept);
+        if (!rule)
             break;
-        error.rules.push_back(
-            {rule.subject, known(rule.index), rule.member, known(rule.component), rule.with, rule.value, rule.rule});
+        error.rules.push_back(*rule);
     }
     error.left_out = count - error.rules.size();
     return error;

@@ -6,6 +6,7 @@
 #include "cli/base/interrupt.h"
 #include "cli/base/kernel_folder.h"
 
+#include <pt/errors.h>
 #include <pt/pt.h>
 #include <pt/shaders.h>
 #include <pt/stats.h>
@@ -58,6 +59,9 @@ struct LibraryError {
     std::string in_words(const std::function<std::string(const BrokenRule &)> &words) const;
 };
 
+// A rule of the library; nothing if it has no subject.
+std::optional<BrokenRule> broken_rule(const pt_broken_rule &rule);
+
 // "--size: width = 0: must be >= 1"; the library's name without an option.
 std::string in_words_of_options(const BrokenRule &rule);
 
@@ -97,6 +101,13 @@ public:
         auto stats = sized<pt_stats>();
         require(pt_get_stats(context_, &stats));
         return stats;
+    }
+
+    // About what the camera sees.
+    std::optional<BrokenRule> warning() const {
+        auto rule = sized<pt_broken_rule>();
+        require(pt_get_warning(context_, &rule));
+        return broken_rule(rule);
     }
 
     pt_error_estimate error_estimate() const {

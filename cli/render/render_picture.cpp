@@ -204,10 +204,10 @@ ExitCode render_picture(const Context &context, const RenderTask &task, const Re
             print_interruption(task, 0, 0, "");
         return ExitCode::signal;
     }
-    report.warnings = input_warnings(task.scene, options.stopping.target_error);
+    const std::uint32_t rows = fit_pieces(context, task);
+    report.warnings = input_warnings(task.scene, context.warning(), options.stopping.target_error);
     if (!options.output.quiet)
         print_warnings(report.warnings);
-    const std::uint32_t rows = fit_pieces(context, task);
     require_one_piece(task, rows);
     if (rows < task.window.part.height && !options.output.quiet)
         print_pieces(context, task, rows);

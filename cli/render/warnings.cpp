@@ -102,12 +102,15 @@ bool is_known_to_be_black(const RenderReport &report) {
 
 } // namespace
 
-std::vector<std::string> input_warnings(const SceneFile &scene, double target_error) {
+std::vector<std::string> input_warnings(const SceneFile &scene, const std::optional<BrokenRule> &of_library,
+                                        double target_error) {
     std::vector<std::string> warnings;
     if (!is_lit(scene))
         warnings.push_back(scene.path + ": no surface emits light: the picture is black");
     if (const auto materials = brightening_materials(scene))
         warnings.push_back(scene.path + ": " + *materials);
+    if (of_library)
+        warnings.push_back(scene.explain(*of_library));
     if (target_error >= 1.0) {
         warnings.push_back("--error: the target is " + percent_text(target_error) +
                            "; two percent are written 2% or 0.02");

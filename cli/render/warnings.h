@@ -5,6 +5,7 @@
 #include "cli/render/render_report.h"
 #include "cli/scene/scene_file.h"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,8 +13,9 @@
 namespace cli {
 
 // Known before rendering: nothing emits, materials that reflect more light than they receive, a target error of 100% or
-// more (0: none).
-std::vector<std::string> input_warnings(const SceneFile &scene, double target_error);
+// more (0: none). of_library: about what the camera sees.
+std::vector<std::string> input_warnings(const SceneFile &scene, const std::optional<BrokenRule> &of_library,
+                                        double target_error);
 
 // Known from the image: samples left out, a picture so dark that any noise reaches its target error, an unexplained
 // black picture. report.warnings: from before rendering.

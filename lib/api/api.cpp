@@ -332,6 +332,14 @@ pt_result pt_get_stats(pt_context *context, pt_stats *stats) {
     return pt::guard_context(context, [&](pt::Renderer &renderer) { pt::copy_out(renderer.stats(), stats, "stats"); });
 }
 
+pt_result pt_get_warning(pt_context *context, pt_broken_rule *warning) {
+    return pt::guard_context(context, [&](pt::Renderer &renderer) {
+        pt::struct_size_of(warning, "warning"); // before the work
+        const pt::BrokenRule *rule = renderer.warning();
+        pt::copy_out(rule ? pt::shown(*rule) : pt_broken_rule{}, warning, "warning");
+    });
+}
+
 pt_result pt_get_error_estimate(pt_context *context, pt_error_estimate *error) {
     return pt::guard_context(context, [&](pt::Renderer &renderer) {
         pt::struct_size_of(error, "error"); // before the work

@@ -186,9 +186,10 @@ double first_depth(const Scene &scene, const SphereTree *tree, const Camera &cam
         depth = std::min(depth, nearest_depth(curved_plane(plane, scene.materials[plane.material], camera), view));
     if (tree)
         depth = std::min(
-            depth, tree->least_depth(
-                       camera, [&](const MovingBall &region) { return depth_of_region(region, view); },
-                       [&](const MovingBall &sphere) { return depth_of_sphere(sphere, view, 2.0 * side_margin); }));
+            depth, tree->least(
+                           camera, [&](const MovingBall &region) { return depth_of_region(region, view); },
+                           [&](const MovingBall &sphere) { return depth_of_sphere(sphere, view, 2.0 * side_margin); })
+                       .number);
     return depth;
 }
 
@@ -243,6 +244,12 @@ Camera starting_ahead(const Scene &scene, const SphereTree *tree, const Camera &
     }
     ahead.position += ahead.start_distance * camera.forward;
     return ahead;
+}
+
+std::function<double(const MovingBall &)> depths_in_view(const Camera &camera, const RenderSettings &settings) {
+    if (camera.is_orthographic())
+        return [view = ParallelView(camera, settings)](const MovingBall &ball) { return depth_of_region(ball, view); };
+    return [view = View(camera, settings)](const MovingBall &ball) { return depth_of_region(ball, view); };
 }
 
 gpu::CameraView camera_view(const Camera &camera, const RenderSettings &settings) {

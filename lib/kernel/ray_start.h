@@ -7,6 +7,8 @@
 #include "lib/tree/sphere_tree.h"
 #include "shaders/gpu_layout.h"
 
+#include <functional>
+
 namespace pt {
 
 // Moves the camera ahead to the first surface that may be in view, if the view is so narrow that the rounding of
@@ -15,6 +17,10 @@ namespace pt {
 // rays always start on such a plane, on the disc around the image (start_radius). tree: further spheres, or NULL.
 // Throws PT_ERROR_UNSUPPORTED if a view with parallel rays is too wide.
 Camera starting_ahead(const Scene &scene, const SphereTree *tree, const Camera &camera, const RenderSettings &settings);
+
+// The depth of the nearest point that a ball takes up on its way and that the camera may see, or less; infinite if
+// there is none.
+std::function<double(const MovingBall &)> depths_in_view(const Camera &camera, const RenderSettings &settings);
 
 // Such a camera as kernels read it.
 gpu::CameraView camera_view(const Camera &camera, const RenderSettings &settings);

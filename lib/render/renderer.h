@@ -2,6 +2,7 @@
 // api.cpp.
 #pragma once
 
+#include "lib/base/error.h"
 #include "lib/base/log.h"
 #include "lib/base/work_progress.h"
 #include "lib/film/error_estimate.h"
@@ -121,6 +122,9 @@ public:
 
     pt_stats stats();
 
+    // About what is seen (displacement.h); NULL if there is none. Stays until the next call.
+    const BrokenRule *warning();
+
     // The error of the image, including lamps in view that no sample has met. Those are stated but do not end a
     // rendering, because films that are added elsewhere do not know about lamps.
     ErrorEstimate error_with_lamps();
@@ -188,6 +192,7 @@ private:
     std::vector<double> tile_squares_;                  // likewise; empty until then
     std::vector<std::byte> mapped_image_;               // as far as the host makes images that are mapped
     std::optional<std::vector<LampPiece>> small_lamps_; // of the scene, camera and settings, once they are asked for
+    std::optional<BrokenRule> warning_;
     DeviceWork work_;
     Cancellation cancellation_; // of job_, present or about to begin
     std::unique_ptr<Job> job_;  // while samples are under way

@@ -4,6 +4,7 @@
 #include "lib/film/film_facts.h"
 #include "lib/film/pixel_format.h"
 #include "lib/film/tile_map.h"
+#include "lib/kernel/displacement.h"
 #include "lib/kernel/gpu_scene.h"
 #include "lib/render/film_identity.h"
 #include "lib/render/missed_lamps.h"
@@ -204,6 +205,13 @@ void Renderer::add_film(std::span<const std::byte> bytes) {
         other->discard_samples();
     round_ = later_of(round_, film.header().round);
     take_over(std::move(all));
+}
+
+const BrokenRule *Renderer::warning() {
+    warning_.reset();
+    if (scene_ && camera_ && settings_)
+        warning_ = displaced_surface(*scene_, *camera_, *settings_);
+    return warning_ ? &*warning_ : nullptr;
 }
 
 pt_stats Renderer::stats() {

@@ -74,7 +74,7 @@ double way_to_first(const PreparedScene &prepared, const Camera &start, const gl
     const auto to_region = [&](const MovingBall &region) {
         return glm::length(region.open) > region.radius ? to_ball(region) : 0.0;
     };
-    return std::min(first, prepared.tree->least_depth(start, to_region, to_ball));
+    return std::min(first, prepared.tree->least(start, to_region, to_ball).number);
 }
 
 bool is_hidden(const SeenSphere &lamp, const PreparedScene &scene, const Camera &camera) {

@@ -68,7 +68,10 @@ Scene owned_scene(CheckedScene checked, const std::vector<std::uint32_t> *only) 
 }
 
 SpherePlace place_of_sphere(const Scene &scene, std::size_t position) {
-    const std::size_t index = scene.indices.empty() ? position : scene.indices[position];
+    return place_of_index(scene, scene.indices.empty() ? position : scene.indices[position]);
+}
+
+SpherePlace place_of_index(const Scene &scene, std::size_t index) {
     const auto after = std::ranges::upper_bound(scene.array_starts, index);
     const auto array = after - scene.array_starts.begin() - 1;
     if (array < 0)

@@ -79,6 +79,9 @@ struct SpherePlace {
 
 SpherePlace place_of_sphere(const Scene &scene, std::size_t position);
 
+// The same for its index among all spheres of the caller's.
+SpherePlace place_of_index(const Scene &scene, std::size_t index);
+
 // A digest like Digest::text, of the surfaces in their order and the material of each, by which films tell whether they
 // show the same scene. It does not matter whether spheres came as structs or by columns, which unused materials there
 // are, or in which order and how often materials are listed.

@@ -4,6 +4,7 @@
 #include "lib/scene/seen_scene.h"
 #include "lib/tree/coincident_spheres.h"
 #include "lib/tree/equal_words.h"
+#include "lib/tree/middle.h"
 #include "lib/tree/tree_node.h"
 
 #include <algorithm>
@@ -286,14 +287,14 @@ bool SphereTree::divides_start(const Camera &camera) const {
     });
 }
 
-// Enters the nearest node first, and no node beyond the nearest sphere so far.
-double SphereTree::least_depth(const Camera &camera, const std::function<double(const MovingBall &)> &of_region,
-                               const std::function<double(const MovingBall &)> &of_sphere) const {
-    using Entry = std::pair<double, std::uint32_t>; // depth and node
+// Enters the node with the least bound first, and none whose bound exceeds the least number so far.
+SphereTree::Least SphereTree::least(const Camera &camera, const std::function<double(const MovingBall &)> &of_region,
+                                    const std::function<double(const MovingBall &)> &of_sphere) const {
+    using Entry = std::pair<double, std::uint32_t>; // bound and node
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> entries;
     entries.emplace(0.0, 0);
-    double least = std::numeric_limits<double>::infinity();
-    while (!entries.empty() && entries.top().first < least) {
+    Least least{std::numeric_limits<double>::infinity(), nowhere, {}};
+    while (!entries.empty() && entries.top().first < least.number) {
         const TreeNodeView node = node_of(words_, entries.top().second);
         entries.pop();
         for (std::uint32_t child = 0; child < node.child_count(); ++child) {
@@ -302,15 +303,32 @@ double SphereTree::least_depth(const Camera &camera, const std::function<double(
                 const glm::dvec3 low = grid_.point(box.low) - camera.position;
                 const glm::dvec3 high = grid_.point(box.high) - camera.position;
                 const MovingBall about{0.5 * (low + high), glm::dvec3(0.0), 0.5 * glm::length(high - low)};
-                if (const double depth = of_region(about); depth < least)
-                    entries.emplace(depth, node.first_child() + child);
+                if (const double bound = of_region(about); bound < least.number)
+                    entries.emplace(bound, node.first_child() + child);
             } else {
                 const std::uint32_t place = node.first_place() + child - node.inner_count();
-                least = std::min(least, of_sphere(seen_ball(surface_of(place), camera)));
+                const MovingBall surface = seen_ball(surface_of(place), camera);
+                if (const double number = of_sphere(surface); number < least.number)
+                    least = {number, (*spheres_)[place], surface};
             }
         }
     }
     return least;
+}
+
+SphereTree::Farthest SphereTree::farthest() const {
+    const glm::dvec3 middle = middle_of(sphere_count_, [&](std::uint32_t place) { return surface_of(place).open; });
+    Farthest farthest{};
+    double reach = -1.0;
+    for (std::uint32_t place = 0; place < sphere_count_; ++place) {
+        const MovingBall surface = surface_of(place);
+        const double distance = glm::length(surface.open - middle);
+        if (const double own = distance + glm::length(surface.way) + surface.radius; own > reach) {
+            reach = own;
+            farthest = {(*spheres_)[place], surface, distance};
+        }
+    }
+    return farthest;
 }
 
 bool SphereTree::finds_close_lamps(WorkProgress &progress) const {

@@ -79,9 +79,22 @@ public:
     // Whether parallel rays may start on both sides of a sphere (seen_scene.h).
     bool divides_start(const Camera &camera) const;
 
-    // The least depth of the spheres from a camera. of_region: a lower bound of the depth of everything in a ball.
-    double least_depth(const Camera &camera, const std::function<double(const MovingBall &)> &of_region,
-                       const std::function<double(const MovingBall &)> &of_sphere) const;
+    // The sphere with the least number as a camera sees it. of_region: a lower bound for everything in a ball.
+    struct Least {
+        double number;
+        std::uint32_t sphere; // its index in the scene
+        MovingBall surface;   // relative to the camera
+    };
+    Least least(const Camera &camera, const std::function<double(const MovingBall &)> &of_region,
+                const std::function<double(const MovingBall &)> &of_sphere) const;
+
+    // The sphere that reaches farthest from the middle of most, and so makes the grid coarse.
+    struct Farthest {
+        std::uint32_t sphere; // its index in the scene
+        MovingBall surface;
+        double distance; // from the middle to its centre
+    };
+    Farthest farthest() const;
 
     // The box of all spheres at any time.
     PointBox bounds() const { return {grid_.point(box_.low), grid_.point(box_.high)}; }

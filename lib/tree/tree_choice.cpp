@@ -1,6 +1,8 @@
 // Finds what reaches farthest; see tree_choice.h.
 #include "lib/tree/tree_choice.h"
 
+#include "lib/tree/middle.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <functional>
@@ -23,30 +25,12 @@ constexpr double much_farther = 16.0;
 // them, but walks are faster in a tree of balls alone.
 constexpr std::size_t few_others = 16;
 
-// The medians of the coordinates of about a thousand spheres.
-glm::dvec3 middle_of(const SphereSource &spheres) {
-    constexpr std::size_t enough = 1000;
-    const auto step = static_cast<std::uint32_t>(spheres.size() / enough + 1);
-    std::vector<glm::dvec3> centres;
-    for (std::uint32_t i = 0; i < spheres.size(); i += step)
-        centres.push_back(spheres[i].center);
-    glm::dvec3 middle;
-    for (int axis = 0; axis < 3; ++axis) {
-        std::vector<double> coordinates;
-        for (const glm::dvec3 &centre : centres)
-            coordinates.push_back(centre[axis]);
-        const auto half = coordinates.begin() + static_cast<std::ptrdiff_t>(coordinates.size() / 2);
-        std::ranges::nth_element(coordinates, half);
-        middle[axis] = *half;
-    }
-    return middle;
-}
-
 // The few spheres that would make the grid of a tree coarse: huge ones, like a ground, and distant ones, like a sun.
 // They reach 16 times as far from the middle of the scene as all others. By index in ascending order.
 std::vector<std::uint32_t> outlying_spheres(const SphereSource &spheres, WorkProgress &progress) {
     const std::size_t few = std::min(most_outlying, spheres.size() / 2);
-    const glm::dvec3 middle = middle_of(spheres);
+    const glm::dvec3 middle =
+        middle_of(static_cast<std::uint32_t>(spheres.size()), [&](std::uint32_t i) { return spheres[i].center; });
 
     // The farthest spheres and one more, farthest first.
     using Reach = std::pair<double, std::uint32_t>;

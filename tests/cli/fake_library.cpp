@@ -151,6 +151,11 @@ uint64_t pt_get_broken_rule(const pt_context *context, std::uint32_t index, pt_b
     return 1;
 }
 
+pt_result pt_get_warning(pt_context *context, pt_broken_rule *warning) {
+    *warning = {};
+    return call(context, "warning");
+}
+
 void pt_destroy(pt_context *context) {
     if (context != nullptr)
         call(context, "destroy");

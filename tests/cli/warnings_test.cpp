@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,7 @@ const std::string materials =
 Texts warnings_of(const std::string &members, const std::string &camera_members = camera) {
     const cli::SceneFile scene =
         cli::parse_scene(std::string("{").append(camera_members).append(members).append("}"), "s.json");
-    return input_warnings(scene, 0.0);
+    return input_warnings(scene, std::nullopt, 0.0);
 }
 
 std::string scene_of(const std::string &spheres, const std::string &planes = "") {
@@ -81,9 +82,22 @@ TEST(Warnings, ColorsOfBytesComeWithTheirLight) {
 TEST(Warnings, TargetsThatSayNothing) {
     const cli::SceneFile scene =
         cli::parse_scene(std::string("{").append(scene_of(sphere(9, 1, "lamp"))).append("}"), "s.json");
-    EXPECT_EQ(input_warnings(scene, 0.999), Texts());
-    EXPECT_EQ(input_warnings(scene, 1.0).size(), 1U);
-    EXPECT_EQ(input_warnings(scene, 2.0), Texts{"--error: the target is 200%; two percent are written 2% or 0.02"});
+    EXPECT_EQ(input_warnings(scene, std::nullopt, 0.999), Texts());
+    EXPECT_EQ(input_warnings(scene, std::nullopt, 1.0).size(), 1U);
+    EXPECT_EQ(input_warnings(scene, std::nullopt, 2.0),
+              Texts{"--error: the target is 200%; two percent are written 2% or 0.02"});
+}
+
+// The library counts capsules as an array of spheres.
+TEST(Warnings, OfTheLibraryNameTheFilesField) {
+    const cli::SceneFile scene = cli::parse_scene(std::string("{")
+                                                      .append(camera)
+                                                      .append(scene_of(sphere(9, 1, "lamp")))
+                                                      .append(",\n\"capsules\": [{\"center\": [0, 0, 0], \"end\": "
+                                                              "[1e5, 0, 0], \"radius\": 1, \"material\": \"grey\"}]}"),
+                                                  "s.json");
+    const cli::BrokenRule rule{"sphere_arrays", 0, "end", 0, "", "(1e+05, 0, 0)", "is too long"};
+    EXPECT_EQ(input_warnings(scene, rule, 0.0), Texts{"s.json:2: capsules[0].end = (1e+05, 0, 0): is too long"});
 }
 
 TEST(Warnings, SamplesLeftOut) {

@@ -111,6 +111,7 @@ TEST_F(ApiTest, RefusesNullPointers) {
     refused(pt_readback(context(), nullptr), "image");
     refused(pt_get_context_device(context(), nullptr), "device");
     refused(pt_get_stats(context(), nullptr), "stats");
+    refused(pt_get_warning(context(), nullptr), "warning");
     refused(pt_get_accuracy(context(), nullptr, nullptr), "count");
     accumulate(1);
     pt_image no_data{};

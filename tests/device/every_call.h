@@ -6,6 +6,7 @@
 #include <pt/accuracy.h>
 #include <pt/async.h>
 #include <pt/devices.h>
+#include <pt/errors.h>
 #include <pt/map.h>
 #include <pt/pt.h>
 #include <pt/shaders.h>
@@ -39,6 +40,8 @@ inline Outcomes outcomes_of_every_call(pt_context *context) {
     stats.struct_size = sizeof stats;
     pt_error_estimate error{};
     error.struct_size = sizeof error;
+    pt_broken_rule warning{};
+    warning.struct_size = sizeof warning;
     std::uint32_t count = 0;
     const std::map<std::string, std::function<pt_result()>> calls = {
         {"pt_get_context_device", [&] { return pt_get_context_device(context, &device); }},
@@ -53,6 +56,7 @@ inline Outcomes outcomes_of_every_call(pt_context *context) {
         {"pt_map_image", [&] { return pt_map_image(context, &mapped, &data, nullptr); }},
         {"pt_readback_to_buffer", [&] { return pt_readback_to_buffer(context, &buffer_image); }},
         {"pt_get_stats", [&] { return pt_get_stats(context, &stats); }},
+        {"pt_get_warning", [&] { return pt_get_warning(context, &warning); }},
         {"pt_get_error_estimate", [&] { return pt_get_error_estimate(context, &error); }},
         {"pt_get_accuracy", [&] { return pt_get_accuracy(context, nullptr, &count); }},
     };

@@ -70,5 +70,6 @@ static_assert(
     std::is_same_v<decltype(&pt_get_accuracy), pt_result (*)(pt_context *, pt_function_accuracy *, uint32_t *)>);
 static_assert(
     std::is_same_v<decltype(&pt_get_broken_rule), uint64_t (*)(const pt_context *, uint32_t, pt_broken_rule *)>);
+static_assert(std::is_same_v<decltype(&pt_get_warning), pt_result (*)(pt_context *, pt_broken_rule *)>);
 
 } // namespace

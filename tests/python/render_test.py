@@ -163,5 +163,16 @@ class Readback(unittest.TestCase):
         ready(self.context).accumulate(4)
 
 
+class Warnings(unittest.TestCase):
+    def test_of_what_rounding_moves(self):
+        spheres = pt.SphereArray([(0.0, 1.0, 0.0), (0.0, 1.0, -1e9)], 1, pt.Material(diffuse=0.5), opacity=0.5)
+        with pt.Context() as context:
+            with self.assertWarnsRegex(UserWarning, r"^sphere_arrays\[0\]\.center\[1\] = \(0, 1, -1e\+09\): it reaches"):
+                context.render(pt.Scene(sphere_arrays=[spheres]), CAMERA, settings(), 1)
+            self.assertEqual((context.warning().index, context.warning().component), (0, 1))
+            context.set_scene(SCENE)
+            self.assertIsNone(context.warning())
+
+
 if __name__ == "__main__":
     unittest.main()

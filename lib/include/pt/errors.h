@@ -1,5 +1,5 @@
 /** @file
- * pt: the last error as data, for programs that show their users where a wrong value came from.
+ * pt: errors and warnings as data, for programs that show their users where a wrong value came from.
  *
  * A message of pt_last_error about fields has a line per broken rule, made of the members of a pt_broken_rule:
  * "spheres[3].center[0] = nan: must be finite", "render.width * height = 0: ...". */
@@ -35,6 +35,15 @@ typedef struct pt_broken_rule {
  *
  * context, NULL or not, and threads are as for pt_last_error; never fails, and does not change the last error. */
 PT_API uint64_t pt_get_broken_rule(const pt_context *context, uint32_t index, pt_broken_rule *rule);
+
+/** Writes a warning about the scene as the camera sees it: the surface that is moved farthest by rounding, if that is
+ * more than a pixel (pt_sphere_array.end and opacity state the precision). subject, index, member and component name
+ * the field that causes it, rule says by how much and what to do. "sphere_arrays[0].radius[7] = 1e+06: ..."
+ *
+ * Without such a surface, or as long as scene, camera or render settings are missing, all other fields are 0 or NULL.
+ * Strings live until the next call with the context. warning->struct_size must be set; no more bytes than that are
+ * written. Refused while samples are under way (pt/async.h). One thread at a time per context. */
+PT_API pt_result pt_get_warning(pt_context *context, pt_broken_rule *warning);
 
 #ifdef __cplusplus
 }

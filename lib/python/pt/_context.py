@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import warnings
 import weakref
 from types import TracebackType
 from typing import Any
@@ -15,11 +16,11 @@ from pt._callbacks import CallbackGuard, Log, Progress, log_function
 from pt._camera import Camera, RenderSettings
 from pt._denoise import render_denoised
 from pt._enums import CreateFlag, Format, Quantity, Result, Sampling
-from pt._errors import InvalidStateError
+from pt._errors import BrokenRule, InvalidStateError
 from pt._files import Path
 from pt._film import Film, bytes_from
 from pt._image import Image
-from pt._library import checked, library
+from pt._library import broken_rule_of, checked, library
 from pt._pixels import Rectangle, image_struct, new_pixels
 from pt._scene import Scene, SceneStruct
 from pt._stats import DeviceInfo, ErrorEstimate, Stats, device_of, error_estimate_of, stats_of
@@ -200,6 +201,12 @@ class Context:
         self._call("pt_get_stats", struct)
         return stats_of(struct)
 
+    def warning(self) -> BrokenRule | None:
+        """The surface that rounding moves farthest, if by more than a pixel in view, and what to do."""
+        struct = structs.pt_broken_rule()
+        self._call("pt_get_warning", struct)
+        return broken_rule_of(struct) if struct.subject else None
+
     def error_estimate(self) -> ErrorEstimate:
         """How good the image is. The first call after new samples examines the whole image."""
         struct = structs.pt_error_estimate()
@@ -224,7 +231,8 @@ class Context:
 
     def render(self, scene: Scene, camera: Camera, settings: RenderSettings, samples: int, *,
                target_error: float = 0.0, progress: Progress | None = None, denoise: bool = False) -> Image:
-        """Sets all three, accumulates samples and returns the image, even if progress ended the sampling early.
+        """Sets all three, accumulates samples and returns the image, even if progress ended the sampling early. Warns
+        (UserWarning) of what warning() tells.
 
         denoise   takes half of the samples with each of two seeds and denoises them, as pt.denoise says; a target error
                   is the result's
@@ -233,10 +241,14 @@ class Context:
         self.set_scene(scene)
         self.set_camera(camera)
         if denoise:
-            return render_denoised(self, settings, samples, target_error, progress)
-        self.set_render(settings)
-        self.accumulate(samples, target_error=target_error, progress=progress)
-        return self.image()
+            image = render_denoised(self, settings, samples, target_error, progress)
+        else:
+            self.set_render(settings)
+            self.accumulate(samples, target_error=target_error, progress=progress)
+            image = self.image()
+        if (displaced := self.warning()) is not None:
+            warnings.warn(str(displaced), stacklevel=2)
+        return image
 
     def _guard(self) -> CallbackGuard:
         guard = CallbackGuard()

@@ -20,6 +20,13 @@ class BrokenRule:
     value: str  # "nan"
     rule: str  # "must be finite"
 
+    def __str__(self) -> str:
+        of = "" if self.index is None else f"[{self.index}]"
+        element = "" if self.component is None else f"[{self.component}]"
+        member = f".{self.member}" if self.member else ""
+        joined = f" {self.joined_with}" if self.joined_with else ""
+        return f"{self.subject}{of}{member}{element}{joined} = {self.value}: {self.rule}"
+
 
 class Error(Exception):
     """A failed call, with the library's message. It has changed nothing, except that a lost device stays lost and

@@ -35,6 +35,7 @@ PARAMETERS: Final[dict[str, list[Any]]] = {
     "pt_reload_shaders": [c_void_p],
     "pt_accumulate": [c_void_p, POINTER(structs.pt_accumulate_info)],
     "pt_readback": [c_void_p, POINTER(structs.pt_image)],
+    "pt_get_warning": [c_void_p, POINTER(structs.pt_broken_rule)],
     "pt_get_stats": [c_void_p, POINTER(structs.pt_stats)],
     "pt_get_error_estimate": [c_void_p, POINTER(structs.pt_error_estimate)],
     "pt_next_check": [c_uint32],
@@ -101,15 +102,19 @@ def _text(value: bytes | None) -> str:
     return "" if value is None else value.decode(errors="replace")
 
 
+def broken_rule_of(rule: structs.pt_broken_rule) -> BrokenRule:
+    return BrokenRule(
+        subject=_text(rule.subject), index=None if rule.index < 0 else rule.index, member=_text(rule.member),
+        component=None if rule.component < 0 else rule.component, joined_with=_text(getattr(rule, "with")),
+        value=_text(rule.value), rule=_text(rule.rule))
+
+
 def _broken_rules(loaded: ctypes.CDLL, context: c_void_p | None) -> tuple[BrokenRule, ...]:
     rules = []
     for index in range(min(loaded.pt_get_broken_rule(context, 0, None), BROKEN_RULES_KEPT)):
         rule = structs.pt_broken_rule()
         loaded.pt_get_broken_rule(context, index, rule)
-        rules.append(BrokenRule(
-            subject=_text(rule.subject), index=None if rule.index < 0 else rule.index, member=_text(rule.member),
-            component=None if rule.component < 0 else rule.component, joined_with=_text(getattr(rule, "with")),
-            value=_text(rule.value), rule=_text(rule.rule)))
+        rules.append(broken_rule_of(rule))
     return tuple(rules)
 
 

@@ -1,0 +1,33 @@
+// Where most of many points are, whatever a few of them do.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace pt {
+
+// The medians of the coordinates of about a thousand of the points center_of(0), ..., center_of(count - 1).
+template <typename CenterOf>
+glm::dvec3 middle_of(std::uint32_t count, CenterOf center_of) {
+    constexpr std::uint32_t enough = 1000;
+    const std::uint32_t step = count / enough + 1;
+    std::vector<glm::dvec3> centers;
+    for (std::uint32_t i = 0; i < count; i += step)
+        centers.push_back(center_of(i));
+    glm::dvec3 middle;
+    for (int axis = 0; axis < 3; ++axis) {
+        std::vector<double> coordinates;
+        for (const glm::dvec3 &center : centers)
+            coordinates.push_back(center[axis]);
+        const auto half = coordinates.begin() + static_cast<std::ptrdiff_t>(coordinates.size() / 2);
+        std::ranges::nth_element(coordinates, half);
+        middle[axis] = *half;
+    }
+    return middle;
+}
+
+} // namespace pt

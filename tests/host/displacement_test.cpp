@@ -1,0 +1,139 @@
+// Which surface rounding moves by more than a pixel, on both sides of a pixel.
+#include "lib/kernel/displacement.h"
+#include "lib/scene/checked_scene.h"
+#include "tests/support/checked_scene_of.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace displacements {
+
+namespace {
+
+struct Surface {
+    glm::dvec3 center;
+    double radius;
+    float opacity = 1.0F;
+};
+
+constexpr float half = 0.5F;
+
+// A pixel covers a 512th of its distance, less 0.8% by the bounds of depths.
+constexpr pt::RenderSettings square{64, 64, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 64};
+const pt::Camera ahead{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.0625, 0.0, 1.0};
+
+template <typename Element>
+pt_column column_of(const Element &first, std::uint32_t type) {
+    return {&first, sizeof(Surface), type};
+}
+
+pt_sphere_array array_of(const std::vector<Surface> &surfaces) {
+    pt_sphere_array array{};
+    array.struct_size = sizeof array;
+    array.count = static_cast<std::uint32_t>(surfaces.size());
+    array.center = column_of(surfaces[0].center, PT_TYPE_FLOAT64);
+    array.radius = column_of(surfaces[0].radius, PT_TYPE_FLOAT64);
+    array.opacity = column_of(surfaces[0].opacity, PT_TYPE_FLOAT32);
+    return array;
+}
+
+pt::PreparedScene prepared(const pt_sphere_array &array) {
+    const pt_material black{};
+    pt_scene scene{};
+    scene.struct_size = sizeof scene;
+    scene.material_count = 1;
+    scene.materials = &black;
+    scene.sphere_array_count = 1;
+    scene.sphere_arrays = &array;
+    return prepared_scene_of(checked_scene_of(scene), 113);
+}
+
+std::optional<pt::BrokenRule> displaced(const std::vector<Surface> &surfaces, const pt::Camera &camera = ahead) {
+    return pt::displaced_surface(prepared(array_of(surfaces)), camera, square);
+}
+
+std::optional<pt::BrokenRule> displaced_capsule(const glm::dvec3 &center, const glm::dvec3 &end, double radius,
+                                                const pt::Camera &camera = ahead) {
+    const Surface ball{center, radius};
+    pt_sphere_array array = array_of({ball});
+    array.center = {&center, 0, PT_TYPE_FLOAT64};
+    array.radius = {&radius, 0, PT_TYPE_FLOAT64};
+    array.opacity = {};
+    array.end = {&end, 0, PT_TYPE_FLOAT64};
+    return pt::displaced_surface(prepared(array), camera, square);
+}
+
+TEST(Displacement, OfSpheresThatShareAGridWithADistantOne) {
+    // The grid reaches from -4 to -1e9 - 1, so that its steps are 1 and centres are off by half a diagonal of that. The
+    // near sphere is held at -4.5, and a pixel at -3.5 is 1 / 146.3.
+    const auto rule = displaced({{{0, 0, -5}, 1, half}, {{0, 0, -1e9}, 1, half}});
+    ASSERT_TRUE(rule);
+    EXPECT_EQ(rule->subject, "sphere_arrays");
+    EXPECT_EQ(rule->index, 0);
+    EXPECT_EQ(rule->member, "center");
+    EXPECT_EQ(rule->component, 1);
+    EXPECT_EQ(rule->value, "(0, 0, -1e+09)");
+    EXPECT_TRUE(rule->rule.starts_with("it reaches so far that centers are held to 0.866, which moves some in view by "
+                                       "up to 126.7 pixels in the picture: "))
+        << rule->rule;
+    EXPECT_TRUE(displaced({{{0, 0, -5}, 1, half}, {{0, 0, -1e7}, 1, half}})) << "1.7 pixels";
+    EXPECT_FALSE(displaced({{{0, 0, -5}, 1, half}, {{0, 0, -5e6}, 1, half}})) << "0.87 pixels";
+    EXPECT_FALSE(displaced({{{0, 0, 5}, 1, half}, {{0, 0, 1e9}, 1, half}})) << "behind the camera";
+}
+
+// An opacity of 1 - 1/1000 is held as 1, so the spheres are in no tree.
+TEST(Displacement, OpaqueSpheresAreNotInTheTree) {
+    EXPECT_FALSE(displaced({{{0, 0, -5}, 1, 0.999F}, {{0, 0, -1e9}, 1, 0.999F}}));
+    EXPECT_TRUE(displaced({{{0, 0, -5}, 1, 0.99F}, {{0, 0, -1e9}, 1, 0.99F}}));
+    EXPECT_FALSE(displaced({{{0, 0, -5}, 1, half}, {{0, 0, -1e9}, 1, 1.0F}}));
+}
+
+// Radii are off by 2^-16 of themselves. A pixel at 8 is 1 / 64, which is that of a radius of 1024.
+TEST(Displacement, OfTranslucentRadii) {
+    const auto ball = [](double radius) { return Surface{{0, 0, -radius - 8.0}, radius, half}; };
+    EXPECT_FALSE(displaced({ball(1000)}));
+    const auto rule = displaced({ball(1050)});
+    ASSERT_TRUE(rule);
+    EXPECT_EQ(rule->member, "radius");
+    EXPECT_EQ(rule->value, "1050");
+    EXPECT_TRUE(rule->rule.starts_with("where there are opacities, radii are held to 2^-16 of themselves"))
+        << rule->rule;
+}
+
+// Not itself in view, a ground makes the grid coarse for others.
+TEST(Displacement, OfSpheresThatShareAGridWithAGround) {
+    const auto rule = displaced({{{0, 0, -5}, 1, half}, {{0, -1e8 - 2, 0}, 1e8, half}});
+    ASSERT_TRUE(rule);
+    EXPECT_EQ(rule->member, "radius");
+    EXPECT_EQ(rule->component, 1);
+}
+
+// A capsule passes at a distance of 1, where a pixel is 1 / 512: 2^-21 of 2^12 is as much.
+TEST(Displacement, OfLongCapsules) {
+    const auto passing = [](double length) {
+        return displaced_capsule({-0.5 * length, 0, -1.5}, {0.5 * length, 0, -1.5}, 0.5);
+    };
+    EXPECT_FALSE(passing(1));
+    EXPECT_FALSE(passing(3200)); // its parts may be taken to be nearer by an eighth
+    const auto rule = passing(4200);
+    ASSERT_TRUE(rule);
+    EXPECT_EQ(rule->member, "end");
+    EXPECT_EQ(rule->value, "(2100, 0, -1.5)");
+    EXPECT_TRUE(rule->rule.starts_with("the capsule is 4200 long and held to 2^-21 of that")) << rule->rule;
+    EXPECT_FALSE(displaced_capsule({-1e6, 0, 1.5}, {1e6, 0, 1.5}, 0.5)) << "behind the camera";
+    EXPECT_FALSE(displaced_capsule({0, 0, -1e6}, {1e5, 0, -1e6}, 0.5)) << "far away";
+    pt::Camera parallel = ahead;
+    parallel.tan_half_fov = 0.0;
+    parallel.vertical_extent = 2.0;
+    EXPECT_TRUE(displaced_capsule({-1e5, 0, -1e6}, {1e5, 0, -1e6}, 0.5, parallel));
+    EXPECT_FALSE(displaced_capsule({-1e5, 9, -1e6}, {1e5, 9, -1e6}, 0.5, parallel)) << "beside the picture";
+}
+
+} // namespace
+
+} // namespace displacements
