@@ -18,8 +18,6 @@ namespace pt {
 
 namespace {
 
-constexpr double out_of_view = std::numeric_limits<double>::infinity();
-
 // Of the length and radius of a capsule.
 constexpr double rounding_of_capsules = 0x1p-21;
 // Of the radius of a sphere in a scene with opacities, which take its last bits.

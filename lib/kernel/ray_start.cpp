@@ -14,8 +14,6 @@ namespace pt {
 
 namespace {
 
-constexpr double out_of_view = std::numeric_limits<double>::infinity();
-
 // Farther than any sphere may be, whose centre, way and camera have components up to 1e18; planes that are all but
 // along the view are met farther still. From a start beyond it the squares of distances would not be numbers of
 // float32.

@@ -8,6 +8,7 @@
 #include "shaders/gpu_layout.h"
 
 #include <functional>
+#include <limits>
 
 namespace pt {
 
@@ -18,8 +19,10 @@ namespace pt {
 // Throws PT_ERROR_UNSUPPORTED if a view with parallel rays is too wide.
 Camera starting_ahead(const Scene &scene, const SphereTree *tree, const Camera &camera, const RenderSettings &settings);
 
-// The depth of the nearest point that a ball takes up on its way and that the camera may see, or less; infinite if
-// there is none.
+// A depth of what the camera does not see.
+inline constexpr double out_of_view = std::numeric_limits<double>::infinity();
+
+// The depth of the nearest point that a ball takes up on its way and that the camera may see, or less.
 std::function<double(const MovingBall &)> depths_in_view(const Camera &camera, const RenderSettings &settings);
 
 // Such a camera as kernels read it.
