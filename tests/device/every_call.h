@@ -69,7 +69,7 @@ inline Outcomes outcomes_of_every_call(pt_context *context) {
 }
 
 inline void expect_every_call(const Outcomes &outcomes, const std::string &expected) {
-    EXPECT_EQ(outcomes.size(), 14U);
+    EXPECT_EQ(outcomes.size(), 15U);
     for (const auto &[name, outcome] : outcomes)
         EXPECT_EQ(outcome, expected) << name;
 }
