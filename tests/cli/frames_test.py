@@ -76,8 +76,8 @@ class Frames(FramesTest):
                 (2, ("s.json", "-o", "#.png", "--frames", "0", "--watch"), "--watch: shows one picture"),
                 (2, ("s.json", "-o", "#.json", "--frames", "0"), "the name must end in"),
                 (2, ("s.json", "--film", "f.ptfilm", "--frames", "0"), "--film f.ptfilm: with --frames the name must"),
-                (2, ("s.json", "-o", "#.png", "--checkpoint", "#.ptfilm", "--frames", "0"), "--checkpoint: --frames have"),
-                (2, ("s.json", "-o", "#.png", "--preview-every", "9", "--frames", "0"), "--preview-every: --frames have"),
+                (2, ("s.json", "-o", "#.png", "--checkpoint", "#.ptfilm", "--frames", "0"), "--checkpoint: not with --frames"),
+                (2, ("s.json", "-o", "#.png", "--preview-every", "9", "--frames", "0"), "--preview-every: not with --frames"),
                 (3, (COURSEWORK, "-o", "#.png", "--frames", "0"), "has no animation, of which --frames are rendered"),
                 (2, ("s.json", "-o", "#.png", "--frames", "0", "--set", "spheres[5].radius=1"), "--set spheres[5].")):
             with self.subTest(arguments=arguments):

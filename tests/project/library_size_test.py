@@ -6,7 +6,7 @@ import subprocess
 import sys
 import tempfile
 
-MOST = 1_200_000  # bytes
+MOST = 1_260_000  # bytes
 
 with tempfile.TemporaryDirectory() as folder:
     stripped = os.path.join(folder, "libpt.so")
