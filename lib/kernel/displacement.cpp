@@ -122,7 +122,11 @@ Displaced most_displaced(const PreparedScene &scene, const Camera &camera, const
     if (tree == nullptr)
         return most;
     // Pixels per loss. From 1 on nothing is to be found, so the walk ends there.
-    const auto bounded = [](double ratio) { return ratio < 1.0 ? ratio : out_of_view; };
+    const auto bounded = [](double ratio) {
+        if (ratio < 1.0)
+            return ratio;
+        return out_of_view;
+    };
     const SphereTree::Least least = tree->least(
         camera,
         [&](const MovingBall &region) {
