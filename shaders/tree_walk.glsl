@@ -44,7 +44,8 @@ float distance_in_tree(Start start, GridRay ray, vec3 direction, uint surface, B
         return ray.advance + distance_from_outside(to_centre, ball.centre_radius.w, direction, leaving);
     }
     vec3 from_side = KNOWN_SIDES == 1 ? tree_ball(surface - SURFACE_COUNT, time).centre_radius.xyz : to_first;
-    // Of a vertex: 2^-22 of the way from the camera, and the steps by which spheres that share a word are set apart.
+    // A vertex is off by 2^-22 of its distance at most. 16 more steps of the grid hold the sticks of an atom, which are
+    // set apart by one each (lib/tree/coincident_spheres.h).
     float rounding = 2.3841858e-7 * dot(abs(start.origin), vec3(1.0)) + 16.0 * tree_step();
     return ray.advance +
            ball_distance(ball, to_first, from_side, direction, leaving, start.inside, rounding, TREE_KINDS);

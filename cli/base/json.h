@@ -62,7 +62,7 @@ struct JsonRefusal : std::runtime_error {
         cause(std::move(place)) {}
 
     JsonPath path;
-    JsonPath cause; // what is on the line that is told: the value, or an unknown key in it
+    JsonPath cause; // gives the line of the message: the value, or an unknown key in it
 };
 
 [[noreturn]] inline void refuse(const JsonPlace &place, const std::string &rule) {

@@ -74,7 +74,7 @@ struct SeenLamp {
     double sine;   // of its radius
 };
 
-// As the floor sees it from where the camera looks.
+// The floor's view of it, from the point at which the camera looks.
 SeenLamp lamp_seen(const pt_sphere &lamp, const pt_camera &camera) {
     std::array<double, 3> way{};
     for (std::size_t i = 0; i < 3; ++i)

@@ -5,8 +5,9 @@
 #include "lib/tree/sphere_words.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <numeric>
-#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace pt {
