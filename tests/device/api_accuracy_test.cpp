@@ -1,4 +1,4 @@
-// The contract of pt_get_accuracy.
+// pt_get_accuracy.
 #include "lib/kernel/accuracy.h"
 #include "tests/device/api_fixture.h"
 

@@ -20,7 +20,7 @@ pt_broken_rule rule_of(const pt_context *context, uint32_t index) {
     return rule;
 }
 
-// The rule's message, composed as pt/errors.h says.
+// By pt/errors.h.
 std::string text_of(const pt_broken_rule &rule) {
     std::ostringstream text;
     text << rule.subject;
@@ -122,7 +122,6 @@ TEST_F(ErrorsTest, NameArgumentsAndSizes) {
     expect_rule(pt_set_camera(context(), &camera), "camera", -1, "struct_size", -1);
 }
 
-// Only pt_accumulate can detect motion too large for the camera.
 TEST_F(ErrorsTest, NameASphereThatThisCameraCannotSee) {
     pt_sphere huge = sphere;
     huge.center[1] = -1e9 - 1;
@@ -163,7 +162,7 @@ TEST_F(ErrorsTest, WriteNoMoreThanTheCallerKnows) {
     pt_broken_rule rule;
     std::memset(&rule, 0x55, sizeof rule);
     const pt_broken_rule untouched = rule;
-    for (const uint32_t size : {0U, 3U, 65537U}) { // not a size of the struct
+    for (const uint32_t size : {0U, 3U, 65537U}) {
         rule.struct_size = size;
         EXPECT_EQ(pt_get_broken_rule(context(), 0, &rule), 1U);
         EXPECT_EQ(rule.subject, untouched.subject) << size;
@@ -174,7 +173,6 @@ TEST_F(ErrorsTest, WriteNoMoreThanTheCallerKnows) {
     EXPECT_EQ(rule.value, untouched.value);
 }
 
-// A call refused during another concerns no field, and other threads see no rules.
 TEST_F(ErrorsTest, BelongToWhoMayLookAtThem) {
     set_all();
     EXPECT_LT(pt_set_camera(context(), nullptr), PT_OK);

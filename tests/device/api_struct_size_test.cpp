@@ -10,7 +10,6 @@ namespace api {
 
 namespace {
 
-// Result and message.
 using Outcome = std::pair<pt_result, std::string>;
 
 // In steps of 8 bytes, so that no pointer is split.
@@ -58,7 +57,7 @@ Newer<T> newer_than(const T &value) {
     return newer;
 }
 
-// Newer structs: accepts a zero tail, names each nonzero byte there. Refuses sizes that the struct never had.
+// Accepts newer structs with a zero tail and names each nonzero byte there; refuses sizes that never were.
 template <typename T, typename Call>
 void expect_sizes_heeded(const T &value, const std::string &name, const Call &call) {
     EXPECT_EQ(call(newer_than(value).known), call(value));
@@ -188,7 +187,7 @@ TEST(StructSize, CreateInfo) {
     expect_sizes_heeded(info, "create", call);
 }
 
-// Writes exactly the caller's size, and refuses sizes that the struct never had.
+// Writes exactly the caller's size; refuses sizes that never were.
 template <typename T, typename Call>
 void expect_written_sizes_heeded(const T &whole, const std::string &name, const Call &call) {
     for (const uint32_t size : older_sizes<T>()) {

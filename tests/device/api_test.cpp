@@ -83,7 +83,6 @@ TEST_F(ApiTest, SampleIndicesEndAt32Bits) {
     expect_image(2);
 }
 
-// A pixel counts at most 2^32 - 1 samples.
 TEST_F(ApiTest, PixelsHoldAtMost32BitsOfSamples) {
     set_all();
     accumulate(1);
@@ -199,7 +198,6 @@ TEST_F(ApiTest, ProgressRisesToOneOnTheCallingThread) {
     EXPECT_FALSE(progress.elsewhere);
 }
 
-// All samples are equal, so the error is 0 at the first check.
 TEST_F(ApiTest, TheErrorIsKnownFrom16Samples) {
     set_all();
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -228,7 +226,7 @@ TEST_F(ApiTest, TheErrorIsKnownFrom16Samples) {
     expect_image(116);
 }
 
-// The exception does not cross the C boundary; the film keeps whole samples.
+// The exception does not cross the C boundary.
 TEST_F(ApiTest, ProgressThatThrowsIsAnErrorThatKeepsTheFilmWhole) {
     set_all();
     const pt_accumulate_info info{sizeof info,

@@ -1,4 +1,4 @@
-// Borrowed devices beneath pt.h: locks, waits, and a device that hangs.
+// Borrowed devices: locks, waits, and a device that hangs.
 #include "lib/base/error.h"
 #include "lib/render/render_device.h"
 #include "lib/vulkan/buffer.h"
@@ -29,12 +29,12 @@ using pt::vulkan::DescriptorSet;
 using pt::vulkan::Device;
 using pt::vulkan::Instance;
 
-// Records whether the queue is locked. One device at a time.
+// Records whether the queue is locked; one device at a time.
 class QueueSpy {
 public:
     explicit QueueSpy(const vk::raii::Device &device) {
         counts = {};
-        // The dispatcher is the device's own, mutable function table.
+        // The device's own function table is mutable.
         using Functions = std::remove_cvref_t<decltype(*device.getDispatcher())>;
         auto *functions = const_cast<Functions *>(device.getDispatcher());
         real_submit = functions->vkQueueSubmit;
@@ -97,7 +97,7 @@ protected:
         device.finish();
         EXPECT_EQ(device.film().rejected_samples(), 0U);
         device.discard_samples();
-        // Transfers that buffers skip where host and device share memory.
+        // Transfers that shared memory would skip.
         std::array<std::byte, 64> words{};
         Buffer buffer(device.device(), BufferUse::Storage, words.size(), "test");
         clear(device.device(), buffer);
@@ -139,8 +139,8 @@ TEST_F(BorrowedDeviceTest, ASubmissionThatLosesTheDeviceLetsGoOfTheQueue) {
     EXPECT_EQ(QueueSpy::counts.submissions, 1);
 }
 
-#ifndef __SANITIZE_ADDRESS__ // what stays behind is a deliberate leak
-// Running work was given up: neither what it uses nor the device may be destroyed.
+#ifndef __SANITIZE_ADDRESS__ // a deliberate leak stays behind
+// Running work was given up, so neither its buffers nor the device may be destroyed.
 TEST_F(BorrowedDeviceTest, ADeviceThatHangsKeepsWhatItsWorkUses) {
     const CallerVulkan handles = this->handles(false);
     std::optional<Gate> gate(caller_->device());

@@ -103,7 +103,7 @@ private:
         return instance.createDebugUtilsMessengerEXT(messenger_info(messages));
     }
 
-    // The library's list has the same order for instances of any version.
+    // The list's order is the same for instances of any version.
     static vk::raii::PhysicalDevice choose(const vk::raii::Instance &instance) {
         std::uint32_t count = 0;
         pt_get_devices(nullptr, &count);

@@ -1,4 +1,4 @@
-// Capsules: intersections and light against double; PT_TEST_MANY renders 100 random scenes.
+// Capsules against double; PT_TEST_MANY renders 100 random scenes.
 #include "lib/tree/tree_choice.h"
 #include "tests/support/light_in_double.h"
 
@@ -50,7 +50,6 @@ Nearest nearest_of(const std::vector<Given::Capsule> &capsules, const glm::dvec3
     return nearest;
 }
 
-// Through the pixel's center, of depth 1.
 glm::dvec3 ray_of(const pt_camera &camera, std::uint32_t pixel) {
     const glm::dvec3 forward = glm::normalize(vector_of(camera.target) - vector_of(camera.position));
     const glm::dvec3 right = glm::normalize(glm::cross(forward, vector_of(camera.up)));
@@ -86,7 +85,7 @@ protected:
         return read(quantity);
     }
 
-    // Against sphere tracing in double along the central ray.
+    // Against sphere tracing in double.
     std::size_t wrong_pixels(const Given &seen, const Given &truth) {
         const std::vector<float> depths = first_hits(seen, PT_QUANTITY_DEPTH);
         std::vector<std::uint32_t> objects(std::size_t{picture.x} * picture.y);
@@ -110,7 +109,7 @@ protected:
             }
             const bool meets = nearest.distance < 1e-9;
             met += meets ? 1 : 0;
-            // float32 errs by 8 2^-24 at a distance of 8, and by 2^-23 of the huge radius; at grazing angles by the
+            // float32 errs by 8 2^-24 at a distance of 8, by 2^-23 of the huge radius, and at grazing angles by the
             // root.
             const bool is_near = std::abs(depths[3 * i] - depth) < 2e-4 * depth;
             const bool is_object = objects[i] == seen.spheres.size() + nearest.index;
@@ -155,8 +154,8 @@ double difference(const std::vector<float> &a, const std::vector<float> &b) {
     return differences / light;
 }
 
-// Equal to the bit beside other capsules, otherwise up to rounding in another kernel: within 2^-22 of the silhouettes
-// of 100 balls, fewer than 1e-4 of the rays. A ball changes a hundredth.
+// Equal bits beside other capsules; another kernel rounds differently within 2^-22 of the silhouettes of 100 balls: in
+// fewer than 1e-4 of the rays. A ball changes a hundredth.
 TEST_F(Capsules, AreSpheresWhereTheirEndsCoincide) {
     for (const bool all : {false, true}) {
         Given given = all ? random_scene(4, 200, 100, 8.0) : random_scene(1, 6, 3, 8.0);

@@ -1,4 +1,4 @@
-// Where every surface emits 1 and reflects nothing, coverage has the bits of the mean radiance, because sums are exact.
+// Where every surface emits 1, coverage has the bits of the mean radiance, because sums are exact.
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
@@ -29,7 +29,6 @@ struct Shining {
     pt_camera camera = CourseworkScene::camera();
 };
 
-// The horizon of the plane is in view.
 Shining some(std::uint32_t count, double motion) {
     Shining scene;
     std::mt19937 random(11);
@@ -72,7 +71,7 @@ protected:
         return values_of(from, std::size_t{picture_width} * rows, quantity);
     }
 
-    // Compares, and requires pixels at edges.
+    // Requires pixels at edges too.
     static void expect_that_of_radiance(pt_context *of, std::uint32_t rows = picture_height) {
         const std::vector<float> expected = read(of, PT_QUANTITY_RADIANCE, rows);
         EXPECT_EQ(read(of, PT_QUANTITY_COVERAGE, rows), expected);
@@ -140,7 +139,6 @@ TEST_F(Coverage, KnowsWhichSamplesEachTileHas) {
     ASSERT_LT(*std::ranges::min_element(counts), *std::ranges::max_element(counts));
     expect_that_of_radiance(adaptive.get());
 
-    // Tiles differ in their first range.
     pt_render later = picture();
     later.first_sample = 5000;
     later.row_count = 8;
@@ -161,7 +159,6 @@ TEST_F(Coverage, KnowsWhichSamplesEachTileHas) {
     expect_that_of_radiance(context());
 }
 
-// Also spheres around the camera, and an empty scene.
 TEST_F(Coverage, OfPartsIsPartOfTheWhole) {
     const Context shared = create_context(
         [](pt_create_info &) {}, [](const auto *info, auto **made) { return create_shared(2, *info, made, true); });

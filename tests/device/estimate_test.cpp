@@ -1,4 +1,4 @@
-// Error estimates on the device against the host's, in double.
+// Error estimates on the device against the host's.
 #include "lib/base/error.h"
 #include "lib/film/error_estimate.h"
 #include "lib/film/quotient.h"
@@ -121,7 +121,7 @@ protected:
     Films films_;
 };
 
-// Also in units where squares of radiance, or their sums, overflow or underflow float.
+// Also in units where squares of radiance, or their sums, leave float's range.
 TEST_F(EstimateTest, IsThatOfTheHost) {
     for (const Size &size : {Size{1, 1}, Size{7, 3}, Size{33, 32}, Size{200, 111}, Size{64, 300}})
         for (const double unit : {1.0, 0x1p-120, 0x1p-60, 0x1p30, 0x1p52}) {
@@ -196,7 +196,7 @@ TEST_F(EstimateTest, SamplesThatATileLostAreAnError) {
     EXPECT_NO_THROW(reader.read({1.0, samples, squares}, [](const auto &) {}));
 }
 
-// A sample missing in any pixel, and one too many.
+// One sample missing or too many in any pixel.
 TEST_F(EstimateTest, SamplesThatAPixelLostAreAnErrorOnTheHost) {
     Films films;
     pt::PixelSums sums = films.film(45, 21);

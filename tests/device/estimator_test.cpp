@@ -13,7 +13,7 @@
 
 namespace {
 
-// One false alarm in a million for the file.
+// One in a million for the file.
 constexpr double false_alarms = 1e-6;
 constexpr double comparisons = 1000;
 double allowed(std::size_t batch_count) {
@@ -53,7 +53,7 @@ constexpr uint32_t mean_samples = 48;
 
 struct Means {
     Estimate whole;
-    Estimate glossy_part; // its right half below the horizon, with the glossy ball
+    Estimate glossy_part; // right of the glossy ball, below the horizon
 };
 
 Means means_of(const Batches &batches) {

@@ -21,7 +21,7 @@
 
 namespace api {
 
-using Outcomes = std::map<std::string, std::string>; // by call: result and message
+using Outcomes = std::map<std::string, std::string>; // result and message by call
 
 inline Outcomes outcomes_of_every_call(pt_context *context) {
     const pt_scene scene = valid_scene();

@@ -23,7 +23,7 @@ inline int compare_shifted(pt::WideSum a, int shift, pt::WideSum b) {
     return shifted < b ? -1 : shifted > b ? 1 : 0;
 }
 
-// The midpoint between a float >= 0 and the next one, as mantissa * 2^exponent.
+// The midpoint between a float >= 0 and the next, mantissa * 2^exponent.
 struct Middle {
     pt::WideSum mantissa;
     int exponent;
@@ -52,7 +52,7 @@ inline bool is_nearest(std::uint32_t bits, pt::WideSum sum, std::uint32_t count,
     return order < 0 || (order == 0 && even);
 }
 
-// |A b - B a| 2^exponent / ((a + b) sqrt(a b)); the numerator is exact, in 64-bit limbs.
+// |A b - B a| 2^exponent / ((a + b) sqrt(a b)); exact numerator.
 inline long double exact_standard_error(pt::WideSum sum_a, std::uint32_t a, pt::WideSum sum_b, std::uint32_t b,
                                         int exponent) {
     const auto multiplied = [](pt::WideSum sum, std::uint32_t factor) {

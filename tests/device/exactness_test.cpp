@@ -54,7 +54,7 @@ TEST_F(ExactnessTest, SplittingOverCallsKeepsTheBits) {
     EXPECT_NE(image_of({7, 19, 37}), at_once) << "a missing sample must show";
 }
 
-// Dispatch and table of points are limited; calls beyond must give the bits of many small calls.
+// Calls beyond the limits of a dispatch or the table of points give the bits of small calls.
 class GatheringTest : public ExactnessTest {
 protected:
     Context create_fixtures_context() override {
@@ -78,7 +78,6 @@ protected:
         return image;
     }
 
-    // The largest number of samples in a dispatch.
     uint32_t most_of_a_dispatch(const Paths &paths) {
         const pt::Features features =
             coursework_gpu_scene({3, 1, paths.max_length, 0, 0, PT_ESTIMATOR_MIS, paths.sampler, 0, 1})->features;
@@ -91,7 +90,7 @@ protected:
         return static_cast<uint32_t>(most);
     }
 
-    // One submission against pieces, none of which fills a dispatch.
+    // Pieces, none of which fills a dispatch, against one submission.
     void expect_same_in_pieces(const Paths &paths, uint32_t sample_count) {
         const uint64_t submissions = stats().submit_count;
         const Image at_once = small_image_of(paths, {sample_count});
@@ -105,7 +104,7 @@ protected:
     }
 };
 
-// Dispatches end at powers of two, so the largest one starts there.
+// Dispatches end at powers of two, so the largest starts there.
 TEST_F(GatheringTest, OfRandomSamplesKeepsTheBits) {
     constexpr Paths paths{PT_SAMPLER_RANDOM, 2};
     constexpr uint32_t most = pt::gpu::FILM_MAX_GATHERED;
@@ -146,7 +145,7 @@ TEST_F(ExactnessTest, TheTargetErrorIsReachedAtTheFirstCheckThatSaysSo) {
     EXPECT_GT(error().relative_rmse_high, target);
 }
 
-// All samples are taken if the target is out of reach, or reached with the last.
+// The target is out of reach, or reached with the last sample.
 TEST_F(ExactnessTest, SamplesMayRunOutBeforeTheTargetErrorIsReached) {
     set_up_coursework(context(), 3);
     for (const double target : {1e-9, 1e9}) {
@@ -156,8 +155,8 @@ TEST_F(ExactnessTest, SamplesMayRunOutBeforeTheTargetErrorIsReached) {
     EXPECT_EQ(stats().sample_count, 16U);
 }
 
-// |A - B| sqrt(a b) / n: A is the image of the first a samples, the largest power of two below n, B the image of the
-// others. Calls end before, at, after and across the counts at which parts are folded.
+// |A - B| sqrt(a b) / n: A has the first a samples, the largest power of two below n, B the others. Calls end before,
+// at, after and across the counts at which parts are folded.
 TEST_F(ExactnessTest, StandardErrorsAreThoseOfTheFilmsParts) {
     const auto standard_errors = [&] {
         Image errors(width * height * 3);
@@ -175,7 +174,7 @@ TEST_F(ExactnessTest, StandardErrorsAreThoseOfTheFilmsParts) {
         readback(image);
         return image;
     };
-    // Largest deviation over its bound by rounding.
+    // Largest deviation over its rounding bound.
     const auto deviation = [&](const Image &found, const Image &older, const Image &newer, double a, double b) {
         double worst = 0.0;
         for (std::size_t i = 0; i < found.size(); ++i) {
@@ -203,7 +202,7 @@ TEST_F(ExactnessTest, StandardErrorsAreThoseOfTheFilmsParts) {
     }
 }
 
-// Every sample and mean is float32(0.1). The loops exceed 65,535 trips, after which a known driver stops.
+// Every sample is float32(0.1). The loops exceed 65,535 trips, after which a known driver stops.
 TEST_F(ExactnessTest, NoSampleIsLostInLongRuns) {
     const Image image = image_inside_a_lamp(0.1F, 1U << 20);
     EXPECT_EQ(image, Image(image.size(), 0.1F));

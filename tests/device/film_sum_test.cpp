@@ -25,7 +25,6 @@ protected:
         VulkanFixture::TearDown();
     }
 
-    // Random sums on a device of its own.
     void add_film(std::uint32_t max_strip_pixels) {
         devices_.emplace_back(instance(), physical_device(), pt::vulkan::gpu_like_policy());
         films_.emplace_back(devices_.back(), sum_width, sum_height, max_strip_pixels);

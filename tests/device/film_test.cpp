@@ -24,7 +24,7 @@ __extension__ using Wide = unsigned __int128;
 constexpr std::uint32_t pixels = 1000;
 constexpr std::uint32_t per_pixel = 40;
 
-// Rounds to a multiple of 2^-60, ties to even; both steps are exact in double.
+// Both steps are exact in double.
 Wide multiple_of_2_to_minus_60(float value) {
     return static_cast<Wide>(std::nearbyint(std::ldexp(double{value}, 60)));
 }
@@ -116,7 +116,7 @@ TEST(Film, WindowsHoldTheMostSamplesThatAnInvocationGathers) {
     }
 }
 
-// Vulkan allows rounding towards zero: llvmpipe's threads inherit the mode.
+// Vulkan allows rounding towards zero; llvmpipe's threads inherit the mode.
 class FilmRoundedToZero : public VulkanFixture {
 protected:
     void SetUp() override {
@@ -238,7 +238,7 @@ TEST(Film, SumsThatNoSamplesHaveAreSeen) {
 
 using FilmStrips = VulkanFixture;
 
-// Plane i holds 100 i + p at pixel p of a film in strips.
+// Plane i holds 100 i + p at pixel p.
 TEST_F(FilmStrips, AreReadAsOne) {
     constexpr std::uint32_t film_pixels = 16;
     pt::DeviceFilm film(device(), 4, 4, 6);

@@ -46,7 +46,7 @@ struct Counts {
     std::uint32_t pixels = 0;
     std::uint32_t certain = 0;
     std::uint32_t spheres = 0;
-    std::uint32_t means = 0; // of every eighth that float32 decides
+    std::uint32_t means = 0; // of every eighth pixel that float32 decides
 };
 
 glm::dvec3 albedo_of(const Given &given, std::uint32_t object) {
@@ -61,7 +61,7 @@ glm::dvec3 albedo_of(const Given &given, std::uint32_t object) {
     return albedo;
 }
 
-// Means over a pixel's rays; empty if a ray is undecided.
+// Over a pixel's rays; empty if a ray is undecided.
 struct Means {
     Vector normal{0.0L};
     Real normal_tolerance = 0.0L;
@@ -113,7 +113,7 @@ protected:
         return pixels;
     }
 
-    // Compares normal and albedo; false if undecided.
+    // False if undecided.
     static bool judge_means(const Pixels &pixels, std::uint32_t pixel, const Shot &given, const pt_scene &scene,
                             const View &view) {
         const std::optional<Means> means = means_of(given, scene, view, given.first_column + pixel % columns,
@@ -182,7 +182,7 @@ public:
                                        {material.emission.r, 0, 0},
                                        0,
                                        0});
-        given.materials[1].specular[0] = 0.5F; // with the diffuse above 1 in red
+        given.materials[1].specular[0] = 0.5F; // above 1 in red with the diffuse share
         if (chance(0.3))
             given.materials[2].flags = PT_MATERIAL_HIDDEN_FROM_CAMERA;
         given.spheres = caller_spheres(scene.spheres);
@@ -263,8 +263,8 @@ TEST_F(RandomFirstHit, IsThatOfLongDouble) {
     }
 }
 
-// Rays start beyond the tree. Coordinates in quarters are exact in float32 and on the grid, so tree and list agree to
-// the bit.
+// Coordinates in quarters are exact in float32 and on the grid, so tree and list agree to the bit. Rays start beyond
+// the tree.
 TEST_F(RandomFirstHit, OfALatticeInASkyIsThatOfAList) {
     Shot shot;
     shot.materials = {{{0.7F, 0.7F, 0.7F}, {0, 0, 0}, {0, 0, 0}, 0, 0}, {{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0, 0}};

@@ -1,4 +1,4 @@
-// First hits of camera rays, through pt.h. RandomFirstHit compares them with long double.
+// First hits of camera rays, through pt.h.
 #include "lib/film/pixel_format.h"
 #include "tests/device/first_hit_scenes.h"
 #include "tests/support/context_calls.h"
@@ -135,7 +135,7 @@ TEST_F(FirstHit, IsNothingToSamples) {
         readback(image);
         EXPECT_EQ(image, expected);
         EXPECT_EQ(read(context(), PT_QUANTITY_NORMAL), normal);
-        EXPECT_GT(stats().device_bytes, bytes); // memory is allocated on demand
+        EXPECT_GT(stats().device_bytes, bytes); // allocated on demand
     }
 }
 
@@ -156,7 +156,6 @@ TEST_F(FirstHit, FollowsTheSetters) {
     EXPECT_EQ(objects(context()), other);
 }
 
-// Of coinciding surfaces the first gives the number, in a tree or not.
 TEST_F(FirstHit, TwinsHaveTheNumberOfTheFirst) {
     for (const std::uint32_t count : {8U, 200U}) {
         Given given;
@@ -170,7 +169,7 @@ TEST_F(FirstHit, TwinsHaveTheNumberOfTheFirst) {
     }
 }
 
-// Columns are numbered after structs and keep their colors, within a thousandth in a tree.
+// Columns are numbered after structs; colors are within a thousandth in a tree.
 TEST_F(FirstHit, ColumnsHaveNumbersAndColors) {
     Given given;
     given.materials = {{{0.8F, 0.8F, 0.8F}, {0, 0, 0}, {0, 0, 0}, 0, 0}};

@@ -59,7 +59,7 @@ TEST(GpuLayout, WhatTheSceneDoesNotUseIsNotInTheBuffer) {
     EXPECT_EQ(gpu_scene.words.size(), 9U);
 }
 
-// Curved planes precede flat ones. A lamp 2048 times as large as its distance becomes one and no lamp.
+// Curved planes precede flat ones. A lamp 2048 times larger than its distance becomes one.
 TEST(GpuLayout, HugeSpheresArePlanesWithACurvature) {
     pt::Scene scene = small_scene();
     scene.spheres.push_back({{0, -1026, 1}, 1024, {0, 0, 0}, 0});
@@ -110,7 +110,7 @@ TEST(GpuLayout, OtherSpheresKeepTheirCenter) {
 
 TEST(GpuLayout, TheFilmUnitFollowsTheBrightestLampInUse) {
     pt::Scene scene = small_scene();
-    EXPECT_EQ(pt::PreparedScene(scene).film_unit, 0.5); // 90 is in [2^6, 2^7) and goes to [2^7, 2^8)
+    EXPECT_EQ(pt::PreparedScene(scene).film_unit, 0.5); // 90 is in [2^6, 2^7)
     scene.materials[2].emission = {1e14F, 0, 0};
     EXPECT_EQ(pt::PreparedScene(scene).film_unit, 0x1p39); // 1e14 is in [2^46, 2^47)
     scene.spheres.pop_back();

@@ -21,7 +21,7 @@ namespace {
 constexpr std::uint32_t picture_width = 40;
 constexpr std::uint32_t picture_height = 30;
 
-// Three materials, then the same hidden from the camera.
+// Material i + hidden is material i, hidden from the camera.
 constexpr std::uint32_t hidden = 3;
 
 struct Hiding {
@@ -127,7 +127,7 @@ std::vector<Hiding> closed_scenes() {
     return scenes;
 }
 
-// Two roundings of each of five operations, as in the analytic furnace.
+// Two roundings of each of five operations.
 constexpr double few_roundings = 8.0 * 0x1p-24;
 
 double largest_error(const std::vector<float> &image, const std::vector<float> &coverage, double radiance) {
@@ -138,7 +138,7 @@ double largest_error(const std::vector<float> &image, const std::vector<float> &
     return largest / radiance;
 }
 
-// Estimators alternate by scene, because kernels take long to build.
+// Estimators alternate, because kernels take long to build.
 TEST_F(HiddenFromCamera, ClosedScenesNeitherLeakNorLoseLight) {
     std::uint32_t estimator = PT_ESTIMATOR_COSINE;
     for (const Hiding &given : closed_scenes()) {
@@ -156,7 +156,7 @@ TEST_F(HiddenFromCamera, ClosedScenesNeitherLeakNorLoseLight) {
     }
 }
 
-// One false alarm in a million for all scenes.
+// One false alarm in a million.
 TEST_F(HiddenFromCamera, LampsInClosedScenesAreCountedOnce) {
     constexpr std::uint32_t batch_count = 12;
     for (const Hiding &given : closed_scenes()) {

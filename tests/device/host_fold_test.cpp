@@ -18,7 +18,7 @@ namespace {
 constexpr std::uint32_t fold_width = 16;
 constexpr std::uint32_t fold_height = 12;
 
-// Random words; the rarely used ones are 0.
+// Rarely used words are 0.
 pt::PixelSums random_sums() {
     std::mt19937 random(5);
     pt::PixelSums sums;

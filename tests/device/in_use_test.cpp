@@ -96,7 +96,6 @@ TEST_F(InUseTest, CallsFromAnotherThreadAreRefused) {
     EXPECT_EQ(message(), "");
 }
 
-// The outer call's message is newer once it fails.
 TEST_F(InUseTest, TheMessageIsThatOfTheLastCallThatFailed) {
     set_all();
     std::string inside;
@@ -134,7 +133,6 @@ TEST_F(InUseTest, AChildOfForkIsRefused) {
 
 using Lines = std::vector<std::string>;
 
-// Tries to destroy its context at each line.
 struct EagerLog {
     Lines lines;
     pt_context *context = nullptr;

@@ -1,4 +1,4 @@
-// Rays against one sphere, from huge ones (curved planes) to starts a few ulp from the surface, against long double.
+// Rays against one sphere, from huge ones to starts a few ulp from the surface, against long double.
 #include "intersection.spv.h"
 #include "lib/kernel/gpu_scene.h"
 #include "tests/device/probe.h"
@@ -40,7 +40,7 @@ struct Ball {
 
 enum class Held { AsTheSceneNeeds, ByItsCenter };
 
-// A ball that moves by a 32nd of its radius is stored by its center; it stands still at the rays' time.
+// Motion by a 32nd of the radius stores the ball by its center; it is at rest at the rays' time.
 std::vector<Met> follow(const Ball &ball, const std::vector<Ray> &rays, Held held = Held::AsTheSceneNeeds) {
     pt::Scene scene;
     scene.materials = {{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0}};
@@ -62,7 +62,7 @@ std::vector<Met> follow(const Ball &ball, const std::vector<Ray> &rays, Held hel
     return probe.run<Met>(input, rays.size(), count, count);
 }
 
-// height = (|x - c|^2 - R^2) / (2 R), for the ray's origin x.
+// height = (|x - c|^2 - R^2) / (2 R) of the ray's origin x.
 struct Reference {
     long double height, half_chord, to_middle;
 
@@ -88,8 +88,8 @@ struct Reference {
 //
 // With y = x + o n a ray's origin x has the height n . x + o + k / 2 |y|^2; S = |x| + |o| + |y| (1 + k |y|), c the
 // cosine at the hit. Rounding n, o, k and ten operations: height 8 eps S, slope 8 eps (1 + k |y|). Distance: height
-// error / c + slope error t / c, doubled for the root: 16 eps (S + t (1 + k |y|)) / c. A point errs by the height
-// there, its normal by k times that, and by rounding.
+// error / c + slope error t / c, doubled for the root: 16 eps (S + t (1 + k |y|)) / c. Point: height error there;
+// normal: k times that, and rounding.
 struct Worst {
     double distance = 0, position = 0, normal = 0;
     int missed = 0, compared = 0;
@@ -230,7 +230,7 @@ TEST(Intersection, RaysThatLeaveAHugeSphereMeetItAgainFromInsideOnly) {
                 if (wall[i].surface == nothing || glm::length(wall[i].position) > 100.0F)
                     continue;
                 const glm::dvec3 out = random.direction();
-                const glm::dvec3 normal(wall[i].normal); // inwards
+                const glm::dvec3 normal(wall[i].normal);
                 const bool inwards = glm::dot(out, normal) > 0.0;
                 rays.push_back({wall[i].position, start, glm::vec3((start < 0.0F) == inwards ? out : -out)});
             }
@@ -242,7 +242,7 @@ TEST(Intersection, RaysThatLeaveAHugeSphereMeetItAgainFromInsideOnly) {
     }
 }
 
-// The wrong rule: a hit wherever the distance is positive.
+// Negative control: a hit wherever the distance is positive.
 bool met_by_sign(const Ball &ball, const Ray &ray) {
     const glm::vec3 to_center = glm::vec3(ball.center) - ray.origin;
     const auto radius = static_cast<float>(ball.radius);
@@ -255,7 +255,7 @@ bool met_by_sign(const Ball &ball, const Ray &ray) {
     return b + half_chord > 0.0F;
 }
 
-// Within 3 eps r float32 cannot tell the side; inward rays still hit, at once or at the far side.
+// Within 3 eps r float32 cannot tell the side; inward rays hit, at once or at the far side.
 TEST(Intersection, NothingLeaksThroughASphereNearItsSurface) {
     RandomRays random(4);
     const Ball ball{{0, 0, 0}, 3.0};

@@ -22,7 +22,7 @@ using Kept = std::vector<std::byte>;
 
 struct Keeper {
     std::map<std::string, Kept> kept;
-    std::vector<std::string> loads; // keys
+    std::vector<std::string> loads;
     std::vector<std::string> stores;
     std::vector<std::string> lines;
 
@@ -185,7 +185,6 @@ TEST_F(KeptKernelsApiTest, DamagedAndForeignOnesAreLeftAlone) {
     EXPECT_GE(damaged.stores.size(), 1U) << "good ones take their place";
 }
 
-// Impossible sizes, and sizes that change between calls.
 TEST_F(KeptKernelsApiTest, LoadMaySayAnything) {
     for (const std::uint64_t claimed : {UINT64_MAX, std::uint64_t{1} << 40, std::uint64_t{100}}) {
         std::uint64_t size = claimed;

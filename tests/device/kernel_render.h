@@ -55,7 +55,6 @@ public:
         return film_of_kernel(constants(), source, words);
     }
 
-    // The same with other specialization constants.
     FilmWords film_of_kernel(const Constants &constants, std::uint32_t source,
                              const std::vector<glm::vec4> &words) const {
         Probe probe = probe_of_kernel(constants, source, words);
@@ -70,7 +69,7 @@ public:
         return film_by(probe);
     }
 
-    // The same kernel, for several films.
+    // For several films.
     Probe probe_of_kernel(const Constants &constants, std::uint32_t source, const std::vector<glm::vec4> &words) const {
         const auto values = with_scene_source(constants, source, words);
         Probe probe(pt::specialised_code(pt::embedded_code().pathtrace, values), sizeof frame_, values);
@@ -102,7 +101,7 @@ public:
         return film;
     }
 
-    // The tree's words, mutable; empty without a tree.
+    // Empty without a tree.
     std::vector<glm::uvec4> &tree() { return tree_; }
 
     // Throws if samples are lost.

@@ -21,7 +21,7 @@ constexpr std::uint32_t kernel_height = 21;
 
 class KernelTest : public VulkanFixture {
 protected:
-    // Building a kernel takes longest, so one serves all.
+    // One kernel serves all, because building it takes longest.
     std::vector<pt::PixelSums> film_sums(std::uint32_t invocations, const std::vector<std::uint32_t> &sample_counts) {
         pt::vulkan::Device &device = device_with({.patience = std::chrono::hours{1},
                                                   .share_memory = true,
@@ -46,7 +46,6 @@ protected:
     }
 };
 
-// For small images several invocations share a pixel.
 TEST_F(KernelTest, InvocationsThatShareAPixelGiveTheBitsOfOne) {
     const std::vector<std::uint32_t> sample_counts{1, 5, 36, 37, 200};
     const std::vector<pt::PixelSums> shared = film_sums(1U << 18, sample_counts);

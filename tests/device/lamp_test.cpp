@@ -1,4 +1,4 @@
-// Lamps sampled on the device against the stated densities, and these against geometry in double.
+// Lamps sampled on the device against the stated densities, and these against double.
 #include "lamps.spv.h"
 #include "shaders/specialization.h"
 #include "tests/device/probe.h"
@@ -26,7 +26,7 @@ struct Drawn {
     float distance;
     std::uint32_t lamp;
     float density;     // over solid angle, given the lamp
-    float hit_density; // stated for a direction that happens to hit the lamp
+    float hit_density; // of a direction that happens to hit the lamp
     float probability;
 };
 
@@ -59,11 +59,10 @@ std::vector<Drawn> draw(const std::vector<Lamp> &lamps, const Viewpoint &from, s
     return probe.run<Drawn>({}, count, push, count);
 }
 
-// Emission over ten decades.
 const std::vector<Lamp> uneven_lamps = {
-    {{0.5F, 3.0F, -1.0F}, 1.0F, 2.0F},       {{4.0F, -0.3F, 2.0F}, 0.8F, 30.0F}, // its center below the horizon
-    {{-300.0F, 500.0F, 200.0F}, 0.5F, 1e6F},                                     // far and tiny, r / d = 8e-4
-    {{-0.6F, 0.55F, 0.5F}, 0.9F, 0.01F},                                         // its surface 0.05 away
+    {{0.5F, 3.0F, -1.0F}, 1.0F, 2.0F},       {{4.0F, -0.3F, 2.0F}, 0.8F, 30.0F}, // center below the horizon
+    {{-300.0F, 500.0F, 200.0F}, 0.5F, 1e6F},                                     // r / d = 8e-4
+    {{-0.6F, 0.55F, 0.5F}, 0.9F, 0.01F},                                         // surface 0.05 away
     {{0.0F, -5.0F, 0.0F}, 2.0F, 1e8F},                                           // wholly below the horizon
     {{-3.0F, 1.0F, 4.0F}, 0.02F, 5000.0F},   {{1.0F, 0.2F, -0.5F}, 0.1F, 1e-4F},
 };
@@ -134,9 +133,9 @@ TEST(LampChoice, IsPossibleExactlyForLampsAboveTheHorizon) {
 
 TEST(LampChoice, LeavesOutLampsThatContainTheVertexOrAreIt) {
     const std::vector<Lamp> lamps = {
-        {{0.1F, 0.2F, 0.0F}, 1.0F, 5.0F},    // around the vertex
-        {{0.0F, -2.0F, 0.0F}, 2.0F, 5.0F},   // the vertex is on it
-        {{0.0F, 1000.0F, 0.0F}, 0.1F, 1e-6F} // the only one left, and dim
+        {{0.1F, 0.2F, 0.0F}, 1.0F, 5.0F},
+        {{0.0F, -2.0F, 0.0F}, 2.0F, 5.0F},
+        {{0.0F, 1000.0F, 0.0F}, 0.1F, 1e-6F} // the only one left
     };
     Viewpoint on_second;
     on_second.surface = 1;

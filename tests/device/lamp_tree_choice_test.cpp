@@ -62,8 +62,7 @@ void expect_what_is_stated(const std::vector<TreeDrawn> &drawn, const std::vecto
     }
 }
 
-// One false alarm in a million over 72 chi-squares: 5.6 deviations. Errors of 10% add 2^16 * 0.1^2 = 655; the standard
-// deviation is 45 for 1000 lamps: 15 deviations.
+// 1e-6 over 72 chi-squares: 5.6 deviations. Errors of 10% add 2^16 * 0.1^2 = 655, 15 deviations for 1000 lamps.
 TEST(LampTreeChoice, FollowsTheStatedProbability) {
     const double bound = statistics::normal_quantile(1e-6 / 72);
     for (const auto &[name, scene] : lamp_scenes::all()) {

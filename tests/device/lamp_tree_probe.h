@@ -17,7 +17,7 @@ struct TreeVertex {
     std::uint32_t surface = 0xffffffffU;
 };
 
-// What lamps.comp writes.
+// lamps.comp's output.
 struct TreeDrawn {
     glm::vec3 direction;
     float distance;

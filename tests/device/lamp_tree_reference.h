@@ -16,7 +16,7 @@
 
 inline constexpr double uniform_share = 0.1;
 
-// By gpu_layout.h's words and the choices of shaders/README.md.
+// By gpu_layout.h's words.
 class TreeReference {
 public:
     explicit TreeReference(const pt::GpuScene &scene) : features_(scene.features), words_(scene.words) {
@@ -109,7 +109,7 @@ private:
     }
 
     pt::Features features_;
-    std::vector<glm::vec4> words_; // of the tree
+    std::vector<glm::vec4> words_;
     std::uint32_t levels_ = 1;
     std::uint32_t top_ = 0;
 };

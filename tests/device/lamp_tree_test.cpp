@@ -14,7 +14,7 @@
 
 namespace {
 
-// Differences of positions are rounded, up to 2^-20 of a quotient: nothing is nearer to a vertex than a 1000th of its
+// Differences of positions err by up to 2^-20 of a quotient, as nothing is nearer to a vertex than a 1000th of its
 // camera distance.
 TEST(LampTreeProbabilities, AreThoseOfAReferenceInDouble) {
     for (const auto &[name, scene] : lamp_scenes::all()) {
@@ -33,13 +33,12 @@ TEST(LampTreeProbabilities, AreThoseOfAReferenceInDouble) {
                 stated_sum += stated[lamp];
             }
             EXPECT_NEAR(sum, 1.0, 1e-12) << name;
-            EXPECT_NEAR(stated_sum, 1.0, 64 * 0x1p-24) << name; // each level rounds its quotients a few times
+            EXPECT_NEAR(stated_sum, 1.0, 64 * 0x1p-24) << name; // a few roundings per level
         }
     }
 }
 
-// sum w^2 / P over (sum w)^2, less 1: 0 for weights alone, at most 1 / 9 with the uniform share, 9 by power on the
-// ground here.
+// sum w^2 / P over (sum w)^2, less 1: 0 for weights alone, at most 1 / 9 with the uniform share, 9 by power alone.
 double relative_variance(TreeProbe &probe, const pt::GpuScene &scene, const TreeVertex &vertex) {
     const std::vector<double> weights = lamp_weights(scene, vertex);
     const std::vector<double> probabilities = probe.probabilities(vertex);

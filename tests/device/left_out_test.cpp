@@ -28,8 +28,8 @@ Image image_with_other(const KernelRender &render, std::uint32_t id) {
     return image_with(render, constants);
 }
 
-// More than rounding along equal paths: a vertex errs by 2^-24 of its distance, each ball magnifies by up to 2 distance
-// / radius, here 30; two keep it below 1e-3.
+// Beyond rounding along equal paths: a vertex errs by 2^-24 of its distance, each of two balls magnifies by up to 2
+// distance / radius = 30: below 1e-3.
 std::size_t differing_values(const Image &a, const Image &b) {
     const float mean = std::accumulate(a.begin(), a.end(), 0.0F) / static_cast<float>(a.size());
     std::size_t count = 0;
@@ -38,11 +38,10 @@ std::size_t differing_values(const Image &a, const Image &b) {
     return count;
 }
 
-// Rounding decides rays within 2^-20 of the scene from rims and contacts: in half a sample of 3072 on average, for 20
-// rays and 9 surfaces each. More than 6 samples of 3 values have a probability of 1e-6.
+// Rounding decides rays within 2^-20 of the scene from rims and contacts: half a sample of 3072 for 20 rays and 9
+// surfaces each. More than 6 samples of 3 values: probability 1e-6.
 constexpr std::size_t decided_by_rounding = 18;
 
-// All lamps are inside.
 InvarianceScene room() {
     InvarianceScene scene = InvarianceScene::coursework();
     scene.spheres[3].center[0] = 1.0;

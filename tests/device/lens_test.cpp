@@ -33,8 +33,7 @@ struct Case {
     std::uint32_t reference_samples;
 };
 
-// Rays of the narrow view start ahead of the lens (a pixel below 2^-14 of its distance); floor and a ball cut the last
-// lens.
+// Rays of the narrow view start ahead of the lens; floor and a ball cut the last lens.
 std::vector<Case> cases() {
     Given cut = random_balls(5, 7, 8.0);
     cut.camera.position[1] = -1.0;
@@ -48,7 +47,7 @@ std::vector<Case> cases() {
 
 using Lens = LightInDouble;
 
-// The others need kernels of their own, so they take two samplers each.
+// The others take two samplers each, because each needs a kernel.
 TEST_F(Lens, ShowsWhatAPathTracerInDoubleDoes) {
     const std::vector<Case> all = cases();
     for (std::size_t i = 0; i < all.size(); ++i) {

@@ -1,4 +1,4 @@
-// Moving huge spheres against frozen times and rest; the shutter. tests/analytic/ has a moving ball and lamp.
+// Moving huge spheres against frozen times and rest; the shutter.
 #include "tests/support/batch_fixture.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/scene_of.h"
@@ -92,7 +92,7 @@ TEST_F(HugeMotion, InTheLimitOfNoneIsRest) {
         }
 }
 
-// A moving lamp this large is a plane; its inside is never seen.
+// The inside of a moving lamp this large is never seen.
 TEST_F(HugeMotion, OfALampTheOutsideIsSeen) {
     constexpr double radius = 1e6;
     const pt_material materials[] = {{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0, 0}, {{0, 0, 0}, {0, 0, 0}, {4, 4, 4}, 0, 0}};
@@ -179,7 +179,7 @@ TEST_F(HugeMotion, IsRefusedInNarrowParallelViews) {
 
 // ---- The shutter
 
-// All numbers are exact in binary, so the bits are equal.
+// All numbers are exact in binary.
 TEST_F(Motion, ShutterIsTheSameAsRebasedMotion) {
     const pt_render render = render_of(64, 32, 2);
     set_up_sphere({{-2, 0.5, -6}, 0.5, {4, 0.5, 1}, 0, 0}, 0.25, 0.75);

@@ -41,14 +41,14 @@ protected:
     }
 };
 
-// One vertex shows emission alone; three include lamps.
+// Path length 1 shows emission alone, 3 includes lamps.
 TEST_F(NegativeZero, OfMaterialsIsZero) {
     for (const std::uint32_t max_path_length : {1U, 3U})
         EXPECT_EQ(image_of(scene_with_zeros(-0.0F), max_path_length), image_of(scene_with_zeros(0.0F), max_path_length))
             << "vertices: " << max_path_length;
 }
 
-// Negative control: the film would take a -0 in the kernel for a negative number.
+// Negative control: -0 in the kernel counts as negative.
 TEST(NegativeZeroInTheSceneBuffer, IsRejected) {
     const KernelRender render = render_of_scene(scene_with_zeros(0.0F), 1);
     std::vector<glm::vec4> words = render.words();

@@ -79,8 +79,8 @@ Given cloud(std::uint32_t count) {
     return given;
 }
 
-// With 98,304 rays, five standard errors (at most .008) are exceeded once in 1.7 million times. Negative control:
-// opacities larger by 3%.
+// 98,304 rays: five standard errors (at most .008) are exceeded once in 1.7 million times. Negative control: opacities
+// larger by 3%.
 TEST_F(Opacity, IsTheShareOfRaysThatMeet) {
     const auto passed = [&](float first, float second) {
         const std::vector<Given::Capsule> row{ball_at({0, 0, 2}, 1.0, first), ball_at({0, 0, -2}, 1.0, second)};
@@ -96,7 +96,7 @@ TEST_F(Opacity, IsTheShareOfRaysThatMeet) {
     EXPECT_NEAR(passed(0.0F, 0.0F), 1.0, 1e-6);
 }
 
-// Concentric spheres, and spheres whole grid steps apart along an axis, are independent.
+// Concentric spheres, and spheres whole grid steps apart along an axis.
 TEST_F(Opacity, OfTwoSpheresIsIndependent) {
     const auto passed = [&](const glm::dvec3 &second, double radius, double extent) {
         return share_passed(
@@ -114,8 +114,8 @@ Given::Capsule rod(const glm::dvec3 &from, const glm::dvec3 &to, float opacity, 
     return {{from.x, from.y, from.z}, {to.x, to.y, to.z}, 1.0, material, opacity};
 }
 
-// Different surfaces let the product of their shares pass, even if most of their numbers are equal; duplicates count
-// once. Negative control: the duplicates, which let twice as much pass as the others.
+// The product of their shares passes, even if most of their numbers are equal. Negative control: duplicates, which
+// count once.
 TEST_F(Opacity, OfSurfacesThatDifferIsIndependent) {
     const glm::dvec3 atom(0, 0, 1);
     const std::vector<Given::Capsule> bonds{rod(atom, {2, 0, 1}, 0.5F), rod(atom, {0, 2, 1}, 0.5F)};
@@ -165,8 +165,8 @@ TEST_F(Opacity, OfColorsAndMotionsIsIndependent) {
     EXPECT_NEAR(passed({still, still}), 0.5, 0.008) << "duplicates";
 }
 
-// 256 rays of a pixel fall into 256 equal parts by the sampler's points, so the share that meets a surface is off by 2
-// of them at most. Negative control: random numbers, which are off by five times as much somewhere.
+// The sampler's points put a pixel's 256 rays into 256 equal parts, so the share is off by 2 rays at most. Negative
+// control: random numbers, off by five times as much somewhere.
 TEST_F(Opacity, OfOneSurfaceIsEvenlySpread) {
     Given given = under_sky({ball_at({0, 0, 1}, 1.0, 0.4F)});
     std::ranges::fill(given.materials[2].emission, 1.0F);
@@ -197,7 +197,7 @@ TEST_F(Opacity, LeavesPlanesOpaque) {
     EXPECT_EQ(std::ranges::count(radiance, 0.0F), static_cast<std::ptrdiff_t>(radiance.size()));
 }
 
-// Atoms in a zigzag and the halves of their bonds, all of one radius, as figures have them.
+// Atoms in a zigzag and the halves of their bonds, all of one radius.
 Given sticks() {
     Given given;
     given.camera = camera_at({0, 0, 8}, {0, 0, 0}, 0.5);

@@ -1,4 +1,4 @@
-// Contexts on the caller's own Vulkan. Messages of its validation layer, leaks included, fail the test.
+// Contexts on the caller's own Vulkan. Any message of its validation layer fails the test.
 #include "tests/device/caller_vulkan.h"
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
@@ -73,7 +73,7 @@ protected:
         return Context(created);
     }
 
-    // pt_create's failure as "result name: message".
+    // "result name: message".
     static std::string refusal(const pt_create_info &info) {
         pt_context *created = nullptr;
         const pt_result result = pt_create(&info, &created);
@@ -167,7 +167,7 @@ TEST_F(OwnVulkanTest, TheQueueIsFreeWhileTheContextCallsBack) {
     EXPECT_EQ(observer.mutex.locks, observer.mutex.unlocks);
 }
 
-// pt_prepare makes an empty dispatch, because drivers may compile kernels only then.
+// An empty dispatch, because drivers may compile kernels only then.
 TEST_F(OwnVulkanTest, PreparingIsOneSubmission) {
     QueueMutex mutex;
     pt_vulkan vulkan = caller().handles();
@@ -290,7 +290,7 @@ TEST_F(OwnVulkanTest, TheInstanceMustHaveVersion1_2) {
     EXPECT_TRUE(context_on(newer.handles()));
 }
 
-// Negative control of all tests here: the layer reports a leaked object.
+// Negative control of all tests here.
 TEST_F(OwnVulkanTest, TheLayerReportsLeaks) {
     if (!CallersOwnVulkan::validation())
         GTEST_SKIP() << "the layer is off";

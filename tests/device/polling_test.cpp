@@ -1,4 +1,4 @@
-// The contract of pt_start, pt_poll and pt_cancel.
+// pt_start, pt_poll and pt_cancel.
 #include "tests/device/api_fixture.h"
 #include "tests/device/every_call.h"
 #include "tests/support/context_calls.h"
@@ -54,7 +54,6 @@ protected:
         return pt_start(on, &info);
     }
 
-    // Polls until the end; returns the result.
     static pt_result end_of(pt_context *on, const Pattern &pattern = {to_the_end}) {
         double last = 0.0;
         for (std::size_t i = 0;; ++i) {

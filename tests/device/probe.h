@@ -13,19 +13,19 @@
 #include <span>
 #include <vector>
 
-// Has the validation layer unless PT_TEST_NO_VALIDATION is set.
+// With the validation layer unless PT_TEST_NO_VALIDATION is set.
 pt::vulkan::Device &probe_device();
 
-// ID_POINT_BLOCKS of probes: the 16 KiB that every device offers.
+// ID_POINT_BLOCKS of probes: 16 KiB, which every device offers.
 inline constexpr std::uint32_t probe_point_blocks = 1024;
 
 class Probe {
 public:
-    // constants[i]: bits of the specialization constant with id i; missing ones keep the shaders' defaults.
+    // constants[i]: bits of specialization constant i; missing ones keep the shaders' defaults.
     Probe(std::span<const std::uint32_t> spirv, std::uint32_t push_bytes,
           std::span<const std::uint32_t> constants = {});
 
-    // Contents of the scene buffer (bindings 0 and 1), tree buffer (5), table of points (4).
+    // The scene buffer (bindings 0 and 1), tree buffer (5), table of points (4).
     void set_scene(std::span<const glm::vec4> words) { scene_.assign(words.begin(), words.end()); }
     void set_tree(std::span<const glm::uvec4> nodes, std::span<const glm::uvec4> spheres) {
         tree_nodes_.assign(nodes.begin(), nodes.end());
@@ -33,8 +33,8 @@ public:
     }
     void set_points(std::span<const pt::PointBlock> blocks) { points_.assign(blocks.begin(), blocks.end()); }
 
-    // One invocation per item, with input (binding 3) and push constants; returns binding 2, initially zero. Guard
-    // words after it must survive.
+    // One invocation per item, with input (binding 3); returns binding 2, initially zero. Guard words after it must
+    // survive.
     template <typename Output, typename Push>
     std::vector<Output> run(std::span<const glm::vec4> input, std::size_t output_count, const Push &push,
                             std::uint32_t invocations) {

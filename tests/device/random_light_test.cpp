@@ -178,8 +178,8 @@ protected:
         return deviation(picture.has_tree ? with_tree_.get() : context(), given, exact, picture.render);
     }
 
-    // Sum of deviations in standard errors, each with the variance of Student's t, 11 degrees of freedom; clamped for
-    // images without noise.
+    // Sum of deviations over the standard deviation of Student's t, 11 degrees of freedom; clamped for images without
+    // noise.
     static double pooled(const std::vector<double> &deviations) {
         double sum = 0.0;
         for (const double deviation : deviations)

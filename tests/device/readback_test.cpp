@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint32_t whole_width = 61;
 constexpr std::uint32_t first_row = 7;
-constexpr std::uint32_t whole_height = 40; // rendered rows
+constexpr std::uint32_t whole_height = 40;
 constexpr std::byte untouched{0xa5};
 
 class ReadbackTest : public ContextFixture {

@@ -24,7 +24,6 @@ constexpr std::uint32_t guard_word = 0xa5a5a5a5;
 
 using BufferContents = std::vector<std::byte>;
 
-// Mapped for the host.
 class CallersBuffer {
 public:
     CallersBuffer(const CallersOwnVulkan &caller, vk::BufferUsageFlags usage) :
@@ -122,7 +121,7 @@ protected:
         return bytes;
     }
 
-    // Submits the caller's work. Semaphores may be null.
+    // Semaphores may be null.
     template <typename Record>
     void submit(const Record &record, vk::Semaphore wait, vk::Semaphore signal) {
         if (!pool_)

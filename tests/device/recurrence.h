@@ -1,4 +1,4 @@
-// A kernel whose result the host knows, for the tests of lib/vulkan/.
+// A kernel whose result the host knows.
 #pragma once
 
 #include "lib/vulkan/buffer.h"
@@ -14,7 +14,6 @@
 #include <span>
 #include <vector>
 
-// Iterates step() from values[i] + offset.
 class Recurrence {
 public:
     static constexpr std::uint32_t multiplier = 1664525;

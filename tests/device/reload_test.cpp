@@ -182,7 +182,6 @@ int32_t stop(void * /*user*/, double /*fraction*/) {
     return 1;
 }
 
-// A sample split over submissions continues after a reload without changes.
 TEST_F(ReloadTest, WorkUnderWayGoesOnOrIsDiscarded) {
     const std::string folder = shaders_.path();
     const Context slow = create_context([&](pt_create_info &info) {
@@ -227,7 +226,7 @@ using DriverMayLeak = __lsan::ScopedDisabler;
 struct DriverMayLeak {};
 #endif
 
-// Every driver refuses a renamed entry point. Without the validation layer, which would complain first.
+// A renamed entry point, which every driver refuses; the validation layer would complain first.
 TEST_F(ReloadTest, KernelsThatTheDriverRefusesAreNotTaken) {
     pt::CreateSettings settings;
     settings.device = std::getenv("PT_TEST_DEVICE") ? std::getenv("PT_TEST_DEVICE") : "";

@@ -49,7 +49,6 @@ protected:
 
 constexpr std::array<std::uint32_t, 6> all_tiles = {0, 1, 2, 3, 4, 5}; // the last ones partial
 
-// A fingerprint of the film's tile errors.
 std::array<double, 6> sums_of_tiles(const std::function<void(const pt::ErrorReader::Receive &)> &read) {
     std::array<double, 6> sums{};
     read([&](const pt::TileErrors &tiles) {

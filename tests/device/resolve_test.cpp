@@ -196,7 +196,7 @@ TEST_F(Resolve, BuffersHoldTheImageAndNothingElse) {
     }
 }
 
-// The call does not wait; the next one reports the loss and writes nothing.
+// The next call reports the loss and writes nothing.
 TEST_F(Resolve, SamplesLostOnTheWayToABufferAreAnError) {
     device_with(pt::vulkan::gpu_like_policy());
     pt::DeviceFilm film(device(), width, height, 30'000);

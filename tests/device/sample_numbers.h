@@ -31,7 +31,7 @@ struct Request {
     std::uint64_t table_seed() const { return std::uint64_t{seed.x} << 32 | seed.y; }
 };
 
-// Numbers times 2^24, pixel by pixel.
+// Times 2^24, pixel by pixel.
 using Blocks = std::vector<glm::uvec4>;
 
 inline constexpr double scale = 16777216.0;
@@ -79,7 +79,6 @@ inline Blocks take_from(const Table &table, std::uint32_t sampler, const Request
     return as_integers(probe.run<glm::vec4>({}, request.invocations(), request, request.invocations()));
 }
 
-// Without a table for blocks beyond it.
 inline Blocks take(std::uint32_t sampler, const Request &request) {
     const bool in_table = sampler != PT_SAMPLER_RANDOM && request.block < table_blocks;
     return take_from(in_table ? table_of(sampler, request) : Table{}, sampler, request);

@@ -72,7 +72,7 @@ TEST_P(Sampler, IsRandomBeyondTheTable) {
     EXPECT_EQ(take(GetParam(), request) == take(PT_SAMPLER_RANDOM, request), GetParam() == PT_SAMPLER_RANDOM);
 }
 
-// Without a table too a branch is an independent sample, also where B i + b passes 2^32.
+// Without a table too, also where B i + b passes 2^32.
 TEST(SamplerRandom, BranchesAreSamplesOfTheirOwn) {
     constexpr std::uint32_t branches = 4;
     Request request;
@@ -155,7 +155,7 @@ bool is_shifted_in_pixels(const Table &table, const Blocks &blocks, std::uint32_
     return true;
 }
 
-// Shifts of this kind keep Sobol's nets in every pixel.
+// Such shifts keep Sobol's nets in every pixel.
 TEST(SamplerShifts, AreOneInEachPixelAndDimension) {
     Request request;
     request.pixel_count = 256;

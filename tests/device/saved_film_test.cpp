@@ -101,7 +101,7 @@ protected:
         return picture;
     }
 
-    // The film of the samples [first, end) alone.
+    // Of the samples [first, end).
     Bytes part(uint32_t first, uint32_t end) {
         set_up(context(), settings(first));
         accumulate_on(context(), end - first);
@@ -239,7 +239,7 @@ TEST_F(SavedFilm, StrangersAreRefusedAndNothingChanges) {
         std::copy(to.begin(), to.end(), place);
         return film;
     };
-    // Changes a header's value and makes the checksum valid.
+    // Makes the checksum valid.
     const auto with_another = [](Bytes film, const std::string &name) {
         const std::string start = "\n" + name + ' ';
         const auto value = std::search(film.begin(), film.end(), start.begin(), start.end()) +

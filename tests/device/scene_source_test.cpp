@@ -66,7 +66,7 @@ InvarianceScene diffuse_scene() {
     return scene;
 }
 
-// Elsewhere each scene has one source; another may round differently.
+// On other devices each scene has one source; another may round differently.
 class SceneSource : public testing::Test {
 protected:
     void SetUp() override {

@@ -28,7 +28,6 @@ class ShaderSourceTest : public testing::Test {
 protected:
     KernelCode compiled() const { return ShaderSource(shaders.path()).read(); }
 
-    // The message of a PT_ERROR_SHADER.
     std::string complaint() const {
         const pt::Error error = error_of([&] { compiled(); });
         EXPECT_EQ(pt::result_name(error.code()), std::string("PT_ERROR_SHADER"));
@@ -115,7 +114,7 @@ TEST_F(ShaderSourceTest, AFolderIsNoFile) {
     expect_complaint(shaders.file("folder") + ": Is a directory");
 }
 
-// Include guards permit recursion; without them it has no end.
+// Include guards permit recursion.
 TEST_F(ShaderSourceTest, AnEndlessIncludeIsRefused) {
     shaders.write("circle.glsl", "#ifndef CIRCLE\n#define CIRCLE\n#include \"arc.glsl\"\n#endif\n");
     shaders.write("arc.glsl", "#include \"circle.glsl\"\n#include \"circle.glsl\"\n");

@@ -1,4 +1,4 @@
-// Spots on the device: the mean of 1 / density over directions that end in a region is its solid angle.
+// Spots: the mean of 1 / density over directions that end in a region is its solid angle.
 #include "shaders/specialization.h"
 #include "spots.spv.h"
 #include "tests/device/probe.h"
@@ -24,7 +24,6 @@ struct DrawnSpot {
     std::array<std::uint32_t, 2> reserved;
 };
 
-// The kernel's order.
 constexpr std::uint32_t first_lamp = 0;
 constexpr std::uint32_t second_lamp = 1;
 constexpr std::uint32_t ball = 2;
@@ -72,7 +71,7 @@ std::vector<DrawnSpot> draw_spots(const std::vector<SpotOf> &spots, std::uint32_
     return probe.run<DrawnSpot>({}, count, push, count);
 }
 
-// The mean direction that hits the surface, where the spot is brightest.
+// The mean direction, where the spot is brightest.
 glm::dvec3 middle_of(const std::vector<DrawnSpot> &drawn, std::uint32_t surface) {
     glm::dvec3 sum(0);
     for (const DrawnSpot &sample : drawn)
@@ -112,8 +111,7 @@ TEST_P(SpotDirections, FollowTheStatedDensity) {
     constexpr std::uint32_t draws = 1U << 20;
     const SpotCase &of = GetParam();
     const std::vector<DrawnSpot> drawn = draw_spots(of.spots, draws);
-    const double bound =
-        statistics::normal_quantile(0.5e-6 / 8); // one false alarm in a million over all cases, two-sided
+    const double bound = statistics::normal_quantile(0.5e-6 / 8); // one false alarm in a million, two-sided
     EXPECT_LT(std::abs(solid_angle_deviate(drawn, of.surface, of.radius, 1.0)), bound);
     EXPECT_GT(std::abs(solid_angle_deviate(drawn, of.surface, of.radius, 1.03)), bound) << "3% too dense must show";
     EXPECT_GT(std::abs(solid_angle_deviate(drawn, of.surface, of.radius, 0.97)), bound) << "3% too thin must show";

@@ -86,10 +86,10 @@ private:
             sphere.radius = 0.25;
             break;
         }
-        case 5: // decades of distance from the center
+        case 5: // decades of distance
             sphere.center *= std::pow(10.0, uniform(0.0, 3.0));
             break;
-        case 6: // radii over six decades
+        case 6:
             if (i % 10 == 0) {
                 sphere.radius = std::pow(10.0, uniform(0.0, 6.0));
                 sphere.center = glm::dvec3(0, -2.5 - sphere.radius, 0);

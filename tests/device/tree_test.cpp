@@ -28,7 +28,6 @@ std::size_t most_spheres() {
 constexpr std::uint32_t word_of_sides[6][2] = {{1, 2}, {1, 3}, {2, 0},
                                                {2, 1}, {2, 2}, {2, 3}}; // low x, y, z, then high
 
-// Low sides first.
 template <typename Change>
 void change_boxes(std::vector<glm::uvec4> &tree, std::uint32_t node_count, Change &&change) {
     for (std::uint32_t node = 0; node < node_count; ++node) {
@@ -74,7 +73,7 @@ Compared compare(const pt::PreparedScene &prepared, const pt::Camera &camera) {
     render.take(spheres > 400 ? 2 : spheres > 40 ? 4 : 8);
     Probe probe = render.probe_of_tree();
     const FilmWords walked = render.film_by(probe);
-    render.radiance(walked); // throws if a sample is lost
+    render.radiance(walked);
     shrink_boxes(render.tree(), prepared.tree->node_count());
     const FilmWords shrunk = render.film_by(probe);
     open_boxes(render.tree(), prepared.tree->node_count());
@@ -161,8 +160,8 @@ TEST(Tree, RaysFromFarAwayFindWhatTestingEverySphereFinds) {
         EXPECT_TRUE(compare(scene, far_away(tan_half_fov)).same) << tan_half_fov;
 }
 
-// Against a tree shaped for the spheres reflected in the origin: equally good boxes, about the reverse order. Empty if
-// the trees are equal or no shape was kept.
+// Against a tree shaped for the reflected spheres: equally good boxes in reverse order. Empty if the trees are equal or
+// no shape was kept.
 std::optional<bool> is_seen_alike(const pt::Scene &scene, const pt::Camera &camera) {
     const std::vector<pt_sphere> spheres = caller_spheres(scene.spheres);
     std::vector<pt_sphere> reflected = spheres;
@@ -217,7 +216,6 @@ TEST(Tree, RaysFromFarAwayFindTheSameWhateverItsShape) {
     EXPECT_GE(compared, 2);
 }
 
-// More spheres than the driver allows loop trips.
 TEST(Tree, WalksThatADriverCutsAreTold) {
     const std::uint64_t budget = probe_device().limits().loop_trip_budget;
     if (budget > 1'000'000)

@@ -1,4 +1,4 @@
-// Surfaces given twice, exactly or nearly, have the light of one. random_light_test.cpp has random ones.
+// Surfaces given twice, exactly or nearly, have the light of one.
 #include "lib/scene/checked_scene.h"
 #include "tests/device/kernel_render.h"
 #include "tests/invariance/invariance_scene.h"
@@ -20,10 +20,9 @@ namespace {
 constexpr std::uint32_t batch_count = 8;
 constexpr std::uint32_t samples = 64;
 
-// One false alarm in a million for the file.
+// One in a million for the file.
 constexpr double comparisons = 15;
 
-// By seed.
 std::vector<double> means_of(const Batches &batches) {
     std::vector<double> means;
     for (const std::vector<double> &image : batches)
@@ -79,7 +78,6 @@ InvarianceScene scene_of_named(std::initializer_list<Named> surfaces) {
     return scene;
 }
 
-// share: of their size.
 void shift_twins(InvarianceScene &scene, double share) {
     for (std::size_t i = 1; i < scene.spheres.size(); ++i)
         if (scene.spheres[i].radius == scene.spheres[0].radius)

@@ -46,7 +46,6 @@ TEST_F(VulkanTest, CountsWhatTransfersTake) {
     EXPECT_EQ(device().allocated_bytes(), before);
 }
 
-// Dispatches of one submission see their own offsets.
 TEST_F(VulkanTest, ADynamicOffsetChoosesThePartOfAStreamedBuffer) {
     constexpr pt::vulkan::Binding bindings[] = {{0, vk::DescriptorType::eUniformBufferDynamic}, {1}};
     constexpr std::array keep_the_sum = {1U, 0U};
@@ -108,7 +107,6 @@ TEST_F(VulkanTest, AnAllocationThatTheDriverRefusesIsAnErrorWithoutTrace) {
 }
 #endif
 
-// Both transfer paths, on one device.
 class VulkanTransferTest : public VulkanTest, public testing::WithParamInterface<bool> {
 protected:
     Device &device_under_test() {

@@ -24,7 +24,7 @@ protected:
         instance_.emplace(log_, validation());
     }
 
-    // Destroying device and instance makes the layer report leaks.
+    // The layer reports leaks on destruction.
     void TearDown() override {
         device_.reset();
         instance_.reset();
@@ -49,7 +49,6 @@ protected:
         return *device_;
     }
 
-    // Replaces the device.
     pt::vulkan::Device &device_with(const pt::vulkan::DevicePolicy &policy) {
         device_.emplace(*instance_, physical_device(), policy);
         return *device_;

@@ -15,7 +15,6 @@ namespace {
 
 using pt::vulkan::Instance;
 
-// Set for the object's lifetime.
 class EnvironmentVariable {
 public:
     EnvironmentVariable(const char *name, const char *value) : name_(name) {

@@ -48,7 +48,7 @@ TEST_F(VulkanTest, ADeviceThatDoesNotEndASubmissionIsLostForGood) {
                                   .invocations = 0,
                                   .queue_depth = 1});
     const Gate gate(device.handle());
-    Recurrence recurrence(device, 256); // fits into its buffer: without patience the first submission is the last
+    Recurrence recurrence(device, 256); // fits into its buffer, so the first submission is the last
     const pt::Error loss = error_of([&] { device.submit([&](const auto &commands) { gate.record(commands); }); });
     EXPECT_EQ(loss.code(), PT_ERROR_DEVICE_LOST);
     EXPECT_TRUE(device.lost());
@@ -65,7 +65,7 @@ TEST_F(VulkanTest, ADeviceThatDoesNotEndASubmissionIsLostForGood) {
         EXPECT_EQ(error.code(), PT_ERROR_DEVICE_LOST);
         EXPECT_STREQ(error.what(), loss.what());
     }
-    gate.open(); // this device does end it, so its buffers may go
+    gate.open(); // this device does end it
 }
 
 // Beyond the budget a driver may end loops without an error.
@@ -91,7 +91,7 @@ TEST_F(VulkanTest, ASubmissionIsWaitedForUntilATime) {
     EXPECT_GE(device().finish(ticket), 5e-3);
 }
 
-// The duration is then known only up to the moment of looking.
+// The duration then ends at the moment of looking.
 TEST_F(VulkanTest, ASubmissionMayEndUnseen) {
     const auto seconds_of = [&](double expected, bool seen) {
         const Device::Ticket ticket = device().start([](const auto &) {});

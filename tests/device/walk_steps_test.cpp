@@ -1,4 +1,4 @@
-// Walks by steps (tree_path.glsl) against whole walks: all bits of films, if the driver rounds as written.
+// Walks by steps (tree_path.glsl) have the bits of whole walks, if the driver rounds as written.
 #include "tests/device/kernel_render.h"
 #include "tests/device/tree_scenes.h"
 #include "tests/support/checked_scene_of.h"
@@ -30,7 +30,7 @@ TEST(WalkSteps, TakeTheSamplesOfWholeWalks) {
     for (const std::uint32_t length : {1U, 2U, 3U, 4U, 9U}) {
         const pt::Scene scene = scenes.next(250);
         pt::Camera camera = scenes.camera(scene);
-        if (length % 2 == 1) { // rays from a lens
+        if (length % 2 == 1) {
             camera.lens_radius = 0.05;
             camera.focus = 2.0;
         }

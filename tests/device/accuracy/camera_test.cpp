@@ -1,4 +1,4 @@
-// camera_direction and ray_through_lens against long double.
+// camera.glsl against long double.
 #include "camera_items.spv.h"
 #include "tests/device/accuracy/direction.h"
 #include "tests/device/accuracy/evaluation.h"
@@ -19,7 +19,7 @@ struct Item {
     glm::vec4 forward;
     std::uint32_t column, row;
     glm::vec2 place;
-    float lens_radius, lens_blur; // focus distance over image plane distance: radius / blur
+    float lens_radius, lens_blur; // (focus distance over image plane distance) = radius / blur
     glm::vec2 disc;
 };
 
@@ -54,13 +54,12 @@ std::vector<Item> items() {
     return items;
 }
 
-// Absolute, u = 2^-24. W = forward + x right - y up, with perpendicular parts: x, y and their products 2 u (|x| + |y|)
-// <= 2.9 u |W|; two sums 2 u |W|; W / length(W): dot product 3 u, halved by the root, sqrt 9 u, division 5 u.
+// Absolute; u = 2^-24, W = forward + x right - y up. Products 2 u (|x| + |y|) <= 2.9 u |W|; sums 2 u |W|; W /
+// length(W): dot product 3 u / 2, sqrt 9 u, division 5 u.
 constexpr Real bound = (2.9L + 2 + 15.5L) * half_ulp;
 
-// Distance in the plane of focus between lens ray and pinhole ray, over their length: 7 u of the radius. The origin a r
-// errs by 2 u |a| per axis and the axis's lack of unit length; its opposite in the direction as much; the place in the
-// image by 2 u. Plus the direction's bound.
+// Distance in the plane of focus between lens ray and pinhole ray, over their length. Radius: origin 2 u, its opposite
+// in the direction 2 u, lack of unit length, place in the image 2 u: 7 u. Plus the direction's bound.
 Real lens_bound(Real radius, Real distance) {
     return 7 * half_ulp * radius / distance + bound;
 }

@@ -10,7 +10,7 @@ namespace accuracy {
 
 namespace {
 
-constexpr Real control_shift = 1.01L; // in bounds
+constexpr Real control_shift = 1.01L;
 
 } // namespace
 

@@ -1,4 +1,4 @@
-// Compares a function with its error bounds and prints its row of the accuracy table.
+// Compares a function with its error bounds.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -13,7 +13,7 @@ namespace accuracy {
 using Real = long double;
 using Direction = glm::vec<3, Real>;
 
-constexpr Real half_ulp = 0x1p-24L; // of 1: the largest relative rounding error
+constexpr Real half_ulp = 0x1p-24L; // of 1
 
 class Comparison {
 public:
@@ -24,8 +24,8 @@ public:
     void add(Real value, Real exact, Real bound, const std::vector<float> &input);
     void add(const glm::vec3 &value, const Direction &exact, Real bound, const std::vector<float> &input);
 
-    // Prints the row: the largest error, and the one nearest to its bound with its input. Fails the test beyond a
-    // bound, or if exact values shifted by 1.01 bounds would pass.
+    // Prints the largest error, and the one nearest to its bound with its input. Fails the test beyond a bound, or if
+    // exact values shifted by 1.01 bounds would pass.
     void finish() const;
 
 private:
@@ -42,7 +42,7 @@ private:
     Real worst_share_of_control_ = 0;
 };
 
-// In ulp of the exact value. Values below `negligible` count as 0.
+// Values below `negligible` count as 0.
 void add_in_ulp(Comparison &comparison, float value, Real exact, Real bound_in_ulp, Real negligible,
                 const std::vector<float> &input);
 

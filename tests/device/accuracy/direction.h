@@ -15,8 +15,8 @@ inline Direction direction_at(Real cosine, Real sine, Real turns) {
     return {sine * std::cos(2 * pi * turns), sine * std::sin(2 * pi * turns), cosine};
 }
 
-// Uses the basis of Duff et al. (JCGT 6(1), 2017). For axis.z >= 0 that is Frisvad's smallest rotation: with k = z x
-// axis, v + k x v + k x (k x v) / (1 + cos). For axis.z < 0: Frisvad's about -axis, second and third vectors negated.
+// Basis of Duff et al. (JCGT 6(1), 2017). axis.z >= 0: v + k x v + k x (k x v) / (1 + cos), k = z x axis; axis.z < 0:
+// about -axis, second and third vectors negated.
 inline Direction turned_to(const glm::vec3 &float_axis, const Direction &vector) {
     const bool down = float_axis.z < 0.0F;
     const Direction axis = glm::normalize(Direction(float_axis)) * (down ? Real{-1} : Real{1});
@@ -26,23 +26,22 @@ inline Direction turned_to(const glm::vec3 &float_axis, const Direction &vector)
     return v + k_v + glm::cross(k, k_v) / (1 + axis.z);
 }
 
-// Length of an error vector, u = 2^-24 (half_ulp), absolute because components pass through 0. Division errs by 2.5 ulp
-// <= 5 u; sqrt is 1 / inversesqrt, 4 u + 5 u. In narrow cones the terms in `sine` vanish.
+// Length of an error vector, absolute; u = 2^-24. Division 5 u (2.5 ulp); sqrt = 1 / inversesqrt 4 u + 5 u.
 
 // sin_cos_turn: 4.5 ulp of at most u each (lib/kernel/accuracy.cpp), and a product each.
 inline Real azimuth_bound(Real sine) {
     return sine * (4.5L * std::sqrt(Real{2}) + 1) * half_ulp;
 }
 
-// rotate_to_axis. q (<= sine) errs by 2 u, its quotient by 6 u more: 8 u sine; `along` (<= sqrt(2)) by u. x and y:
-// that, sqrt(2) u (product), 0.7 u (sums); z: u (product), 2 u sine (q), u / 2 (sum): 8.3 u sine + 3.5 u. The tangents
-// err by 2.5 times the axis's lack of unit length, times |v.x| + |v.y| <= sqrt(2) sine.
+// rotate_to_axis. q (<= sine) 2 u, its quotient 6 u: 8 u sine; `along` (<= sqrt(2)) u. x and y: that, sqrt(2) u
+// (product), 0.7 u (sums); z: u (product), 2 u sine (q), u / 2 (sum). The tangents err by 2.5 times the axis's lack of
+// unit length, times |v.x| + |v.y| <= sqrt(2) sine.
 inline Real rotation_bound(const glm::vec3 &axis, Real sine) {
     const Real length = length_error(axis);
     return sine * (8.3L * half_ulp + 2.5L * std::sqrt(Real{2}) * length) + length + 3.5L * half_ulp;
 }
 
-// direction_about; share: of one_minus_cos. Polar angle: share h / sine. sine = sqrt(h (2 - h)): u + 9 u. 1 - h: u / 2.
+// share: error of one_minus_cos. Polar angle: share h / sine. sine = sqrt(h (2 - h)): u + 9 u. 1 - h: u / 2.
 inline Real direction_about_bound(const glm::vec3 &axis, Real h, Real share) {
     const Real sine = std::sqrt(h * (2 - h));
     const Real polar = sine > 0 ? share * h / sine : 0;

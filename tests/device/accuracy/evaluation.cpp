@@ -9,10 +9,9 @@ namespace accuracy {
 
 namespace {
 
-// A NaN with a payload; no function returns it.
+// a NaN that no function returns
 constexpr std::uint32_t sentinel = 0xffa5c35aU;
 
-// Items that have an unwritten word.
 std::vector<std::uint32_t> unwritten_items(Probe &probe, std::span<const std::byte> inputs,
                                            std::span<std::byte> outputs, const ItemRange &range) {
     const std::size_t item_bytes = outputs.size() / range.count;

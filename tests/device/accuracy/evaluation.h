@@ -1,5 +1,4 @@
-// Evaluates shader functions over many items: structs of 16-byte vectors, one per invocation
-// (tests/device/probe/items.glsl).
+// Evaluates shader functions over structs of 16-byte vectors (tests/device/probe/items.glsl).
 #pragma once
 
 #include "tests/device/probe.h"
@@ -9,7 +8,7 @@
 
 namespace accuracy {
 
-// Fails the test if an output word stays unwritten. A second run that skips one item is the negative control.
+// Fails if an output word stays unwritten. Negative control: a second run that skips one item.
 void evaluate_bytes(Probe &probe, std::span<const std::byte> inputs, std::span<std::byte> outputs,
                     std::uint32_t item_count);
 

@@ -1,4 +1,4 @@
-// The exact integer functions: hash, and float to fixed point.
+// hash() and fixed point, exactly.
 #include "integer_items.spv.h"
 #include "shaders/specialization.h"
 #include "tests/device/accuracy/evaluation.h"
@@ -60,7 +60,7 @@ glm::uvec4 pcg4d(const glm::uvec4 &input) {
     return {v[0], v[1], v[2], v[3]};
 }
 
-// value * 2^60 rounded to nearest, least significant word first. Exact in double.
+// value * 2^60, least significant word first; exact in double.
 glm::uvec4 fixed_point(float value) {
     glm::uvec4 words;
     double rest = std::nearbyint(std::ldexp(double{value}, 60));

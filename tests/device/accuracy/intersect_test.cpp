@@ -20,8 +20,8 @@ constexpr float leaving_outside = 1.0F;
 constexpr float leaving_inside = 2.0F;
 
 struct Item {
-    glm::vec3 center; // relative to the ray's start; also the plane's normal
-    float radius;     // the plane's height below it
+    glm::vec3 center; // relative to the ray's start; the plane's normal
+    float radius;     // the plane's height
     glm::vec3 direction;
     float start;
 };
@@ -44,7 +44,7 @@ Item passing_ray(Inputs &inputs, double distance, double radius, double impact, 
     return {glm::vec3(center), static_cast<float>(radius), glm::vec3(direction), start};
 }
 
-// Up to a million radii away, grazing within 1e-6, from inside, and from the surface.
+// Up to a million radii away, within 1e-6 of grazing, from inside, and on the surface.
 std::vector<Item> items() {
     Inputs inputs(10);
     std::vector<Item> items;
@@ -65,7 +65,7 @@ std::vector<Item> items() {
     return items;
 }
 
-// The sphere's root in long double. met: 0 or 1, or -1 where float32 cannot decide.
+// met: 0, 1, or -1 where float32 cannot.
 struct Exact {
     int met;
     Real distance;
@@ -73,8 +73,7 @@ struct Exact {
 };
 
 // u = 2^-24, d = |center|, b = center . direction, l = |center - b direction|. b: 3 u d and lack of unit length.
-// Across: u |b| + u l; the error of b lies along the ray, so its square counts. l^2: 3 u more; r^2: u; difference: u;
-// sqrt: 9 u.
+// Across: u |b| + u l; along the ray the error of b counts squared. l^2: 3 u; r^2: u; difference: u; sqrt: 9 u.
 Exact exact_sphere(const Item &item) {
     const Direction center(item.center);
     const Direction direction = glm::normalize(Direction(item.direction));
@@ -85,7 +84,7 @@ Exact exact_sphere(const Item &item) {
     if (item.start == leaving_outside)
         return {0, no_hit, 1};
     if (item.start == leaving_inside)
-        return {std::abs(b) > b_bound ? 1 : -1, 2 * std::abs(b), 2 * b_bound}; // undecided along the surface
+        return {std::abs(b) > b_bound ? 1 : -1, 2 * std::abs(b), 2 * b_bound}; // along the surface
     const Real l = glm::length(center - b * direction);
     const Real along = 2 * b_bound;
     const Real l_bound = half_ulp * (std::abs(b) + l);
@@ -95,11 +94,11 @@ Exact exact_sphere(const Item &item) {
     const Real bound = b_bound + 9 * half_ulp * half_chord + std::sqrt(std::max<Real>(square, 0) + square_bound) -
                        std::sqrt(std::max<Real>(square - square_bound, 0)) + 2 * half_ulp * (std::abs(b) + half_chord);
     if (std::abs(d * d - r * r) < 5 * half_ulp * d * d)
-        return {-1, 0, 0}; // undecided: on the surface
+        return {-1, 0, 0}; // on the surface
     const bool outside = d > r;
     const Real distance = outside ? b - half_chord : b + half_chord;
     if (outside && std::abs(square) <= square_bound)
-        return {-1, 0, 0}; // undecided: grazing
+        return {-1, 0, 0}; // grazing
     const bool met = (square > 0 || !outside) && distance > 0;
     return {std::abs(distance) <= bound ? -1 : static_cast<int>(met), distance, bound};
 }
@@ -112,7 +111,7 @@ Exact exact_plane(const Item &item) {
     if (item.start != anywhere)
         return {0, no_hit, 1};
     if (std::abs(rate) <= 2 * rate_bound)
-        return {-1, 0, 0}; // undecided: parallel
+        return {-1, 0, 0}; // parallel
     const Real distance = -item.radius / rate;
     return {distance > 0, distance, std::abs(distance) * (rate_bound / (std::abs(rate) - rate_bound) + 5 * half_ulp)};
 }
@@ -126,13 +125,13 @@ void compare(Comparison &comparison, const Exact &exact, float found, Real unit,
         comparison.add(found / unit, exact.distance / unit, exact.bound / unit, list(item));
 }
 
-// Negative control: a radius larger by a thousandth.
+// Negative control: radius 1.001 times larger.
 Exact exact_larger_sphere(Item item) {
     item.radius *= 1.001F;
     return exact_sphere(item);
 }
 
-// Clearly outside by float32's error, or leaving on the outside. Tests of paths cover the rest.
+// Clearly outside in float32, or leaving on the outside.
 bool starts_outside(const Item &item) {
     const Real d = glm::length(Direction(item.center));
     const Real r = item.radius;
@@ -141,12 +140,12 @@ bool starts_outside(const Item &item) {
 
 struct Wrong {
     std::size_t undecided = 0;
-    std::size_t found = 0;      // hits where none should be, or the reverse
-    std::size_t of_control = 0; // the same against the larger sphere
-    std::size_t shadows = 0;    // wrong answers of shadow rays
+    std::size_t found = 0;      // hits without a reference, or the reverse
+    std::size_t of_control = 0; // the same for the larger sphere
+    std::size_t shadows = 0;    // wrong shadow rays
 };
 
-// Decided if the hit's distance exceeds 1e-4 |center|: a tenth of it is then a hundred times the float32 error.
+// Shadow rays end a tenth before or behind hits beyond 1e-4 |center|: 100 float32 errors.
 bool blocks_rightly(const Exact &exact, const Result &found, const Item &item) {
     if (exact.met == 1 && exact.distance > 1e-4L * glm::length(Direction(item.center)))
         return found.blocks_before == 0.0F && found.blocks_behind == 1.0F;
@@ -199,7 +198,7 @@ TEST(AccuracyIntersect, OfDistancesWherePathsAreNeverInside) {
     EXPECT_EQ(wrong.found, 0U);
     EXPECT_EQ(wrong.shadows, 0U);
     EXPECT_GT(wrong.of_control, 0U);
-    EXPECT_LT(wrong.undecided, outside.size() / 4); // half of them graze
+    EXPECT_LT(wrong.undecided, outside.size() / 4); // half graze
 }
 
 // Negative control: kernels without `inside` lose spheres from inside.

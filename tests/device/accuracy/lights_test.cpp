@@ -1,4 +1,4 @@
-// Sampling a lamp in lights.glsl against long double.
+// Samples of a lamp against long double.
 #include "lamp_items.spv.h"
 #include "shaders/specialization.h"
 #include "tests/device/accuracy/direction.h"
@@ -45,7 +45,7 @@ std::vector<Lamp> lamps() {
     return lamps;
 }
 
-// Sines r / d from 1e-7 to within 1e-6 of 1. A quarter of the normals put the lamp just above or below the horizon.
+// Sines r / d from 1e-7 to 1 - 1e-6. A quarter of the normals put the lamp at the horizon.
 std::vector<Item> items(const std::vector<Lamp> &lamps) {
     Inputs inputs(7);
     std::vector<Item> items;
@@ -66,14 +66,14 @@ std::vector<Item> items(const std::vector<Lamp> &lamps) {
     return items;
 }
 
-// Error of sqrt(square) for an argument error `bound`.
+// Error of sqrt(square) for an error `bound` of its argument.
 Real root_bound(Real square, Real bound) {
     const Real root = std::sqrt(std::max<Real>(square, 0));
     return std::max(std::sqrt(std::max<Real>(square, 0) + bound) - root,
                     root - std::sqrt(std::max<Real>(square - bound, 0)));
 }
 
-// A lamp as seen from a vertex, with float32 bounds, u = 2^-24.
+// A lamp seen from a vertex, with float32 bounds, u = 2^-24.
 struct View {
     Direction axis;
     Real distance;
@@ -90,15 +90,14 @@ struct View {
         const Real cosine = std::sqrt(std::max<Real>(1 - squared_sine, 0));
         height = squared_sine / (1 + cosine);
         highest_cosine = glm::dot(glm::normalize(Direction(item.normal)), axis) + Real{lamp.radius} / distance;
-        // sin^2: r^2 u, d^2 5 u, division 5 u. 1 - sin^2 errs by that and u / 2, absolute, so its root by much for near
-        // lamps; sqrt 9 u, sum u, division 5 u.
+        // sin^2: r^2 u, d^2 5 u, division 5 u. 1 - sin^2: that and u / 2, absolute. sqrt 9 u, sum u, division 5 u.
         const Real cosine_bound = root_bound(1 - squared_sine, 11.5L * half_ulp) + 9 * half_ulp * cosine;
         height_share = 16 * half_ulp + (cosine_bound + 2 * half_ulp) / (1 + cosine - cosine_bound);
     }
 };
 
-// The axis errs by 8.5 u (differences u, inversesqrt of d^2 6.5 u, product u), directions by it, and by three times
-// that across, as the basis turns with the axis. Then direction_about, and u for u.x h.
+// Axis: differences u, inversesqrt of d^2 6.5 u, product u: 8.5 u, once for the direction and three times across, as
+// the basis turns. Then direction_about, and u for u.x h.
 Real direction_bound(const View &view, const glm::vec3 &axis, Real h) {
     const Real axis_bound = 8.5L * half_ulp;
     const Real sine = std::sqrt(h * (2 - h));
@@ -106,8 +105,7 @@ Real direction_bound(const View &view, const glm::vec3 &axis, Real h) {
            std::sqrt(Real{2}) * sine * (3 + 2.5L) * axis_bound + axis_bound;
 }
 
-// d: 7.5 u (half of 5 u for d^2, inversesqrt 4 u, product u). r^2 - d^2 h (2 - h): 3 u r^2, and 18 u and h's relative
-// error for the second term.
+// d: d^2 2.5 u, inversesqrt 4 u, product u. r^2 - d^2 h (2 - h): 3 u r^2; second term 18 u and h's relative error.
 Real distance_bound(const View &view, const Lamp &lamp, Real h) {
     const Real share = view.height_share + half_ulp;
     const Real squared_radius = Real{lamp.radius} * lamp.radius;
@@ -140,7 +138,7 @@ struct AccuracyLights : testing::Test {
 };
 
 // radiance sin^2 min(1, highest cosine) must not be 0 where the irradiance's bound is not. Dot product and sum 4 u,
-// factor 1 / d 7.5 u, and the normal's length.
+// factor 1 / d 7.5 u, the normal's length.
 TEST_F(AccuracyLights, OfLampSamples) {
     Comparison height("one_minus_cos", "of itself");
     Comparison density("cone_density", "of itself");
@@ -155,7 +153,7 @@ TEST_F(AccuracyLights, OfLampSamples) {
         const Result &result = results_[i];
         const View view(lamp, item);
         if (view.squared_sine > 1 - 12 * half_ulp)
-            continue; // undecided: on the lamp
+            continue; // on the lamp
         const std::vector<float> input = list(item.position, lamp.center, lamp.radius, item.normal, item.numbers);
         height.add(result.height / view.height, 1, view.height_share, input);
 

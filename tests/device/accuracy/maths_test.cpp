@@ -1,4 +1,4 @@
-// The library's measurement of the elementary functions, and whether it detects errors.
+// Whether the accuracy measurement detects errors.
 #include "lib/kernel/accuracy.h"
 
 #include "accuracy_skips.spv.h"
@@ -31,7 +31,7 @@ TEST(AccuracyMaths, OfElementaryFunctions) {
     }
 }
 
-// Against the definition, at the ends of a binade and far from any float.
+// At the ends of a binade and far from any float.
 TEST(AccuracyMaths, ErrorsAreInUlpOfTheExactValue) {
     EXPECT_EQ(pt::error_in_ulp(1.0F, 1.0), 0.0);
     EXPECT_EQ(pt::error_in_ulp(1.0F + 0x1p-23F, 1.0), 1.0);

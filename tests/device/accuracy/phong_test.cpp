@@ -14,7 +14,7 @@ namespace accuracy::phong {
 namespace {
 
 struct Item {
-    glm::vec3 axis; // of the lobe; also the incoming direction
+    glm::vec3 axis; // of the lobe; the incoming direction
     float glossiness;
     glm::vec3 outgoing;
     float diffuse;
@@ -40,7 +40,7 @@ glm::vec3 beside(Inputs &inputs, const glm::vec3 &direction, double angle) {
     return {glm::normalize(std::cos(angle) * axis + std::sin(angle) * across)};
 }
 
-// Exponents 0 to 1e9; most directions where the lobe is neither 0 nor 1, about the axis or its mirror direction.
+// Exponents 0 to 1e9; most directions where the lobe is neither 0 nor 1.
 std::vector<Item> items(bool about_mirror) {
     Inputs inputs(about_mirror ? 2 : 3);
     std::vector<Item> items;
@@ -82,11 +82,9 @@ Real power(Real cosine, Real n) {
     return cosine > 0 ? std::pow(cosine, n) : 0;
 }
 
-// max(0, wo . r)^n; the device's r errs by mirror_error, u = 2^-24.
-// y = |wo - r|^2 / 2: differences 2 u, squares u, sums 2 u; lengths 1 + a, 1 + b give y (1 + a) (1 + b) + (a - b)^2 /
-// 2; mirror_error times the chord and itself.
-// log2(1 - y): 22 u (18 ulp of at most u / 2 where the logarithm is 0.42); times n: u; 2^x: 3 + 2 |x| ulp of at most 2
-// u. Below 2^-99 the lobe is 0.
+// max(0, wo . r)^n; r errs by mirror_error, u = 2^-24. y = |wo - r|^2 / 2: differences 2 u, squares u, sums 2 u;
+// lengths 1 + a, 1 + b give y (1 + a) (1 + b) + (a - b)^2 / 2. log2(1 - y): 22 u (18 ulp of at most u / 2 at 0.42);
+// times n: u; 2^x: 3 + 2 |x| ulp of at most 2 u. Below 2^-99 the lobe is 0.
 Bounded lobe(const Direction &r, const Direction &wo, Real r_length, Real wo_length, Real mirror_error, Real n) {
     const Direction chord = wo - r;
     const Real y = glm::dot(chord, chord) / 2;
@@ -105,8 +103,7 @@ Bounded lobe_about_axis(const Item &item) {
                 length_error(item.outgoing), 0, item.glossiness);
 }
 
-// reflect(I, N) = I - 2 (N . I) N: dot product 2 u, so 2 (N . I) N 4 u + 2 u; difference u; four times the normal's
-// lack of unit length.
+// I - 2 (N . I) N: dot product 2 u, second term 4 u + 2 u, difference u; four times the normal's lack of unit length.
 Bounded lobe_about_mirror(const Item &item) {
     const Direction normal = glm::normalize(Direction(item.normal));
     const Direction r = glm::reflect(glm::normalize(Direction(item.axis)), normal);
@@ -114,8 +111,7 @@ Bounded lobe_about_mirror(const Item &item) {
                 7 * half_ulp + 4 * length_error(item.normal), item.glossiness);
 }
 
-// Coefficients of the value (over the cosine) or density, by pt.h and Lafortune and Willems (1994). Their sum bounds
-// the whole.
+// Coefficients of value / cosine or density, by pt.h and Lafortune and Willems (1994).
 struct Terms {
     Real diffuse, specular;
 
@@ -131,14 +127,14 @@ Terms density_terms(const Item &item) {
     return {(1 - p) / pi, p * (Real{item.glossiness} + 1) / (2 * pi)};
 }
 
-// max(0, cosine of the outgoing direction): dot product 2 u, and the lengths.
+// Dot product 2 u, and the lengths.
 Bounded cosine_of(const Item &item) {
     const Direction normal = glm::normalize(Direction(item.normal));
     return {std::max<Real>(glm::dot(normal, glm::normalize(Direction(item.outgoing))), 0),
             2 * half_ulp + length_error(item.normal) + length_error(item.outgoing)};
 }
 
-// The specular term's chain is longest: n + 2, the factor and the lobe 3 u; division by 2 pi 5.5 u; sum u; cosine u.
+// Specular term: n + 2, factor and lobe 3 u; division by 2 pi 5.5 u; sum u; cosine u.
 constexpr Real rounding = 11 * half_ulp;
 
 Bounded value_of(const Item &item) {
@@ -168,8 +164,8 @@ TEST(AccuracyPhong, OfLobes) {
         const Item &item = all[i];
         const Bounded lobe = lobe_about_axis(item);
         power.add(results[i].power, lobe.exact, lobe.bound, list(item.axis, item.glossiness, item.outgoing));
-        // 1 - 2^(log2(1 - u) / (n + 1)): 22 u, n + 1 u and division 5 u are damped by x e^x / (1 - e^x) <= 1; 2^x 2.5
-        // ulp <= 5 u.
+        // 1 - 2^(log2(1 - u) / (n + 1)): 22 u, n + 1 u and division 5 u, damped by x e^x / (1 - e^x) <= 1; 2^x 2.5 ulp
+        // <= 5 u.
         const Real h = -std::expm1(std::log1p(-Real{item.numbers.x}) / (Real{item.glossiness} + 1));
         direction.add(glm::vec3(results[i].direction),
                       turned_to(item.axis, direction_at(1 - h, std::sqrt(h * (2 - h)), item.numbers.y)),

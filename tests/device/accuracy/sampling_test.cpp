@@ -23,8 +23,8 @@ struct Result {
 std::vector<Item> items() {
     Inputs inputs(1);
     std::vector<Item> items;
-    // Heights from 5e-15 (1e-7 radians) to 2. Densities whose squares or ratios overflow, within 2^-126 to 2^126 =
-    // 8.5e37, where Vulkan bounds the error of division.
+    // Heights from 5e-15 (1e-7 radians) to 2. Densities whose squares or ratios overflow, within 2^+-126, where Vulkan
+    // bounds the error of division.
     for (std::size_t i = 0; i < random_count; ++i)
         items.push_back({inputs.direction(), static_cast<float>(inputs.log_uniform(5e-15, 2.0)),
                          glm::vec2(inputs.number(), inputs.number()),
@@ -39,7 +39,7 @@ std::vector<Item> items() {
     return items;
 }
 
-// u and 1 - u are exact; their roots, cosine and sine, err by 9 u each, so by 9 u in length. Then both rotations.
+// u and 1 - u are exact; their roots err by 9 u each. Then both rotations.
 Real cosine_hemisphere_bound(const Item &item) {
     const Real sine = std::sqrt(Real{item.numbers.x});
     return rotation_bound(item.axis, sine) + azimuth_bound(sine) + 9 * half_ulp;
@@ -50,7 +50,7 @@ Real uniform_bound(Real sine) {
     return azimuth_bound(sine) + 9.5L * half_ulp * sine + half_ulp / 2;
 }
 
-// Where the dot product (2 u and the lengths) cannot tell the side, takes the nearer direction.
+// The nearer direction where the dot product (2 u and the lengths) cannot tell the side.
 Direction mirrored_up(const Direction &direction, const Item &item, const glm::vec4 &found) {
     const Real cosine = glm::dot(direction, Direction(item.axis));
     const bool undecided = std::abs(cosine) < 4 * half_ulp + uniform_bound(1);
@@ -71,7 +71,7 @@ Direction concentric(const glm::vec2 &numbers) {
     return side * radius * Direction(std::cos(angle), std::sin(angle), 0);
 }
 
-// 2 u - 1 is exact for 24 bits. The ratio errs by 5 u, the angle by 5 pi / 4 u, the product by u / 2 per component.
+// 2 u - 1 is exact for 24 bits. Ratio 5 u, angle 5 pi / 4 u, product u / 2 per component.
 constexpr Real concentric_share = 5 * pi / 4 * half_ulp;
 
 class AccuracySampling : public testing::Test {
@@ -104,7 +104,7 @@ TEST_F(AccuracySampling, OfDirectionsAndWeights) {
         const Direction point = concentric(item.numbers);
         disc.add(glm::vec3(result.weight.z, result.weight.w, 0.0F), point,
                  glm::length(point) * (concentric_share + azimuth_bound(1)), list(item));
-        // w = 1 / (1 + q^2): q 5 u, q^2 11 u, sum u, division 2.5 ulp. Where a square overflows, w is 0.
+        // w = 1 / (1 + q^2): q 5 u, q^2 11 u, sum u, division 2.5 ulp. Overflowing squares give 0.
         const Real a = item.density;
         const Real b = item.other_density;
         add_in_ulp(weight, result.weight.x, a * a / (a * a + b * b), 14.5L, 0x1p-100L, list(item));

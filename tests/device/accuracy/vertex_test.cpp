@@ -1,4 +1,4 @@
-// Points of vertex_at for wrong distances along the ray.
+// vertex_at for wrong distances along the ray.
 #include "shaders/specialization.h"
 #include "tests/device/accuracy/direction.h"
 #include "tests/device/accuracy/evaluation.h"
@@ -108,8 +108,7 @@ TEST(AccuracyVertex, OfPoints) {
         // A dot product errs by 3 u.
         EXPECT_LE(glm::dot(normal, Direction(item.direction)), 3 * half_ulp) << "not on the side of the ray's start";
         inside += results[i].inside == 1.0F ? 1 : 0;
-        // About the stored normal: 2 (n . d) n 4 u + 2 u; difference u. A ray along the surface is its own mirror
-        // image.
+        // 2 (n . d) n: 4 u + 2 u; difference u. A ray along the surface is its own mirror image.
         mirror.add(glm::vec3(results[i].mirror), glm::reflect(Direction(item.direction), normal), 7 * half_ulp, input);
     }
     EXPECT_TRUE(inside > 0 && inside < all.size()) << "only one side was tested";

@@ -1,4 +1,4 @@
-// Evaluates camera_direction and ray_through_lens.
+// camera_direction and ray_through_lens.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 

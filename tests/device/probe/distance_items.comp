@@ -1,4 +1,4 @@
-// Evaluates distances to a sphere and a plane, and shadow rays that end before and behind the hit.
+// Distances, and shadow rays before and behind the hit.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -7,7 +7,7 @@
 
 #include "items.glsl"
 
-// start: 0 anywhere, 1 on the sphere and outside, 2 inside. The center is the plane's normal too, the radius its
+// start: 0 anywhere, 1 on the sphere and outside, 2 inside. The center is also the plane's normal, the radius its
 // height.
 struct Item { vec4 center_radius; vec4 direction_start; };
 layout(set = 0, binding = 2) writeonly buffer Output { vec4 results[]; };

@@ -1,4 +1,4 @@
-// Adds per_pixel samples to each pixel of one part of the film.
+// Adds per_pixel samples to each pixel.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 

@@ -1,4 +1,4 @@
-// Evaluates hash and fixed point.
+// hash() and fixed point.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require

@@ -11,14 +11,14 @@ layout(push_constant) uniform Push { uint count; };
 
 struct Ray {
     vec4 origin;    // w: 0 on no surface, 1 on surface 0 outside, -1 inside
-    vec4 direction; // unit vector
+    vec4 direction;
 };
 
 struct Met {
     vec4 position_distance;
     vec4 normal;
     uint surface;
-    uint blocked; // as a shadow ray to beyond everything
+    uint blocked; // as an endless shadow ray
     uint inside;
     uint unused;
 };

@@ -1,4 +1,4 @@
-// A probe's items; tests/device/accuracy/evaluation.h is the host's side. Each probe declares its structs.
+// A probe's items (host: tests/device/accuracy/evaluation.h).
 #ifndef ITEMS_GLSL
 #define ITEMS_GLSL
 

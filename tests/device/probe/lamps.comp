@@ -1,4 +1,4 @@
-// Samples lamps from one vertex; the first invocations state how it sees each.
+// Samples lamps from one vertex.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -13,11 +13,11 @@ struct Drawn {
     vec4 direction_distance;
     uint lamp;
     float density;     // over solid angle, given the lamp
-    float hit_density; // stated for a direction that happens to hit the lamp
+    float hit_density; // of a direction that happens to hit the lamp
     float probability;
 };
 
-// First an entry for each lamp, with density and probability only, then the samples.
+// An entry for each lamp, with density and probability only, then the samples.
 layout(set = 0, binding = 2) writeonly buffer Output { Drawn drawn[]; };
 
 void main()

@@ -1,4 +1,4 @@
-// Iterates x -> x * multiplier + increment on each value of a buffer.
+// x -> x * multiplier + increment.
 #version 450
 
 layout(local_size_x = 64) in;

@@ -1,4 +1,4 @@
-// Evaluates one block of a branch's numbers per invocation, pixel by pixel.
+// One block of a branch's numbers per invocation.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require

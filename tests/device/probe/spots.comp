@@ -1,4 +1,4 @@
-// Chooses and samples spots from one vertex and states the directions' density.
+// Chooses and samples spots from one vertex.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
