@@ -29,7 +29,6 @@ class AnalyticFixture : public BatchFixture {
 protected:
     Context create_fixtures_context() override;
 
-    // Checks that a tree was used, if required.
     void TearDown() override;
 
     Image image_of(const pt_scene &scene, const pt_camera &camera, const pt_render &render, std::uint32_t sample_count);

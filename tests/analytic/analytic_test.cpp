@@ -30,7 +30,7 @@ struct Measurement {
     Estimate radiance;
 };
 
-// Bounds of both judges, relative to the exact value.
+// Relative to the exact value.
 struct Bounds {
     Bounds(const Measurement &measured, const Exact &exact) :
         tabulated(error_bound(exact.relative_std, measured.sample_count)),
@@ -46,7 +46,6 @@ bool measurement_agrees(const Measurement &measured, const Exact &exact) {
            difference <= batch_bound(measured.radiance, exact, batch_count);
 }
 
-// Whether an error of 3% exceeds the noise.
 bool resolves(const Measurement &measured, const Exact &exact) {
     const Bounds bounds(measured, exact);
     return exact.radiance > 0.0 && 0.03 > 2.0 * std::min(bounds.tabulated, bounds.of_batches);
@@ -73,7 +72,7 @@ protected:
 
 class Analytic : public PixelFixture, public testing::WithParamInterface<Expectation> {
 protected:
-    // Both judges reject values 3% off, and the pixel with lamps 3% brighter.
+    // Negative control: values 3% off, and lamps 3% brighter.
     void expect_to_see_errors(cli::SceneFile scene, const Pixel &pixel, const Measurement &measured) {
         for (const double factor : {0.97, 1.03}) {
             const Exact wrong{pixel.exact.radiance * factor, pixel.exact.relative_std};
@@ -106,8 +105,7 @@ std::string test_name(std::string name) {
     return "Scene" + name;
 }
 
-// Whole images, unlike their mirror images. With few samples the first judge stands alone, because the measured noise
-// may be 0.
+// With few samples the first judge stands alone, because the measured noise may be 0.
 class WholeImage : public PixelFixture, public testing::WithParamInterface<std::string> {};
 
 TEST_P(WholeImage, PixelsAreInTheirPlaces) {

@@ -11,7 +11,7 @@
 namespace analytic {
 
 // The smallest image about the same center with a pixel. The image plane's distance, height / (2 tan(fov / 2)) pixels,
-// is kept, and so are the rays.
+// stays, and so do the rays.
 struct Crop {
     std::uint32_t width;
     std::uint32_t height;

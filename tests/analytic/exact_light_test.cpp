@@ -22,7 +22,7 @@ protected:
     }
 };
 
-// In units of 2^-24, half a unit in the last place or more.
+// In units of 2^-24.
 double largest_error(const Image &image, double exact) {
     double largest = 0.0;
     for (const float value : image.radiance)

@@ -46,14 +46,13 @@ double share_of(const Shape &shape, std::uint32_t x, std::uint32_t y) {
     const double size = shape.window_height / shape.height;
     const double left = (x - 0.5 * shape.width) * size;
     const double top = (0.5 * shape.height - y) * size;
-    // Skips pixels away from the sphere.
     const auto [first, last] = sphere_coverage.chord(top - 0.5 * size);
     if (left > 0.5 || left + size < -0.1 || (first == last && std::abs(top) > 0.5 + size))
         return 0.0;
     return sphere_coverage.share(left, left + size, top - size, top);
 }
 
-// Number of wrong pixels. Full and empty ones are exact; the quadrature decides to 1e-4.
+// Full and empty pixels are exact; the quadrature decides to 1e-4.
 std::uint32_t compare(const Image &image, const Shape &shape) {
     std::uint32_t found = 0;
     for (std::uint32_t y = 0; y < shape.height; ++y)

@@ -104,7 +104,7 @@ void store(const glm::dvec3 &from, double (&to)[3]) {
         to[i] = from[i];
 }
 
-// Area of a moving unit sphere on the image plane at distance 1, by six Gauss nodes in time, three by symmetry.
+// Area of a moving unit sphere on the image plane at distance 1, by six Gauss nodes in time.
 double area_in_motion(double distance, double way) {
     constexpr std::array<std::array<double, 2>, 3> nodes{{{0.2386191860831969, 0.4679139345726910},
                                                           {0.6612093864662645, 0.3607615730481386},
@@ -142,7 +142,7 @@ TEST_F(DISABLED_OperatingRange, DistanceOfASphere) {
 constexpr double floor_side = 0.1;
 constexpr double lamp_height = 3.1; // above the floor y = -1
 
-// Mean over a square about (0, 0) on a floor of albedo 0.8 under a lamp of radius 1, emission 10 at (3, 2.1, 0): by two
+// Mean over a square about (0, 0) on a floor of albedo 0.8 under a lamp of radius 1, emission 10 at (3, 2.1, 0): two
 // Gauss nodes per direction, to 1e-7.
 double floor_under_lamp() {
     double sum = 0.0;
@@ -189,8 +189,8 @@ TEST_F(DISABLED_OperatingRange, SizeOfAFloorBall) {
             ball.radius = std::pow(10.0, exponent);
             ball.center[1] = -1.0 - ball.radius;
             ball.motion[0] = motion;
-            // The plane's value and the first term in the curvature, from the radius 1e5. Motion m along itself lowers
-            // the floor by m^2 / (6 R).
+            // The plane's value and the first term in the curvature. Motion m along itself lowers the floor by m^2 / (6
+            // R).
             measure(ball.radius, scene, 128, 127, 0.12151634857013521 + 0.0640719 / ball.radius);
         }
     }

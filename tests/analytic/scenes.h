@@ -17,7 +17,7 @@ struct Pixel {
     Exact exact;
 };
 
-// One scene's lines of expected.csv.
+// Of expected.csv.
 struct Expectation {
     std::string scene;
     std::vector<Pixel> pixels;

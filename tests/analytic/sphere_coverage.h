@@ -9,8 +9,7 @@
 
 namespace analytic {
 
-// A unit sphere at c from the origin, on the plane z = -1: the ellipse (c_x x + c_y y - c_z)^2 >= (|c|^2 - 1) (x^2 +
-// y^2 + 1).
+// A unit sphere at c, on the plane z = -1: the ellipse (c_x x + c_y y - c_z)^2 >= (|c|^2 - 1) (x^2 + y^2 + 1).
 class SphereCoverage {
 public:
     SphereCoverage(double x, double y, double z) : x_(x), y_(y), z_(z), tangent_(x * x + y * y + z * z - 1.0) {}

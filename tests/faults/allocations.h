@@ -26,7 +26,7 @@ private:
     bool was_in_library_;
 };
 
-// number: counted from 1; 0: none. goes_on: all later ones fail too.
+// number: from 1; 0: none. goes_on: all later ones fail too.
 void fail_allocation(std::size_t number, bool goes_on);
 
 // Whether it was reached, and whether it throws; others are optional.

@@ -1,5 +1,4 @@
-// The library's clock, which advances on request only: nothing is overdue on a slow machine, slices are reproducible,
-// and hung devices take no time.
+// The library's clock, which advances on request only: slices are reproducible, and hung devices take no time.
 #pragma once
 
 #include <chrono>

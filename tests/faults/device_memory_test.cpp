@@ -27,7 +27,6 @@ protected:
         return Context(context);
     }
 
-    // Takes this sample alone.
     static void take(const Context &context, uint32_t index) {
         pt_render render = render_of(width, height, 2);
         render.first_sample = index;

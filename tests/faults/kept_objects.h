@@ -1,4 +1,4 @@
-// Reuses instance, devices and pipelines, which take a driver a quarter of a second.
+// Reuses instance, devices and pipelines, which are slow to create.
 #pragma once
 
 #include <vulkan/vulkan_core.h>
@@ -7,7 +7,6 @@ namespace faults {
 
 VkResult kept_instance(PFN_vkCreateInstance create, const VkInstanceCreateInfo *info, VkInstance *instance);
 
-// One that is unused.
 VkResult kept_device(PFN_vkCreateDevice create, VkPhysicalDevice physical_device, const VkDeviceCreateInfo *info,
                      VkDevice *device);
 void put_back(VkDevice device);

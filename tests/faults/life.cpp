@@ -322,7 +322,6 @@ void Life::destroy() {
         met_.insert("pt_destroy");
 }
 
-// Every later call says so.
 void Life::expect_lost() {
     const std::string message = pt_last_error(context_);
     const pt_camera the_camera = camera();

@@ -1,4 +1,4 @@
-// The life of a context, call by call. A call may fail once; then pt.h's contract is checked and the call repeated.
+// The life of a context, call by call. After a fault pt.h's contract is checked and the call repeated.
 #pragma once
 
 #include <pt/pt.h>
@@ -21,7 +21,7 @@ struct Setting {
 using Image = std::vector<float>;
 using Film = std::vector<char>;
 
-// Images by sample count, from an undisturbed life.
+// By sample count, from an undisturbed life.
 struct ExpectedImages {
     std::map<uint32_t, Image> radiance;
     std::map<uint32_t, Image> standard_error;
@@ -31,7 +31,6 @@ struct ExpectedImages {
 
 ExpectedImages undisturbed_images();
 
-// A possible fault.
 class Injection {
 public:
     virtual ~Injection() = default;
@@ -46,7 +45,7 @@ using Steps = std::set<std::string>;
 
 class Life {
 public:
-    // injected: the calls with faults; the life skips what they do not need.
+    // injected: the calls with faults.
     Life(const Setting &setting, const ExpectedImages &expected, const Steps &injected);
     ~Life();
     Life(const Life &) = delete;

@@ -36,7 +36,6 @@ constexpr Way ways[] = {{false, 1, 50, 0, false},   {false, 2, 1, 0, false}, {fa
 
 constexpr uint32_t polled_size = 48;
 
-// One ball is within the other, nearly equal.
 struct PolledScene {
     std::array<pt_material, 2> materials = {
         {{{0.5F, 0.5F, 0.5F}, {0.2F, 0.2F, 0.2F}, {0, 0, 0}, 20, 0}, {{0, 0, 0}, {0, 0, 0}, {9, 9, 9}, 0, 0}}};

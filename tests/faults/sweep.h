@@ -9,11 +9,10 @@
 
 namespace faults {
 
-// The fault at a place of each call, numbered from 1.
+// The fault at a place of each call, from 1.
 using InjectionAt = std::function<std::unique_ptr<Injection>(std::size_t number)>;
 
-// One round of lives per place, in the steps of the previous round. After each life all Vulkan objects and memory are
-// gone.
+// One round per place, in the steps of the previous round. After each life all Vulkan objects and memory are gone.
 void sweep(const Setting &setting, const ExpectedImages &expected, const Steps &steps, const InjectionAt &injection_at);
 
 } // namespace faults

@@ -69,7 +69,6 @@ protected:
         forget_objects(); // of a lost device
     }
 
-    // Repeats a failed call.
     void expect_bytes_after(pt_result disturbed) {
         if (disturbed == PT_ERROR_DEVICE_LOST) {
             context_.reset();

@@ -16,7 +16,7 @@ using namespace faults;
 
 pt_result expected_result(const CallFault &fault) {
     // Unknown work, or work that does not end, loses the device.
-    if (fault.function == "vkWaitForFences" && fault.result == VK_TIMEOUT) // the next look will tell
+    if (fault.function == "vkWaitForFences" && fault.result == VK_TIMEOUT) // reported by the next look
         return PT_OK;
     if (fault.function == "vkWaitForFences" || fault.function == "vkResetFences")
         return PT_ERROR_DEVICE_LOST;
@@ -51,7 +51,6 @@ pt_result expected_result(const CallFault &fault) {
     }
 }
 
-// A fault that was reached.
 struct Place {
     std::string step;
     std::size_t number;

@@ -85,7 +85,7 @@ std::optional<VkResult> result_by_plan(Call call) {
     return fault.result;
 }
 
-// Durations by the library's clock: of a submission, and of a look at a hung one.
+// By the library's clock: of a submission, and of a look at a hung one.
 constexpr std::chrono::milliseconds submission_time{1};
 constexpr std::chrono::milliseconds look_time{100};
 constexpr std::chrono::microseconds polling_time{300};
@@ -147,7 +147,7 @@ void note_effect(const std::tuple<A...> &arguments) {
     if constexpr (call == Call::WaitForFences)
         pass_time(submission_time);
     if constexpr (call == Call::GetFenceStatus)
-        pass_time(polling_time); // so that nobody looks twice before waiting
+        pass_time(polling_time); // nobody looks twice before waiting
     if constexpr (call == Call::GetDeviceQueue)
         devices_of_queues[*std::get<3>(arguments)] = std::get<0>(arguments);
     if constexpr (call == Call::GetPhysicalDeviceProperties)

@@ -18,7 +18,6 @@ void examine_neighbourhood(const Input &input, std::span<const std::uint8_t> byt
 // An input and its neighbours.
 void examine(std::span<const Input> family);
 
-// The useful number of neighbours.
 extern const std::uint32_t neighbour_count;
 
 } // namespace fuzz

@@ -37,9 +37,8 @@ bool conserves_energy(const pt_material &material) {
     return true;
 }
 
-// A sample's expectation is at most K L (path length, brightest emission), so by Markov's inequality it exceeds the
-// limit 2^20 L with probability K / 2^20 at most. Plain Halton's first point is 0 in all dimensions, which hits sharp
-// lobes.
+// A sample's expectation is at most K L (path length, brightest emission), so by Markov's inequality it exceeds 2^20 L
+// with probability K / 2^20 at most. Plain Halton's first point is 0 in all dimensions, which hits sharp lobes.
 bool may_lose_samples(const Input &input) {
     const bool follows_lobe = input.render.estimator == PT_ESTIMATOR_BEST ||
                               input.render.estimator == PT_ESTIMATOR_BSDF || input.render.estimator == PT_ESTIMATOR_MIS;
@@ -101,8 +100,7 @@ std::optional<pt::Features> features(const Input &input) {
 
 } // namespace
 
-// A kernel takes a thousand times as long as an image, so neighbours that need another are skipped. The first image has
-// a kernel of its own.
+// A kernel takes a thousand times as long as an image, so neighbours that need another are skipped.
 const std::uint32_t neighbour_count = 255;
 
 void examine(std::span<const Input> family) {

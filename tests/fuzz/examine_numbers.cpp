@@ -123,7 +123,6 @@ void require_features(const pt::Features &features, const pt::Scene &scene) {
     require(features[pt::gpu::ID_GLOSS] || !(pt::feature_bits(features) & PT_FEATURE_GLOSS),
             "gloss is said where it is");
     require(pt::branch_count(features) >= 1, "a path leaves its first vertex");
-    // Inputs of the point table's size and the schedule.
     require(pt::point_layout(features).block_count() <= pt::sequence_dimensions, "a block has a dimension of its own");
     require(pt::loop_trips_per_sample(features) < (std::uint64_t{1} << 62),
             "the loop trips of a sample can be counted");
@@ -149,7 +148,6 @@ float largest_in_lamp_tree(std::uint64_t word, const pt::Features &features) {
     return word % group_words == 4 ? largest_length * largest_length : largest_length;
 }
 
-// Large scenes share materials in a table.
 void require_indices(std::span<const glm::vec4> indices, const pt::Features &features) {
     for (std::uint32_t i = 0; i < features.surface_count(); ++i) {
         const float bits = indices[i / 4][static_cast<int>(i % 4)];
@@ -189,7 +187,7 @@ void require_words(const std::vector<glm::vec4> &words, const pt::Features &feat
     const auto planes = std::span(words).subspan(features[pt::gpu::ID_SPHERE_COUNT], features[pt::gpu::ID_PLANE_COUNT]);
     require(std::ranges::all_of(planes,
                                 [](const glm::vec4 &plane) {
-                                    // A unit vector, rounded to float32.
+                                    // Rounded to float32.
                                     return std::abs(glm::length(glm::dvec3(plane)) - 1.0) <= 2 * 0x1p-24;
                                 }),
             "the kernel's normals are unit vectors");

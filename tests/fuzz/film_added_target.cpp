@@ -34,7 +34,6 @@ void clear() {
     fuzz::require_done(pt_set_render(fuzz::context(), &render));
 }
 
-// The context's own film, after the first call.
 const Bytes &own_film() {
     static const Bytes own = [] {
         const pt_material material[] = {{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {1, 1, 1}, 0, 0}};
@@ -52,7 +51,6 @@ const Bytes &own_film() {
     return own;
 }
 
-// The lines before the tile.
 std::span<const std::byte> identity_of(const Bytes &film) {
     const std::string_view text(reinterpret_cast<const char *>(film.data()), film.size());
     return std::span(film).first(text.find("\ntile ") + 1);

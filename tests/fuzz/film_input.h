@@ -11,7 +11,7 @@
 
 namespace fuzz {
 
-// Hardly any change is accepted without a valid checksum, so the first byte decides whether to write one.
+// Hardly any change is accepted without a valid checksum; the first byte decides whether to write one.
 inline std::vector<std::byte> film_input(std::span<const std::byte> before, std::span<const std::byte> bytes) {
     std::vector<std::byte> film(before.begin(), before.end());
     if (bytes.empty())

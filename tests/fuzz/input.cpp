@@ -166,7 +166,7 @@ pt_sphere_array columns_of(const Input &input, std::size_t first, std::size_t co
     return array;
 }
 
-// The arrays in memory of exactly their size.
+// In memory of exactly their size.
 void write_arrays(const Input &input, std::span<const pt_sphere_array> arrays) {
     const std::size_t size = std::clamp<std::size_t>(input.columns.struct_size, sizeof(std::uint32_t), 65536);
     input.array_bytes.assign(arrays.size() * size, input.tail_byte);

@@ -21,7 +21,7 @@ struct Input {
     pt_render render{};
     std::uint32_t sample_count = 1;
 
-    // False claims of pt_scene never promise more than exists, unless refused by themselves.
+    // False claims never promise more than exists, unless refused by themselves.
     struct SceneClaims {
         bool has_materials = true;
         bool has_spheres = true;
@@ -51,7 +51,7 @@ struct Input {
 // Any bytes are valid.
 Input decoded_input(ByteReader bytes);
 
-// Changes a number within its own rule; usually keeps the kernel's features.
+// Within the number's own rule; usually keeps the kernel's features.
 void change_one_number(Input &input, ByteReader &bytes);
 
 // In memory of exactly the given size, so that AddressSanitizer detects reads beyond.

@@ -14,7 +14,6 @@
 
 namespace {
 
-// Bytes as a file, by its name.
 class MemoryFile {
 public:
     MemoryFile(const std::uint8_t *data, std::size_t size) : file_(memfd_create("npy", 0)) {

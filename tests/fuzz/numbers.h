@@ -11,9 +11,9 @@ class Numbers {
 public:
     Numbers(ByteReader &bytes, bool wild) : bytes_(bytes), wild_(wild) {}
 
-    double length();                        // 0 or a magnitude in [1e-18, 1e18]
+    double length();                        // 0 or in [1e-18, 1e18]
     double positive_length();               // in [1e-18, 1e18]
-    double component();                     // of a vector of any length: finite
+    double component();                     // finite
     double share();                         // in [0, 1]
     double field_of_view();                 // in [1e-8, pi)
     float color();                          // in [0, 1e18]
@@ -23,7 +23,7 @@ public:
 private:
     double ordinary();
     double any_magnitude(); // of any sign, in [1e-18, 1e18]
-    double boundary();      // an end of a range, by the rules or float32
+    double boundary();      // an end of a range
     bool breaks_rule() { return wild_ && bytes_.one_in(16); }
     double anything();
 

@@ -1,4 +1,4 @@
-// One context for all inputs. Environment: see tests/support/context_fixture.h.
+// One context for all inputs. Environment: tests/support/context_fixture.h.
 #pragma once
 
 #include "tests/fuzz/require.h"

@@ -15,7 +15,6 @@ namespace {
 constexpr double camera_nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double camera_infinity = std::numeric_limits<double>::infinity();
 
-// Looks along -z.
 pt_camera valid_camera() {
     pt_camera camera{};
     camera.struct_size = sizeof camera;
@@ -165,7 +164,6 @@ TEST(Camera, AcceptsExtremes) {
 TEST(Camera, AxesAreOrthonormalToFloatPrecision) {
     const double views[][3] = {{1, 2, 3}, {-1, 1e-9, 0}, {1e-17, 3e-18, -2e-18}, {1e17, -1e18, 7e16}};
     for (const auto &view : views) {
-        // Down to a little above the tolerance, 2^-26.
         for (const double tilt : {1.0, 1e-3, 1e-6, 0x1p-25}) {
             SCOPED_TRACE(testing::Message() << view[0] << ' ' << view[1] << ' ' << view[2] << " tilt " << tilt);
             const double length = std::hypot(view[0], view[1], view[2]);
@@ -184,7 +182,6 @@ TEST(Camera, AxesAreOrthonormalToFloatPrecision) {
             EXPECT_NEAR(glm::dot(camera.up, camera.forward), 0.0, 0x1p-24);
             // the test rounds `up` by 2^-53 / tilt
             EXPECT_NEAR(glm::dot(camera.up, aside), 1.0, 0x1p-24);
-            // right-handed
             EXPECT_NEAR(glm::dot(glm::cross(camera.right, camera.up), camera.forward), -1.0, 0x1p-24);
         }
     }

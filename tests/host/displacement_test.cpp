@@ -1,4 +1,4 @@
-// Which surface rounding moves by more than a pixel, on both sides of a pixel.
+// Which surface rounding moves by more than a pixel.
 #include "lib/kernel/displacement.h"
 #include "lib/scene/checked_scene.h"
 #include "tests/support/checked_scene_of.h"
@@ -69,8 +69,8 @@ std::optional<pt::BrokenRule> displaced_capsule(const glm::dvec3 &center, const 
 }
 
 TEST(Displacement, OfSpheresThatShareAGridWithADistantOne) {
-    // The grid reaches from -4 to -1e9 - 1, so that its steps are 1 and centres are off by half a diagonal of that. The
-    // near sphere is held at -4.5, and a pixel at -3.5 is 1 / 146.3.
+    // The grid reaches from -4 to -1e9 - 1, so its steps are 1 and centers are off by half its diagonal. The near
+    // sphere is held at -4.5; a pixel at -3.5 is 1 / 146.3.
     const auto rule = displaced({{{0, 0, -5}, 1, half}, {{0, 0, -1e9}, 1, half}});
     ASSERT_TRUE(rule);
     EXPECT_EQ(rule->subject, "sphere_arrays");
@@ -86,14 +86,14 @@ TEST(Displacement, OfSpheresThatShareAGridWithADistantOne) {
     EXPECT_FALSE(displaced({{{0, 0, 5}, 1, half}, {{0, 0, 1e9}, 1, half}})) << "behind the camera";
 }
 
-// An opacity of 1 - 1/1000 is held as 1, so the spheres are in no tree.
+// An opacity of 1 - 1/1000 is held as 1.
 TEST(Displacement, OpaqueSpheresAreNotInTheTree) {
     EXPECT_FALSE(displaced({{{0, 0, -5}, 1, 0.999F}, {{0, 0, -1e9}, 1, 0.999F}}));
     EXPECT_TRUE(displaced({{{0, 0, -5}, 1, 0.99F}, {{0, 0, -1e9}, 1, 0.99F}}));
     EXPECT_FALSE(displaced({{{0, 0, -5}, 1, half}, {{0, 0, -1e9}, 1, 1.0F}}));
 }
 
-// Radii are off by 2^-16 of themselves. A pixel at 8 is 1 / 64, which is that of a radius of 1024.
+// Radii err by 2^-16; a pixel at 8 is 1 / 64, which is 2^-16 of 1024.
 TEST(Displacement, OfTranslucentRadii) {
     const auto ball = [](double radius) { return Surface{{0, 0, -radius - 8.0}, radius, half}; };
     EXPECT_FALSE(displaced({ball(1000)}));
@@ -105,7 +105,7 @@ TEST(Displacement, OfTranslucentRadii) {
         << rule->rule;
 }
 
-// Not itself in view, a ground makes the grid coarse for others.
+// The ground is out of view, but makes the grid coarse.
 TEST(Displacement, OfSpheresThatShareAGridWithAGround) {
     const auto rule = displaced({{{0, 0, -5}, 1, half}, {{0, -1e8 - 2, 0}, 1e8, half}});
     ASSERT_TRUE(rule);
@@ -113,7 +113,7 @@ TEST(Displacement, OfSpheresThatShareAGridWithAGround) {
     EXPECT_EQ(rule->component, 1);
 }
 
-// A capsule passes at a distance of 1, where a pixel is 1 / 512: 2^-21 of 2^12 is as much.
+// The capsule passes at a distance of 1, where a pixel is 1 / 512 = 2^-21 of 2^12.
 TEST(Displacement, OfLongCapsules) {
     const auto passing = [](double length) {
         return displaced_capsule({-0.5 * length, 0, -1.5}, {0.5 * length, 0, -1.5}, 0.5);

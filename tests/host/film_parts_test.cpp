@@ -48,7 +48,6 @@ TEST(FilmParts, TheSplitHasTheMostZerosAtItsEnd) {
             ASSERT_EQ(pt::split_of({first, end}), split_by_definition({first, end})) << first << ", " << end;
 }
 
-// Finally each part has just the samples on its side of the split.
 TEST(FilmParts, SamplesAddedInAnyOrderEndOnTheirSideOfTheSplit) {
     std::mt19937 random(1);
     for (int round = 0; round < 3000; ++round) {

@@ -40,7 +40,6 @@ inline pt::Camera camera_at(const glm::dvec3 &position, double open = 0.0, doubl
     return {position, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, open, close};
 }
 
-// A sphere as stored.
 struct Held {
     glm::ivec3 center;
     glm::dvec3 way; // in steps

@@ -1,4 +1,4 @@
-// Where hidden surfaces confine paths, and the kernel's features.
+// Where hidden surfaces confine paths.
 #include "lib/kernel/gpu_scene.h"
 #include "lib/kernel/kernel_surfaces.h"
 #include "lib/kernel/scene_features.h"
@@ -22,10 +22,10 @@ pt::MovingBall ball(double x, double radius, double way = 0.0) {
 TEST(LiesApart, OfBallsIsBesideOrWithin) {
     EXPECT_TRUE(lies_apart(ball(0, 1), ball(3, 1)));
     EXPECT_FALSE(lies_apart(ball(0, 1), ball(1.5, 1)));
-    EXPECT_TRUE(lies_apart(ball(0, 1), ball(0.5, 2)));  // a shell around the ball
-    EXPECT_FALSE(lies_apart(ball(0, 2), ball(0.5, 1))); // inside it
-    EXPECT_FALSE(lies_apart(ball(0, 1), ball(1.5, 2))); // cuts it
-    EXPECT_FALSE(lies_apart(ball(0, 1), ball(2, 1)));   // touches it
+    EXPECT_TRUE(lies_apart(ball(0, 1), ball(0.5, 2)));  // a shell around it
+    EXPECT_FALSE(lies_apart(ball(0, 2), ball(0.5, 1))); // inside
+    EXPECT_FALSE(lies_apart(ball(0, 1), ball(1.5, 2))); // cuts
+    EXPECT_FALSE(lies_apart(ball(0, 1), ball(2, 1)));   // touches
     EXPECT_TRUE(lies_apart(ball(0, 1), ball(2.001, 1)));
     EXPECT_FALSE(lies_apart(ball(0, 1), ball(2.00001, 1))); // too close for float32
 }

@@ -30,7 +30,6 @@ pt::ImageLayout layout_of(const pt_image &image) {
     return pt::validated_image(image, width, height, pt::ImageSource::Context).layout;
 }
 
-// x, y, width, height
 pt_image part(std::uint32_t x, std::uint32_t y, std::uint32_t part_width, std::uint32_t part_height) {
     pt_image image = valid_image();
     image.x = x;
@@ -146,7 +145,6 @@ TEST(BufferImage, IsWhatItSays) {
     EXPECT_EQ(image.signal_semaphore, 6U);
 }
 
-// The largest offset makes sums overflow.
 TEST(BufferImage, BrokenRulesAreNamed) {
     expect_refusals<pt_buffer_image>(
         valid_buffer(), buffer_outcome,

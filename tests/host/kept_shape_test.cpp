@@ -77,7 +77,6 @@ TEST(KeptShape, HoldsSpheresThatHaveMoved) {
     }
 }
 
-// There and back.
 TEST(KeptShape, HasTheWordsOfTheTreeThatItWasMadeFor) {
     const Spheres spheres = heap(ball_count, 0.01);
     const pt::SphereTree tree = tree_of(spheres);
@@ -144,7 +143,6 @@ TEST(KeptShape, IsNotForOtherSpheres) {
     EXPECT_FALSE(kept(without_one, fewer)) << "as many, but others";
 }
 
-// A new tree merges twins.
 TEST(KeptShape, IsNotForTwins) {
     const Spheres spheres = heap(ball_count, 0.0);
     const pt::SphereTree tree = tree_of(spheres);
@@ -156,7 +154,7 @@ TEST(KeptShape, IsNotForTwins) {
     EXPECT_EQ(of_twins.sphere_count(), ball_count - 1);
     EXPECT_FALSE(kept(of_twins, spheres));
     EXPECT_FALSE(kept(of_twins, with_twins));
-    // no twins any more, but at equal distances only their places decide
+    // without twins only places decide at equal distances
     with_twins[1500].motion[0] = 0.5;
     EXPECT_EQ(tree_of(with_twins).sphere_count(), ball_count);
     EXPECT_FALSE(kept(tree, with_twins));
@@ -225,7 +223,6 @@ TEST(KeptShape, IsTakenFromTheSceneBefore) {
     EXPECT_FALSE(prepared(few, &with_shape).tree);
     EXPECT_EQ(prepared(later, std::make_unique<pt::PreparedScene>(prepared(few, nullptr)).get()).tree->words(),
               anew.tree->words());
-    // Each number of a sphere matters.
     const std::function<void(pt_sphere &)> changes[] = {
         [](pt_sphere &sphere) { sphere.center[2] += 1e-6; }, [](pt_sphere &sphere) { sphere.radius *= 1.0001; },
         [](pt_sphere &sphere) { sphere.motion[0] = 1e-6; }, [](pt_sphere &sphere) { sphere.material = 1; }};

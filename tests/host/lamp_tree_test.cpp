@@ -83,7 +83,6 @@ HeldNode held_node(const pt::GpuScene &scene, std::uint64_t group, int place) {
     return node;
 }
 
-// The first word of the slots' lamps.
 std::uint64_t first_slot_word(const pt::GpuScene &scene) {
     return pt::SceneBlocks(scene.features).lamp_tree +
            gpu::lamp_tree_group_words(scene.features[gpu::ID_MOTION]) *

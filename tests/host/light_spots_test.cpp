@@ -15,7 +15,6 @@ constexpr std::uint32_t lamp_material = 0;
 constexpr std::uint32_t matt_material = 1;
 constexpr std::uint32_t polished_material = 2;
 
-// A ceiling is 10 above the lamp.
 struct SpotRoom {
     double lamp_height = 0.5;
     float floor_diffuse = 0.5F;

@@ -20,7 +20,7 @@ inline const std::vector<pt_material> three_materials = {{{0.5F, 0.25F, 1.0F}, {
                                                          {{1, 1, 1}, {0, 0, 0}, {0, 0, 0}, 0, 0},
                                                          {{0, 0, 0}, {0, 0, 0}, {2, 3, 4}, 0, 0}};
 
-// Four spheres in columns of floats, for tests to break.
+// For tests to break.
 struct Particles {
     std::vector<float> center = {1, 2, 3, 4, 5, 6, -7, 8, 9, 10, 11, -0.0F};
     std::vector<float> radius = {1, 2, 0.1F, 4};
@@ -45,7 +45,7 @@ struct Particles {
         return array;
     }
 
-    // As structs, with materials made by hand.
+    // With materials made by hand.
     std::vector<pt_sphere> spheres() const {
         std::vector<pt_sphere> spheres;
         for (std::size_t i = 0; i < count; ++i)

@@ -1,4 +1,4 @@
-// The host's values, mostly in double, equal the kernels'.
+// The host's values equal the kernels'.
 #include "lib/film/pixel_sums.h"
 
 #include "shaders/quotient.h"
@@ -22,7 +22,6 @@ namespace {
 
 using Planes = std::array<std::array<std::uint32_t, pt::gpu::FILM_WORDS>, pt::gpu::FILM_PARTS>;
 
-// Samples of both parts, the radiance unit, the bits of sums.
 struct Usual {
     std::uint32_t a;
     std::uint32_t b;
@@ -58,7 +57,6 @@ private:
     std::mt19937_64 random_{11};
 };
 
-// Some pixels have other sample counts.
 std::vector<Planes> random_pixels(std::size_t count, const Usual &usual) {
     RandomSums random(usual);
     std::vector<Planes> pixels(count);

@@ -34,7 +34,7 @@ bool fills_boxes(const Coordinates &x, const Coordinates &y, std::uint32_t digit
     return std::ranges::all_of(hits, [](std::uint32_t count) { return count == 1; });
 }
 
-// Number of equal leading digits, up to 32.
+// Equal leading digits, up to 32.
 int common_digits(std::uint32_t a, std::uint32_t b) {
     return std::countl_zero(a ^ b);
 }
@@ -46,7 +46,7 @@ struct ExactInverse {
     std::uint64_t floor_of_2_to_32; // of 2^32 times the value, exactly
 };
 
-// tests/data/radical_inverse.csv: exact rational arithmetic, indices up to 2^32 - 1.
+// Exact rational arithmetic, indices up to 2^32 - 1.
 std::vector<ExactInverse> exact_inverses() {
     std::ifstream file(PT_TEST_DATA_DIR "/radical_inverse.csv");
     std::vector<ExactInverse> table;
@@ -62,7 +62,6 @@ std::vector<ExactInverse> exact_inverses() {
     return table;
 }
 
-// The number of primes below the base.
 std::uint32_t dimension_of_base(std::uint64_t base) {
     std::uint32_t smaller = 0;
     for (std::uint64_t candidate = 2; candidate < base; ++candidate) {

@@ -68,7 +68,7 @@ TEST(RayStart, IsJustBeforeTheFirstSurfaceInView) {
     EXPECT_NEAR(start_of({}, {{{0, 1, 0}, -1e6 - 2, 0}}, camera), 1e6 / 0.6 * (1 - width), 20) << "a ceiling";
 }
 
-// Balls down to a quarter of the view's width.
+// Down to a quarter of the view's width.
 TEST(RayStart, IsOutsideOfTinyFarBalls) {
     const pt::Camera camera = looking_along(oblique, 1e-8);
     for (int i = 0; i < 200; ++i) {
@@ -139,7 +139,7 @@ TEST(RayStart, OfParallelRaysIsAtThePositionWhereNothingIsInView) {
     EXPECT_EQ(start_of({}, {{{0, 1, 0}, -1.5, 0}}, camera), 0.0) << "a plane divides the view";
 }
 
-// Random rays by textbook formulas.
+// By textbook formulas.
 TEST(RayStart, NothingInViewIsBeforeIt) {
     std::mt19937 engine(5);
     const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(engine); };
@@ -170,7 +170,7 @@ TEST(RayStart, NothingInViewIsBeforeIt) {
             const double x = in_view();
             const double y = in_view();
             const glm::dvec3 through = camera.forward + camera.tan_half_fov * (x * camera.right + y * camera.up);
-            glm::dvec3 from = 0.5 * extent * (x * camera.right + y * camera.up); // the ray's origin
+            glm::dvec3 from = 0.5 * extent * (x * camera.right + y * camera.up);
             glm::dvec3 ray = is_parallel ? camera.forward : glm::normalize(through);
             if (camera.has_lens()) {
                 const double angle = uniform(-4, 4);
@@ -199,7 +199,7 @@ TEST(RayStart, NothingInViewIsBeforeIt) {
     EXPECT_GT(near_misses[1], 1000) << "the bound is of use";
 }
 
-// Margins within which float32 decides sides: lists with spheres larger by it, or smaller around the camera, give the
+// Float32 decides sides within these margins: lists with spheres larger by them, or smaller around the camera, give the
 // same start.
 TEST(RayStart, OfATreeIsThatOfItsSpheres) {
     std::mt19937 engine(7);

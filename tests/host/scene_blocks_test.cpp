@@ -9,7 +9,6 @@
 
 namespace {
 
-// A lamp, and balls of equal materials in turn.
 pt::GpuScene row_of_balls(std::uint32_t count, std::uint32_t materials) {
     pt::Scene scene;
     scene.materials.assign(materials, {glm::vec3(0.5F), glm::vec3(0), glm::vec3(0), 0});

@@ -17,7 +17,7 @@ constexpr std::uint32_t dark = 0;
 constexpr std::uint32_t shining = 1;
 
 const glm::dvec3 eye = {1, 2, 3};
-const glm::dvec3 nowhere = {0, 0, 0}; // at rest
+const glm::dvec3 nowhere = {0, 0, 0};
 
 struct Shutter {
     double open;
@@ -83,7 +83,7 @@ TEST(FeatureInside, IsWhetherTheCameraIsInASphere) {
     EXPECT_TRUE(inside({ball_at({0, 0, -5}, 6), ball_at({0, 5, 0}, 4)})) << "in the first alone";
 }
 
-// A resting sphere becomes a curved plane, which needs no such feature; a moving one stays a ball.
+// A resting sphere becomes a curved plane, which needs no such feature.
 TEST(FeatureInside, IsTrueWhereFloat32CannotTell) {
     constexpr double radius = 2;
     const auto touches = [](double distance) { // at half time; farther off at others

@@ -30,14 +30,14 @@ Device constant_device(double paths_per_second) {
     return [=](double, double paths) { return overhead + paths / paths_per_second; };
 }
 
-// Slows down to a tenth.
+// To a tenth.
 Device throttled_device(double paths_per_second, double paths_until_then) {
     return [=](double before, double paths) {
         return overhead + paths / (before < paths_until_then ? paths_per_second : 0.1 * paths_per_second);
     };
 }
 
-// Times scatter by factors up to 1.5, log-uniformly.
+// Times vary by factors up to 1.5, log-uniformly.
 Device noisy_device(double paths_per_second) {
     return [=, generator = std::mt19937(1)](double, double paths) mutable {
         const double exponent = std::ldexp(static_cast<double>(generator()), -31) - 1.0; // in [-1, 1)
@@ -54,7 +54,7 @@ struct Step {
     double paths() const { return pt::paths_of(tile_count, samples.count()); }
 };
 
-// Runs a schedule as Accumulation does.
+// As Accumulation does.
 std::vector<Step> simulate(std::uint32_t tile_count, std::uint64_t samples, const pt::ScheduleLimits &limits,
                            const Device &device) {
     std::vector<std::uint32_t> all(tile_count);
@@ -75,7 +75,7 @@ std::vector<Step> simulate(std::uint32_t tile_count, std::uint64_t samples, cons
     return steps;
 }
 
-// The first fault of the steps, or "nothing".
+// The first fault, or "nothing".
 std::string fault(const std::vector<Step> &steps, std::uint32_t tile_count, std::uint64_t samples,
                   const pt::ScheduleLimits &limits) {
     std::uint64_t samples_done = 0;
@@ -138,7 +138,6 @@ TEST(Schedule, DoesAllWorkOnceNearTheTarget) {
                                 {"samples tile by tile", full_hd, 20, constant_device(1e6), 1.0},
                                 {"about a sample", 800, 300, constant_device(1.03e6), 1.0},
                                 {"a fast GPU", full_hd, 5000, constant_device(3e9), 1.0},
-                                // The speed falls in one slice.
                                 {"speed falls to a tenth", full_hd, 400, throttled_device(1e8, 2e8), 0.99},
                                 {"speed falls below a sample", full_hd, 100, throttled_device(1e8, 5e7), 0.99},
                                 // Two noises: beyond a factor of 2 with probability (1 - ln 2 / (2 ln 1.5))^2 = 0.02.
@@ -152,7 +151,6 @@ TEST(Schedule, DoesAllWorkOnceNearTheTarget) {
     }
 }
 
-// A slice is at least a tile.
 TEST(Schedule, VerySlowDevicesGetOneTileAtATime) {
     const std::vector<Step> steps = simulate(16, 30, usual_limits(), constant_device(1000.0));
     EXPECT_EQ(fault(steps, 16, 30, usual_limits()), "nothing");

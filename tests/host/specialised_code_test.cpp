@@ -17,7 +17,6 @@ namespace {
 
 using Code = std::vector<std::uint32_t>;
 
-// SPIR-V opcodes.
 constexpr std::uint32_t last_about_others = 16; // names, entry points and modes
 constexpr std::uint32_t op_spec_constant_op = 52;
 constexpr std::uint32_t op_function = 54;
@@ -31,7 +30,7 @@ constexpr std::uint32_t op_branch = 249;
 constexpr std::uint32_t op_branch_conditional = 250;
 constexpr std::uint32_t op_switch = 251;
 constexpr std::uint32_t op_return = 253;
-constexpr std::uint32_t no_contraction = 42; // a decoration
+constexpr std::uint32_t no_contraction = 42;
 
 std::vector<Code> instructions_of(const Code &code) {
     std::vector<Code> instructions;
@@ -43,7 +42,6 @@ std::vector<Code> instructions_of(const Code &code) {
     return instructions;
 }
 
-// The first instruction with this opcode.
 std::uint32_t &first_of(Code &code, std::uint32_t opcode) {
     std::size_t i = 5;
     while ((code[i] & 0xffffU) != opcode)

@@ -134,7 +134,6 @@ TEST(SphereArrays, OfNoneNeedNoColumns) {
     EXPECT_TRUE(particles.validated().spheres.empty());
 }
 
-// The arrays with another struct size.
 std::vector<unsigned char> resized(std::span<const pt_sphere_array> arrays, std::uint32_t size) {
     std::vector<unsigned char> bytes(arrays.size() * size);
     for (std::size_t i = 0; i < arrays.size(); ++i) {

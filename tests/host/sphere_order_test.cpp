@@ -118,7 +118,6 @@ TEST(SphereOrder, GivesEachSphereOnePlaceInATreeThatTheStackHolds) {
         }
 }
 
-// Three kinds at each point, in turn.
 TEST(SphereOrder, LeavesTheFirstOfTwins) {
     constexpr std::uint32_t different = 3 * 50;
     const auto ball = [](std::uint32_t i) {
@@ -131,7 +130,7 @@ TEST(SphereOrder, LeavesTheFirstOfTwins) {
     expect_well_linked(shape);
 }
 
-// Bits take long to read: once for a hash, and for two spheres of the same hash once more each.
+// Reading bits is slow: once for a hash, once more each for two spheres of one hash.
 TEST(SphereOrder, ReadsTheBitsOfASphereThreeTimesAtTheMost) {
     for (const bool are_twins : {false, true})
         for (const Kind &kind : kinds()) {

@@ -63,7 +63,6 @@ TEST(SphereSource, ReadsInOrderAcrossArrays) {
     const std::vector<std::uint32_t> starts(source.array_starts().begin(), source.array_starts().end());
     EXPECT_EQ(starts, (std::vector<std::uint32_t>{5, 5, 6, 306, 306, 306, 1006, 1008}));
 
-    // Runs in scene order cross arrays.
     std::vector<std::uint32_t> indices;
     for (std::uint32_t i = 0; i < source.size(); ++i)
         indices.push_back(i % 3 == 0 ? i * 401 % 1008 : 1007 - i);
@@ -130,7 +129,7 @@ TEST(Scene, KnowsWhereTheCallerHasASphere) {
     EXPECT_EQ(place(9), "sphere_arrays 2 4");
 }
 
-// An opacity that is held as 1 is none.
+// An opacity held as 1 lets none pass.
 TEST(SphereSource, KnowsOpacitiesThatLetRaysPass) {
     const std::vector<float> center{0, 0, 0, 4, 0, 0, 8, 0, 0};
     const float radius = 1.0F;

@@ -192,7 +192,7 @@ TEST(SphereTree, TakesNoMoreThan48BytesASphere) {
     EXPECT_EQ(colored.sphere_words()[frame.first_color + 777].z, 723U | 723U << 10 | 723U << 20);
 }
 
-// (p - camera) step + shift errs by the rounding of shift, which is about the distance of a far camera.
+// (p - camera) step + shift: rounding of shift, about the distance of a far camera.
 TEST(SphereTree, FramesPutSpheresWhereTheyAre) {
     const std::vector<pt_sphere> spheres = heap(100, 0.0);
     const pt::SphereTree tree = tree_of(spheres);

@@ -111,7 +111,6 @@ double as_lamp(const Value &value) {
     return value.standard_error * value.standard_error / (value.mean * value.mean + 0.01);
 }
 
-// Summed over channels.
 struct Errors {
     double square;
     double relative_square;

@@ -18,8 +18,7 @@ namespace {
 
 using Items = std::vector<pt::TreeItem>;
 
-// Sides below 4 are rounded by 2^-23, a box's side by 2^-22, half its surface by 2^-21 times the sum of sides, below
-// 15.
+// Sides below 4 round by 2^-23, a box's side by 2^-22, half its surface by 2^-21 times the sum of sides, below 15.
 constexpr double surface_error = 15 * 0x1p-21;
 
 pt::Part part_of(Items &items) {

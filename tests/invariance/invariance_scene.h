@@ -27,7 +27,7 @@ struct InvarianceScene {
 
     pt_scene scene() const { return scene_of(materials, spheres, planes); }
 
-    // Lamps, gloss, planes and a moving ball. Coordinates are multiples of 1/2, normals are axes.
+    // Coordinates are multiples of 1/2, normals are axes.
     static InvarianceScene coursework() {
         const CourseworkScene source;
         InvarianceScene result{{source.materials.begin(), source.materials.end()},

@@ -60,7 +60,7 @@ private:
 // Powers of two change no mantissa. A length in the kernel would show the more, the farther it is from the scene's
 // size.
 TEST_P(Invariance, UnitOfLength) {
-    for (const int exponent : {-50, -20, -4, 20, 50}) { // lengths of 2^-52 = 2e-16 to 2^55 = 3e16
+    for (const int exponent : {-50, -20, -4, 20, 50}) { // lengths of 2e-16 to 3e16
         SCOPED_TRACE(exponent);
         InvarianceScene scaled = scene();
         scaled.scale(std::ldexp(1.0, exponent));
@@ -80,8 +80,8 @@ TEST_P(Invariance, Origin) {
     }
 }
 
-// Sums rounded to 2^-34 at 1e6 can change a float32 by 2^-23, so rays end up to 1e-6 of the scene elsewhere. A few of
-// 2048 * 16 paths meet another surface, each with about 1e-5 of the light; the rest differ by about 1e-6.
+// Sums rounded to 2^-34 at 1e6 can change a float32 by 2^-23: rays end up to 1e-6 of the scene elsewhere. A few of 2048
+// * 16 paths meet another surface, each with about 1e-5 of the light; the rest differ by about 1e-6.
 TEST_P(Invariance, OriginRounded) {
     InvarianceScene original = scene();
     original.turn({{0.36, 0.48, -0.8}, {-0.8, 0.6, 0}, {0.48, 0.64, 0.6}});
@@ -133,7 +133,6 @@ protected:
         return result;
     }
 
-    // Each surface gets its own copy of its material.
     static InvarianceScene with_own_materials(const InvarianceScene &shared) {
         InvarianceScene result = shared;
         result.materials.clear();

@@ -30,7 +30,7 @@ std::vector<std::size_t> pixels_of_block(std::size_t block) {
 }
 
 struct Agreement {
-    double mean_square_t; // over the blocks; expected_mean_square_t if only noise differs
+    double mean_square_t; // over the blocks
     double largest_t;
 };
 

@@ -45,7 +45,7 @@ protected:
 
     virtual Context create_fixtures_context() { return create_context(); }
 
-    // The layer reports leaks when the context is destroyed.
+    // The layer reports leaks on destruction.
     void TearDown() override {
         context_.reset();
         for (const std::string &line : complaints_)
@@ -56,7 +56,7 @@ protected:
 
     using Create = std::function<pt_result(const pt_create_info *, pt_context **)>;
 
-    // Has the fixture's settings, changed by `adjust`. Destroy it before the test ends.
+    // Destroy it before the test ends.
     Context create_context(
         const std::function<void(pt_create_info &)> &adjust = [](pt_create_info &) {},
         const Create &create = &pt_create) {
@@ -85,7 +85,7 @@ protected:
     pt_stats stats() { return stats_of(context()); }
     pt_error_estimate error() { return error_of(context()); }
 
-    // Whether a few samples take several submissions, as on CPUs.
+    // Whether a few samples take several submissions.
     static bool is_on_cpu(pt_context *on) {
         pt_device_info info{};
         EXPECT_EQ(pt_get_context_device(on, &info), PT_OK) << pt_last_error(on);

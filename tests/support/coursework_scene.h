@@ -31,7 +31,6 @@ struct CourseworkScene {
         {{-1, 0, 0}, 10, 6, 0},
     }};
 
-    // Removes all specular lobes.
     void make_diffuse() {
         for (pt_material &material : materials)
             material.specular[0] = material.specular[1] = material.specular[2] = material.glossiness = 0;

@@ -225,7 +225,6 @@ private:
                                                  std::size_t{row} * column.stride_bytes);
     }
 
-    // Whether a ray meets it, at random.
     bool meets(const pt_column &opacity, std::uint32_t row) {
         return opacity.data == nullptr || share() < *at<float>(opacity, row);
     }

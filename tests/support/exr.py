@@ -24,7 +24,6 @@ def read_exr_attributes(path):
 
 
 def read_exr_blocks(path):
-    """The compressed pixels."""
     with open(path, "rb") as file:
         data = file.read()
     table = parse_exr_header(data)[1]

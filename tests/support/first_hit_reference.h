@@ -34,10 +34,9 @@ struct Ray {
     Vector spread{0.0L}; // sizes of the two terms of each component of origin
 };
 
-// A hit and its tolerances in float32.
 struct Meeting {
     Real distance = nowhere;
-    Real tolerance = 0.0L;        // of distance
+    Real tolerance = 0.0L;        // of distance, in float32
     bool is_uncertain = false;    // nearly touching or missing
     Vector normal{0.0L};          // facing the camera
     Real normal_tolerance = 0.0L; // of each component
@@ -46,17 +45,17 @@ struct Meeting {
 
 // u: rounding. A direction errs by 4 u across (two products and sums per component) and in length.
 //
-// Sphere, center c, radius r: c errs by u |c|; c - b d by 4 u |c| for d and 3 u |c|; so the ray's distance l from the
-// center, and b, by 8 u |c|. The half chord h = sqrt(r^2 - l^2) errs by (8 u |c| + 2 u r) / cosine, cosine = h / r.
-// Twice that is allowed. l - r errs by 8 u |c| + 2 u r: within twice this hit or miss is undecided.
+// Sphere, center c, radius r: c errs by u |c|; b d by 7 u |c|; so the ray's distance l from the center, and b, by 8 u
+// |c|. The half chord h = sqrt(r^2 - l^2) errs by (8 u |c| + 2 u r) / cosine, cosine = h / r; twice that is allowed. l
+// - r errs by 8 u |c| + 2 u r: within twice this hit or miss is undecided.
 //
-// Curved plane k at height h: 2 h / q, q = s + sqrt(s^2 - 2 k h), slope s, errs by u for h, 4 u for s, (4 u s + 4 u) /
-// cosine for the root; q is no less than the cosine. 16 u / cosine^2 of the distance is allowed, and 8 u for the rest;
-// within 64 u of touching (s^2 against 2 k h) it is undecided. The far wall is q / k; a plane has k = 0.
+// Curved plane k at height h: 2 h / q, q = s + sqrt(s^2 - 2 k h), slope s: u for h, 4 u for s, (4 u s + 4 u) / cosine
+// for the root; q >= cosine. 16 u / cosine^2 of the distance is allowed, and 8 u for the rest; undecided within 64 u of
+// touching (s^2 against 2 k h). The far wall is q / k; a plane has k = 0.
 //
 // Parallel rays: origin = a right - b up errs by 5 u of both terms' sizes (scale, place, vector, product, sum), of
-// length o. 8 u o is allowed beside 8 u |c|, and as much again for the subtraction. A height n . origin + offset errs
-// by 9 u of |n| times these sizes and 2 u of the offset: 16 u o / cosine is allowed.
+// length o. 8 u o is allowed beside 8 u |c|, and as much for the subtraction. A height n . origin + offset errs by 9 u
+// of |n| times these sizes and 2 u of the offset: 16 u o / cosine is allowed.
 //
 // In narrow views |c| and distances count from the rays' start. A tree's grid displaces centers by up to `astray`,
 // within which the camera's side is undecided.
@@ -151,8 +150,7 @@ struct View {
     }
 };
 
-// The library's own rule decides which form is rounded. Lamps keep their centers up to a radius of 65536 times their
-// height.
+// By the library's own rule. Lamps keep their centers up to a radius of 65536 times their height.
 inline bool is_held_as_plane(const pt_sphere &sphere, const pt_material &material, const View &view) {
     const auto vector = [](const double(&v)[3]) { return glm::dvec3(v[0], v[1], v[2]); };
     pt::Camera start{};

@@ -14,7 +14,7 @@ namespace pt {
 struct ImageValues {
     std::vector<float> mean;
     std::vector<float> standard_error;
-    std::vector<float> lesser; // the lesser mean of the film's two parts
+    std::vector<float> lesser; // of the film's two parts
 };
 
 inline void add_tiles(ErrorEstimator &estimator, std::size_t width, const ImageValues &image,

@@ -13,7 +13,7 @@
 
 struct LampScene {
     std::string name;
-    pt::Scene scene; // only lamps
+    pt::Scene scene;
 };
 
 namespace lamp_scenes {
@@ -61,7 +61,6 @@ inline pt::Scene in_clusters(std::uint32_t count) {
     return scene;
 }
 
-// Lamps of different sizes around the same centers.
 inline pt::Scene nested(std::uint32_t count) {
     pt::Scene scene;
     for (std::uint32_t i = 0; i < count; ++i)

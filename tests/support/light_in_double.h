@@ -68,7 +68,6 @@ struct Given {
     mutable pt_sphere_array array_{}; // scene() points to it
 };
 
-// In smaller units of length.
 inline Given scaled(Given given, double by) {
     const auto scale = [by](double(&vector)[3]) {
         for (double &component : vector)
@@ -172,7 +171,7 @@ inline double mean_of_block(const std::vector<float> &image, glm::uvec2 first) {
 // In standard errors estimated from the images.
 struct Deviation {
     double of_image = 0.0;
-    double largest = 0.0; // largest magnitude among blocks
+    double largest = 0.0; // magnitude among blocks
 };
 
 class LightInDouble : public ContextFixture {

@@ -1,5 +1,5 @@
-"""Runs a command, and again if LeakSanitizer itself crashed: GCC 12's faults once in some hundreds of runs while it
-stops threads ("Tracer caught signal 11"), after the program's work. Other failures, or three crashes in a row, fail.
+"""Runs a command, and again if LeakSanitizer itself crashed, as GCC 12's sometimes does while it stops threads ("Tracer
+caught signal 11"). Other failures, or three crashes in a row, fail.
 """
 
 import subprocess

@@ -19,7 +19,6 @@ inline pt_scene scene_of(std::span<const pt_material> materials, std::span<const
     return scene;
 }
 
-// All else is default.
 inline pt_render render_of(uint32_t width, uint32_t height, uint32_t max_path_length) {
     pt_render render{};
     render.struct_size = sizeof render;

@@ -21,8 +21,8 @@ inline double normal_quantile(double probability) {
     return low;
 }
 
-// Result: a standard normal deviate (Wilson and Hilferty 1931: the cube root of chi^2 / k is nearly normal with mean 1
-// - 2 / (9 k) and variance 2 / (9 k)). Expected counts must be at least 10.
+// A standard normal deviate (Wilson and Hilferty 1931: the cube root of chi^2 / k is nearly normal with mean 1 - 2 / (9
+// k) and variance 2 / (9 k)). Expected counts must be at least 10.
 inline double chi_square_deviate(std::span<const double> observed, std::span<const double> expected) {
     double chi_square = 0.0;
     for (std::size_t i = 0; i < observed.size(); ++i) {
