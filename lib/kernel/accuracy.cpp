@@ -19,9 +19,9 @@ namespace pt {
 namespace {
 
 constexpr double full_turn = 2.0 * std::numbers::pi;
-constexpr double float_pi = 3.14159274101257324; // shaders/maths.glsl's PI as a float
+constexpr double float_pi = 3.14159274101257324; // PI of shaders/maths.glsl
 
-// sin of u turns, u in [0, 1], folded exactly to a quarter turn about 0, so that zeros are exact.
+// Folded exactly to a quarter turn, so that zeros are exact. u: turns in [0, 1].
 double sine_of_turn(double u) {
     if (u > 0.5)
         return -sine_of_turn(u - 0.5);
@@ -33,43 +33,36 @@ double cosine_of_turn(double u) {
 }
 
 constexpr float turns[] = {0.125F, 0.25F, 0.375F, 0.5F, 0.625F, 0.75F, 0.875F};
-// Where the polynomial ends, and where 1 - x passes powers of two.
+// The polynomial's end, and where 1 - x passes powers of two.
 constexpr float complements[] = {0.0625F, 0.25F, 0.5F, 0.75F, 0.875F, 0.999F};
 // Odd multiples of 1/2, where the nearest integer changes.
 constexpr float exponents[] = {-0.5F, -1.0F, -1.5F, -24.5F, -99.5F};
 constexpr float squares[] = {1.0F, 2.0F, 4.0F};
 
-// Terms of the bounds, with u = 2^-24: sums, differences and products err by half an ulp, at most u of their value.
-// Vulkan allows a division 2.5 ulp, inversesqrt 2 ulp, and sqrt the error of 1 / inversesqrt (specification, "Precision
-// and Operation of SPIR-V Instructions"). An ulp is between u and 2 u of its value, so errors of k u before the last
-// operation are at most k ulp of the result.
+// Errors in u = 2^-24; an ulp is 1 to 2 u of its value. Sums, products: u. Vulkan ("Precision and Operation of SPIR-V
+// Instructions"): division 2.5 ulp, inversesqrt 2 ulp, sqrt as 1 / inversesqrt.
 constexpr ElementaryFunction functions[] = {
-    // m is exact; below m = 1/8, w and 1/2 - u err by u. sin: u for 1/2 - u, u for the product with m; q, in [12.5,
-    // 16]: 0.75 u for w^2, 0.65 u for its last sum, 0.55 u for the rest; half an ulp: 4.5. cos, worst near 1, where p =
-    // 4 in -w p: 0.5 u for w^2, u for the last sum of p, 1.2 u for its cofactor, 0.9 u for its constant, 0.1 u for the
-    // remainder (a rounded w adds 0.8 u, but there p is larger); half an ulp: 4.3.
+    // sin: 1/2 - u 1, product 1, q 1.95; half an ulp. cos, worst near 1 (p = 4): w^2 0.5, p's last sum 1, cofactor 1.2,
+    // constant 0.9, remainder 0.1; half an ulp.
     {"sine (sin_cos_turn)", sine_of_turn, 4.5, 0x1p-100F, 1.0F, turns},
     {"cosine (sin_cos_turn)", cosine_of_turn, 4.5, 0x1p-100F, 1.0F, turns},
-    // Below 1/4 the polynomial, in [1.44, 1.67]: 0.7 u for its last sum, 0.2 u for its constant, 0.3 u for the rest,
-    // 0.1 u for the remainder; half an ulp: 1.9. From 1/4 on, log2 errs by 2^-21 and 1 - y by u / 2, which is u of the
-    // logarithm: at 1/4, where an ulp is 2^-25, 16 + 2.
+    // Polynomial: last sum 0.7, constant 0.2, rest 0.4; half an ulp. Worst at 1/4, ulp 2^-25: log2 16 ulp (2^-21), 1 -
+    // y 2.
     {"log2(1 - x) (log2_one_minus)", [](double x) { return std::log1p(-x) / std::numbers::ln2; }, 18.0, 0x1p-100F,
      0x1.fffffep-1F, complements},
-    // Vulkan promises 3 + 2 |x| ulp.
+    // Vulkan: 3 + 2 |x| ulp.
     {"2^x (exp2_negative)", [](double x) { return std::exp2(x); }, 203.0, -0x1p-100F, -100.0F, exponents},
-    // r is exact. e = r (0.69 + w), |w| <= 0.13: 0.9 u for the sum, 0.1 u for the constant, 0.4 u for w, 0.2 u for the
-    // remainder, u for the product. k = 0: the result is -e, 1.6 u and half an ulp for the last product. k = -1, worst
-    // at r = 1/2 with result 0.29, where u / 2 is an ulp: half of e's 2.6 u is 1.1, and half for the last sum. For
-    // smaller k the share of e falls.
+    // k = 0, e = r (0.69 + w): sum 0.9, constant 0.1, w 0.4, remainder 0.2; half an ulp. k = -1, r = 1/2: 1.6 ulp.
+    // Smaller k: less.
     {"1 - 2^x (one_minus_exp2)", [](double x) { return -std::expm1(x * std::numbers::ln2); }, 2.5, -0x1p-100F, -100.0F,
      exponents},
-    // Vulkan's bounds; sqrt: 2 ulp of inversesqrt are at most 4 u, plus 2.5 of the division.
+    // sqrt: 4 u of inversesqrt and 2.5 ulp of the division.
     {"pi / x (division)", [](double x) { return float_pi / x; }, 2.5, 0x1p-100F, 0x1p100F, squares},
     {"square root (sqrt)", [](double x) { return std::sqrt(x); }, 6.5, 0x1p-100F, 0x1p100F, squares},
     {"1 / square root (inversesqrt)", [](double x) { return 1.0 / std::sqrt(x); }, 2.0, 0x1p-100F, 0x1p100F, squares},
 };
 
-// NaN, where the kernel writes nothing.
+// a NaN
 constexpr std::uint32_t unwritten = 0xffffffffU;
 constexpr std::size_t guard_words = 64;
 
@@ -92,7 +85,7 @@ std::vector<float> accuracy_arguments(const ElementaryFunction &function) {
         arguments.insert(arguments.end(),
                          {std::nextafter(below, small), below, place, above, std::nextafter(above, large)});
     }
-    // Multiples of the golden ratio modulo 1 are spread evenly in any number (Weyl 1916).
+    // Multiples of the golden ratio modulo 1 are evenly spread (Weyl 1916).
     constexpr std::uint32_t golden_ratio = 0x9e3779b9U;
     const std::uint32_t first_bits = magnitude_bits(function.first);
     const std::uint64_t bits_range = magnitude_bits(function.last) - first_bits;
@@ -120,7 +113,7 @@ std::vector<float> evaluate(vulkan::Device &device, std::span<const std::uint32_
     std::vector<std::uint32_t> words(arguments.size() + guard_words, unwritten);
 
     std::array<std::uint32_t, gpu::CONSTANT_COUNT> constants{};
-    set_device_constants(constants, device); // as it renders
+    set_device_constants(constants, device);
     const vulkan::ComputePipeline pipeline(device, spirv, bindings, sizeof arguments_per_function, constants);
     vulkan::Buffer input(device, vulkan::BufferUse::Storage, arguments.size_bytes(), "arguments of functions");
     vulkan::Buffer output(device, vulkan::BufferUse::Storage, words.size() * sizeof(std::uint32_t),

@@ -12,7 +12,7 @@ constexpr std::uint64_t most_pixel_bytes = pixel_bytes(PT_FORMAT_RGBA32F);
 
 } // namespace
 
-// A binding may begin up to the alignment before the piece.
+// Bindings are aligned, so they may begin before the piece.
 BufferWriter::PieceLimits BufferWriter::piece_limits(const vulkan::Limits &limits) {
     const std::uint64_t bytes = limits.max_storage_buffer_range - limits.storage_buffer_alignment;
     const std::uint64_t dispatched = std::uint64_t{limits.max_workgroup_count} * gpu::WORKGROUP_SIZE;
@@ -31,7 +31,7 @@ BufferWriter::~BufferWriter() {
     try {
         if (under_way_ && !device_.hangs())
             device_.finish(*under_way_);
-    } catch (...) { // the device is lost, and a destructor cannot report it
+    } catch (...) { // the device is lost; a destructor cannot report it
     }
 }
 
@@ -58,7 +58,6 @@ void BufferWriter::write(const ImageQuery &query, const BufferTarget &target) {
         finish();
 }
 
-// Pieces follow the rows; a long row may take several.
 std::vector<BufferWriter::Piece> BufferWriter::pieces(const ImageQuery &query, const BufferTarget &target) const {
     const Rectangle &all = query.pixels;
     const auto width = static_cast<std::uint32_t>(std::min<std::uint64_t>(all.width, limits_.pixels));
@@ -81,7 +80,7 @@ BufferWriter::Piece BufferWriter::piece(const Rectangle &pixels, const ImageQuer
     const std::uint64_t end = begin + (pixels.height - 1) * target.row_bytes + pixels.width * bytes_of_pixel;
     const std::uint64_t bound =
         begin / device_.limits().storage_buffer_alignment * device_.limits().storage_buffer_alignment;
-    const std::uint64_t row_words = pixels.height > 1 ? target.row_bytes / word_bytes : 0; // may be large
+    const std::uint64_t row_words = pixels.height > 1 ? target.row_bytes / word_bytes : 0;
     return {{pixels, static_cast<std::uint32_t>((begin - bound) / word_bytes), static_cast<std::uint32_t>(row_words)},
             {target.buffer, bound, end - bound}};
 }

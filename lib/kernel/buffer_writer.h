@@ -1,4 +1,4 @@
-// Resolves a film into a buffer of the caller, all on the device. Owned by RenderDevice; bound to its film.
+// Resolves a film into a caller's buffer on the device. Owned by RenderDevice; bound to its film.
 #pragma once
 
 #include "lib/kernel/pixel_results.h"
@@ -14,34 +14,31 @@ namespace pt {
 // Offset and row distance are multiples of 4.
 struct BufferTarget {
     vk::Buffer buffer;
-    std::uint64_t offset;    // of the first pixel, in bytes
-    std::uint64_t row_bytes; // distance between rows
+    std::uint64_t offset; // of the first pixel
+    std::uint64_t row_bytes;
     vulkan::Semaphores semaphores;
 };
 
 class BufferWriter {
 public:
-    // The largest piece of an image per dispatch.
     struct PieceLimits {
-        std::uint64_t pixels; // at least one; they fit the bytes in any format
-        std::uint64_t bytes;  // of the buffer, gaps between rows included
+        std::uint64_t pixels; // at least one; fit the bytes in any format
+        std::uint64_t bytes;  // including gaps between rows
     };
     static PieceLimits piece_limits(const vulkan::Limits &limits);
 
     // The arguments must outlive the writer.
     BufferWriter(vulkan::Device &device, ResolvePipelines &pipelines, DeviceFilm &film, const PieceLimits &limits);
-    // Waits for the device to finish.
+    // Waits for the device.
     ~BufferWriter();
     BufferWriter(const BufferWriter &) = delete;
     BufferWriter &operator=(const BufferWriter &) = delete;
 
-    // Returns when the device has written the pixels; with a semaphore to signal, once the work is submitted, and the
-    // next call waits for it first. Throws PT_ERROR_INTERNAL if a driver lost work; if an earlier call's work was lost,
-    // nothing has been written.
+    // Waits for the device, unless there is a semaphore to signal; then the next call waits. Throws PT_ERROR_INTERNAL
+    // if a driver lost work; nothing has been written if an earlier call's was lost.
     void write(const ImageQuery &query, const BufferTarget &target);
 
 private:
-    // A piece of the image and its binding.
     struct Piece {
         ResolvedPiece resolved;
         vulkan::BufferRange range;
@@ -55,8 +52,8 @@ private:
     ResolvePipelines &pipelines_;
     DeviceFilm &film_;
     PieceLimits limits_;
-    PixelResults results_;                    // counts lost pixels only
-    std::vector<vulkan::DescriptorSet> sets_; // of the work under way, per strip and piece
+    PixelResults results_;                    // lost pixels only
+    std::vector<vulkan::DescriptorSet> sets_; // by piece and strip
     std::optional<vulkan::Device::Ticket> under_way_;
 };
 

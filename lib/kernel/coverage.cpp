@@ -16,7 +16,7 @@ namespace {
 constexpr std::uint64_t count_bytes = sizeof(std::uint32_t);
 constexpr glm::uvec2 no_samples(1, 0);
 
-// The first blocks of a sample are the camera ray's.
+// A sample's first blocks are the camera ray's.
 PointLayout camera_layout(const Features &features) {
     const std::vector<std::uint32_t> blocks = camera_blocks(features);
     return {blocks, static_cast<std::uint32_t>(blocks.size()), 1};
@@ -32,7 +32,6 @@ std::array<std::uint32_t, gpu::CONSTANT_COUNT> coverage_specialization(const vul
     return constants;
 }
 
-// Largest number of sample ranges in any tile.
 std::size_t most_ranges(const TileSamples &samples) {
     std::size_t most = 0;
     for (std::size_t tile = 0, count = samples.even() ? 1 : samples.grid().count(); tile < count; ++tile)
@@ -40,7 +39,6 @@ std::size_t most_ranges(const TileSamples &samples) {
     return most;
 }
 
-// The index-th range of each tile.
 std::vector<glm::uvec2> tile_ranges(const TileSamples &samples, std::size_t index) {
     std::vector<glm::uvec2> ranges;
     for (std::size_t tile = 0; tile < samples.grid().count(); ++tile) {
@@ -82,7 +80,7 @@ void Coverage::make_room(std::uint64_t pixels, std::size_t tiles) {
                              {device_, Storage, tile_bytes, "samples of tiles"}});
 }
 
-// Samples per dispatch: limited by time, the table of points and the loop trips that drivers allow.
+// Limited by `affordable`, the table of points and the driver's loop trips.
 std::uint64_t Coverage::samples_in_dispatch(const Features &features, double affordable) const {
     const std::uint64_t rows =
         device_.limits().max_uniform_range / sizeof(PointBlock) / camera_layout(features).row_blocks();
@@ -117,7 +115,7 @@ void Coverage::read(const BoundScene &bound, const CoverageQuery &query, double 
     }
 }
 
-// Counts one range of the tiles after the other, in as many dispatches as needed.
+// One range per tile at a time, in as many dispatches as needed.
 void Coverage::count(const Look &look, gpu::CoverageConstants constants) {
     const std::uint64_t bytes = (1 + std::uint64_t{constants.pixel_count}) * count_bytes;
     device_.submit([&](const auto &commands) { buffers_->covered.clear(commands, 0, bytes); });

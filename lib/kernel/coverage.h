@@ -1,5 +1,5 @@
-// Counts the camera rays that meet a surface (shaders/coverage.comp) by tracing them again, so that the film needs no
-// fourth channel. Owned by RenderDevice, made on first use.
+// Counts the camera rays that meet a surface (shaders/coverage.comp), traced again so that the film needs no fourth
+// channel. Owned by RenderDevice.
 #pragma once
 
 #include "lib/film/film_header.h"
@@ -17,9 +17,9 @@
 namespace pt {
 
 struct CoverageQuery {
-    Rectangle pixels;               // of the film, at least one
-    const TileSamples &samples;     // of the film
-    const RenderSettings &settings; // by which they were taken
+    Rectangle pixels; // at least one
+    const TileSamples &samples;
+    const RenderSettings &settings;
 };
 
 class Coverage {
@@ -27,26 +27,23 @@ public:
     // Both arguments must outlive the object.
     Coverage(vulkan::Device &device, std::span<const std::uint32_t> code);
 
-    // Calls receive(counts) for consecutive pieces of the pixels, row by row. tests_per_submission: aim for the
-    // ray-surface tests of a submission. Throws PT_ERROR_SHADER if the driver refuses the kernel, PT_ERROR_INTERNAL if
-    // it lost work.
+    // Calls receive(counts) for consecutive pieces of the pixels, row by row. tests_per_submission: ray-surface tests
+    // to aim for. Throws PT_ERROR_SHADER if the driver refuses the kernel, PT_ERROR_INTERNAL if it lost work.
     using Receive = std::function<void(std::span<const std::uint32_t>)>;
     void read(const BoundScene &bound, const CoverageQuery &query, double tests_per_submission, const Receive &receive);
 
 private:
-    // Buffers of a piece.
     struct Buffers {
         vulkan::Buffer covered; // lost rays, then counts
-        vulkan::Buffer host;    // the same
+        vulkan::Buffer host;
         vulkan::Buffer points;
         vulkan::Buffer tile_ranges;
     };
 
-    // Arguments of one read.
     struct Look {
         const Features &features;
         const CoverageQuery &query;
-        double rays; // of a submission
+        double rays; // per submission
         vulkan::DescriptorSet set;
     };
 

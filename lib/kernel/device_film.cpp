@@ -10,13 +10,12 @@ namespace pt {
 
 namespace {
 
-// Whole rows of tiles or, if not even one fits, as many pixels as fit.
+// Whole rows of tiles if at least one fits.
 std::uint32_t strip_pixels(std::uint32_t width, std::uint32_t most) {
     const std::uint64_t row_of_tiles = std::uint64_t{width} * gpu::TILE_SIZE;
     return row_of_tiles > most ? most : static_cast<std::uint32_t>(most / row_of_tiles * row_of_tiles);
 }
 
-// Byte offset of a pixel's word in its strip.
 std::uint64_t word_offset(const DeviceFilm::Strip &strip, std::uint32_t part, std::size_t plane, std::uint32_t pixel) {
     const std::uint64_t words =
         (std::uint64_t{part} * gpu::FILM_WORDS + plane) * strip.pixel_count + (pixel - strip.first_pixel);
@@ -148,9 +147,8 @@ std::uint64_t DeviceFilm::rejected_samples() {
 
 namespace {
 
-// Requires that adjacent pixels all have this number of samples.
 void require_all(const PixelSums &sums, std::size_t first, std::size_t count, const PartCounts &expected) {
-    std::uint64_t others = 0; // bits that differ from the expected counts
+    std::uint64_t others = 0;
     for (std::uint32_t part = 0; part < gpu::FILM_PARTS; ++part) {
         const std::uint32_t *const accepted = sums.plane(part, gpu::FILM_ACCEPTED).subspan(first).data();
         const std::uint32_t *const rejected = sums.plane(part, gpu::FILM_REJECTED).subspan(first).data();
@@ -161,7 +159,6 @@ void require_all(const PixelSums &sums, std::size_t first, std::size_t count, co
         require_samples(sums.samples_of(first + i), expected);
 }
 
-// The same for consecutive pixels of a film.
 void require_all(const PixelSums &sums, std::uint32_t first_pixel, const TileSamples &samples) {
     std::vector<PartCounts> expected;
     for (const SampleSet &set : samples.sets())
@@ -175,7 +172,7 @@ void require_all(const PixelSums &sums, std::uint32_t first_pixel, const TileSam
                                     });
 }
 
-// others: reused memory for one film at a time.
+// others: reused memory.
 void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, std::uint32_t first_pixel,
                 PixelSums &sums, PixelSums &others) {
     films.front()->read(first_pixel, sums);

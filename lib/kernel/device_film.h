@@ -14,18 +14,17 @@
 
 namespace pt {
 
-// Consecutive pixels of a film.
 struct PixelRange {
     std::uint32_t first;
     std::uint32_t count;
 };
 
-// The intersection; count 0 if empty.
+// Count 0 if they are disjoint.
 PixelRange common_pixels(const PixelRange &a, const PixelRange &b);
 
 class DeviceFilm {
 public:
-    // Consecutive pixels, row by row, that fit into one binding.
+    // Consecutive pixels that fit into one binding.
     struct Strip {
         std::uint32_t first_pixel;
         std::uint32_t pixel_count;
@@ -49,37 +48,34 @@ public:
     // Whether the host can access the film in place.
     bool is_host_memory() const;
 
-    // Records commands that clear all sums.
     void clear(const vk::raii::CommandBuffer &commands) const;
 
     // Whether strips are whole rows of tiles, as the error kernel needs.
     bool has_whole_tiles() const;
 
-    // Records a copy of consecutive pixels' words: planes without gaps, part after part.
+    // Records a copy: planes without gaps, part after part.
     void copy_to(const vk::raii::CommandBuffer &commands, const PixelRange &pixels, const vulkan::Buffer &to) const;
 
-    // Reads as many consecutive pixels as `sums` has room for.
+    // Fills `sums`.
     void read(std::uint32_t first_pixel, PixelSums &sums);
 
-    // New sums for all pixels, in memory of their own: the film is unchanged until replace().
+    // New sums for all pixels. The film is unchanged until replace().
     class NewSums {
     public:
         // Throws PT_ERROR_OUT_OF_DEVICE_MEMORY.
         NewSums(vulkan::Device &device, DeviceFilm &film);
 
-        // Sets the sums of consecutive pixels.
         void write(std::uint32_t first_pixel, const PixelSums &sums);
 
-        // Replaces the film's sums in a single submission. All must have been written.
+        // Replaces the film's sums in one submission. All must have been written.
         void replace();
 
     private:
         vulkan::Device &device_;
         DeviceFilm &film_;
-        std::vector<vulkan::Buffer> words_; // of each strip
+        std::vector<vulkan::Buffer> words_;
     };
 
-    // Over both parts and all pixels.
     std::uint64_t rejected_samples();
 
 private:
@@ -87,17 +83,16 @@ private:
     std::vector<Strip> strips_;
 };
 
-// Reads the sum of films of one size, which together hold these samples, piece by piece. Throws PT_ERROR_INTERNAL if a
-// driver lost work.
+// Reads the sum of equally large films, which together hold `samples`, in pieces. Throws PT_ERROR_INTERNAL if a driver
+// lost work.
 void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, const PixelRange &pixels,
                 std::uint32_t most_pixels, const std::function<void(const PixelSums &)> &receive);
 
-// Reads as many consecutive pixels as `sums` has room for. Throws likewise.
+// Reads one piece, as large as `sums`.
 void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, std::uint32_t first_pixel,
                 PixelSums &sums);
 
-// Pixels read or written at a time, so that a large image is not held twice. Not a power of two: planes that far apart
-// would share the processor's cache sets.
+// Not a power of two: planes at such distances would share the processor's cache sets.
 inline constexpr std::uint32_t piece_pixels = 130'000;
 
 std::uint32_t max_strip_pixels(const vulkan::Limits &limits);

@@ -1,4 +1,3 @@
-// Compares the precision that pt.h states with the pixels that surfaces cover; see displacement.h.
 #include "lib/kernel/displacement.h"
 
 #include "lib/base/rules.h"
@@ -18,12 +17,12 @@ namespace pt {
 
 namespace {
 
-// Of the length and radius of a capsule.
+// of length plus radius
 constexpr double rounding_of_capsules = 0x1p-21;
-// Of the radius of a sphere in a scene with opacities, which take its last bits.
+// of the radius; opacities take its last bits
 constexpr double rounding_of_radii = 0.5 * (gpu::TREE_OPACITY_STEPS + 1) * 0x1p-23;
 
-// How far rounding may move a surface, in the scene's units, by cause.
+// How far rounding may move a surface, in scene units.
 struct Losses {
     double of_center;
     double of_radius;
@@ -32,9 +31,9 @@ struct Losses {
     double all() const { return of_center + of_radius + of_capsule; }
 };
 
-// In a tree, or NULL. length: of a capsule.
+// tree: NULL outside. length: 0 except of a capsule.
 Losses losses_of(const SphereTree *tree, double length, double radius) {
-    const double half_diagonal = 0.5 * std::sqrt(3.0); // of a cube of the grid
+    const double half_diagonal = 0.5 * std::sqrt(3.0); // of a grid cube of side 1
     return {tree ? half_diagonal * tree->grid().step : 0.0,
             tree && tree->has_opacities() ? rounding_of_radii * radius : 0.0,
             length > 0.0 ? rounding_of_capsules * (length + radius) : 0.0};
@@ -44,7 +43,7 @@ Losses losses_of(const SphereTree *tree, const MovingBall &surface) {
     return losses_of(tree, surface.kind == Kind::capsule ? glm::length(surface.way) : 0.0, surface.radius);
 }
 
-// How much of the scene a side of a pixel covers.
+// The side of a pixel, measured on what it shows.
 class PixelSides {
 public:
     PixelSides(const Camera &camera, const RenderSettings &settings) :
@@ -53,11 +52,11 @@ public:
         of_parallel_(camera.vertical_extent / settings.height),
         at_distance_1_(2.0 * camera.tan_half_fov / settings.height) {}
 
-    // At the nearest point in view of a ball on its way, or less; infinite if none is in view.
+    // A lower bound for a moving ball; infinite out of view.
     double nearest(const MovingBall &ball) const { return at(depth_(ball)); }
 
-    // The same for a surface. A long way is divided until its parts are short or far away; from within a ball its walls
-    // are seen.
+    // A lower bound for a surface. Long ways are divided until the parts are short or far. From inside, a ball's wall
+    // is seen.
     double of_surface(const MovingBall &surface) const {
         const double depth = depth_(surface);
         const double short_way = view_ > 0.0 ? view_ : 0.25 * std::max(surface.radius, depth);
@@ -76,12 +75,12 @@ private:
     }
 
     std::function<double(const MovingBall &)> depth_;
-    double view_;        // the extent of that of parallel rays; else 0
-    double of_parallel_; // likewise
+    double view_;        // parallel rays: the height of the view; else 0
+    double of_parallel_; // parallel rays: a pixel's side; else 0
     double at_distance_1_;
 };
 
-// Held numbers are rounded, so they are shown to few digits.
+// Few digits, since stored numbers are rounded.
 std::string short_text(double number) {
     std::array<char, 32> text{};
     return {text.data(),
@@ -92,12 +91,12 @@ std::string short_text(const glm::dvec3 &vector) {
     return '(' + short_text(vector.x) + ", " + short_text(vector.y) + ", " + short_text(vector.z) + ')';
 }
 
-// Components that may be nothing but rounding become 0.
+// Components that may be mere rounding become 0.
 glm::dvec3 without_less_than(double rounding, const glm::dvec3 &vector) {
     return glm::mix(vector, glm::dvec3(0.0), glm::lessThanEqual(glm::abs(vector), glm::dvec3(rounding)));
 }
 
-// A surface, relative to the camera, and by how many pixels rounding moves it.
+// The surface, relative to the camera.
 struct Displaced {
     double pixels;
     SpherePlace place;
@@ -121,7 +120,7 @@ Displaced most_displaced(const PreparedScene &scene, const Camera &camera, const
     const SphereTree *tree = scene.tree.get();
     if (tree == nullptr)
         return most;
-    // Pixels per loss. From 1 on nothing is to be found, so the walk ends there.
+    // Ratios from 1 on are harmless, so the walk skips them.
     const auto bounded = [](double ratio) {
         if (ratio < 1.0)
             return ratio;

@@ -1,4 +1,4 @@
-// How far rounding moves surfaces in the picture.
+// Tells how far rounding moves surfaces in the picture.
 #pragma once
 
 #include "lib/base/error.h"
@@ -10,8 +10,8 @@
 
 namespace pt {
 
-// The surface that rounding moves farthest, in pixels, of those in view; nothing if that is at most a pixel. Its field
-// is the one whose value causes it, and the rule says what to do.
+// The visible surface that rounding moves farthest, if by more than a pixel. The rule names the value that causes it,
+// and what to do.
 std::optional<BrokenRule> displaced_surface(const PreparedScene &scene, const Camera &camera,
                                             const RenderSettings &settings);
 

@@ -12,22 +12,20 @@ namespace pt {
 
 namespace {
 
-// Workgroups per row of tiles, each for up to ESTIMATE_WORKGROUP_SIZE adjacent pixels.
 std::uint32_t groups_in_row(const TileGrid &grid) {
     return (grid.width + gpu::ESTIMATE_WORKGROUP_SIZE - 1) / gpu::ESTIMATE_WORKGROUP_SIZE;
 }
 
-// The kernel's units for relative errors, in which all squares are normal floats.
+// Units in which the squares of all relative errors are normal floats.
 struct RelativeUnits {
     float offset;  // in film units
-    float scale;   // errors are below 2^FILM_MAX_EXPONENT; scaled and divided by the offset, below 2^60
-    double factor; // corrects the squares for the limited offset
+    float scale;   // errors are below 2^FILM_MAX_EXPONENT; scaled, over the offset, below 2^60
+    double factor; // corrects squares for the limited offset
 
-    // Undoes scale and factor in squares.
+    // Converts the kernel's squares.
     double undone() const { return 1.0 / (static_cast<double>(scale) * static_cast<double>(scale) * factor); }
 
-    // An offset far above the film's values is the denominator of all pixels alone. A smaller offset that is still far
-    // above makes all squares larger by one factor, which is divided out.
+    // Offsets far above the film's values alone are the denominator, so limiting them scales all squares equally.
     explicit RelativeUnits(double unit) {
         constexpr double far_above = 1e13;
         const double exact = std::sqrt(relative_offset) / unit;
@@ -45,7 +43,6 @@ ErrorSquares squares_of(const gpu::ErrorSquares &found, double factor) {
             sum * static_cast<double>(found.part_share) * values_of_tile};
 }
 
-// Sum of the squared sizes of pieces; the last may be shorter.
 double squares_of_pieces(std::uint32_t pixels, std::uint32_t piece) {
     const double rest = pixels % piece;
     const std::uint32_t whole = pixels / piece;
@@ -97,12 +94,11 @@ ErrorReader::ErrorReader(vulkan::Device &device, const vulkan::ComputePipeline &
             estimate.bind(std::array<vulkan::BufferRange, 4>{strip.words, errors_, tile_counts_, tile_squares_}));
 }
 
-// Strips have equal size, except the last.
 TileGrid ErrorReader::grid_of(std::size_t strip) const {
     return {film_.width(), film_.strips()[strip].pixel_count / film_.width()};
 }
 
-// Writes memory that the kernel reads: no such work may be under way.
+// The kernel that reads this memory must not be running.
 void ErrorReader::list_counts(const TileSamples &samples) {
     if (samples.even())
         return;
@@ -114,7 +110,6 @@ void ErrorReader::list_counts(const TileSamples &samples) {
         counts[tile] = of_sets[samples.set_of(tile)];
 }
 
-// The kernel computes in RelativeUnits; this undoes them.
 void ErrorReader::collect_tiles(const ErrorQuery &query) const {
     const RelativeUnits units(query.unit);
     const auto *const of_tiles = reinterpret_cast<const glm::vec2 *>(tile_squares_.host_memory().data());

@@ -1,5 +1,4 @@
-// Reads the error of a film's image: estimate.comp sums it over tiles on the device. Owned by RenderDevice; bound to
-// its film.
+// Reads the error of a film's image, summed over tiles by estimate.comp. Owned by RenderDevice; bound to its film.
 #pragma once
 
 #include "lib/film/error_estimate.h"
@@ -17,15 +16,14 @@
 namespace pt {
 
 struct ErrorQuery {
-    double unit;                 // of the film, a power of two, in radiance
-    const TileSamples &samples;  // of the film
+    double unit; // of the film, a power of two, in radiance
+    const TileSamples &samples;
     std::span<double> by_tile{}; // receives each tile's own_square() (tile_errors.h), unless empty
 };
 
 class ErrorReader {
 public:
-    // All arguments must outlive the reader. estimate: from estimate_pipeline(). The film's strips must be whole rows
-    // of tiles.
+    // All arguments must outlive the reader. estimate: from estimate_pipeline(). The film must have whole tiles.
     ErrorReader(vulkan::Device &device, const vulkan::ComputePipeline &estimate, DeviceFilm &film);
 
     using Receive = std::function<void(const TileErrors &)>;
@@ -34,8 +32,8 @@ public:
     // lost work.
     void read(const ErrorQuery &query, const Receive &receive);
 
-    // The same in two steps, for a film of one strip. record() appends to commands that take samples; no other such
-    // commands may be under way. collect() reads the result once they have ended.
+    // The same in two steps, for a film of one strip. record() appends to commands that take samples; collect() reads
+    // once they have ended. No other such commands may be under way.
     void record(const vk::raii::CommandBuffer &commands, const ErrorQuery &query);
     void collect(const ErrorQuery &query, const Receive &receive) const;
 
@@ -49,10 +47,10 @@ private:
     vulkan::Device &device_;
     const vulkan::ComputePipeline &estimate_;
     DeviceFilm &film_;
-    vulkan::Buffer errors_;                   // of a strip, by workgroup
-    vulkan::Buffer tile_counts_;              // by tiles of the film
-    vulkan::Buffer tile_squares_;             // by tiles of the film
-    std::vector<vulkan::DescriptorSet> sets_; // one per strip
+    vulkan::Buffer errors_;       // of a strip, by workgroup
+    vulkan::Buffer tile_counts_;  // by tile of the film
+    vulkan::Buffer tile_squares_; // by tile of the film
+    std::vector<vulkan::DescriptorSet> sets_;
 };
 
 vulkan::ComputePipeline estimate_pipeline(vulkan::Device &device, std::span<const std::uint32_t> code);

@@ -9,7 +9,7 @@ namespace pt {
 
 namespace {
 
-// Of 3.5 MiB: keeps a bus busy, yet arrives soon and is still in the cache when copied.
+// 3.5 MiB: keeps a bus busy, and is still in the cache when copied.
 constexpr std::uint32_t most_piece_pixels = 1U << 15;
 
 std::uint64_t words_bytes(std::uint32_t pixel_count) {
@@ -67,7 +67,7 @@ void FilmSum::add_own(const vk::raii::CommandBuffer &commands, std::uint32_t fir
         add(commands, first_pixel, wanted, {home_.film.strips()[i].pixels(), own_sets_[i]});
 }
 
-// Overlaps three steps: the host copies a piece, its device copies the next, the first device adds the previous.
+// Three steps overlap: the host copies a piece, its device copies the next, the first device adds the previous.
 void FilmSum::add_others(vulkan::SubmissionsUnderWay &at_home, std::uint32_t first_pixel, const PixelRange &wanted) {
     const auto piece = [&](std::uint32_t index) -> PixelRange {
         const std::uint32_t first = index * piece_pixels_;
@@ -98,7 +98,7 @@ void FilmSum::add_others(vulkan::SubmissionsUnderWay &at_home, std::uint32_t fir
         for (Fetch &fetch : fetches) {
             const PixelRange pixels = piece(index);
             fetch.under_way.finish_first();
-            if (at_home.count() == slots_.size()) // the slot is free afterwards
+            if (at_home.count() == slots_.size()) // frees the slot
                 at_home.finish_first();
             stream_copy(fetch.slot(index).host_memory().first(words_bytes(pixels.count)),
                         slots_[slot].host_memory().data());
@@ -111,7 +111,6 @@ void FilmSum::add_others(vulkan::SubmissionsUnderWay &at_home, std::uint32_t fir
         }
 }
 
-// Strip by strip.
 void FilmSum::add(const vk::raii::CommandBuffer &commands, std::uint32_t first_pixel, const PixelRange &wanted,
                   const Added &added) const {
     gpu::AddConstants constants{};

@@ -1,5 +1,5 @@
-// The sum of several devices' films, or some rows of them, in the first device's memory. Other films come through host
-// memory; add.comp adds them. Owned by FilmView; bound to the films.
+// Sums devices' films, or some of their rows, in the first device's memory (add.comp). Other films come through host
+// memory. Owned by FilmView; bound to the films.
 #pragma once
 
 #include "lib/kernel/device_film.h"
@@ -27,23 +27,22 @@ public:
     // device. Throws PT_ERROR_OUT_OF_DEVICE_MEMORY.
     FilmSum(const std::vector<Source> &sources, const vulkan::ComputePipeline &add, std::uint32_t row_count);
 
-    // Has the rows that were gathered.
+    // The rows gathered last.
     DeviceFilm &film() { return film_; }
 
-    // Sums the films' rows from first_row on. wanted: pixels of the films; other sums are undefined.
+    // Sums rows from first_row on. Sums of pixels outside `wanted` are undefined.
     void gather(std::uint32_t first_row, const PixelRange &wanted);
 
 private:
-    // Another device's film, arriving in pieces of consecutive pixels.
+    // Another device's film, arriving in pieces.
     struct Distant {
         Source source;
-        std::vector<vulkan::Buffer> slots; // read by the host
+        std::vector<vulkan::Buffer> slots;
     };
 
-    // Words of consecutive pixels to be added.
     struct Added {
-        PixelRange pixels;                           // of the films; a plane has a word of each
-        std::span<const vulkan::DescriptorSet> sets; // one per strip of the sum
+        PixelRange pixels;                           // of the films; each plane has a word per pixel
+        std::span<const vulkan::DescriptorSet> sets; // by strip of the sum
     };
 
     void add_own(const vk::raii::CommandBuffer &commands, std::uint32_t first_pixel, const PixelRange &wanted) const;
@@ -56,9 +55,9 @@ private:
     DeviceFilm film_;
     std::list<Distant> others_;
     std::uint32_t piece_pixels_;
-    std::vector<vulkan::Buffer> slots_;                         // written by the host
-    std::vector<std::vector<vulkan::DescriptorSet>> slot_sets_; // of each slot, one per strip of the sum
-    std::vector<std::vector<vulkan::DescriptorSet>> own_sets_;  // of each strip of the first film, per strip of the sum
+    std::vector<vulkan::Buffer> slots_; // written by the host
+    std::vector<std::vector<vulkan::DescriptorSet>> slot_sets_;
+    std::vector<std::vector<vulkan::DescriptorSet>> own_sets_; // by strip of the first film and of the sum
 };
 
 vulkan::ComputePipeline add_pipeline(vulkan::Device &device, std::span<const std::uint32_t> code);

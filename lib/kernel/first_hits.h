@@ -1,5 +1,5 @@
-// Reads the first hits of camera rays (shaders/first_hit.comp): depth, normal, albedo and object, with or without
-// samples. Owned by RenderDevice, made on first use.
+// Reads depth, normal, albedo and object of first hits (shaders/first_hit.comp), with or without samples. Owned by
+// RenderDevice.
 #pragma once
 
 #include "lib/film/film_header.h"
@@ -13,7 +13,6 @@
 
 namespace pt {
 
-// Whether a PT_QUANTITY_* comes from first hits.
 constexpr bool is_of_first_hits(std::uint32_t quantity) {
     return quantity > PT_QUANTITY_SAMPLE_COUNT && quantity != PT_QUANTITY_COVERAGE;
 }
@@ -30,8 +29,8 @@ public:
     FirstHits(vulkan::Device &device, std::span<const std::uint32_t> code);
 
     // Calls receive(bytes) for consecutive pieces of the pixels, row by row. Objects are the kernels' surface numbers.
-    // tests_per_submission: aim for the ray-surface tests of a submission. Throws PT_ERROR_SHADER if the driver refuses
-    // the kernel, PT_ERROR_INTERNAL if it lost work.
+    // tests_per_submission: ray-surface tests to aim for. Throws PT_ERROR_SHADER if the driver refuses the kernel,
+    // PT_ERROR_INTERNAL if it lost work.
     using Receive = std::function<void(std::span<const std::byte>)>;
     void read(const BoundScene &bound, const FirstHitQuery &query, double tests_per_submission, const Receive &receive);
 

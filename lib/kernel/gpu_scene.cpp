@@ -23,8 +23,7 @@ float mean(const glm::vec3 &color) {
     return (color.r + color.g + color.b) / 3.0F;
 }
 
-// Proportional to the lobes' reflectances, but with twice the weight for the diffuse one: it gathers from the whole
-// hemisphere, so its samples vary more.
+// Proportional to reflectance, the diffuse lobe's doubled: light from a whole hemisphere varies more.
 float specular_probability(const Material &material) {
     const float specular = mean(material.specular);
     const float diffuse = 2.0F * mean(material.diffuse);
@@ -46,9 +45,9 @@ public:
             write_emission(emission_word(surface), material);
     }
 
-    // The reflection of a surface, or of a material in the table.
+    // index: of a surface or table material.
     void reflection(std::uint32_t index, const Material &material) {
-        // The words include the constant factors of f.
+        // Includes the constant factors of f.
         const double lobe = (material.glossiness + 2.0) / (2.0 * std::numbers::pi);
         const glm::dvec3 diffuse = glm::dvec3(material.diffuse) / std::numbers::pi;
         const std::uint64_t word = blocks_.reflection_step * index;
@@ -113,7 +112,7 @@ private:
     const SceneBlocks blocks_;
 };
 
-// All lamps in the order of the tree of lamps. Lamps in the tree of spheres have the last numbers.
+// Ordered like the lamp tree. Lamps in the tree of spheres have the last numbers.
 std::vector<TreeLamp> tree_lamps(const KernelSurfaces &surfaces, const PreparedScene &scene, const Camera &camera) {
     constexpr std::uint32_t no_lamp = 0xffffffff;
     const auto sphere_count = static_cast<std::uint32_t>(scene.scene.spheres.size());
@@ -180,7 +179,7 @@ gpu::FrameConstants frame_constants(const Camera &camera, const RenderSettings &
     return constants;
 }
 
-// Indices of the surfaces in the caller's scene, where planes follow all spheres.
+// Indices in the caller's scene, where planes follow all spheres.
 std::vector<std::uint32_t> objects_of(const KernelSurfaces &surfaces, const PreparedScene &scene) {
     const Scene &held = scene.scene;
     const std::size_t sphere_count = scene.tree ? scene.tree->scene_sphere_count() : held.spheres.size();

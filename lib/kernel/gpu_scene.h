@@ -1,5 +1,5 @@
-// A scene as kernels read it, seen by one camera: twins merged, surfaces in the kernels' order, in float32 (layout:
-// shaders/gpu_layout.h). Made by Renderer when scene, camera or settings change; shared by all kernels and devices.
+// A scene as kernels read it, seen by one camera: twins merged, in the kernels' order, in float32 (layout:
+// shaders/gpu_layout.h). Made by Renderer; shared by all kernels and devices.
 #pragma once
 
 #include "lib/kernel/prepared_scene.h"
@@ -15,22 +15,21 @@ namespace pt {
 
 struct GpuScene {
     Features features;
-    // The scene buffer. Positions are made relative to the camera in double before rounding. Motion covers the
-    // shutter's time.
+    // The scene buffer. Positions are relative to the camera, subtracted in double. Motion covers the shutter's time.
     std::vector<glm::vec4> words;
     gpu::FrameConstants frame;              // the constant part
-    std::shared_ptr<const SphereTree> tree; // NULL without
+    std::shared_ptr<const SphereTree> tree; // may be NULL
     double start_distance;                  // of the coordinates' origin, along the view from the pinhole (ray_start.h)
-    std::vector<std::uint32_t> objects;     // indices in the caller's scene of the surfaces outside the tree
+    std::vector<std::uint32_t> objects;     // of the surfaces outside the tree, in the caller's scene
 
-    // surface: its number in kernels. PT_NO_OBJECT for NO_SURFACE.
+    // surface: the kernels' number. PT_NO_OBJECT for NO_SURFACE.
     std::uint32_t object_of(std::uint32_t surface) const;
 };
 
 // Throws PT_ERROR_UNSUPPORTED if a sphere that must be held as a plane moves too far.
 GpuScene gpu_scene(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings);
 
-// The same with twins merged already, seen from where camera rays start.
+// For twins merged already. start: where camera rays start.
 GpuScene gpu_scene(const DistinctScene &distinct, const PreparedScene &scene, const Camera &start,
                    const RenderSettings &settings);
 

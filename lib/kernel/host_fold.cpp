@@ -10,11 +10,11 @@ namespace pt {
 
 namespace {
 
-// Planes that kernels assume to be 0 in an empty part, in the order of rare_plane() of film.glsl.
+// Kernels assume these planes to be 0 in an empty part. Ordered like rare_plane() of film.glsl.
 constexpr std::array<std::size_t, 4> rare_planes = {gpu::FILM_SUM_WORDS - 1, 2 * gpu::FILM_SUM_WORDS - 1,
                                                     3 * gpu::FILM_SUM_WORDS - 1, gpu::FILM_REJECTED};
 
-// Calls function(words of a part, pixels) for each strip's pixels in the range.
+// Calls function(words of a part, pixels) per strip.
 template <typename Function>
 void for_each_strip(DeviceFilm &film, const PixelRange &pixels, std::uint32_t part, const Function &function) {
     for (DeviceFilm::Strip &strip : film.strips()) {

@@ -1,5 +1,5 @@
-// Folds a film's parts on the host, for devices that share its memory: lavapipe's kernel would access memory one
-// invocation at a time. Kernel makes one per submission.
+// Folds a film's parts on the host, for devices that share its memory. lavapipe's kernel would access memory one
+// invocation at a time.
 #pragma once
 
 #include "lib/film/pixel_sums.h"
@@ -20,12 +20,11 @@ public:
     HostFold(const HostFold &) = delete;
     HostFold &operator=(const HostFold &) = delete;
 
-    // Call once, with the film in host memory and no submission under way. The other part's words stay: the next
-    // submission takes the part as empty and overwrites it, except its rare words (film.glsl), which it assumes to be
-    // 0. If one is not, nothing is folded, and the result is false.
+    // Call once, with the film in host memory and no submission under way. The next submission overwrites the other
+    // part, except rare words (film.glsl), which it assumes to be 0. If one is not, returns false and folds nothing.
     bool fold(std::vector<PixelRange> pixels);
 
-    // Call when the submission has been made.
+    // Call after submission.
     void keep() noexcept { folded_.clear(); }
 
 private:

@@ -18,7 +18,7 @@ ImageReader::Pieces::Pieces(const ImageQuery &query) :
                                  total)),
     bytes_of_pixel(pixel_bytes(query.format)) {}
 
-// The host takes a piece while the device resolves and copies the next.
+// The host takes a piece while the device makes the next.
 void ImageReader::read(const ImageQuery &query, const std::function<void(std::span<const std::byte>)> &receive) {
     const Pieces pieces(query);
     const std::size_t slot_count = std::min<std::uint64_t>(device_.policy().queue_depth, pieces.count());
@@ -46,14 +46,14 @@ void ImageReader::read(const ImageQuery &query, const std::function<void(std::sp
     }
 }
 
-// Uses a single submission, since the host has nothing else to do.
+// A single submission, since the host has nothing else to do.
 std::span<std::byte> ImageReader::map(const ImageQuery &query) {
     const Pieces pieces(query);
     const std::uint64_t image_bytes = pieces.total * pieces.bytes_of_pixel;
     const Slot &slot = this->slot(0, pieces.most * pieces.bytes_of_pixel, query.format);
     std::uint32_t lost_pixels = 0;
     if (!mapped_ || mapped_->size() < image_bytes + sizeof lost_pixels) {
-        mapped_.reset(); // before the new one takes memory
+        mapped_.reset(); // frees its memory first
         mapped_.emplace(device_, vulkan::BufferUse::HostRead, image_bytes + sizeof lost_pixels, "mapped image");
     }
     device_.submit([&](const vk::raii::CommandBuffer &commands) {

@@ -1,5 +1,5 @@
-// Reads a film as an image: resolve.comp makes pixels on the device, so that only 4 to 16 bytes of each cross the bus.
-// Owned by RenderDevice; bound to its film.
+// Reads a film as an image, made by resolve.comp on the device, so only 4 to 16 bytes per pixel cross the bus. Owned by
+// RenderDevice; bound to its film.
 #pragma once
 
 #include "lib/kernel/pixel_results.h"
@@ -28,15 +28,14 @@ public:
     // work.
     void read(const ImageQuery &query, const std::function<void(std::span<const std::byte>)> &receive);
 
-    // Leaves all pixels, without gaps, in memory that the device writes. They stay until the next call or the object's
-    // end. Throws likewise.
+    // Returns all pixels, without gaps, in memory that the device writes; valid until the next call or the object's
+    // end. Throws like read().
     std::span<std::byte> map(const ImageQuery &query);
 
 private:
-    // Memory for a piece, on the device and for the host.
     struct Slot {
         PixelResults results;
-        std::vector<vulkan::DescriptorSet> sets; // one per strip of the film
+        std::vector<vulkan::DescriptorSet> sets;
     };
 
     struct Pieces {
@@ -57,7 +56,7 @@ private:
     ResolvePipelines &pipelines_;
     DeviceFilm &film_;
     std::vector<Slot> slots_;
-    std::optional<vulkan::Buffer> mapped_; // an image, then findings; made on first use
+    std::optional<vulkan::Buffer> mapped_; // an image, then findings
 };
 
 } // namespace pt

@@ -22,7 +22,7 @@ std::uint64_t checked_scene_bytes(const vulkan::Device &device, std::size_t word
     return bytes;
 }
 
-// Samples of a pixel per dispatch: limited by the driver's loop trips and the table of points.
+// Samples of a pixel, limited by the driver's loop trips and the table of points.
 std::uint32_t samples_of_dispatch(const vulkan::Device &device, const Features &features, const PointLayout &layout,
                                   std::uint32_t table_bytes) {
     const std::uint64_t trips = loop_trips_per_sample(features);
@@ -40,7 +40,7 @@ std::uint32_t samples_of_dispatch(const vulkan::Device &device, const Features &
     return static_cast<std::uint32_t>(std::min<std::uint64_t>({budget / trips, rows, gpu::FILM_MAX_GATHERED}));
 }
 
-// Row by row, joining adjacent tiles, then adjacent rows.
+// Joins adjacent tiles, then adjacent rows.
 std::vector<PixelRange> pixels_of_tiles(const TileGrid &grid, std::span<const std::uint32_t> tiles) {
     std::vector<PixelRange> ranges;
     const auto add = [&](const PixelRange &next) {
@@ -83,7 +83,7 @@ Kernel::Kernel(vulkan::Device &device, TracePipelines &pipelines, DeviceFilm &fi
 void Kernel::bind_film(const vulkan::ComputePipeline &trace) {
     if (!sets_.empty())
         return;
-    std::vector<vulkan::DescriptorSet> sets; // none is kept if one fails
+    std::vector<vulkan::DescriptorSet> sets; // no set is kept if one fails
     for (const DeviceFilm::Strip &strip : film_.strips()) {
         std::vector<vulkan::BufferRange> ranges = scene_ranges(*gpu_scene_, scene_, tree_);
         ranges.insert(ranges.end(), {strip.words, points_, tile_lists_.buffer()});
@@ -120,8 +120,8 @@ void Kernel::dispatch_nothing() {
     });
 }
 
-// A dispatch per batch, each in one part of the film after the slice. Tables are free: slices end in order, and there
-// is room for all under way.
+// Each batch has its dispatch, in one part of the film after the slice. Tables are free: slices end in order, with room
+// for all under way.
 std::vector<Kernel::Batch> Kernel::next_batches(const TileSlice &slice) {
     const std::uint64_t split = slice.split();
     SampleRange before = slice.before;
@@ -150,19 +150,18 @@ void Kernel::upload_points(const std::vector<Batch> &batches) {
     }
 }
 
-// Only while nothing under way may read the film, and if the emptied part will be overwritten.
+// Requires that nothing under way reads the film.
 bool Kernel::folds_on_host() const {
     return !overlap_ && film_.is_host_memory() && device_.is_at_rest();
 }
 
-// Invocations that share a pixel's samples, so that even a few tiles keep the device busy.
+// Invocations that share a pixel's samples, so that few tiles keep the device busy.
 std::uint32_t Kernel::sharers_of(std::size_t tile_count, std::uint32_t sample_count) const {
-    constexpr std::uint32_t least_samples = 4; // per invocation, to be worth its addition to the film
+    constexpr std::uint32_t least_samples = 4; // worth an addition to the film
     const std::size_t wanted = device_.policy().invocations / (tile_count * gpu::WORKGROUP_SIZE);
     return static_cast<std::uint32_t>(std::clamp<std::size_t>(wanted, 1, std::max(sample_count / least_samples, 1U)));
 }
 
-// Dispatches each strip's share of the tiles.
 void Kernel::dispatch(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline,
                       std::span<const std::uint32_t> tiles, gpu::FrameConstants frame,
                       std::uint32_t table_offset) const {
@@ -202,11 +201,10 @@ BoundScene Kernel::bound_scene() {
     return {*gpu_scene_, scene_ranges(*gpu_scene_, scene_, tree_)};
 }
 
-// If the split moves, all samples so far are on one side of it.
 vulkan::Device::Ticket Kernel::start(const TileSlice &slice, bool on_cleared_film, const Behind &behind) {
     const std::vector<Batch> batches = slice.takes ? next_batches(slice) : std::vector<Batch>();
     upload_points(batches);
-    // Scenes of usual size go with the commands; larger ones have a transfer of their own.
+    // Small scenes go with the commands; others need a transfer.
     if (gpu_scene_->words.size() * sizeof(glm::vec4) > vulkan::max_recorded_bytes)
         upload_scene();
     const vulkan::ComputePipeline &fold = pipelines_.fold();

@@ -1,5 +1,5 @@
-// The path-tracing kernel, specialised to a scene's features, with the buffers that it reads. Owned by RenderDevice,
-// which makes a new one for other features.
+// The path-tracing kernel, specialised to a scene's features, with its buffers. RenderDevice makes a new one for other
+// features.
 #pragma once
 
 #include "lib/kernel/device_film.h"
@@ -26,7 +26,7 @@ namespace pt {
 
 class Kernel {
 public:
-    // device, pipelines, film and tree must outlive the kernel. tree: the scene's tree buffer, NULL without. Throws
+    // device, pipelines, film and tree must outlive the kernel. tree: the scene's tree buffer, or NULL. Throws
     // PT_ERROR_UNSUPPORTED for scenes beyond the device.
     Kernel(vulkan::Device &device, TracePipelines &pipelines, DeviceFilm &film, const vulkan::Buffer *tree,
            std::shared_ptr<const GpuScene> scene, const RenderSettings &settings);
@@ -41,35 +41,32 @@ public:
     // For other kernels, while no work is under way.
     BoundScene bound_scene();
 
-    // Builds this kernel's pipelines in a cache of the same device. Throws PT_ERROR_SHADER if the driver refuses one.
+    // Builds this kernel's pipelines in another cache of the device. Throws PT_ERROR_SHADER if the driver refuses one.
     void build(TracePipelines &pipelines) const;
 
-    // Dispatches zero workgroups: some drivers compile a kernel when it is first dispatched. No work may be under way.
+    // Makes drivers compile that do so at the first dispatch. No work may be under way.
     void dispatch_nothing();
 
-    // Samples of a pixel per submission, at most.
+    // Per pixel and submission.
     std::uint32_t max_samples() const { return max_dispatch_samples_ * (max_tables - 1); }
 
-    // Records commands after the samples, in the same submission.
+    // Records commands after the samples.
     using Behind = std::function<void(const vk::raii::CommandBuffer &)>;
 
-    // Starts a slice. At most queue_depth slices of the device may be under way. on_cleared_film: clears all pixels
-    // first.
+    // Starts a slice. At most queue_depth slices of the device may be under way.
     vulkan::Device::Ticket start(const TileSlice &slice, bool on_cleared_film, const Behind &behind = {});
 
-    // Waits for a slice and returns the seconds that it took, or the best estimate from expected_seconds if the device
-    // cannot measure them.
+    // Waits for a slice and returns its seconds, estimated by expected_seconds if the device cannot measure.
     double finish(vulkan::Device::Ticket ticket, double expected_seconds = 0.0);
 
 private:
-    // Tables of points for a slice, at most 4 MiB: one per dispatch. The film's split may add a cut.
+    // One per dispatch of a slice, at most 4 MiB. The film's split may add a dispatch.
     static constexpr std::uint32_t max_tables = 64;
 
-    // The samples of one dispatch, all for one part of the film.
     struct Batch {
         std::uint32_t first_sample;
         std::uint32_t sample_count;
-        std::uint32_t table_offset; // bytes
+        std::uint32_t table_offset;
         FilmPart part;
         bool begins_part; // the part has no samples of these pixels yet
 
@@ -85,7 +82,7 @@ private:
     std::uint32_t sharers_of(std::size_t tile_count, std::uint32_t sample_count) const;
     bool folds_on_host() const;
 
-    // Whether a dispatch overwrites its part. Overlapping dispatches add by atomic operations instead.
+    // Whether a dispatch overwrites its part. Overlapping dispatches add atomically instead.
     std::uint32_t overwrites(bool part_is_empty) const { return part_is_empty && !overlap_ ? 1 : 0; }
 
     vulkan::Device &device_;
@@ -99,13 +96,13 @@ private:
     std::uint32_t max_dispatch_samples_; // per pixel
     bool overlap_;                       // dispatches may add to the film at the same time
     vulkan::Buffer scene_;
-    const vulkan::Buffer *tree_; // NULL without a tree
+    const vulkan::Buffer *tree_; // may be NULL
     vulkan::Buffer points_;      // used in turn by the slices under way
     TileLists tile_lists_;
-    std::vector<vulkan::DescriptorSet> sets_; // one per strip of the film
-    std::uint32_t next_table_ = 0;            // in points_
-    bool scene_is_old_ = true;                // the buffer lacks the scene
-    double seconds_ = 0.0;                    // of all slices of the scene
+    std::vector<vulkan::DescriptorSet> sets_;
+    std::uint32_t next_table_ = 0; // in points_
+    bool scene_is_old_ = true;     // the buffer lacks the scene
+    double seconds_ = 0.0;         // of all slices of the scene
 };
 
 } // namespace pt

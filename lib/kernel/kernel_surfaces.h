@@ -19,10 +19,10 @@ struct HiddenCounts {
     std::uint32_t planes;
 };
 
-// A scene without twins in the kernels' order: lamps, skies, other spheres, curved planes, planes. Each kind keeps the
-// scene's order, except that hidden ones are the last lamps, first skies, last other spheres and first planes, so that
-// the camera sees two ranges. A sky is an emitting sphere around the camera: paths cannot leave it, and it cannot be
-// sampled from inside. A hidden one apart from all that is seen is a lamp.
+// Lamps, skies, other spheres, curved planes, planes, without twins. Each kind keeps the scene's order, but hidden ones
+// are the last lamps, first skies, last other spheres and first planes, so that the camera sees two ranges. A sky is an
+// emitting sphere around the camera, which cannot be sampled from inside. A hidden one apart from everything visible is
+// a lamp.
 struct KernelSurfaces {
     std::vector<SeenSphere> spheres; // held by center and radius
     std::vector<CurvedPlane> planes;
@@ -35,11 +35,10 @@ struct KernelSurfaces {
 bool lies_apart(const MovingBall &ball, const CurvedPlane &flat);
 bool lies_apart(const MovingBall &ball, const PointBox &box);
 
-// Whether a hidden sphere lies apart from all that the camera sees, so that no path gets into it. tree: NULL without;
-// all of it is seen.
+// Whether a hidden sphere lies apart from everything visible, so that no path gets into it. tree: may be NULL.
 bool lies_apart(const SeenSphere &hidden, const SeenScene &scene, const SphereTree *tree, const Camera &camera);
 
-// tree: NULL without.
+// tree: may be NULL.
 KernelSurfaces kernel_surfaces(const SeenScene &distinct, const SphereTree *tree, const Camera &camera);
 
 } // namespace pt

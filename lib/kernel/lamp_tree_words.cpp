@@ -12,7 +12,7 @@ namespace pt {
 
 namespace {
 
-// A lamp or node after rounding: nodes contain their lamps as the kernel sees them.
+// Rounded, since nodes must contain the lamps as the kernel sees them.
 struct Ball {
     glm::vec3 open;
     glm::vec3 way{0.0F};
@@ -31,16 +31,15 @@ struct Lamp {
 struct Node {
     Ball ball;
     double power = 0.0;
-    float spread = 0.0F; // for a lamp its radius
+    float spread = 0.0F; // a lamp's radius
 };
 
 Ball ball_of(const SeenSphere &sphere) {
     return {glm::vec3(sphere.open), glm::vec3(sphere.way), static_cast<float>(sphere.radius)};
 }
 
-// Powers relative to the largest one's power of two, times the size of the lamps' scene if above 1: the kernel's
-// quotients by squared distances then stay in float's range, from 1e-17 to 1e17. Powers are at least 2^-40 of the
-// largest.
+// Divides by the largest power, rounded down to a power of two, and multiplies by the lamps' extent if above 1, so that
+// the kernel's quotients by squared distances lie between 1e-17 and 1e17.
 std::vector<Lamp> scaled_lamps(std::span<const TreeLamp> lamps) {
     double largest_power = 0.0;
     double size = 1.0;
@@ -59,8 +58,7 @@ std::vector<Lamp> scaled_lamps(std::span<const TreeLamp> lamps) {
     return scaled;
 }
 
-// The middle is the mean by power; like the lamps it moves on a straight line, so distances from it are largest at an
-// end.
+// The center is the mean by power. It moves in a straight line, so distances from it are largest at an end.
 Node node_of(std::span<const Lamp> lamps) {
     Node node;
     glm::dvec3 open(0.0);
@@ -92,7 +90,6 @@ Node node_of(std::span<const Lamp> lamps) {
     return node;
 }
 
-// words: of the group.
 void write_node(std::span<glm::vec4> words, int place, const Node &node, bool motion) {
     for (int axis = 0; axis < 3; ++axis)
         words[static_cast<std::size_t>(axis)][place] = node.ball.open[axis];

@@ -1,4 +1,4 @@
-// The tree of lamps in the words of the scene buffer (shaders/gpu_layout.h).
+// Writes the tree of lamps into the scene buffer (shaders/gpu_layout.h).
 #pragma once
 
 #include "lib/scene/seen_scene.h"
@@ -10,17 +10,16 @@
 
 namespace pt {
 
-// From this many lamps on, the tree is faster than looking at all lamps.
+// From this number on, the tree is faster than a loop over all lamps.
 constexpr std::uint32_t least_tree_lamps = 32;
 
 // For nodes, slots' lamps and lamps' slots.
 std::uint64_t lamp_tree_words(std::uint32_t lamp_count, bool motion);
 
-// A lamp as the tree holds it.
 struct TreeLamp {
     SeenSphere sphere;
     double radiance;    // mean of R, G, B
-    std::uint32_t lamp; // its index in the kernel
+    std::uint32_t lamp; // index in the kernel
 };
 
 // words: lamp_tree_words() of them. lamps: in the tree's order.

@@ -10,12 +10,12 @@ namespace pt {
 
 namespace {
 
-// Empirical (tests/bench/NOTEBOOK.md). A glow deserves a ray if the lamp is nearer to the plane than a fifth of its
-// distance from the farthest one, does not cover what it lights, and the plane is not dark.
+// Empirical (tests/bench/NOTEBOOK.md). A glow is worth a ray if the lamp is near the plane without covering it, and the
+// plane bright.
 constexpr double largest_glow_height = 0.2; // over the lamp's height above the farthest plane
 constexpr double least_glow_height = 1.5;   // over the lamp's radius
 constexpr double least_glow_diffuse = 0.35; // mean of R, G and B
-// A mirror image deserves a ray if it is bright and small: 1 / n for a lobe of glossiness n, plus the lamp's width.
+// A mirror image is worth a ray if bright and small. Its width: 1 / n for glossiness n, plus the lamp's.
 constexpr double least_image_specular = 0.45; // mean of R, G and B
 constexpr double widest_image = 0.02;
 

@@ -1,5 +1,4 @@
-// Finds spots: small places far brighter than all others, whose light random rays seldom find, and then much at once
-// (shaders/spots.glsl).
+// Finds spots, small places far brighter than others, which random rays seldom find (shaders/spots.glsl).
 #pragma once
 
 #include "lib/kernel/kernel_surfaces.h"
@@ -18,8 +17,8 @@ struct LightSpot {
     float glossiness;  // of a mirror image; -1 for a glow
 };
 
-// None if paths are too short, if there are many lamps, or if there would be more than SPOT_LIMIT, as costs grow with
-// their number. Independent of the camera, so that a moving camera keeps its kernel. features: without spots.
+// Empty for short paths, many lamps, or more than SPOT_LIMIT spots. Independent of the camera, so that a moving one
+// keeps its kernel. features: without spots.
 std::vector<LightSpot> light_spots(const KernelSurfaces &surfaces, const std::vector<Material> &materials,
                                    const Features &features);
 

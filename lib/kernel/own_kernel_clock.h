@@ -1,25 +1,22 @@
-// Decides when a scene has been rendered long enough for a kernel of its own to pay. Knows neither clock nor device:
-// TracePipelines asks and reports.
+// Decides when a scene has been rendered long enough for a kernel of its own to pay. TracePipelines measures the time.
 #pragma once
 
 #include <algorithm>
 
 namespace pt {
 
-// A kernel for one scene takes about 0.3 s to build and saves about a third of the time, so it pays after a second.
-// Waiting just that long costs at most twice the optimum for a single scene (the ski rental problem). But a camera may
-// stop again and again for a little longer. So the wait doubles whenever a kernel was left before it paid, and falls
-// back when one has paid: kernels in vain then grow with the logarithm of the time, and at the limit take a hundredth
-// of it.
+// A kernel for one scene pays after a second. Waiting that long costs at most twice the optimum (the ski rental
+// problem). The wait doubles whenever a kernel was left before it paid, and falls back when one has paid. Useless
+// kernels then grow with the logarithm of the time.
 class OwnKernelClock {
 public:
     static constexpr double seconds_to_pay = 1.0;
     static constexpr double longest_wait = 32.0;
 
-    // Whether a scene rendered for this long gets its own kernel.
+    // seconds: time for which the scene has been rendered.
     bool is_time(double seconds) const { return seconds > wait_; }
 
-    // Reports that a scene's own kernel was used for this long until another scene came.
+    // seconds: time for which the last own kernel was used.
     void left_after(double seconds) {
         wait_ = seconds < seconds_to_pay ? std::min(2.0 * wait_, longest_wait) : seconds_to_pay;
     }

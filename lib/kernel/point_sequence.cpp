@@ -19,7 +19,7 @@ struct SobolDimension {
 };
 
 // S. Joe and F. Y. Kuo, "Constructing Sobol Sequences with Better Two-Dimensional Projections", SIAM J. Sci. Comput. 30
-// (2008), the set new-joe-kuo-6, dimensions 2 to 64. Dimension 1 is the radical inverse in base 2.
+// (2008), new-joe-kuo-6, dimensions 2 to 64. Dimension 1 is the radical inverse in base 2.
 constexpr SobolDimension joe_kuo[sequence_dimensions - 1] = {
     {3, {1}},
     {7, {1, 3}},
@@ -88,7 +88,7 @@ constexpr SobolDimension joe_kuo[sequence_dimensions - 1] = {
 
 using Matrix = std::array<std::uint32_t, 32>; // per bit of the index, least significant first
 
-// Direction numbers v_k = m_k 2^(32 - k) by the recurrence of Bratley and Fox (ACM TOMS 14, 1988, section 2).
+// v_k = m_k 2^(32 - k) by the recurrence of Bratley and Fox (ACM TOMS 14, 1988, section 2).
 constexpr Matrix direction_numbers(std::uint32_t dimension) {
     Matrix v{};
     if (dimension == 0) {
@@ -118,13 +118,12 @@ constexpr std::array<Matrix, sequence_dimensions> sobol_matrices = [] {
     return matrices;
 }();
 
-// Direction numbers of one bit of the index in all dimensions: points are made of rows, which is faster than by
-// coordinates.
+// Combining a bit's direction numbers for all dimensions is faster than making coordinates singly.
 using Row = std::array<std::uint32_t, sequence_dimensions>;
 using Rows = std::array<Row, 32>;
 
-// The sequence's dimension for a sample's number. With motion, the third number is the time and takes the fifth
-// dimension, which lowers the error (tests/bench/NOTEBOOK.md).
+// With motion, the third number is the time and takes the fifth dimension, which lowers the error
+// (tests/bench/NOTEBOOK.md).
 constexpr std::uint32_t dimension_of(std::uint32_t number, bool motion) {
     constexpr std::uint32_t order[] = {0, 1, 4, 2, 3};
     return motion && number < std::size(order) ? order[number] : number;
@@ -166,7 +165,7 @@ constexpr std::array<std::uint32_t, sequence_dimensions> primes = [] {
 
 std::uint32_t sobol(std::uint32_t index, std::uint32_t dimension) {
     std::uint32_t x = 0;
-    for (std::uint32_t rest = index; rest != 0; rest &= rest - 1) // set bits of the index
+    for (std::uint32_t rest = index; rest != 0; rest &= rest - 1) // set bits
         x ^= sobol_matrices[dimension][static_cast<std::uint32_t>(std::countr_zero(rest))];
     return x;
 }
@@ -184,8 +183,8 @@ std::uint32_t radical_inverse(std::uint64_t index, std::uint32_t dimension) {
     return static_cast<std::uint32_t>((Wide{reversed} << 32) / power);
 }
 
-// With digits reversed, those before a digit are its lower bits, which carries respect (Laine and Karras 2011; Burley,
-// "Practical Hash-based Owen Scrambling", JCGT 9(4), 2020). Constants by N. Vegdahl (2021), found for better avalanche.
+// With digits reversed, carries make a digit depend on those before it (Laine and Karras 2011; Burley, "Practical
+// Hash-based Owen Scrambling", JCGT 9(4), 2020). Constants: N. Vegdahl (2021).
 std::uint32_t owen_scrambled(std::uint32_t coordinate, std::uint32_t seed) {
     std::uint32_t v = reversed_bits(coordinate);
     v ^= v * 0x3d20adeaU;
@@ -198,10 +197,9 @@ std::uint32_t owen_scrambled(std::uint32_t coordinate, std::uint32_t seed) {
 
 namespace {
 
-// A point in all dimensions of a layout.
 using Point = std::vector<std::uint32_t>;
 
-// A seed per dimension. Indices from 2^32 on repeat points, with other seeds.
+// Indices from 2^32 on repeat points, with other seeds.
 std::vector<std::uint32_t> scrambling_seeds(std::uint64_t seed, std::uint64_t repetition, std::uint32_t dimensions) {
     std::vector<std::uint32_t> seeds;
     std::uint64_t state = mixed(seed) + repetition;
@@ -210,7 +208,6 @@ std::vector<std::uint32_t> scrambling_seeds(std::uint64_t seed, std::uint64_t re
     return seeds;
 }
 
-// Writes points of one sequence.
 class PointWriter {
 public:
     PointWriter(std::uint32_t sampler, std::uint64_t seed, const PointLayout &layout) :
@@ -219,7 +216,6 @@ public:
         seed_(seed),
         point_(layout.dimensions_of(layout.block_count())) {}
 
-    // Coordinates in the dimensions [first, end).
     std::span<const std::uint32_t> coordinates(std::uint64_t index, std::uint32_t first, std::uint32_t end) {
         const std::span<std::uint32_t> coordinates = std::span(point_).subspan(first, end - first);
         if (sobol_) {
@@ -235,7 +231,7 @@ public:
 private:
     void write_sobol(std::uint32_t index, std::uint32_t first, std::span<std::uint32_t> coordinates) const {
         std::ranges::fill(coordinates, 0U);
-        for (std::uint32_t rest = index; rest != 0; rest &= rest - 1) { // set bits of the index
+        for (std::uint32_t rest = index; rest != 0; rest &= rest - 1) { // set bits
             const std::uint32_t *row = &rows_[static_cast<std::uint32_t>(std::countr_zero(rest))][first];
             for (std::size_t i = 0; i < coordinates.size(); ++i)
                 coordinates[i] ^= row[i];

@@ -1,4 +1,4 @@
-// Exact points of quasi-random sequences, for shaders/sampler.glsl. Renderer makes a slice's table.
+// Exact points of quasi-random sequences, for shaders/sampler.glsl. Renderer makes a table per slice.
 #pragma once
 
 #include "shaders/gpu_layout.h"
@@ -11,16 +11,16 @@
 
 namespace pt {
 
-// Further numbers of a path are hashed random ones.
+// Later numbers of a path are random.
 inline constexpr std::uint32_t sequence_dimensions = 64;
 
-// Sobol coordinate with the direction numbers of Joe and Kuo, as a multiple of 2^-32. dimension < sequence_dimensions.
+// A multiple of 2^-32. dimension < sequence_dimensions.
 std::uint32_t sobol(std::uint32_t index, std::uint32_t dimension);
 
-// Radical inverse in the dimension-th prime base (Halton 1960), rounded down to a multiple of 2^-32; index < 2^35.
+// The base is the dimension-th prime (Halton 1960). Rounded down to a multiple of 2^-32. index < 2^35.
 std::uint32_t radical_inverse(std::uint64_t index, std::uint32_t dimension);
 
-// The blocks of a row of the point table (gpu_layout.h, row_blocks), of up to four dimensions each.
+// A row's blocks in the point table (row_blocks() in gpu_layout.h), of up to four dimensions each.
 struct PointLayout {
     std::vector<std::uint32_t> block_dimensions; // the shared blocks, then a branch's
     std::uint32_t shared_blocks;
@@ -37,14 +37,13 @@ struct PointLayout {
     }
 };
 
-// Owen scrambling (1995): each binary digit is flipped by a hash of the digits before it and the seed.
+// Each binary digit is flipped by a hash of the seed and the digits before it (Owen 1995).
 std::uint32_t owen_scrambled(std::uint32_t coordinate, std::uint32_t seed);
 
 // Multiples of 2^-32; 0 beyond the block's dimensions.
 using PointBlock = std::array<std::uint32_t, 4>;
 
-// A row per index, as the kernel reads them. sampler: one of pt.h that uses a sequence. Sobol points are scrambled by
-// the seed.
+// A row per index, as the kernel reads them. sampler: one with a sequence. The seed scrambles Sobol points.
 std::vector<PointBlock> point_table(std::uint32_t sampler, std::uint64_t seed, std::span<const std::uint32_t> indices,
                                     const PointLayout &layout);
 

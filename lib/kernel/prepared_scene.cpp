@@ -1,4 +1,3 @@
-// Finds what does not depend on the camera; see prepared_scene.h.
 #include "lib/kernel/prepared_scene.h"
 
 #include "lib/scene/lamp_tree.h"
@@ -13,7 +12,6 @@ namespace pt {
 
 namespace {
 
-// Per material, whether some surface has it.
 std::vector<bool> is_used(const Scene &scene) {
     std::vector<bool> used(scene.materials.size());
     for (const Sphere &sphere : scene.spheres)
@@ -40,14 +38,12 @@ void add_lamps(std::vector<Sphere> &spheres, const SphereTree &tree) {
         spheres.push_back(tree.lamp(lamp));
 }
 
-// Appends the tree's lamps to the scene's spheres.
 Scene with_lamps(Scene scene, const SphereTree &tree) {
     add_lamps(scene.spheres, tree);
     return scene;
 }
 
-// Material numbers in the tree count used materials only. The tree's shape depends on the process's earlier scenes and
-// is left out.
+// The tree's material numbers count used materials only. Its shape depends on earlier scenes and is left out.
 std::string digest_with_tree(const PreparedScene &prepared) {
     Digest digest;
     digest.add(digest_of(prepared.scene));
@@ -62,7 +58,6 @@ constexpr double share_of_hidden = 0.05;
 constexpr double share_of_outlying = 0.05;
 constexpr double share_of_materials = 0.02;
 
-// In ascending order.
 std::vector<std::uint32_t> hidden_spheres(const CheckedScene &checked, WorkProgress &progress) {
     std::vector<std::uint32_t> hidden;
     if (std::ranges::none_of(checked.materials, &Material::hidden))
@@ -75,7 +70,7 @@ std::vector<std::uint32_t> hidden_spheres(const CheckedScene &checked, WorkProgr
     return hidden;
 }
 
-// Includes hidden spheres, so that camera rays need not check the materials of tree spheres.
+// Includes hidden spheres: camera rays do not check the materials of tree spheres.
 std::vector<std::uint32_t> left_out_of(const CheckedScene &checked, const std::vector<std::uint32_t> &hidden,
                                        WorkProgress &progress) {
     progress.enter(share_of_outlying, static_cast<double>(checked.spheres.size()));

@@ -1,5 +1,4 @@
-// A scene with everything that does not depend on the camera. Made by pt_set_scene, held by Renderer, read by
-// gpu_scene.
+// A scene with everything that does not depend on the camera. Made by pt_set_scene; held by Renderer.
 #pragma once
 
 #include "lib/base/work_progress.h"
@@ -17,32 +16,32 @@ namespace pt {
 
 struct PreparedScene {
     Scene scene; // without the tree's spheres
-    // Radiance of one film unit, a power of two. It puts the brightest emission into [2^7, 2^8) units, so that samples
-    // 2^20 times as bright are accepted and samples 2^-44 times as bright are exact.
+    // Radiance of a film unit, a power of two. The brightest emission has 2^7 to 2^8 units. Samples 2^20 times as
+    // bright are accepted; samples 2^-44 times as bright are exact.
     double film_unit;
     std::vector<Material> used_materials;    // in the scene's order
     std::vector<std::uint32_t> used_indices; // from the scene's materials into used_materials
     bool gloss;                              // some used material has a specular lobe
-    std::shared_ptr<const SphereTree> tree;  // most spheres, if there are many; else NULL
+    std::shared_ptr<const SphereTree> tree;  // most spheres if there are many, else NULL
     bool moves;                              // some sphere moves
     std::vector<std::uint32_t> lamp_order;   // emitting spheres in the order of lamp_tree.h
 
-    // Without a tree.
+    // Makes no tree.
     explicit PreparedScene(Scene of);
 
-    // Makes a tree if the camera may see tree_from spheres, default: as many as pay. Keeps the shape of the tree of
-    // `before` (may be NULL) if it fits. The caller's memory is not read afterwards.
+    // Makes a tree if at least tree_from spheres are visible; default: where faster. Keeps the tree shape of `before`
+    // (may be NULL) if it fits. The caller's memory is not read afterwards.
     PreparedScene(CheckedScene checked, std::optional<std::uint32_t> tree_from, const PreparedScene *before,
                   WorkProgress &progress);
 
     // All emitting spheres, including the tree's.
     std::vector<Sphere> lamps() const;
 
-    // Digest of scene (scene.h) and tree; computed on first use, since most scenes never go into a film.
+    // Digest of scene and tree, computed on first use.
     const std::string &digest() const;
 
 private:
-    // before: NULL without a tree.
+    // before: may be NULL.
     static PreparedScene prepared(CheckedScene checked, std::optional<std::uint32_t> tree_from,
                                   const SphereTree *before, WorkProgress &progress);
 

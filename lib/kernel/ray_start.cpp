@@ -14,20 +14,19 @@ namespace pt {
 
 namespace {
 
-// Farther than any sphere may be, whose centre, way and camera have components up to 1e18; planes that are all but
-// along the view are met farther still. From a start beyond it the squares of distances would not be numbers of
+// Spheres are nearer, since coordinates are at most 1e18. From starts beyond, squares of distances would overflow
 // float32.
 constexpr double farthest_start = 6e18;
 
-// Below this the 2^-24 error of a direction's components exceeds 1/1024 of a pixel.
+// Below this a direction's rounding error of 2^-24 exceeds 1/1024 of a pixel.
 constexpr double narrow_pixel = 0x1p-14; // side of a pixel at distance 1
 
-// The pyramid of an image's rays, through the lens's middle, and the cone about it.
+// The pyramid of rays through the lens's center, and the cone around it.
 struct View {
     std::array<glm::dvec3, 4> corners; // at depth 1
     glm::dvec3 forward;
     double half_angle;
-    double aside; // largest distance of a lens's rays from these, up to twice the depth of focus
+    double aside; // a lens's largest deviation from these rays, up to twice the depth of focus
 
     View(const Camera &camera, const RenderSettings &settings) : forward(camera.forward), aside(camera.lens_radius) {
         const double up = camera.tan_half_fov;
@@ -38,8 +37,7 @@ struct View {
     }
 };
 
-// A plane's depth along a direction of depth 1 is -offset / (normal . direction), least at a corner. A lens brings the
-// plane nearer by `aside`.
+// depth = -offset / (normal . direction), least at a corner. A lens brings the plane nearer by `aside`.
 double nearest_depth(const CurvedPlane &plane, const View &view) {
     const double offset = std::max(plane.offset - view.aside, 0.0);
     double nearest = offset == 0.0 ? 0.0 : out_of_view;
@@ -55,11 +53,11 @@ double angle_from_middle(const glm::dvec3 &point, const View &view) {
     return std::atan2(glm::length(point - along * view.forward), along);
 }
 
-// The cone's direction nearest to the ball's center meets it first. With b = d cos(angle) the root is b - sqrt(r^2 -
-// d^2 sin^2(angle)), or (d^2 - r^2) / (b + the same), which does not cancel for small far balls.
+// The cone's direction nearest to the center meets the ball first. b - sqrt(r^2 - d^2 sin^2(angle)), b = d cos(angle),
+// is written as (d^2 - r^2) / (b + sqrt(...)), which does not cancel for small far balls.
 double depth_of_ball(const glm::dvec3 &centre, double radius, const View &view) {
     const double distance = glm::length(centre);
-    const double power = (distance - radius) * (distance + radius); // of the camera, with respect to the ball
+    const double power = (distance - radius) * (distance + radius); // of the camera with respect to the ball
     if (power <= 0.0)
         return 0.0;
     const double angle = angle_from_middle(centre, view);
@@ -86,12 +84,12 @@ double depth_from_within(const glm::dvec3 &centre, double radius, const View &vi
     return (distance * std::cos(farthest) + half_chord) * std::cos(view.half_angle);
 }
 
-// The ball about the way suffices.
+// The ball around the way suffices.
 double depth_on_way(const MovingBall &, const View &) {
     return 0.0;
 }
 
-// The box of an image's parallel rays, and the cylinder about it.
+// The box of parallel rays, and the cylinder around it.
 struct ParallelView {
     glm::dvec3 half_right;
     glm::dvec3 half_up;
@@ -106,8 +104,7 @@ struct ParallelView {
         radius(std::hypot(glm::length(half_right), glm::length(half_up))) {}
 };
 
-// A plane's depth, -height / (normal . forward), is linear across the view, hence least at a corner. If rays start on
-// both sides, there is no room before the plane.
+// depth = -height / (normal . forward), least at a corner. It is 0 if rays start on both sides.
 double nearest_depth(const CurvedPlane &plane, const ParallelView &view) {
     const double across =
         std::abs(glm::dot(plane.normal, view.half_right)) + std::abs(glm::dot(plane.normal, view.half_up));
@@ -117,9 +114,9 @@ double nearest_depth(const CurvedPlane &plane, const ParallelView &view) {
     return slope > 0.0 ? (plane.offset - across) / slope : out_of_view;
 }
 
-// The cylinder's lines nearest to the center meet the ball first. Let the center be at depth a and c from the line, at
-// a distance d. The root a - sqrt(r^2 - c^2) is (a^2 + c^2 - r^2) / (a + sqrt(r^2 - c^2)), which does not cancel for
-// small far balls, as d^2 - r^2 is a product.
+// The cylinder's line nearest to the center meets the ball first. a - sqrt(r^2 - c^2), with the center's depth a and
+// distance c from the line, is written as (a^2 + c^2 - r^2) / (a + sqrt(r^2 - c^2)), which does not cancel for small
+// far balls.
 double depth_of_ball(const glm::dvec3 &centre, double radius, const ParallelView &view) {
     const double depth = glm::dot(centre, view.forward);
     const double across = glm::length(centre - depth * view.forward);
@@ -134,12 +131,12 @@ double depth_of_ball(const glm::dvec3 &centre, double radius, const ParallelView
     return depth > 0.0 && power > 0.0 ? power / (depth + half_chord) : 0.0;
 }
 
-// Largest distance of a ray's start from the axis through the center.
+// Largest distance of a ray from the parallel through the center.
 double most_across(const glm::dvec3 &centre, const ParallelView &view) {
     return glm::length(centre - glm::dot(centre, view.forward) * view.forward) + view.radius;
 }
 
-// Whether all rays do.
+// Whether all rays start inside.
 bool starts_within(const glm::dvec3 &centre, double radius, const ParallelView &view) {
     return std::hypot(glm::dot(centre, view.forward), most_across(centre, view)) < radius;
 }
@@ -149,13 +146,13 @@ double depth_from_within(const glm::dvec3 &centre, double radius, const Parallel
     return glm::dot(centre, view.forward) + std::sqrt((radius - most) * (radius + most));
 }
 
-// A sphere is nearest at an end of its way; the ball about a way across the view would reach farther.
+// A sphere is nearest at an end of its way; the ball around a way across the view would reach farther.
 double depth_on_way(const MovingBall &sphere, const ParallelView &view) {
     const double open = glm::dot(sphere.open, view.forward);
     return open + std::min(glm::dot(sphere.way, view.forward), 0.0) - sphere.radius;
 }
 
-// A lower bound of the depth of all that the ball takes up on its way.
+// A lower bound for a moving ball.
 template <typename AnyView>
 double depth_of_region(const MovingBall &ball, const AnyView &view) {
     const double radius = ball.radius + 0.5 * glm::length(ball.way) + view.aside;
@@ -163,8 +160,7 @@ double depth_of_region(const MovingBall &ball, const AnyView &view) {
     return ball.way == glm::dvec3(0.0) ? depth : std::max(depth, depth_on_way(ball, view));
 }
 
-// Spheres are hollow: from inside, rays meet the far wall. margin: how far before the surface, on either side, as a
-// share of the radius.
+// From inside, rays meet the far wall. margin: distance kept from the surface, as a share of the radius.
 template <typename AnyView>
 double depth_of_sphere(const MovingBall &sphere, const AnyView &view, double margin = 0.0) {
     const double inner = sphere.radius * (1.0 - margin) - view.aside;
@@ -173,8 +169,7 @@ double depth_of_sphere(const MovingBall &sphere, const AnyView &view, double mar
     return depth_of_region({sphere.open, sphere.way, sphere.radius * (1.0 + margin)}, view);
 }
 
-// Least possible depth of a visible surface. Tree spheres are held by center however near, so rays keep a distance at
-// which float32 tells the side; the center is known no better.
+// A lower bound for visible surfaces. Rays stop short of tree spheres, so that float32 tells the side.
 template <typename AnyView>
 double first_depth(const Scene &scene, const SphereTree *tree, const Camera &camera, const AnyView &view) {
     double depth = out_of_view;
@@ -191,7 +186,7 @@ double first_depth(const Scene &scene, const SphereTree *tree, const Camera &cam
     return depth;
 }
 
-// Wider views would overflow float32 with squared distances.
+// The squared distances of a wider view would overflow float32.
 void require_held_view(const Camera &camera, const RenderSettings &settings) {
     const double width = camera.vertical_extent * settings.width / settings.height;
     if (width > max_length)
@@ -204,7 +199,7 @@ void require_held_view(const Camera &camera, const RenderSettings &settings) {
                                        number_text(width)});
 }
 
-// Stays ahead of the first surface by the view's width and a little more, so that no visible surface divides the disc.
+// Ahead of the first surface by the view's width and a little more, so that no visible surface divides the disc.
 Camera starting_in_parallel(const Scene &scene, const SphereTree *tree, const Camera &camera,
                             const RenderSettings &settings) {
     require_held_view(camera, settings);
@@ -232,8 +227,8 @@ Camera starting_ahead(const Scene &scene, const SphereTree *tree, const Camera &
     const double depth = first_depth(scene, tree, camera, view);
     if (depth > farthest_start)
         return ahead;
-    // Stays ahead of the first surface by the view's width there, so that rounding puts no start behind it, and by the
-    // lens's radius. A lens's rays converge towards the plane in focus, so they start on a smaller disc.
+    // Ahead of the first surface by the view's width, so that rounding puts no start behind it, and by the lens's
+    // radius. A lens's rays converge towards the plane in focus.
     const double tangent = std::tan(view.half_angle);
     ahead.start_distance = std::max((1.0 - tangent) * depth - camera.lens_radius, 0.0);
     if (camera.has_lens()) {

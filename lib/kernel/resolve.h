@@ -1,5 +1,4 @@
-// The pipelines and dispatches of shaders/resolve.comp, which makes images of films. Owned by RenderDevice; used by
-// ImageReader and BufferWriter.
+// The pipelines of shaders/resolve.comp, which makes images of films. Owned by RenderDevice.
 #pragma once
 
 #include "lib/film/film_header.h"
@@ -29,7 +28,7 @@ public:
     // Both arguments must outlive the object.
     ResolvePipelines(vulkan::Device &device, std::span<const std::uint32_t> code) : device_(device), code_(code) {}
 
-    // Built on first use. Buffers bound for one format serve all, since the layouts are equal.
+    // Built on first use. Layouts are equal, so buffers bound for one format serve all.
     const vulkan::ComputePipeline &of(std::uint32_t format);
 
 private:
@@ -38,18 +37,17 @@ private:
     std::array<std::optional<vulkan::ComputePipeline>, format_count> pipelines_;
 };
 
-// A rectangle of the film and its place in the bound words.
 struct ResolvedPiece {
     Rectangle pixels;
     std::uint32_t first_word; // in the bound buffer
     std::uint32_t row_words;  // from row to row
 };
 
-// Records commands that resolve a piece, with barriers before and after. sets: one per strip of the film.
+// Records the dispatches, with barriers before and after. sets: by strip of the film.
 void resolve(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline, const DeviceFilm &film,
              std::span<const vulkan::DescriptorSet> sets, const ImageQuery &query, const ResolvedPiece &piece);
 
-// Throws PT_ERROR_INTERNAL if a driver lost samples of some pixels.
+// Throws PT_ERROR_INTERNAL unless 0.
 void require_no_loss(std::uint32_t lost_pixels);
 
 } // namespace pt

@@ -1,4 +1,4 @@
-// First words of the scene buffer's blocks (shaders/gpu_layout.h). Used by gpu_scene and features_of.
+// First words of the scene buffer's blocks (shaders/gpu_layout.h).
 #pragma once
 
 #include "lib/kernel/scene_features.h"
@@ -10,10 +10,10 @@
 
 namespace pt {
 
-// In words of four floats; 64 bits, since 2^30 surfaces can take more than 5 words each.
+// In words of four floats. 2^30 surfaces can take more than 2^32 words.
 struct SceneBlocks {
     std::uint64_t emission;
-    // Reflection of surface or table material i: at this + i * reflection_step.
+    // Surface or table material i is at this + i * reflection_step.
     std::uint64_t diffuse;
     std::uint64_t specular;
     std::uint64_t reflection_step;
@@ -53,7 +53,7 @@ inline SceneBlocks::SceneBlocks(const Features &features) {
     }
 }
 
-// Blocks of numbers have four to a word.
+// A word holds four numbers.
 inline void write_number(std::span<glm::vec4> block, std::uint64_t place, std::uint32_t number) {
     block[place / 4][static_cast<int>(place % 4)] = std::bit_cast<float>(gpu::MATERIAL_INDEX_BITS + number);
 }

@@ -15,8 +15,8 @@
 
 namespace pt {
 
-// For two rays. Invocations in step take as many trips as the longest walk, about 100 in scenes of 10^6 spheres.
-// Samples with more trips in all are lost and reported (tree_walk.glsl).
+// For two rays. The longest walk of invocations in step has about 100 trips for 10^6 spheres. Samples that need more
+// are lost and reported (tree_walk.glsl).
 std::uint64_t loop_trips_per_walk(const Features &features) {
     constexpr std::uint64_t tree_trips = 200;
     return features.surface_count() + (features[gpu::ID_TREE] ? tree_trips : 0);
@@ -36,8 +36,7 @@ std::vector<std::uint32_t> camera_blocks(const Features &features) {
 
 namespace {
 
-// Whether a sphere lies in the camera's convex region between the planes, which paths do not leave: no plane separates
-// two points of it.
+// Whether a sphere lies in the convex region between the planes around the camera, which paths do not leave.
 bool is_in_region(const std::vector<CurvedPlane> &planes, const SeenSphere &sphere) {
     const std::array way = {sphere.open, sphere.close()};
     return std::ranges::all_of(planes, [&](const CurvedPlane &plane) {
@@ -47,7 +46,7 @@ bool is_in_region(const std::vector<CurvedPlane> &planes, const SeenSphere &sphe
     });
 }
 
-// The same for a box of scene points.
+// box: in scene coordinates.
 bool is_in_region(const std::vector<CurvedPlane> &planes, const PointBox &box, const Camera &camera) {
     return std::ranges::all_of(planes, [&](const CurvedPlane &plane) {
         const glm::dvec3 nearest = glm::mix(box.low, box.high, glm::lessThan(plane.normal, glm::dvec3(0.0)));
@@ -60,8 +59,7 @@ bool has_known_side(const CurvedPlane &plane) {
     return static_cast<float>(plane.offset) != 0.0F;
 }
 
-// Branches of a path by the number of spheres: found by time to equal error on a CPU and an H200
-// (tests/bench/NOTEBOOK.md).
+// Found by time to equal error (tests/bench/NOTEBOOK.md).
 std::uint32_t branches_among(std::size_t sphere_count, std::uint32_t max_path_length) {
     constexpr std::size_t very_many = 4096;
     if (sphere_count >= very_many && max_path_length > 3)
@@ -74,8 +72,7 @@ std::uint32_t rounded_up(std::uint32_t levels) {
     return (levels + step - 1) / step * step;
 }
 
-// A vertex's trips for lamps: sum and choice over all lamps; or the tree's top, then down to the chosen lamp and to one
-// that a direction meets.
+// Sum and choice over all lamps; or the tree's top, then down to the chosen lamp and to one met by a direction.
 std::uint64_t lamp_trips(const Features &features) {
     return features[gpu::ID_LAMP_TREE_LEVELS] ? gpu::LAMP_TREE_TOP_GROUPS + 2 * features[gpu::ID_LAMP_TREE_LEVELS]
                                               : 2 * std::uint64_t{features[gpu::ID_LAMP_COUNT]};
@@ -102,7 +99,7 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
     const auto may_hold_paths = [&](const SeenSphere &sphere) {
         return sphere.hidden ? !lies_apart(sphere) : is_at_camera(sphere);
     };
-    // The camera looks through hidden surfaces from one side; paths may be on the other.
+    // The camera looks through hidden surfaces; paths may be on their other side.
     const auto is_passed = [&](const SeenSphere &sphere) {
         return sphere.hidden && (may_hold_origin(sphere) || !lies_apart(sphere));
     };
@@ -138,8 +135,8 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
     features[gpu::ID_PLANES_BLOCK] = features[gpu::ID_CURVATURE] || planes_divide || planes_are_passed ||
                                      std::ranges::any_of(lamps, is_behind_a_plane) ||
                                      (tree_lamps > 0 && !is_in_region(distinct.seen.planes, tree->bounds(), camera));
-    // Among flat planes that do not nearly coincide, vertices tell the sides as well, and faster. The camera does not
-    // tell them if rays start on both sides of a surface or pass it, hidden or at random.
+    // Among flat planes that do not nearly coincide, vertices tell the sides faster. The camera cannot tell them if
+    // rays start on both sides of a surface, or pass it.
     const bool starts_divided = distinct.seen.any_surface(divides) || (tree && tree->divides_start(camera));
     const bool some_are_passed = planes_are_passed || std::ranges::any_of(distinct.seen.spheres, is_passed);
     features[gpu::ID_KNOWN_SIDES] =
@@ -179,14 +176,14 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
 std::uint32_t branch_count(const Features &features) {
     const bool spots_find_most = features[gpu::ID_SPOT_COUNT] > 0 && features[gpu::ID_MAX_PATH_LENGTH] == 3;
     const std::uint32_t branches = std::min(features.most_branches, spots_find_most ? 2U : 4U);
-    constexpr std::uint64_t max_trips = 1 << 14; // a quarter of those drivers' limit, for several samples at once
+    constexpr std::uint64_t max_trips = 1 << 14; // a quarter of the limit, for several samples at once
     const bool affordable = branches * loop_trips_per_branch(features) <= max_trips;
     return features[gpu::ID_MAX_PATH_LENGTH] > 2 && affordable ? branches : 1;
 }
 
 namespace {
 
-// Lamps beyond the branches to which the first vertex sends a ray, where it samples every lamp.
+// Where the first vertex samples every lamp: lamps beyond the number of branches.
 std::uint32_t further_lamps(const Features &features, std::uint32_t branches) {
     const std::uint32_t lamps = features[gpu::ID_LAMP_COUNT] > gpu::EVERY_LAMP_LIMIT ? 0 : features[gpu::ID_LAMP_COUNT];
     return lamps - std::min(lamps, branches);
@@ -229,17 +226,16 @@ std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Fe
     auto constants = features.constants;
     constants[gpu::ID_TABLE_BLOCKS] = layout.block_count();
     constants[gpu::ID_BRANCH_COUNT] = layout.branches;
-    constants[gpu::ID_UNROLLED] = gpu::CONSTANT_SCENE_WORDS; // the most for which words may be constants
+    constants[gpu::ID_UNROLLED] = gpu::CONSTANT_SCENE_WORDS; // upper bound
     return constants;
 }
 
 std::uint64_t loop_trips_per_sample(const Features &features) {
-    // The sample loop, the walk of the camera ray and of each further lamp, the first vertex's choice of lamps, the
-    // branches.
+    // The sample loop, walks of the camera ray and to further lamps, the first vertex's choice of lamps, the branches.
     const std::uint64_t walk = loop_trips_per_walk(features);
     const std::uint32_t branches = branch_count(features);
     const std::uint64_t first_vertex = further_lamps(features, branches) * (1 + walk) + lamp_trips(features);
-    // A spot's trips: to see, choose and weigh it, also once per branch, the walk there and one beyond.
+    // To see, choose and weigh a spot, once more per branch, and two walks.
     const std::uint64_t way =
         features[gpu::ID_SPOT_COUNT] > 0
             ? std::uint64_t{4 + branches} * features[gpu::ID_SPOT_COUNT] + 2 * walk + lamp_trips(features)
@@ -255,7 +251,7 @@ double surface_tests_per_ray(const Features &features, const SphereTree *tree) {
 }
 
 double surface_tests_per_path(const Features &features, const SphereTree *tree) {
-    // The camera ray, rays to further lamps, then two rays from each vertex of a branch.
+    // The camera ray, rays to further lamps, two rays per vertex of a branch.
     const std::uint32_t branches = branch_count(features);
     const std::uint64_t vertices = std::uint64_t{branches} * (features[gpu::ID_MAX_PATH_LENGTH] - 1);
     const std::uint32_t by_spot = features[gpu::ID_SPOT_COUNT] > 0 ? 3 : 0; // one to the spot, two from there

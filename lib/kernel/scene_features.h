@@ -1,5 +1,4 @@
-// The features of the kernel that a scene needs; others are left out. Found by gpu_scene; TracePipelines specialises
-// pathtrace.comp with them.
+// The kernel's features that a scene needs. TracePipelines specialises pathtrace.comp with them.
 #pragma once
 
 #include "lib/kernel/kernel_surfaces.h"
@@ -17,9 +16,9 @@
 namespace pt {
 
 struct Features {
-    // Specialization constants by gpu::ID_*, as far as scene, camera and settings decide them.
+    // By gpu::ID_*, so far as scene, camera and settings decide them.
     std::array<std::uint32_t, gpu::CONSTANT_COUNT> constants{};
-    std::uint32_t most_branches = 0;   // of a path's first vertex, by the number of spheres
+    std::uint32_t most_branches = 0;   // from a path's first vertex
     std::uint32_t table_materials = 0; // in the table, if the scene is not in the uniform buffer
 
     bool operator==(const Features &) const = default;
@@ -27,7 +26,7 @@ struct Features {
     std::uint32_t &operator[](std::uint32_t id) { return constants[id]; }
     std::uint32_t operator[](std::uint32_t id) const { return constants[id]; }
 
-    // Whether the scene fits a uniform buffer, with material words for each surface.
+    // The scene then has material words for each surface.
     bool scene_in_uniform() const { return constants[gpu::ID_SCENE_SOURCE] == gpu::SCENE_IN_UNIFORM; }
     // Whether the scene buffer has a motion block.
     bool has_ways() const { return constants[gpu::ID_MOTION] > 0 || constants[gpu::ID_KINDS] > gpu::KIND_BALL; }
@@ -46,13 +45,12 @@ bool samples_lamps(const Features &features);
 // Numbers in each block of a camera ray.
 std::vector<std::uint32_t> camera_blocks(const Features &features);
 
-// Branches from a path's first vertex: light over several vertices brings most of the noise, and camera ray, first
-// vertex and its lamps serve all branches. With more spheres, more of the noise comes from the camera ray, and less of
-// the work is shared: then 2 branches or 1. 2 if spots find most of the light over three vertices and paths have no
-// more. 1 if samples are long jobs by themselves: some drivers stop kernels after 65535 loop trips.
+// Branches share a path's camera ray and first vertex, since later vertices bring most of the noise. Fewer pay with
+// more spheres (2 or 1), and for paths of three vertices lit by spots (2). Samples near a driver's limit of 65535 loop
+// trips have 1.
 std::uint32_t branch_count(const Features &features);
 
-// The table's part of the numbers that a sample's paths consume; empty for samplers without a sequence.
+// The numbers of a sample that come from the table; empty without a sequence.
 PointLayout point_layout(const Features &features);
 
 // By constant_id.
@@ -64,10 +62,9 @@ std::uint64_t loop_trips_per_sample(const Features &features);
 // For one ray, or two rays that leave the same vertex.
 std::uint64_t loop_trips_per_walk(const Features &features);
 
-// Cost of a path of full length in ray-surface tests, to within a small factor. tree: NULL without.
+// Ray-surface tests of a path of full length, roughly. tree: may be NULL.
 double surface_tests_per_path(const Features &features, const SphereTree *tree);
 
-// The same for a single ray.
 double surface_tests_per_ray(const Features &features, const SphereTree *tree);
 
 // As PT_FEATURE_* bits.

@@ -1,5 +1,4 @@
-// A kernel beside the path tracer's that reads the scene and is also specialised to it. Owned by FirstHits and
-// Coverage.
+// Another kernel that reads the scene and is specialised to it. Owned by FirstHits and Coverage.
 #pragma once
 
 #include "lib/kernel/gpu_scene.h"
@@ -15,8 +14,8 @@
 
 namespace pt {
 
-// A scene's bindings, before further ones, and their buffers. words: the scene buffer; tree: the tree buffer, NULL
-// without. Scenes without a tree have the same bindings.
+// The scene's bindings, before further ones, and their buffers. words: the scene buffer. tree: the tree buffer, or
+// NULL; the bindings do not depend on it.
 std::vector<vulkan::Binding> with_scene_bindings(std::initializer_list<vulkan::Binding> further);
 std::vector<vulkan::BufferRange> scene_ranges(const GpuScene &scene, const vulkan::Buffer &words,
                                               const vulkan::Buffer *tree);
@@ -41,7 +40,7 @@ public:
     void dispatch(const vk::raii::CommandBuffer &commands, const vulkan::DescriptorSet &set,
                   std::span<const std::byte> push_constants, std::uint64_t invocations) const;
 
-    // Pixels per submission: limited by a dispatch, and by `rays`, with rays_of_pixel each.
+    // Pixels per submission, limited by a dispatch and by `rays`.
     std::uint64_t pixels_at_once(std::uint64_t pixels, std::uint32_t rays_of_pixel, double rays) const;
 
 private:
@@ -49,14 +48,14 @@ private:
     std::span<const std::uint32_t> code_;
     std::vector<vulkan::Binding> bindings_;
     std::uint32_t push_constant_bytes_;
-    std::vector<std::uint32_t> constants_; // of the pipeline
+    std::vector<std::uint32_t> constants_;
     std::optional<vulkan::ComputePipeline> pipeline_;
 };
 
 // Rays that amount to these ray-surface tests; at least one.
 double rays_for(double tests, const GpuScene &scene);
 
-// Throws PT_ERROR_INTERNAL if a driver lost rays of some pixels.
+// Throws PT_ERROR_INTERNAL unless 0.
 void require_all_met(std::uint32_t lost_pixels);
 
 } // namespace pt

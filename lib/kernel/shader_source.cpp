@@ -23,8 +23,8 @@ namespace pt {
 
 namespace {
 
-// Looks beside the library, so that an installed tree can be moved, then on the system's path, but never in the working
-// directory. The module stays loaded, because glslang keeps tables for the next compilation.
+// Looks beside the library, so that an installed tree can be moved, then on the system's path, never in the working
+// directory. The module stays loaded, since glslang keeps tables.
 pt_compile_glsl_fn load_compiler(const std::string &shader_directory) {
     const std::filesystem::path folder = platform::folder_with(reinterpret_cast<const void *>(&load_compiler));
     const std::filesystem::path name = platform::module_file("pt-glsl");
@@ -72,7 +72,7 @@ std::vector<std::uint32_t> compile(pt_compile_glsl_fn compiler, const std::strin
     return words;
 }
 
-// words: of each kernel, in the members' order.
+// words: by kernel, in the members' order.
 KernelCode code_of(std::vector<std::vector<std::uint32_t>> words) {
     const auto kept = std::make_shared<const std::vector<std::vector<std::uint32_t>>>(std::move(words));
     const auto &of = *kept;

@@ -1,5 +1,4 @@
-// The kernels' SPIR-V: embedded in the library, or compiled from GLSL files. Owned by Renderer; its devices make
-// pipelines of it.
+// The kernels' SPIR-V, embedded in the library or compiled from GLSL files. Owned by Renderer.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +18,7 @@ struct KernelCode {
     std::span<const std::uint32_t> accuracy;
     std::span<const std::uint32_t> first_hit;
     std::span<const std::uint32_t> coverage;
-    std::shared_ptr<const std::vector<std::vector<std::uint32_t>>> words; // owns the words of all members
+    std::shared_ptr<const std::vector<std::vector<std::uint32_t>>> words; // owns the members' words
 
     bool operator==(const KernelCode &other) const { return *words == *other.words; }
 };
@@ -31,8 +30,7 @@ std::string digest_of(const KernelCode &code);
 
 class ShaderSource {
 public:
-    // A folder with pathtrace.comp, fold.comp, add.comp, resolve.comp, estimate.comp, accuracy.comp,
-    // first_hit.comp, coverage.comp and what they include; empty: the embedded code.
+    // directory: of the GLSL files, one .comp per member of KernelCode; empty: the embedded code.
     explicit ShaderSource(std::string directory) : directory_(std::move(directory)) {}
 
     bool is_embedded() const { return directory_.empty(); }

@@ -59,19 +59,17 @@ bool ends_block(Opcode opcode) {
     return opcode >= OpBranch && opcode <= OpUnreachable;
 }
 
-// Knowledge about an id; members apply to certain kinds.
 struct Fact {
     std::optional<std::uint32_t> value; // of a constant of 32 bits, or a Boolean
     std::optional<std::uint32_t> spec_id;
     std::uint32_t place = 0; // offset of a block or function
-    std::uint32_t taken = 0; // the block's branch, if its condition is a constant; else 0
+    std::uint32_t taken = 0; // the only branch of a block with a constant condition, else 0
     bool is_reached = false; // a block by branches, a function by calls
     bool is_merge = false;   // a kept instruction names the block as a merge block
-    bool is_there = false;   // in the kept code
+    bool is_there = false;
 };
 
-// Evaluates constants, finds the blocks and functions that are reached, and writes what is kept. Knows only opcodes of
-// constants, blocks and branches. Facts are an array by id, which takes few allocations. Throws Unknown.
+// Evaluates constants, then finds and writes reachable blocks and functions. Throws Unknown.
 class Specialiser {
 public:
     Specialiser(Words code, Words constants) : code_(code), constants_(constants), facts_(code[bound_word]) {
@@ -176,8 +174,8 @@ private:
         return result_of(instruction[3], operand);
     }
 
-    // Goes from a function to its first block, or from a block to its calls and branches. An `if` with a constant
-    // condition has one branch; branches that end a loop stay.
+    // Follows a function to its first block, or a block to its calls and branches. A constant `if` has one branch;
+    // branches that end a loop stay.
     void follow(std::uint32_t id) {
         const std::size_t place = fact(id).place;
         if (place == 0)
@@ -187,7 +185,7 @@ private:
             switch (opcode_of(instruction)) {
             case OpLabel:
                 if (offset != place)
-                    reach(instruction[1]); // the function's first block
+                    reach(instruction[1]);
                 return offset == place;
             case OpFunctionCall:
                 reach(instruction[3]);
@@ -234,8 +232,8 @@ private:
         });
     }
 
-    // Most instructions have their result in word 2. Others have there the result of another kept instruction, so
-    // noting it does no harm.
+    // Most instructions have their result in word 2. The others have another kept instruction's result there, noted
+    // twice.
     void note_result(Words instruction, std::uint32_t block) {
         const Opcode opcode = opcode_of(instruction);
         if (block != 0 && !fact(block).is_reached)
@@ -306,7 +304,7 @@ private:
         }
     }
 
-    // Without values from blocks that no longer branch here.
+    // Drops values from blocks that no longer branch here.
     void write_phi(Words phi, std::uint32_t block) {
         const std::size_t start = result_.size();
         put(phi.first(3));
@@ -320,8 +318,8 @@ private:
 
     Words code_;
     Words constants_;
-    std::vector<Fact> facts_;            // by id
-    std::vector<std::uint32_t> waiting_; // reached, but not yet followed
+    std::vector<Fact> facts_;
+    std::vector<std::uint32_t> waiting_;
     std::uint32_t boolean_type_ = 0;
     std::vector<std::uint32_t> result_;
 };
@@ -332,7 +330,7 @@ private:
 
 std::vector<std::uint32_t> specialised_code(std::span<const std::uint32_t> spirv,
                                             std::span<const std::uint32_t> constants) {
-    constexpr std::uint32_t most_ids = 1U << 22; // the limit that the specification asks implementations to take
+    constexpr std::uint32_t most_ids = 1U << 22; // least limit by the specification
     if (spirv.size() < spirv::header_words || spirv[spirv::bound_word] > most_ids)
         return {};
     try {

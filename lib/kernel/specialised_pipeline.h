@@ -1,4 +1,4 @@
-// Makes pipelines of specialised code. Used for every kernel that traces rays.
+// Makes pipelines of specialised code, for kernels that trace rays.
 #pragma once
 
 #include "lib/kernel/point_sequence.h"

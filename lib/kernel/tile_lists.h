@@ -28,7 +28,7 @@ public:
 
     const vulkan::Buffer &buffer() const { return entries_; }
 
-    // First entry for these tiles, which ascend. Valid until queue_depth more slices have begun.
+    // tiles: ascending. Valid until queue_depth more slices have begun.
     std::uint32_t first_entry(std::span<const std::uint32_t> tiles) {
         if (tiles.back() - tiles.front() == tiles.size() - 1)
             return tiles.front();
@@ -46,8 +46,8 @@ private:
 
     std::uint32_t tile_count_;
     std::uint32_t slice_lists_;
-    std::uint32_t next_list_ = 0; // among the slices' lists
-    vulkan::Buffer entries_;      // all tiles, then lists for slices of nonconsecutive tiles
+    std::uint32_t next_list_ = 0;
+    vulkan::Buffer entries_; // all tiles, then a list per slice of nonconsecutive tiles
 };
 
 } // namespace pt

@@ -10,9 +10,9 @@ namespace pt {
 
 struct TileSlice {
     std::span<const std::uint32_t> tiles; // ascending
-    SampleRange before;                   // hull of the samples that the tiles have; empty if none
+    SampleRange before;                   // hull of the samples that the tiles have; may be empty
     SampleRange samples;
-    bool takes; // false: only makes room for the samples, which another device takes
+    bool takes; // false: only makes room for samples of another device
 
     std::uint64_t split() const { return split_of(hull_of(before, samples)); }
 

@@ -44,7 +44,7 @@ TracePipelines::TracePipelines(vulkan::Device &device, KernelCode code) :
     code_(std::move(code)),
     kernel_key_(device.kernel_key(digest_of(code_))) {}
 
-// Evicts the least recently used.
+// Evicts the least recently used kernel.
 const vulkan::ComputePipeline &TracePipelines::build(std::vector<std::uint32_t> constants) {
     using Clock = std::chrono::steady_clock;
     const Clock::time_point start = Clock::now();
@@ -70,7 +70,7 @@ const vulkan::ComputePipeline *TracePipelines::find(const std::vector<std::uint3
     return &found->pipeline;
 }
 
-// The time of the scene's own kernel is judged once another scene comes.
+// The own kernel's time counts once another scene comes.
 void TracePipelines::note_own(const std::vector<std::uint32_t> &constants, double seconds) {
     if (!own_)
         return;

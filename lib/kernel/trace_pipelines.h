@@ -1,4 +1,4 @@
-// The specialised pipelines of pathtrace.comp, and the one of fold.comp. Owned by RenderDevice, used by Kernel.
+// The specialised pipelines of pathtrace.comp, and fold.comp's. Owned by RenderDevice.
 #pragma once
 
 #include "lib/kernel/own_kernel_clock.h"
@@ -21,24 +21,22 @@ namespace pt {
 // All pipelines have the same bindings, so one descriptor set serves all.
 class TracePipelines {
 public:
-    // Kept kernels of pathtrace.comp, for scenes that alternate, each perhaps with one of its own. Work under way uses
-    // at most the last two.
+    // For scenes that alternate. Work under way uses at most the last two.
     static constexpr std::size_t most_kept = 8;
 
     // The device must outlive the pipelines.
     explicit TracePipelines(vulkan::Device &device, KernelCode code = embedded_code());
 
-    // Takes the key of the driver's kernels for this code and device, once.
+    // Takes the driver cache's key for this code and device, once.
     std::string take_kernel_key() noexcept { return std::move(kernel_key_); }
 
-    // Returns the kernel for scenes with these features or, where that is faster, one for this scene alone; both give
-    // the same bits. The first scene gets its own at once, since some kernel must be built anyway; others after a while
-    // (own_kernel_clock.h). words: the scene buffer; seconds: how long scene and camera have been rendered unchanged.
-    // The reference holds until the next call.
+    // Returns the kernel for scenes with these features or, where faster, one for this scene alone; both compute the
+    // same bits. The first scene gets its own at once, since some kernel must be built; others wait
+    // (own_kernel_clock.h). words: the scene buffer. seconds: time for which the scene has been rendered. Valid until
+    // the next call.
     const vulkan::ComputePipeline &trace(const Features &features, std::span<const glm::vec4> words, double seconds);
 
-    // When scenes get kernels of their own: as they pay; at once, for callers that prepare ahead; or never, as in
-    // polls.
+    // When scenes get kernels of their own. at_once: for callers that prepare ahead. never: for polls.
     enum class OwnKernels { when_they_pay, at_once, never };
     void build_own(OwnKernels when) { own_kernels_ = when; }
 
