@@ -1,4 +1,4 @@
-// The commands of the program, each in a folder of its own. Each function adds one command with its options.
+// Each function adds one command with its options.
 #pragma once
 
 #include "cli/base/options.h"

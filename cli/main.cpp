@@ -1,4 +1,4 @@
-// The program `pt`: what surrounds its command. Turns every exception into an exit code.
+// The program `pt`: turns exceptions into exit codes.
 #include "cli/base/exit_code.h"
 #include "cli/base/text.h"
 #include "cli/program.h"
@@ -21,7 +21,7 @@ int fail(cli::ExitCode code, const std::string &message) {
 } // namespace
 
 int main(int argument_count, char **arguments) {
-    // CLI11 allocates memory in functions that it has declared noexcept.
+    // CLI11 allocates in noexcept functions.
     std::set_terminate([] {
         std::fputs("pt: out of memory, or an internal error\n", stderr);
         std::_Exit(static_cast<int>(cli::ExitCode::internal));
@@ -37,7 +37,7 @@ int main(int argument_count, char **arguments) {
     } catch (const std::exception &error) {
         return fail(cli::ExitCode::internal, std::string("internal error: ") + error.what());
     }
-    // An earlier failure takes precedence, for example the signal of a terminal that was closed.
+    // An earlier failure takes precedence, such as the signal of a closed terminal.
     if (!std::cout.flush()) {
         const int output_code = fail(cli::ExitCode::file, "cannot write to standard output");
         return code == 0 ? output_code : code;

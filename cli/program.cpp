@@ -1,4 +1,3 @@
-// The choice of the command; see program.h.
 #include "cli/program.h"
 
 #include "cli/base/devices.h"
@@ -20,7 +19,7 @@ namespace cli {
 
 namespace {
 
-// Has `pt-NAME` take this program's place and returns its exit code. Returns nothing if there is no such program.
+// Replaces this program by `pt-NAME`, if that exists.
 std::optional<int> run_other_program(std::string_view name, char *const *arguments) {
     const std::filesystem::path program = platform::find_program("pt-" + std::string(name));
     if (program.empty())
@@ -30,14 +29,13 @@ std::optional<int> run_other_program(std::string_view name, char *const *argumen
     return code;
 }
 
-// Whether a word may follow `pt-` in the name of a program: files and paths may not.
+// Names of files and paths may not.
 bool may_name_program(std::string_view name) {
     constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_";
     return !name.empty() && name.front() != '-' && name.find_first_not_of(letters) == std::string_view::npos;
 }
 
-// The argument of pip install that installs the program of that name; empty for programs that do not belong to this
-// project.
+// The argument of pip install, or empty for a program outside this project.
 std::string_view package_of(std::string_view name) {
     return name == "figure"    ? "'./lib/python[figure]'"
            : name == "tachyon" ? "./lib/python"
@@ -52,7 +50,7 @@ int run_program(int argument_count, char **arguments) {
     CLI::App program("An offscreen path tracer for spheres and planes on any Vulkan device", "pt");
     Run chosen;
     program.require_subcommand(0, 1);
-    program.allow_windows_style_options(false); // what begins with / is a path
+    program.allow_windows_style_options(false); // /path is no option
     program.formatter(help_formatter());
     program.footer("pt NAME runs the program pt-NAME, where NAME is none of these commands: figure, farm and tachyon\n"
                    "come with the Python package.\n\n" +
@@ -78,7 +76,7 @@ int run_program(int argument_count, char **arguments) {
         program.parse(argument_count, arguments);
     } catch (const CLI::ParseError &error) {
         if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success))
-            return program.exit(error); // --help and --version
+            return program.exit(error);
         throw Failure(ExitCode::usage, usage_reason(program, error));
     }
     if (!chosen)

@@ -1,4 +1,4 @@
-// A pt_context that throws Failure, and the library's last error, in the user's own names.
+// A pt_context that throws Failure, and the library's errors in the user's own names.
 #pragma once
 
 #include "cli/base/environment.h"
@@ -22,7 +22,6 @@
 
 namespace cli {
 
-// With struct_size set.
 template <typename Struct>
 constexpr Struct sized() {
     Struct value{};
@@ -30,7 +29,7 @@ constexpr Struct sized() {
     return value;
 }
 
-// pt_broken_rule, owned.
+// An owned pt_broken_rule.
 struct BrokenRule {
     std::string subject{};
     std::optional<std::size_t> index{};
@@ -41,10 +40,9 @@ struct BrokenRule {
     std::string rule{};
 };
 
-// "--size: width * height = 0: must be >= 1"
 std::string rule_text(const std::string &field, const BrokenRule &rule);
 
-// "spheres[3].center[0]": the library's name.
+// "spheres[3].center[0]".
 std::string field_text(const BrokenRule &rule);
 
 // "--size: width"; nullptr if no option sets the field.
@@ -53,28 +51,28 @@ const char *find_option(const BrokenRule &rule);
 struct LibraryError {
     std::string message;
     std::vector<BrokenRule> rules; // empty if the message concerns no field
-    std::uint64_t left_out = 0;    // further rules, known by number only
+    std::uint64_t left_out = 0;    // further rules, not stored
 
-    // A line per rule in the function's words; the message without rules.
+    // One line per rule; without rules the message.
     std::string in_words(const std::function<std::string(const BrokenRule &)> &words) const;
 };
 
-// A rule of the library; nothing if it has no subject.
+// Empty if the rule has no subject.
 std::optional<BrokenRule> broken_rule(const pt_broken_rule &rule);
 
-// "--size: width = 0: must be >= 1"; the library's name without an option.
+// "--size: width = 0: must be >= 1"
 std::string in_words_of_options(const BrokenRule &rule);
 
-// NULL: this thread's, without a context.
+// context NULL: the thread's last error.
 LibraryError last_error(const pt_context *context);
 
 class Context {
 public:
-    // Keeps kernels in the user's cache. Changes the environment, which is unsafe while other threads run.
+    // Keeps kernels in the user's cache. Not while other threads run: it sets environment variables.
     explicit Context(pt_create_info info) : shader_dir_(info.shader_dir == nullptr ? "" : info.shader_dir) {
         choose_vector_width();
         kernels_.serve(info);
-        const EndAtOnce compiling; // shaders may take as long as they like
+        const EndAtOnce compiling; // compiling may take long
         const pt_result result = pt_create(&info, &context_);
         if (result < 0)
             fail(result, cli::last_error(nullptr));
@@ -91,7 +89,7 @@ public:
         require(pt_reload_shaders(context_));
     }
 
-    // For calls whose arguments do not come from the scene file.
+    // For calls without arguments of the user.
     void require(pt_result result) const {
         if (result < 0)
             fail(result, last_error());
@@ -103,7 +101,6 @@ public:
         return stats;
     }
 
-    // About what the camera sees.
     std::optional<BrokenRule> warning() const {
         auto rule = sized<pt_broken_rule>();
         require(pt_get_warning(context_, &rule));
@@ -116,7 +113,7 @@ public:
         return error;
     }
 
-    // quantity: PT_QUANTITY_*. Floats have three components per pixel; object numbers one.
+    // Floats have three components per pixel, object numbers one.
     template <typename Number>
     void read(std::uint32_t first, std::uint32_t count, std::uint32_t rows, std::uint32_t quantity,
               Number *values) const {
@@ -142,7 +139,7 @@ private:
                                                        : ""));
     }
 
-    // Shaders of --shader-dir belong to the user, like a scene file. Their compiler is a file.
+    // Blames the user's shaders like a scene file, and a missing compiler like a missing file.
     ExitCode code_of(pt_result result, const LibraryError &error) const {
         if (result == PT_ERROR_SHADER && !shader_dir_.empty())
             return ExitCode::scene;
@@ -155,7 +152,7 @@ private:
         return cache.empty() ? cache : cache / "kernels";
     }
 
-    std::string shader_dir_;              // empty: the library's
+    std::string shader_dir_;
     KernelFolder kernels_{kernel_path()}; // outlives the context
     pt_context *context_ = nullptr;
 };

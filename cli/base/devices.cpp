@@ -69,7 +69,7 @@ void print_json(const std::vector<pt_device_info> &devices) {
 }
 
 int run_devices(bool as_json) {
-    choose_vector_width(); // it is part of llvmpipe's name
+    choose_vector_width(); // part of llvmpipe's name
     const std::vector<pt_device_info> devices = list_devices();
     if (as_json)
         print_json(devices);
@@ -100,7 +100,7 @@ nlohmann::ordered_json device_json(const pt_device_info &device) {
 
 std::string memory_text(std::uint64_t bytes) {
     static constexpr std::array<const char *, 6> larger_units{"KiB", "MiB", "GiB", "TiB", "PiB", "EiB"};
-    constexpr double rounds_to_1024 = 1023.95; // with one decimal
+    constexpr double rounds_to_1024 = 1023.95;
     if (bytes < 1024)
         return std::to_string(bytes) + " B";
     double count = static_cast<double>(bytes) / 1024.0;

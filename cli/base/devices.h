@@ -13,7 +13,7 @@ std::string kind_name(std::uint32_t kind);
 
 nlohmann::ordered_json device_json(const pt_device_info &device);
 
-// "7.7 GiB", "480 B": at least one of its unit.
+// "7.7 GiB", "480 B"
 std::string memory_text(std::uint64_t bytes);
 
 std::string version_text();

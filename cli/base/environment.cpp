@@ -11,7 +11,7 @@
 namespace cli {
 namespace {
 
-// Asks the processor: the compiler's builtin lacks its runtime in Zig.
+// The compiler's builtin lacks its runtime in Zig.
 bool has_avx512() {
 #if defined(__x86_64__)
     constexpr unsigned int needed = bit_AVX512F | bit_AVX512BW | bit_AVX512DQ | bit_AVX512VL;
@@ -32,8 +32,7 @@ std::filesystem::path user_cache() {
     return folder.empty() ? folder : folder / "pt";
 }
 
-// Gives vectors of 512 bits their own cache of compiled shaders. Mesa's keys ignore the width (22.3.6 and 25.0.7), so
-// it would use code for 256 bits. Films differ by the device's name, which has the width.
+// Mesa's cache keys ignore the vector width (22.3.6, 25.0.7), so each width needs a cache of its own.
 void widen_vectors() {
     constexpr const char *width_name = "LP_NATIVE_VECTOR_WIDTH";
     constexpr const char *cache_name = "MESA_SHADER_CACHE_DIR";
@@ -45,9 +44,9 @@ void widen_vectors() {
     std::error_code error;
     if (!cache.empty())
         std::filesystem::create_directories(cache / "shaders-512",
-                                            error); // Mesa creates only the last folder of a path
+                                            error); // Mesa creates only the last folder
     if (cache.empty() || error)
-        platform::set_environment("MESA_SHADER_CACHE_DISABLE", "true"); // every start compiles anew
+        platform::set_environment("MESA_SHADER_CACHE_DISABLE", "true");
     else
         platform::set_environment(cache_name, (cache / "shaders-512").string().c_str());
 }

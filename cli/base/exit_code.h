@@ -10,7 +10,7 @@ namespace cli {
 
 enum class ExitCode {
     done = 0,
-    internal = 1, // a wrong computation of program, library, driver or device
+    internal = 1, // a wrong result of program, driver or device
     usage = 2,
     scene = 3,
     no_device = 4,
@@ -18,7 +18,7 @@ enum class ExitCode {
     file = 6,
     target_missed = 7,
     images_differ = 8,
-    resumable = 75, // EX_TEMPFAIL of sysexits.h, after which schedulers retry
+    resumable = 75, // EX_TEMPFAIL of sysexits.h: schedulers retry
     signal = 128    // plus the signal's number
 };
 
@@ -58,15 +58,14 @@ constexpr int exit_code_of_signal(int signal) {
     return static_cast<int>(ExitCode::signal) + signal;
 }
 
-// Failed calls without arguments of the user; others mean usage or scene.
+// For failed calls without arguments of the user.
 constexpr ExitCode exit_code_of(pt_result result) {
     switch (result) {
     case PT_ERROR_INVALID_ARGUMENT:
-    case PT_ERROR_INCOMPATIBLE: // films of different images
+    case PT_ERROR_INCOMPATIBLE:
         return ExitCode::usage;
     case PT_ERROR_INVALID_SCENE:
         return ExitCode::scene;
-    // Another device or driver may work.
     case PT_ERROR_UNSUPPORTED:
     case PT_ERROR_NO_DEVICE:
     case PT_ERROR_OUT_OF_DEVICE_MEMORY:

@@ -12,7 +12,6 @@
 namespace cli {
 namespace {
 
-// Whether temporary_name() could have made it.
 bool is_temporary_name(const std::string &name) {
     int end = 0;
     std::sscanf(name.c_str(), ".pt-%*[0-9]-%*[0-9].tmp%n", &end);
@@ -25,16 +24,16 @@ fs::path folder_of(const fs::path &path) {
     return path.has_parent_path() ? path.parent_path() : ".";
 }
 
-// Empty if there is no file. A terminal may be read and written at once.
+// Empty if there is no file. A terminal may be input and output at once.
 fs::path target_of(const NamedFile &file, bool is_input) {
     if (file.path != standard_stream)
         return file.path;
     if (is_input)
         return platform::regular_size(platform::standard_input) ? "/dev/stdin" : "";
-    return "/dev/stdout"; // any target: two reports on one stream would mix
+    return "/dev/stdout"; // two reports on one stream would mix
 }
 
-// One file, or one once written: the same name in the same folder.
+// The same name in the same folder, or one existing file.
 bool is_same(const fs::path &one, const fs::path &other) {
     std::error_code error;
     if (one.empty() || other.empty() || one == other)
@@ -48,7 +47,7 @@ bool is_same(const fs::path &one, const fs::path &other) {
 
 } // namespace
 
-// Short: a target's own name may already have the longest permitted length.
+// Short, because the target's name may already have the longest length.
 std::string temporary_name(int attempt) {
     return ".pt-" + std::to_string(platform::process_number()) + "-" + std::to_string(attempt) + ".tmp";
 }
@@ -70,12 +69,12 @@ AtomicFile::~AtomicFile() {
     if (!file_.is_open())
         return;
     std::error_code ignored;
-    file_.close(); // some systems remove closed files only
+    file_.close(); // some systems remove only closed files
     fs::remove(temporary_, ignored);
 }
 
 std::filesystem::path AtomicFile::target_of(const std::string &path) {
-    constexpr int most_links = 40; // Linux follows no more (path_resolution(7))
+    constexpr int most_links = 40; // Linux's limit (path_resolution(7))
     std::filesystem::path target = path;
     std::error_code error;
     for (int i = 0; i < most_links && is_symlink(fs::symlink_status(target, error)); ++i) {
@@ -98,7 +97,7 @@ void AtomicFile::fail(int error) const {
     throw Failure(ExitCode::file, "cannot write " + path_ + ": " + std::generic_category().message(error));
 }
 
-// A rename would silently replace a file that the user may not write, or a device by a regular file.
+// A rename would replace a write-protected file, or a device by a regular file.
 void AtomicFile::refuse_unsuitable_target() const {
     std::error_code error;
     const fs::file_status status = fs::status(target_, error);
@@ -177,7 +176,7 @@ void OutputFile::commit() {
     if (file_) {
         file_->commit();
     } else if (!std::cout.flush()) {
-        std::cout.clear(); // reported now, not again at the program's end
+        std::cout.clear(); // not reported again at the program's end
         throw Failure(ExitCode::file, "cannot write to standard output");
     }
 }
@@ -217,7 +216,7 @@ std::string read_text(const std::string &path) {
 }
 
 std::string_view require_text(std::string_view contents, const std::string &path) {
-    constexpr std::string_view byte_order_mark = "\xef\xbb\xbf"; // of UTF-8
+    constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
     if (const std::size_t zero = contents.find('\0'); zero != std::string_view::npos) {
         throw Failure(ExitCode::scene,
                       path + ":" + line_and_column(contents.substr(0, zero)) + ": a NUL byte: this is not UTF-8 text");
@@ -228,7 +227,7 @@ std::string_view require_text(std::string_view contents, const std::string &path
 
 std::string line_and_column(std::string_view before) {
     const auto line = std::count(before.begin(), before.end(), '\n') + 1;
-    const std::size_t line_start = before.rfind('\n') + 1; // npos + 1 = 0: the first line
+    const std::size_t line_start = before.rfind('\n') + 1;
     return std::to_string(line) + ":" + std::to_string(before.size() - line_start + 1);
 }
 

@@ -17,7 +17,7 @@ static_assert(decltype(noted_signal)::is_always_lock_free && decltype(noted_at):
                   decltype(noted_picture_request)::is_always_lock_free && decltype(ends_at_once)::is_always_lock_free,
               "only lock-free atomics are safe in a signal handler");
 
-// timeout(1) signals the program and its process group, so the signal comes twice at once.
+// timeout(1) signals the program and its process group: the signal comes twice at once.
 bool note_signal(int signal) {
     constexpr std::int64_t same_cause = 1'000'000'000;
     const std::int64_t now = std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);

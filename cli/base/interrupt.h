@@ -1,16 +1,14 @@
-// Signals set flags: SIGINT, SIGTERM and SIGHUP (a closing terminal's) end a rendering, SIGUSR1 requests the picture so
-// far.
+// Flags set by signals: SIGINT, SIGTERM and SIGHUP end a rendering, SIGUSR1 requests a preview.
 #pragma once
 
 #include <string>
 
 namespace cli {
 
-// The first ending signal is noted; another one, a second or more later, ends the program at once, in case a driver
-// hangs. SIGUSR1 ends the program before this call.
+// Notes the first ending signal. Another one a second later ends the program at once, in case a driver hangs.
 void catch_signals();
 
-// While one lives, a signal ends the program at once: for waits in which nothing can be lost.
+// While an object lives, a signal ends the program at once.
 class EndAtOnce {
 public:
     EndAtOnce();
@@ -22,7 +20,6 @@ public:
 // 0: none.
 int interrupt_signal();
 
-// "SIGINT"
 std::string interrupt_name();
 
 // Since the last forget_picture_request().

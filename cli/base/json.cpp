@@ -16,12 +16,10 @@ bool is_identifier_letter(char letter) {
     return std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '_';
 }
 
-// Length of the identifier at the beginning.
 std::size_t identifier_length(std::string_view text) {
     return static_cast<std::size_t>(std::find_if_not(text.begin(), text.end(), is_identifier_letter) - text.begin());
 }
 
-// A number or a quoted key.
 std::optional<JsonStep> parse_bracketed(std::string_view text) {
     if (text.starts_with('"')) {
         const json key = json::parse(text, nullptr, false);
@@ -31,7 +29,7 @@ std::optional<JsonStep> parse_bracketed(std::string_view text) {
     return index ? std::optional(JsonStep{{}, *index, true}) : std::nullopt;
 }
 
-// The length before the closing bracket; empty if that is missing.
+// Empty without a closing bracket.
 std::optional<std::size_t> bracketed_length(std::string_view text) {
     bool is_quoted = false;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -82,7 +80,7 @@ bool is_in_range(const ValueRule &rule, double number) {
            (number >= rule.least && number <= rule.largest && !(rule.excludes_largest && number == rule.largest));
 }
 
-// Numbers beyond 2^64 cannot be converted.
+// Numbers from 2^64 on do not fit.
 bool is_whole_number(const json &value) {
     const double number = value.is_number() ? value.get<double>() : -1.0;
     return value.is_number_integer() || (value.is_number_float() && number < 0x1p64 && number == std::floor(number));

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A key must not lead elsewhere.
+// Keys are file names, so they must not contain paths.
 bool is_key(const std::string &key) {
     return !key.empty() && key.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
@@ -31,7 +31,7 @@ void store_kernels(void *user, const char *key, const void *data, std::uint64_t 
     try {
         static_cast<const KernelFolder *>(user)->store(key, {static_cast<const std::byte *>(data), size_bytes});
     } catch (const std::exception &) {
-        return; // the next start is as slow as this one
+        return; // the next start compiles again
     }
 }
 
@@ -41,7 +41,7 @@ struct KeptFile {
     fs::file_time_type last_use;
 };
 
-// Includes foreign files, such as a killed process's temporary file.
+// Also foreign files, such as a killed process's temporary file.
 std::vector<KeptFile> files_in(const fs::path &folder) {
     std::vector<KeptFile> files;
     std::error_code error;

@@ -1,4 +1,4 @@
-// A cache of drivers' compiled kernels. Without access the program silently does without.
+// Caches compiled kernels in files. Without access the program silently compiles each time.
 #pragma once
 
 #include <pt/pt.h>
@@ -13,17 +13,16 @@ namespace cli {
 
 class KernelFolder {
 public:
-    // A file per device, driver and version of this program; the least recently used makes room.
+    // The least recently used makes room.
     static constexpr std::size_t most_files = 32;
-    static constexpr std::uint64_t most_bytes = std::uint64_t{64} << 20; // in all
+    static constexpr std::uint64_t most_bytes = std::uint64_t{64} << 20;
 
-    // An empty path keeps nothing. The folder need not exist.
+    // Empty: no cache. The folder need not exist.
     explicit KernelFolder(std::filesystem::path path) : path_(std::move(path)) {}
 
-    // Returns the data's size; writes to bytes if there is room.
+    // Returns the data's size; fills bytes if they suffice.
     std::uint64_t load(const std::string &key, std::span<std::byte> bytes) const;
 
-    // Whole or not at all.
     void store(const std::string &key, std::span<const std::byte> bytes) const;
 
     // The folder must outlive the context.

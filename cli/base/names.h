@@ -1,4 +1,4 @@
-// Values by names, and the probable meaning of misspelt ones.
+// Values by names, and suggestions for misspelt ones.
 #pragma once
 
 #include <algorithm>
@@ -47,10 +47,10 @@ private:
 template <std::size_t Count>
 ValueNames(const Named<std::uint32_t> (&)[Count]) -> ValueNames<Count>;
 
-// The known name with the fewest edits; empty if none is close.
+// Empty if no name is close.
 std::string_view nearest_name(std::string_view name, std::span<const std::string_view> known);
 
-// `unknown key "raduis", did you mean "radius"?` Without a near name it gives short lists whole.
+// `unknown key "raduis", did you mean "radius"?`, or a short list of all names.
 std::string unknown_name(std::string_view kind, std::string_view name, std::span<const std::string_view> known);
 
 } // namespace cli

@@ -1,4 +1,4 @@
-// Numbers of options: the whole text or nothing, no octal, no overflow.
+// Numbers of options: the whole text must be a number; no octal, no overflow.
 #pragma once
 
 #include <algorithm>
@@ -26,8 +26,7 @@ std::optional<Number> parse_number(std::string_view text) {
     return number;
 }
 
-// The shortest text that reads back as the number, but whole numbers of up to 15 digits with all of them: "-300000",
-// "1e+39".
+// Shortest exact text; whole numbers below 1e15 without exponent.
 inline std::string number_text(double number) {
     if (std::abs(number) < 1e15 && number == std::trunc(number))
         return std::to_string(static_cast<std::int64_t>(number));
@@ -43,7 +42,6 @@ inline std::optional<double> parse_share(std::string_view text) {
     return number && percent ? std::optional(*number / 100.0) : number;
 }
 
-// "1920x1080"
 template <std::size_t Count>
 std::optional<std::array<std::uint32_t, Count>> parse_numbers(std::string_view text, char mark) {
     std::array<std::uint32_t, Count> numbers{};

@@ -27,7 +27,6 @@ std::string type_name(const ValueRule &rule) {
     }
 }
 
-// Wraps at 100 characters.
 std::string wrapped(const std::string &text, std::size_t first_column) {
     constexpr std::size_t width = 100;
     std::string lines;
@@ -69,7 +68,6 @@ std::string unknown(std::string_view kind, std::string_view name, const std::vec
     return unknown_name(kind, name, std::vector<std::string_view>(known.begin(), known.end()));
 }
 
-// Empty if no command reads files with that ending.
 std::string_view command_that_reads(std::string_view name) {
     return name.ends_with(".json")     ? "render"
            : name.ends_with(".ptfilm") ? "merge"
@@ -77,7 +75,7 @@ std::string_view command_that_reads(std::string_view name) {
                                        : "";
 }
 
-// `unknown option "--expsure", did you mean "--exposure"?`; empty without a leftover argument.
+// Empty without a leftover argument.
 std::optional<std::string> unknown_argument(const CLI::App &command) {
     const std::vector<std::string> left_over = command.remaining();
     if (left_over.empty())
@@ -93,7 +91,7 @@ std::optional<std::string> unknown_argument(const CLI::App &command) {
                           : concat("unknown command \"", first, "\", did you mean \"pt ", reader, " ", first, "\"?");
 }
 
-// "--spp: is given 2 times, must be given once": the name is the beginning of CLI11's message.
+// CLI11's message begins with the option's name.
 std::string mismatch_text(const CLI::App &command, const std::string &message) {
     const std::string name = message.substr(0, message.find(':'));
     const CLI::Option *option = command.get_option_no_throw(name);
@@ -128,7 +126,7 @@ public:
     std::string make_option(const CLI::Option *option, bool is_positional) const override {
         const std::string value = is_positional ? "" : make_option_opts(option);
         const std::string others = related("needs", option->get_needs()) + related("not with", option->get_excludes());
-        std::string name = make_option_name(option, is_positional); // "--flag{default}": the value is optional
+        std::string name = make_option_name(option, is_positional);
         name = CLI::detail::find_and_replace(CLI::detail::find_and_replace(std::move(name), "{", "[="), "}", "]");
         return entry(name + value, option->get_description() + others, column_width_);
     }

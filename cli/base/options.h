@@ -1,4 +1,4 @@
-// Common options, values (CLI11 reads "-1" as the largest unsigned number and "010" as 8), help, errors.
+// Common options. CLI11's own conversion would read "-1" as the largest unsigned number and "010" as 8.
 #pragma once
 
 #include "cli/base/json.h"
@@ -14,14 +14,12 @@
 
 namespace cli {
 
-// Returns the exit code, or throws Failure.
 using Run = std::function<int()>;
 
-// Naming the command sets `chosen` to `run`. notes: after the options in the help.
+// The command's name on the command line sets `chosen` to `run`. notes: end of the help.
 CLI::App &add_command(CLI::App &program, Run &chosen, const std::string &name, const std::string &description,
                       const std::string &notes, Run run);
 
-// Takes a command with its own options.
 template <typename Options>
 std::pair<CLI::App &, Options &> add_command(CLI::App &program, Run &chosen, const std::string &name,
                                              const std::string &description, const std::string &notes,
@@ -35,11 +33,10 @@ std::pair<CLI::App &, Options &> add_command(CLI::App &program, Run &chosen, con
 // Throws CLI::ValidationError.
 nlohmann::json read_value(const std::string &option, const std::string &text, const ValueRule &rule);
 
-// store: takes the valid value.
 CLI::Option *add_value(CLI::App &command, const std::string &name, const ValueRule &rule,
                        std::function<void(const nlohmann::json &)> store, const std::string &help);
 
-// target: a Number, or an optional one.
+// target: a number or an optional one.
 template <typename Number, typename Target>
 CLI::Option *add_number(CLI::App &command, const std::string &name, const ValueRule &rule, Target &target,
                         const std::string &help) {
@@ -47,7 +44,7 @@ CLI::Option *add_number(CLI::App &command, const std::string &name, const ValueR
         command, name, rule, [&target](const nlohmann::json &value) { target = value.get<Number>(); }, help);
 }
 
-// find: a name's value, as std::optional. kind: of the names, in messages.
+// find: returns a name's value, if any. kind: of names, in messages.
 template <typename Target, typename Find>
 CLI::Option *add_name(CLI::App &command, const std::string &name, Target &target, Find find, std::string_view kind,
                       std::span<const std::string_view> names, const std::string &help) {
@@ -57,7 +54,7 @@ CLI::Option *add_name(CLI::App &command, const std::string &name, Target &target
         help);
 }
 
-// value: the placeholder in the help.
+// value: the help's placeholder.
 CLI::Option *add_text(CLI::App &command, const std::string &name, std::string &target, const std::string &value,
                       const std::string &help);
 
@@ -65,10 +62,9 @@ CLI::Option *add_device(CLI::App &command, std::string &device);
 CLI::Option *add_shader_dir(CLI::App &command, std::string &shader_dir);
 CLI::Option *add_quiet(CLI::App &command, bool &quiet);
 
-// 100 characters per line.
 std::shared_ptr<CLI::Formatter> help_formatter();
 
-// Why CLI11 refused the command line, and where to read on.
+// CLI11's reason in this program's words, and where to read on.
 std::string usage_reason(const CLI::App &program, const CLI::ParseError &error);
 
 std::vector<std::string> command_names(const CLI::App &program);

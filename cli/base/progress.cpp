@@ -14,7 +14,7 @@ namespace cli {
 namespace {
 
 constexpr std::chrono::milliseconds update_interval{100};
-constexpr const char *line_eraser = "\r\x1b[K"; // ECMA-48: to the left margin, erase to the end of the line
+constexpr const char *line_eraser = "\r\x1b[K"; // ECMA-48: erase the line
 
 std::string duration_text(double seconds) {
     const auto whole = static_cast<long long>(std::ceil(seconds));
@@ -68,7 +68,6 @@ void Progress::update_samples(double samples_of_part, Clock::time_point now) {
     const double share = samples_of_part / static_cast<double>(sample_count_);
     const double whole_share = part_begin_ + (part_end_ - part_begin_) * share;
     const double sample_count = whole_share * static_cast<double>(sample_count_);
-    // The clock may not have advanced yet.
     const double seconds = std::max(std::chrono::duration<double>(now - start_).count(), 1e-9);
     fraction_ = std::max({fraction_, whole_share, std::min(seconds / limit_seconds_, 1.0)});
     if (style_ == ProgressStyle::none || sample_count <= begun_ || (now < next_update_ && whole_share < 1.0))
@@ -94,7 +93,7 @@ void Progress::say(const std::string &message) {
     print_message(message);
 }
 
-// The most important parts come first. A narrow terminal loses the last ones: a wrapped line could not be overwritten.
+// Drops the last parts on a narrow terminal: a wrapped line could not be erased.
 void Progress::print_line(double samples, double seconds) {
     const std::array<std::string, 5> parts{
         formatted("%5.1f %%", 100.0 * fraction_),
@@ -106,7 +105,7 @@ void Progress::print_line(double samples, double seconds) {
     const std::size_t columns = column_count_();
     std::string line;
     for (const std::string &part : parts) {
-        if (line.size() + part.size() >= columns) // the last column stays free: some terminals wrap after it
+        if (line.size() + part.size() >= columns) // some terminals wrap after the last column
             break;
         line += part;
     }

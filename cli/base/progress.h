@@ -20,12 +20,11 @@ class Progress {
 public:
     using Clock = std::chrono::steady_clock;
 
-    // columns: the terminal's present width.
     Progress(std::ostream &output, ProgressStyle style, std::uint64_t pixel_count, std::uint64_t sample_count,
              Clock::time_point start, std::function<std::size_t()> columns = &terminal_columns);
     Progress(const Progress &) = delete;
     Progress &operator=(const Progress &) = delete;
-    ~Progress() { erase_line(); } // leaves the line empty for later output
+    ~Progress() { erase_line(); }
 
     // Later samples belong to this share of the work.
     void enter_part(double begin, double end) {
@@ -33,19 +32,18 @@ public:
         part_end_ = end;
     }
 
-    // Shows the share of the scene that is set, on a terminal after a tenth of a second.
+    // On a terminal, after a tenth of a second.
     void update_scene(double share, Clock::time_point now);
 
-    // Prints at most ten times a second, and at the end. The share never falls, even if expect() raises the total.
+    // Prints at most ten times a second, and at the end. The percentage never falls.
     void update_samples(double samples_of_part, Clock::time_point now);
 
-    // Samples per pixel in all.
+    // Total samples per pixel.
     void expect(std::uint64_t sample_count) { sample_count_ = sample_count; }
 
-    // Samples per pixel at the start.
     void begin_at(std::uint64_t sample_count) { begun_ = static_cast<double>(sample_count); }
 
-    // The work ends this long after the start at the latest.
+    // seconds: of the whole run.
     void limit_time(double seconds) { limit_seconds_ = seconds; }
 
     // Infinite: unknown.
@@ -53,7 +51,6 @@ public:
 
     bool shows_error() const { return style_ == ProgressStyle::line; }
 
-    // Prints between lines of progress.
     void say(const std::string &message);
 
 private:
@@ -71,16 +68,15 @@ private:
     std::uint64_t sample_count_;
     double part_begin_ = 0.0;
     double part_end_ = 1.0;
-    double fraction_ = 0.0; // of the whole, the largest shown
-    double begun_ = 0.0;    // samples per pixel at the start
+    double fraction_ = 0.0; // the largest shown
+    double begun_ = 0.0;
     double limit_seconds_ = std::numeric_limits<double>::infinity();
     double relative_error_ = std::numeric_limits<double>::infinity();
     Clock::time_point start_;
     Clock::time_point next_update_;
-    bool has_line_ = false; // to erase
+    bool has_line_ = false;
 };
 
-// name: "auto", "json" or "none".
 ProgressStyle progress_style(const std::string &name, bool quiet, bool is_terminal);
 
 } // namespace cli

@@ -13,7 +13,7 @@ namespace cli {
 
 class BackgroundTask {
 public:
-    // Runs work in a thread, or at once if the system has none. No other work may be running.
+    // Runs work in a thread, or now if the system has none. No other work may be running.
     void start(std::function<void()> work) {
         future_ = std::async(std::launch::async | std::launch::deferred, std::move(work));
         if (future_.wait_for(std::chrono::seconds(0)) == std::future_status::deferred)
@@ -24,7 +24,6 @@ public:
         return future_.valid() && future_.wait_for(std::chrono::seconds(0)) == std::future_status::timeout;
     }
 
-    // Whether finish() is still due.
     bool is_begun() const { return future_.valid(); }
 
     // Waits, and rethrows.
@@ -34,16 +33,15 @@ public:
     }
 
 private:
-    std::future<void> future_; // its destructor waits for the thread
+    std::future<void> future_; // waits for the thread
 };
 
-// Calls work(first, end) for parts of [0, count), the last in this thread, others in threads if available. grain: size
-// of a part worth a thread. Rethrows when all parts have ended.
+// Calls work(first, end) for parts of [0, count) with at least `grain` items. Rethrows when all have ended.
 template <typename Work>
 void in_parallel(std::size_t count, std::size_t grain, const Work &work) {
     const std::size_t processors = std::max(std::thread::hardware_concurrency(), 1U);
     const std::size_t part = std::max((count + processors - 1) / processors, grain);
-    std::vector<std::future<void>> others; // their destructors wait for the threads
+    std::vector<std::future<void>> others;
     std::size_t first = 0;
     for (; first + part < count; first += part) {
         others.push_back(

@@ -31,12 +31,10 @@ __attribute__((format(printf, 1, 2))) inline std::string formatted(const char *f
     return text;
 }
 
-// Three significant digits show 0.0031%, without exponent for usual values.
 inline std::string percent_text(double share) {
     return formatted("%.3g%%", 100.0 * share);
 }
 
-// "1 film", "2 films"
 inline std::string counted(std::uint64_t count, const std::string &noun) {
     return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
@@ -49,10 +47,10 @@ std::string listed(const Texts &texts, const char *between = ", ") {
     return list;
 }
 
-// Cuts the middle out of very long lines: subject and rule are at the ends. Keeps UTF-8 sequences whole.
+// Cuts the middle: subject and rule stand at the ends.
 inline std::string shortened(const std::string &line) {
     constexpr std::size_t longest = 2000;
-    constexpr std::size_t kept = 900; // at each end
+    constexpr std::size_t kept = 900;
     if (line.size() <= longest)
         return line;
     const auto is_inside = [&](std::size_t place) {

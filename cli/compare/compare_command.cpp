@@ -1,4 +1,4 @@
-// The command `pt compare`: the differences of two images.
+// `pt compare`: differences of two images.
 #include "cli/base/exit_code.h"
 #include "cli/base/file.h"
 #include "cli/base/json.h"
@@ -19,11 +19,10 @@ namespace cli {
 namespace {
 
 struct ImageDifference {
-    // Means over channels of pixels that are finite in both images; 0 without any.
+    // Means over channels of pixels that are finite in both images.
     double mse;          // of (x - r)^2, for values x and the reference's r
-    double relative_mse; // of (x - r)^2 / (r^2 + 0.01): dark pixels' errors count as much as bright ones'
+    double relative_mse; // of (x - r)^2 / (r^2 + 0.01)
 
-    // The largest |x - r|.
     double maximum;
     std::size_t maximum_value; // index into the values
 
@@ -32,14 +31,13 @@ struct ImageDifference {
 
 using Values = std::span<const float>;
 
-// Keeps black pixels from counting without bound.
 constexpr double relative_offset = 0.01;
 
 bool is_finite(Values pixel) {
     return std::all_of(pixel.begin(), pixel.end(), [](float value) { return std::isfinite(value); });
 }
 
-// Equally many values, three per pixel.
+// Both have equally many values.
 ImageDifference compare_images(Values image, Values reference) {
     ImageDifference total{};
     for (std::size_t i = 0; i < image.size(); i += 3) {
@@ -69,11 +67,10 @@ ImageDifference compare_images(Values image, Values reference) {
 struct CompareOptions {
     std::string image;
     std::string reference;
-    std::string layer; // of both; empty: the main one
+    std::string layer; // empty: the main one
     std::string json;
     bool quiet = false;
 
-    // Limits, if any.
     std::optional<double> mse;
     std::optional<double> relative_mse;
     std::optional<double> maximum;
@@ -103,18 +100,15 @@ void require_comparable(const DecodedImage &image, const DecodedImage &reference
                      ": they must be of one kind"));
 }
 
-// The figures, and exceeded limits.
 struct CompareReport {
     const CompareOptions &options;
-    const DecodedImage &image; // as large as the reference
+    const DecodedImage &image;
     ImageDifference difference;
 
-    // Place of the largest difference in the picture.
     std::int64_t x() const { return image.x + static_cast<std::int64_t>(difference.maximum_value / 3 % image.width); }
     std::int64_t y() const { return image.y + static_cast<std::int64_t>(difference.maximum_value / 3 / image.width); }
     std::string channel() const { return {"RGB"[difference.maximum_value % 3]}; }
 
-    // A line per exceeded limit, and one for pixels that are not finite if there is a limit.
     std::vector<std::string> exceeded() const {
         std::vector<std::string> lines;
         const auto check_limit = [&](const char *name, double figure, std::optional<double> limit) {

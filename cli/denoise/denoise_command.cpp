@@ -1,4 +1,4 @@
-// The command `pt denoise`: two films of one picture by other seeds in, a denoised image out.
+// `pt denoise`: denoises a picture from two films with different seeds.
 #include "cli/base/devices.h"
 #include "cli/base/file.h"
 #include "cli/base/json.h"
@@ -17,12 +17,12 @@ namespace cli {
 namespace {
 
 struct DenoiseOptions {
-    std::string first; // films
+    std::string first; // film
     std::string second;
-    std::string guides; // .exr
+    std::string guides;
     std::string library = platform::denoiser_file;
     OutputOptions output;
-    std::vector<SceneOverride> display; // overrides of the scene's display section
+    std::vector<SceneOverride> display;
 };
 
 void check(const DenoiseOptions &options) {
@@ -32,7 +32,7 @@ void check(const DenoiseOptions &options) {
     require_denoiser(options.library);
 }
 
-// A film whose pixels all have equally many samples. Of others nothing says the error.
+// Requires equal sample counts: other films have no stated error.
 RenderReport even_report(const std::string &path, const FilmHandle &film) {
     RenderReport report = film_report(film);
     const pt_stats &stats = report.stats;
@@ -48,9 +48,9 @@ RenderedImage image_of(const FilmHandle &film, const RenderReport &report) {
     return image;
 }
 
-// The halves, which differ in their seeds alone.
+// Equal but for their seeds.
 struct Halves {
-    RenderReport report; // of the first
+    RenderReport report;
     RenderedImage first;
     RenderedImage second;
 };

@@ -13,13 +13,12 @@
 namespace cli {
 namespace {
 
-// For calls with arguments that do not come from the user.
+// For calls without arguments of the user.
 void require(pt_result result) {
     if (result < 0)
         throw Failure(exit_code_of(result), pt_last_error(nullptr));
 }
 
-// Facts that are digests, whose values mean nothing to people.
 constexpr std::array<std::string_view, 3> digests{"scene", "camera", "kernel"};
 
 std::string words_of(const std::string &path, const BrokenRule &rule) {
@@ -31,7 +30,6 @@ std::string words_of(const std::string &path, const BrokenRule &rule) {
                                    : text;
 }
 
-// Removes the library's subject, which no user has named.
 std::string without_subject(const std::string &message) {
     constexpr std::string_view subject = "film: ";
     return message.starts_with(subject) ? message.substr(subject.size()) : message;
@@ -44,13 +42,13 @@ std::string film_words(const std::string &path, const LibraryError &error) {
     return error.in_words([&](const BrokenRule &rule) { return words_of(path, rule); });
 }
 
-// For calls with a user's film.
+// For calls with a film of the user.
 void require_film(pt_result result, const std::string &path, const pt_context *context = nullptr) {
     if (result < 0)
         throw Failure(exit_code_of(result), film_words(path, last_error(context)));
 }
 
-// Faster than level 1, for 6% larger files.
+// fast; files are 6% larger than at level 1
 constexpr int compression_level = -1;
 
 // A block of at most 128 KiB takes at least 4 bytes (RFC 8878, 3.1.1.2); a higher ratio means damage.
@@ -60,9 +58,8 @@ constexpr std::uint64_t most_ratio = 32768;
     throw Failure(ExitCode::usage, path + ": " + reason);
 }
 
-// Reads the size in a packed film's frame header.
 std::size_t unpacked_size(platform::InputFile &file, const std::string &path) {
-    constexpr std::size_t longest_head = 18; // of a frame header (RFC 8878, 3.1.1.1)
+    constexpr std::size_t longest_head = 18; // RFC 8878, 3.1.1.1
     const std::string_view head = file.first(longest_head);
     const unsigned long long size = ZSTD_getFrameContentSize(head.data(), head.size());
     if (size == ZSTD_CONTENTSIZE_UNKNOWN || size == ZSTD_CONTENTSIZE_ERROR || size / most_ratio > file.size())
@@ -127,7 +124,7 @@ pt_sample_range FilmHandle::hull() const {
     return hull;
 }
 
-// The library refuses to add films of two seeds and names all their differences.
+// Merges only to get the list of differences.
 void FilmHandle::require_same_picture(const std::string &path, std::span<const std::byte> bytes) {
     constexpr std::array<std::string_view, 4> allowed{"seed", "estimator_version", "kernel", "device"};
     const pt_result result = pt_merge_film(film_, bytes.data(), bytes.size());
@@ -213,10 +210,10 @@ void write_film_file(const std::string &path, std::span<const std::byte> film) {
     file.commit();
 }
 
-// The first bytes of another file are enough for the library to refuse it.
+// Of other files the first bytes suffice for a refusal.
 std::vector<std::byte> read_film_file(const std::string &path) {
     return read_file(path, [&](platform::InputFile &file) {
-        constexpr std::string_view packed = "\x28\xb5\x2f\xfd"; // ZSTD_MAGICNUMBER
+        constexpr std::string_view packed = "\x28\xb5\x2f\xfd";
         constexpr std::string_view plain = "pt film ";
         if (file.first(packed.size()) == packed)
             return unpacked(file, path);

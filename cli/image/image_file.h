@@ -1,4 +1,4 @@
-// Image formats, the images that -o and --format request, and their files.
+// Image formats, and the files of -o and --format.
 #pragma once
 
 #include "cli/image/image_module.h"
@@ -18,22 +18,21 @@
 
 namespace cli {
 
-// Options, refusals and helps follow from the rows below.
 struct ImageFormat {
-    std::string_view name; // the extension
-    bool is_radiance;      // linear float32 layers; others are tone-mapped to bytes
+    std::string_view name; // also the file extension
+    bool is_radiance;      // linear float32 layers; others are tone-mapped
     bool has_alpha;
-    bool needs_module; // else PNG
+    bool needs_module; // else libpng
 
-    // Of format or encoder; checked before writing, because libjpeg ends the process beyond it.
+    // Checked before writing: libjpeg ends the process for larger images.
     std::uint32_t longest_side;
 };
 
 inline constexpr std::uint32_t largest_signed = 2'147'483'647;
-inline constexpr std::uint32_t libpng_limit = 1'000'000; // its default
+inline constexpr std::uint32_t libpng_limit = 1'000'000; // default
 inline constexpr std::uint32_t libjpeg_limit = 65'500;   // JPEG_MAX_DIMENSION
 
-// Name, radiance, alpha, module, longest side; radiance first.
+// name, is_radiance, has_alpha, needs_module, longest_side
 inline constexpr std::array<ImageFormat, 4> image_formats{{
     {"exr", true, true, true, largest_signed},
     {"png", false, true, false, libpng_limit},
@@ -54,56 +53,54 @@ inline bool is_for_displays(const ImageFormat &format) {
     return !format.is_radiance;
 }
 
-// ".exr, .png": formats for which `holds`.
+// ".exr, .png"
 std::string extensions(const std::function<bool(const ImageFormat &)> &holds, const char *between = ", ");
 
 std::optional<ImageFormat> format_of_name(std::string_view name);
 
-// Finds the extension in any case.
+// The extension may be in any case.
 std::optional<ImageFormat> image_format(const std::string &path);
 
 struct ImageTarget {
-    std::string path; // "-": standard output
+    std::string path;
     ImageFormat format;
 };
 
-// Throws Failure(ExitCode::usage) for an unknown format, standard output without --format or on a terminal, and
-// --format without standard output.
+// Throws Failure(ExitCode::usage) for an unknown format, standard output on a terminal, or --format that does not go
+// with the paths.
 void check_image_names(std::span<const std::string> paths, std::optional<ImageFormat> format);
 
-// format: of standard output.
 ImageTarget image_target(const std::string &path, std::optional<ImageFormat> format);
 
-// Throws Failure: ExitCode::usage for an image too large for its format, ExitCode::file for an unwritable file.
+// Throws Failure for an image too large for its format, or an unwritable file.
 void check_image_target(const ImageTarget &target, const ImageWindow &window);
 
-// Throws Failure(ExitCode::file) without the module, a separate package.
+// The module is a separate package. Throws Failure(ExitCode::file) if it is missing.
 std::filesystem::path module_path();
 
-// name: see image_module.h. Throws Failure(ExitCode::internal) if the module cannot be loaded.
+// name: see image_module.h. The module stays loaded. Throws Failure(ExitCode::internal).
 void *load_symbol(const std::filesystem::path &path, const char *name);
 
 // Attributes become text chunks. Throws std::runtime_error.
 std::vector<unsigned char> encode_png(const ImageData &image);
 
-// Alpha is a channel; text chunks are skipped. Throws std::runtime_error.
+// Skips text chunks. Throws std::runtime_error.
 void decode_png(const std::string &path, DecodedImage &image);
 
 class ImageWriter {
 public:
-    // Loads in the background. Throws Failure(ExitCode::file) at once without the module.
+    // Loads in the background. Throws Failure(ExitCode::file) if the module is missing.
     void load_module();
 
-    // A long rendering may stop then.
     bool failed() const { return failed_; }
 
-    // Throws Failure(ExitCode::internal) if load_module() failed.
+    // Throws Failure(ExitCode::internal) if loading failed.
     void wait() const {
         if (encode_.valid())
             static_cast<void>(encode_.get());
     }
 
-    // Throws Failure(ExitCode::file), and leaves an existing file as it was.
+    // Keeps an existing file on failure. Throws Failure(ExitCode::file).
     void write(const ImageTarget &target, const ImageData &image);
 
 private:
@@ -113,7 +110,7 @@ private:
     std::shared_future<EncodeImage *> encode_; // destroyed first: the thread uses failed_
 };
 
-// Throws Failure: ExitCode::file if it cannot be read, or needs a missing module.
+// Throws Failure.
 DecodedImage read_image(const std::string &path);
 
 } // namespace cli

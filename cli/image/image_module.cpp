@@ -12,7 +12,7 @@ namespace {
 
 using namespace cli;
 
-// JPEG has no named attributes, only a description.
+// JPEG's only text is a description.
 std::string description(std::span<const ImageAttribute> attributes) {
     std::vector<std::string> lines;
     for (const ImageAttribute &attribute : attributes)
@@ -20,7 +20,7 @@ std::string description(std::span<const ImageAttribute> attributes) {
     return listed(lines, "\n");
 }
 
-// "R", "G", "B" of the main layer, "layer.R" or "layer.X" of others; a single channel has the layer's name.
+// "R", "G", "B" of the main layer, "layer.R" of others; the layer's name for a single channel.
 std::vector<std::string> channel_names(std::span<const ImageLayer> layers) {
     std::vector<std::string> names;
     for (const ImageLayer &layer : layers) {
@@ -34,7 +34,6 @@ std::vector<std::string> channel_names(std::span<const ImageLayer> layers) {
     return names;
 }
 
-// Empty if all are floats.
 std::vector<OIIO::TypeDesc> channel_types(std::span<const ImageLayer> layers) {
     std::vector<OIIO::TypeDesc> types;
     for (const ImageLayer &layer : layers) {
@@ -45,7 +44,7 @@ std::vector<OIIO::TypeDesc> channel_types(std::span<const ImageLayer> layers) {
     return has_numbers ? types : std::vector<OIIO::TypeDesc>();
 }
 
-// Rec. 709 (ITU-R BT.709-6, table 1), as the radiance.
+// Rec. 709 (ITU-R BT.709-6, table 1).
 void add_chromaticities(OIIO::ImageSpec &spec) {
     constexpr std::array<float, 8> rec709{0.64F, 0.33F, 0.30F, 0.60F, 0.15F, 0.06F, 0.3127F, 0.3290F};
     spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, rec709.size()), rec709.data());
@@ -64,7 +63,7 @@ OIIO::ImageSpec describe_radiance(const ImageData &image) {
     spec.full_width = static_cast<int>(full_width);
     spec.full_height = static_cast<int>(full_height);
     add_chromaticities(spec);
-    spec.attribute("DateTime", ""); // otherwise OpenImageIO writes the present date
+    spec.attribute("DateTime", ""); // otherwise the present date
     return spec;
 }
 
@@ -85,7 +84,7 @@ void add_attributes(OIIO::ImageSpec &spec, std::span<const ImageAttribute> attri
             spec.attribute(name, static_cast<float>(std::get<double>(value)));
 }
 
-// All layers' channels side by side, copied bit by bit.
+// Copies all layers' channels side by side, bit by bit.
 void interleave_row(const ImageData &image, std::uint32_t y, std::span<std::uint32_t> row) {
     const std::size_t width = image.window.part.width;
     const std::size_t stride = row.size() / width;
@@ -116,7 +115,7 @@ bool write_layers(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec, const 
     return true;
 }
 
-// In memory: OpenImageIO does not notice when closing a file fails, as on a full disk.
+// In memory, because OpenImageIO ignores failures of closing a file, as on a full disk.
 std::vector<unsigned char> encode(const ImageData &image, const char *extension) {
     const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(std::string("image.") + extension);
     if (!output)
@@ -134,7 +133,6 @@ std::vector<unsigned char> encode(const ImageData &image, const char *extension)
     return std::move(memory.buffer());
 }
 
-// Texts and single numbers.
 std::vector<ImageAttribute> attributes_of(const OIIO::ImageSpec &spec) {
     std::vector<ImageAttribute> attributes;
     for (const OIIO::ParamValue &each : spec.extra_attribs) {

@@ -1,5 +1,5 @@
-// The interface to libpt-image-file.so, the only module that links OpenImageIO (261 shared objects, 0.2 s). Built with
-// the program: types are C++, failures std::runtime_error.
+// Interface to libpt-image-file.so, which alone links OpenImageIO (261 shared objects, 0.2 s). Built with the program,
+// so types are C++. Failures are std::runtime_error.
 #pragma once
 
 #include "cli/base/number.h"
@@ -18,7 +18,7 @@
 
 namespace cli {
 
-// Pixels, from the picture's top left corner.
+// In pixels, from the top left.
 struct Rectangle {
     std::uint32_t x;
     std::uint32_t y;
@@ -30,7 +30,7 @@ struct Rectangle {
     std::size_t pixel_count() const { return std::size_t{width} * height; }
 };
 
-// "10,20,640,480"; empty unless four whole numbers.
+// "10,20,640,480"
 inline std::optional<Rectangle> parse_rectangle(std::string_view text) {
     const auto numbers = parse_numbers<4>(text, ',');
     return numbers ? std::optional(Rectangle{(*numbers)[0], (*numbers)[1], (*numbers)[2], (*numbers)[3]})
@@ -38,7 +38,7 @@ inline std::optional<Rectangle> parse_rectangle(std::string_view text) {
 }
 
 struct ImageWindow {
-    Rectangle part; // within the picture, not empty
+    Rectangle part; // not empty
     std::uint32_t full_width;
     std::uint32_t full_height;
 
@@ -51,7 +51,7 @@ inline ImageWindow whole_window(std::uint32_t width, std::uint32_t height) {
     return {{0, 0, width, height}, width, height};
 }
 
-// "640x480", or "640x480 at 10,20 of 1920x1080".
+// "640x480 at 10,20 of 1920x1080"
 inline std::string window_text(const ImageWindow &window) {
     const auto size = [](std::uint32_t width, std::uint32_t height) {
         return std::to_string(width) + "x" + std::to_string(height);
@@ -65,10 +65,10 @@ inline std::string window_text(const ImageWindow &window) {
 
 struct ImageAttribute {
     std::string name;
-    std::variant<std::string, std::int32_t, double> value; // double is float32 in a file
+    std::variant<std::string, std::int32_t, double> value; // float32 in a file
 };
 
-// In PNG and JPEG.
+// For PNG and JPEG.
 inline std::string attribute_text(const ImageAttribute &attribute) {
     if (const auto *text = std::get_if<std::string>(&attribute.value))
         return *text;
@@ -78,25 +78,25 @@ inline std::string attribute_text(const ImageAttribute &attribute) {
 }
 
 enum class LayerKind {
-    color,  // R, G and B; or one channel, the layer itself
-    vector, // X, Y and Z
-    numbers // one whole number
+    color,  // R, G, B, or one channel
+    vector, // X, Y, Z
+    numbers // one uint32
 };
 
 struct ImageLayer {
     std::string name; // empty for the main one
     LayerKind kind;
-    std::size_t channel_count;                   // 3 or 1
+    std::size_t channel_count;
     std::span<const float> values;               // by pixel, from the top left
-    std::span<const std::uint32_t> numbers = {}; // instead, for LayerKind::numbers
+    std::span<const std::uint32_t> numbers = {}; // for LayerKind::numbers
 };
 
-// Layers for radiance, else signals.
+// Either layers of radiance or signals.
 struct ImageData {
     ImageWindow window;
     std::span<const ImageLayer> layers = {};
-    std::span<const std::uint8_t> signals = {}; // R, G, B of each pixel, for PNG also R, G, B, A, not multiplied by A
-    std::optional<double> gamma = {};           // light is the signal to this power; empty: the sRGB curve. For PNG
+    std::span<const std::uint8_t> signals = {}; // R, G, B of each pixel; or for PNG R, G, B, A, not premultiplied
+    std::optional<double> gamma = {};           // exponent from signal to light; empty: sRGB. For PNG
     std::span<const ImageAttribute> attributes = {};
 
     bool has_alpha() const { return signals.size() == 4 * window.part.pixel_count(); }
@@ -106,19 +106,19 @@ using EncodeImage = void(const ImageData &image, const char *extension, std::vec
 
 struct DecodedImage {
     std::string path;
-    std::int32_t x; // of the pixels in the picture; may lie outside
+    std::int32_t x; // may lie outside the picture
     std::int32_t y;
-    std::uint32_t width; // of the pixels
+    std::uint32_t width;
     std::uint32_t height;
-    std::uint32_t full_width; // of the picture
+    std::uint32_t full_width;
     std::uint32_t full_height;
-    bool is_float;                     // otherwise whole numbers, as for displays, scaled to [0, 1]
-    std::vector<std::string> channels; // names
-    std::vector<float> values;         // by pixel, from the top left
+    bool is_float; // else integers scaled to [0, 1]
+    std::vector<std::string> channels;
+    std::vector<float> values; // by pixel, from the top left
     std::vector<ImageAttribute> attributes;
 
-    // Three values per pixel: R, G, B or X, Y, Z, or the only channel three times. The main layer has no name. Throws
-    // Failure(ExitCode::file) without the layer.
+    // Three values per pixel; a single channel is repeated. Empty name: the main layer. Throws Failure(ExitCode::file)
+    // if there is no such layer.
     std::vector<float> layer(const std::string &name) const;
 };
 

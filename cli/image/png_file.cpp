@@ -1,4 +1,4 @@
-// PNG by libpng: OpenImageIO takes 0.2 s and 200 MB to load.
+// PNG by libpng: loading OpenImageIO takes 0.2 s and 200 MB.
 #include "cli/base/file.h"
 #include "cli/image/image_file.h"
 
@@ -18,7 +18,7 @@
 namespace cli {
 namespace {
 
-// Leaves libpng's C frames by a long jump, because no exception may cross them.
+// No exception may cross libpng's C frames.
 [[noreturn]] void fail(png_structp png, png_const_charp reason) {
     *static_cast<std::string *>(png_get_error_ptr(png)) = reason;
     png_longjmp(png, 1);
@@ -66,15 +66,14 @@ std::vector<png_text> texts_of(const ImageData &image, std::span<std::string> va
         const bool is_ascii = std::ranges::all_of(values[i], [](unsigned char byte) { return byte < 0x80; });
         png_text text{};
         text.compression = is_ascii ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE;
-        text.key = const_cast<char *>(image.attributes[i].name.c_str()); // libpng copies both
+        text.key = const_cast<char *>(image.attributes[i].name.c_str()); // not changed
         text.text = values[i].data();
         texts.push_back(text);
     }
     return texts;
 }
 
-// The bytes' color space (PNG, ISO 15948, 11.3.3): sRGB, or a power with Rec. 709's primaries (ITU-R BT.709, table 1).
-// Intent: perceptual, for photographs.
+// sRGB, or a power with Rec. 709's primaries (ITU-R BT.709, table 1); PNG, ISO 15948, 11.3.3.
 void set_color_space(const Encoding &encoding, std::optional<double> gamma) {
     if (!gamma) {
         png_set_sRGB_gAMA_and_cHRM(encoding.png, encoding.info, PNG_sRGB_INTENT_PERCEPTUAL);
@@ -87,12 +86,12 @@ void set_color_space(const Encoding &encoding, std::optional<double> gamma) {
 std::vector<png_bytep> rows_of(const ImageData &image) {
     std::vector<png_bytep> rows(image.window.part.height);
     const std::size_t row_bytes = image.signals.size() / rows.size();
-    for (std::size_t y = 0; y < rows.size(); ++y) // libpng only reads them
+    for (std::size_t y = 0; y < rows.size(); ++y) // not changed
         rows[y] = const_cast<png_bytep>(&image.signals[y * row_bytes]);
     return rows;
 }
 
-// False after a failure. A long jump skips destructors, so there are none.
+// Contains no objects with destructors, which a long jump would skip.
 bool write(Encoding &encoding, const ImageData &image, std::span<png_text> texts, png_bytepp rows) {
     if (setjmp(png_jmpbuf(encoding.png)) != 0) // NOLINT(cert-err52-cpp): libpng's way to tell of errors
         return false;
@@ -100,8 +99,7 @@ bool write(Encoding &encoding, const ImageData &image, std::span<png_text> texts
                  image.has_alpha() ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     set_color_space(encoding, image.gamma);
-    // On noise on slopes, differences of neighbours and a lower level give files as small as the defaults in a third of
-    // the time.
+    // As small as the defaults on noise, in a third of the time.
     png_set_filter(encoding.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
     png_set_compression_level(encoding.png, 4);
     png_set_text(encoding.png, encoding.info, texts.data(), static_cast<int>(texts.size()));
@@ -136,7 +134,6 @@ struct Decoding {
     }
 };
 
-// 8 or 16 bits, perhaps with alpha.
 bool read(Decoding &decoding) {
     if (setjmp(png_jmpbuf(decoding.png)) != 0) // NOLINT(cert-err52-cpp): libpng's way to tell of errors
         return false;
@@ -172,7 +169,7 @@ void decode_png(const std::string &path, DecodedImage &image) {
     const std::string file = read_file(path, [](platform::InputFile &input) {
         const std::string head(input.first(signature_size));
         const bool is_png = png_sig_cmp(reinterpret_cast<png_const_bytep>(head.data()), 0, head.size()) == 0;
-        return is_png ? input.all() : head; // which libpng refuses
+        return is_png ? input.all() : head; // libpng refuses it
     });
     Decoding decoding(std::as_bytes(std::span(file)));
     if (!read(decoding))

@@ -1,4 +1,4 @@
-// The command `pt merge`: adds films of one picture, and writes images and their sum.
+// `pt merge`: adds films of one picture.
 #include "cli/base/devices.h"
 #include "cli/base/enumerations.h"
 #include "cli/base/file.h"
@@ -24,21 +24,20 @@ using Ranges = std::vector<pt_sample_range>;
 struct MergeOptions {
     std::vector<std::string> parts;
 
-    // Range in which missing samples are listed; default: the hull of the parts.
+    // Expected samples; default: the hull of the films'.
     std::optional<std::uint32_t> first_sample;
     std::optional<std::uint32_t> sample_count;
 
     OutputOptions output;
-    std::vector<SceneOverride> display; // of the scene's display section
+    std::vector<SceneOverride> display;
 };
 
-// A sum of films, and what is missing.
 struct MergeReport {
-    RenderReport picture; // as far as a film knows it
+    RenderReport picture;
     pt_film_info info;
     std::size_t part_count;
-    Ranges samples; // that all pixels have
-    Ranges missing; // that some pixel lacks
+    Ranges samples; // in all pixels
+    Ranges missing; // in some pixel
 };
 
 void check(const MergeOptions &options) {
@@ -51,7 +50,7 @@ void check(const MergeOptions &options) {
     check_names(output, parts);
 }
 
-// Adds all parts, so that everything wrong is reported at once.
+// Reads all parts before failing, to report all faults.
 std::unique_ptr<FilmHandle> sum_of(const std::vector<std::string> &parts) {
     std::unique_ptr<FilmHandle> sum;
     std::optional<ExitCode> failed;
@@ -72,7 +71,7 @@ std::unique_ptr<FilmHandle> sum_of(const std::vector<std::string> &parts) {
     return sum;
 }
 
-// The union, in ascending order.
+// Ascending.
 Ranges united(Ranges ranges) {
     std::sort(ranges.begin(), ranges.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
     Ranges all;
@@ -138,7 +137,7 @@ nlohmann::ordered_json stats_json(const MergeReport &report) {
     return stats;
 }
 
-// "8 films of 320x160 pixels: 64 spp, samples [0, 64)", and a line about missing samples, if any.
+// "8 films of 320x160 pixels: 64 spp, samples [0, 64)"
 std::string summary_text(const MergeReport &report) {
     return concat(counted(report.part_count, "film"), " of ", report.info.columns, "x", report.info.rows,
                   " pixels: ", report.picture.stats.sample_count, " spp, samples ", ranges_text(report.samples));
@@ -195,7 +194,7 @@ void add_merge_command(CLI::App &program, Run &chosen) {
     command.add_option("PART", options.parts, "Films of one picture (pt render --film or --checkpoint), in any order")
         ->required()
         ->type_name("PART");
-    constexpr std::size_t film_layers = 3; // the first ones; a film has no first hits
+    constexpr std::size_t film_layers = 3; // the first ones: films have no first hits
     add_output_options(command, options.output, file_layers.names().first(film_layers));
     command.option_defaults()->group("Samples");
     add_number<std::uint32_t>(command, "--first-sample", natural_number, options.first_sample,

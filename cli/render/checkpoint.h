@@ -1,4 +1,4 @@
-// Keeps a film of the samples so far in a file, for another run to continue.
+// Keeps a film of the samples so far for another run.
 #pragma once
 
 #include "cli/base/context.h"
@@ -16,15 +16,14 @@ namespace cli {
 
 class Checkpoint {
 public:
-    // seconds: between checkpoints; say: shows a message.
     Checkpoint(const Context &context, std::string path, double seconds, std::function<void(const std::string &)> say);
 
     bool is_due() const { return Clock::now() >= due_ && !task_.is_under_way(); }
 
-    // Writes a checkpoint if due. sample_count: mean over pixels.
+    // sample_count: the pixels' mean.
     void step(std::uint32_t sample_count);
 
-    // Writes the film unless the file has all of these samples, and waits for it. Returns whether the file has all.
+    // Writes the last samples and waits. Returns whether the file has all.
     bool finish(std::uint32_t sample_count);
 
 private:
@@ -41,17 +40,16 @@ private:
     std::function<void(const std::string &)> say_;
     Clock::time_point due_;
     Clock::time_point saved_at_;
-    std::chrono::duration<double> write_time_{0}; // of the last checkpoint
-    std::uint32_t saved_count_ = 0;               // in the film that was written last or is being written
-    std::uint32_t written_count_ = 0;             // in the file, written by this run
+    std::chrono::duration<double> write_time_{0};
+    std::uint32_t saved_count_ = 0;   // in the film being written or written last
+    std::uint32_t written_count_ = 0; // in the file
     bool has_told_failure_ = false;
     std::vector<std::byte> film_;
-    BackgroundTask task_; // destroyed first: it uses the others
+    BackgroundTask task_; // destroyed first: it uses the other members
 };
 
-// Adds the checkpoint's samples, after pt_set_render. Returns its samples per pixel, 0 without a file, as an earlier
-// run may have ended too early. Throws Failure(ExitCode::usage), and says what differs, if the checkpoint is of another
-// picture or has samples that this run does not take.
+// Call after pt_set_render. Returns the added samples per pixel, 0 without a file. Throws Failure(ExitCode::usage),
+// naming the differences, for another picture's checkpoint or one with unwanted samples.
 std::uint32_t resume(const Context &context, const RenderTask &task);
 
 } // namespace cli

@@ -12,7 +12,7 @@
 namespace cli {
 namespace {
 
-// size: width and height. images: both halves, albedo and normal, three numbers a pixel.
+// images: both halves, albedo, normal.
 pt_error_estimate denoise(const std::string &library, const Rectangle &size, const std::array<const float *, 4> &images,
                           float *to) {
     auto info = sized<pt_denoise_info>();

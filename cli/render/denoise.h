@@ -1,4 +1,3 @@
-// Denoising a picture from two halves of its samples: `pt render --denoise` and `pt denoise`.
 #pragma once
 
 #include "cli/render/picture_layer.h"
@@ -8,11 +7,11 @@
 
 namespace cli {
 
-// Throws Failure(ExitCode::file), and names what to install, unless the library can denoise.
+// Throws Failure(ExitCode::file), with what to install, unless the library works.
 void require_denoiser(const std::string &library);
 
-// Denoises two halves of equally many samples. The result has their mean as `raw`, the sum of their counts, and the
-// second one's layers. albedo, normal: three numbers a pixel. Throws Failure.
+// Both halves must have equally many samples. The result has their mean as `raw`, the sum of their counts, and the
+// second one's layers. Throws Failure.
 RenderedImage denoised(const std::string &library, const RenderedImage &first, RenderedImage second,
                        std::span<const float> albedo, std::span<const float> normal);
 

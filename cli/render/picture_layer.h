@@ -1,4 +1,4 @@
-// The layers of --layers and --alpha beside the radiance, with the names that OpenEXR uses.
+// The layers of --layers and --alpha beside the radiance.
 #pragma once
 
 #include "cli/base/context.h"
@@ -19,11 +19,9 @@ struct FileLayer {
     LayerKind kind;
 };
 
-// Layers by the option's names. Z, N.X, N.Y, N.Z and id are the names that programs look for; the others are layers
-// with their own names ("OpenEXR: Technical Introduction", channel names).
+// Z, N and id are OpenEXR's names.
 inline constexpr ValueNames<7, FileLayer> file_layers({
-    {"mean", {PT_QUANTITY_RADIANCE, "", 3, LayerKind::color}}, // always present
-    // The difference of two parts' means gives it.
+    {"mean", {PT_QUANTITY_RADIANCE, "", 3, LayerKind::color}},
     {"standard-error", {PT_QUANTITY_STANDARD_ERROR, "standard_error", 3, LayerKind::color}},
     {"sample-count", {PT_QUANTITY_SAMPLE_COUNT, "sample_count", 1, LayerKind::color}},
     {"depth", {PT_QUANTITY_DEPTH, "Z", 1, LayerKind::color}},
@@ -32,34 +30,32 @@ inline constexpr ValueNames<7, FileLayer> file_layers({
     {"object-id", {PT_QUANTITY_OBJECT, "id", 1, LayerKind::numbers}},
 });
 
-// A layer of the rendered part of a picture.
+// A layer of the rendered part.
 struct PictureLayer {
     std::uint32_t quantity;             // PT_QUANTITY_*
-    std::vector<float> values;          // per pixel, row by row from the top; empty for objects
-    std::vector<std::uint32_t> numbers; // for objects: one index per pixel, in the same order
+    std::vector<float> values;          // from the top left; empty for objects
+    std::vector<std::uint32_t> numbers; // for objects, one per pixel
 
-    // Values start as 0.
     PictureLayer(std::uint32_t of_quantity, std::size_t pixel_count);
 
-    // Takes the library's numbers, three a pixel, from first_pixel on.
+    // Copies the library's triples.
     void take(std::span<const float> triples, std::size_t first_pixel);
 
-    // The context renders these rows of the part as its first.
+    // Reads rows of the part from first_row on.
     void read(const Context &context, const Rectangle &part, std::uint32_t first_row, std::uint32_t rows);
 
-    // The layer in a file; refers to this object.
+    // Refers to this object.
     ImageLayer in_file() const;
 };
 
-// The rendered part of a picture.
 struct RenderedImage {
-    Rectangle part;                     // of the picture
-    std::vector<float> radiance{};      // black below rows_done
-    std::vector<float> raw{};           // of a denoised picture, its samples' mean; else empty
-    std::vector<PictureLayer> layers{}; // for files of radiance; alpha also for others
-    std::uint32_t rows_done = 0;        // rows with samples
-    pt_stats stats{};                   // of these rows; sample_count is the least of all pieces
-    pt_error_estimate error{};          // likewise
+    Rectangle part;
+    std::vector<float> radiance{}; // black below rows_done
+    std::vector<float> raw{};      // mean of the samples, if the picture is denoised
+    std::vector<PictureLayer> layers{};
+    std::uint32_t rows_done = 0; // with samples
+    pt_stats stats{};            // of these rows; sample_count is the least
+    pt_error_estimate error{};   // of these rows
 };
 
 } // namespace cli

@@ -42,7 +42,7 @@ RenderOptions options_of_frame(const RenderOptions &options, std::uint32_t frame
     return numbered;
 }
 
-// Files are written whole or not at all, so an existing one is done.
+// Files are written whole or not at all, so an existing file is complete.
 bool is_done(const OutputOptions &frame) {
     return std::ranges::all_of(outputs_of(frame), [](const NamedFile &file) {
         std::error_code ignored;
@@ -50,7 +50,6 @@ bool is_done(const OutputOptions &frame) {
     });
 }
 
-// The frames of an animation on one context. A frame that a signal stops is not written.
 class FramesRender {
 public:
     FramesRender(const RenderOptions &options, ValidationLog &log) :
@@ -87,7 +86,7 @@ public:
     }
 
 private:
-    // Frames have different seeds; equal ones would show the same noise, like a screen in front of the animation.
+    // Seeds differ: equal noise in all frames would look like a screen before them.
     RenderTask task_of(const RenderOptions &options, std::uint32_t frame) const {
         std::vector<SceneOverride> overrides = overrides_of_frame(scene_, frame);
         overrides.insert(overrides.end(), options.overrides.begin(), options.overrides.end());
@@ -112,8 +111,8 @@ private:
 
     const RenderOptions &options_;
     ValidationLog &log_;
-    SceneFile scene_;                // read once, so that all frames show the same scene
-    std::optional<Context> context_; // for all frames, to keep kernels
+    SceneFile scene_;
+    std::optional<Context> context_;
     bool is_target_missed_ = false;
 };
 
@@ -145,7 +144,7 @@ int run_render(const RenderOptions &options) {
     const int code = options.watch    ? render_watched(options, log)
                      : options.frames ? render_frames(options, log)
                                       : render_once(options, log);
-    // Not earlier: the layer reports leaks when the context is destroyed.
+    // The layer reports leaks when the context is destroyed.
     return log.count > 0 ? static_cast<int>(ExitCode::internal) : code;
 }
 

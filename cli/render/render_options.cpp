@@ -18,7 +18,7 @@
 namespace cli {
 namespace {
 
-// Parses a text such as "depth,normal"; leaves out the radiance. known: allowed names.
+// "depth,normal"; leaves out radiance.
 std::vector<std::uint32_t> parse_layers(const std::string &text, std::span<const std::string_view> known) {
     const ValueRule rule{.form = ValueRule::Form::name, .kind = "layer", .names = known};
     std::vector<std::uint32_t> quantities;
@@ -34,7 +34,7 @@ std::vector<std::uint32_t> parse_layers(const std::string &text, std::span<const
     return quantities;
 }
 
-// parse: returns an optional value. rule: for the message if it is empty.
+// parse: returns an optional. rule: for messages.
 template <typename Target, typename Parse>
 CLI::Option *add_parsed(CLI::App &command, const std::string &name, Target &target, Parse parse,
                         const std::string &rule, const std::string &help) {
@@ -97,7 +97,7 @@ void add_lasting_options(CLI::App &command, RenderOptions &options) {
                               "Index of the first sample, for parts of one picture (default: 0)");
 }
 
-// Adds --parts, for another program that reads standard output and writes the outputs refused here.
+// Refuses outputs: they are up to the other program.
 void add_parts_option(CLI::App &command, RenderOptions &options) {
     command.option_defaults()->group("Checkpoints and parts");
     CLI::Option *parts = command.add_flag("--parts", options.parts,

@@ -1,4 +1,4 @@
-// The options of `pt render`, and the frames of an animation.
+// The options of `pt render`.
 #pragma once
 
 #include "cli/base/number.h"
@@ -26,7 +26,7 @@ struct FrameRange {
     std::uint32_t last; // >= first
 };
 
-// Parses "0-23" or "5"; empty for other texts.
+// "0-23" or "5".
 inline std::optional<FrameRange> parse_frames(std::string_view text) {
     const std::size_t dash = text.find('-');
     const auto first = parse_number<std::uint32_t>(text.substr(0, dash));
@@ -34,12 +34,12 @@ inline std::optional<FrameRange> parse_frames(std::string_view text) {
     return first && last && *first <= *last ? std::optional(FrameRange{*first, *last}) : std::nullopt;
 }
 
-// Replaces the last run of # signs by the number, with leading zeros to as many digits. Empty without a #.
+// Replaces the last run of # by the number with leading zeros. Empty without a #.
 inline std::optional<std::string> numbered_name(const std::string &pattern, std::uint32_t frame) {
     const std::size_t last = pattern.rfind('#');
     if (last == std::string::npos)
         return std::nullopt;
-    const std::size_t first = pattern.find_last_not_of('#', last) + 1; // npos + 1 = 0: the name begins with it
+    const std::size_t first = pattern.find_last_not_of('#', last) + 1; // npos + 1 = 0
     const std::string digits = std::to_string(frame);
     const std::size_t width = last - first + 1;
     const std::string zeros(width > digits.size() ? width - digits.size() : 0, '0');
@@ -47,21 +47,19 @@ inline std::optional<std::string> numbered_name(const std::string &pattern, std:
 }
 
 struct OutputOptions {
-    std::vector<std::string> images;   // paths
-    std::optional<ImageFormat> format; // of an image to standard output
-    std::vector<std::uint32_t> layers; // PT_QUANTITY_*, in each .exr beside the radiance
-    std::string film;                  // empty: none; so for stats
+    std::vector<std::string> images;
+    std::optional<ImageFormat> format; // of standard output
+    std::vector<std::uint32_t> layers; // PT_QUANTITY_*, in .exr files beside the radiance
+    std::string film;                  // empty: none
     std::string stats;
     bool quiet = false;
 
-    // Their names must have been checked.
     std::vector<ImageTarget> targets() const;
 
-    // Whether an image or the report goes to standard output, so that messages must not.
     bool takes_standard_output() const;
 };
 
-// Calls use(option, path) for every file to be written.
+// Calls use(option, path) for each output.
 template <typename Options, typename Use>
 void for_each_output(Options &options, Use use) {
     for (auto &path : options.images)
@@ -70,46 +68,44 @@ void for_each_output(Options &options, Use use) {
     use("--stats", options.stats);
 }
 
-// Options for images and the report; parsing writes into `options`.
 void add_image_outputs(CLI::App &command, OutputOptions &options);
 
-// All output options except --quiet. layers: that the command can write.
+// layers: which names are allowed.
 void add_output_options(CLI::App &command, OutputOptions &options, std::span<const std::string_view> layers);
 
-// --format, for an image to standard output. names: formats that the command can write.
 void add_format(CLI::App &command, std::optional<ImageFormat> &format, std::span<const std::string_view> names);
 
 struct RenderOptions {
     std::string scene;
-    std::vector<SceneOverride> overrides; // including those by options of their own
+    std::vector<SceneOverride> overrides;
     OutputOptions output;
     bool alpha = false;
-    std::string denoiser; // file of Open Image Denoise; empty: not denoised
+    std::string denoiser; // library's file; empty: not denoised
     std::optional<Rectangle> crop;
 
     StoppingRules stopping;
     std::uint32_t sampling = PT_SAMPLING_BEST;
     std::uint32_t first_sample = 0;
 
-    bool parts = false;     // on request, without other outputs
-    std::string checkpoint; // path; empty: none
+    bool parts = false;
+    std::string checkpoint; // empty: none
     bool resume = false;
     std::optional<double> checkpoint_seconds; // empty: 30
     std::optional<double> preview_seconds;    // empty: only after SIGUSR1
 
-    std::optional<FrameRange> frames; // empty: a single picture
-    bool skip_existing = false;       // frames whose files exist
+    std::optional<FrameRange> frames;
+    bool skip_existing = false;
 
     std::string device;
-    std::uint32_t submit_milliseconds = 0; // 0: the library's default
-    std::uint32_t piece_rows = 0;          // 0: as many as fit the device's memory
+    std::uint32_t submit_milliseconds = 0; // 0: default
+    std::uint32_t piece_rows = 0;          // 0: as many as fit
     bool validation = false;
 
-    std::string shader_dir; // empty: the library's kernels
+    std::string shader_dir; // empty: built-in kernels
     bool watch = false;
     std::string progress = "auto";
 
-    // PT_QUANTITY_* to be read for layers, alpha and denoising.
+    // PT_QUANTITY_* for layers, alpha and denoising.
     std::vector<std::uint32_t> wanted_layers() const;
 };
 

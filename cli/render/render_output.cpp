@@ -32,7 +32,7 @@ void write_image(ImageWriter &writer, const ImageTarget &target, const RenderRep
     }
 }
 
-// On failure prints the message on stderr and returns false.
+// Reports a failure on stderr and returns false.
 bool succeeds(const std::function<void()> &write) {
     try {
         write();
@@ -48,7 +48,6 @@ bool has_format(const OutputOptions &options, Predicate holds) {
     return std::ranges::any_of(options.targets(), holds, &ImageTarget::format);
 }
 
-// Refuses options that only make sense with or without others.
 void check_combinations(const RenderOptions &options) {
     const OutputOptions &output = options.output;
     const bool has_checkpoint = !options.checkpoint.empty();
@@ -92,8 +91,7 @@ void check_denoise(const RenderOptions &options) {
               "whole picture alone");
 }
 
-// Refuses to replace a checkpoint, perhaps of hours, by one that does not continue it. Failure to write one is reported
-// when it happens, and does not stop the rendering.
+// Protects a checkpoint that this run does not continue. A failed writing does not end a rendering.
 void check_checkpoint(const RenderOptions &options) {
     if (options.checkpoint.empty())
         return;

@@ -1,4 +1,4 @@
-// The option --parts.
+// `pt render --parts`.
 #include "cli/base/text.h"
 #include "cli/film/film.h"
 #include "cli/render/render_command.h"
@@ -43,10 +43,10 @@ bool read_words(std::span<std::uint32_t> words) {
 
 struct Part {
     std::uint32_t first_sample;
-    std::vector<std::uint32_t> tile_samples; // as in pt_accumulate_info; empty: a request for the scene
+    std::vector<std::uint32_t> tile_samples; // as in pt_accumulate_info; empty: the scene is requested
 };
 
-// Empty at the end of standard input.
+// Empty at the end of input.
 std::optional<Part> read_part(std::size_t all_tiles) {
     std::array<std::uint32_t, 3> header{};
     if (!read_words(header))

@@ -30,7 +30,6 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Returns false if it was stopped.
 bool take_scene(const Context &context, const RenderTask &task, const Stop &superseded) {
     Progress progress(std::cerr, progress_style(task.options), 0, 0, Clock::now());
     return describe_scene(context, task.scene, [&](double share) {
@@ -39,7 +38,7 @@ bool take_scene(const Context &context, const RenderTask &task, const Stop &supe
     });
 }
 
-// The film of one piece of an image could not be continued for the others.
+// A film belongs to one piece.
 void require_one_piece(const RenderTask &task, std::uint32_t rows) {
     const RenderOptions &options = task.options;
     const std::string option = !options.checkpoint.empty()    ? "--checkpoint"
@@ -52,7 +51,6 @@ void require_one_piece(const RenderTask &task, std::uint32_t rows) {
                                           : concat("has room for ", rows, " rows at a time")));
 }
 
-// Adds the checkpoint's samples if the options say so.
 void resume_if_asked(const Context &context, const RenderTask &task) {
     const RenderOptions &options = task.options;
     if (!options.resume)
@@ -65,12 +63,12 @@ void resume_if_asked(const Context &context, const RenderTask &task) {
     }
 }
 
-// An image ended by another rule may have the target error, although some pixels lack samples.
+// A target error may be reached although another rule ended the rendering.
 std::string ending_of(const RenderReport &report, const ImageRender::Result &rendered, bool interrupted) {
     return interrupted ? "signal" : rendered.ended_by.value_or(report.target_reached() ? "error" : "samples");
 }
 
-// The outcome if no signal came. A missing file outweighs missing samples, which a checkpoint can still supply.
+// Without a signal. A missing file outweighs missing samples, which a checkpoint can supply.
 ExitCode outcome_of(const RenderReport &report, const ImageRender::Result &rendered, bool all_written) {
     if (!all_written)
         return ExitCode::file;
@@ -79,7 +77,6 @@ ExitCode outcome_of(const RenderReport &report, const ImageRender::Result &rende
     return report.target_error > 0.0 && !report.target_reached() ? ExitCode::target_missed : ExitCode::done;
 }
 
-// Prints the memory that an image in pieces takes.
 void print_pieces(const Context &context, const RenderTask &task, std::uint32_t rows) {
     print_message(concat((task.window.part.height + rows - 1) / rows, " pieces of up to ", rows,
                          " rows: ", memory_text(context.stats().device_bytes), " on the device, ",
@@ -92,7 +89,6 @@ void print_summary(const OutputOptions &output, const RenderReport &report, cons
                      output.takes_standard_output());
 }
 
-// Returns whether all images and the film were written.
 bool write_outputs(ImageWriter &writer, const Context &context, const RenderTask &task, RenderReport &report,
                    const RenderedImage &image, Clock::time_point start) {
     const OutputOptions &output = task.options.output;
@@ -113,12 +109,11 @@ bool write_outputs(ImageWriter &writer, const Context &context, const RenderTask
     return written.size() == output.images.size() + (output.film.empty() ? 0 : 1);
 }
 
-// Nothing if no output is tone-mapped.
 std::optional<ToneMap> tone_map_of(const RenderTask &task, std::span<const float> radiance) {
     return needs_tone_map(task.options.output) ? std::optional(task.scene.display.tone_map(radiance)) : std::nullopt;
 }
 
-// The second half has the guides. Keeps only the wanted layers.
+// The second half has albedo and normal, which are kept only if wanted.
 RenderedImage denoised_halves(const RenderOptions &options, const RenderedImage &first, RenderedImage second) {
     const auto guide = [&](std::uint32_t quantity) -> std::span<const float> {
         return std::ranges::find(second.layers, quantity, &PictureLayer::quantity)->values;
@@ -132,14 +127,14 @@ RenderedImage denoised_halves(const RenderOptions &options, const RenderedImage 
     return image;
 }
 
-// Takes both halves of the samples. A target error or a time limit makes them grow in rounds by a half, as in the
-// package pt for Python; each round is denoised, which gives its error. A stop leaves the last round's picture, if any.
+// With stopping rules both halves grow by a half in each round, as in the Python package. Denoising each round gives
+// its error. A stop leaves the last round's picture.
 ImageRender::Result render_halves(const RenderTask &task, ImageRender &render, const Stop &stop) {
     constexpr double growth = 1.5;
     const Clock::time_point start = Clock::now();
     const StoppingRules &rules = task.options.stopping;
     std::array<std::vector<std::byte>, 2> films;
-    std::vector<PictureLayer> layers; // independent of samples
+    std::vector<PictureLayer> layers;
     ImageRender::Result result{};
     std::uint32_t done = 0;
     std::uint32_t expected = task.sample_count;
@@ -213,7 +208,7 @@ ExitCode render_picture(const Context &context, const RenderTask &task, const Re
         print_pieces(context, task, rows);
     report.create_seconds = seconds_since(times.create_start);
 
-    // Not earlier: drivers are shared objects too, and their loading would wait for the image module's.
+    // Drivers would wait for the module's loading.
     ImageWriter writer;
     if (needs_module(options.output))
         writer.load_module();
@@ -224,7 +219,7 @@ ExitCode render_picture(const Context &context, const RenderTask &task, const Re
         so_far.error = image.error;
         so_far.tone_map = tone_map_of(task, image.radiance);
         writer.wait();
-        const OutputOptions files = without_standard_output(options.output); // a stream takes only one image
+        const OutputOptions files = without_standard_output(options.output); // takes one image only
         return write_images(writer, files, so_far, image).size() == files.images.size();
     };
     const Stop stop = [&] { return interrupt_signal() != 0 || writer.failed() || superseded(); };
@@ -234,7 +229,7 @@ ExitCode render_picture(const Context &context, const RenderTask &task, const Re
     const ImageRender::Result rendered = report.is_denoised ? render_halves(task, *render, stop)
                                                             : render->run({0, task.sample_count, 0, task.sample_count});
     const RenderedImage &image = rendered.image;
-    render.reset(); // erases the line of progress
+    render.reset();
     report.accumulate_seconds = seconds_since(accumulate_start);
     report.total_seconds = seconds_since(times.start);
 

@@ -17,7 +17,6 @@
 namespace cli {
 namespace {
 
-// Names of the set bits.
 template <std::size_t Count>
 std::vector<std::string_view> names_of(std::uint32_t bits, const ValueNames<Count> &all) {
     std::vector<std::string_view> names;
@@ -38,7 +37,7 @@ double samples_per_second(const RenderReport &report) {
     return report.accumulate_seconds > 0.0 ? pixels * report.stats.mean_sample_count / report.accumulate_seconds : 0.0;
 }
 
-// Reasons why the relative error may be far off; empty without any.
+// Why the relative error may be far off, if so.
 std::string uncertainty_text(std::uint32_t uncertain) {
     if ((uncertain & PT_UNCERTAIN_UNMET) != 0)
         return ", uncertain: few samples meet small lamps, more samples tell";
@@ -60,7 +59,7 @@ std::string estimate_text(const RenderReport &report) {
            percent_text(error.relative_rmse_high) + ")" + uncertainty_text(error.uncertain);
 }
 
-// "64" or, if pixels differ, "37.3 (16 to 256)".
+// "64", or "37.3 (16 to 256)" if pixels differ.
 std::string samples_text(const pt_stats &stats) {
     if (stats.sample_count == stats.max_sample_count)
         return std::to_string(stats.sample_count);
@@ -170,12 +169,10 @@ std::string error_text(const RenderReport &report) {
     return estimate_text(report) + (report.target_error > 0.0 ? "; " + target_text(report) : "");
 }
 
-// No time or date, so that equal runs give equal files. samplesPerPixel is pbrt's, which other tools read. Numbers that
-// may exceed OpenEXR's signed 32-bit integers are texts.
+// No date: equal runs give equal files. samplesPerPixel is pbrt's. Numbers beyond OpenEXR's int32 are texts.
 std::vector<ImageAttribute> image_metadata(const RenderReport &report, const ToneMap *tone_map) {
     std::vector<ImageAttribute> attributes;
     const auto add = [&](const char *name, auto value) { attributes.push_back({name, std::move(value)}); };
-    // Clamped to OpenEXR's largest integer.
     const auto whole = [](std::uint32_t number) {
         return static_cast<std::int32_t>(std::min<std::uint32_t>(number, std::numeric_limits<std::int32_t>::max()));
     };

@@ -12,7 +12,7 @@
 namespace cli {
 namespace {
 
-// Limits or refuses a number of samples: an index is at most 2^32 - 1.
+// Indices have 32 bits. Reduces upper limits; refuses other counts that pass them.
 std::uint32_t limited_samples(std::uint32_t count, std::uint32_t first, bool is_upper_limit) {
     const std::uint64_t left = (std::uint64_t{1} << 32) - first;
     refuse_if(count > left && !is_upper_limit,
@@ -35,12 +35,12 @@ ImageWindow chosen_window(const std::optional<Rectangle> &crop, const pt_render 
 }
 
 std::uint32_t image_count(const RenderOptions &options) {
-    // The other half, both filtered, the result, the filter's inputs and outputs.
+    // Second half, filtered halves, result, and the filter's inputs and outputs.
     const std::uint32_t of_denoising = options.denoiser.empty() ? 0 : 8;
     return 1 + static_cast<std::uint32_t>(options.wanted_layers().size()) + of_denoising;
 }
 
-// The library's refusals about a scene are the scene's fault, even if the message names no field.
+// Blames the scene even if the message names no field.
 void require_scene(const Context &context, const SceneFile &scene, pt_result result) {
     if (result < 0) {
         const LibraryError error = context.last_error();
@@ -99,7 +99,7 @@ void require(const Context &context, const RenderTask &task, pt_result result) {
 }
 
 bool describe_scene(const Context &context, const SceneFile &file, const std::function<bool(double)> &goes_on) {
-    std::function<bool(double)> listener = goes_on; // a copy, since the library's pointer must not be const
+    std::function<bool(double)> listener = goes_on; // a copy that is not const
     pt_scene scene = file.scene();
     const std::vector<pt_sphere_array> arrays = file.sphere_arrays();
     scene.sphere_arrays = arrays.data();

@@ -1,4 +1,4 @@
-// The option --watch.
+// `pt render --watch`.
 #include "cli/base/file.h"
 #include "cli/base/interrupt.h"
 #include "cli/base/text.h"
@@ -18,10 +18,10 @@
 namespace cli {
 namespace {
 
-// The longest delay of a signal that comes just before a wait.
+// Longest delay of a signal that comes just before a wait.
 constexpr std::chrono::milliseconds patience{200};
 
-// Refuses pipes, which can be read only once, and wait for their writers.
+// Pipes can be read only once.
 void require_files(const RenderOptions &options) {
     const std::vector<std::string> &images = options.output.images;
     refuse_if(options.frames.has_value(), "--watch: shows one picture, not --frames");
@@ -58,8 +58,8 @@ private:
     // Ending a watch while it waits is success.
     int exit_code() const { return exit_code_of(outcome_, outcome_ == ExitCode::signal ? interrupt_signal() : 0); }
 
-    // Renders. If it fails and an edit can help, prints the message and waits for the edit. Edited shaders may lose
-    // samples or the device, which then takes another context.
+    // Waits for an edit after a failure that one can repair. Edited shaders may lose the device, so the next picture
+    // gets a new context.
     void render_or_tell() {
         outcome_ = ExitCode::done;
         try {
@@ -83,7 +83,7 @@ private:
         check_names(options_);
         RenderTask task(options_, read_scene_file(options_.scene, options_.overrides));
         const std::vector<std::string> columns = column_paths(task.scene);
-        sources_.follow({columns.begin(), columns.end()}); // before the files are read
+        sources_.follow({columns.begin(), columns.end()});
         task.load();
         check_outputs(task);
         times.create_start = std::chrono::steady_clock::now();
@@ -94,7 +94,7 @@ private:
             edited_.clear();
     }
 
-    // One context for all pictures: starting another takes longer than most renderings.
+    // Kept for all pictures: creating it takes longer than most renderings.
     void refresh_context() {
         if (!context_) {
             context_.emplace(render_create_info(options_, log_));
@@ -123,7 +123,6 @@ private:
         print_unless_quiet("changed: " + listed(names));
     }
 
-    // Files edited since the last good picture.
     void tell_suspects() const {
         if (!edited_.empty())
             print_message("the likely cause: " + listed(edited_) + ", edited since the last picture");
@@ -133,8 +132,8 @@ private:
     ValidationLog &log_;
     SourceWatch sources_;
     std::optional<Context> context_;
-    ExitCode outcome_ = ExitCode::done; // of the last rendering, even a failed one, since an edit may repair it
-    std::set<std::string> edited_;      // since the last picture
+    ExitCode outcome_ = ExitCode::done; // kept after failures
+    std::set<std::string> edited_;
     bool is_first_ = true;
     bool is_told_ = false;
 };

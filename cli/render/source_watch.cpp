@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 constexpr std::chrono::milliseconds interval{100};
 constexpr std::chrono::milliseconds settling{50};
 
-// Files' time stamps tick every few milliseconds: a file just changed may change again within a tick.
+// Files' time stamps tick: two changes within a tick look like one.
 bool is_fresh(const fs::path &path) {
     std::error_code error;
     const fs::file_time_type written = fs::last_write_time(path, error);
@@ -100,7 +100,7 @@ bool SourceWatch::changed(std::chrono::milliseconds timeout) {
 }
 
 std::vector<std::string> SourceWatch::changed_names() const {
-    std::vector<std::pair<const fs::path, std::optional<std::string>>> differing; // has a changed file twice
+    std::vector<std::pair<const fs::path, std::optional<std::string>>> differing;
     std::ranges::set_symmetric_difference(begun_, seen_, std::back_inserter(differing));
     std::set<std::string> names;
     for (const auto &[path, contents] : differing)

@@ -1,4 +1,4 @@
-// Watches a picture's sources (scene, data, kernels) for changes.
+// Watches scene, data and kernels for changes.
 #pragma once
 
 #include <chrono>
@@ -11,27 +11,27 @@
 
 namespace cli {
 
-// Including subfolders; none if the name is empty.
+// With subfolders. Empty without a name.
 std::set<std::filesystem::path> shader_files(const std::filesystem::path &shader_dir);
 
-// Contents by path; empty for missing files.
+// Empty contents: a missing file.
 using SourceFiles = std::map<std::filesystem::path, std::optional<std::string>>;
 
-// Polls the files ten times a second, so that other machines' writes are seen too.
+// Polls ten times a second, which also sees other machines' writes.
 class SourceWatch {
 public:
     SourceWatch(std::filesystem::path scene, std::filesystem::path shader_dir);
 
-    // Call before using the files: later changes count.
+    // Call before using the files.
     void begin();
 
-    // Also watches the scene's data files. These may exceed memory, so their state is kept instead of their contents.
+    // Also watches data files. They may exceed memory, so only their state is kept.
     void follow(const std::set<std::filesystem::path> &data);
 
     bool has_data() const { return !data_.empty(); }
 
-    // Waits until contents differ from those at begin() and have been stable for a moment, since saving takes several
-    // steps; or a signal comes, or the time is over.
+    // Waits for contents that differ from begin()'s and are stable (saving takes several steps), a signal, or the
+    // timeout.
     bool changed(std::chrono::milliseconds timeout);
 
     std::vector<std::string> changed_names() const;
@@ -50,10 +50,10 @@ private:
     std::filesystem::path scene_;
     std::filesystem::path shader_dir_;
     std::set<std::filesystem::path> data_;
-    std::map<std::filesystem::path, Kept> kept_; // read again only if the file's state has changed
+    std::map<std::filesystem::path, Kept> kept_; // read again if the file's state changed
     SourceFiles begun_;
-    SourceFiles seen_;             // at the last look
-    Clock::time_point seen_since_; // with these contents
+    SourceFiles seen_;
+    Clock::time_point seen_since_;
     Clock::time_point last_look_;
 };
 

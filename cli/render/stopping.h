@@ -1,5 +1,5 @@
-// Rules that end a rendering before it has all samples, and their test between steps. A new rule is a field here, its
-// test in StoppingTest, and its option in render_options.cpp.
+// Rules that end a rendering early. A new rule is a field of StoppingRules, its test in StoppingTest, and its option in
+// render_options.cpp.
 #pragma once
 
 #include <pt/stats.h>
@@ -15,16 +15,15 @@
 namespace cli {
 
 struct StoppingRules {
-    double target_error = 0.0;        // relative; 0: none; tested by the library within steps
+    double target_error = 0.0;        // 0: none; tested by the library
     std::optional<double> time_limit; // seconds per frame
 
     bool has_target() const { return target_error > 0.0; }
     bool has_any() const { return has_target() || time_limit; }
 
-    // Samples of a pixel, unless the scene or an option sets them.
+    // Default samples per pixel.
     std::uint32_t usual_samples() const { return has_any() ? 65536 : 64; }
 
-    // Factor by which the samples may grow after this time, if others take as long.
     double growth_left(double seconds) const {
         return time_limit.value_or(std::numeric_limits<double>::infinity()) / seconds;
     }
@@ -33,9 +32,8 @@ struct StoppingRules {
 inline constexpr const char *stopping_options = "--error or --time";
 inline constexpr const char *ended_by_time = "time";
 
-// Estimates the total samples for a target error, if sample_count samples have `error`, which may be infinite.
-// Independent samples' error falls with the root of their number; stratified ones need fewer, so the estimate falls. It
-// exceeds the next look's samples, so that progress does not show 100% before the target is reached.
+// Total samples for a target error. `error` may be infinite. Independent errors fall as n^-1/2, stratified ones faster,
+// so the estimate falls. At least the next check's count, so that progress does not reach 100% too early.
 inline std::uint32_t forecast_sample_count(std::uint32_t sample_count, double error, double target_error,
                                            std::uint32_t most) {
     const double ratio = error / target_error;
@@ -44,7 +42,7 @@ inline std::uint32_t forecast_sample_count(std::uint32_t sample_count, double er
     return static_cast<std::uint32_t>(std::min(std::max(std::ceil(guess), least), static_cast<double>(most)));
 }
 
-// Asked between the steps of a rendering, piece by piece.
+// Consulted between steps.
 class StoppingTest {
 public:
     using Clock = std::chrono::steady_clock;
@@ -53,8 +51,7 @@ public:
 
     const StoppingRules &rules() const { return rules_; }
 
-    // end: the share of the image after the next piece. Each piece gets its share of the time, plus what earlier ones
-    // left.
+    // end: share of the image after the piece. Earlier pieces' unused time is passed on.
     void enter_piece(double end) {
         if (rules_.time_limit)
             end_ = start_ +
@@ -62,26 +59,23 @@ public:
         is_over_ = false;
     }
 
-    // Whether a step should end at its next whole sample.
+    // Whether the step should end at its next whole sample.
     bool is_due() const { return Clock::now() >= end_; }
 
-    // After a step that leaves the piece with some samples, but not all.
     void look(Clock::time_point now) {
         is_over_ = now >= end_;
         if (is_over_)
             ended_by_ = ended_by_time;
     }
 
-    // Whether the piece gets no more samples.
     bool is_over() const { return is_over_; }
 
-    // The rule that left some piece with fewer samples, if any.
     std::optional<std::string> ended_by() const { return ended_by_; }
 
 private:
     StoppingRules rules_;
     Clock::time_point start_;
-    Clock::time_point end_ = Clock::time_point::max(); // of the piece
+    Clock::time_point end_ = Clock::time_point::max();
     bool is_over_ = false;
     std::optional<std::string> ended_by_;
 };

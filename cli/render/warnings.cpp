@@ -21,7 +21,7 @@ bool is_lit(const SceneFile &scene) {
     return std::ranges::any_of(scene.used_materials, [&](std::uint32_t i) { return emits(scene.materials[i]); });
 }
 
-// The largest of the channels' sums. Lobes reflect all of their weight for light along the normal.
+// The largest of three channels. A lobe reflects all its weight at normal incidence.
 float reflected_share(const pt_material &material) {
     float largest = 0.0F;
     for (std::size_t i = 0; i < 3; ++i)
@@ -29,13 +29,12 @@ float reflected_share(const pt_material &material) {
     return largest;
 }
 
-// Decodes sRGB (IEC 61966-2-1).
+// IEC 61966-2-1.
 double light_of_byte(float byte) {
     const double signal = byte / 255.0;
     return signal <= 0.04045 ? signal / 12.92 : std::pow((signal + 0.055) / 1.055, 2.4);
 }
 
-// Suggests values for a color probably meant as sRGB bytes; empty for others.
 std::string byte_color_text(const pt_material &material) {
     std::array<std::string, 3> bytes;
     std::array<std::string, 3> shares;
@@ -51,10 +50,10 @@ std::string byte_color_text(const pt_material &material) {
 }
 
 std::optional<std::string> brightening_materials(const SceneFile &scene) {
-    constexpr float tolerance = 1e-6F; // 0.1 + 0.9 in float32 may pass 1
+    constexpr float tolerance = 1e-6F; // 0.1 + 0.9 may pass 1
     constexpr std::size_t most_names = 3;
     std::vector<std::string> names;
-    std::string hint; // for the first
+    std::string hint;
     std::size_t count = 0;
     float largest = 0.0F;
     for (const std::uint32_t i : scene.used_materials) {
@@ -78,10 +77,10 @@ bool is_black(std::span<const float> radiance) {
     return !radiance.empty() && std::ranges::all_of(radiance, [](float value) { return value == 0.0F; });
 }
 
-// Relative errors treat light far below 0.1 as none (pt_error_estimate), so a dark picture reaches its target with any
-// noise, as in units in which emission is only some hundredths. Scaling all emission scales the picture and its noise.
+// Relative errors count light below 0.1 as 0.1 (pt_error_estimate), so any noise satisfies them in a dark picture.
+// Scaling all emission scales picture and noise.
 std::optional<std::string> picture_below_its_target(const RenderReport &report, std::span<const float> radiance) {
-    // Average 0.18 / 2^4.5 = 1/126, a twelfth of 0.1: a target of 1% allows noise of an eighth of the average.
+    // Average 0.18 / 2^4.5 = 0.008: a target of 1% allows noise of 0.001.
     constexpr double most_stops = 4.5;
     if (report.target_error <= 0.0 || is_black(radiance))
         return std::nullopt;
@@ -94,7 +93,6 @@ std::optional<std::string> picture_below_its_target(const RenderReport &report, 
            formatted("%.0f", stops) + ", or ask for much less";
 }
 
-// Whether an earlier warning explains the black picture.
 bool is_known_to_be_black(const RenderReport &report) {
     return std::ranges::any_of(report.warnings,
                                [](const auto &warning) { return warning.ends_with("the picture is black"); });

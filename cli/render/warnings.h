@@ -1,5 +1,4 @@
-// Warnings about input that is valid but surely not intended. Printed once on stderr, unless -q is given, and listed in
-// the --stats file.
+// Warnings about valid input that is surely not intended. Printed on stderr and listed in --stats.
 #pragma once
 
 #include "cli/render/render_report.h"
@@ -12,13 +11,12 @@
 
 namespace cli {
 
-// Known before rendering: nothing emits, materials that reflect more light than they receive, a target error of 100% or
-// more (0: none). of_library: about what the camera sees.
+// Before rendering: no lamp, materials that brighten light, a target error from 100% on (0: none). of_library: about
+// the view.
 std::vector<std::string> input_warnings(const SceneFile &scene, const std::optional<BrokenRule> &of_library,
                                         double target_error);
 
-// Known from the image: samples left out, a picture so dark that any noise reaches its target error, an unexplained
-// black picture. report.warnings: from before rendering.
+// After rendering: samples left out, a picture far darker than its target error, an unexplained black picture.
 std::vector<std::string> image_warnings(const RenderReport &report, std::span<const float> radiance);
 
 void print_warnings(std::span<const std::string> warnings);

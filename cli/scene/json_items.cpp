@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-// Reports how far the parser has come.
+// Reports its position.
 class TellingIterator {
 public:
     using iterator_category = std::input_iterator_tag;
@@ -40,7 +40,7 @@ private:
 
 class ItemParser {
 public:
-    // wanted: path whose line is looked for.
+    // wanted: path whose line is searched.
     ItemParser(JsonItemHandler &handler, const JsonPath &wanted) :
         handler_(handler),
         wanted_(wanted),
@@ -57,7 +57,7 @@ public:
                 json::parse(TellingIterator(begin_, reached_), TellingIterator(begin_ + text.size(), reached_),
                             take_next, throws, ignore_comments);
         } catch (const json::out_of_range &error) {
-            constexpr int number_overflow = 406; // the library's documented id
+            constexpr int number_overflow = 406; // nlohmann-json's documented id
             if (error.id != number_overflow)
                 throw;
             refuse_overflow(error.what());
@@ -66,7 +66,7 @@ public:
 
     std::optional<std::size_t> line() const { return line_; }
 
-    // The place of a missing comma, if that is the fault. wrong_end: end of the first wrong token.
+    // Where a comma is missing, if it is. wrong_end: end of the first wrong token.
     std::optional<std::size_t> missing_comma(std::string_view text, std::size_t wrong_end) const {
         constexpr std::string_view blanks = " \t\r\n";
         constexpr std::string_view ends_of_values = "\"{[0123456789el"; // or their beginnings
@@ -79,13 +79,13 @@ public:
     }
 
 private:
-    // An open array or object, and the step to its present member.
+    // An open array or object.
     struct Level {
         JsonStep step;
-        std::set<std::string> keys{}; // so far
+        std::set<std::string> keys{};
     };
 
-    // Open levels before the value: 0 for the root, 1 for a section, 2 for an item.
+    // Depth of an item's value.
     static constexpr std::size_t section_depth = 1;
     static constexpr std::size_t element_depth = 2;
 
@@ -93,7 +93,7 @@ private:
     bool take(json::parse_event_t event, const json &parsed) {
         const bool is_end = event == json::parse_event_t::array_end || event == json::parse_event_t::object_end;
         after_value_ = is_end || event == json::parse_event_t::value;
-        value_end_ = reached_ - (parsed.is_number() ? 1 : 0); // after a number one more character has been read
+        value_end_ = reached_ - (parsed.is_number() ? 1 : 0); // one more character has been read
         switch (event) {
         case json::parse_event_t::object_start:
         case json::parse_event_t::array_start:
@@ -111,7 +111,6 @@ private:
         }
     }
 
-    // Names the place of a number too large for double.
     [[noreturn]] void refuse_overflow(const std::string &what) {
         enter_value(json::value_t::number_float);
         const std::size_t quote = what.find('\'');
@@ -126,7 +125,8 @@ private:
         return path;
     }
 
-    // The parser reads one character beyond a number, perhaps the line's end, so the last character does not count.
+    // Notes the line if this is the wanted value. The last character read does not count: after a number it may be a
+    // line end.
     void enter() {
         const bool leads_there =
             levels_.size() >= line_depth_ && levels_.size() <= wanted_.size() &&
@@ -146,7 +146,7 @@ private:
             throw JsonRefusal(path(), "is given twice");
     }
 
-    // Members get their line from their key; array elements, without a key, from the beginning of the value.
+    // A member's line is its key's; an element's line is its beginning.
     void enter_value(json::value_t kind) {
         if (levels_.empty()) {
             enter();
@@ -167,7 +167,7 @@ private:
         levels_.push_back({{{}, is_array ? static_cast<std::size_t>(-1) : 0, is_array}}); // the first makes it 0
     }
 
-    // Items are handed out and discarded.
+    // Hands out and discards items.
     bool hand_out(const json &value) {
         if (levels_.size() != element_depth)
             return true;
@@ -182,15 +182,14 @@ private:
     const JsonPath &wanted_;
     const char *begin_ = nullptr;
     const char *reached_ = nullptr;
-    const char *value_end_ = nullptr; // of the last event
+    const char *value_end_ = nullptr;
     bool after_value_ = false;
     std::vector<Level> levels_;
-    std::size_t line_depth_; // of the value that has the line, or may have it
+    std::size_t line_depth_; // of the value that `line_` belongs to
     std::optional<std::size_t> line_;
 };
 
-// Turns "[json.exception...] parse error at line 1, column 2: syntax error while ..." into the file's words. error.byte
-// counts characters read, including the wrong one.
+// Rewords the parser's message. error.byte includes the wrong character.
 Failure failure_of(const json::parse_error &error, const ItemParser &parser, std::string_view text,
                    const std::string &file_name) {
     if (const auto comma = parser.missing_comma(text, error.byte))
@@ -207,7 +206,7 @@ Failure failure_of(const json::parse_error &error, const ItemParser &parser, std
 } // namespace
 
 void parse_json_items(std::string_view text, const std::string &file_name, JsonItemHandler &handler) {
-    if (text.empty()) // nlohmann-json's versions word this differently
+    if (text.empty()) // versions of nlohmann-json differ here
         throw Failure(ExitCode::scene, file_name + ":1:1: syntax error: the file is empty");
     const JsonPath none;
     ItemParser parser(handler, none);
@@ -226,7 +225,7 @@ std::optional<std::size_t> line_of(std::string_view text, const JsonPath &path) 
     ItemParser parser(nobody, path);
     try {
         parser.parse(text);
-    } catch (const std::exception &) { // reported when it was read
+    } catch (const std::exception &) { // was reported by parse_json_items()
     }
     return parser.line();
 }

@@ -1,5 +1,5 @@
-// Parses JSON whose root is an object of sections, each an object or array of small items. Items are handed out one at
-// a time, so that a file of a million spheres is never a tree in memory.
+// Parses JSON whose root has sections, each an object or array of small items. Hands out items one at a time, so that a
+// million spheres never become one tree.
 #pragma once
 
 #include "cli/base/json.h"
@@ -17,19 +17,19 @@ class JsonItemHandler {
 public:
     virtual ~JsonItemHandler() = default;
 
-    // Begins a member of the root. Places are valid during the call.
+    // Places are valid during the call.
     virtual void begin_section(const JsonPlace &place, nlohmann::json::value_t kind) = 0;
 
-    // A member or element of the last section.
+    // Belongs to the last section.
     virtual void item(const JsonPlace &place, const nlohmann::json &value) = 0;
 };
 
-// Throws Failure(ExitCode::scene) for syntax errors, "file:line:column: ...", and JsonRefusal for duplicate keys,
-// numbers beyond double, and a root that is no object. Comments are allowed.
+// Allows comments. Throws Failure(ExitCode::scene) for syntax errors, "file:line:column: ...", and JsonRefusal for
+// duplicate keys, numbers beyond double, and a root other than an object.
 void parse_json_items(std::string_view text, const std::string &file_name, JsonItemHandler &handler);
 
-// Line, from 1, of the member's key or the element at the path, or else of the innermost value around it, as far as the
-// text can be parsed; nothing without even the first step. The last of repeated keys wins.
+// Line, from 1, of the value at the path or the innermost one around it, where the text can be parsed. The last of
+// repeated keys wins.
 std::optional<std::size_t> line_of(std::string_view text, const JsonPath &path);
 
 } // namespace cli

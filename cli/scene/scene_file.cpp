@@ -17,7 +17,7 @@ bool is_opaque(const Look &look) {
     return look.opacity == 1.0F;
 }
 
-// Opacities are set only if some sphere has one, since they cost rays time.
+// Opacities cost time, so they are set only if some sphere has one.
 void put_looks(pt_sphere_array &array, const Look &first, std::uint32_t stride, bool are_opaque) {
     array.color = {&first.color, stride, PT_TYPE_FLOAT32};
     if (!are_opaque)
@@ -48,7 +48,6 @@ pt_sphere_array array_of(std::span<const Capsule> capsules) {
     return array;
 }
 
-// Keys of the file with other names in pt.h.
 constexpr std::array<std::array<std::string_view, 2>, 6> renamed{{{"camera.target", "camera.look_at"},
                                                                   {"camera.shutter_open", "camera.shutter[0]"},
                                                                   {"camera.shutter_close", "camera.shutter[1]"},
@@ -56,8 +55,7 @@ constexpr std::array<std::array<std::string_view, 2>, 6> renamed{{{"camera.targe
                                                                   {"render.height", "film.height"},
                                                                   {"accumulate.sample_count", "render.spp"}}};
 
-// Path of a field of pt_scene.sphere_arrays; component: a sphere's index. Single spheres and capsules, if they are
-// arrays, come before items that are many.
+// Spheres and capsules with looks are arrays, too; they come before items that are many.
 JsonPath path_in_arrays(const SceneFile &scene, const BrokenRule &rule) {
     const std::size_t of_spheres = scene.looks.empty() ? 0 : 1;
     const std::size_t of_single = of_spheres + (scene.capsules.empty() ? 0 : 1);
@@ -71,7 +69,6 @@ JsonPath path_in_arrays(const SceneFile &scene, const BrokenRule &rule) {
     return path;
 }
 
-// Replaces a material's index by its name.
 BrokenRule with_names(const SceneFile &scene, const BrokenRule &rule) {
     BrokenRule named = rule;
     if (rule.subject == "sphere_arrays" && rule.member == "material")
@@ -79,7 +76,7 @@ BrokenRule with_names(const SceneFile &scene, const BrokenRule &rule) {
     return named;
 }
 
-// Path in the file of the field that breaks a rule; empty if the file has no such field.
+// Empty if the file has no such field.
 JsonPath path_of(const SceneFile &scene, const BrokenRule &rule) {
     if (rule.subject == "sphere_arrays" && rule.index)
         return path_in_arrays(scene, rule);
@@ -104,14 +101,14 @@ JsonPath path_of(const SceneFile &scene, const BrokenRule &rule) {
     return path;
 }
 
-// The override of the file's value at the path, or nullptr.
+// nullptr: none.
 const SceneOverride *find_override(const SceneFile &scene, const JsonPath &path) {
     const auto found = std::find_if(scene.overrides.rbegin(), scene.overrides.rend(),
                                     [&](const SceneOverride &each) { return is_within(path, each.path); });
     return found == scene.overrides.rend() ? nullptr : &*found;
 }
 
-// If neither the file nor an option has such a value, blame the command line.
+// Whether the command line is to blame.
 bool is_of_command(const SceneFile &scene, const BrokenRule &rule, const JsonPath &path) {
     return find_option(rule) != nullptr && (path.empty() || !scene.gives(path));
 }

@@ -1,5 +1,5 @@
-// Reads scene files: JSON to the structs of pt.h. Checks names, types and units; the library checks the rules, and
-// explain() leads its messages back to the file.
+// Reads scene files into the structs of pt.h. Checks names, types and units; the library checks ranges, and explain()
+// translates its messages.
 #pragma once
 
 #include "cli/base/context.h"
@@ -21,7 +21,7 @@
 
 namespace cli {
 
-// For files without a camera: from (0, 0, 1) to the origin.
+// From (0, 0, 1) to the origin.
 constexpr pt_camera default_camera() {
     auto camera = sized<pt_camera>();
     camera.position[2] = 1.0;
@@ -37,66 +37,65 @@ constexpr pt_render default_render() {
     return render;
 }
 
-// A sphere's own properties beside its material.
+// A sphere's properties beside its material.
 struct Look {
     std::array<float, 3> color{1.0F, 1.0F, 1.0F};
     float opacity = 1.0F;
 };
 
 struct Capsule {
-    pt_sphere ball; // at one end
+    pt_sphere ball;
     std::array<double, 3> end;
     Look look;
 };
 
 struct SceneFile {
     std::string path;
-    std::string text;                        // for line numbers in refusals
-    std::vector<SceneOverride> overrides;    // of its values
-    std::vector<JsonPath> given;             // keys of `camera`, `film` and `render` in the file or overrides
-    std::vector<std::string> material_names; // in the file's order, like all arrays from here on
+    std::string text; // for line numbers in messages
+    std::vector<SceneOverride> overrides;
+    std::vector<JsonPath> given;             // keys of `camera`, `film` and `render`
+    std::vector<std::string> material_names; // all arrays from here on are in the file's order
     std::vector<pt_material> materials;
-    std::vector<std::uint32_t> used_materials; // of surfaces, in ascending order
+    std::vector<std::uint32_t> used_materials; // ascending
     std::vector<pt_sphere> spheres;
-    std::vector<Look> looks; // per sphere if any has one, else empty
+    std::vector<Look> looks; // as many as spheres, or empty
     std::vector<Capsule> capsules;
     std::vector<pt_plane> planes;
-    std::vector<SphereColumns> sphere_columns; // without their files' contents before load_columns
+    std::vector<SphereColumns> sphere_columns; // files are read by load_columns()
     std::vector<AnimatedValue> animation;
     pt_camera camera = default_camera();
-    pt_render render = default_render();       // from the sections `film` and `render`, like the next two
+    pt_render render = default_render();
     std::optional<std::uint32_t> sample_count; // of a pixel
     Display display;
 
     void add_sphere(const pt_sphere &sphere, const std::optional<Look> &look);
 
-    // Both point into this object. The first array has all single spheres if any has a look, the next one capsules,
-    // then each item that is many.
+    // Both point into this object. First come single spheres if any has a look, then capsules, then each item that is
+    // many.
     pt_scene scene() const;
     std::vector<pt_sphere_array> sphere_arrays() const;
     std::size_t item_of(std::string_view section,
-                        std::size_t index) const; // index of a single item among all items of the section
+                        std::size_t index) const; // index of a single item among all of the section
 
     bool gives(const JsonPath &key) const;
 
-    // Explains the library's message about a field by its source: with the file's key and line, "scene.json:7:
-    // materials.gold.glossiness = -1: must be >= 0", or by an option.
+    // Messages with the field's source: an option, or file and line, as in "scene.json:7: materials.gold.glossiness =
+    // -1: must be >= 0".
     std::string explain(const BrokenRule &rule) const;
     std::string explain(const LibraryError &error) const;
 
-    // Exit code for a broken rule: of the file (ExitCode::scene) or of the override.
+    // ExitCode::scene, or the override's.
     ExitCode blame(const BrokenRule &rule) const;
     ExitCode blame(const LibraryError &error) const;
 };
 
-// overrides: later ones win. Throws Failure(ExitCode::scene) if the text is not a scene file, and blames an override
-// that does not fit.
+// Later overrides win. Throws Failure: for the text ExitCode::scene, for a wrong override its `blame`.
 SceneFile parse_scene(std::string text, const std::string &path, std::vector<SceneOverride> overrides = {});
 
-// From overrides of the section `film`, without a scene file.
+// For commands without a scene file.
 Display display_of(const std::vector<SceneOverride> &overrides);
 
-// path: - for standard input. Throws Failure(ExitCode::file) if it cannot be read.
+// path "-": standard input. Throws Failure.
 SceneFile read_scene_file(const std::string &path, std::vector<SceneOverride> overrides = {});
 
 } // namespace cli

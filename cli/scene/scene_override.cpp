@@ -14,10 +14,10 @@ namespace {
 
 using nlohmann::json;
 
-// The value at a step of a parent, made if possible.
+// Creates a missing member.
 json &enter(json &parent, const JsonStep &step, const SceneOverride &cause) {
     if (!step.in_array && parent.is_null())
-        parent = json::object(); // just made
+        parent = json::object(); // just created
     if (step.in_array ? !parent.is_array() || step.index >= parent.size() : !parent.is_object())
         throw Failure(cause.blame, cause.source + ": the scene has no " + path_text(cause.path));
     return step.in_array ? parent[step.index] : parent[step.key];
@@ -30,7 +30,7 @@ SceneOverride override_of(const SceneSection &section, const SceneKey &key, nloh
 
 void add_size(CLI::App &command, std::vector<SceneOverride> &overrides) {
     const auto read = [&overrides](const std::string &text) {
-        const auto size = parse_numbers<2>(text, 'x'); // the library checks them
+        const auto size = parse_numbers<2>(text, 'x'); // the library checks their ranges
         if (!size)
             refuse_option("--size", "must be two whole numbers like 1920x1080", text);
         overrides.push_back({{{"film"}, {"width"}}, (*size)[0], "--size: width", ExitCode::usage, true});
@@ -41,7 +41,7 @@ void add_size(CLI::App &command, std::vector<SceneOverride> &overrides) {
         ->group("Picture");
 }
 
-// Applied first, so that later ones override it.
+// First, so that single options override it.
 void add_set(CLI::App &command, std::vector<SceneOverride> &overrides) {
     const auto read = [&overrides](const std::vector<std::string> &texts) {
         for (const std::string &text : texts)
@@ -57,7 +57,6 @@ void add_set(CLI::App &command, std::vector<SceneOverride> &overrides) {
         ->group("Picture");
 }
 
-// A key of the camera, of a material or of a surface.
 bool can_move(const JsonPath &path) {
     const SceneSection *section = find_section(path[0].key);
     if (section == nullptr || !section->may_move() || path.back().in_array)
@@ -91,7 +90,7 @@ bool is_center(const JsonPath &path) {
     return path[0].key == "spheres" && path[2].key == "center";
 }
 
-// The change from a frame's beginning to its end.
+// The change within a frame.
 json way_of(const AnimatedValue &value, std::uint32_t frame) {
     const std::vector<double> begin = value.at(frame);
     std::vector<double> way = value.at(frame + 1.0);

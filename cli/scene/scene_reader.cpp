@@ -1,4 +1,4 @@
-// Reads the sections of a scene file by the table of keys, and applies the overrides.
+// Reads scene files, and applies overrides.
 #include "cli/base/names.h"
 #include "cli/base/text.h"
 #include "cli/scene/scene_keys.h"
@@ -42,10 +42,10 @@ void check_projection(const pt_camera &camera, const JsonPlace &place) {
 
 class SceneReader : public JsonItemHandler {
 public:
-    // scene: has its overrides already.
+    // scene: with its overrides.
     explicit SceneReader(SceneFile &scene) : scene_(scene) {}
 
-    // All throw JsonRefusal, or Failure for an override that does not fit or is refused.
+    // Functions throw JsonRefusal or Failure.
     void begin_section(const JsonPlace &place, json::value_t kind) override {
         section_ = find_section(place.key);
         if (section_ == nullptr && place.key != "animation")
@@ -57,7 +57,7 @@ public:
         begun_.insert(section_);
     }
 
-    // Items may be millions, and most have no override.
+    // Fast for the millions of items without an override.
     void item(const JsonPlace &place, const json &value) override {
         const std::vector<std::size_t> changes =
             scene_.overrides.empty() ? std::vector<std::size_t>() : overrides_of(place.path());
@@ -67,8 +67,8 @@ public:
             read_changed(place, value, changes);
     }
 
-    // After the file's end: adds overrides without a value in the file, makes the checks that need all of it, and
-    // resolves names of materials, which may follow the spheres.
+    // Adds values that only overrides have, checks the whole file, and resolves names, since materials may follow
+    // spheres.
     void finish() {
         add_items_of_overrides();
         require_members();
@@ -84,7 +84,7 @@ private:
         return chosen;
     }
 
-    // The file's own value must be valid too, so that options do not decide whether a file is refused.
+    // The file's value must be valid even if it is overridden.
     void read_changed(const JsonPlace &place, json value, const std::vector<std::size_t> &changes) {
         if (!value.is_null())
             check_item(place, value);
@@ -114,7 +114,7 @@ private:
             read_element(place, value);
     }
 
-    // Checks present members, not missing ones.
+    // Ignores missing members.
     void check_item(const JsonPlace &place, const json &value) const {
         if (section_ == nullptr)
             read_animated_value(place, value);
@@ -131,7 +131,6 @@ private:
         return *key;
     }
 
-    // Whether an element is many, by columns.
     bool is_many(const json &element) const {
         return section_->may_be_many() && element.contains("center") && element["center"].is_string();
     }
@@ -265,7 +264,6 @@ private:
     std::set<const SceneSection *> begun_;
     std::set<std::size_t> used_overrides_;
 
-    // Names are numbered, like surfaces' materials.
     struct UsedName {
         std::string name;
         JsonPath first_place;

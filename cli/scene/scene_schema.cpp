@@ -1,4 +1,4 @@
-// The command `pt schema`: the JSON Schema of scene files, from the table of keys.
+// `pt schema`: the JSON Schema of scene files.
 #include "cli/base/json.h"
 #include "cli/base/text.h"
 #include "cli/commands.h"
@@ -65,7 +65,7 @@ Schema value_of(const ValueRule &rule) {
     return number(rule);
 }
 
-// of_many: an item of many spheres, whose properties may be files, and whose center is one.
+// of_many: an item whose center, and perhaps other properties, are files.
 Schema object_of(const SceneSection &section, bool of_many) {
     const Schema file{{"type", "string"}, {"minLength", 1}};
     Schema schema{{"type", "object"}, {"additionalProperties", false}};
@@ -119,9 +119,7 @@ Schema animation() {
             {"additionalProperties", {{"type", "array"}, {"items", key}, {"minItems", 1}}}};
 }
 
-// For editors and programs that write scene files: draft 7 (json-schema.org/draft-07). `pt` refuses all that it
-// refuses; rules on two values (names of materials, look_at equal to the position, up along the view) are checked by
-// `pt` alone.
+// Draft 7 (json-schema.org/draft-07). Rules on two values (names of materials, look_at, up) are left to `pt`.
 Schema scene_schema() {
     Schema schema{{"$schema", "http://json-schema.org/draft-07/schema#"},
                   {"title", "Scene of pt"},

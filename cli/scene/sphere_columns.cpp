@@ -23,8 +23,8 @@ std::uint32_t size_of(std::uint32_t type) {
     return type == PT_TYPE_FLOAT64 ? 8 : type == PT_TYPE_FLOAT32 ? 4 : 1;
 }
 
-// The head is a Python dictionary, {'descr': '<f4', 'fortran_order': False, 'shape': (10, 3), }, JSON but for quotes,
-// parentheses, capitals and last commas. Other heads are discarded.
+// The header is a Python dictionary, {'descr': '<f4', 'fortran_order': False, 'shape': (10, 3), }: JSON but for quotes,
+// parentheses, capitals and a last comma. Other headers are discarded.
 json dictionary_of(std::string_view head) {
     constexpr std::string_view python = "'()FT";
     constexpr std::string_view in_json = "\"[]ft";
@@ -44,7 +44,7 @@ class NpyHeader {
 public:
     NpyHeader(platform::InputFile &file, const std::string &name) : name_(name) {
         constexpr std::size_t version_place = magic.size();
-        constexpr std::size_t longest = 65535; // of version 1; NumPy makes longer ones for named fields alone
+        constexpr std::size_t longest = 65535; // of version 1; longer headers have named fields
         const std::string start(file.first(version_place + 2 + sizeof(std::uint32_t)));
         if (!start.starts_with(magic) || start.size() < version_place + 2)
             refuse("is no NPY file, which begins with \\x93NUMPY: write it by numpy.save");
@@ -119,7 +119,6 @@ private:
     std::size_t end_ = 0;
 };
 
-// Numbers per sphere.
 std::size_t length_of(const SceneKey &key) {
     return key.rule.form == ValueRule::Form::number ? 1 : 3;
 }
@@ -140,7 +139,6 @@ void for_each_file(AnyScene &scene, Use use) {
                 use(each, column);
 }
 
-// The array must have as many rows as centers.
 void check_fit(const SceneKey &key, const NpyArray &array, const NpyArray &centers, const std::string &path) {
     const auto refuse_to_have = [&](bool is_refused, const std::string &what) {
         refuse_if(is_refused, path + ": has " + what, ExitCode::scene);
@@ -200,7 +198,7 @@ void SphereColumns::add_value(const SceneKey &key, const nlohmann::json &value) 
 
 pt_sphere_array SphereColumns::spheres() const {
     auto array = sized<pt_sphere_array>();
-    array.count = static_cast<std::uint32_t>(columns.front().array.row_count); // of the centers
+    array.count = static_cast<std::uint32_t>(columns.front().array.row_count);
     array.material = {&material, 0, PT_TYPE_UINT32};
     for (const SphereColumn &each : columns)
         array.*each.key->column = each.column();

@@ -1,5 +1,5 @@
-// Items of the sections `spheres` and `capsules` that are many, with properties as columns: {"center": "a.npy", ...},
-// and their NPY files (numpy.org/doc/stable/reference/generated/numpy.lib.format.html).
+// Items {"center": "a.npy", ...} that are many spheres or capsules, and their NPY files
+// (numpy.org/doc/stable/reference/generated/numpy.lib.format.html).
 #pragma once
 
 #include "cli/base/json.h"
@@ -17,53 +17,51 @@
 
 namespace cli {
 
-// In row order, little-endian like all processors that run this.
+// Row order, little-endian.
 struct NpyArray {
-    std::string file; // all bytes; the elements are the last ones
+    std::string file; // ends with the elements
     std::size_t first = 0;
-    std::uint32_t type = 0;     // PT_TYPE_*: FLOAT32, FLOAT64, or SRGB8 for uint8
-    std::size_t row_count = 0;  // first dimension
-    std::size_t row_length = 0; // second dimension; 0: none
+    std::uint32_t type = 0; // PT_TYPE_FLOAT32, FLOAT64, or SRGB8 for uint8
+    std::size_t row_count = 0;
+    std::size_t row_length = 0; // 0: one dimension
 
     const char *data() const { return file.data() + first; }
     std::uint32_t row_bytes() const;
 };
 
-// Reads an array of one or two dimensions in row order, little-endian float32, float64 or uint8, as numpy.save writes
-// it. Throws Failure(ExitCode::scene) with the name first for anything else, and for a file that is cut short or
-// longer, before reading elements.
+// Reads one or two dimensions of float32, float64 or uint8. Throws Failure(ExitCode::scene), naming the file, for
+// anything else or a wrong size, before reading elements.
 NpyArray read_npy(platform::InputFile &file, const std::string &name);
 
 struct SceneFile;
 struct SceneKey;
 
-// A value for all spheres, or a file with one for each.
+// A file with a value per sphere, or one value for all.
 struct SphereColumn {
     const SceneKey *key;
-    std::string file; // relative to the scene's folder; empty: `value`
+    std::string file; // relative to the scene; empty: `value`
     std::array<double, 3> value{};
-    NpyArray array{}; // of the file, once read
+    NpyArray array{}; // once read
 
-    pt_column column() const; // points into this object
+    pt_column column() const;
 };
 
 struct SphereColumns {
-    std::string_view section; // spheres or capsules
-    std::size_t item = 0;     // index in the section
+    std::string_view section;
+    std::size_t item = 0;
     std::uint32_t material = 0;
-    std::vector<SphereColumn> columns{}; // given ones
+    std::vector<SphereColumn> columns{};
 
     void add_file(const SceneKey &key, const std::string &file, const JsonPlace &place); // throws JsonRefusal
-    void add_value(const SceneKey &key, const nlohmann::json &value);                    // value keeps the key's rule
+    void add_value(const SceneKey &key, const nlohmann::json &value);                    // value keeps the rule
 
     pt_sphere_array spheres() const; // points into this object
 };
 
-// Sorted in the scene's order.
+// In order of the scene.
 std::vector<std::string> column_paths(const SceneFile &scene);
 
-// Reads the files. Throws Failure: ExitCode::file for one that cannot be read, ExitCode::scene for one that does not
-// fit.
+// Throws Failure: ExitCode::file if a file is unreadable, ExitCode::scene if it is unsuitable.
 void load_columns(SceneFile &scene);
 
 } // namespace cli

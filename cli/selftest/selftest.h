@@ -1,4 +1,4 @@
-// The exact scenes of `pt selftest`: rounding, extreme lamps and lobes, motion.
+// The scenes of `pt selftest`, whose light is known exactly.
 #pragma once
 
 #include "cli/scene/scene_file.h"
@@ -12,29 +12,28 @@
 namespace cli {
 
 struct SelftestCheck {
-    std::string group; // "function", "scene", "invariance" or "directions"
+    std::string group;
     std::string name;
-    double error; // infinite if nothing finite was measured
+    double error; // infinite without a finite measurement
     double bound;
     std::string unit;
-    std::string detail; // the measurement
+    std::string detail;
 
-    // NaN fails.
     bool passed() const { return error <= bound; }
 };
 
 struct SelftestScene {
     std::string name;
     SceneFile scene;
-    double expected;     // mean of radiance^power over the image, which is grey
-    double relative_std; // bound of a sample's standard deviation / expected; 0: all samples are equal
+    double expected;     // mean of radiance^power; the image is grey
+    double relative_std; // bound of a sample's standard deviation / expected; 0: equal samples
     double rounding;     // largest relative float32 error of a sample
     int power = 1;       // 0: expected is the share of pixels that are not black
 
-    // Largest permitted error relative to expected.
+    // Largest relative error that passes.
     double bound() const;
 
-    // Judges every number without noise, otherwise each channel's mean.
+    // Judges every number without noise, else each channel's mean.
     SelftestCheck judge(std::span<const float> radiance) const;
 };
 
@@ -42,12 +41,11 @@ std::vector<SelftestScene> selftest_scenes();
 
 SelftestScene lamp_in_a_ball();
 
-// Scenes whose light is found in several ways, each of which has a good part of it. A weight of multiple importance
-// sampling that is wrong by 2% moves the mean by at least twice the bound, so it is noticed as surely as a right one
-// passes.
+// Each way of finding the light contributes much: an error of 2% in a weight of multiple importance sampling moves the
+// mean by at least twice the bound.
 std::vector<SelftestScene> weight_scenes();
 
-// Samples are cosines of sampled directions: means, second moments, and the share on each side.
+// Samples are cosines of sampled directions. Expected are means, second moments, and the share on each side.
 std::vector<SelftestScene> direction_scenes();
 
 struct SelftestReport {

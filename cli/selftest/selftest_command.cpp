@@ -1,4 +1,4 @@
-// `pt selftest` checks whether a device computes correctly.
+// `pt selftest`: whether a device computes correctly.
 #include "cli/base/devices.h"
 #include "cli/base/exit_code.h"
 #include "cli/base/file.h"
@@ -27,7 +27,7 @@ namespace {
 struct SelftestOptions {
     std::string device;
     std::string json;
-    std::string shader_dir; // empty: the library's
+    std::string shader_dir;
     bool directions = false;
 };
 
@@ -70,7 +70,7 @@ std::vector<SelftestCheck> check_functions(const Context &context) {
     return checks;
 }
 
-// A call of pt_accumulate for each count.
+// One call of pt_accumulate per count.
 std::vector<float> render(const Context &context, const SceneFile &scene,
                           const std::vector<std::uint32_t> &sample_counts) {
     describe_scene(context, scene, [](double) { return true; });
@@ -92,7 +92,7 @@ double differing_values(std::span<const float> a, std::span<const float> b) {
     });
 }
 
-// Sums are exact, so no split over calls may change a bit.
+// Sums are exact, so the split into calls may not change a bit.
 SelftestCheck check_splits(const Context &context) {
     const SelftestScene ball = lamp_in_a_ball();
     const std::uint32_t count = ball.scene.sample_count.value();
@@ -103,7 +103,7 @@ SelftestCheck check_splits(const Context &context) {
     return {"invariance", "samples split over calls", differing, 0.0, "values", "that differ in \"" + ball.name + "\""};
 }
 
-// The library leaves out samples that are not finite, negative or too bright; these scenes have none.
+// Also checks that the library left out no sample.
 std::vector<SelftestCheck> check_scenes(const Context &context, const std::vector<SelftestScene> &scenes,
                                         const std::string &group) {
     std::vector<SelftestCheck> checks;

@@ -11,13 +11,13 @@
 namespace cli {
 namespace {
 
-// Probability that a correct device fails a check; about one in a million for all.
+// Of one check on a correct device; about 1e-6 for all checks.
 constexpr double false_alarm = 1e-7;
 
-// Bernstein's inequality (Boucheron, Lugosi and Massart, Concentration Inequalities, 2013, section 2.8), solved for t:
-// P(|error| > t) <= 2 exp(-n t^2 / (2 s^2 + 2 m t / 3)) for n independent samples of variance s^2 and deviations up to
-// m. Samples that are nonzero with probability p have s^2 = (1 - p) / p and m = max(s^2, 1), so m = s^2 + 6 s holds up
-// to p = 0.97; smooth integrands get six standard deviations. Stratified samples are less noisy.
+// Bernstein (Boucheron, Lugosi, Massart, Concentration Inequalities, 2013, section 2.8), solved for t: P(|error| > t)
+// <= 2 exp(-n t^2 / (2 s^2 + 2 m t / 3)) for n independent samples of variance s^2 and deviations up to m. Samples that
+// are nonzero with probability p have s^2 = (1 - p) / p and m = max(s^2, 1) <= s^2 + 6 s for p <= 0.97. Stratified
+// samples are less noisy.
 double noise_bound(double relative_std, double sample_count) {
     const double log_probability = std::log(2.0 / false_alarm);
     const double variance = relative_std * relative_std;
@@ -25,7 +25,7 @@ double noise_bound(double relative_std, double sample_count) {
     return (linear + std::sqrt(linear * linear + 2.0 * sample_count * variance * log_probability)) / sample_count;
 }
 
-// Mean of a channel's values to a power, or the share of nonzero values.
+// power 0: the share of nonzero values.
 double channel_mean(std::span<const float> radiance, std::size_t channel, int power) {
     double sum = 0.0;
     for (std::size_t i = channel; i < radiance.size(); i += 3)
@@ -35,7 +35,7 @@ double channel_mean(std::span<const float> radiance, std::size_t channel, int po
 
 constexpr double unit_roundoff = 0x1p-24; // of float32
 
-// Some 50 operations; Vulkan's worst, division, errs by 2.5 ulp = 5 roundoffs.
+// 50 operations; Vulkan permits 2.5 ulp = 5 roundoffs for the worst, division.
 constexpr double sample_rounding = 50 * 5 * unit_roundoff;
 
 // members: the scene without sizes.
@@ -45,15 +45,15 @@ SceneFile scene_of(std::uint32_t side, std::uint32_t sample_count, const std::st
                        "");
 }
 
-// Emission is added unchanged to an exact sum and rounded once.
+// Emission enters an exact sum unchanged and is rounded once.
 SelftestScene inside_a_lamp() {
     const SceneFile scene = scene_of(16, 16, R"(, "max_path_length": 3}, "materials": {"lamp": {"emission": 0.1}},
         "spheres": [{"center": [0, 0, 2], "radius": 50, "material": "lamp"}])");
     return {"inside a lamp", scene, double{scene.materials[0].emission[0]}, 0.0, unit_roundoff};
 }
 
-// A white ball in a black lamp of radiance 1: every path ends on the lamp after at most one reflection of weight
-// (albedo / pi * cos) / (cos / pi): two products, three divisions, and the product with the emission.
+// A white ball in a black lamp of radiance 1: each path ends on the lamp after at most one reflection. Its weight
+// (albedo / pi * cos) / (cos / pi) has two products and three divisions; the emission is a third product.
 SelftestScene white_furnace() {
     const SceneFile scene = scene_of(16, 16, R"(, "max_path_length": 3, "estimator": "bsdf"},
         "materials": {"lamp": {"emission": 1}, "white": {"diffuse": 1}},
@@ -62,7 +62,7 @@ SelftestScene white_furnace() {
     return {"white furnace", scene, 1.0, 0.0, (3 * 1 + 3 * 5) * unit_roundoff};
 }
 
-// A point of a floor: in this view light varies by 1e-8.
+// The view is so narrow that light varies by 1e-8.
 SceneFile floor_scene(const std::string &members, std::uint32_t side = 32, std::uint32_t sample_count = 64,
                       std::uint32_t max_path_length = 2) {
     return scene_of(side, sample_count, concat(R"(, "max_path_length": )", max_path_length, R"(},
@@ -70,11 +70,11 @@ SceneFile floor_scene(const std::string &members, std::uint32_t side = 32, std::
 }
 
 struct SeenLamp {
-    double cosine; // of the direction to its centre
+    double cosine; // of the direction to the center
     double sine;   // of its radius
 };
 
-// The floor's view of it, from the point at which the camera looks.
+// Seen from the camera's target.
 SeenLamp lamp_seen(const pt_sphere &lamp, const pt_camera &camera) {
     std::array<double, 3> way{};
     for (std::size_t i = 0; i < 3; ++i)
@@ -83,9 +83,9 @@ SeenLamp lamp_seen(const pt_sphere &lamp, const pt_camera &camera) {
     return {way[1] / distance, lamp.radius / distance};
 }
 
-// A sphere of radius r at distance d above a plane gives pi L (r / d)^2 cos, like a point (Snyder 1996); times albedo /
-// pi. Noise: by solid angle, with sin a = r / d, less than sin a tan + 1 - cos a. A direction by the cosine hits with
-// probability p = sin^2 a cos, and has a weight of at most p^2.
+// Radiance A L (r / d)^2 cos for a sphere above a plane, as for a point (Snyder 1996). Deviation: by solid angle, with
+// sin a = r / d, below sin a tan + 1 - cos a; directions by the cosine hit with probability p = sin^2 a cos and weigh
+// at most p^2.
 SelftestScene floor_under_lamp(const std::string &name, const std::string &members) {
     const SceneFile scene = floor_scene(members);
     const auto [cosine, sine] = lamp_seen(scene.spheres[0], scene.camera);
@@ -108,7 +108,7 @@ SelftestScene tiny_far_lamp() {
         "planes": [{"normal": [0, 1, 0], "offset": 1, "material": "floor"}])");
 }
 
-// Within the view, ball and plane differ by a part in 1e18.
+// Within the view ball and plane differ by 1e-18.
 SelftestScene huge_ball_as_floor() {
     return floor_under_lamp("floor is a ball of 1e7", R"(
         "materials": {"lamp": {"emission": 10}, "floor": {"diffuse": 0.8}},
@@ -117,21 +117,20 @@ SelftestScene huge_ball_as_floor() {
 }
 
 // A glossy floor in a dome of radiance 1. The integral of (n + 2) / (2 pi) cos^n g cos, g from the mirror direction r,
-// is r's cosine: only components along r count. The lobe, 1e-3 wide, is not cut by the horizon. Noise: its variance 1 /
-// n in the plane of incidence changes the cosine by tan / sqrt(n).
+// is r's cosine, since only components along r count. The horizon does not cut the lobe. Its variance 1 / n in the
+// plane of incidence changes the cosine by tan / sqrt(n).
 SelftestScene sharp_lobe() {
     const SceneFile scene = floor_scene(R"(
         "materials": {"dome": {"emission": 1}, "floor": {"specular": 1, "glossiness": 1e6}},
         "spheres": [{"center": [0, 0, 0], "radius": 1e4, "material": "dome"}],
         "planes": [{"normal": [0, 1, 0], "offset": 1, "material": "floor"}])");
-    constexpr double tangent = 2.0; // of the angle between normal and view
+    constexpr double tangent = 2.0; // of the angle of incidence
     return {"lobe of 1e-3 radians", scene, 1.0 / std::sqrt(1.0 + tangent * tangent),
             tangent / std::sqrt(double{scene.materials[1].glossiness}), sample_rounding};
 }
 
-// A unit lamp recedes along the axis from a to b. It covers pi / (z^2 - 1) of the image plane at distance 1: on average
-// pi / (b - a) times the integral log((z - 1) / (z + 1)) / 2. The whole lamp is in view: side 2 tan(fov / 2) > 2 /
-// sqrt(a^2 - 1). Noise: a share p of the samples is 1.
+// A unit lamp recedes along the axis from a to b. It covers pi / (z^2 - 1) of the image plane, on average pi / (b - a)
+// times the integral log((z - 1) / (z + 1)) / 2. It is wholly in view: 2 tan(fov / 2) > 2 / sqrt(a^2 - 1).
 SelftestScene receding_lamp() {
     const SceneFile scene = scene_of(64, 64, R"(, "max_path_length": 1}, "materials": {"lamp": {"emission": 1}},
         "camera": {"position": [0, 0, 0], "look_at": [0, 0, -1], "vertical_fov": 29.2},
@@ -145,11 +144,11 @@ SelftestScene receding_lamp() {
     return {"receding lamp", scene, share, std::sqrt((1.0 - share) / share), sample_rounding};
 }
 
-// The three scenes of weights have standard deviations by quadrature, rounded up, and so many samples that the bound is
-// less than 1% of the smallest share of the value that one kind of weight carries.
+// Standard deviations of the next three scenes are by quadrature, rounded up. Their bounds are below 1% of the smallest
+// share that one weight carries.
 
-// The lamp fills a cone of 30 degrees, where four directions together have nearly the density of the lamp's sample:
-// each way of finding it has half of the value.
+// The lamp fills a cone of 30 degrees, where four directions have nearly the density of the lamp's sample, so each has
+// half of the value.
 SelftestScene weights_of_a_lamp() {
     const SceneFile scene = floor_scene(R"(
         "materials": {"lamp": {"emission": 4}, "floor": {"diffuse": 1}},
@@ -160,7 +159,7 @@ SelftestScene weights_of_a_lamp() {
     return {"weights of a lamp", scene, 4.0 * sine * sine, 0.45, sample_rounding};
 }
 
-// Five lamps in a ring, from which the floor chooses one. A direction has 27% of the value.
+// The floor chooses one of five lamps in a ring. Directions have 27% of the value.
 SelftestScene weights_of_a_chosen_lamp() {
     constexpr int lamp_count = 5;
     constexpr double polar = 50.0 / 180.0 * std::numbers::pi;
@@ -184,11 +183,10 @@ SelftestScene weights_of_a_chosen_lamp() {
     return {"weights of a chosen lamp", scene, expected, 0.3, sample_rounding};
 }
 
-// A lamp of radiance L and radius r hangs h below a ceiling of albedo A, which is H above the floor. Straight below,
-// the floor has the radiance L r^2 / (H - h)^2 from the lamp and, integrated over the ceiling at distances v from the
-// lamp, with a^2 = H^2 - h^2, from the ceiling
-//     L r^2 A 2 h H^2 int_h^inf dv / (v^2 (v^2 + a^2)^2).
-// The ray to the glow has 71% of the light from the ceiling, the two directions have 29%, the lamp has 5% of all.
+// A lamp of radiance L and radius r hangs h below a ceiling of albedo A, H above the floor. Straight below, the floor
+// gets L r^2 / (H - h)^2 from the lamp and L r^2 A 2 h H^2 int_h^inf dv / (v^2 (v^2 + a^2)^2), a^2 = H^2 - h^2, from
+// the ceiling at distances v from the lamp. The ray to the glow carries 71% of the ceiling's light, two directions 29%;
+// the lamp gives 5% of all.
 SelftestScene weights_of_a_glow() {
     constexpr double albedo = 20.0;
     constexpr double h = 1.0;
@@ -208,13 +206,13 @@ SelftestScene weights_of_a_glow() {
 struct DirectionKind {
     const char *name;
     const char *estimator;
-    const char *floor; // members of the floor's material
-    double power;      // of the density c^power about the normal, c the cosine
-    double scale;      // its sample is scale * c
+    const char *floor; // its material's members
+    double power;      // density c^power, c = cosine to the normal
+    double scale;      // a sample is scale * c
 };
 
-// A floor under a sky of radiance 1, from above by parallel rays, one sample per pixel; sampler "random" makes samples
-// independent. more_planes block all but a share of the directions at any cosine.
+// A floor under a sky of radiance 1, seen from above by parallel rays, with one independent sample per pixel.
+// more_planes leave this share of the directions at any cosine.
 SelftestScene direction_scene(const DirectionKind &kind, const std::string &what, int exponent,
                               const std::string &more_planes, double share) {
     const auto moment = [&](int e) {
@@ -247,7 +245,7 @@ SelftestCheck SelftestScene::judge(std::span<const float> radiance) const {
     double worst = expected;
     const auto compare = [&](double measured) {
         const double error = std::abs(measured / expected - 1.0);
-        if (!(error <= worst_error)) { // true for NaN, too
+        if (!(error <= worst_error)) { // also for NaN
             worst_error = std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
             worst = measured;
         }
@@ -261,9 +259,9 @@ SelftestCheck SelftestScene::judge(std::span<const float> radiance) const {
     return {"scene", name, worst_error, bound(), "relative", formatted("%.9g, exact is %.9g", worst, expected)};
 }
 
-// A spherical wall of albedo rho, radius R, around a black lamp of radius r. A direction by the cosine hits the lamp
-// with probability q = (r / R)^2, else the wall: paths of L vertices carry rho Le q sum_{j <= L - 2} (rho (1 - q))^j.
-// Noise: a path that ends on the lamp lacks the rest, less than sqrt(q) of the value.
+// A wall of albedo rho and radius R around a black lamp of radius r. Directions by the cosine hit the lamp with
+// probability q = (r / R)^2: paths of L vertices carry rho Le q sum_{j <= L - 2} (rho (1 - q))^j. A path that ends on
+// the lamp lacks the rest, less than sqrt(q) of the value.
 SelftestScene lamp_in_a_ball() {
     constexpr double rho = 0.5;
     constexpr double emission = 100.0;
@@ -285,9 +283,8 @@ std::vector<SelftestScene> weight_scenes() {
     return {weights_of_a_lamp(), weights_of_a_chosen_lamp(), weights_of_a_glow()};
 }
 
-// A sample is reflection times cosine c over density: 2 c for white diffuse and uniform directions; (n + 2) / 2 c^n for
-// a lobe by the cosine; (n + 2) / (n + 1) c for the lobe by itself. A black plane beside the rays blocks half of all
-// directions.
+// A sample is reflection * c / density: 2 c for white diffuse and uniform directions, (n + 2) / 2 c^n for a lobe by the
+// cosine, (n + 2) / (n + 1) c for the lobe by itself. A black plane beside the rays blocks half of the directions.
 std::vector<SelftestScene> direction_scenes() {
     constexpr double n = 20.0;
     constexpr int wall_count = 4;

@@ -1,4 +1,4 @@
-// The command `pt tonemap`: makes a displayable picture from a file of radiance.
+// `pt tonemap`: a displayable picture from a file of radiance.
 #include "cli/base/devices.h"
 #include "cli/base/exit_code.h"
 #include "cli/base/file.h"
@@ -18,8 +18,8 @@ namespace {
 struct TonemapOptions {
     std::string input;
     std::string output;
-    std::optional<ImageFormat> format;  // of an output to standard output
-    std::vector<SceneOverride> display; // of the display section
+    std::optional<ImageFormat> format; // of standard output
+    std::vector<SceneOverride> display;
     bool quiet = false;
 };
 
@@ -30,7 +30,7 @@ void check(const TonemapOptions &options) {
     require_distinct_files({{"the image", options.input}}, {{"the output", options.output}});
 }
 
-// The window of a picture or a part. Another program's pixels outside the picture are a picture of their own.
+// Other programs' pixels may lie outside the picture; they become a picture of their own.
 ImageWindow window_of(const DecodedImage &image) {
     const auto inside = [](std::int32_t first, std::uint32_t count, std::uint32_t full) {
         return first >= 0 && static_cast<std::uint64_t>(first) + count <= full;
@@ -60,7 +60,7 @@ std::vector<float> radiance_of(const DecodedImage &image) {
     return radiance;
 }
 
-// Per pixel, if the file has channel A and the format takes it; otherwise empty.
+// Empty without channel A, or if the format has no alpha.
 std::vector<float> alpha_of(const DecodedImage &image, const ImageFormat &format) {
     const auto channel = std::find(image.channels.begin(), image.channels.end(), "A");
     if (channel == image.channels.end() || !format.has_alpha)
@@ -70,14 +70,14 @@ std::vector<float> alpha_of(const DecodedImage &image, const ImageFormat &format
     for (auto i = static_cast<std::size_t>(channel - image.channels.begin()); i < image.values.size();
          i += image.channels.size()) {
         const float share = image.values[i];
-        if (!(share >= 0.0F && share <= 1.0F)) // NaN fails, too
+        if (!(share >= 0.0F && share <= 1.0F)) // also for NaN
             refuse(image, alpha.size(), ": A is " + std::to_string(share) + ", not in [0, 1]");
         alpha.push_back(share);
     }
     return alpha;
 }
 
-// The file's facts about its rendering, and the present tone mapping.
+// The file's facts about its rendering, with the new tone mapping.
 std::vector<ImageAttribute> attributes_of(const DecodedImage &image, const ToneMap &tone_map) {
     std::vector<ImageAttribute> attributes{{"software", "pt " + version_text()}};
     for (const ImageAttribute &each : image.attributes) {
