@@ -199,6 +199,8 @@ CASES = (
     ("tilted.data", lammps("1 1 0 0 0", types=1, more="1 0 0 xy xz yz"), [1], {"cell": [4, 17**0.5, 5]}),
     ("a.yaml", YAML.format(step=0, count=2, rows="  - [ 2, 1, 1.0, 0, -1e-3, ]\n  - [ 1, 2, -2, 0, 0, ]\n"), [1, 2],
      {"x": [1, -2], "cell": [4, 2, 5], "origin": [-1, 0, 0], "periodic": [True, False, True]}),
+    ("tilted.yaml", YAML.format(step=0, count=1, rows="  - [ 1, 1, 4, 0, 0, ]\n").replace("keywords", "  - [ -1, 0.5, 0.25 ]\nkeywords"),
+     [1], {"cell": [2.5, 4.0625**0.5, 25.3125**0.5], "origin": [0, 0, 0]}),
     ("empty.yaml", YAML.format(step=0, count=1, rows="  - [ 1, 1, 4, 0, 0, ]\n") + YAML.format(step=1, count=0, rows=""), [1],
      {"x": [4], "note": "have no particles are not counted (1)"}),
 

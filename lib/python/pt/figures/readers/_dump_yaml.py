@@ -4,20 +4,13 @@ from __future__ import annotations
 
 import re
 
-import numpy as np
-
 from pt.figures._cell import Cell
-from pt.figures._particles import Table, coordinate_names
-from pt.figures.readers._frames import TextFrames
-from pt.figures.readers._lines import Lines
-from pt.figures.readers._rows import Layout, Rows, are_numbers, number, shown
+from pt.figures.readers._lammps import HEAD_ENDS, LammpsDump, cell_within
+from pt.figures.readers._rows import are_numbers, number, shown
 
 
-class DumpYaml(TextFrames):
-    def __init__(self, lines: Lines) -> None:
-        super().__init__(lines)
-        self._names: list[str] = []
-        self._cell: Cell | None = None
+class DumpYaml(LammpsDump):
+    marks = re.compile(rb"- \[|[\],]")
 
     def head(self) -> int | None:
         lines, count, names, periodic = self.lines, None, [], [True] * 3
@@ -41,16 +34,10 @@ class DumpYaml(TextFrames):
                 if count is None or not names:
                     raise lines.refuse("data: natoms and keywords must come before")
                 self._names = names
-                self._cell = None
-                if bounds:
-                    if [len(row) for row in bounds] not in ([2, 2, 2], [2, 2, 2, 3]):
-                        raise lines.refuse("box: must be three pairs of bounds and, if it is tilted, three tilts")
-                    low, high = np.array(bounds[:3]).T
-                    (x, y, z), (xy, xz, yz) = high - low, bounds[3] if len(bounds) > 3 else (0, 0, 0)
-                    self._cell = Cell.of([[x, 0, 0], [xy, y, 0], [xz, yz, z]], low, periodic)
+                self._cell = self._cell_of(bounds, periodic)
                 return count
         if count is not None:
-            raise lines.refuse("the file ends within the head of a frame: it was cut short")
+            raise lines.refuse(HEAD_ENDS)
         return None
 
     def _bounds(self, line: str) -> list[float]:
@@ -59,12 +46,9 @@ class DumpYaml(TextFrames):
             raise self.lines.refuse(f"{shown(line)}: must be bounds of the box, like - [ 0, 1 ]")
         return [number(word) for word in words]
 
-    def body(self, count: int) -> Table:
-        rows = Rows(self.lines, Layout(self._names, coordinate_names(self._names)[0]))
-        while rows.count < count:
-            first = self.lines.number + 1
-            data, height = self.lines.block(count - rows.count)
-            if not height:
-                raise self.lines.refuse(f"the file ends after {rows.count:,} of {count:,} particles: it was cut short")
-            rows.add(re.sub(rb"- \[|[\],]", b" ", data), height, first)
-        return Table(rows.columns(), self._cell, rows.notes, is_text=True)
+    def _cell_of(self, bounds: list[list[float]], periodic: list[bool]) -> Cell | None:
+        if not bounds:
+            return None
+        if [len(row) for row in bounds] not in ([2, 2, 2], [2, 2, 2, 3]):
+            raise self.lines.refuse("box: must be three pairs of bounds and, if it is tilted, three tilts")
+        return cell_within(bounds[:3], bounds[3] if len(bounds) > 3 else (0, 0, 0), periodic)

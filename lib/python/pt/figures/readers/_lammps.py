@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 import numpy as np
@@ -13,10 +14,12 @@ from pt.figures.readers._frames import TextFrames
 from pt.figures.readers._lines import Lines
 from pt.figures.readers._rows import Layout, Rows, are_numbers, number, shown
 
-_HEAD_ENDS = "the file ends within the head of a frame: it was cut short"
+HEAD_ENDS = "the file ends within the head of a frame: it was cut short"
 
 
 class LammpsDump(TextFrames):
+    marks: re.Pattern[bytes] | None = None  # in rows, no parts of values
+
     def __init__(self, lines: Lines) -> None:
         super().__init__(lines)
         self._names: list[str] = []
@@ -55,17 +58,17 @@ class LammpsDump(TextFrames):
                 raise lines.refuse(f"{shown(line)}: is none of a dump of atoms, which has positions")
         if is_first:
             return None
-        raise lines.refuse(_HEAD_ENDS)
+        raise lines.refuse(HEAD_ENDS)
 
     def body(self, count: int) -> Table:
         rows = Rows(self.lines, Layout(self._names, coordinate_names(self._names)[0]))
-        rows.read(count)
+        rows.read(count, self.marks)
         return Table(rows.columns(), self._cell, rows.notes, is_text=True)
 
     def _line(self) -> str:
         line = self.lines.line()
         if line is None:
-            raise self.lines.refuse(_HEAD_ENDS)
+            raise self.lines.refuse(HEAD_ENDS)
         return line
 
     def _numbers(self, count: int) -> list[float]:
@@ -85,10 +88,14 @@ class LammpsDump(TextFrames):
         rows: npt.NDArray[Any] = np.array([self._numbers(4 if general else 3 if tilted else 2) for _ in range(3)])
         if general:
             return Cell.of(rows[:, :3], rows[:, 3], periodic)
-        low, high = rows[:, 0].copy(), rows[:, 1].copy()
-        xy, xz, yz = rows[:, 2] if tilted else np.zeros(3)
-        # For a tilted cell, these lines are the bounds of the box around it (docs.lammps.org/Howto_triclinic.html).
-        low -= min(0, xy, xz, xy + xz), min(0, yz), 0
-        high -= max(0, xy, xz, xy + xz), max(0, yz), 0
-        length = high - low
-        return Cell.of([[length[0], 0, 0], [xy, length[1], 0], [xz, yz, length[2]]], low, periodic)
+        return cell_within(rows[:, :2], rows[:, 2] if tilted else np.zeros(3), periodic)
+
+
+def cell_within(bounds: npt.ArrayLike, tilts: npt.ArrayLike, periodic: list[bool]) -> Cell | None:
+    """The cell of these tilts (xy, xz, yz) in a box of these bounds (docs.lammps.org/Howto_triclinic.html)."""
+    low, high = np.array(bounds, np.float64).T
+    xy, xz, yz = np.array(tilts, np.float64)
+    low -= min(0, xy, xz, xy + xz), min(0, yz), 0
+    high -= max(0, xy, xz, xy + xz), max(0, yz), 0
+    x, y, z = high - low
+    return Cell.of([[x, 0, 0], [xy, y, 0], [xz, yz, z]], low, periodic)

@@ -37,6 +37,7 @@ class Layout:
     least      least number of fields in a row; fields that are not there count as missing, further ones are ignored
     is_table   whether the number of rows is unknown: blank lines and lines that begin with # are then skipped, and
                columns of numbers, except positions, may have words too
+    rows       the rows' name, for messages
     """
 
     names: list[str]
@@ -45,6 +46,7 @@ class Layout:
     decimal: str = "."
     least: int | None = None
     is_table: bool = False
+    rows: str = "particles"
 
 
 def number(text: str, decimal: str = ".") -> float:
@@ -94,17 +96,17 @@ class Rows:
         self._columns: dict[str, Array] = {}
         self._are_words: list[bool] = []
 
-    def read(self, count: int | None = None) -> None:
-        """Reads rows to the end of the file, or count rows: fewer are an error."""
+    def read(self, count: int | None = None, marks: re.Pattern[bytes] | None = None) -> None:
+        """Reads rows to the end of the file, or count rows: fewer are an error. Matches of marks count as blanks."""
         lines = self.lines
         while count is None or self.count < count:
             first = lines.number + 1
             data, height = lines.block() if count is None else lines.block(count - self.count)
             if not height:
                 if count is not None:
-                    raise lines.refuse(f"the file ends after {self.count:,} of {count:,} particles: it was cut short")
+                    raise lines.refuse(f"the file ends after {self.count:,} of {count:,} {self.layout.rows}: it was cut short")
                 return
-            self.add(data, height, first)
+            self.add(data if marks is None else marks.sub(b" ", data), height, first)
             if not lines.is_ended and not data[-1:].isspace():
                 self.notes.append("the last line does not end with a newline: its last number may be cut")
 
