@@ -14,7 +14,7 @@ from pt.figures._errors import DataError
 from pt.figures._particles import Bonds, Table
 from pt.figures.readers._atoms import atoms_table
 from pt.figures.readers._lines import Lines
-from pt.figures.readers._rows import are_numbers, is_number, number, shown
+from pt.figures.readers._rows import Layout, Rows, are_numbers, is_number, number, shown
 
 Array = npt.NDArray[Any]
 
@@ -37,6 +37,11 @@ _SECTION: Final = re.compile(r"[A-Z][A-Za-z]+( [A-Z]?[A-Za-z]+)* ?( Coeffs)?")
 _HEADER: Final = re.compile(r"(\d+)\s+([a-z][a-z ]*)")
 _BOUNDS: Final = re.compile(r"(.+?)\s+(xlo xhi|ylo yhi|zlo zhi|xy xz yz|avec|bvec|cvec|abc origin)")
 _IMAGES: Final = ("ix", "iy", "iz")
+_SHAPES: Final = ("shapex", "shapey", "shapez")
+_COMMENT: Final = re.compile(rb"#[^\n]*")
+_BLANK: Final = re.compile(rb"[ \t\r]*(#[^\n]*)?\n")
+_MOST_BLANK: Final = 4096  # bytes of a line without values
+_PEEKED: Final = 1 << 14  # bytes from which the style is taken
 
 
 class LammpsData:
@@ -53,8 +58,8 @@ class LammpsData:
         self.names: dict[str, str] = {}
         self.notes: list[str] = []
         self.columns: dict[str, Array] = {}
-        self.bonds: list[list[str]] = []
-        self.shapes: list[list[str]] = []
+        self.bonds: dict[str, Array] = {}
+        self.shapes: dict[str, Array] = {}
         self._read()
 
     def _read(self) -> None:
@@ -62,33 +67,36 @@ class LammpsData:
         while (line := self.lines.line()) is not None:
             text, _, hint = line.partition("#")
             text = text.strip()
-            if found := _BOUNDS.fullmatch(text):
+            if text[:1].isupper() and _SECTION.fullmatch(text):
+                self._section(text, hint.strip())
+            elif self.columns:
+                continue  # rows of sections that are not read
+            elif found := _BOUNDS.fullmatch(text):
                 self.box[found[2]] = self._numbers(found[1], 2 if "lo" in found[2] else 3)
             elif found := _HEADER.fullmatch(text):
                 self.counts[found[2].strip()] = int(found[1])
-            elif text[:1].isupper() and _SECTION.fullmatch(text):
-                self._section(text, hint.strip())
 
     def _section(self, name: str, hint: str) -> None:
         if name == "Atoms":
-            self._atoms(self._rows(self.counts.get("atoms", 0), "atoms"), hint)
+            self._atoms(hint)
         elif name == "Masses":
-            for row in self._rows(self.counts.get("atom types", 0), "masses", with_comments=True):
+            for row in self._few_rows("atom types", "masses", with_comments=True):
                 if len(row) < 2 or not is_number(row[1]):
                     raise self.lines.refuse(f"{shown(' '.join(row))}: must be a type and its mass")
                 self.masses[row[0]] = number(row[1])
                 self.names.setdefault(row[0], row[2] if len(row) > 2 else "")
         elif name == "Atom Type Labels":
-            rows = self._rows(self.counts.get("atom types", 0), "labels")
+            rows = self._few_rows("atom types", "labels")
             self.names.update((row[0], row[1]) for row in rows if len(row) > 1)
         elif name == "Bonds":
-            self.bonds = self._rows(self.counts.get("bonds", 0), "bonds")
+            self.bonds = self._rows("bonds", ["id", "type", "first", "second"])
         elif name == "Ellipsoids":
-            self.shapes = self._rows(self.counts.get("ellipsoids", 0), "ellipsoids")
+            self.shapes = self._rows("ellipsoids", ["id", *_SHAPES])
 
-    def _rows(self, count: int, what: str, with_comments: bool = False) -> list[list[str]]:
-        """The words of so many lines that are not blank."""
+    def _few_rows(self, counted: str, what: str, with_comments: bool = False) -> list[list[str]]:
+        """The words of the lines that are not blank."""
         rows: list[list[str]] = []
+        count = self.counts.get(counted, 0)
         while len(rows) < count:
             line = self.lines.line()
             if line is None:
@@ -98,49 +106,44 @@ class LammpsData:
                 rows.append(words)
         return rows
 
+    def _rows(self, what: str, names: list[str], least: int | None = None) -> dict[str, Array]:
+        """Rows of numbers, except types, which may have labels, and columns after the least ones."""
+        least = least or len(names)
+        rows = Rows(self.lines, Layout(names, [name for name in names[:least] if name != "type"], least=least, is_table=True,
+                                       rows=what))
+        rows.read(self.counts.get(what, 0), _COMMENT)
+        return rows.columns()
+
     def _numbers(self, text: str, count: int) -> list[float]:
         if len(text.split()) != count or not are_numbers(text.split()):
             raise self.lines.refuse(f"{shown(text)}: must be {count} numbers")
         return [number(word) for word in text.split()]
 
-    def _atoms(self, rows: list[list[str]], hint: str) -> None:
-        if not rows:
+    def _atoms(self, hint: str) -> None:
+        lines = self.lines
+        while _BLANK.match(lines.peek(_MOST_BLANK)):
+            lines.line()
+        start = _COMMENT.sub(b" ", lines.peek(_PEEKED)).decode("utf-8", "replace")
+        some = [words for line in start.split("\n")[:100] if (words := line.split())][:self.counts.get("atoms", 0)]
+        if not some:
             return
-        first = self.lines.number - len(rows) + 1  # if no line is blank
-        width = len(rows[0])
-        names = STYLES[self._style(rows, hint)]
-        if width < len(names):
-            raise DataError(f"{self.lines.name}:{first}: {shown(' '.join(rows[0]))}: has {width} columns; atom_style "
-                            f"{self.style} has {len(names)}: {' '.join(names)}")
-        if width >= len(names) + 3 and all(is_whole(word) for word in rows[0][-3:]):
-            names = [*names, *(f"column {i}" for i in range(len(names) + 1, width - 2)), *_IMAGES]
-        for i, row in enumerate(rows):
-            if len(row) < len(names):
-                raise DataError(f"{self.lines.name}:{first + i}: {shown(' '.join(row))}: has {len(row)} values, must have "
-                                f"{len(names)}")
-        for i, name in enumerate(names):
-            words = np.array([row[i] for row in rows])
-            if name == "type" and not words[0].isdecimal():
-                self.columns[name] = words
-                continue
-            try:
-                values = words.astype(np.float64)
-            except ValueError:
-                if (bad := next((row for row, word in enumerate(words.tolist()) if not is_number(word)), None)) is not None:
-                    raise DataError(f"{self.lines.name}:{first + bad}: {name} = {words[bad]!r}: must be a number") from None
-                values = np.array([number(word) for word in words.tolist()])
-            is_integer = name in ("id", "mol", "type", *_IMAGES) and np.isfinite(values).all()
-            self.columns[name] = values.astype(np.int64) if is_integer else values
+        names = STYLES[self._style(some, hint)]
+        width, least = len(some[0]), len(names)
+        if width < least:
+            raise DataError(f"{lines.name}:{lines.number + 1}: {shown(' '.join(some[0]))}: has {width} columns; atom_style "
+                            f"{self.style} has {least}: {' '.join(names)}")
+        if width >= least + 3 and all(is_whole(word) for word in some[0][-3:]):
+            names = [*names, *(f"column {i}" for i in range(least + 1, width - 2)), *_IMAGES]
+        self.columns = self._rows("atoms", names, least)
 
-    def _style(self, rows: list[list[str]], hint: str) -> str:
-        """The atom style that was asked for, of the hint after "Atoms", or of the columns."""
+    def _style(self, some: list[list[str]], hint: str) -> str:
+        """The atom style that was asked for, of the hint after "Atoms", or of the columns of some rows."""
         hint = hint.split()[0] if hint else ""
         if self.style is None and hint in STYLES:
             self.style = hint
         if self.style is not None:
             return self.style
-        width = len(rows[0])
-        some = rows[:100]
+        width = len(some[0])
         has_images = width >= 8 and all(is_whole(word) for row in some for word in row[-3:])
         choices = _OF_COUNT.get(width - 3 * has_images, ())
         types = self.counts.get("atom types", 0)
@@ -150,8 +153,8 @@ class LammpsData:
             if "sphere" in choices and (self.counts.get("bonds") or any(row[2].startswith("-") for row in some)):
                 choices = ()
         if not choices:
-            raise self.lines.refuse(f"the atom style is not known: {width} columns, like {shown(' '.join(rows[0]))}, and no "
-                                    "hint after Atoms: atom_style says it")
+            raise DataError(f"{self.lines.name}:{self.lines.number + 1}: the atom style is not known: {width} columns, like "
+                            f"{shown(' '.join(some[0]))}, and no hint after Atoms: atom_style says it")
         self.style = choices[0]
         self.notes.append(f"the atom style is taken to be {self.style}, by the columns")
         return self.style
@@ -172,16 +175,16 @@ class LammpsData:
         if self.shapes:
             self._put_shapes(columns)
         elements = self._elements(columns)
-        pairs = self._pairs(columns["id"]) if "bonds" in self.counts and self.counts["bonds"] else None
-        return atoms_table(positions, columns, elements, self.cell(), pairs, self.notes)
+        return atoms_table(positions, columns, elements, self.cell(), self._pairs(columns["id"]), self.notes)
 
     def _elements(self, columns: dict[str, Array]) -> Array | None:
         """Elements by the masses of types; types get their labels."""
-        kinds, codes = np.unique(columns["type"].astype(str), return_inverse=True)
-        names = [self.names.get(kind, "") or kind for kind in kinds.tolist()]
+        types, codes = np.unique(columns["type"], return_inverse=True)
+        kinds = types.astype(str).tolist()
+        names = [self.names.get(kind, "") or kind for kind in kinds]
         if not self.masses:
             return None
-        masses = np.array([self.masses.get(kind, 0.0) for kind in kinds.tolist()])
+        masses = np.array([self.masses.get(kind, 0.0) for kind in kinds])
         numbers = elements_of_masses(masses)
         if not numbers.any():
             return None
@@ -192,23 +195,28 @@ class LammpsData:
         elements: Array = numbers[codes.reshape(-1)]
         return elements
 
-    def _pairs(self, ids: Array) -> Bonds:
-        index = dict(zip(ids.tolist(), range(len(ids))))
-        try:
-            return Bonds.of([(index[int(row[2])], index[int(row[3])]) for row in self.bonds])
-        except (KeyError, ValueError, IndexError):
-            raise DataError(f"{self.lines.name}: Bonds: each must have a number, a type and two of the atoms' numbers"
-                            ) from None
+    def _pairs(self, ids: Array) -> Bonds | None:
+        if not self.counts.get("bonds"):
+            return None
+        if not self.bonds:
+            self.notes.append(f"the header has {self.counts['bonds']:,} bonds, and there is no section Bonds")
+            return None
+        return Bonds.of(np.stack([self._atoms_of("Bonds", self.bonds[end], ids) for end in ("first", "second")], axis=1))
 
     def _put_shapes(self, columns: dict[str, Array]) -> None:
-        index = dict(zip(columns["id"].tolist(), range(len(columns["id"]))))
-        shapes = np.zeros((len(index), 3))
-        for row in self.shapes:
-            if len(row) < 4 or not row[0].isdecimal() or int(row[0]) not in index or not all(map(is_number, row[1:4])):
-                raise DataError(f"{self.lines.name}: Ellipsoids: {shown(' '.join(row))}: must be an atom's number and three "
-                                "diameters")
-            shapes[index[int(row[0])]] = [number(word) for word in row[1:4]]
-        columns.update(zip(("shapex", "shapey", "shapez"), shapes.T))
+        chosen = self._atoms_of("Ellipsoids", self.shapes["id"], columns["id"])
+        for name in _SHAPES:
+            columns[name] = np.zeros(len(columns["id"]))
+            columns[name][chosen] = self.shapes[name]
+
+    def _atoms_of(self, section: str, numbers: Array, ids: Array) -> Array:
+        """The indices of the atoms with these numbers."""
+        order = np.argsort(ids, kind="stable")
+        found: Array = order[np.searchsorted(ids, numbers, sorter=order).clip(max=len(ids) - 1)]
+        wrong = ids[found] != numbers
+        if wrong.any():
+            raise DataError(f"{self.lines.name}: {section}: atom {numbers[wrong][0]:g}: must be the number of an atom")
+        return found
 
 
 def is_whole(word: str) -> bool:
