@@ -1,4 +1,3 @@
-// The rules of a camera and its defaults; see camera.h.
 #include "lib/scene/camera.h"
 
 #include "lib/base/digest.h"
@@ -15,14 +14,12 @@ namespace {
 
 constexpr double default_vertical_fov = std::numbers::pi / 4.0;
 
-// Least sine of the angle between up and the viewing direction. With u = 2^-53, rounding moves forward by at most 2 u,
-// up by u, and the products of their cross product by 2 u, so the camera's unit vectors by 5 u / s for the sine s.
-// Their rounding to float32, 2^-24, hides this if s >= 5 * 2^-29 < 2^-26.
+// Least sine s of the angle between up and the view. With u = 2^-53, forward errs by 2 u, up by u, their cross product
+// by 2 u: unit vectors by 5 u / s. Rounding to float32, 2^-24, hides that if s >= 5 * 2^-29.
 constexpr double min_sine = 0x1p-26;
 
-// The image plane's distance in pixels, height / (2 tan(fov / 2)), must be a length, at most 1e18. With heights below
-// 2^32 this takes tan(fov / 2) >= 2^31 / 1e18 = 2.1e-9. Towards pi no margin is needed: the largest double below pi
-// gives more than 1e-16.
+// height / (2 tan(fov / 2)), the image plane's distance in pixels, must be at most 1e18, so tan(fov / 2) >= 2^31 / 1e18
+// = 2.1e-9. Towards pi the largest double gives more than 1e-16.
 constexpr double min_vertical_fov = 1e-8;
 
 const char *fov_rule(double value) {
@@ -75,14 +72,13 @@ void check_fields(const pt_camera &camera) {
     }
     subject.check("shutter_open", camera.shutter_open, shutter_rule);
     subject.check("shutter_close", camera.shutter_close, shutter_rule);
-    // NaN passes here, as it has been refused already.
+    // NaN passes: it has been refused already.
     subject.require(!(camera.shutter_close < camera.shutter_open), "shutter_close", camera.shutter_close,
                     "must be >= shutter_open (" + number_text(camera.shutter_open) + ")");
     violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
 }
 
-// Systems' tangents differ in the last bits, but films of different systems are to be merged. Rounded to 40 bits, two
-// differ about once in 2^12 times; the kernel has only 24.
+// Rounds to 40 bits, because systems' tangents differ in the last bits, but their films are to be merged.
 double tangent(double angle) {
     int exponent = 0;
     const double mantissa = std::frexp(std::tan(angle), &exponent);
@@ -102,8 +98,8 @@ Camera validated_camera(const pt_camera &source) {
     subject.require(target != position, "target", target, "must differ from position");
     violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
 
-    // The blur of a far point, radius / focus times the image plane's distance, must also be a length: true if the
-    // radius is at most the focus.
+    // Requires focus >= radius, so that the blur of a far point, radius / focus times the image plane's distance, is a
+    // length too.
     const double focus = camera.focus > 0.0 ? camera.focus : glm::distance(target, position);
     subject.require(camera.aperture <= 2.0 * focus, "aperture", camera.aperture,
                     "must be at most twice the focus (" + number_text(focus) + ")");

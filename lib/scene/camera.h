@@ -11,7 +11,7 @@
 namespace pt {
 
 struct Camera {
-    glm::dvec3 position; // start of the middle ray: the pinhole, or a point ahead of it
+    glm::dvec3 position; // start of the middle ray
     glm::dvec3 right;    // orthonormal with the next two; right x up points backwards
     glm::dvec3 up;
     glm::dvec3 forward;
@@ -19,15 +19,15 @@ struct Camera {
     double shutter_open; // 0 <= open <= close <= 1
     double shutter_close;
     double vertical_extent = 0.0; // of parallel rays' view; 0: perspective
-    double start_distance = 0.0;  // of this position ahead of pt_camera.position (ray_start.h)
-    double start_radius = 0.0;    // of the disc about position where rays start; 0: a pinhole (ray_start.h)
+    double start_distance = 0.0;  // from pt_camera.position (ray_start.h)
+    double start_radius = 0.0;    // of the disc around position where rays start; 0: a point
     double lens_radius = 0.0;     // 0: a pinhole, or parallel rays
     double focus = 0.0;           // distance of the plane in focus along forward; 0 without a lens
 
     bool is_orthographic() const { return vertical_extent > 0.0; }
     bool has_lens() const { return lens_radius > 0.0; }
 
-    // Radius of the disc that the rays of a place in the image fill at a depth from the lens; 0 in the plane in focus.
+    // Radius of the disc that the rays through an image point fill at a depth from the lens.
     double spread(double depth) const { return has_lens() ? lens_radius * std::abs(1.0 - depth / focus) : 0.0; }
 };
 

@@ -1,4 +1,3 @@
-// The rules of a scene, one line each; columns have theirs in sphere_array_rules.cpp. See checked_scene.h.
 #include "lib/scene/checked_scene.h"
 
 #include "lib/base/rules.h"
@@ -15,17 +14,17 @@ namespace pt {
 
 namespace {
 
-// Surface indices, and positions in the scene buffer, a few times as many, have 32 bits.
+// Positions in the scene buffer, a few times as many, have 32 bits.
 constexpr std::uint64_t max_surface_count = std::uint64_t{1} << 30;
 
-// Share of pt_set_scene with many spheres, as measured.
+// of pt_set_scene with many spheres
 constexpr double share_of_checks = 0.08;
 
 glm::vec3 color(const float (&components)[3]) {
     return {components[0], components[1], components[2]};
 }
 
-// Products of two colors up to 1e18 are float32 numbers: 1e36 < 2^128.
+// Products of two colors must be float32 numbers: 1e36 < 2^128.
 const char *color_rule(double value) {
     if (!std::isfinite(value))
         return "must be finite";
@@ -34,9 +33,8 @@ const char *color_rule(double value) {
     return value <= 1e18 ? nullptr : "must be <= 1e18";
 }
 
-// The lobe falls as exp(-n a^2 / 2) with the angle a from the mirror direction, to 1 / e at a = sqrt(2 / n). There the
-// error d = 2^-23 of float32 unit vectors changes the exponent by n a d = sqrt(2 n) d: 0.5 % of the lobe for n = 1e9.
-// Sharper lobes would show the rounding of directions.
+// exp(-n a^2 / 2) falls to 1 / e at the angle a = sqrt(2 / n) from the mirror direction. There the error d = 2^-23 of
+// float32 unit vectors changes the exponent by n a d = sqrt(2 n) d: 0.5% of the lobe for n = 1e9.
 const char *glossiness_rule(double value) {
     if (!std::isfinite(value))
         return "must be finite";
@@ -45,7 +43,7 @@ const char *glossiness_rule(double value) {
     return value <= 1e9 ? nullptr : "must be <= 1e9";
 }
 
-// Returns a unit normal. The square of the given length need not be a double.
+// The square of the given length need not be a double.
 Plane normalized(const pt_plane &plane) {
     const auto [normal, exponent] = scaled(vector(plane.normal));
     const double length = glm::length(normal);
@@ -149,7 +147,7 @@ CheckedScene checked_scene(const pt_scene &scene, WorkProgress &progress) {
     const Subject whole(violations, "scene");
     check_counts(whole, scene, arrays);
     whole.require(scene.reserved == 0, "reserved", scene.reserved, "must be 0");
-    // With wrong counts the arrays probably do not exist, so they are not read.
+    // With wrong counts the arrays probably do not exist.
     violations.throw_if_any(PT_ERROR_INVALID_SCENE);
 
     const auto materials = elements(scene.materials, scene.material_count, "material", violations);

@@ -17,8 +17,7 @@ struct CheckedScene {
     std::vector<Plane> planes;
 };
 
-// scene.struct_size is checked already. Takes a share of a longer call's progress. Throws PT_ERROR_INVALID_SCENE with
-// all broken rules.
+// scene.struct_size is checked already. Throws PT_ERROR_INVALID_SCENE with all broken rules.
 CheckedScene checked_scene(const pt_scene &scene, WorkProgress &progress);
 
 } // namespace pt

@@ -1,4 +1,3 @@
-// Splits lamps in halves by place; see lamp_tree.h.
 #include "lib/scene/lamp_tree.h"
 
 #include <algorithm>
@@ -26,7 +25,7 @@ int widest_axis(std::span<const Place> places) {
     return width.x >= width.y && width.x >= width.z ? 0 : width.y >= width.z ? 1 : 2;
 }
 
-// Sorts a range of slots' lamps: divides them along their widest extent into two parts of whole nodes.
+// Divides lamps along their widest extent into two parts of whole nodes.
 void split(const LampTreeShape &shape, std::span<Place> places, std::uint64_t first_slot, std::uint64_t slot_count) {
     if (slot_count == 1)
         return;

@@ -1,5 +1,5 @@
-// The tree by which the kernel chooses among many lamps: its shape and the lamps' order. gpu_layout.h describes the
-// nodes; lib/kernel/lamp_tree_words.h writes them.
+// The shape and order of the tree by which kernels choose among many lamps. gpu_layout.h describes its nodes;
+// lib/kernel/lamp_tree_words.h writes them.
 #pragma once
 
 #include "lib/scene/scene.h"
@@ -9,9 +9,9 @@
 
 namespace pt {
 
-// Depends only on the number of lamps, so moving things needs no other kernel. One to four groups of four nodes at the
-// top; below each node another group. The last level's nodes are slots for lamps; beyond 16 lamps, more than half of
-// the slots are taken.
+// Depends only on the number of lamps, so moving things needs no other kernel. The top has one to four groups of four
+// nodes; each node has a group below it. The last level's nodes are slots for lamps, more than half of them taken
+// beyond 16 lamps.
 class LampTreeShape {
 public:
     explicit LampTreeShape(std::uint32_t lamp_count);
@@ -20,14 +20,14 @@ public:
     std::uint32_t top_groups() const { return top_groups_; }
     std::uint64_t slots() const { return 4 * groups_of(levels_); }
 
-    // The top is level 0.
+    // Level 0 is the top.
     std::uint64_t groups_of(std::uint32_t level) const { return std::uint64_t{top_groups_} << (2 * level); }
     std::uint64_t groups_above(std::uint32_t level) const {
         return top_groups_ * (((std::uint64_t{1} << (2 * level)) - 1) / 3);
     }
     std::uint64_t all_groups() const { return groups_above(levels_ + 1); }
 
-    // The first lamp, in the tree's order, at or after this slot.
+    // The first lamp at or after this slot.
     std::uint32_t first_lamp(std::uint64_t slot) const {
         return static_cast<std::uint32_t>((slot * lamp_count_ + slots() - 1) / slots());
     }
@@ -38,8 +38,8 @@ private:
     std::uint32_t top_groups_;
 };
 
-// Emitting spheres in the order of their slots, placed as at the middle of the time interval [0, 1]. Leaving out
-// spheres that are no lamps for the camera keeps the others' order.
+// Emitting spheres by slot, placed as at time 1/2. Leaving out spheres that the camera does not see as lamps keeps the
+// order.
 std::vector<std::uint32_t> order_in_lamp_tree(const Scene &scene);
 
 } // namespace pt

@@ -1,5 +1,5 @@
-// A ball that moves along a straight line, or a capsule, a ball swept along one. All that distinguishes these kinds is
-// here, for tree, twins, digests and kernel words; others only ask whether a surface is a plain ball.
+// A ball that moves along a straight line, or a capsule, a ball swept along one. Everything that distinguishes the two
+// is here.
 #pragma once
 
 #include "lib/base/digest.h"
@@ -47,7 +47,7 @@ inline PointBox box_about(const MovingBall &ball) {
     return {glm::min(ball.open, ball.close()) - ball.radius, glm::max(ball.open, ball.close()) + ball.radius};
 }
 
-// While the shutter is open, relative to the camera. Capsules are whole.
+// While the shutter is open, relative to the camera.
 inline MovingBall seen_ball(const MovingBall &ball, const Camera &camera) {
     if (ball.kind != Kind::ball)
         return {ball.open - camera.position, ball.way, ball.radius, ball.kind};
@@ -55,12 +55,11 @@ inline MovingBall seen_ball(const MovingBall &ball, const Camera &camera) {
             (camera.shutter_close - camera.shutter_open) * ball.way, ball.radius};
 }
 
-// Share of the radius within which float32 may put a point on the surface's other side.
+// Share of the radius within which float32 may put a point on the wrong side.
 inline constexpr double side_margin = 0x1p-16;
 
-// Balls that differ by more than this share of their radii are different, at any distance. A distance d is known to a
-// few roundings, 2^-22 d, which reach this share at 2^20 radii. There the rounding of a center, 2^-24 d, is a 16th of
-// the radius and visible anyway.
+// Balls that differ by more than this share of their radii are different at any distance. A distance d is known to
+// 2^-22 d, which reaches the share at 2^20 radii; there a center's rounding is visible anyway.
 inline constexpr double two_spheres = 0.25;
 
 // Adds a margin beyond float32's rounding.
@@ -81,7 +80,7 @@ inline bool may_hold_origin(const MovingBall &ball, double slack = 0.0) {
 }
 
 // Whether no point of either surface is far from the other, compared with their size. A capsule counts if this may hold
-// at some time for one of its balls.
+// for one of its balls.
 inline bool nearly_coincide(const MovingBall &ball, const MovingBall &other) {
     const double apart = other.kind == Kind::capsule
                              ? std::max(least_distance(other.open - ball.open, other.way) - glm::length(ball.way), 0.0)
@@ -97,8 +96,8 @@ inline MovingBall ball_about(const MovingBall &ball) {
     return {ball.open + half, glm::dvec3(0.0), ball.radius + glm::length(half)};
 }
 
-// Whether a ball and a surface never meet while the shutter is open, and the surface is not inside the ball: it is
-// beside it, or a shell around it. Their relative motion is straight, so the greatest distance is at an end.
+// Whether a ball never meets a surface while the shutter is open, and does not contain it. Their relative motion is
+// straight, so the greatest distance is at an end.
 inline bool lies_apart(const MovingBall &ball, const MovingBall &surface) {
     const MovingBall about = ball_about(surface);
     const glm::dvec3 from = ball.open - about.open;
@@ -109,10 +108,10 @@ inline bool lies_apart(const MovingBall &ball, const MovingBall &surface) {
     return is_beside || is_within;
 }
 
-// The way as kernels read it (shaders/gpu_layout.h). Where a capsule's 1 / length overflows, it is far shorter than any
-// radius (at least 1e-18), and is held as a ball.
+// As kernels read it (shaders/gpu_layout.h). Capsules whose 1 / length overflows are far shorter than any radius and
+// held as balls.
 inline glm::vec4 way_word(const MovingBall &ball) {
-    const glm::vec3 rounded = glm::vec3(ball.way) + 0.0F; // turns -0 into +0, for twins
+    const glm::vec3 rounded = glm::vec3(ball.way) + 0.0F; // -0 + 0 = +0, for twins
     if (ball.kind == Kind::ball)
         return {rounded, 0.0F};
     const auto inverse = static_cast<float>(1.0 / glm::length(ball.way));
@@ -124,7 +123,7 @@ inline MovingBall surface_of(const glm::dvec3 &open, double radius, const glm::v
     return {open, glm::dvec3(way), radius, way.w > 0.0F ? Kind::capsule : Kind::ball};
 }
 
-// Balls add nothing, which keeps the digests of scenes without capsules.
+// Balls add nothing, so scenes without capsules keep their digests.
 inline void add_kind(Digest &digest, Kind kind) {
     if (kind != Kind::ball)
         digest.add(std::uint64_t{static_cast<std::uint8_t>(kind)} - 1);

@@ -1,4 +1,3 @@
-// The rules of render settings and their defaults; see render_settings.h.
 #include "lib/scene/render_settings.h"
 
 #include "lib/base/rules.h"
@@ -10,7 +9,7 @@ namespace pt {
 
 namespace {
 
-// Pixels' indices and number have 32 bits.
+// Pixel indices have 32 bits.
 constexpr std::uint64_t max_pixel_count = UINT32_MAX;
 
 } // namespace

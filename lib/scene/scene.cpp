@@ -1,4 +1,3 @@
-// Takes over the caller's scene, and computes digests; see scene.h.
 #include "lib/scene/scene.h"
 
 #include "lib/scene/checked_scene.h"
@@ -12,7 +11,7 @@ namespace pt {
 
 namespace {
 
-// All of a material; -0 equals 0, as in comparisons of materials.
+// Treats -0 as 0, like comparisons of materials.
 using MaterialKey = std::array<float, 11>;
 
 MaterialKey key_of(const Material &material) {
@@ -88,7 +87,7 @@ void add(Digest &digest, const Material &material) {
         digest.add(std::uint64_t{PT_MATERIAL_HIDDEN_FROM_CAMERA});
 }
 
-// Materials are numbered as they occur, each new one followed by all of it.
+// Materials are numbered as they occur, each new one followed by its values.
 std::string digest_of(const Scene &scene) {
     Digest digest;
     std::map<MaterialKey, std::uint64_t> numbers;

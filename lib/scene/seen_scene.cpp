@@ -1,4 +1,3 @@
-// Looks at a scene, and decides which spheres are seen as planes with a curvature; see seen_scene.h.
 #include "lib/scene/seen_scene.h"
 
 #include "lib/base/error.h"
@@ -11,13 +10,11 @@ namespace pt {
 
 namespace {
 
-// Radius over distance from which a sphere is nearly flat: below, center and radius cost at most 5 of the 24 bits of a
-// hit near the camera.
+// Radius over distance from which a sphere is nearly flat. Below, center and radius cost a hit at most 5 of 24 bits.
 constexpr double nearly_flat = 32.0;
 
-// The same for lamps. Held as a plane, a lamp is found by directions alone, which rarely hit its rim: noise rises
-// there. So lamps are held by center while that is precise enough: up to this ratio, where the surface is off by 2^-24
-// R, 1/256 of the distance.
+// For lamps. A lamp held as a plane is found by directions alone, which adds noise. At this ratio its surface is off by
+// 2^-24 R, 1/256 of the distance.
 constexpr double nearly_flat_lamp = 65536.0;
 
 bool is_large(const SeenSphere &sphere, double ratio) {
@@ -29,9 +26,8 @@ bool moves_little(const SeenSphere &sphere) {
     return sphere.radius > nearly_flat * glm::length(sphere.way);
 }
 
-// Whether the surface is so near that it must be held as a plane, but moves too far for that: held by its center it
-// would be off by 2^-24 R, more than 1/256 of its distance. Where rays start on a disc, an error small beside the disc
-// does no harm.
+// Whether the surface is so near that it must be held as a plane, but moves too far for that. Errors small beside the
+// disc of starts do no harm.
 bool moves_too_far(const SeenSphere &sphere, const Camera &camera) {
     return is_large(sphere, nearly_flat_lamp) && sphere.radius > nearly_flat_lamp * camera.start_radius &&
            !moves_little(sphere);
@@ -99,10 +95,9 @@ void require_held_motions(const SeenScene &seen, const Scene &scene, const Camer
                                    ") must move less than a 32nd of it while the shutter is open"});
 }
 
-// Let the center be at a distance a before the disc's plane and c from its axis. The disc's points have squared
-// distances from a^2 + max(c - radius, 0)^2 to a^2 + (c + radius)^2. Moving balls and other kinds count as larger by
-// half their way, unless all of the way is too far from the disc. Float32 tells sides apart up to a share of the ball's
-// size or, for a huge ball, of its distance.
+// Squared distances of the center from the disc's points lie between a^2 + max(c - radius, 0)^2 and a^2 + (c +
+// radius)^2, with a from the disc's plane and c from its axis. Half a way widens a moving ball. Float32 tells sides up
+// to a share of the ball's size or, for a huge ball, its distance.
 bool divides_start(const MovingBall &ball, const Camera &camera, double slack) {
     if (camera.start_radius == 0.0 || !may_hold_origin(ball, camera.start_radius + slack))
         return false;

@@ -25,27 +25,26 @@ struct SeenSphere : MovingBall {
     double height() const { return distance - radius; }
 };
 
-// A plane, or a huge sphere as a plane with a slight curvature, by its point nearest to the camera, -offset * normal
-// relative to it. With x relative to the camera and y = x + offset * normal, the surface is dot(normal, y) + curvature
-// / 2 * dot(y, y) = 0, as the shutter opens.
+// A plane, or a huge sphere as a slightly curved plane. For x relative to the camera and y = x + offset * normal:
+// dot(normal, y) + curvature / 2 * dot(y, y) = 0 as the shutter opens.
 struct CurvedPlane {
-    glm::dvec3 normal;      // unit vector at that point; outward for a sphere
+    glm::dvec3 normal;      // unit vector at the point nearest to the camera; outward for a sphere
     double offset;          // signed distance of the camera, positive on the normal's side
     double curvature;       // 1 / radius; 0 for a plane
-    glm::dvec3 way;         // of the surface while the shutter is open
+    glm::dvec3 way;         // while the shutter is open
     std::uint32_t material; // index into Scene::materials
-    std::uint32_t index;    // into Scene::planes, or with a curvature into Scene::spheres
+    std::uint32_t index;    // into Scene::planes, or with a curvature Scene::spheres
     bool hidden = false;    // from the camera
 };
 
 // Turns the normal towards the camera. index: into Scene::planes.
 CurvedPlane curved_plane(const Plane &plane, const Material &of_plane, const Camera &camera, std::uint32_t index = 0);
 
-// sphere.is_flat must hold. Held by center and radius in float32, its surface would be off by 2^-24 of the radius; this
-// way by 2^-24 of the scene's size.
+// sphere.is_flat must hold. By center and radius in float32 its surface would be off by 2^-24 of the radius, this way
+// only by 2^-24 of the scene's size.
 CurvedPlane curved_plane(const SeenSphere &sphere);
 
-// Sorted in the scene's order.
+// Keeps the scene's order.
 struct SeenScene {
     std::vector<SeenSphere> spheres;
     std::vector<CurvedPlane> planes; // flat ones
@@ -58,12 +57,12 @@ struct SeenScene {
 
 SeenScene seen_scene(const Scene &scene, const Camera &camera);
 
-// Throws PT_ERROR_UNSUPPORTED if a sphere that must be held as a plane moves too far. seen was made from scene and
-// camera; the camera is where rays start (lib/kernel/ray_start.h).
+// Throws PT_ERROR_UNSUPPORTED if a sphere that must be held as a plane moves too far. seen: of scene and camera.
+// camera: where rays start (lib/kernel/ray_start.h).
 void require_held_motions(const SeenScene &seen, const Scene &scene, const Camera &camera);
 
-// Whether rays may start on both sides of a surface, or so close to it that float32 cannot tell. slack: additional
-// distance. Relative to a camera with a start_radius; perspective rays start at a point, which is never divided.
+// Whether parallel rays may start on both sides of a surface, or so close that float32 cannot tell. slack: additional
+// distance.
 bool divides_start(const MovingBall &ball, const Camera &camera, double slack = 0.0);
 bool divides_start(const CurvedPlane &flat, const Camera &camera);
 

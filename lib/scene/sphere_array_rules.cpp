@@ -1,4 +1,3 @@
-// Checks columns; see sphere_array_rules.h.
 #include "lib/scene/sphere_array_rules.h"
 
 #include "lib/base/struct_size.h"
@@ -15,13 +14,12 @@ namespace pt {
 
 namespace {
 
-// Enough for every use, yet an uninitialised count is noticed before the arrays are read.
+// Catches an uninitialised count before arrays are read.
 constexpr std::uint32_t max_array_count = 65536;
 
-// Also refuses negative strides, which NumPy has and C has not.
+// Also refuses NumPy's negative strides.
 constexpr std::uint32_t max_stride = (std::uint32_t{1} << 31) - 1;
 
-// Allowed types of a column.
 struct ElementType {
     bool (*is)(std::uint32_t type);
     const char *rule;
@@ -53,7 +51,6 @@ bool is_plain(const pt_material &material) {
     return is_dark(material) && (material.flags & PT_MATERIAL_HIDDEN_FROM_CAMERA) == 0;
 }
 
-// The first broken rule of a component.
 template <typename Vector>
 const char *broken(const Vector &value, Rule rule) {
     const char *x = rule(value.x);
@@ -63,7 +60,6 @@ const char *broken(const Vector &value, Rule rule) {
 
 class ColumnChecker;
 
-// A column's place in its array, its types and its check.
 struct ColumnKind {
     const char *name;
     pt_column pt_sphere_array::*column;
@@ -116,7 +112,7 @@ public:
             dark_rule);
     }
 
-    // If a tree would hold opacities below 1, the materials too.
+    // Also checks the materials if a tree would hold opacities below 1.
     void opacities(const ColumnKind &kind) const {
         numbers<is_share, share_rule>(kind);
         constexpr std::uint32_t none = UINT32_MAX;
@@ -182,12 +178,12 @@ std::uint32_t component_bytes(std::uint32_t type) {
     return type == PT_TYPE_SRGB8 ? 1 : sizeof(float);
 }
 
-// A member of a column: "center.data".
+// "center.data"
 std::string member(const ColumnKind &kind, const char *name) {
     return std::string(kind.name) + '.' + name;
 }
 
-// Whether a column can be read, or is missing and may be.
+// Whether a column can be read, or may be missing.
 bool check_layout(const Subject &array, const pt_column &column, std::uint32_t count, const ColumnKind &kind) {
     const auto refuse = [&](const char *name, const std::string &value, const std::string &rule) {
         array.refuse(member(kind, name).c_str(), value, rule);

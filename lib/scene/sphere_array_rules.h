@@ -13,17 +13,17 @@
 
 namespace pt {
 
-// Limit for all arrays together; indices and memory are designed for it.
+// Limit for all arrays together, for which indices and memory are designed.
 constexpr std::uint64_t max_sphere_count = std::uint64_t{1} << 26;
 
-// As structs of this library's version, if their number is possible. Throws PT_ERROR_INVALID_ARGUMENT or
+// Copies as structs of this library's version, if their number is possible. Throws PT_ERROR_INVALID_ARGUMENT or
 // PT_ERROR_UNSUPPORTED for a bad struct_size.
 std::vector<pt_sphere_array> copied_sphere_arrays(const pt_scene &scene, Violations &violations);
 
 // Upper bound of the elements to be checked.
 double elements_of(std::span<const pt_sphere_array> arrays);
 
-// Each element is a unit of work. If an array's columns cannot be read, nothing else of it is checked.
+// A unit of work per element. If an array's columns cannot be read, its elements are not checked.
 void check_sphere_arrays(std::span<const pt_sphere_array> arrays, std::span<const pt_material> materials,
                          Violations &violations, WorkProgress &progress);
 

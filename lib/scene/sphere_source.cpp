@@ -1,4 +1,3 @@
-// Reads spheres column by column; see sphere_source.h.
 #include "lib/scene/sphere_source.h"
 
 #include "lib/scene/column.h"
@@ -10,7 +9,6 @@ namespace pt {
 
 namespace {
 
-// A column of one member of consecutive structs.
 pt_column column_of(const void *first, std::uint32_t type) {
     return {first, sizeof(pt_sphere), type};
 }
@@ -40,7 +38,7 @@ bool is_any_translucent(const pt_sphere_array &array) {
     return any;
 }
 
-// at(i) is the row of the i-th sphere, here and below.
+// at(i), here and below: row of the i-th sphere.
 template <typename At>
 void read_columns(const pt_sphere_array &columns, At at, std::span<Sphere> spheres) {
     with_vectors(columns.center, [&](auto center) {
@@ -166,7 +164,7 @@ void SphereSource::read_colors(std::span<const std::uint32_t> indices, std::span
     });
 }
 
-// A sphere is in the last part that begins at or before its index: an empty part begins where the next one does.
+// A sphere is in the last part that begins at or before its index; empty parts begin where the next one does.
 template <typename Element, typename Read>
 void SphereSource::read_parts(std::span<const std::uint32_t> indices, std::span<Element> elements,
                               Read read_part) const {

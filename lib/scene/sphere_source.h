@@ -21,30 +21,28 @@ namespace pt {
 // Valid only during the call. Several threads may read it.
 class SphereSource {
 public:
-    // Structs first, then arrays, as in the scene. All obey sphere_array_rules.h.
+    // Structs first, then arrays. All must obey sphere_array_rules.h.
     SphereSource(std::span<const pt_sphere> spheres, std::span<const pt_sphere_array> arrays);
 
     std::size_t size() const { return starts_.back(); }
 
-    // Otherwise all colors are 1.
     bool has_colors() const { return has_colors_; }
 
-    // Otherwise no sphere has an opacity.
     bool has_opacities() const { return has_opacities_; }
 
     bool are_mere_balls() const { return others_count_ == 0; }
 
-    // Indices of surfaces of other kinds, ascending; none if they are more than `most`.
+    // Ascending indices; none if they are more than `most`.
     std::vector<std::uint32_t> other_kinds(std::size_t most) const;
 
     // For many, for_each is faster.
     Sphere operator[](std::uint32_t index) const;
     glm::vec3 color(std::uint32_t index) const;
 
-    // Marks the materials of spheres. A unit of work is a sphere, or an array with one material.
+    // A unit of work is a sphere, or an array with one material.
     void mark_materials(std::vector<bool> &used, WorkProgress &progress) const;
 
-    // Calls use(index, sphere, color) in order; each is a unit of work. color: factor of the material's diffuse.
+    // Calls use(index, sphere, color) in order, a unit of work each. color: factor of the material's diffuse.
     template <typename Use>
     void for_each(WorkProgress &progress, Use use) const {
         std::array<std::uint32_t, chunk_size> indices;
@@ -57,7 +55,7 @@ public:
             use);
     }
 
-    // Calls use(i, sphere, color) for the sphere indices[i], in this order.
+    // Calls use(i, sphere, color) for the spheres indices[i], in this order.
     template <typename Use>
     void for_each(std::span<const std::uint32_t> indices, WorkProgress &progress, Use use) const {
         for_each_read(
@@ -65,13 +63,13 @@ public:
             [&](std::size_t first, std::size_t count) { return indices.subspan(first, count); }, use);
     }
 
-    // The index of each array's first sphere, even if it has none.
+    // Index of each array's first sphere, even if it has none.
     std::span<const std::uint32_t> array_starts() const { return {starts_.begin() + 1, starts_.end() - 1}; }
 
 private:
     static constexpr std::size_t chunk_size = 256; // 19 KiB, within the first cache
 
-    // Reads blocks of spheres; from(first, count) returns their indices.
+    // from(first, count) returns indices.
     template <typename From, typename Use>
     void for_each_read(std::size_t all, WorkProgress &progress, From from, Use use) const {
         std::array<Sphere, chunk_size> spheres;
@@ -92,7 +90,7 @@ private:
     void read(std::span<const std::uint32_t> indices, std::span<Sphere> spheres) const;
     void read_colors(std::span<const std::uint32_t> indices, std::span<glm::vec3> colors) const;
 
-    // Calls read_part(columns, at, elements) for each run of spheres in one array; at(i) is the i-th one's row.
+    // Calls read_part(columns, at, elements) for each run of spheres in one array; at(i): row of the i-th one.
     template <typename Element, typename Read>
     void read_parts(std::span<const std::uint32_t> indices, std::span<Element> elements, Read read_part) const;
 

@@ -1,5 +1,5 @@
-// Decodes sRGB bytes (IEC 61966-2-1), by a table computed at compile time, so that a scene's bits do not depend on a
-// maths library.
+// Decodes sRGB bytes (IEC 61966-2-1). The table is computed at compile time, so a scene's bits do not depend on a maths
+// library.
 #pragma once
 
 #include <array>
@@ -41,7 +41,6 @@ inline constexpr std::array<float, 256> table = decoded_bytes();
 
 } // namespace srgb
 
-// The linear value, in [0, 1].
 constexpr float linear_from_srgb(std::uint8_t byte) {
     return srgb::table[byte];
 }

@@ -1,4 +1,3 @@
-// Finds twins by their places along a line; see twins.h.
 #include "lib/scene/twins.h"
 
 #include <algorithm>
@@ -10,19 +9,17 @@ namespace pt {
 
 namespace {
 
-// Largest difference of twins relative to a sphere's size: 64 times float32's rounding, because a distance along a ray
-// is off by a dozen roundings of its length, and paths see surfaces from a few times the camera's distance.
+// Largest difference of twins relative to the radius: 64 roundings, since a distance along a ray is off by a dozen, and
+// paths see surfaces from farther than the camera.
 constexpr double same_size = 0x1p-18;
-// Relative to the distance from the camera: four times the spacing of numbers that hold the center.
+// Relative to the distance: four times the spacing of numbers that hold the center.
 constexpr double same_place = 0x1p-21;
-// Beyond this difference, vertices tell planes apart, as their places are known to 2^-22 of the distance. Planes at
-// this angle are closer than that in a band of 2^-22 / 2^-8 = 2^-14 of the distance about their common line; parallel
-// ones, this share of the camera's height apart, from 2^14 heights on, a strip of 2^-14 below the horizon. Both are
-// less than a pixel in an image that is a right angle wide in 2^14 pixels.
+// Vertices tell planes apart beyond this difference, their places being known to 2^-22 of the distance. Planes at this
+// angle are closer in a band of 2^-14 of the distance, parallel ones in a strip of 2^-14 below the horizon: both less
+// than a pixel.
 constexpr double two_planes = 0x1p-8;
 
-// Spheres on a lattice have different places along this direction, with incommensurable components: 1 and the roots of
-// 2 and 3, over the root of 6.
+// Incommensurable components tell spheres on a lattice apart: 1, sqrt(2), sqrt(3) over sqrt(6).
 constexpr glm::dvec3 generic_direction(0.40824829046386307, 0.5773502691896258, 0.7071067811865476);
 
 // Largest distance of a twin's center.
@@ -30,8 +27,8 @@ double tolerance(const SeenSphere &sphere) {
     return std::min(same_size * sphere.radius + same_place * sphere.distance, two_spheres * sphere.radius);
 }
 
-// The same, also if it may be held as a plane: planes equal to same_size in normal, offset and curvature have centers
-// and radii equal to three times that, if the offset is small against the radius.
+// Planes equal to same_size in normal, offset and curvature have centers and radii equal to three times that, if the
+// offset is small against the radius.
 double reach(const SeenSphere &sphere) {
     return sphere.is_flat ? 4.0 * same_size * sphere.radius : tolerance(sphere);
 }
@@ -68,7 +65,7 @@ double reach(const CurvedPlane &) {
     return same_size;
 }
 
-// Indices of elements sorted by positions on a line; similar elements have similar positions.
+// Elements sorted by positions on a line, where similar ones are close.
 class Line {
 public:
     template <typename Element>
@@ -124,7 +121,7 @@ bool has_close_lamps(const std::vector<SeenSphere> &spheres) {
     for (std::size_t i = 0; i < line.size(); ++i) {
         const SeenSphere &lamp = spheres[line.index(i)];
         const auto is_close = [&](std::uint32_t other) { return nearly_coincide(lamp, spheres[other]); };
-        // Other kinds are sorted by where they begin, perhaps far from where they come near the lamp.
+        // Capsules are sorted by where they begin, perhaps far from the lamp.
         const auto is_in = [&](const SeenSphere &other) {
             return other.kind != Kind::ball && nearly_coincide(lamp, other);
         };

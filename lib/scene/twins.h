@@ -5,13 +5,12 @@
 
 namespace pt {
 
-// A scene with merged twins: the first of several spheres, or planes, that float32 cannot tell apart from the camera
-// stands for all. Otherwise rounding would choose among them differently for each ray of a path, and light would count
-// twice or never.
+// The first of several spheres, or planes, that float32 cannot tell apart from the camera stands for all. Otherwise
+// rounding would choose differently for each ray of a path, and light would count twice or never.
 struct DistinctScene {
     SeenScene seen;
-    bool close_lamps;  // some lamp and another sphere differ by less than a quarter of their radii
-    bool close_planes; // some planes differ by less than 2^-8 in direction and distance
+    bool close_lamps;  // a lamp and another sphere differ by less than a quarter of their radii
+    bool close_planes; // two planes differ by less than 2^-8 in direction and distance
 };
 
 DistinctScene without_twins(SeenScene seen);

@@ -1,4 +1,3 @@
-// Sorts spheres to find those that coincide; see coincident_spheres.h.
 #include "lib/tree/coincident_spheres.h"
 
 #include "lib/tree/equal_words.h"
@@ -14,7 +13,7 @@ namespace pt {
 
 namespace {
 
-// Distinct for up to 2^27 spheres that share a word; at most 2^9 steps, 2^-21 of the grid, along each axis.
+// Distinct for up to 2^27 spheres; at most 2^9 steps, 2^-21 of the grid, along each axis.
 glm::uvec4 steps_of(std::uint32_t rank) {
     constexpr std::uint32_t side = 512;
     return {rank % side, rank / side % side, rank / (side * side), 0};

@@ -1,4 +1,3 @@
-// Counts spheres in bins, or sorts them along each axis; see cuts.h.
 #include "lib/tree/cuts.h"
 
 #include <algorithm>
@@ -11,12 +10,11 @@ namespace {
 
 constexpr int most_bins = 16;
 
-// For fewer spheres, more bins would only cost time.
 int bins_for(std::size_t spheres) {
     return spheres > 64 ? most_bins : 8;
 }
 
-// Bins of equal width along the longest axis. Other axes are hardly ever better for many spheres.
+// Bins of equal width along the longest axis. Other axes are hardly better for many spheres.
 class Bins {
 public:
     explicit Bins(const Part &part) :
@@ -31,7 +29,7 @@ public:
         return std::min(static_cast<int>((item.centre_radius[axis_] - low_) * scale_), count_ - 1);
     }
 
-    // Whether an item lies before this bin, which is not the first.
+    // bin: not the first.
     bool is_before(const TreeItem &item, int bin) const {
         return (item.centre_radius[axis_] - low_) * scale_ < static_cast<float>(bin);
     }
@@ -51,7 +49,6 @@ struct BinCut {
     float second_surface = 0.0F;
 };
 
-// Numbers of items per bin, and their boxes.
 struct BinContents {
     std::array<Box, most_bins> balls;
     std::array<std::size_t, most_bins> counts{};
@@ -120,7 +117,7 @@ Halves binned_halves(const Part &part) {
     return {{first, centres_of(first), cut.first_surface}, {second, centres_of(second), cut.second_surface}};
 }
 
-// Sorts by counted places, without branches, most of which would be mispredicted.
+// Sorts by counting, without branches, most of which would be mispredicted.
 Halves swept_halves(const Part &part) {
     const std::size_t count = part.items.size();
     std::array<TreeItem, most_swept> best_items{};

@@ -1,4 +1,4 @@
-// Divides spheres in two: few at the best of all cuts, many at nearly the best. Used to shape a tree.
+// Divides spheres in two: few at the best of all cuts, many at nearly the best.
 #pragma once
 
 #include "lib/tree/part.h"
@@ -8,13 +8,13 @@
 namespace pt {
 
 // The halves with the least sum of surface times expected nodes, among cuts between bins along the longest axis (Wald
-// 2007). The centers must not all be at one point; equal centers stay together.
+// 2007). Requires different centers; equal ones stay together.
 Halves binned_halves(const Part &part);
 
 // Up to here sorting costs less than bins.
 inline constexpr std::size_t most_swept = 12;
 
-// The same among all cuts along each axis, for at most most_swept spheres.
+// Tries all cuts along each axis, for at most most_swept spheres.
 Halves swept_halves(const Part &part);
 
 } // namespace pt

@@ -1,4 +1,3 @@
-// A hash table of places; see equal_words.h.
 #include "lib/tree/equal_words.h"
 
 #include "lib/base/mixed.h"
@@ -23,8 +22,8 @@ std::uint64_t hash_of(const glm::uvec4 &word) {
     return mixed(mixed(two(word.x, word.y)) ^ two(word.z, word.w));
 }
 
-// A slot holds a word's place and further bits of its hash, so different words are hardly ever compared. At most three
-// quarters of the slots are used.
+// A slot holds a word's place and some bits of its hash, so different words are hardly ever compared. At most three
+// quarters are used.
 class Slots {
 public:
     explicit Slots(std::span<const glm::uvec4> words) :
@@ -33,7 +32,7 @@ public:
 
     void fetch(std::uint64_t hash) const { __builtin_prefetch(&slots_[hash & (slots_.size() - 1)]); }
 
-    // Returns false if there is an equal word, or no free slot nearby.
+    // False if there is an equal word, or no free slot nearby.
     bool add(std::uint32_t place, std::uint64_t hash) {
         constexpr std::size_t most_looks = 1000;
         const std::uint32_t tag = static_cast<std::uint32_t>(hash >> 32) % tag_count << place_bits;
@@ -51,12 +50,12 @@ public:
 
 private:
     std::span<const glm::uvec4> words_;
-    std::vector<std::uint32_t> slots_; // a power of two
+    std::vector<std::uint32_t> slots_; // size: a power of two
 };
 
 } // namespace
 
-// Several words at a time, to fetch memory for one while comparing others.
+// Fetches memory for some words while comparing others.
 bool has_equal_words(std::span<const glm::uvec4> words, WorkProgress &progress) {
     Slots slots(words);
     std::array<std::uint64_t, 32> hashes;

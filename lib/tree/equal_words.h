@@ -1,4 +1,4 @@
-// Finds out whether any two of many words are equal. SphereTree must hold no twins.
+// Finds out whether any two of many words are equal.
 #pragma once
 
 #include "lib/base/work_progress.h"
@@ -9,8 +9,8 @@
 
 namespace pt {
 
-// Takes up to 11 bytes per word during the call; at most 2^26 words, each a unit of work. Also true if finding out
-// would take long, which does not happen by chance.
+// Takes up to 11 bytes per word; at most 2^26 words, each a unit of work. Also true if finding out would take long,
+// which does not happen by chance.
 bool has_equal_words(std::span<const glm::uvec4> words, WorkProgress &progress);
 
 } // namespace pt

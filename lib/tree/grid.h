@@ -1,4 +1,4 @@
-// The integer grid of a tree's places. Differences of places are exact, so nothing is rebuilt when the camera moves.
+// The integer grid of a tree's places. Differences are exact, so nothing is rebuilt when the camera moves.
 #pragma once
 
 #include "shaders/gpu_layout.h"
@@ -13,8 +13,7 @@
 namespace pt {
 
 struct Grid {
-    // Largest coordinate of a box, in steps. The camera may be twice as far away, and differences still fit into 32
-    // bits.
+    // Largest coordinate of a box, in steps. The camera may be twice as far away without overflow of differences.
     static constexpr double reach = gpu::TREE_REACH;
 
     glm::dvec3 middle; // in the scene's units
@@ -27,7 +26,7 @@ struct Grid {
         step(step_for(distance)),
         steps_per_unit(1.0 / step) {}
 
-    // The nearest grid place. The grid must reach the point.
+    // The grid must reach the point.
     glm::ivec3 place(const glm::dvec3 &point) const {
         const glm::dvec3 steps = (point - middle) * steps_per_unit;
         return {nearest(steps.x), nearest(steps.y), nearest(steps.z)};
@@ -36,14 +35,14 @@ struct Grid {
     glm::dvec3 point(const glm::ivec3 &at) const { return middle + step * glm::dvec3(at); }
 
 private:
-    // The smallest power of two such that `reach` steps cover the distance; float32 must hold it and its inverse.
+    // The smallest power of two with which `reach` steps cover the distance; float32 must hold it and its inverse.
     static double step_for(double distance) {
         int exponent = 0; // distance / reach = fraction * 2^exponent with fraction in [1/2, 1)
         std::frexp(distance / reach, &exponent);
         return std::ldexp(1.0, std::clamp(exponent, -120, 120));
     }
 
-    // The last bit of so large a number counts ones, so adding rounds to whole numbers, ties to even.
+    // The last bit of so large a number counts ones, so adding rounds to integers, ties to even.
     static int nearest(double number) {
         constexpr double ones_are_last = 0x1.8p52;
         return static_cast<int>(static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(number + ones_are_last)));

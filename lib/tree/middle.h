@@ -1,4 +1,4 @@
-// Where most of many points are, whatever a few of them do.
+// Finds where most points are, however far the others.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -10,7 +10,7 @@
 
 namespace pt {
 
-// The medians of the coordinates of about a thousand of the points center_of(0), ..., center_of(count - 1).
+// Medians of the coordinates of about a thousand of the points center_of(0), ..., center_of(count - 1).
 template <typename CenterOf>
 glm::dvec3 middle_of(std::uint32_t count, CenterOf center_of) {
     constexpr std::uint32_t enough = 1000;

@@ -1,4 +1,4 @@
-// Undivided groups of spheres, and the boxes around them, while a tree is shaped.
+// Undivided groups of spheres and their boxes, while a tree is shaped.
 #pragma once
 
 #include "lib/base/mixed.h"
@@ -40,7 +40,7 @@ struct Box {
     float extent(std::size_t axis) const { return high[axis] - low[axis]; }
     bool is_point() const { return extent(0) == 0.0F && extent(1) == 0.0F && extent(2) == 0.0F; }
 
-    // Half of the surface area; for an empty box not below any number.
+    // Half of the surface area; infinite for an empty box.
     float surface() const {
         const Vector sides = high - low;
         const Vector products = sides * __builtin_shufflevector(sides, sides, 1, 2, 0, 3);
@@ -53,13 +53,13 @@ struct Box {
     }
 };
 
-// A sample of this size shows nearly as well as all spheres where to divide a part (tests/bench/NOTEBOOK.md).
+// Nearly as good as all spheres for dividing a part (tests/bench/NOTEBOOK.md).
 inline constexpr std::size_t sample_size = 4096;
 
 inline constexpr std::size_t sampled_from = 4 * sample_size;
 
-// Calls use(item) for all, or a sample of many: one item from anywhere in each of sample_size equal runs, so that no
-// pattern in the order matters. It stays the same while the order does.
+// Calls use(item) for all, or one item from anywhere in each of sample_size equal runs, so that no pattern in the order
+// matters. Deterministic.
 template <typename Use>
 void for_each_or_sample(Items items, Use use) {
     if (items.size() < sampled_from) {
@@ -93,11 +93,11 @@ inline Box balls_of(Items items) {
     return box;
 }
 
-// An undivided group. If it is large, its boxes are a sample's.
+// If it is large, its boxes are a sample's.
 struct Part {
     Items items;
     Box centres;               // a point only if all are there
-    float surface = 0.0F;      // of the box about the spheres
+    float surface = 0.0F;      // of the box around the spheres
     bool has_no_twins = false; // otherwise it may have some
 };
 
@@ -106,7 +106,7 @@ struct Halves {
     Part second;
 };
 
-// Nodes of the lowest level for this many spheres.
+// Nodes of the lowest level.
 inline float nodes_for(std::size_t count) {
     return static_cast<float>((count + tree_width - 1) / tree_width);
 }

@@ -1,4 +1,3 @@
-// Divides spheres, top down; see sphere_order.h.
 #include "lib/tree/sphere_order.h"
 
 #include "lib/base/mixed.h"
@@ -13,7 +12,7 @@ namespace pt {
 
 namespace {
 
-// Nodes from this depth on are halved: another log4(2^26) = 13 levels hold all spheres of a scene.
+// Deeper nodes are halved: another log4(2^26) = 13 levels hold all spheres of a scene.
 constexpr std::uint32_t free_depth = 14;
 
 Part part_of(Items items) {
@@ -42,7 +41,7 @@ struct Making {
     WorkProgress &progress;
 };
 
-// Whether any two of a few spheres may be twins.
+// Whether any two may be twins.
 bool have_equals(Items items) {
     for (std::size_t i = 0; i < items.size(); ++i)
         for (std::size_t other = 0; other < i; ++other)
@@ -58,7 +57,7 @@ std::uint64_t hash_of(const SphereBits &bits) {
     return hash;
 }
 
-// Sorts by hashes, since bits take long to read, and compares the bits of spheres with equal hashes.
+// Sorts by hashes, since bits take long to read, and compares bits of equal hashes.
 Part without_twins(Part part, const Making &making) {
     const std::size_t count = part.items.size();
     if (part.has_no_twins || (count <= tree_width && !have_equals(part.items)))
@@ -102,8 +101,7 @@ struct Children {
     std::span<Part> all() { return std::span(parts).first(count); }
 };
 
-// Whether a part is divided before another: the one with the larger surface or, deep in the tree, with more spheres, so
-// that no child has more than a quarter of them.
+// The larger surface goes first or, deep in the tree, more spheres, so that no child has more than a quarter of them.
 bool goes_before(const Part &part, const Part &other, std::uint32_t depth) {
     return depth < free_depth ? part.surface > other.surface : part.items.size() > other.items.size();
 }
@@ -117,8 +115,8 @@ Part *next_of(std::span<Part> parts, std::uint32_t depth) {
     return next;
 }
 
-// Divides a node's parts until there are enough children. Twins have equal centers, so cuts separate them only among
-// few spheres or at one point; halving could, so twins are removed before it.
+// Divides a node's parts until there are enough children. Twins have equal centers, so only halving, cuts among few
+// spheres and single points separate them; twins are removed before these.
 Children children_of(Part node, const Making &making, std::uint32_t depth) {
     Children children;
     if (node.items.size() <= tree_width || node.centres.is_point() || depth == free_depth)

@@ -1,11 +1,10 @@
-// Rounds surfaces to words; see sphere_words.h.
 #include "lib/tree/sphere_words.h"
 
 namespace pt {
 
 namespace {
 
-// The float next to the radius whose last bits are the opacity; a word of its own would cost walks time.
+// The float next to the radius whose last bits are the opacity; a further word would slow walks.
 std::uint32_t radius_bits(const Sphere &sphere) {
     const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(sphere.radius));
     if (sphere.opacity == no_opacity)
@@ -15,7 +14,7 @@ std::uint32_t radius_bits(const Sphere &sphere) {
     return ((bits + half - opacity) & ~gpu::TREE_OPACITY_STEPS) + opacity;
 }
 
-// For int-sized numbers: std::ceil is a function call for old processors.
+// For int-sized numbers, since std::ceil is a function call for old processors.
 int ceiling(double number) {
     const auto whole = static_cast<int>(number);
     return whole + (whole < number ? 1 : 0);

@@ -1,4 +1,3 @@
-// Finds what reaches farthest; see tree_choice.h.
 #include "lib/tree/tree_choice.h"
 
 #include "lib/tree/middle.h"
@@ -13,20 +12,18 @@ namespace pt {
 
 namespace {
 
-// Every ray tests these spheres. As many take the time of a walk through a tree (default_tree_from), so a picture takes
-// at most twice the time. In the tree they would cost more: boxes grow by 2^-19 of its reach, and rays test all spheres
-// that are closer together.
+// Every ray tests these spheres, which at most doubles the time (default_tree_from). The tree would cost more: boxes
+// grow by 2^-19 of its reach, and rays test all spheres closer together.
 constexpr std::size_t most_outlying = 50;
 
-// Spheres nearer than this stay in the tree, at up to four of the grid's 29 bits, which leaves more than float32 has.
+// Nearer spheres stay in the tree and cost up to four of its 29 bits, which leaves more than float32 has.
 constexpr double much_farther = 16.0;
 
-// Largest number of surfaces that are no balls outside a tree, such as the twelve edges of a cell. Every ray tests
-// them, but walks are faster in a tree of balls alone.
+// A few capsules outside, such as a cell's twelve edges, leave a tree of balls alone, where walks are faster.
 constexpr std::size_t few_others = 16;
 
-// The few spheres that would make the grid of a tree coarse: huge ones, like a ground, and distant ones, like a sun.
-// They reach 16 times as far from the middle of the scene as all others. By index in ascending order.
+// The few spheres that would make a tree's grid coarse: huge or distant ones. They reach 16 times as far from the
+// scene's middle as all others. Ascending indices.
 std::vector<std::uint32_t> outlying_spheres(const SphereSource &spheres, WorkProgress &progress) {
     const std::size_t few = std::min(most_outlying, spheres.size() / 2);
     const glm::dvec3 middle =

@@ -9,19 +9,17 @@
 
 namespace pt {
 
-// From this many spheres on, nearly all are in a tree. lavapipe's loops are no longer unrolled from there on
-// (DevicePolicy::unrolled); on GPUs a tree pays at about the same number.
+// From this many spheres on a tree pays, on lavapipe because longer loops are not unrolled (DevicePolicy::unrolled).
 inline constexpr std::uint32_t default_tree_from = 113;
 
-// The same if some surfaces are no balls: testing each then takes several times as long, and on lavapipe the kernel of
-// a list takes seconds to compile.
+// With capsules: testing each takes several times as long, and lavapipe compiles long lists for seconds.
 inline constexpr std::uint32_t tree_of_others_from = 24;
 
-// The number of visible spheres from which a tree pays.
+// Counts visible spheres.
 std::uint32_t tree_pays_from(const SphereSource &spheres);
 
-// Spheres better tested one by one: huge and distant ones, which would make the tree's grid coarse, and a few that are
-// no balls. Ascending indices; each sphere is a unit of work.
+// Spheres better tested one by one: huge and distant ones, which would make the tree's grid coarse, and few capsules.
+// Ascending indices; each sphere is a unit of work.
 std::vector<std::uint32_t> spheres_beside_tree(const SphereSource &spheres, WorkProgress &progress);
 
 } // namespace pt

@@ -1,4 +1,3 @@
-// Packs a node; see tree_node.h.
 #include "lib/tree/tree_node.h"
 
 #include <bit>
@@ -9,8 +8,7 @@ namespace {
 
 constexpr std::uint32_t most_steps = 255; // of a byte
 
-// The smallest power-of-two step with which a byte covers the extent; half the step that gives the extent eight bits is
-// too small.
+// The smallest power-of-two step with which a byte covers the extent.
 std::uint32_t exponent_for(std::uint32_t extent) {
     const auto bits = static_cast<std::uint32_t>(std::bit_width(extent));
     std::uint32_t exponent = bits > 8 ? bits - 8 : 0;

@@ -12,7 +12,7 @@ namespace pt {
 
 using TreeNodeWords = std::array<glm::uvec4, gpu::TREE_NODE_WORDS>;
 
-// Only the links are filled in.
+// Fills in only the links.
 TreeNodeWords words_of(const TreeLinks &links);
 
 class TreeNode {
@@ -24,7 +24,7 @@ public:
         box_.add(box);
     }
 
-    // The box of all children, before rounding.
+    // Before rounding.
     const GridBox &box() const { return box_; }
 
     // Rounds the children's boxes outwards.

@@ -20,10 +20,10 @@ using Usage = vk::BufferUsageFlagBits;
 constexpr vk::MemoryPropertyFlags host_visible = Property::eHostVisible | Property::eHostCoherent;
 constexpr vk::MemoryPropertyFlags host_readable = host_visible | Property::eHostCached;
 
-// Copying this much takes many times as long as a submission.
+// Copying this much takes far longer than a submission.
 constexpr std::uint64_t max_staging_bytes = 16U << 20;
 
-// Stays mapped if its memory has the properties mapped_if.
+// Mapped if its memory has the properties mapped_if.
 struct Allocation {
     Allocation(const Device &device, std::uint64_t bytes, vk::BufferUsageFlags usage,
                std::span<const vk::MemoryPropertyFlags> wanted_best_first,
@@ -91,7 +91,7 @@ struct Buffer::State {
     State(const State &) = delete;
     State &operator=(const State &) = delete;
 
-    // Calls function(staging, first, length) for pieces that fit into the staging buffer.
+    // Calls function(staging, first, length) for pieces that fit the staging buffer.
     template <typename Function>
     void staged(std::uint64_t size, Function &&function) {
         const std::uint64_t piece = staging_bytes();
@@ -109,7 +109,7 @@ struct Buffer::State {
     Device &device;
     std::uint64_t bytes;
     Allocation allocation;
-    std::optional<Allocation> staging; // made on first use
+    std::optional<Allocation> staging;
 };
 
 Buffer::Buffer(Device &device, BufferUse use, std::uint64_t bytes, const std::string &what) {

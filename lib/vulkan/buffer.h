@@ -13,14 +13,14 @@ namespace pt::vulkan {
 
 enum class BufferUse {
     Storage,
-    UniformOrStorage, // as uniform or storage, or as texels
+    UniformOrStorage, // or as texels
     Texels,
     Streamed,    // uniform; the host writes it often, without waiting
-    HostWritten, // the host writes it in place, without waiting
-    HostRead     // the host reads it in place
+    HostWritten, // in place, without waiting
+    HostRead     // in place
 };
 
-// A part of a buffer, and where to read it to.
+// offset: in the buffer. data: destination.
 struct BufferPiece {
     std::span<std::byte> data;
     std::uint64_t offset;
@@ -31,7 +31,7 @@ inline constexpr std::uint64_t max_recorded_bytes = 65'536;
 
 class Buffer {
 public:
-    // what: its name in error messages. Throws PT_ERROR_OUT_OF_DEVICE_MEMORY. The device must outlive the buffer.
+    // what: name for error messages. The device must outlive the buffer. Throws PT_ERROR_OUT_OF_DEVICE_MEMORY.
     Buffer(Device &device, BufferUse use, std::uint64_t bytes, const std::string &what);
     ~Buffer();
     Buffer(Buffer &&other) noexcept;
@@ -40,18 +40,17 @@ public:
     std::uint64_t size() const;
     vk::Buffer handle() const;
 
-    // These wait for the device, except uploads to a streamed buffer. Offsets and sizes: multiples of 4 bytes.
+    // Wait for the device, except uploads to a streamed buffer. Offsets and sizes: multiples of 4 bytes.
     void upload(std::span<const std::byte> data, std::uint64_t offset);
     void download(std::span<std::byte> data, std::uint64_t offset);
     void download(std::span<const BufferPiece> pieces);
 
-    // The host's view of the buffer; at NULL without one.
+    // Begins at NULL if the host cannot access the buffer.
     std::span<std::byte> host_memory() const;
 
-    // Records a write of up to max_recorded_bytes to the beginning.
+    // Records a write of up to max_recorded_bytes at the beginning.
     void write(const vk::raii::CommandBuffer &commands, std::span<const std::byte> data) const;
 
-    // Records zeroing.
     void clear(const vk::raii::CommandBuffer &commands, std::uint64_t offset, std::uint64_t bytes) const;
 
     void copy(const vk::raii::CommandBuffer &commands, const Buffer &other,

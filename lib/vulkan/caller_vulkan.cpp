@@ -26,8 +26,8 @@ std::string pointer_text(const void *pointer) {
                 BrokenRule{.subject = "vulkan", .member = field, .value = value, .rule = rule});
 }
 
-// An instance's version cannot be queried, but this function is of version 1.2, and drivers that follow the
-// specification's recommendation offer none beyond the instance's.
+// An instance's version cannot be queried. This function is from version 1.2, and drivers should offer none beyond the
+// instance's version.
 bool offers_version_1_2(const vk::raii::Instance &instance, VkDevice device) {
     return instance.getDispatcher()->vkGetDeviceProcAddr(device, "vkGetSemaphoreCounterValue") != nullptr;
 }

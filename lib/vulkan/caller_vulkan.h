@@ -40,11 +40,11 @@ struct CallerVulkan {
 // Checks without calling Vulkan. Throws PT_ERROR_INVALID_ARGUMENT.
 CallerVulkan validated_vulkan(const pt_vulkan &vulkan);
 
-// Checks the rest; throws PT_ERROR_INVALID_ARGUMENT, or PT_ERROR_UNSUPPORTED for a device without what is needed. The
-// caller's instance must outlive the result.
+// Checks the rest. Throws PT_ERROR_INVALID_ARGUMENT, or PT_ERROR_UNSUPPORTED for unsuitable devices. The caller's
+// instance must outlive the result.
 vk::raii::PhysicalDevice validated_physical_device(const vk::raii::Instance &instance, const CallerVulkan &caller);
 
-// The parts of that check that do not depend on the machine.
+// Machine-independent parts of validated_physical_device().
 void require_compute(std::span<const vk::QueueFamilyProperties> families, std::uint32_t queue_family);
 void require_suitable(const pt_device_info &physical_device);
 

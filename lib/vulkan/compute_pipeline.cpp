@@ -70,7 +70,7 @@ vk::raii::Pipeline create_pipeline(Device &device, const vk::raii::PipelineLayou
         return pipeline;
     } catch (const vk::SystemError &error) {
         const pt_result result = result_of(static_cast<vk::Result>(error.code().value()));
-        // All but lack of memory or a lost device is the kernel's fault.
+        // Other failures are the kernel's fault.
         throw Error(result == PT_ERROR_INTERNAL || result == PT_ERROR_NO_DEVICE ? PT_ERROR_SHADER : result,
                     std::string("building a kernel: ") + error.what());
     }

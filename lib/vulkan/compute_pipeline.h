@@ -12,10 +12,9 @@
 
 namespace pt::vulkan {
 
-// A part of a buffer for a binding. Its offset is a multiple of Limits::storage_buffer_alignment or, for texels, of 256
-// bytes.
+// The offset is a multiple of Limits::storage_buffer_alignment or, for texels, of 256 bytes.
 struct BufferRange {
-    BufferRange() = default; // none
+    BufferRange() = default; // no buffer
     BufferRange(const Buffer &whole) : buffer(whole.handle()), bytes(whole.size()) {}
     BufferRange(vk::Buffer of, std::uint64_t first, std::uint64_t count) : buffer(of), offset(first), bytes(count) {}
 
@@ -27,7 +26,7 @@ struct BufferRange {
 inline constexpr vk::Format texel_format = vk::Format::eR32G32B32A32Uint;
 inline constexpr std::uint64_t texel_bytes = 16;
 
-// Buffers bound to a kernel. They must outlive the last dispatch.
+// The buffers must outlive the last dispatch.
 class DescriptorSet {
 public:
     vk::DescriptorSet handle() const { return set_; }
@@ -36,10 +35,10 @@ private:
     friend class ComputePipeline;
     std::vector<DeviceObject<vk::raii::BufferView>> views_;
     DeviceObject<vk::raii::DescriptorPool> pool_;
-    vk::DescriptorSet set_; // freed with its pool
+    vk::DescriptorSet set_;
 };
 
-// In set 0.
+// Always in set 0.
 struct Binding {
     std::uint32_t number;
     vk::DescriptorType type = vk::DescriptorType::eStorageBuffer;
@@ -54,7 +53,7 @@ public:
     // ranges[i] is for bindings[i].
     DescriptorSet bind(std::span<const BufferRange> ranges) const;
 
-    // Records group_count x rows workgroups. offsets: bytes, of the dynamic bindings.
+    // Records group_count x rows workgroups. offsets: of the dynamic bindings, in bytes.
     void dispatch(const vk::raii::CommandBuffer &commands, const DescriptorSet &set,
                   std::span<const std::byte> push_constants, std::uint32_t group_count,
                   std::span<const std::uint32_t> offsets = {}, std::uint32_t rows = 1) const;

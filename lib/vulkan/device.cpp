@@ -17,30 +17,30 @@ namespace pt::vulkan {
 
 namespace {
 
-// Before version 25 Mesa's llvmpipe ends an invocation's loops after this many trips (LP_MAX_TGSI_LOOP_ITERATIONS).
+// llvmpipe before Mesa 25 ends an invocation's loops after this many trips (LP_MAX_TGSI_LOOP_ITERATIONS).
 constexpr std::uint64_t llvmpipe_loop_trips = 65'535;
 constexpr int first_mesa_without_limit = 25;
 
-// More would not help. A multiple of 256 bytes, the largest alignment of offsets.
+// More would not help. A multiple of the largest alignment.
 constexpr std::uint32_t largest_uniform_range = 65'536;
 
-// A few times the 100,000 that a large GPU holds.
+// A few times what a large GPU holds.
 constexpr std::uint32_t busy_gpu_invocations = 1U << 18;
 
 // Submissions aim at a twentieth of a second.
 constexpr std::chrono::seconds gpu_patience{10};
 constexpr std::chrono::nanoseconds wait_step = std::chrono::milliseconds{100};
 
-// Longer code waits to be fetched.
+// Longer code must be fetched.
 constexpr std::uint32_t gpu_unrolled = 16;
 
-// The best of 8, 16, 32, 4096 and none on an H200.
+// Empirical.
 constexpr std::uint32_t gpu_walk_trips = 8;
 
-// Many times the 30 us of falling asleep and waking.
+// Many times what falling asleep and waking take.
 constexpr std::chrono::microseconds gpu_polling{300};
 
-// llvmpipe tells its version in words alone: "Mesa 22.3.6 (LLVM 15.0.6)".
+// The version stands in text only: "Mesa 22.3.6 (LLVM 15.0.6)".
 bool ends_loops(const vk::PhysicalDeviceDriverProperties &driver) {
     constexpr std::string_view mesa = "Mesa ";
     const std::string_view info = driver.driverInfo;
@@ -86,7 +86,7 @@ void write_barrier(const vk::raii::CommandBuffer &commands, vk::PipelineStageFla
     commands.pipelineBarrier(device_stages, stages, {}, barrier, {}, {});
 }
 
-// The slowest devices of each kind; for a discrete GPU a thirtieth of the fastest.
+// The slowest devices of each kind.
 double tests_per_second(std::uint32_t kind) {
     switch (kind) {
     case PT_DEVICE_DISCRETE_GPU:
@@ -101,8 +101,7 @@ double tests_per_second(std::uint32_t kind) {
 } // namespace
 
 DevicePolicy default_policy(const pt_device_info &info) {
-    // A loaded CPU may take any time. CPUs and integrated GPUs share the host's memory; a discrete GPU reads it over a
-    // bus, and the host reads the GPU's uncached.
+    // A loaded CPU may take any time. CPUs and integrated GPUs share the host's memory; other GPUs reach it over a bus.
     const bool cpu = info.kind == PT_DEVICE_CPU;
     return {.patience = cpu ? std::chrono::nanoseconds::max() : gpu_patience,
             .share_memory = cpu || info.kind == PT_DEVICE_INTEGRATED_GPU,
@@ -157,8 +156,7 @@ Device::Device(Instance &instance, const vk::raii::PhysicalDevice &physical_devi
 Device::~Device() {
     if (!abandoned_ && comes_to_rest())
         return;
-    // vkDestroyDevice waits for running work, however long (NVIDIA's driver 580.159), and destroying the instance first
-    // crashes.
+    // vkDestroyDevice may wait for running work forever (NVIDIA 580.159); destroying the instance first crashes.
     pipeline_cache_.abandon();
     for (Submission &submission : submissions_) {
         submission.fence.release();
@@ -186,7 +184,7 @@ bool Device::is_at_rest() const {
     return std::ranges::all_of(submissions_, [&](const Submission &submission) { return ended(submission); });
 }
 
-// Ended, perhaps by the loss of the device.
+// Also true after loss of the device.
 bool Device::ended(const Submission &submission) const {
     try {
         return !submission.pending || submission.end || submission.fence.getStatus() == vk::Result::eSuccess;
@@ -232,7 +230,7 @@ Device::Ticket Device::start(const Record &record, const Semaphores &semaphores)
                                          .pSignalSemaphores = &semaphores.signal},
                           *free->fence);
         } catch (const vk::DeviceLostError &error) {
-            comes_to_rest(); // earlier submissions' objects may be destroyed from here on
+            comes_to_rest(); // earlier submissions' objects may be destroyed now
             lose([&] { return error.what(); });
         }
     });
@@ -292,7 +290,7 @@ bool Device::comes_to_rest() noexcept {
         } catch (const vk::DeviceLostError &) {
             submission.pending = false;
         } catch (...) {
-            gave_up_ = true; // it may still be running
+            gave_up_ = true; // may still be running
             return false;
         }
     }
@@ -302,8 +300,8 @@ bool Device::comes_to_rest() noexcept {
 void Device::record_work(const vk::raii::CommandBuffer &commands, const Record &record) const {
     commands.reset(); // the last recording may have failed half-way
     commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
-    // A submission sees the host's earlier writes (Vulkan specification, "Host Write Ordering Guarantees"). Fences make
-    // earlier submissions' writes available; this barrier makes them visible.
+    // The host's earlier writes are visible (Vulkan, "Host Write Ordering Guarantees"). Fences make earlier
+    // submissions' writes available; this barrier makes them visible.
     write_barrier(commands, device_stages, device_accesses);
     record(commands);
     write_barrier(commands, Stage::eHost, Access::eHostRead | Access::eHostWrite);
@@ -335,14 +333,13 @@ bool Device::look_at(Submission &submission, std::chrono::nanoseconds timeout) {
         }
         return ended;
     } catch (const vk::SystemError &error) {
-        // Objects of running work may be destroyed from here on.
+        // Objects of running work may be destroyed now.
         comes_to_rest();
         lose([&] { return error.what(); });
     }
 }
 
-// Gives up if the work is overdue and then found unfinished once more: a stopped process may resume after the time is
-// over and the work done.
+// Looks once more when overdue, since the process may have been stopped while the work ended.
 void Device::wait(Submission &submission) {
     for (bool was_overdue = false; !look_at(submission, wait_time()); was_overdue = is_overdue(submission))
         if (was_overdue) {

@@ -1,4 +1,4 @@
-// A logical device: submits work in order and waits for it.
+// A logical device, which runs submissions in order.
 #pragma once
 
 #include "lib/vulkan/caller_vulkan.h"
@@ -22,7 +22,7 @@ struct Limits {
     std::uint64_t max_storage_buffer_range; // bytes per binding
     std::uint64_t max_texel_count;          // per binding
     std::uint64_t max_allocation_bytes;
-    std::uint32_t max_uniform_range;        // per uniform binding; a multiple of 256
+    std::uint32_t max_uniform_range;        // per binding, a multiple of 256
     std::uint32_t max_workgroup_count;      // along x
     std::uint64_t storage_buffer_alignment; // bytes
     std::uint64_t loop_trip_budget;         // the driver silently stops an invocation after these
@@ -30,31 +30,29 @@ struct Limits {
 
 // How a device is used. Tests override it.
 struct DevicePolicy {
-    std::chrono::nanoseconds patience; // a longer submission means a lost device
+    std::chrono::nanoseconds patience; // longer submissions mean a lost device
     bool share_memory;                 // the host accesses buffers in place where their memory is fast for both
     bool scene_in_constants;           // compiling the scene in is faster than a buffer
     std::uint32_t invocations;         // enough to keep it busy; 0: any number
     std::uint32_t queue_depth;         // submissions to keep running; 2 where the device would idle between them
-    // Time to poll a submission before sleeping.
+    // Before sleeping.
     std::chrono::nanoseconds polling{0};
-    // Ray-surface tests per second that any such device achieves, to size the first slice. Default: an eighth of two
-    // CPU cores.
+    // Ray-surface tests, achieved by every such device. Sizes the first slice.
     double tests_per_second = 2.5e8;
-    // Loops over up to this many surfaces are unrolled. Default: for CPUs, where unrolled loops beat a tree up to about
-    // 100 spheres, but compile for 10 ms per surface.
+    // Loops over up to this many surfaces are unrolled. Default: for CPUs, where longer ones lose against a tree.
     std::uint32_t unrolled = 112;
     // Samples per pixel from which tiles may differ (lib/film/adaptive_rule.h); four times as many for paths of two
-    // vertices. On GPUs an earlier check costs more than it saves. 0, or a power of two >= 16.
+    // vertices. Earlier checks cost a GPU more than they save. 0, or a power of two >= 16.
     std::uint32_t adaptive_from = 256;
     std::uint32_t walk_trips = 0; // ID_WALK_TRIPS, in scenes with a tree
-    // Faster with comparisons of integers (shaders/maths.glsl), and with uniform instead of storage buffers.
+    // Comparisons of integers (shaders/maths.glsl) and uniform buffers are then faster.
     bool compiles_for_cpu = false;
-    bool resolve_on_device = false; // kernels make images and error estimates faster than the host
+    bool resolve_on_device = false; // the device makes images and error estimates faster than the host
 };
 
 DevicePolicy default_policy(const pt_device_info &info);
 
-// A GPU's paths on a CPU, with endless patience.
+// A GPU's code paths on a CPU, with endless patience.
 DevicePolicy gpu_like_policy();
 
 // Binary semaphores or null: waited for before the kernels, signalled at the end.
@@ -65,8 +63,8 @@ struct Semaphores {
 
 class Device {
 public:
-    // The instance must outlive the device. A device that hangs is never destroyed, nor is its instance. caller: its
-    // device and queue are used, not owned; NULL for a device of its own.
+    // The instance must outlive the device. Neither is destroyed if the device hangs. caller: lends device and queue;
+    // NULL: the library's own.
     Device(Instance &instance, const vk::raii::PhysicalDevice &physical_device, const DevicePolicy &policy,
            const CallerVulkan *caller = nullptr);
     ~Device();
@@ -79,17 +77,16 @@ public:
     const DevicePolicy &policy() const { return policy_; }
     std::uint64_t allocated_bytes() const { return allocated_bytes_; }
 
-    // Whether the device has this much memory, including what is in use. Ask before large allocations: drivers may
-    // promise memory that fails when touched.
+    // Whether the device has this much memory in all. Ask before large allocations: drivers may promise memory that
+    // fails when touched.
     bool has_memory(std::uint64_t bytes) const { return bytes <= info_.memory_bytes; }
 
     bool lost() const { return lost_; }
 
-    // Whether submissions that were given up are still running, or were when the device was abandoned. Nothing they
-    // use may be destroyed.
+    // Whether submissions are running that were given up or abandoned. Nothing they use may be destroyed.
     bool hangs() const;
 
-    // Neither the device nor anything on it is destroyed any more.
+    // Keeps the device and everything on it from being destroyed.
     void abandon() noexcept { abandoned_ = true; }
 
     // Throws PT_ERROR_DEVICE_LOST with the message of the loss.
@@ -105,17 +102,17 @@ public:
 
     using Clock = std::chrono::steady_clock;
 
-    // Waits until the given time. Returns whether finish() would return at once.
+    // Waits until then; returns whether finish() would return at once.
     bool is_done(Ticket ticket, Clock::time_point until);
 
-    // Notes which submissions have ended, to bound the times of their ends.
+    // Notes which submissions have ended, to bound their times.
     void look();
 
     // Whether all submissions have ended, waited for or not.
     bool is_at_rest() const;
 
-    // Waits for a submission. Returns the seconds from its start, or the previous one's end if later, to its end. If
-    // the end is known within bounds only, takes the value nearest to expected_seconds.
+    // Waits for a submission. Returns its seconds, counted from the previous one's end if that is later. If the end is
+    // known within bounds only, takes the value nearest to expected_seconds.
     double finish(Ticket ticket, double expected_seconds = 0.0);
 
     // Waits for all running work, also after finish() failed. False if it outlasts the device's patience.
@@ -127,7 +124,7 @@ public:
     bool is_borrowed() const { return !device_.is_owned; }
     PipelineCache &pipeline_cache() { return pipeline_cache_; }
 
-    // The key of kept kernels: 32 hexadecimal digits for this device model, its driver and the code.
+    // Key of kept kernels: 32 hexadecimal digits for device model, driver and code.
     std::string kernel_key(const std::string &code_digest) const;
 
     const vk::PhysicalDeviceMemoryProperties &memory_properties() const { return memory_properties_; }
@@ -156,8 +153,8 @@ private:
         vk::raii::Fence fence;
         bool pending = false; // finish() has not been called
         Clock::time_point start{};
-        Clock::time_point last_look{}; // the last that found it unfinished
-        std::optional<Moment> end{};   // once seen
+        Clock::time_point last_look{}; // the last look that found it unfinished
+        std::optional<Moment> end{};
     };
 
     void record_work(const vk::raii::CommandBuffer &commands, const Record &record) const;
@@ -175,7 +172,7 @@ private:
     vk::PhysicalDeviceMemoryProperties memory_properties_;
     std::array<std::uint32_t, 7> driver_id_;
     std::uint32_t queue_family_;
-    QueueLock queue_lock_; // a no-op for the device's own queue
+    QueueLock queue_lock_; // no-op for the device's own queue
     OwnedOrLent device_;
     vk::raii::Queue queue_;
     vk::raii::CommandPool command_pool_ = nullptr;

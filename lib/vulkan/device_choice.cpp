@@ -74,7 +74,7 @@ bool is_index(const std::string &text) {
     return !text.empty() && text.size() < 32 && text.find_first_not_of("0123456789") == std::string::npos;
 }
 
-// Why a device does not match; empty if it does. Ignores indices.
+// Empty for a match. Ignores indices.
 std::string mismatch(const pt_device_info &device, const std::string &wanted) {
     if (wanted.empty())
         return "";
@@ -156,7 +156,7 @@ std::size_t choose_device(std::span<const pt_device_info> devices, const std::st
 
 namespace {
 
-// The items of a list of indices and UUIDs; empty for anything else, because names may have commas.
+// Empty unless all items are indices and UUIDs, because names may have commas.
 std::vector<std::string> listed(const std::string &wanted) {
     std::vector<std::string> items;
     for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {
@@ -171,8 +171,7 @@ std::vector<std::string> listed(const std::string &wanted) {
     return items;
 }
 
-// The chosen device that equals another: the same index, or the same UUID (one GPU listed by two drivers of the same
-// name).
+// A chosen device with the same index, or the same UUID if two drivers list one GPU.
 std::optional<std::size_t> same_device_among(std::span<const pt_device_info> devices,
                                              std::span<const std::size_t> chosen, std::size_t other) {
     const std::string uuid = uuid_digits(devices[other]);

@@ -7,12 +7,12 @@
 
 namespace pt::vulkan {
 
-// A Vulkan object, destroyed unless the device hangs: running work's objects must not be destroyed (Vulkan
-// specification, "Object Lifetime"), nor memory reused that it may still write to.
+// Not destroyed if the device hangs: running work needs its objects (Vulkan, "Object Lifetime"), and may still write to
+// their memory.
 template <typename Object>
 class DeviceObject {
 public:
-    DeviceObject() = default; // none
+    DeviceObject() = default; // no object
     DeviceObject(const Device &device, Object object) : device_(&device), object_(std::move(object)) {}
     DeviceObject(DeviceObject &&) noexcept = default;
     DeviceObject &operator=(DeviceObject &&other) noexcept {

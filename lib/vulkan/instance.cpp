@@ -41,7 +41,7 @@ bool contains(const std::vector<Properties> &list, Name name, const char *wanted
     return std::ranges::any_of(list, [&](const Properties &item) { return std::strcmp(item.*name, wanted) == 0; });
 }
 
-// Names the environment variables that decide which drivers the loader finds, and what to do.
+// Names environment variables that hide drivers, and what to install.
 std::string driver_advice(const vk::raii::Context &context) {
     const std::uint32_t version = context.enumerateInstanceVersion();
     std::string advice = " (Vulkan loader " + std::to_string(VK_API_VERSION_MAJOR(version)) + "." +
@@ -61,14 +61,14 @@ PFN_vkGetInstanceProcAddr loader() {
                 "no Vulkan loader: " + platform::module_error() + ": install the GPU's Vulkan driver");
 }
 
-// Lack of memory is not about drivers.
+// Lack of memory is not the drivers' fault.
 void throw_if_out_of_memory(const vk::SystemError &error, const std::string &what_was_being_done) {
     const pt_result result = result_of(static_cast<vk::Result>(error.code().value()));
     if (result == PT_ERROR_OUT_OF_HOST_MEMORY || result == PT_ERROR_OUT_OF_DEVICE_MEMORY)
         throw Error(result, what_was_being_done + ": " + error.what());
 }
 
-// messages: the validation layer's; NULL without it.
+// messages: for the validation layer; NULL without it.
 vk::raii::Instance create_instance(const vk::raii::Context &context,
                                    const vk::DebugUtilsMessengerCreateInfoEXT *messages) {
     std::vector<const char *> layers;
@@ -107,9 +107,8 @@ vk::raii::Instance create_instance(const vk::raii::Context &context,
     }
 }
 
-// The loader unloads drivers with the last instance, and NVIDIA's driver (580.159) takes static thread-local storage at
-// each load for good: after thirty times no instance can be created. Keeping it loaded also halves the time of further
-// instances.
+// The loader unloads drivers with the last instance. NVIDIA's driver (580.159) loses static thread-local storage at
+// each load, until none can be loaded.
 void keep_nvidia_driver_loaded() noexcept {
     for (const char *name : {"libGLX_nvidia.so.0", "libEGL_nvidia.so.0"}) // one of them is the driver
         platform::keep_loaded(name);

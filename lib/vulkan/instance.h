@@ -15,7 +15,7 @@ public:
     // Throws PT_ERROR_NO_DEVICE without Vulkan or drivers, PT_ERROR_UNSUPPORTED without the validation layer.
     Instance(const Log &log, bool validation);
 
-    // The caller's; not owned.
+    // Does not own the caller's instance.
     Instance(const Log &log, VkInstance instance);
     Instance(Instance &&) noexcept = default;
     ~Instance() {
@@ -30,7 +30,7 @@ public:
     // At least one; else throws PT_ERROR_NO_DEVICE.
     std::vector<vk::raii::PhysicalDevice> physical_devices() const;
 
-    // Never destroys the Vulkan instance: it must outlive its devices.
+    // Never destroys the Vulkan instance, which must outlive its devices.
     void abandon();
 
 private:

@@ -7,7 +7,7 @@
 
 namespace pt::vulkan {
 
-// Prefers a compute family without graphics, which is meant for background work.
+// Prefers a family without graphics, meant for background work.
 std::uint32_t compute_family(const vk::raii::PhysicalDevice &device);
 
 // Throws vk::SystemError.

@@ -11,8 +11,8 @@
 
 namespace pt::vulkan {
 
-// Allowed types (bit i: type i) with one of the wanted sets of properties, best set first, each once. Throws
-// PT_ERROR_UNSUPPORTED if there are none.
+// Allowed types (bit i: type i) with a wanted set of properties, best first, each once. Throws PT_ERROR_UNSUPPORTED if
+// there are none.
 inline std::vector<std::uint32_t> memory_types(const vk::PhysicalDeviceMemoryProperties &memory, std::uint32_t allowed,
                                                std::span<const vk::MemoryPropertyFlags> wanted_best_first) {
     std::vector<std::uint32_t> types;

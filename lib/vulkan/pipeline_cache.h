@@ -22,8 +22,8 @@ struct KernelStore {
 
 class PipelineCache {
 public:
-    PipelineCache() = default; // none
-    // Empty. The device must outlive it.
+    PipelineCache() = default;
+    // The device must outlive it.
     explicit PipelineCache(const vk::raii::Device &device);
 
     const vk::raii::PipelineCache &handle() const { return cache_; }

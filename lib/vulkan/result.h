@@ -15,7 +15,6 @@ pt_result result_of(vk::Result result);
 // Throws a pt::Error.
 [[noreturn]] void throw_translated(const vk::SystemError &error, std::string_view what_was_being_done);
 
-// Runs a function and translates what Vulkan throws.
 template <typename Function>
 decltype(auto) translated(std::string_view what_was_being_done, Function &&function) {
     try {

@@ -1,4 +1,4 @@
-// Waits for submissions in order; its end waits for all, also after errors.
+// Waits for submissions in order. The destructor waits for all, also after errors.
 #pragma once
 
 #include "lib/vulkan/device.h"
@@ -10,7 +10,7 @@ namespace pt::vulkan {
 
 class SubmissionsUnderWay {
 public:
-    // most: the largest number running at a time. The device must outlive this object.
+    // most: running at a time. The device must outlive this object.
     SubmissionsUnderWay(Device &device, std::size_t most) : device_(device) { tickets_.reserve(most); }
     SubmissionsUnderWay(const SubmissionsUnderWay &) = delete;
     SubmissionsUnderWay &operator=(const SubmissionsUnderWay &) = delete;
