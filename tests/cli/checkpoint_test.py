@@ -13,7 +13,7 @@ from command_line import COURSEWORK, PATIENCE, PT, SCENES, CommandLineTest, defa
 
 KILLS = int(os.environ.get("PT_TEST_KILLS", "4"))
 MOST_DELAY = 0.7  # seconds until a kill, from the start or the run's first checkpoint
-SAMPLES_A_KILL = 2000  # some tenths of a second: few renderings end before their kill
+SAMPLES_A_KILL = 2000  # few renderings end before their kill
 
 
 class KeptRender(CommandLineTest):
@@ -23,7 +23,6 @@ class KeptRender(CommandLineTest):
         return ["render", COURSEWORK, "--spp", str(spp), "--size", size, "-o", "a.png", "--film", "a.ptfilm", "-q"]
 
     def whole(self, *options):
-        """Removes the files."""
         self.expect(0, *options)
         found = [self.contents(name) for name in ("a.png", "a.ptfilm")]
         for name in "a.png", "a.ptfilm":

@@ -84,7 +84,6 @@ class RealDevice(ColumnsTest):
         return read_exr_channels(self.path("a.exr"))
 
     def test_columns_are_the_spheres_that_they_list(self):
-        """Colors are sRGB, decoded."""
         def linear(byte):
             share = byte / 255
             return share / 12.92 if share <= 0.04045 else ((share + 0.055) / 1.055) ** 2.4

@@ -70,7 +70,6 @@ class CommandLineTest(unittest.TestCase):
         return process
 
     def piped(self, *arguments, **options):
-        """Like run_pt, with the given streams."""
         return subprocess.run([self.program, *arguments], cwd=self.folder,
                               **{"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **options})
 

@@ -19,7 +19,6 @@ class Usage(CommandLineTest):
             self.assertIn(text, self.output)
 
     def test_wrong_values(self):
-        """Wrong texts; manual_test has numbers out of range."""
         for option, value in (("--size", "12"), ("--size", "1e9x1"), ("--size", "-1x5"), ("--size", ""), ("--spp", "many"),
                               ("--sampler", "sobl"), ("--exposure", "nan"), ("--exposure", "Auto"), ("--progress", "loud")):
             with self.subTest(option=option, value=value):

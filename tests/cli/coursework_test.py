@@ -29,7 +29,7 @@ def pixels_of(path):
 
 
 def deviations(image, reference):
-    """Differences of channel means in standard deviations: the largest, and the root mean square over blocks."""
+    """In standard deviations of channel means: the largest, and the root mean square over blocks."""
     def of_pixels(difference):
         deviation = difference.std(axis=-2) / numpy.sqrt(difference.shape[-2])
         return difference.mean(axis=-2) / numpy.maximum(deviation, 1e-9)

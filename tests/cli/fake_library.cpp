@@ -1,12 +1,9 @@
 // A stand-in for libpt without a device that fails on demand (pt_with_fake_library). Environment:
-// FAKE_PT_FAIL=function:result fails the function; name:1 makes the device's name invalid UTF-8, name:2
-// puts an escape into it.
-// FAKE_PT_MESSAGE: the message of failures.
-// FAKE_PT_SAMPLE_MS: the least duration of a sample.
-// FAKE_PT_SIGNAL=number:submission sends a signal in that submission, counted from 1, four per sample.
-// FAKE_PT_SCENE_SIGNAL=number sends one during pt_set_scene.
-// FAKE_PT_LOG=function logs a line in the function.
-// FAKE_PT_ALLOCATION=number fails the program's allocation, counted from main's start.
+// FAKE_PT_FAIL=function:result fails the function; name:1 makes the device's name invalid UTF-8, name:2 puts an escape
+// into it. FAKE_PT_MESSAGE: the message of failures. FAKE_PT_SAMPLE_MS: the least duration of a sample.
+// FAKE_PT_SIGNAL=number:submission sends a signal in that submission, from 1, four per sample;
+// FAKE_PT_SCENE_SIGNAL=number during pt_set_scene. FAKE_PT_LOG=function logs a line in it. FAKE_PT_ALLOCATION=number
+// fails the program's allocation, from main's start.
 #include <pt/accuracy.h>
 #include <pt/devices.h>
 #include <pt/errors.h>
@@ -74,7 +71,6 @@ pt_device_info fake_device() {
     return device;
 }
 
-// As if sent by somebody else.
 void raise_wanted_signal() {
     static std::uint64_t submission_count = 0;
     const std::string wanted = setting("FAKE_PT_SIGNAL");
@@ -83,7 +79,7 @@ void raise_wanted_signal() {
         std::raise(std::stoi(wanted));
 }
 
-// Upper bound of both errors, unknown at first.
+// Unknown at first.
 double fake_error(std::uint32_t sample_count) {
     return sample_count < 16 ? std::numeric_limits<double>::infinity() : 1.0 / sample_count;
 }
@@ -184,7 +180,7 @@ pt_result pt_set_render(pt_context *context, const pt_render *render) {
     context->sample_count = 0;
     context->call_count = 0;
     context->has_too_many_rows = false;
-    const std::string max_rows = setting("FAKE_PT_MAX_ROWS"); // the device's limit
+    const std::string max_rows = setting("FAKE_PT_MAX_ROWS");
     if (!max_rows.empty() && rows_of(*render) > std::stoul(max_rows)) {
         context->has_too_many_rows = true;
         return PT_ERROR_UNSUPPORTED;
@@ -265,7 +261,6 @@ pt_result pt_get_error_estimate(pt_context *context, pt_error_estimate *error) {
     return call(context, "error");
 }
 
-// A film is its sample count.
 pt_result pt_save_film(pt_context *context, void *data, std::uint64_t *size_bytes) {
     *size_bytes = sizeof context->sample_count;
     if (data != nullptr)

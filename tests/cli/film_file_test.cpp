@@ -1,4 +1,4 @@
-// Film files (cli/film/film.h); checkpoint_test.py has the program's.
+// Film files (cli/film/film.h).
 #include "cli/film/film.h"
 
 #include "tests/cli/refusal_of.h"
@@ -16,7 +16,6 @@ TEST(FilmFile, IsReadUnpacked) {
     EXPECT_EQ(cli::read_film_file(folder.file("a")), std::vector(bytes.begin(), bytes.end()));
 }
 
-// No memory is taken for the claim.
 TEST(FilmFile, AnAbsurdSizeIsRefused) {
     const TemporaryFolder folder;
     std::string frame("\x28\xb5\x2f\xfd\xc0\x00", 6); // RFC 8878, 3.1.1.1: eight bytes of content size follow

@@ -153,7 +153,7 @@ class RealDeviceLayers(LayersTest):
             self.assertLessEqual(math.hypot(*(pixel[f"N.{axis}"] for axis in "XYZ")), 1 + 1e-6)
 
     def test_alpha_is_that_of_the_samples(self):
-        # Of radiance 1: the mean is the share of samples that hit.
+        # With radiance 1 the mean is the share of samples that hit.
         self.write("ball.json", """{"materials": {"white": {"emission": 1}},
                                     "spheres": [{"center": [0, 0, -4], "radius": 1, "material": "white"}]}""")
         self.expect(0, "render", "ball.json", *SIZE, "-o", "a.exr", "-o", "a.png", "--alpha", "--exposure", "0")

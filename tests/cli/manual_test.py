@@ -62,7 +62,6 @@ def commands_of(page):
 
 
 def scene_with(section, values):
-    """With required keys beside them."""
     members = json.dumps({**REQUIRED.get(section, {}), **values})
     others = "" if section == "materials" else ', "materials": {"red": {"diffuse": 0.5}}'
     return '{"%s": %s%s}' % (section, SECTIONS[section] % members[1:-1], others)

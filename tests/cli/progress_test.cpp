@@ -19,7 +19,7 @@ using std::chrono::milliseconds;
 
 const Progress::Clock::time_point start{};
 
-// Prints with a callback every 10 ms for 2 s.
+// A callback every 10 ms for 2 s.
 std::string output_of(ProgressStyle style, std::size_t columns = 80) {
     std::ostringstream output;
     {
@@ -126,7 +126,6 @@ TEST(Progress, OfTheSceneIsALineThatGoesAway) {
     EXPECT_EQ(output_after(ProgressStyle::none, 1000), "");
 }
 
-// The line after this time and number of samples.
 std::string line_after(Progress::Clock::duration time, double samples, const std::function<void(Progress &)> &prepare) {
     std::ostringstream output;
     Progress progress(output, ProgressStyle::line, 1'000'000, 100, start, [] { return std::size_t{80}; });

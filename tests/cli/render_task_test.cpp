@@ -1,4 +1,4 @@
-// cli/render/render_task: precedence of command line, scene file and defaults, and which is blamed.
+// Precedence of command line, scene file and defaults, and which is blamed.
 #include "cli/render/render_task.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// cli/scene/scene_override: replaced values and animations.
+// Replaced values and animations.
 #include "cli/base/text.h"
 #include "cli/render/render_options.h"
 #include "cli/scene/scene_file.h"
@@ -97,7 +97,6 @@ TEST(SceneOverride, MistakesOfTheFileAreItsOwn) {
     EXPECT_TRUE(refused.message.starts_with("s.json:2: film.width: must be")) << refused.message;
 }
 
-// Whether a file is refused does not depend on what takes the place of its values.
 TEST(SceneOverride, MistakesOfTheFileStayMistakes) {
     const auto expect = [](const std::string &setting, const std::string &file, const std::string &reason) {
         const std::string alone = refusal_of_settings({}, file.c_str()).message;

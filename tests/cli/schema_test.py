@@ -23,7 +23,7 @@ SCENE = {
 OTHERS = (None, "zzzz", -1, 0, 0.5, 65, 1e-19, 5e9, 2e18, [], [0, 0, 0], [1, 2, -3], {"zzzz": 1})
 OTHERS_IN_ARRAYS = ("a", -1, 0, 2e18, [])
 
-# Beyond schemas, which see one value at a time.
+# Schemas see one value at a time.
 BEYOND_SCHEMAS = ("unknown material", "must be a later frame", "as many numbers as the one before",
                   "must be that of a key")
 

@@ -1,4 +1,4 @@
-// cli/selftest: judgement and report. selftest_test.py tests the scenes.
+// Judgement and report of cli/selftest; selftest_test.py tests the scenes.
 #include "cli/selftest/selftest.h"
 
 #include <gtest/gtest.h>
@@ -73,7 +73,7 @@ TEST(SelftestScene, WithoutNoiseEveryPixelCounts) {
     EXPECT_EQ(scene_count, 2);
 }
 
-// Against the integral over time, by the midpoint rule.
+// By the midpoint rule over time.
 TEST(SelftestScene, RecedingLampByQuadrature) {
     const SelftestScene scene = cli::selftest_scenes().back();
     ASSERT_EQ(scene.name, "receding lamp");
@@ -87,8 +87,7 @@ TEST(SelftestScene, RecedingLampByQuadrature) {
     EXPECT_NEAR(scene.expected, sum / steps, 1e-8);
 }
 
-// Light that a sample of one kind and some directions find, each weighted by the power heuristic: integrals over the
-// places that it comes from.
+// Light found by a sample of one kind and some directions, each weighted by the power heuristic.
 class TwoWays {
 public:
     explicit TwoWays(int directions) : directions_(directions) {}
@@ -121,7 +120,7 @@ private:
 
 constexpr double pi = std::numbers::pi;
 
-// Lamps of radiance 1 whose middles are at this angle from the normal, of which one is chosen; sine: of their radius.
+// One of `count` lamps of radiance 1 is chosen. polar: angle of their centers to the normal; sine: of their radius.
 TwoWays light_of_lamps(int count, double polar, double sine, int directions) {
     constexpr int steps = 400;
     const double cap = 1.0 - std::sqrt(1.0 - sine * sine);
@@ -138,8 +137,8 @@ TwoWays light_of_lamps(int count, double polar, double sine, int directions) {
     return light;
 }
 
-// A ceiling of albedo 20 at height 6.5, lit by a lamp of power 1 below it; by the share of the lamp's directions, which
-// have the density of the cosine.
+// A ceiling of albedo 20 at height 6.5, lit by a lamp of power 1 below it, integrated over the share of the lamp's
+// directions.
 TwoWays light_of_glow() {
     constexpr int steps = 1000000;
     constexpr double height = 6.5;
@@ -155,7 +154,7 @@ TwoWays light_of_glow() {
     return light;
 }
 
-// What the comment of weight_scenes() says.
+// The bound of weight_scenes().
 TEST(SelftestScene, AWeightThatIsWrongByTwoPercentMovesTheMeanByTwiceTheBound) {
     const std::vector<SelftestScene> scenes = cli::weight_scenes();
     ASSERT_EQ(scenes.size(), 3U);

@@ -29,7 +29,6 @@ class ShaderDir(WatchTest):
         return text.replace(old, new)
 
     def brighter(self, factor):
-        """The kernel with samples multiplied by `factor`."""
         with open(os.path.join(SHADERS, "pathtrace.comp"), encoding="utf-8") as file:
             return file.read().replace("* held.film_scale", f"* ({factor} * held.film_scale)")
 

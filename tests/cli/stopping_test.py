@@ -109,7 +109,6 @@ class ExitCodes(CommandLineTest):
 
 class Previews(CommandLineTest):
     def test_pictures_so_far_are_written_and_it_goes_on(self):
-        """By SIGUSR1 or by time."""
         for options in (), ("--preview-every", "0.05"):
             process = self.start("render", COURSEWORK, "-o", "a.png", "--spp", "1000000", "--size", "2x2", "--progress",
                                  "json", *options, FAKE_PT_SAMPLE_MS=20)

@@ -1,5 +1,4 @@
-"""Tests of files and texts from strangers: what is no file is refused at once, and what is printed steers no terminal.
-
+"""Files from strangers that are no files are refused at once; printed texts steer no terminal.
 Arguments: see command_line.py.
 """
 
@@ -17,14 +16,14 @@ SMALL = ("-o", "a.png", "--size", "2x2", "--spp", "1")
 
 
 def sparse(path, start, size):
-    """A file that says it is large, and whose bytes could not be read in time."""
+    """A file too large to be read in time."""
     with open(path, "wb") as file:
         file.write(start)
         file.truncate(size)
 
 
 class NoFiles(CommandLineTest):
-    """A device, a named pipe that nobody writes to, and a folder, wherever a file is read."""
+    """A device, a named pipe without a writer, and a folder, wherever a file is read."""
 
     def setUp(self):
         super().setUp()

@@ -1,4 +1,4 @@
-// cli/render/warnings: both sides of each bound.
+// Both sides of each warning's bound.
 #include "cli/render/warnings.h"
 
 #include <gtest/gtest.h>

@@ -36,7 +36,6 @@ class Watching:
         return self.process.wait(timeout=PATIENCE)
 
     def count(self, text):
-        """Lines so far with this text."""
         return sum(text in line for line in self.seen)
 
 

@@ -41,7 +41,7 @@ class Command(unittest.TestCase):
             json.dump(SCENE, file)
 
     def refused(self, *words):
-        """The code and the message of a command that ends before any worker starts."""
+        """Of a command that ends before any worker starts."""
         said, words = io.StringIO(), ["pt-farm", "render", "scene.json", *words]
         before, sys.argv = sys.argv, words
         try:
@@ -179,7 +179,6 @@ class Command(unittest.TestCase):
 
 
     def test_options_reach_the_farm(self):
-        """films_test tests checkpoint_every."""
         class Reached(Exception):
             pass
 

@@ -43,7 +43,7 @@ def slow(name, part, codecs):
 
 
 def waiting(path):
-    """Waits for a file; a worker named "failing" fails at once."""
+    """A worker named "failing" fails at once."""
     def task(name, part, codecs):
         if distributed.get_worker().name == "failing":
             return _task.Outcome(error="this disk is full", may_help_elsewhere=True)
@@ -153,8 +153,7 @@ class Farm(unittest.TestCase):
             self.cluster.workers[name].process.pid
 
     def harm(self, workers, stopped=None, killed=None):
-        """When all workers wait with their parts, some are harmed; the others go on, and a stopped one too once its
-        parts are given to them."""
+        """Some workers are harmed when all wait with their parts. A stopped one goes on once others have its parts."""
         go = os.path.join(self.enterContext(tempfile.TemporaryDirectory()), "go")
         calls, held = [], []
 
@@ -187,7 +186,7 @@ class Farm(unittest.TestCase):
         self.assertEqual(found.film, self.whole)
 
     def test_faulty_outcomes(self):
-        """None enters the sum. Short parts, so that each worker gets some."""
+        """Short parts, so that each worker gets some."""
         options = dataclasses.replace(QUICK, part_seconds=0.004, most_tries=50)
         with mock.patch.object(_coordinator, "least_seconds", lambda workers, adding_seconds: 0.05):
             found = self.farm(2 * SAMPLES, task=faulty, options=options)
@@ -219,7 +218,7 @@ class Farm(unittest.TestCase):
             mixed.film + alone.film
         self.assertTrue((mixed.film.readback(pt.Quantity.SAMPLE_COUNT) == samples).all())
         one, both = whole(samples).readback(), mixed.film.readback()
-        # The same samples, but rounding may decide which surface a path meets.
+        # Rounding may decide which surface a path meets.
         self.assertLess(abs(both - one).mean(), 1e-3 * one.mean())
 
     def test_target_error(self):
@@ -301,7 +300,7 @@ class Farm(unittest.TestCase):
             self.assertEqual(pt.Film.load(path), self.whole)
 
     def assert_accounts(self, seen):
-        """Nothing failed: every part was rendered once, and none was lost."""
+        """Every part was rendered once, and none was lost."""
         self.assertEqual(seen.forgotten, 0, seen.messages)
         self.assertEqual((seen.repeated, seen.dropped, seen.lost, seen.failed), (0, 0, 0, 0))
         self.assertEqual(seen.issued, seen.parts)

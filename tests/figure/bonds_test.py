@@ -1,4 +1,4 @@
-"""Bonds and vectors of figures: exact numbers of known molecules and crystals, all pairs by brute force, and the picture."""
+"""Bonds and vectors of figures: known molecules and crystals, all pairs by brute force, and the picture."""
 
 import itertools
 import unittest
@@ -84,7 +84,7 @@ class Known(unittest.TestCase):
 
 
 def residues(*atoms, **more):
-    """Particles of atoms: residue, its number, name, atomic number, and place along x."""
+    """atoms: residue, its number, name, atomic number, and place along x."""
     names, numbers, words, elements, places = zip(*atoms)
     positions = np.array([[place, 0, 0] for place in places], float)
     columns = {"resname": np.array(names), "resid": np.array(numbers), "name": np.array(words)}
@@ -92,7 +92,7 @@ def residues(*atoms, **more):
 
 
 class Residues(unittest.TestCase):
-    """Names of atoms in known residues say which of those that are near enough are bonded."""
+    """Names of atoms in known residues decide which near pairs are bonded."""
 
     def pairs(self, particles, notes=None):
         found = bonds_of(particles, Options(bonds=True), np.ones(1), [] if notes is None else notes)
@@ -101,7 +101,7 @@ class Residues(unittest.TestCase):
 
     def test_names_within_residues(self):
         near = residues(("ALA", 1, "N", 7, 0), ("ALA", 1, "CA", 6, 1.45), ("ALA", 1, "O", 8, 2.7), ("ALA", 1, "XYZ", 6, 4.0))
-        self.assertEqual(self.pairs(near), [[0, 1], [2, 3]])  # CA and O are no bond; XYZ is no name that is known
+        self.assertEqual(self.pairs(near), [[0, 1], [2, 3]])  # CA and O do not bond; XYZ is unknown
         self.assertEqual(self.pairs(Particles(near.positions, elements=near.elements)), [[0, 1], [1, 2], [2, 3]])
 
     def test_hydrogens_have_one_bond(self):
@@ -125,7 +125,7 @@ class Residues(unittest.TestCase):
         self.assertEqual(self.pairs(stretched), [[0, 1], [0, 2]])
         notes = []
         stretched.bonds = Bonds.of([[0, 1], [0, 2]], is_complete=False)
-        self.assertEqual(self.pairs(stretched, notes), [[0, 1], [0, 2], [2, 3]])  # those that have bonds get no others
+        self.assertEqual(self.pairs(stretched, notes), [[0, 1], [0, 2], [2, 3]])  # atoms with bonds get no others
         self.assertEqual(notes, ["bonds are 2 of the data, and 1 by distance"])
         self.assertEqual(self.pairs(stretched.select(np.array([True, False, True, True]))), [[0, 1], [1, 2]])
 
@@ -160,7 +160,7 @@ class BruteForce(unittest.TestCase):
             self.assertEqual(2 * count(Particles(positions), 0.1), expected)
 
     def test_images_that_the_data_give(self):
-        """Not the nearest ones; wrapping moves the atoms, and the bonds stay what they are."""
+        """Wrapping moves the atoms and keeps their bonds."""
         cell = Cell.of([10, 10, 10])
         given = Particles(np.array([[0.5, 0, 0], [11, 0, 0]]), elements=np.uint8([6, 6]), cell=cell,
                           bonds=Bonds.of([[0, 1]], np.array([[-2, 0, 0]])))
@@ -216,8 +216,7 @@ class Looks(unittest.TestCase):
         np.testing.assert_array_equal(first.drawn.radii, second.drawn.radii)
 
     def test_halves_have_the_colors_of_their_atoms(self):
-        """In the picture: red to the left of the middle, blue to the right, nothing there without bonds; and the ends of
-        bonds through walls are in it."""
+        """Red left of the middle, blue right, nothing without bonds; ends of bonds through walls are in the picture."""
         options = {"radius": 0.2, "color": np.uint8([[255, 0, 0], [0, 0, 255]]), "size": (61, 31), "view": "front",
                    "samples": 4}
         with pt.Context() as context:
@@ -235,7 +234,7 @@ class Looks(unittest.TestCase):
         self.assertGreater(through.camera.position[1] / without.camera.position[1], 1.3)
 
     def test_vectors(self):
-        """From the centers; the longest one is 4 median radii long, times the scale otherwise; of the shown particles."""
+        """The longest one is 4 median radii long, times the scale otherwise."""
         vectors = np.array([[0.0, 0, 3], [0, 0, 0], [4, 0, 3]])
         particles = Particles(10 * np.eye(3), dict(zip(("vx", "vy", "vz"), vectors.T)))
         for given in ("v", "vx,vy,vz", vectors):
@@ -255,8 +254,8 @@ class Looks(unittest.TestCase):
         self.assertEqual(len(lengths[0]), 0)
 
     def test_opacity(self):
-        """In the picture: of two balls side by side and their bond, what is seen through them is 1 - opacity, to four
-        standard errors of 128 samples in 49 pixels; a column, a number and an array say the same."""
+        """Two balls side by side and their bond let 1 - opacity pass, to four standard errors of 128 samples in 49
+        pixels."""
         named = replace(PAIR, columns={"share": np.array([0.25, 0.75])})
         with pt.Context() as context:
             options = {"radius": 1.0, "bonds": 2.5, "size": (61, 31), "view": "front", "background": "transparent",

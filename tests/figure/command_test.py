@@ -44,7 +44,7 @@ class Command(unittest.TestCase):
         return done
 
     def call_figure(self, *arguments, code=0):
-        """The same in this process, as Python and NumPy take a third of a second to start. Returns what it says."""
+        """In this process, as Python and NumPy take a third of a second to start."""
         said = io.StringIO()
         with (unittest.mock.patch("sys.argv", ["pt-figure", *arguments]), contextlib.redirect_stderr(said),
               contextlib.redirect_stdout(io.StringIO()), self.assertRaises(SystemExit) as ended):
@@ -56,7 +56,6 @@ class Command(unittest.TestCase):
         return sorted(path.name for path in self.folder.glob(pattern))
 
     def test_it_is_the_function(self):
-        """Bytes of all formats, and the picture."""
         self.run_figure("water.xyz", *SMALL, "-o", "a.png", "-o", "a.exr", "-o", "b.PNG", "-q", "--png-bits", "16")
         figure = pt.figure(self.folder / "water.xyz", color="#4060c0", size=(48, 32), samples=2)
         self.assertEqual((self.folder / "a.png").read_bytes(), figure.encode("png", bits=16))

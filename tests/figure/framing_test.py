@@ -1,4 +1,4 @@
-"""What a picture frames, and what is said of pictures that show little."""
+"""The frame of a picture, and notes about pictures that show little."""
 
 import math
 import re
@@ -32,7 +32,8 @@ class FarAway(unittest.TestCase):
         whole = Particles(np.vstack([WATERS, [1000, 0, 0]]), elements=elements)
         staged, near = Staged.of(whole, Options()), Staged.of(Particles(WATERS, elements=elements[:5]), Options())
         self.assertEqual((staged.layout.camera, len(staged.drawn.centers)), (near.layout.camera, 5))
-        # The middle is at x = 1.98. An oxygen of radius 0.66 reaches 2.64 from it, the ion of radius 1.66 reaches 999.68.
+        # The middle is at x = 1.98. An oxygen of radius 0.66 reaches 2.64 from it, the ion of radius 1.66 reaches
+        # 999.68.
         self.assertEqual(staged.notes, [f"1 of 6 balls is not drawn, up to {999.68 / 2.64:.3g} times as far away as the others: "
                                         "--frame-all (frame_all=True) draws all"])
         for options in ({"frame_all": True}, {"camera": pt.Camera((0, 0, 9), (0, 0, 0))}):

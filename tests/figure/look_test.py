@@ -43,7 +43,7 @@ class Numbers(unittest.TestCase):
                 rgb, legend, _ = colored(values, Particles(np.zeros((len(values), 3))), colormap=colormap, **options)
                 shares = np.clip(np.asarray(norm(values)), 0, 1)
                 expected = matplotlib.colormaps[colormap](shares, bytes=True)[:, :3]
-                # Where the share falls on the border of two colors, roundings decide.
+                # At the border of two colors roundings decide.
                 differ = (rgb != expected).any(axis=1)
                 border = np.abs(shares * legend.colormap.N - np.round(shares * legend.colormap.N)) < 1e-9
                 self.assertFalse((differ & ~border).any(), (colormap, options))
@@ -186,7 +186,7 @@ class Radii(unittest.TestCase):
 
 class Background(unittest.TestCase):
     def test_light_before_a_background(self):
-        """Exact numbers: a stage of 0.5, half of a pixel covered by a ball of 0.8, a shadow, nothing, all."""
+        """A stage of 0.5, half of a pixel covered by a ball of 0.8, a shadow, nothing, all."""
         stage, particles = 0.5, np.array([[0.5, 0, 0, 1]])
         radiance = np.float32([[0.5 * 0.75 + 0.5 * 0.5, 0.25, 0.5, 0.75]])[:, :, None].repeat(3, axis=2)
         shares = Shares(particles, np.zeros((1, 4)))

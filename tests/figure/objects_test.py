@@ -1,5 +1,4 @@
-"""Objects and files of other packages: of those that are installed, and else of stand-ins that have the attributes of the
-real ones which are read."""
+"""Objects and files of other packages, if installed, else stand-ins with the attributes that are read."""
 
 import io
 import pathlib
@@ -43,7 +42,7 @@ def ase_atoms(places):
 
 
 class Steps(list):
-    """Frames of a universe: reading one moves the atoms."""
+    """Reading a frame moves the atoms."""
 
     frame = 0
 
@@ -53,7 +52,7 @@ class Steps(list):
 
 
 def universe():
-    """Of two frames; the first is the current one."""
+    """The first of two frames is the current one."""
     if installed("MDAnalysis"):
         import MDAnalysis
         from MDAnalysis.lib.mdamath import triclinic_box
@@ -70,11 +69,11 @@ def universe():
 
 
 class Property(np.ndarray):
-    """An array with the types of OVITO's particles."""
+    """An array with OVITO's particle types."""
 
 
 def ovito_data(name):
-    """Of the types 1, which is named so, and 2."""
+    """Type 1 has the name, type 2 has none."""
     cell = np.column_stack([EDGES.T, (1, 2, 3)])
     if installed("ovito"):
         from ovito.data import DataCollection
@@ -111,10 +110,10 @@ class Objects(unittest.TestCase):
         for data in universe(), universe().atoms:
             if not hasattr(data, "universe"):
                 continue
-            found = self.check(load(data))  # the frame that it is at
+            found = self.check(load(data))  # its current frame
             self.assertEqual(found.columns["name"].tolist(), ["OW", "HW1", "HW2"])
             self.check(load(data, frame=1), PLACES + 1)
-            np.testing.assert_allclose(found.positions, PLACES)  # which moving on has not changed
+            np.testing.assert_allclose(found.positions, PLACES)  # unchanged by later frames
 
     def test_ovito(self):
         self.assertEqual(load(ovito_data("")).types.tolist(), [1, 2, 2])
@@ -142,7 +141,7 @@ class Objects(unittest.TestCase):
             self.assertEqual("from 0 to 255: the largest is 255" in " ".join(found.notes), bool(more))
 
     def test_columns_of_one_array_are_read_in_place(self):
-        """But not those that are in another order there."""
+        """Other orders are copied."""
         array = np.repeat(PLACES, 2, axis=0)
         self.assertTrue(np.shares_memory(load(dict(zip("xyz", array.T))).positions, array))
         np.testing.assert_array_equal(load(dict(zip("zyx", array.T))).positions, array[:, ::-1])
@@ -166,7 +165,7 @@ class Files(unittest.TestCase):
         for key, values in zip(records.dtype.names, [*PLACES.T, packed]):
             records[key] = values
         text = "".join(f"{x} {y} {z} {color} 0 0 0\n" for (x, y, z), color in zip(PLACES, packed))
-        for kind in "FU":  # the bytes of colors are those of a float, or a number
+        for kind in "FU":  # color bytes as those of a float, or as a number
             found = self.read("a.pcd", head.format(kind, 3, "binary").encode() + records.tobytes())
             np.testing.assert_array_equal(found.positions, PLACES)
             np.testing.assert_array_equal(found.colors[1], (0x40, 0x50, 0x60))
@@ -181,7 +180,7 @@ class Files(unittest.TestCase):
                 self.read("a.pcd", content.encode())
 
     def test_las(self):
-        """Bytes among its 16-bit colors are bytes."""
+        """16-bit colors below 256 are bytes."""
         if installed("laspy"):
             import laspy
             las = laspy.LasData(laspy.LasHeader(point_format=3, version="1.2"))
@@ -211,7 +210,7 @@ class Files(unittest.TestCase):
 
     @unittest.skipUnless(installed("ase"), "ASE is not installed")
     def test_elements_of_pdb_files_without_their_columns(self):
-        """By the names of atoms in residues, not of ions, nor where the columns say it."""
+        """Names of atoms in residues decide, not of ions, nor against columns."""
         rows = (("ATOM", " CA ", "ALA", "", 6), ("ATOM", "HG11", "VAL", "", 1), ("ATOM", "1HB ", "ALA", "", 1),
                 ("ATOM", "SD  ", "MET", "", 16), ("ATOM", "CA  ", "CA ", "", 20), ("HETATM", "ZN  ", "ZN ", "", 30),
                 ("ATOM", " CA ", "ALA", "CA", 20))
@@ -233,7 +232,7 @@ class Files(unittest.TestCase):
                 self.read(name, b"data", **{package: module, f"{package}.io": module})
 
     def test_standard_input(self):
-        """Of all readers of ours, also packed; of others it cannot be."""
+        """Our own readers only, also packed."""
         program = "import sys\nfrom pt.figures import load\nprint(load('-', frame=0).positions.tolist())"
         buffer = io.BytesIO()
         np.save(buffer, PLACES)

@@ -1,6 +1,5 @@
-"""Files of independent writers, and those of users, hold what they should, or are refused by name, line and rule.
-Arguments: the folder of the files, where those of cloud.* hold the same particles, and melt and tilted are states of
-LAMMPS, written in two ways."""
+"""Files of independent writers and of users hold what they should, or are refused by name, line and rule.
+Argument: the folder of the files. All cloud.* hold the same particles; LAMMPS wrote melt and tilted in two ways."""
 
 import bz2
 import gzip
@@ -44,7 +43,7 @@ class InAFolder(unittest.TestCase):
         return load(path, **options)
 
     def refusal(self, name, content, **options):
-        """What is said of a file, without its folder."""
+        """The message about a file, without its folder."""
         with self.assertRaises(DataError) as raised:
             self.read(name, content, **options)
         return str(raised.exception).replace(f"{self.folder}/", "")
@@ -76,12 +75,12 @@ class Stored(unittest.TestCase):
         np.testing.assert_array_equal(first.cell.periodic, [True, False, True])
 
     def test_fractions_of_a_cell(self):
-        """LAMMPS wrote them with 7 digits; the edges are no longer than 8, and a coordinate is the sum of three."""
+        """7 digits; edges are no longer than 8, and a coordinate is the sum of three."""
         for name in "melt", "tilted":
             scaled, plain = load(DATA / f"{name}.dump"), load(DATA / f"{name}_plain.dump")
             np.testing.assert_allclose(scaled.positions, plain.positions, 0, 3 * 8 * 0.5e-7)
             np.testing.assert_array_equal(scaled.types, plain.types)
-        # It was made of a cell from 0 with xy 1.5, xz -0.7 and yz 0.9.
+        # Made of a cell from 0 with xy 1.5, xz -0.7 and yz 0.9.
         np.testing.assert_allclose(scaled.cell.origin, 0, 0, 1e-14)
         np.testing.assert_allclose(scaled.cell.vectors[np.tril_indices(3, -1)], [1.5, -0.7, 0.9], 0, 1e-14)
 
@@ -179,7 +178,7 @@ class Rows(InAFolder):
         _rows.FEW_BYTES = 1 << 16
 
     def test_blocks_begin_and_end_anywhere(self):
-        rows = [(i, -0.5, i % 1000 + 0.25, i if i < 58000 else i + 0.5) for i in range(60000)]  # the last are whole at first
+        rows = [(i, -0.5, i % 1000 + 0.25, i if i < 58000 else i + 0.5) for i in range(60000)]  # whole numbers first
         for name, head, separator in (("a.csv", "x,y,z,v\n", ","), ("a.xyz", "60000\nProperties=pos:R:3:v:R:1\n", " "),
                                       ("a.dump", "ITEM: NUMBER OF ATOMS\n60000\nITEM: ATOMS x y z v\n", " ")):
             text = (head + "".join(f"{i}{separator}{' ' * (i % 67)}{y}{separator}{z}{separator}{v}\n" for i, y, z, v in rows)).encode()
@@ -293,10 +292,11 @@ class Messages(InAFolder):
 
 
 class Damaged(InAFolder):
-    """Files that are cut short or have a wrong byte: refused with a message that names the file, or read as they are."""
+    """Files that are cut short or have a wrong byte: refused with a message that names the file, or read as they are.
+    """
 
     def particles(self, name, data):
-        """None where they are refused as they should be."""
+        """None if refused with a message that names the file."""
         try:
             return self.read(name, data)
         except DataError as error:
@@ -315,7 +315,7 @@ class Damaged(InAFolder):
                     if found is None:
                         refused += 1
                         continue
-                    # What is read is there: all of it, or the rows before; a number that may be cut is told.
+                    # All is read, or the rows before the cut; a number that may be cut is reported.
                     is_first = name == "cloud.extxyz" and size < 3 * len(data) // 4  # of two frames
                     whole_frame = load(DATA / name, frame=0) if is_first else whole
                     kept = len(found) if found.positions[-1:].tolist() == whole_frame.positions[len(found) - 1:].tolist() \
@@ -340,8 +340,8 @@ class Damaged(InAFolder):
                     if found.positions.shape == whole.positions.shape:
                         rows = (found.positions != whole.positions).any(1).sum()
                         changed += rows > 0
-                        # Behind all heads one row differs, unless its number has become so large that others are
-                        # negligible, or a row that is packed is not what it was.
+                        # After all headers one row differs, unless its number makes others negligible, or packing
+                        # spreads the fault.
                         if place > 2 * len(data) // 3 and np.abs(found.positions).max() < 1e10:
                             self.assertLess(rows, 2)
         self.assertGreater(refused, DAMAGES * len(DAMAGED) // 4)

@@ -1,4 +1,4 @@
-"""The camera, the light and the sizes of figures: all of every ball is in the picture, and touches its margin."""
+"""Camera, light and sizes of figures: every ball is in the picture, and some touch its margin."""
 
 import importlib.util
 import unittest
@@ -32,7 +32,7 @@ def layout_of(particles, **look):
 
 
 def rims(camera, size, centers, radii):
-    """How far each ball reaches to the left, right, bottom and top, as a share of half the picture."""
+    """The reach of each ball to the left, right, bottom and top, as a share of half the picture."""
     right, above, back = camera.axes()
     ways = centers - np.array(camera.position)
     depth = -(ways @ back)
@@ -41,7 +41,7 @@ def rims(camera, size, centers, radii):
             x = sign * (ways @ axis)
             if camera.vertical_extent is not None:
                 yield (x + radii) / (0.5 * aspect * camera.vertical_extent)
-            else:  # seen from the pinhole a ball at x and z reaches to the angle atan(x / z) + asin(r / |x, z|)
+            else:  # from the pinhole a ball at x and z reaches the angle atan(x / z) + asin(r / |x, z|)
                 angle = np.arctan2(x, depth) + np.arcsin(radii / np.hypot(x, depth))
                 yield np.tan(angle) / (aspect * np.tan(VERTICAL_FOV / 2))
 

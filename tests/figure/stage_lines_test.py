@@ -32,7 +32,7 @@ def staged_of(projection, size, **options):
 
 
 def rays(camera, size):
-    """Of the centres of hits: origins and unit directions, shape (rows, columns, 3)."""
+    """Origins and unit directions, shape (rows, columns, 3), through the centers of hits."""
     right, above, back = camera.axes()
     rows, columns = np.indices((size[1] * PER_SIDE, size[0] * PER_SIDE)) + 0.5
     x, y = 2 * columns / columns.shape[1] - 1, 1 - 2 * rows / rows.shape[0]
@@ -47,7 +47,7 @@ def rays(camera, size):
 
 
 def first_hits(origins, ways, capsules=((), (), 0.0)):
-    """Index of the ball or, after those, the capsule of one radius that each ray meets first; -1: of none."""
+    """Index of the ball or, after those, the capsule that each ray meets first; -1: none."""
     begins, ends, radius = capsules
     distances = np.full((*ways.shape[:-1], len(CENTERS) + len(begins)), np.inf)
     for k, (center, size) in enumerate(zip(CENTERS, RADII)):
@@ -65,7 +65,7 @@ def first_hits(origins, ways, capsules=((), (), 0.0)):
 
 
 def to_ball(start, way, radius):
-    """Distances, from outside, to a ball at the origin; way: of unit vectors."""
+    """Distances, from outside, to a ball at the origin; way: unit vectors."""
     along = -(start * way).sum(axis=-1)
     square = radius**2 - ((start * start).sum(axis=-1) - along**2)
     return np.where(square >= 0, along - np.sqrt(np.maximum(square, 0)), np.inf)
@@ -93,8 +93,8 @@ class Lines(unittest.TestCase):
             self.assertGreater(np.abs(shapes - share(wider >= 0)).max(), 2.5 / 16)
 
     def test_edges_have_their_width_in_pixels(self):
-        """Of two slanting edges in a plane across the view, along each row, within 5%, from samples a quarter of a pixel
-        apart in 60 rows; which 20% more are not."""
+        """Two slanting edges in a plane across the view, along each row, within 5%, from samples a quarter of a pixel
+        apart in 60 rows. Negative control: 20% more."""
         flat = Particles(np.zeros((1, 3)), cell=Cell.of([[4.5, 0, 0], [0, 1e-5, 0], [2.3, 0, 6]], (-3.4, 0, -3)))
         for size in ((1250, 100), (200, 100)):
             for projection in ("perspective", "orthographic"):
@@ -109,15 +109,16 @@ class Lines(unittest.TestCase):
             self.assertGreater(abs(width() / expected - 1.0), 0.05)
 
     def test_a_camera_among_the_particles(self):
-        """There a pixel is measured half of the extent away."""
+        """A pixel is measured half of the extent away."""
         camera = pt.Camera((0, 0, 0), (0, 0, -1), vertical_fov=np.pi / 2)
         particles = Particles(np.array([[0.0, 0, -3]]), cell=Cell.of([8, 8, 8], (-4, -4, -4)))
         edges = Staged.of(particles, Options(radius=0.1, camera=camera, size=(80, 64), box="lines")).scene.sphere_arrays[1]
         np.testing.assert_allclose(edges.radius, 0.5 * 8 / 64)
 
     def test_outlines_go_round_the_balls(self):
-        """Of a ball before nothing and before others; inside of a ball, along edges of the cell before it, and away from balls
-        there are none."""
+        """A ball before nothing and before others has outlines. There are none inside of a ball, along edges of the
+        cell before it, and
+        away from balls."""
         for projection in ("perspective", "orthographic"):
             size = (96, 72)
             staged = staged_of(projection, size, outlines=True)

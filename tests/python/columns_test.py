@@ -94,7 +94,6 @@ class Columns(unittest.TestCase):
         self.check(("radius",), radii=RADII.tolist(), motion=np.broadcast_to(np.zeros(3), (COUNT, 3)))
 
     def test_motion(self):
-        """Motion from the same place."""
         array = pt.SphereArray(POSITIONS, RADII, INDICES, motion=np.array((1.0, 0.0, 0.0)), color=COLORS)
         self.assertFalse(np.array_equal(radiance(self.context, scene_of(array)), self.plain))
 

@@ -1,4 +1,4 @@
-"""Commands: --help needs no optional module, and pages have valid ones. Arguments: the project's folder."""
+"""--help needs no optional module, and pages have valid commands. Arguments: the project's folder."""
 
 import pathlib
 import re

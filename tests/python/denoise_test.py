@@ -1,5 +1,4 @@
-"""Denoised images, with a stand-in for Open Image Denoise where pyoidn has its own. Called as denoise_test.py LIBRARY.
-"""
+"""Denoised images, with a stand-in for Open Image Denoise: denoise_test.py LIBRARY."""
 
 import os
 import pathlib

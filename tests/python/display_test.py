@@ -20,7 +20,6 @@ FAKE_DENOISER = sys.argv.pop(1)
 
 
 def decode_png(data):
-    """Pixels of a PNG."""
     width, height, rows = parse_png(data)
     return np.array(rows, np.uint8).reshape(height, width, 3)
 

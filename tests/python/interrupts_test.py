@@ -8,7 +8,7 @@ import numpy as np
 import pt
 from pictures import SCENE, WHITE, cloud, ready
 
-ENDLESS = 2**20  # samples: minutes on a CPU
+ENDLESS = 2**20  # minutes on a CPU
 MANY = 300_000  # spheres; their tree takes some hundred milliseconds
 
 

@@ -1,4 +1,4 @@
-"""Files and texts from strangers: what is no file is refused at once, and what is printed steers no terminal."""
+"""Files from strangers that are no files are refused at once; printed texts steer no terminal."""
 
 import contextlib
 import io

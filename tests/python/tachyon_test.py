@@ -44,7 +44,6 @@ End_Scene
 
 
 def parsed(*changes, **options):
-    """SCENE with replacements."""
     text = SCENE
     for old, new in changes:
         assert old in text, old

@@ -28,7 +28,6 @@ pt.figure("a.xyz", floor="yes")
 
 class Types(unittest.TestCase):
     def check(self, *arguments):
-        """One cache serves all calls."""
         return subprocess.run([sys.executable, "-m", "mypy", "--strict", "--no-error-summary", "--cache-dir",
                                self.folder / "cache", *arguments], text=True, capture_output=True, cwd=self.folder,
                               env={**os.environ, "MYPYPATH": str(PACKAGE)})
