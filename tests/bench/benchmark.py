@@ -7,13 +7,13 @@ The plot, benchmark.png, needs matplotlib. --mitsuba names a Python that can imp
 
     python3 -m venv mitsuba && mitsuba/bin/pip install mitsuba
 
-Variant llvm_ad_rgb runs on the CPU and needs LLVM's shared library, named by DRJIT_LIBLLVM_PATH (Debian: libllvm19;
-with libllvm15 Mitsuba 3.9.1 ends with "Cannot select: fminimum" on processors with AVX-512); cuda_ad_rgb runs on a GPU.
+Variant llvm_ad_rgb (CPU) needs LLVM's shared library, named by DRJIT_LIBLLVM_PATH (Debian: libllvm19; with libllvm15
+Mitsuba 3.9.1 ends with "Cannot select: fminimum" on processors with AVX-512); cuda_ad_rgb runs on a GPU.
 
 Every round measures all scenes and options in turn. Costs: median CPU seconds (GPU: wall seconds) of sampling. Errors:
-mean relMSE (README.md) against references (references.py). A scene's two targets are the default's errors at its two
-largest sample counts, usually 64 and 256. A ratio is an option's cost of the target over the default's. Costs are
-interpolated linearly between sample counts, in logarithms; "~" marks extrapolation with the slope -1.
+mean relMSE (README.md) against references (references.py). Targets: the default's errors at its two largest sample
+counts. Ratio: an option's cost of the target over the default's, interpolated in logarithms; "~": extrapolated with the
+slope -1.
 """
 
 import argparse

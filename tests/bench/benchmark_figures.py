@@ -58,7 +58,7 @@ def ratio_text(figures):
 
 
 def behind(report):
-    """A line for each option ahead of the default, the furthest first."""
+    """Options ahead of the default, the furthest first."""
     found = []
     for name, scene in report["scenes"].items():
         for option, figures in scene["options"].items():
@@ -71,7 +71,7 @@ def behind(report):
 
 
 def coarse_references(report):
-    """Lines about references whose own error is too large."""
+    """References whose own error is too large."""
     lines = []
     for name, scene in report["scenes"].items():
         least = min(point["rel_mse"] for figures in scene["options"].values() for point in figures["points"])

@@ -5,7 +5,7 @@ import math
 
 def cost_of_error(points, error):
     """The cost at which the error is reached, and whether that is within the measured range. points: sample count ->
-    (cost, error). Between two counts cost and error lie on a line, both logarithmic; beyond them its slope is -1.
+    (cost, error). Interpolated in logarithms; beyond the ends the slope is -1.
     """
     line = [(math.log(cost), math.log(value)) for cost, value in (points[spp] for spp in sorted(points))]
     wanted = math.log(error)

@@ -5,7 +5,7 @@
 
 Every round renders every sampler, estimator and sample count in turn, with the seed + its number.
 
-seconds, cpu s  median wall and CPU seconds of sampling alone; kernels are built before
+seconds, cpu s  median wall and CPU seconds of sampling alone
 mse, rel_mse    mean of (x - r)^2 and of (x - r)^2 / (r^2 + 0.01) against the reference r, over the rounds
 slope           of log MSE against log N since the previous count; -1 for independent samples. Rounds of halton differ
                 little, because its points do not depend on pixel and seed
@@ -123,7 +123,7 @@ class Bench:
         return whole, {"spp": samples, "seed": self.options.seed, "mse": mse, "rel_mse": rel_mse}
 
     def measure(self, sampler, estimator, samples, seed, reference):
-        """One run: wall and CPU seconds, MSE, relMSE."""
+        """Wall and CPU seconds, MSE, relMSE."""
         for warm_up in True, False:  # the second set_render discards the first run's samples
             self.set_render(SAMPLERS[sampler], ESTIMATORS[estimator], seed)
             if warm_up:

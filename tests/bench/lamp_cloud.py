@@ -27,7 +27,6 @@ class LampCloud:
                                            for number in brightness))
 
     def surroundings(self):
-        """A scene-file scene without the cloud."""
         materials = {"matt": MATT, "dark": DARK}
         materials |= {f"lamp {number}": {"emission": emission} for number, emission in enumerate(self.emissions)}
         balls = [{"center": [-4 + 1.2 * i, -0.4, -7 - i % 3], "radius": 0.6, "material": "dark"} for i in range(8)]

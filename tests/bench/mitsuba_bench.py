@@ -1,5 +1,4 @@
-"""error_and_time.py for Mitsuba: renders a scene with several sample counts; writes seconds and errors. benchmark.py
-says how to install Mitsuba."""
+"""error_and_time.py for Mitsuba (benchmark.py says how to install it)."""
 
 import argparse
 import json

@@ -15,8 +15,7 @@ from sphere_cloud import COLORS, MATERIALS, SphereCloud, surroundings
 
 
 class MitsubaCloud(MitsubaScene):
-    """Spheres of one color are one shape of ellipsoids: 10,000 separate spheres render at an eighth of the speed. With
-    100,000 ellipsoids, unlike spheres, pictures are too bright."""
+    """Spheres of one color are one shape of ellipsoids, because many separate spheres render slowly."""
 
     def __init__(self, variant, cloud, size, lengths):
         self.cloud = cloud

@@ -6,7 +6,7 @@ import time
 
 SAMPLERS = ("multijitter", "independent")
 HALF_SIZE = 300  # of rectangles for planes
-SMALLEST_LAMP = 1e-6  # (radius / distance)^2; at 7e-6 its light is 0.5% too bright, at 7e-8 64%
+SMALLEST_LAMP = 1e-6  # (radius / distance)^2; smaller lamps become too bright
 
 
 def obstacle(scene):

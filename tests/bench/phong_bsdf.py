@@ -1,7 +1,6 @@
-"""The material of pt as a BSDF of Mitsuba 3: f = diffuse / pi + specular (n + 2) / (2 pi) max(0, w_o . r)^n.
-
-r is the mirror image of w_i, n the glossiness (Phong 1975, normalised as by Lafortune and Willems 1994). Importing
-it needs a variant of Mitsuba to be set; register() makes the plugin "pt_phong" known.
+"""The material of pt as a BSDF of Mitsuba 3: f = diffuse / pi + specular (n + 2) / (2 pi) max(0, w_o . r)^n, with the
+mirror image r of w_i and the glossiness n (Phong 1975; Lafortune and Willems 1994). Importing it needs a variant of
+Mitsuba to be set; register() makes the plugin "pt_phong" known.
 """
 
 import drjit as dr

@@ -2,7 +2,7 @@
 
     python3 tests/bench/random_scenes.py FOLDER [--first-seed N]   # writes a hundred scene files
 
-The same kind and seed give the same scene. Kinds differ in where light comes from and how often samples meet it.
+The same kind and seed give the same scene.
 """
 
 import argparse
@@ -143,7 +143,7 @@ def windows(rng):
 
 @kind
 def veils(rng):
-    """Nested shells that cannot be told apart but by their radii, about lamps or before them."""
+    """Nested shells that differ in their radii alone, about lamps or before them."""
     lamps = [ball((x, rng.uniform(0.5, 2), rng.uniform(-2.5, -1.5)), rng.uniform(0.08, 0.2), "lamp")
              for x in (-2, -0.7, 0.7, 2)]
     shells = [ball((0, 1, 0.3 * i), rng.uniform(1, 3), "leaf") | {"opacity": opacity(rng, 0.05, 0.6)}
@@ -246,7 +246,7 @@ def lamps_in_a_tree(rng):
 
 @kind
 def tiny_far_lamps(rng):
-    """Suns far away, whose light is that of points, on balls with a gloss."""
+    """Distant suns, nearly points, on glossy balls."""
     count = rng.randint(1, 4)
     suns = []
     for _ in range(count):

@@ -4,8 +4,7 @@
 
 Runs the program on scenes of cli/scenes. Every round runs all cases in turn; figures are medians.
 
-samples/s       from the difference of two sample counts, without start-up; per wall second of sampling and per CPU
-                second (not on a GPU)
+samples/s       from the difference of two sample counts; per wall second of sampling and per CPU second (not on a GPU)
 first, cold     seconds to create the context and take the first sample without compiled kernels
 first, warm     the same with kernels compiled by an earlier process
 start to PNG    wall seconds of the whole process for 16 samples, warm
@@ -50,7 +49,6 @@ class Program:
         return {**os.environ, "XDG_CACHE_HOME": cache, "__GL_SHADER_DISK_CACHE_PATH": cache}
 
     def render(self, case, sample_count, cache="cache"):
-        """Figures of one process."""
         stats = os.path.join(self.folder, "stats.json")
         command = [self.options.pt, "render", scene_path(case["scene"]), "--size", self.options.size, "--spp",
                    str(sample_count), "--max-path-length", str(case["path_length"]),

@@ -5,13 +5,13 @@
 
 `render` needs only Python and libpt. It writes NAME.pfm, the mean of 16 images of different seeds by `mis` and `sobol`,
 and NAME.json with its own relMSE (from the differences of the 16) and block means of 64 images by another estimator
-with random numbers. The own error must be at most a hundredth of the smallest error measured against it (benchmark.py
-reports others); 16 x 16,384 samples beside the benchmark's 256 make it a thousandth.
+with random numbers. The own error must be at most a hundredth of the smallest error measured against it; benchmark.py
+reports others.
 
 `check` needs Mitsuba (see benchmark.py). It compares the reference with the other estimator by means of blocks of 16x16
 pixels: no channel may differ by more than 6 standard errors. Mitsuba's mean of 16 images, where it can express the
-scene, may differ by as much or by half a percent. (Its blocks would need far more samples.) Then it writes NAME.exr and
-references.json into tests/reference/bench, or --output.
+scene, may differ by as much or by half a percent. Then it writes NAME.exr and references.json into
+tests/reference/bench, or --output.
 """
 
 import argparse

@@ -2,10 +2,9 @@
 
     DRJIT_LIBLLVM_PATH=libLLVM.so.19.1 python3 tests/bench/scale.py --library old=OLD/libpt.so \\
         --library pt=build/lib/libpt.so --mitsuba mitsuba/bin/python --counts 10,1e3,1e5
-
     python3 tests/bench/scale.py --library pt=build/lib/libpt.so --cloud lamps --counts 1,10,100,1e3,1e4
 
-Lamps have eight balls below them; their brightness spans four powers of ten. "dark-lamps" has balls in their places, so
+Lamps have eight balls below them; their brightness spans four powers of ten. "dark-lamps" has balls in their places:
 the difference is the cost of choosing lamps. benchmark.py says how to install Mitsuba. Every round measures all in
 turn; figures are medians.
 
@@ -18,8 +17,8 @@ M/s, M/CPU s    million samples per wall and per CPU second (not on a GPU). From
 
 With --error-samples a second table compares costs at equal error, at the first path length: relMSE (README.md) at this
 many samples (4 times as many in Mitsuba), against the first library's picture of 64 times as many samples and another
-seed, whose own error is included. Ratio: cost x relMSE over the first library's, as errors fall as 1 / cost. "off by":
-difference of the mean from the reference's, relative and in standard errors; above 1% no ratio is stated.
+seed, whose own error is included. Ratio: cost x relMSE over the first library's. "off by": difference of the mean from
+the reference's, relative and in standard errors; above 1% no ratio is stated.
 """
 
 import argparse
@@ -130,8 +129,6 @@ class Library:
 
 
 class Mitsuba:
-    """A process that renders with Mitsuba."""
-
     name, bytes, on_cpu = "Mitsuba", None, True
 
     def __init__(self, cloud, options):

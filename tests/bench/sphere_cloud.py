@@ -11,7 +11,6 @@ COLORS = ("white", "red", "blue")  # of the spheres, in turn
 
 
 def surroundings():
-    """A scene-file scene without the cloud."""
     return {"materials": MATERIALS, "spheres": [{"center": [2, 6.5, 6], "radius": 0.6, "material": "lamp"}],
             "planes": [{"normal": [0, 1, 0], "offset": 0, "material": "floor"}],
             "camera": {"position": [0, 2, 6.5], "look_at": [0, 2, 0], "vertical_fov": 40}}

@@ -5,9 +5,8 @@
 A SET is `own` (cli/scenes and tests/render/calibration_scenes.py), `random:SEED` (the hundred of random_scenes.py from
 this seed on), or a folder of scene files. A picture's own error is the root of the mean, over pixels and channels, of
 its squared error relative to an image of many samples; the rms over seeds is the root of the mean of their squares.
-Certain errors are those not marked uncertain. A picture counts if the reference's own error is at most a fifth of its
-own. --keep writes what the estimator reads for some seeds, as NumPy's .npz: another estimator can be tried without
-rendering.
+An error that is not uncertain is certain. A picture counts if the reference's own error is at most a fifth of its
+own. --keep writes the estimator's input for some seeds, as NumPy's .npz, to try another estimator without rendering.
 """
 
 import argparse
@@ -40,7 +39,7 @@ RELATIVE_BITS = pt.Uncertain.RELATIVE_RMSE | pt.Uncertain.UNSEEN | pt.Uncertain.
 
 @dataclass
 class Stated:
-    """What a picture states, and what is true of it."""
+    """A picture's stated and true errors."""
 
     scene: str
     size: str
@@ -60,14 +59,14 @@ class Stated:
 
 @dataclass
 class Stopped:
-    """A picture that was to reach a target."""
+    """A picture rendered to a target."""
 
     scene: str
     size: str
     target: float
     reached: bool
     own: float
-    brightness: float  # mean radiance / that of the reference
+    brightness: float  # mean radiance over the reference's
     samples: float  # mean
 
 
@@ -105,7 +104,7 @@ def short(values):
 
 
 class Pictures:
-    """Those of a scene in one size."""
+    """The pictures of a scene in one size."""
 
     def __init__(self, context, scene, settings, size, options):
         self.context, self.name, self.size, self.options = context, scene, size, options

@@ -93,7 +93,7 @@ class Steps:
                     require(f"{place}/" not in text, f"{path} names {place}")
 
     def check_copyrights(self, share, packages):
-        """Every package says whose code it has, by what licences, and has their texts."""
+        """Every package names the holders and licenses of its code, and has the texts."""
         for package in packages:
             text = (share / "doc" / package / "copyright").read_text()
             holders = re.findall(r"^Files: .*\nCopyright: .*\nLicense: (.*)$", text, re.MULTILINE)

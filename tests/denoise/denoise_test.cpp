@@ -1,5 +1,4 @@
-// Denoising with a library that stands in for Open Image Denoise (fake_open_image_denoise.cpp): the error that is
-// stated against the true one, in double precision, of pictures whose limit is known.
+// Stated errors of denoised images against true ones, with fake_open_image_denoise.cpp as the filter.
 #include "tests/support/statistics.h"
 
 #include <pt/denoise.h>
@@ -25,12 +24,12 @@ constexpr std::uint32_t height = 160;
 constexpr double much_noise = 0.7;
 constexpr std::size_t value_count = std::size_t{3} * width * height;
 
-// Stripes, whose edges a filter blurs, all over the picture.
+// Stripes, whose edges a filter blurs.
 double limit_at(std::size_t index) {
     return 0.6 + 0.4 * static_cast<double>(index / 3 % width / 12 % 2) + 0.1 * static_cast<double>(index % 3);
 }
 
-// An exponential distribution, skewed as light is, whose deviation is this part of the mean.
+// Exponentially distributed, skewed as light is; deviation: relative to the mean.
 Pixels noisy(std::uint64_t seed, double deviation) {
     std::mt19937_64 random(seed);
     Pixels pixels(value_count);
@@ -41,7 +40,6 @@ Pixels noisy(std::uint64_t seed, double deviation) {
     return pixels;
 }
 
-// Images to denoise, and what comes of it.
 struct Denoising {
     explicit Denoising(Pixels first_half, Pixels second_half) :
         first(std::move(first_half)),
@@ -86,7 +84,7 @@ struct Denoising {
         return mean([&](std::size_t i) { return std::pow(0.5 * (double{first[i]} + second[i]) - limit_at(i), 2); });
     }
 
-    // Of rmse, which is 1.28 standard errors of squares above it, and its lower bound, 1.96 below.
+    // rmse is 1.28 standard errors of squares above the stated square, rmse_low 1.96 below.
     double stated_square() const {
         EXPECT_GT(error.rmse_low, 0.0);
         return (1.96 * std::pow(error.rmse, 2) + 1.28 * std::pow(error.rmse_low, 2)) / (1.96 + 1.28);
@@ -105,7 +103,7 @@ struct Stated {
     double mean_true = 0.0;
     double mean_raw = 0.0;
     double mean_ratio = 0.0;          // of stated roots to true ones
-    double mean_relative_ratio = 0.0; // likewise
+    double mean_relative_ratio = 0.0; // the same of relative errors
 };
 
 Stated over_seeds(const char *wish, double deviation, int seed_count = 6) {
@@ -123,8 +121,8 @@ Stated over_seeds(const char *wish, double deviation, int seed_count = 6) {
     return stated;
 }
 
-// With a filter that does nothing there is no bias at all. Else limits, which know both halves, make the square too
-// small by at most a quarter, and places whose faults count for 0 at least make it too large by less than a third.
+// A filter that does nothing has no bias. Otherwise limits know both halves, so the square is too small by at most a
+// quarter; places whose faults count for at least 0 make it too large by less than a third.
 TEST(Denoise, StatesTheSquareOfItsError) {
     for (const char *wish : {"identity", "", "shift", "darken"}) {
         const Stated stated = over_seeds(wish, much_noise, 24);
@@ -134,7 +132,7 @@ TEST(Denoise, StatesTheSquareOfItsError) {
         const double chosen = std::string(wish) == "identity" ? 0.0 : stated.mean_true;
         EXPECT_LT(moments.mean, bound + chosen / 3) << wish;
         EXPECT_GT(moments.mean, -bound - 0.25 * chosen) << wish;
-        EXPECT_LT(bound, 0.15 * stated.mean_true) << wish; // or it would say nothing
+        EXPECT_LT(bound, 0.15 * stated.mean_true) << wish; // or the comparison says nothing
         for (const double ratio : {stated.mean_ratio, stated.mean_relative_ratio}) {
             EXPECT_GT(ratio, 0.87) << wish; // the root of 1 - 1/4
             EXPECT_LT(ratio, 1.3) << wish;
@@ -142,9 +140,9 @@ TEST(Denoise, StatesTheSquareOfItsError) {
     }
 }
 
-// One value in 300 of a half is brighter by 60, which the filter cuts to 4: it loses 0.2 everywhere. Both halves meet
-// such light in one value of a picture in 92,160 / 300^2, so products of single values show the loss in every second
-// picture, as far too much. Each picture has to state it.
+// One value in 300 of a half is brighter by 60, cut by the filter to 4: it loses 0.2 everywhere. Both halves meet such
+// light in 92,160 / 300^2, about one, of a picture's values, so products of single values would show the loss in every
+// second picture, far too large. Each picture has to state it.
 TEST(Denoise, StatesRareLightThatItsFilterTakesAway) {
     constexpr double probability = 1.0 / 300;
     constexpr double light = 60.0;
@@ -163,7 +161,7 @@ TEST(Denoise, StatesRareLightThatItsFilterTakesAway) {
     }
 }
 
-// Neither with much noise nor with little, when a filter that shifts or darkens does more harm than good.
+// Nor with little noise, when shifting or darkening does more harm than good.
 TEST(Denoise, IsNoWorseThanTheRawImage) {
     for (const char *wish : {"identity", "", "shift", "darken"})
         for (const double deviation : {much_noise, 0.2, 0.02}) {
@@ -173,10 +171,10 @@ TEST(Denoise, IsNoWorseThanTheRawImage) {
         }
 }
 
-// A ramp, which rises in the upper half and falls in the lower one, so that a filter that shifts it by a pixel keeps
-// the mean. Noise of opposite signs in the two images is a checkerboard, so that their mean is the ramp, and what is
-// left of the shift shows the choice: nearly all of it at the left, where noise is large, little at the right, and no
-// step. A linear ramp over a tile of 8 pixels that goes all the way has steps of an 8th.
+// A ramp that rises in the upper half and falls in the lower, so a filter that shifts it by a pixel keeps the mean.
+// Noise of opposite signs in the two halves is a checkerboard, so their mean is the ramp, and the rest of the shift
+// shows the choice: nearly all of it at the left, where noise is large, little at the right, without a step. A linear
+// ramp over a tile of 8 pixels has steps of an 8th.
 TEST(Denoise, HasNoSeams) {
     constexpr float slope = 0.02F;
     constexpr std::size_t noisy_width = 100; // ends within a tile
@@ -203,8 +201,8 @@ TEST(Denoise, HasNoSeams) {
     }
 }
 
-// Noise that grows downwards, from none at the top, about a lamp. Two standard errors of a half are 2 sqrt(2) s, and s
-// counts up to 16 times where it is larger about a value.
+// Noise grows downwards from none at the top, about a lamp. Two standard errors of a half are 2 sqrt(2) s; s counts up
+// to 16 times where it is larger about a value.
 TEST(Denoise, MovesNoValueBeyondWhatHalvesSupport) {
     Pixels halves[2] = {noisy(1, 1.0), noisy(2, 1.0)};
     for (std::size_t i = 0; i < value_count; ++i) {
@@ -259,7 +257,7 @@ TEST(Denoise, KeepsTheMeanWithinItsNoise) {
     }
 }
 
-// A value that differs between the halves, alone in its tile and those about it, may be a lamp or noise.
+// A value that differs between the halves, alone in its tile and the neighbouring ones, may be a lamp or noise.
 TEST(Denoise, IsNotPersuadedByOnePixel) {
     Pixels halves[2] = {Pixels(value_count, 1.0F), Pixels(value_count, 1.0F)};
     for (std::size_t y = 4; y < height; y += 40)
@@ -271,8 +269,8 @@ TEST(Denoise, IsNotPersuadedByOnePixel) {
         ASSERT_EQ(denoising.denoised[i], 0.5F * (halves[0][i] + halves[1][i])) << i;
 }
 
-// The filter spreads a lamp over two pixels to each side, where relative errors would be a million times those of the
-// raw image. By what it gives there as limits they would seem small.
+// The filter spreads a lamp over two pixels to each side, where relative errors would be a million times the raw
+// image's. With the filter's values as limits they would seem small.
 TEST(Denoise, DoesNotSpreadALamp) {
     constexpr std::size_t first = 64;
     constexpr std::size_t end = 68;
@@ -289,9 +287,9 @@ TEST(Denoise, DoesNotSpreadALamp) {
     EXPECT_LT(denoising.error.relative_rmse, 0.02);
 }
 
-// A pixel in each tile differs by as much in both halves, of a checkerboard of the mean 1 that the filter blurs, so
-// that little of it is used. Where one half is dark, what most samples met may reach into the pixel by any share, and
-// the square counts ln(1 / 0.1) times.
+// One pixel of each tile differs by as much in both halves of a checkerboard of mean 1. The filter blurs it, so little
+// of it is used. Where one half is dark, light may reach into the pixel by any share, and the square counts ln(1 / 0.1)
+// times.
 TEST(Denoise, KnowsLittleOfEdgesThatOneHalfDidNotMeet) {
     const auto relative_square = [](float lesser) {
         Pixels halves[2] = {Pixels(value_count), Pixels(value_count)};
@@ -370,7 +368,7 @@ TEST(Denoise, RunsOnTheCpuUnlessTold) {
     EXPECT_EQ(denoising.run("gpu"), PT_OK);
 }
 
-// Where the system finds it, as LD_LIBRARY_PATH may say.
+// Found by the system, as LD_LIBRARY_PATH may say.
 TEST(Denoise, RunsTheLibraryItself) {
     Denoising denoising(0, much_noise);
     denoising.info.library = nullptr;

@@ -1,6 +1,6 @@
-// A stand-in for Open Image Denoise, with the functions that libpt takes from it: a mean over 5 x 5 pixels, and planted
-// faults. FAKE_OIDN=identity filters nothing, shift moves the mean by a pixel, darken takes a twentieth of it away, cut
-// all light above 4; an error's number makes the filter fail with it; gpu lacks the CPU as a device.
+// A stand-in for Open Image Denoise: a mean over 5 x 5 pixels, and planted faults. FAKE_OIDN=identity filters nothing,
+// shift moves the mean by a pixel, darken removes a twentieth, cut all light above 4; an error's number makes the
+// filter fail with it; gpu lacks the CPU as a device.
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
@@ -36,7 +36,7 @@ std::string wish() {
     return text ? text : "";
 }
 
-// Over the pixels that are there.
+// Over the pixels of the image.
 float mean_about(const Filter &filter, const float *color, std::ptrdiff_t x, std::ptrdiff_t y, std::size_t channel,
                  std::ptrdiff_t radius, float most) {
     const auto width = static_cast<std::ptrdiff_t>(filter.width);

@@ -63,7 +63,6 @@ static int render(pt_context *context, float *pixels, uint64_t size_bytes) {
     return 0;
 }
 
-/* The device keeps the bounds of every device. */
 static int check_accuracy(pt_context *context) {
     pt_function_accuracy rows[32];
     uint32_t count = 32;

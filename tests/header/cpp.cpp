@@ -1,5 +1,4 @@
-// The headers in C++: numbers and types of the binary interface must never change. tests/abi/struct_layout.txt has
-// sizes and offsets.
+// The headers in C++: numbers and types of the binary interface must never change (sizes: tests/abi/struct_layout.txt).
 #include <pt/accuracy.h>
 #include <pt/async.h>
 #include <pt/denoise.h>

@@ -4,7 +4,6 @@ import pathlib
 import re
 import sys
 
-# Each may include itself and earlier ones.
 ORDERS = {"cli": ("base", "image", "film", "scene", "render", "merge", "denoise", "tonemap", "compare", "selftest"),
           "lib": ("platform", "base", "scene", "tree", "film", "denoise", "vulkan", "glsl_module", "kernel", "render", "api")}
 

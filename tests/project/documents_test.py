@@ -11,7 +11,6 @@ PAGES += [*(ROOT / "tests").glob("*/**/*.md"), *(ROOT / "lib").glob("*/*.md")]
 CURRENT = [page for page in PAGES if page.name not in ("CHANGELOG.md", "NOTEBOOK.md")]  # they cover the past, too
 CODE = re.compile(r"\.(h|c|cpp|glsl|comp|py|json|csv|cmake|sh)$|^CMakeLists\.txt$")
 
-# Limits of words: of a page, and of all pages but the changes.
 MOST_WORDS = {"README.md": 1260, "CONTRIBUTING.md": 1350, "cli/README.md": 5350, "shaders/README.md": 7190,
               "tests/bench/README.md": 1550}
 MOST_WORDS_IN_ALL = 25_970

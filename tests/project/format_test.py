@@ -1,4 +1,4 @@
-"""C++ sources are formatted by .clang-format. Called as format_test.py CLANG_FORMAT ROOT. Headers in shaders are GLSL
+"""C++ sources are formatted by .clang-format: format_test.py CLANG_FORMAT ROOT. Headers in shaders are GLSL
 too, laid out by hand.
 """
 

@@ -1,5 +1,5 @@
-"""Tests that cmake/licenses/parts.txt names all code of others: the headers that sources include, the libraries that Ninja
-links, and files with a licence beside them. Arguments: the project's folder, and a build's."""
+"""cmake/licenses/parts.txt names all code of others: included headers, libraries that Ninja links, and files with a
+license beside them. Arguments: the project's folder, and a build's."""
 
 import pathlib
 import re
@@ -8,7 +8,7 @@ import unittest
 
 ROOT, BUILD = map(pathlib.Path, sys.argv[1:])
 LICENSES = ROOT / "cmake/licenses"
-# Those of the system and the compiler, whose licences ask nothing of programs.
+# The system's and the compiler's, whose licenses ask nothing of programs.
 SYSTEM_LIBRARIES = {"libvulkan", "dl", "rt"}
 SYSTEM_HEADERS = set("""cpuid dlfcn emmintrin fcntl io mach-o/dyld math psapi pthread signal stdatomic stddef stdint stdio
     stdlib sys/file sys/ioctl sys/resource sys/stat sys/sysctl sys/sysinfo time unistd windows""".split())
@@ -18,7 +18,7 @@ BINARIES = {"lib/libpt.so.": "runtime", "bin/pt:": "program", "lib/pt/libpt-glsl
 
 
 def parts():
-    """Component, header or library or file: name."""
+    """(component, header or library or file) -> name."""
     found = {}
     for line in (LICENSES / "parts.txt").read_text().splitlines():
         if not line.startswith("#"):
@@ -28,14 +28,13 @@ def parts():
 
 
 def foreign_headers(text):
-    """The first folders, or the names, of headers that are not the system's, the compiler's or this project's."""
+    """The first folders, or the names, of others' headers."""
     included = re.findall(r"^#include <([\w./-]+)\.h(?:pp)?>", text, re.MULTILINE)
     return {name.split("/")[0] if "/" in name else f"{name}.h" for name in included
             if name not in SYSTEM_HEADERS and not name.startswith("pt/")}
 
 
 def included():
-    """Component and headers, of all sources."""
     found = set()
     for path in (path for folder in ("lib", "cli") for path in (ROOT / folder).rglob("*")):
         if path.suffix in (".h", ".cpp") and "examples" not in path.parts:
@@ -58,7 +57,7 @@ def linked(rules):
 
 
 def copied():
-    """Files beside which there is a licence."""
+    """Files with a license beside them."""
     return {("python", f"{path.relative_to(ROOT).with_suffix('.js')}") for path in (ROOT / "lib").rglob("*.LICENSE")}
 
 
@@ -68,7 +67,7 @@ class Licenses(unittest.TestCase):
         found = included() | linked(rules) | copied()
         self.assertGreaterEqual(len(found), 15)
         self.assertEqual(sorted(found - set(parts())), [])
-        # Nothing in the table is left over, but in wheels, and what other versions of a package link.
+        # Every row is in use, but for wheels and libraries that other versions of a package link.
         names = {parts()[each] for each in found}
         self.assertEqual(names ^ set(parts().values()), set())
 

@@ -2,14 +2,14 @@
 
     python3 tests/render/denoise_calibration.py [--own] [--hundred SEED] [--files SCENE ...] [--images FOLDER] [--worst N]
 
-Scenes are those of cli/scenes and calibration_scenes.py (--own), those of tests/bench/random_scenes.py from a seed on,
-and scene files. PT_LIBRARY names the library and PT_PROGRAM the program, which reads the scenes; it takes NumPy and
-Open Image Denoise (pip install pyoidn, or LD_LIBRARY_PATH). With --images, what is rendered is kept in the folder and
-used again; --render renders only, without Open Image Denoise.
+Scenes: cli/scenes and calibration_scenes.py (--own), a hundred of tests/bench/random_scenes.py from a seed on, and
+scene files. PT_LIBRARY names the library and PT_PROGRAM the program, which reads the scenes; needs NumPy and Open Image
+Denoise (pip install pyoidn, or LD_LIBRARY_PATH). --images keeps renderings in the folder and uses them again; --render
+renders only, without Open Image Denoise.
 
-An image is made of two of half of the samples each. Errors are differences to an image of many samples. An image is
-worse if its error is more than 2% above that of the mean of both halves. Light is the difference of the means of both
-images over the standard error of the latter.
+An image has two halves of samples. Errors are differences to an image of many samples. A denoised image is worse if its
+error exceeds the raw image's by more than 2%. Light: the difference of the two images' means over the raw one's
+standard error.
 """
 
 import argparse
@@ -38,11 +38,11 @@ TRUTH_SEED, SEED = 9, 100
 class Case:
     name: str
     count: int
-    relative: float  # error over that of the raw image
+    relative: float  # over the raw image's error
     absolute: float
     gain: float  # mean square of the raw image's relative error over the denoised one's
     light: float  # difference of means over its noise
-    brighter: int  # values above all those of both halves in the 3x3 pixels about them
+    brighter: int  # values above every value of both halves in the 3x3 pixels about them
     stated: float  # over the true relative error
     holds: bool
     is_uncertain: bool

@@ -70,7 +70,7 @@ double noise_of_mean(const std::vector<Image> &batches) {
 }
 
 struct Agreement {
-    double mean_square_t; // over blocks of 8 x 8 pixels; about expected_mean_square_t if only noise differs
+    double mean_square_t; // over blocks of 8 x 8 pixels
     double largest_t;
 };
 

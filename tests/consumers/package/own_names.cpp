@@ -7,12 +7,12 @@
 
 namespace pt {
 
-// The signature of an internal function.
+// An internal function's signature.
 const char *result_name(pt_result) {
     return "a name of the program's";
 }
 
-// The name of an internal class.
+// An internal class's name.
 class Error : public std::runtime_error {
 public:
     Error(pt_result code, const std::string &message);
