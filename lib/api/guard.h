@@ -17,11 +17,11 @@ namespace pt {
 
 class LastError {
 public:
-    // Never throws: without memory a fixed message replaces it, without rules.
+    // Without memory, a fixed message without rules replaces the given one.
     void store(std::string_view message, std::shared_ptr<const Violations> broken_rules = nullptr) noexcept {
         try {
             const std::string shown = platform::printable_lines(message);
-            text_ = std::string_view(shown); // copied, so that memory is kept for later messages
+            text_ = std::string_view(shown); // copies, which keeps memory for later messages
             shown_ = nullptr;
             broken_rules_ = std::move(broken_rules);
         } catch (...) {
@@ -61,7 +61,7 @@ private:
     }
 }
 
-// Rounds to nearest in this scope. Threads started meanwhile inherit it, such as a driver's.
+// Rounds to nearest in this scope. Threads started meanwhile, such as a driver's, inherit it.
 class DefaultRounding {
 public:
     DefaultRounding() noexcept : callers_(std::fegetround()) { set(FE_TONEAREST); }
@@ -79,8 +79,8 @@ private:
     int callers_;
 };
 
-// Runs the body of a C call, which returns a pt_result or nothing (PT_OK), or throws. A callback's exception becomes
-// PT_ERROR_INTERNAL with its message, because callers may be written in C. Earlier samples stay.
+// Runs the body of a C call, which returns a pt_result or nothing (PT_OK), or throws. Callers may be written in C, so a
+// callback's exception becomes PT_ERROR_INTERNAL with its message.
 template <typename Call>
 pt_result guard(LastError &last_error, Call &&call) noexcept {
     const DefaultRounding rounding;

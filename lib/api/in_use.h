@@ -1,5 +1,5 @@
-// Records which thread has a call running on a context, because film and Vulkan allow one; and the process that owns
-// it, because a forked child lacks the driver's threads.
+// Records which thread has a call running on a context, because film and Vulkan allow one, and which process owns it,
+// because a forked child lacks the driver's threads.
 #pragma once
 
 #include "lib/platform/process.h"
@@ -11,7 +11,7 @@ namespace pt {
 
 class InUse {
 public:
-    // Takes the context for a call of this thread; returns NULL, or the reason why not.
+    // Takes the context for a call of this thread. Returns NULL, or the reason for a refusal.
     const char *take() noexcept {
         if (const char *reason = not_of_this_process())
             return reason;
@@ -29,7 +29,7 @@ public:
                std::this_thread::get_id(); // relaxed: only this thread can make it equal
     }
 
-    // Why no call of this process may touch the context, or NULL. From any thread.
+    // The reason why no call of this process may touch the context, or NULL. Thread-safe.
     const char *not_of_this_process() const noexcept {
         return platform::process_number() == process_
                    ? nullptr

@@ -1,4 +1,4 @@
-// XXH3 digests detect changes, not forgeries.
+// XXH3 digests, which detect changes, not forgeries.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -30,7 +30,7 @@ public:
     void add_bytes(std::span<const std::byte> bytes);
     std::uint64_t checksum() const;
 
-    // 128 bits as 32 hexadecimal digits.
+    // 32 hexadecimal digits.
     std::string text() const;
 
 private:

@@ -1,4 +1,4 @@
-// The library's only exception. Caught by guard.h alone.
+// The library's only exception, caught by guard.h alone.
 #pragma once
 
 #include <pt/pt.h>
@@ -12,7 +12,7 @@
 
 namespace pt {
 
-// As pt_broken_rule.
+// A pt_broken_rule.
 struct BrokenRule {
     std::string subject;
     std::int64_t index = -1;
@@ -26,7 +26,7 @@ struct BrokenRule {
     std::string text() const;
 };
 
-// Rules broken by one call: the first ones in full and the number of all, which may be millions.
+// Rules broken by one call, perhaps millions: the first ones in full, and the number.
 class Violations {
 public:
     static constexpr std::size_t most_kept = 8;
@@ -54,7 +54,6 @@ class Error : public std::runtime_error {
 public:
     Error(pt_result code, const std::string &message);
 
-    // The rules make the message.
     Error(pt_result code, Violations rules);
     Error(pt_result code, BrokenRule rule);
 
@@ -68,7 +67,6 @@ private:
     std::shared_ptr<const Violations> broken_rules_;
 };
 
-// As pt_result_name.
 const char *result_name(pt_result result) noexcept;
 
 } // namespace pt

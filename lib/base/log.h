@@ -29,7 +29,7 @@ struct Log {
         }
     }
 
-    // Calls message() only if there is a log function. Without memory the message is dropped.
+    // Calls message() only if there is a log function. Drops it if memory lacks.
     template <typename Message>
     void info(Message &&message) const noexcept {
         if (!function)

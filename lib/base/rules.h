@@ -16,7 +16,7 @@
 
 namespace pt {
 
-// The shortest decimal that reads back as the same number; "nan" without a sign.
+// The shortest decimal that reads back as the same number.
 std::string number_text(std::integral auto value) {
     return std::to_string(value);
 }
@@ -34,7 +34,7 @@ std::string number_text(const glm::vec<3, Number> &value) {
     return '(' + number_text(value.x) + ", " + number_text(value.y) + ", " + number_text(value.z) + ')';
 }
 
-// Returns what a value must be, or nullptr if it is.
+// Returns the broken rule, or nullptr.
 using Rule = const char *(*)(double value);
 
 inline const char *finite_rule(double value) {
@@ -44,8 +44,8 @@ inline const char *finite_rule(double value) {
 constexpr double min_length = 1e-18;
 constexpr double max_length = 1e18;
 
-// Lengths are 0 or of magnitude [1e-18, 1e18]: then squares are normal in float32 (1e-36 > 2^-126 = 1.18e-38) and
-// squared distances finite (3 * (3e18)^2 = 2.7e37 < 2^128 = 3.4e38, a component being center + motion - position).
+// Squares of lengths must be normal in float32 (1e-36 > 2^-126) and squared distances finite (3 * (3e18)^2 = 2.7e37 <
+// 2^128, for components center + motion - position).
 constexpr bool is_positive_length(double value) {
     return value >= min_length && value <= max_length;
 }
@@ -78,7 +78,7 @@ inline const char *share_rule(double value) {
     return is_share(value) ? nullptr : "must lie in [0, 1]";
 }
 
-// A field; or the first of several that make the value, and how the message goes on: {"width", "* height"}.
+// A field; or the first of several that make the value, and the rest of the message: {"width", "* height"}.
 struct Member {
     Member(const char *field, const char *others = "") : name(field), with(others) {} // implicit
 

@@ -12,8 +12,7 @@ inline glm::dvec3 vector(const double (&components)[3]) {
     return {components[0], components[1], components[2]};
 }
 
-// v * 2^-exponent with its largest component in [1/2, 1). Exact (except components below 2^-1000 of the largest), so
-// vectors that differ by a power of two have the same direction to the bit.
+// v * 2^-exponent with its largest component in [1/2, 1). Exact, except components below 2^-1000 of the largest.
 struct ScaledVector {
     glm::dvec3 vector;
     int exponent;

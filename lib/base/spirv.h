@@ -72,7 +72,7 @@ constexpr std::uint32_t first_word(Opcode opcode, std::uint32_t word_count) {
     return word_count << 16U | opcode;
 }
 
-// Thrown for code that this file does not know.
+// Thrown for unknown code.
 struct Unknown {};
 
 // Calls use(instruction, offset) until it returns false.

@@ -1,4 +1,4 @@
-// The growth of pt.h's structs: struct_size first, new fields at the tail, zero means default.
+// The growth of pt.h's structs: struct_size first, new fields at the end, zero means default.
 #pragma once
 
 #include "lib/base/error.h"
@@ -26,8 +26,7 @@ inline BrokenRule wrong_size(const char *name, std::int64_t index, std::uint32_t
     return {.subject = name, .index = index, .member = "struct_size", .value = std::to_string(size), .rule = rule};
 }
 
-// The caller's struct_size. name, index: for messages; index >= 0: of an array's element. Throws
-// PT_ERROR_INVALID_ARGUMENT.
+// name, index: for messages; index >= 0: of an array's element. Throws PT_ERROR_INVALID_ARGUMENT.
 inline std::uint32_t struct_size_of(const void *user, const char *name, std::int64_t index = -1) {
     require_not_null(user, name);
     std::uint32_t size = 0;
@@ -52,8 +51,8 @@ inline void require_known(const void *user, std::uint32_t size, std::size_t know
                                        std::to_string(known) + " bytes of the struct"));
 }
 
-// The caller's struct by the rule of Linux' copy_struct_from_user: a shorter one is extended by zeros; a longer one's
-// unknown part must be zero.
+// Copies like Linux' copy_struct_from_user: a shorter struct is extended by zeros; a longer one's unknown part must be
+// zero.
 template <typename T>
 T copy_in(const T *user, const char *name, std::int64_t index = -1) {
     const std::uint32_t size = struct_size_of(user, name, index);
@@ -64,7 +63,7 @@ T copy_in(const T *user, const char *name, std::int64_t index = -1) {
     return copy;
 }
 
-// Writes what both sides know. size: the caller's struct_size, which stays.
+// Writes what both sides know, except struct_size. size: the caller's.
 template <typename T>
 void copy_known(const T &result, T *user, std::uint32_t size) noexcept {
     constexpr std::size_t first = sizeof result.struct_size;

@@ -22,7 +22,7 @@ public:
     WorkProgress(const WorkProgress &) = delete;
     WorkProgress &operator=(const WorkProgress &) = delete;
 
-    // Begins a stage that is this share of the rest of the whole. work: its amount, in any unit.
+    // share_of_rest: the stage's share of the remaining whole. work: its amount, in any unit.
     void enter(double share_of_rest, double work) {
         begin_ = end_; // a stage that ended early counts as done
         end_ += share_of_rest * (1.0 - end_);
@@ -30,7 +30,7 @@ public:
         done_ = 0.0;
     }
 
-    // Notes work done on this many elements, which decide when to report.
+    // elements decide when to report.
     void add(double work, std::size_t elements) {
         done_ += work;
         untold_ += elements;
@@ -48,7 +48,7 @@ public:
     }
 
 private:
-    // Takes between half a millisecond and several.
+    // These take between half a millisecond and several.
     static constexpr std::size_t elements_between_calls = std::size_t{1} << 17;
 
     void tell() {

@@ -1,5 +1,5 @@
-/* A camera that circles a ball: each frame takes a few samples while the program does its other work, and is read as
- * soon as they are done. No threads. The last frame is written to moving_camera.pfm.
+/* A camera that circles a ball. Each frame takes a few samples while the program does its other work, without threads.
+ * The last frame is written to moving_camera.pfm.
  *
  *     moving_camera [FRAMES [SAMPLES]]
  *
@@ -12,8 +12,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* How long a poll may wait in a program with 60 frames a second, nanoseconds; repeated until the frame's samples are
- * done. */
+/* The longest wait in a poll, nanoseconds: short in a program with 60 frames a second. */
 static const uint64_t poll_nanoseconds = 2000000;
 
 /* An interactive program handles input here, and draws the previous frame. */
@@ -21,7 +20,7 @@ static void do_other_work(unsigned long *times) {
     ++*times;
 }
 
-/* Moves the camera, which goes once around the ball. This discards the samples of the previous frame. */
+/* Discards the samples of the previous frame. */
 static pt_result move_camera(pt_context *context, double turns) {
     const double angle = turns * 6.283185307179586;
     pt_camera camera = {.struct_size = sizeof camera, .target = {0.0, 1.0, 0.0}};
@@ -32,7 +31,7 @@ static pt_result move_camera(pt_context *context, double turns) {
     return pt_set_camera(context, &camera);
 }
 
-/* Takes the samples of a frame. The device works while the program goes on, which has to poll. */
+/* The device works while the program goes on, but the program must poll. */
 static pt_result render_frame(pt_context *context, const pt_accumulate_info *samples, const pt_image *image,
                               unsigned long *other_work) {
     pt_result result = pt_start(context, samples);
@@ -53,7 +52,7 @@ static pt_result render_frames(pt_context *context, unsigned frames, const pt_ac
     pt_result result = set_up_ball(context);
 
     if (result >= 0)
-        result = pt_prepare(context); /* so that the first frame waits for no kernel */
+        result = pt_prepare(context); /* compiles the kernel before the first frame */
     for (frame = 0; result >= 0 && frame < frames; ++frame) {
         result = move_camera(context, (double)frame / frames);
         if (result >= 0)
@@ -78,7 +77,7 @@ int main(int argc, char **argv) {
 
     if (result >= 0)
         result = render_frames(context, frames, &samples, &image);
-    if (result < 0) /* context is NULL if none was made, and the message that of this thread's pt_create */
+    if (result < 0) /* without a context, the message is from this thread's pt_create */
         fprintf(stderr, "%s: %s\n", pt_result_name(result), pt_last_error(context));
     pt_destroy(context);
     if (result >= 0 && !write_pfm("moving_camera.pfm", pixels)) {

@@ -1,5 +1,5 @@
-/* Ten thousand particles, as simulations have them: positions and colors in arrays, one radius for all. pt_set_scene
- * reads them where they are. The picture goes to particles.pfm.
+/* Ten thousand particles: positions and colors in arrays, one radius for all. pt_set_scene reads them in place. The
+ * picture goes to particles.pfm.
  *
  *     particles [COUNT [SAMPLES]]
  */
@@ -84,7 +84,7 @@ static int render_to_file(const particles *all, uint32_t sample_count) {
 
     if (result >= 0)
         result = render(context, all, sample_count, &image);
-    if (result < 0) /* context is NULL if none was made, and the message that of this thread's pt_create */
+    if (result < 0) /* without a context, the message is from this thread's pt_create */
         fprintf(stderr, "%s: %s\n", pt_result_name(result), pt_last_error(context));
     pt_destroy(context);
     if (result >= 0 && !write_pfm("particles.pfm", pixels)) {

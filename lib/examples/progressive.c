@@ -1,9 +1,9 @@
-/* Progressive display: one thread renders in steps that double, and after each writes the image so far to
- * progressive.pfm and prints its error; the main thread shows how far the step is. Ctrl-C stops it, or a limit of time.
+/* Progressive display. One thread renders in steps that double; after each it writes progressive.pfm and prints the
+ * error. The main thread shows the step's progress. Ctrl-C or a limit of time stops it.
  *
  *     progressive [SAMPLES [SECONDS]]
  *
- * Exit status 0 if the image was written, be it with fewer samples because it was stopped.
+ * Exit status 0 if the image was written, even if it was stopped early.
  */
 #define _POSIX_C_SOURCE 200809L
 
@@ -18,15 +18,15 @@
 #include <stdlib.h>
 #include <time.h>
 
-static atomic_int stop; /* set by a signal or by the main thread, read by the thread that renders */
+static atomic_int stop; /* set by a signal or the main thread, read by the rendering thread */
 
-/* What both threads share. While the rendering thread runs, only that uses the context. */
+/* Shared by both threads. While the rendering thread runs, only that uses the context. */
 typedef struct render_job {
     pt_context *context;
     uint32_t samples;
     pt_result result;         /* valid when the thread has ended, like pt_last_error(context) */
     atomic_int shown;         /* the last image was written */
-    atomic_int step_permille; /* of the step under way */
+    atomic_int step_permille; /* of the current step */
     atomic_int ended;
 } render_job;
 
@@ -35,8 +35,7 @@ static void request_stop(int signal_number) {
     atomic_store(&stop, 1);
 }
 
-/* Runs on the rendering thread, after every submission. Returning anything except 0 ends pt_accumulate with
- * PT_CANCELLED. */
+/* Runs on the rendering thread, after every submission. Returning nonzero ends pt_accumulate with PT_CANCELLED. */
 static int32_t on_progress(void *user, double fraction) {
     render_job *job = user;
     atomic_store(&job->step_permille, (int)(fraction * 1000.0));
@@ -62,13 +61,13 @@ static pt_result show(render_job *job, uint32_t sample_count) {
         atomic_store(&stop, 1);
     }
     printf("\r%u samples", (unsigned)sample_count);
-    if (isfinite(error.relative_rmse)) /* it is known from 16 samples */
+    if (isfinite(error.relative_rmse)) /* known from 16 samples on */
         printf(", error %.2g%%", 100.0 * error.relative_rmse);
     printf("          \n");
     return result;
 }
 
-/* However the samples are split into steps, the image has the same bits. */
+/* The image has the same bits, however the samples are split into steps. */
 static pt_result render_in_steps(render_job *job) {
     pt_stats stats = {.struct_size = sizeof stats};
     pt_accumulate_info step = {.struct_size = sizeof step, .sample_count = 1};
@@ -85,7 +84,7 @@ static pt_result render_in_steps(render_job *job) {
             result = show(job, stats.sample_count);
         if (result >= 0)
             result = accumulated;
-        step.sample_count = stats.sample_count > 0 ? stats.sample_count : 1; /* as many again */
+        step.sample_count = stats.sample_count > 0 ? stats.sample_count : 1; /* doubles the number */
     }
     return result;
 }
@@ -97,7 +96,7 @@ static void *render_thread(void *user) {
     return NULL;
 }
 
-/* Waits until the thread has ended. After so many seconds (0: never) asks it to stop, but not before it has samples. */
+/* Waits for the thread. After `seconds` (0: never) asks it to stop, but not before an image was shown. */
 static void watch(render_job *job, double seconds) {
     const struct timespec pause = {0, 20000000};
     double waited = 0.0; /* nearly: sleeps are a little longer */

@@ -8,7 +8,7 @@
 
 enum { WIDTH = 128, HEIGHT = 96 };
 
-/* The four verbs. Each call is made only if those before it succeeded; a result > 0 is a remark, not a failure. */
+/* Makes each call only if those before it succeeded. A result > 0 is a remark, not a failure. */
 static pt_result render(pt_context *context, float *pixels, uint64_t size_bytes) {
     static const pt_material materials[] = {
         {{0.8f, 0.8f, 0.8f}, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, 0.0f, 0},    /* white, matt */
@@ -63,8 +63,7 @@ static pt_result render(pt_context *context, float *pixels, uint64_t size_bytes)
     return result;
 }
 
-/* Writes a file; returns 1 if it is whole. PFM wants the bottom row first; -1 says that the floats are
- * little-endian. */
+/* Returns 1 if the file is whole. PFM wants the bottom row first; -1 says that the floats are little-endian. */
 static int write_pfm(const char *path, const float *pixels) {
     FILE *file = fopen(path, "wb");
     int row;
@@ -83,12 +82,12 @@ int main(void) {
     pt_context *context;
     pt_result result = pt_create(NULL, &context);
 
-    if (result < 0) { /* there is no context to ask: the message is this thread's */
+    if (result < 0) { /* without a context, the message is this thread's */
         fprintf(stderr, "%s: %s\n", pt_result_name(result), pt_last_error(NULL));
         return 1;
     }
     result = render(context, pixels, sizeof pixels);
-    if (result < 0) /* before pt_destroy, to which the message belongs */
+    if (result < 0) /* before pt_destroy, which frees the message */
         fprintf(stderr, "%s: %s\n", pt_result_name(result), pt_last_error(context));
     pt_destroy(context);
     if (result < 0)

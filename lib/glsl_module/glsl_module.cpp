@@ -42,7 +42,7 @@ std::string read_source(const fs::path &path) {
     return text;
 }
 
-// Finds included files: beside the including file, then in the directory. glslang's messages use the paths found.
+// Looks beside the including file, then in the directory. glslang's messages use the paths found.
 class Includer : public glslang::TShader::Includer {
 public:
     Includer(fs::path directory, const fs::path &main_file) :
@@ -65,7 +65,7 @@ public:
         }
     }
 
-    // Called after includeLocal has found nothing, so it gives the reason; and for #include <name>. An empty name means
+    // Called after includeLocal has found nothing, then gives the reason; and for #include <name>. An empty name means
     // no file.
     IncludeResult *includeSystem(const char * /*name*/, const char * /*file*/, std::size_t /*depth*/) override {
         const std::string reason = std::exchange(reason_, "");
@@ -110,8 +110,8 @@ private:
     bool is_endless_ = false;          // no further #include is followed
 };
 
-// The rules of glslangValidator -V. It reports all errors: stopping within an included file would also make it misread
-// the next directive.
+// Like glslangValidator -V, but reporting all errors: stopping within an included file would make glslang misread the
+// next directive.
 constexpr auto rules = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules | EShMsgCascadingErrors);
 
 std::string trimmed(std::string log) {
@@ -157,7 +157,7 @@ Words spirv_of(const fs::path &path, const fs::path &directory) {
     return words;
 }
 
-// The build validates too, because drivers do not.
+// Drivers do not validate.
 void validate(const Words &words, const fs::path &path) {
     std::string log;
     spvtools::SpirvTools tools(SPV_ENV_VULKAN_1_2);

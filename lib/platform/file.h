@@ -49,21 +49,20 @@ int create_file(const std::filesystem::path &path);  // for writing; EEXIST if i
 std::ptrdiff_t read_some(int descriptor, std::span<char> bytes);
 std::ptrdiff_t write_some(int descriptor, std::span<const std::byte> bytes);
 
-// Protects a file just created from remove_abandoned() of other processes. False if it was removed in between. True on
-// file systems without locks, where nothing is ever removed.
+// Protects a new file from remove_abandoned() of other processes. False if it was removed in between. True on file
+// systems without locks, where nothing is ever removed.
 bool lock_created(int descriptor);
 
 // Removes a file unless a process has locked it.
 void remove_abandoned(const std::filesystem::path &path);
 
-// Renames a file just created once its bytes are on the disk, so that a crash leaves no empty file. Keeps the
-// permissions of a file that it replaces.
+// Renames a new file once its bytes are on the disk. Keeps the permissions of a file that it replaces.
 bool rename_written(int descriptor, const std::filesystem::path &from, const std::filesystem::path &to);
 
 // Empty unless it is a regular file.
 std::optional<std::uint64_t> regular_size(int descriptor);
 
-// A text that changes whenever the file is written or replaced; empty if there is no such file.
+// Changes whenever the file is written or replaced; empty if there is none.
 std::optional<std::string> file_state(const std::filesystem::path &path);
 
 bool may_write(const std::filesystem::path &path);

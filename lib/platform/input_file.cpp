@@ -42,7 +42,7 @@ std::string_view InputFile::first(std::size_t count) {
 }
 
 std::string InputFile::all() {
-    bytes_.reserve(size_ + block); // so that a large file is not moved while it grows
+    bytes_.reserve(size_ + block); // avoids moving a large file while it grows
     while (take_block()) {
     }
     return std::exchange(bytes_, {});

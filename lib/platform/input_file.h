@@ -1,4 +1,4 @@
-// Files read from their beginning, as far as the reader wants.
+// Reads files from their beginning, as far as wanted.
 #pragma once
 
 #include "lib/platform/file.h"
@@ -20,8 +20,7 @@ struct InputError : std::runtime_error {
 // All functions throw InputError.
 class InputFile {
 public:
-    // Opens a regular file and refuses all else at once: a named pipe may wait for its writer, a device may have no
-    // end.
+    // Opens regular files only: a named pipe may wait for its writer, a device may have no end.
     explicit InputFile(const std::filesystem::path &path);
 
     // Standard input, of any kind.
@@ -35,7 +34,7 @@ public:
 
     std::string all();
 
-    // The whole text. A file with a NUL byte is no text, and is read only up to the block with that byte.
+    // Reading ends after the block with a NUL byte, since the file is then no text.
     std::string text();
 
 private:

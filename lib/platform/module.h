@@ -6,16 +6,15 @@
 
 namespace platform {
 
-// path: or a library's name, looked for in the system's folders, never in the working directory. NULL on failure, with
-// the reason in module_error().
+// path: or a name, looked for in the system's folders, never in the working directory. NULL on failure, with the reason
+// in module_error().
 void *load_module(const std::filesystem::path &path);
 void *find_function(void *module, const char *name);
 std::string module_error();
 
-// Keeps a loaded library loaded.
 void keep_loaded(const char *name);
 
-// The folder of the library or program that contains the function; empty if unknown.
+// The folder of the library or program with the function; empty if unknown.
 std::filesystem::path folder_with(const void *function);
 
 // File names of a module of this project, and of Open Image Denoise 2.

@@ -1,4 +1,4 @@
-// Makes text from strangers (names of files and keys, compilers, drivers) harmless for terminals.
+// Makes foreign text (names of files and keys, compilers, drivers) harmless for terminals.
 #pragma once
 
 #include <array>
@@ -33,7 +33,7 @@ constexpr bool is_control(char32_t code) {
            (code >= 0x2028 && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069);
 }
 
-// Writes such characters as <U+001B>, except those in `kept`.
+// Writes these as <U+001B>, except those in `kept`.
 inline std::string printable(std::string_view text, std::string_view kept = "") {
     std::string shown;
     while (!text.empty()) {

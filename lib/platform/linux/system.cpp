@@ -19,12 +19,12 @@ std::uint64_t peak_bytes() {
 }
 
 std::uint64_t most_bytes() {
-    // The container's limit (cgroup v2): "max" without a limit; the file is missing outside containers.
+    // The container's limit (cgroup v2): "max" if unlimited; no file outside containers.
     std::uint64_t container = 0;
     if (!(std::ifstream("/sys/fs/cgroup/memory.max") >> container))
         container = std::numeric_limits<std::uint64_t>::max();
     struct sysinfo system {};
-    rlimit address_space{}; // the largest number without a limit
+    rlimit address_space{}; // the largest number if unlimited
     sysinfo(&system);
     getrlimit(RLIMIT_AS, &address_space);
     const auto bytes = [&](std::uint64_t units) { return units * system.mem_unit; };

@@ -19,10 +19,10 @@ std::string module_error() {
 
 void keep_loaded(const char *name) {
     if (void *const loaded = dlopen(name, RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE))
-        dlclose(loaded); // only drops the reference just taken
+        dlclose(loaded); // drops only the reference just taken
 }
 
-// A relative path, as from a relative LD_LIBRARY_PATH, counts only if its file is still the loaded one.
+// A relative path counts only if its file is still the loaded one.
 std::filesystem::path folder_with(const void *function) {
     Dl_info info{};
     if (dladdr(function, &info) == 0 || !info.dli_fname)

@@ -43,7 +43,7 @@ void close_file(int descriptor) {
     _close(descriptor);
 }
 
-// Others may rename and remove the file meanwhile, as elsewhere.
+// Others may rename and remove the file meanwhile.
 int open_to_read(const fs::path &path) {
     constexpr DWORD sharing = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
     return opened(

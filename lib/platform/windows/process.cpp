@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Skips a word of this project's command lines, where quotes enclose whole words.
+// Quotes enclose whole words in this project's command lines.
 const wchar_t *after_word(const wchar_t *line) {
     const wchar_t end = *line == L'"' ? L'"' : L' ';
     line += *line == L'"' ? 1 : 0;
@@ -74,7 +74,7 @@ fs::path find_program(const std::string &name) {
     return {};
 }
 
-// No process can replace this one, so it waits. The other one gets the rest of the command line as written.
+// No process can replace this one, so it waits. The other one gets the rest of the command line.
 int run_instead(const fs::path &program, char *const *) {
     std::wstring line = L'"' + program.wstring() + L"\" " + after_word(after_word(GetCommandLineW()));
     STARTUPINFOW start{};

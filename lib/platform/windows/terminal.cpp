@@ -16,7 +16,7 @@ BOOL WINAPI note_end(DWORD event) {
     const bool is_key = event == CTRL_C_EVENT || event == CTRL_BREAK_EVENT;
     if (end_of_process(is_key ? interruption : hangup))
         return FALSE;
-    if (!is_key) // when this returns the process ends; after some seconds anyway
+    if (!is_key) // the process ends when this returns, or after some seconds
         Sleep(INFINITE);
     return TRUE;
 }

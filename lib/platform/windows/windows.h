@@ -1,4 +1,4 @@
-// windows.h without what collides with other names.
+// Includes windows.h without names that collide with others.
 #pragma once
 
 #define WIN32_LEAN_AND_MEAN
