@@ -1,15 +1,14 @@
 """Generates from the headers: structs and enumerations in Python (pt/_structs.py, pt/_enums.py), the kernels' numbers
 (shaders/enumerations.h), and the program's names of values (cli/base/enumerations.h).
 
-python3 lib/python/generate.py [HEADERS [ROOT]]; by default this tree's. The files are committed, because the
-package is installed without headers and build; a test compares them."""
+python3 lib/python/generate.py [HEADERS [ROOT]]; by default this tree's. The files are committed: the package is
+installed without headers and build."""
 
 import pathlib
 import re
 import sys
 import textwrap
 
-# Prefix, Python class, its base and docstring.
 ENUMERATIONS = (
     ("PT_QUANTITY_", "Quantity", "IntEnum", "What is read of an image."),
     ("PT_FORMAT_", "Format", "IntEnum", "What a pixel is; A is 1."),
@@ -31,7 +30,7 @@ ENUMERATIONS = (
                                  "first four."),
 )
 
-# Enumerations that the program names (its table, and the separator of words), and those that kernels know.
+# Enumerations with names in the program (its table, and the separator of words), and the kernels' ones.
 OF_PROGRAM = {"PT_SAMPLER_": ("samplers", "-"), "PT_SAMPLING_": ("samplings", "-"), "PT_ESTIMATOR_": ("estimators", "-"),
               "PT_PROJECTION_": ("projections", "-"), "PT_FEATURE_": ("features", "_"),
               "PT_UNCERTAIN_": ("uncertainties", "_")}
@@ -59,7 +58,7 @@ def python_type(declared, known):
 
 
 def members_of(body):
-    """Names and types of a struct's members, declared one per line."""
+    """Members are declared one per line."""
     for declaration in filter(None, (" ".join(part.split()) for part in body.split(";"))):
         kind, name, array = re.fullmatch(r"(.*?)(\w+)((?:\[\d+\])*)", declaration).groups()
         yield name, kind.strip() + array

@@ -22,18 +22,18 @@ particles["position"] = random.uniform((-2, 0, -1), (2, 1, 1), (COUNT, 3))
 particles["radius"] = 0.6 / np.cbrt(COUNT) * random.uniform(0.5, 1.0, COUNT)
 particles["color"] = np.where(particles["position"][:, :1] > 0, (230, 110, 40), (60, 120, 210))
 
-# %% One call. A notebook shows the image that a cell ends with; the library reads the particles where they are.
+# %% One call. A notebook shows the image that a cell ends with.
 
 image = pt.render(particles["position"], particles["radius"], particles["color"], size=SIZE, samples=32, up="y",
                   floor=True)
 image.save("particles.png")
 print(image)
 
-# %% The numbers behind the picture are NumPy arrays: linear radiance, its standard error, samples.
+# %% The image's numbers: linear radiance, its standard error, samples.
 
 print(f"mean radiance {image.radiance.mean():.3f}, brightest {image.radiance.max():.3f}, error {image.error:.1%}")
 
-# %% Another light and camera: a scene. Here until the image's error is 5%, with the progress.
+# %% Another light and camera. Sampled until the error is 5%, with progress.
 
 spheres = pt.SphereArray(particles["position"], particles["radius"],
                          pt.Material(diffuse=0.6, specular=0.3, glossiness=50), color=particles["color"])
@@ -49,7 +49,7 @@ lit = context.render(scene, camera, pt.RenderSettings(*SIZE), samples=256, targe
 lit.save("lamp.png")
 print(f"\n{lit}")
 
-# %% Half of the samples here and half elsewhere, as processes or machines have them: films add up, bit by bit.
+# %% Half of the samples here and half elsewhere: films add up, bit by bit.
 
 halves = []
 for first in 0, 8:
@@ -63,7 +63,7 @@ context.accumulate(16)
 assert np.array_equal(whole.image(), context.image())
 print(whole)
 
-# %% Particles that move: the same context and arrays, a picture for each step.
+# %% Moving particles: the same context and arrays, a picture for each step.
 
 for step in range(3):
     particles["position"][:, 1] *= 0.8

@@ -4,11 +4,12 @@
     image = pt.render(positions, radii, colors)   # NumPy arrays: (n, 3), (n,), (n, 3)
     image.save("picture.png")                     # or leave it as the last line of a notebook's cell
 
-For everything else: a Context, which is given a Scene, a Camera and RenderSettings, accumulates samples and reads the
-image back. World: right-handed, lengths in scene units, angles in radians, time in [0, 1]. Color is linear RGB
-radiance, unclamped. Row 0 of an image is the top row.
+A Context takes a Scene, a Camera and RenderSettings, accumulates samples and reads the image back.
 
-The library is libpt.so.0.3: the file that PT_LIBRARY names, else the one installed with the package, else the system's.
+World: right-handed, lengths in scene units, angles in radians, time in [0, 1]. Color is linear RGB radiance, unclamped.
+Row 0 of an image is the top row.
+
+The library is the file that PT_LIBRARY names, else the one installed with the package, else the system's libpt.so.0.3.
 """
 
 import importlib
@@ -30,7 +31,7 @@ from pt._library import library, version_text
 from pt._scene import Material, Plane, Scene, Sphere, SphereArray
 from pt._stats import DeviceInfo, ErrorEstimate, Stats, devices
 
-if TYPE_CHECKING:  # imported by __getattr__ on first use: figures take as long as all the rest
+if TYPE_CHECKING:  # imported by __getattr__ on first use, because figures import slowly
     from pt._render import render
     from pt.figures import Figure, figure
 
@@ -47,13 +48,12 @@ __version__: str  # the library's
 
 
 def version() -> str:
-    """The version of the library: "0.3.0"."""
+    """The library's version: "0.3.0"."""
     return version_text(library())
 
 
 if not TYPE_CHECKING:  # type checkers would allow any name
     def __getattr__(name):
-        """Loads the library and figures on first use, not on import."""
         if name == "__version__":
             return version()
         modules = {"Figure": "pt.figures", "figure": "pt.figures", "render": "pt._render"}

@@ -1,9 +1,8 @@
 """Python callbacks of the library, and their exceptions.
 
-Signal handlers run between instructions of Python code, so during a call of the library they run in its callbacks.
-Ctrl-C raises KeyboardInterrupt there, often before any `try`. ctypes passes exceptions not through C, but to
-sys.unraisablehook. There a CallbackGuard takes them; the library stops at its next callback, and the exception is
-raised when the call has returned.
+Signal handlers run between instructions of Python code, so during a call in the library's callbacks. Ctrl-C raises
+KeyboardInterrupt there, often before any `try`, and ctypes passes exceptions to sys.unraisablehook, not through C. A
+CallbackGuard takes them there; the library stops at its next callback, and the call raises the exception.
 """
 
 from __future__ import annotations
@@ -55,8 +54,8 @@ class CallbackGuard:
         return structs.pt_progress_fn(report)
 
     def takes(self, function: object, words: str | None) -> bool:
-        """Whether a function that raised belongs to this call. From Python 3.13 on, only a text with its address
-        identifies it."""
+        """Whether a function that raised belongs to this call. Python 3.13 identifies it only by a text with its
+        address."""
         return any(own is function or (words is not None and repr(own) in words) for own in self._functions)
 
 
@@ -93,7 +92,7 @@ def _remove(guard: CallbackGuard) -> None:
 
 
 def log_function(current_log: Callable[[], Log | None]) -> Callable[[object, int, bytes], None]:
-    """The function for pt_log_fn."""
+    """A pt_log_fn."""
 
     def write(_: object, level: int, line: bytes) -> None:
         log = current_log()

@@ -18,16 +18,16 @@ from pt._vectors import Vector, vector
 
 @dataclass(frozen=True)
 class Camera:
-    """A pinhole; with an aperture a thin lens; with a vertical_extent parallel rays.
+    """A pinhole; with an aperture a thin lens; with a vertical_extent parallel rays. Lengths are in scene units.
 
-    position          of the pinhole, scene units; parallel rays start on the plane through it across the view
+    position          of the pinhole; parallel rays start on the plane through it across the view
     target            the point in the middle of the image; must differ from position
-    up                not parallel to the viewing direction; its perpendicular part is the image's vertical axis
-    vertical_fov      full vertical angle, radians, in [1e-8, pi); default pi / 4. None with parallel rays
+    up                not parallel to the viewing direction
+    vertical_fov      full angle, radians, in [1e-8, pi); default pi / 4. None with parallel rays
     shutter           light is gathered evenly between these times, 0 <= open <= close <= 1
-    vertical_extent   full height of the view of parallel rays, scene units, in [1e-18, 1e18]; None: perspective
-    aperture          diameter of the lens, scene units, at most twice the focus; 0: a pinhole
-    focus             depth of the plane in focus, scene units; 0: the distance of target
+    vertical_extent   full height of the view of parallel rays, in [1e-18, 1e18]; None: perspective
+    aperture          diameter of the lens, at most twice the focus; 0: a pinhole
+    focus             depth of the plane in focus; 0: the distance of target
     """
 
     position: Vector
@@ -85,14 +85,13 @@ class Camera:
         return Projection.PERSPECTIVE if self.vertical_extent is None else Projection.ORTHOGRAPHIC
 
     def _scaled(self, scale: float) -> Camera:
-        """Multiplies all lengths."""
         extent = self.vertical_extent
         return replace(self, position=np.multiply(self.position, scale), target=np.multiply(self.target, scale),
                        vertical_extent=None if extent is None else extent * scale,
                        aperture=self.aperture * scale, focus=self.focus * scale)
 
     def _section(self) -> dict[str, Any]:
-        """The scene file's section."""
+        """A scene file's section."""
         section: dict[str, Any] = {"position": list(self.position), "look_at": list(self.target), "up": list(self.up)}
         shutter = {} if tuple(self.shutter) == (0.0, 1.0) else {"shutter": list(self.shutter)}
         if self.vertical_fov is None:
@@ -102,7 +101,7 @@ class Camera:
 
     @staticmethod
     def _of_section(section: dict[str, Any]) -> Camera:
-        """The camera of a section. ValueError, TypeError, KeyError: not a camera."""
+        """Reads a scene file's section. ValueError, TypeError, KeyError: not a camera."""
         others = {name: float(section[name]) for name in ("vertical_extent", "aperture", "focus") if name in section}
         angle = section.get("vertical_fov")
         first, last = map(float, section.get("shutter", (0.0, 1.0)))
@@ -139,7 +138,7 @@ class RenderSettings:
     width, height     pixels, >= 1
     max_path_length   surface vertices after the camera, in [1, 1024]; 1 is emission only
     seed              equal inputs, device, driver and seed give equal bits
-    first_sample      index of the first sample: ranges of one sequence may be taken anywhere, and their films add up
+    first_sample      index of the first sample; films of ranges of one sequence add up
     estimator         how light is found
     sampler           where a sample's numbers come from
     first_row         the first row rendered; rows are read back as an image of their own

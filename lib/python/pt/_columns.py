@@ -40,8 +40,7 @@ def _laid_out(name: str, array: Array, components: int, count: int | None) -> Ar
 
 
 def real_column(name: str, values: npt.ArrayLike, components: int, count: int | None) -> Array:
-    """Keeps float32 and float64 of native byte order; copies other numbers, small floats to float32, others to float64.
-    """
+    """Keeps float32 and float64 of native byte order; copies small floats to float32, other numbers to float64."""
     array = np.asarray(values)
     if array.dtype.kind not in "fiu":
         raise TypeError(f"{name}.dtype = {array.dtype}: must be of real numbers")
@@ -63,7 +62,7 @@ def check_finite(name: str, values: npt.ArrayLike, *, positive: bool = False) ->
 
 
 def color_column(name: str, values: npt.ArrayLike, count: int) -> Array:
-    """A column of floats (linear) or of uint8 (sRGB)."""
+    """A column of floats (linear) or uint8 (sRGB)."""
     array = np.asarray(values)
     if array.dtype == np.uint8:
         return _laid_out(name, array, 3, count)

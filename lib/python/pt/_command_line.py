@@ -35,8 +35,8 @@ def at_least(least: float, kind: type) -> Callable[[str], Any]:
 
 
 def misnamed(files: Sequence[tuple[str, Sequence[str]]], source: str) -> tuple[str, int] | None:
-    """Why names of output files are wrong, and the exit code; None if they are good. Each has its permitted formats,
-    empty for any. source: the input file."""
+    """Why names of output files are wrong, and the exit code; None if they are good. formats: empty for any. source:
+    the input file."""
     for name, formats in files:
         place = pathlib.Path(name)
         try:

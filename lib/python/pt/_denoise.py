@@ -35,17 +35,16 @@ FIRST_SAMPLES: Final = 16  # per image, before the first check of a target error
 def denoise(first: npt.ArrayLike, second: npt.ArrayLike, albedo: npt.ArrayLike, normal: npt.ArrayLike, *,
             library_path: str | os.PathLike[str] | None = None, any_device: bool = False
             ) -> tuple[Pixels, ErrorEstimate]:
-    """A picture without noise, and its error.
+    """A picture without noise, and its error. The result lies between the mean of both and the filtered image, where
+    its error is least.
 
-    first, second   radiance, shape (height, width, 3): two images that differ in RenderSettings.seed only. Two parts of
-                    one sequence are dependent, and the error would be stated too small
+    first, second   radiance, shape (height, width, 3): two images that differ in RenderSettings.seed only. Dependent
+                    images, such as parts of one sequence, make the stated error too small
     albedo, normal  Quantity.ALBEDO and NORMAL, of the same shape
     library_path    of Open Image Denoise 2; None: the module pyoidn's, else the system's
-    any_device      its own choice of device, such as a GPU, or OIDN_DEFAULT_DEVICE's, instead of the CPU
+    any_device      its own choice of device or OIDN_DEFAULT_DEVICE's, instead of the CPU
 
-    The result lies between the mean of both and the filtered image, where its error is least. UnsupportedError: the
-    library is not installed; `pip install pyoidn`, or this package's extra denoise, brings it. ValueError: shapes
-    differ.
+    UnsupportedError: the library is not installed (`pip install pyoidn`). ValueError: shapes differ.
     """
     images = [np.ascontiguousarray(image, np.float32) for image in (first, second, albedo, normal)]
     shape = images[0].shape
@@ -63,7 +62,7 @@ def denoise(first: npt.ArrayLike, second: npt.ArrayLike, albedo: npt.ArrayLike, 
 
 
 def find_library() -> str | None:
-    """The library in the module pyoidn, which is not imported."""
+    """The library in the module pyoidn, without importing it."""
     spec = importlib.util.find_spec("pyoidn")
     for folder in spec.submodule_search_locations or () if spec else ():
         path = pathlib.Path(folder, "oidn", "lib", "libOpenImageDenoise.so.2")

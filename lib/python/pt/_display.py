@@ -15,10 +15,9 @@ MOST_STOPS = 64.0
 
 
 def automatic_exposure(radiance: npt.NDArray[Any]) -> float:
-    """The stops that bring an image's average to middle grey: Reinhard, Stark, Shirley, Ferwerda 2002, "Photographic
-    Tone Reproduction for Digital Images", eqs. 1 and 2, for the mean of the channels, rounded to hundredths. Pixels
-    darker than 1/128 of the level have less weight. The level is the mean after clipping values to the mean three
-    times."""
+    """The stops that bring the average to middle grey, in hundredths: Reinhard, Stark, Shirley, Ferwerda 2002,
+    "Photographic Tone Reproduction for Digital Images", eqs. 1 and 2, for the mean of the channels. Pixels darker than
+    1/128 of the level have less weight. The level is the mean after clipping values to the mean three times."""
     means = radiance.astype(np.float64).mean(axis=2)
     means = means[means > 0]
     if not means.size:
@@ -45,7 +44,6 @@ def signal(light: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
 
 
 def linear(signal: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-    """The inverse of signal()."""
     return np.where(signal <= 0.04045, signal / 12.92, ((signal + 0.055) / 1.055)**2.4)
 
 

@@ -13,9 +13,9 @@ class BrokenRule:
     """A field and its broken rule: `spheres[3].center[0] = nan: must be finite`."""
 
     subject: str  # "materials", "spheres", "planes", "sphere_arrays", "scene", "camera", "render", ...
-    index: int | None  # the element of subject, if that is an array; else None
-    member: str  # of the subject, as "center"; "" for a rule about the argument itself
-    component: int | None  # the element of member, if it has several; else None
+    index: int | None  # None unless the subject is an array
+    member: str  # "center"; "" for a rule about the argument itself
+    component: int | None  # None unless the member has several
     joined_with: str  # the rest of the value, as "* height" beside "width"; else ""
     value: str  # "nan"
     rule: str  # "must be finite"
@@ -48,7 +48,7 @@ class InvalidArgumentError(Error, ValueError):
 
 
 class InvalidSceneError(Error, ValueError):
-    """A scene breaks a rule; the message names field, value and rule."""
+    """A scene breaks a rule."""
 
     result = Result.ERROR_INVALID_SCENE
 
@@ -66,19 +66,17 @@ class UnsupportedError(Error, RuntimeError):
 
 
 class NoDeviceError(Error, RuntimeError):
-    """No Vulkan driver, or no device fits; the message has the reasons."""
+    """No Vulkan driver, or no device fits."""
 
     result = Result.ERROR_NO_DEVICE
 
 
 class OutOfHostMemoryError(Error, MemoryError):
-    """The machine has too little memory left."""
-
     result = Result.ERROR_OUT_OF_HOST_MEMORY
 
 
 class OutOfDeviceMemoryError(Error, MemoryError):
-    """The device has too little memory left, for this image for instance."""
+    """The device has too little memory left, for instance for this image."""
 
     result = Result.ERROR_OUT_OF_DEVICE_MEMORY
 
@@ -102,7 +100,7 @@ class InternalError(Error, RuntimeError):
 
 
 class IncompatibleError(Error, ValueError):
-    """A film that does not belong to the picture or the other film, or is damaged."""
+    """The film is damaged, or belongs to another picture."""
 
     result = Result.ERROR_INCOMPATIBLE
 

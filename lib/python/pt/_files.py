@@ -25,8 +25,8 @@ def format_of(path: Path, formats: Sequence[str]) -> str:
 
 
 def regular(path: Path, flags: int) -> int:
-    """For open(opener=): opens regular files alone. A named pipe could wait for its writer for ever, and a device have no
-    end. OSError: it is none."""
+    """For open(opener=). A named pipe could wait for its writer for ever, and a device have no end. OSError: not a
+    regular file."""
     descriptor = os.open(path, flags | getattr(os, "O_NONBLOCK", 0))
     if stat.S_ISREG(os.fstat(descriptor).st_mode):
         return descriptor

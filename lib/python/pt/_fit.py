@@ -21,17 +21,13 @@ def chunks(count: int) -> Iterator[slice]:
 
 
 def coordinates(rows: Array) -> Doubles:
-    """A chunk of rows in shape (3, n): NumPy takes ten times as long along an axis of length three."""
+    """A chunk of rows in shape (3, n): NumPy is slow along an axis of length three."""
     return rows.T.astype(np.float64, order="C")
 
 
 @dataclass(frozen=True)
 class Spin:
-    """A full turn about an axis.
-
-    axis      unit vector
-    through   a point of the axis
-    """
+    """A full turn about an axis (a unit vector) through a point."""
 
     axis: Doubles
     through: Doubles
@@ -81,7 +77,7 @@ SIDES: Final = np.vstack([np.eye(3), -np.eye(3)])  # right, up, forward, and the
 
 @dataclass(frozen=True)
 class Extents:
-    """Coordinates of balls along right, up and forward."""
+    """Coordinates along right, up and forward."""
 
     low: Doubles
     high: Doubles
@@ -101,8 +97,8 @@ class Extents:
 
 
 def pyramid(tangents: tuple[float, float]) -> Doubles:
-    """Outward unit normals of a perspective's four bounding planes, in the view's axes: left, right, bottom, top.
-    tangents: of half the horizontal and half the vertical angle."""
+    """Outward unit normals of a perspective's bounding planes, in the view's axes: left, right, bottom, top. tangents:
+    of half the horizontal and half the vertical angle."""
     across, upwards = (1.0 / math.hypot(1.0, tangent) for tangent in tangents)
     sines = tangents[0] * across, tangents[1] * upwards
     return np.array([(-across, 0.0, -sines[0]), (across, 0.0, -sines[0]),
@@ -112,10 +108,10 @@ def pyramid(tangents: tuple[float, float]) -> Doubles:
 def apex(reaches: Doubles, axes: Doubles, normals: Doubles) -> Doubles:
     """The nearest pinhole that sees balls with these reaches along the pyramid's normals.
 
-    A ball is wholly in view if dot(n, p) >= dot(n, c) + r for the pinhole p and each side's outward unit normal n; all
-    are if dot(n, p) >= s with the reach s. For half the horizontal angle a the normals are -cos(a) right - sin(a)
-    forward and cos(a) right - sin(a) forward. Their sum gives dot(forward, p) <= -(s_left + s_right) / (2 sin a); the
-    vertical pair gives another bound, and p takes the smaller. Sideways dot(right, p) = (s_right - s_left) / (2 cos a).
+    A ball is in view if dot(n, p) >= dot(n, c) + r for the pinhole p and each outward normal n; all are if dot(n, p) >=
+    s, the reach. For half the horizontal angle a the normals are -+cos(a) right - sin(a) forward. Their sum:
+    dot(forward, p) <= -(s_left + s_right) / (2 sin a), and the same vertically; their difference: dot(right, p) =
+    (s_right - s_left) / (2 cos a).
     """
     right, above, forward = axes
     low, high = -reaches[0::2], -reaches[1::2]

@@ -13,17 +13,15 @@ from pt._stats import ErrorEstimate, Stats
 
 
 class Image:
-    """Linear radiance, shape (height, width, 3), float32, row 0 at the top. NumPy accepts the image as an array:
-    np.mean(image), image[y, x], image - other.
+    """Linear radiance, shape (height, width, 3), float32, row 0 at the top. NumPy accepts the image as an array.
 
     radiance         the mean of the samples, linear RGB, unclamped, >= 0
-    standard_error   of each number; only a hint in a single pixel, and infinite with up to 8 samples
+    standard_error   of each number; a mere hint in a single pixel, infinite with up to 8 samples
     sample_count     shape (height, width), uint32
     error_estimate   how good the whole image is
     stats            counts and costs
     exposure         stops for the picture of _repr_png_ and save; None: automatic
-    raw              a denoised image's mean of the samples, which standard_error belongs to; radiance and
-                     error_estimate are the result's. Else None
+    raw              a denoised image's mean of the samples, which standard_error belongs to; else None
     """
 
     def __init__(self, radiance: npt.NDArray[np.float32], standard_error: npt.NDArray[np.float32],
@@ -73,9 +71,8 @@ class Image:
                 f"error {self.error:.3g} ({low:.3g} to {high:.3g})>")
 
     def to_srgb8(self, exposure: float | None = None) -> npt.NDArray[np.uint8]:
-        """The picture in sRGB, shape (height, width, 3): radiance times 2^exposure, clamped to [0, 1]. exposure
-        defaults to the image's, then to one that brings the average to middle grey, 0.18. pt writes the same bits by
-        default."""
+        """The picture in sRGB, shape (height, width, 3): radiance times 2^exposure, clamped to [0, 1]; pt's bytes.
+        exposure defaults to the image's, then to one that brings the average to middle grey, 0.18."""
         if exposure is None:
             exposure = self.exposure
         return to_srgb8(self.radiance, automatic_exposure(self.radiance) if exposure is None else exposure)
@@ -90,5 +87,4 @@ class Image:
             write_atomically(path, lambda file: file.write(data))
 
     def _repr_png_(self) -> bytes:
-        """For notebooks."""
         return encode_png(self.to_srgb8())

@@ -62,7 +62,6 @@ NOT_RESULTS: Final[dict[str, Any]] = {
 
 
 def library_path() -> str:
-    """PT_LIBRARY, else the library installed with the package, else the system's."""
     named = os.environ.get("PT_LIBRARY")
     if named:
         return named

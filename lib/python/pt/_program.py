@@ -32,7 +32,7 @@ TYPES: Final = {ColumnType.FLOAT32: np.float32, ColumnType.FLOAT64: np.float64, 
 
 @dataclass(frozen=True)
 class ReadScene:
-    """A scene file as read by the program. files: of columns."""
+    """A scene file's contents. files: of columns."""
 
     scene: Scene
     camera: Camera
@@ -41,7 +41,7 @@ class ReadScene:
 
 
 class Program:
-    """Reads and renders a scene by `pt render --parts`; cli/render/render_command.h describes requests and answers.
+    """Reads and renders a scene by `pt render --parts` (cli/render/render_command.h).
 
     arguments   of `pt render`
     files       initial ones, by names relative to its working folder

@@ -22,10 +22,9 @@ def render(positions: npt.ArrayLike, radii: npt.ArrayLike, colors: npt.ArrayLike
 
     positions   shape (n, 3), n >= 1
     radii       shape (n,), or one number for all; > 0
-    colors      shape (n, 3) or (3,): sRGB, floats in [0, 1] or uint8. They multiply the material's diffuse; None: grey
+    colors      shape (n, 3) or (3,): sRGB, floats in [0, 1] or uint8, times the material's diffuse; None: grey
 
-    Other parameters are figure()'s, which also reads files, maps numbers to colors and has more options. Arrays are
-    read in place as SphereArray says.
+    Other parameters are figure()'s. Arrays are read in place as SphereArray says.
     """
     centers = real_column("positions", positions, 3, None)
     if not len(centers):

@@ -27,7 +27,7 @@ class Material:
     specular     weight of the lobe about the mirror direction
     emission     radiance, in every direction and on both sides
     glossiness   exponent of the lobe, in [0, 1e9]
-    hidden_from_camera   whether camera rays pass through; other rays do not
+    hidden_from_camera   whether camera rays, and no others, pass through
     """
 
     diffuse: Color = 0.0
@@ -42,7 +42,7 @@ class Material:
         object.__setattr__(self, "glossiness", float(self.glossiness))
 
     def _section(self) -> dict[str, Any]:
-        """The scene file's section without defaults; a grey is one number."""
+        """A scene file's section without defaults; a grey is one number."""
         section: dict[str, Any] = {}
         for name in ("diffuse", "specular", "emission", "glossiness", "hidden_from_camera"):
             value = getattr(self, name)
@@ -98,24 +98,22 @@ class Plane:
 
 
 class SphereArray:
-    """Many spheres, read from NumPy arrays in place each time the scene is set; later changes of the arrays do not
-    count.
+    """Many spheres, read from NumPy arrays in place whenever the scene is set; later changes of the arrays do not
+    count. Lengths are in scene units.
 
-    center     shape (n, 3): x, y, z at time 0, scene units
-    radius     shape (n,), or one number for all; > 0, scene units
+    center     shape (n, 3): x, y, z at time 0
+    radius     shape (n,), or one number for all; > 0
     material   a Material or an index in Scene.materials for all, or indices of shape (n,)
     motion     shape (n, 3) or (3,): displacement from time 0 to time 1; none by default
-    color      shape (n, 3) or (3,), multiplies the material's diffuse: linear floats in [0, 1], or sRGB in uint8, as in
-               pictures and color maps; 1 by default
+    color      shape (n, 3) or (3,), multiplies the material's diffuse: linear floats in [0, 1], or sRGB in uint8; 1 by
+               default
     end        shape (n, 3) or (3,): a second center; each sphere is swept to it as a capsule, which neither emits nor
                moves
-    opacity    shape (n,), or one number for all, in [0, 1]: the share of rays that meet it, each at random; 1 by
-               default
+    opacity    shape (n,), or one number for all, in [0, 1]: the share of rays that meet it, at random; 1 by default
 
     Arrays of float32, float64, uint32 (indices) and uint8 (colors) in native byte order are read in place if their rows
-    are contiguous and ascend, at any distance: slices a[::2], columns a[:, :3], fields of structured arrays,
-    np.broadcast_to. Others are copied once, here: transposed (Fortran) and reversed arrays, other byte orders, lists,
-    other types of numbers. `copied` has the names of those columns.
+    are contiguous and ascend, at any distance: slices a[::2], columns a[:, :3], fields of structured arrays. Others are
+    copied once, here; `copied` names those columns.
 
     ValueError: shapes do not fit. TypeError: not numbers, or colors of integers that are not uint8.
     """
@@ -153,8 +151,6 @@ class Scene:
     """The visible world.
 
     materials       referred to by indices; materials of spheres and planes are added, each once
-    spheres         in any order, like all that follow
-    planes
     sphere_arrays   more spheres, for instance one SphereArray for each species
     """
 
@@ -165,8 +161,6 @@ class Scene:
 
 
 class _Materials:
-    """A scene's materials while they are collected."""
-
     def __init__(self, listed: Sequence[Material]) -> None:
         self.all = list(listed)
         self.indices: dict[Material, int] = {}
@@ -186,7 +180,7 @@ class _Materials:
 
 
 class SceneStruct:
-    """A pt_scene and all that it points to, valid as long as this object."""
+    """A pt_scene and its arrays, valid as long as this object."""
 
     def __init__(self, scene: Scene, guard: CallbackGuard, progress: Progress | None) -> None:
         materials = _Materials(scene.materials)
@@ -213,6 +207,6 @@ class SceneStruct:
 
 
 def _pointer(struct: Any, elements: list[Any]) -> Any:
-    """A pointer to an array of structs, which it keeps alive; NULL if there are none."""
+    """An array of structs, or None if it is empty."""
     return (struct * len(elements))(*elements) if elements else None
 

@@ -16,15 +16,15 @@ from pt._library import checked, library
 class Stats:
     """Counts and costs so far. Fields that only a context knows are 0 for a film."""
 
-    sample_count: int  # whole samples in every pixel; if they differ, the fewest
+    sample_count: int  # in every pixel; the fewest if they differ
     max_sample_count: int  # the most that a pixel has (Sampling.ADAPTIVE)
-    mean_sample_count: float  # mean over all pixels
-    rejected_samples: int  # left out, over all pixels: NaN, infinite, negative or too bright
+    mean_sample_count: float  # over all pixels
+    rejected_samples: int  # over all pixels: NaN, infinite, negative or too bright
     features: Feature  # of the kernel
-    device_bytes: int  # allocated by the context on all its devices now
-    device_count: int  # devices that share the samples
-    device_seconds: float  # time spent in submissions, summed
-    submit_count: int  # submissions that took samples
+    device_bytes: int  # on all devices of the context now
+    device_count: int
+    device_seconds: float  # in submissions, summed
+    submit_count: int  # with samples
 
 
 def stats_of(struct: structs.pt_stats) -> Stats:
@@ -35,16 +35,15 @@ def stats_of(struct: structs.pt_stats) -> Stats:
 
 @dataclass(frozen=True)
 class ErrorEstimate:
-    """How good an image is, estimated without a reference: the root mean square of x - r over pixels and channels, for
-    the image x and its limit r, and of (x - r) / sqrt(r^2 + 0.01), each with bounds of 95% confidence.
-
-    With fewer than 16 samples nothing is known: the lower bounds are 0, the other values infinite.
+    """An image's error, estimated without a reference: the root mean square of x - r over pixels and channels, for the
+    image x and its limit r, and of (x - r) / sqrt(r^2 + 0.01), each with bounds of 95% confidence. With fewer than 16
+    samples the lower bounds are 0, the other values infinite.
     """
 
-    rmse: float  # root mean square error, in units of radiance
+    rmse: float  # in units of radiance
     rmse_low: float
     rmse_high: float
-    relative_rmse: float  # relative root mean square error; 0.01 is 1%
+    relative_rmse: float  # 0.01 is 1%
     relative_rmse_low: float
     relative_rmse_high: float
     uncertain: Uncertain  # why the error may be far off
@@ -58,15 +57,13 @@ def error_estimate_of(struct: structs.pt_error_estimate) -> ErrorEstimate:
 
 @dataclass(frozen=True)
 class DeviceInfo:
-    """A Vulkan device."""
-
     name: str
     kind: DeviceKind
     driver: str  # name and version
-    memory_bytes: int  # size of its largest memory heap that kernels can reach quickly
-    uuid: uuid.UUID  # tells two equal devices apart; stable over reboots
+    memory_bytes: int  # of the largest memory heap that kernels can reach quickly
+    uuid: uuid.UUID  # stable over reboots; differs between equal devices
     suitable: bool  # whether a Context can use it
-    reason: str  # why not; empty if it can
+    reason: str  # why not, else empty
 
 
 def device_of(struct: structs.pt_device_info) -> DeviceInfo:

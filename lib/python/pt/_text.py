@@ -1,4 +1,4 @@
-"""Text from strangers: names of files and keys, and what drivers and compilers say."""
+"""Text from strangers: names of files and keys, and messages of drivers and compilers."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import re
 import sys
 from typing import Final, TextIO
 
-# What moves the cursor, changes the terminal, begins a line, or reverses the order of others (UAX #9, table 1).
+# Characters that move the cursor, change the terminal, begin a line, or reverse the order of others (UAX #9, table 1).
 CONTROL: Final = re.compile("[\0-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069]")
 
 
@@ -23,7 +23,7 @@ def tell(program: str, message: str, stream: TextIO | None = None) -> None:
 
 
 def c_string(text: str | os.PathLike[str] | None) -> bytes | None:
-    """For the library, which would take a NUL byte for the end. ValueError: there is one."""
+    """Bytes for the library. ValueError: a NUL byte, which the library would take for the end."""
     if text is None:
         return None
     data = os.fsencode(text)

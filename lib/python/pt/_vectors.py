@@ -14,7 +14,7 @@ Color: TypeAlias = "float | Sequence[float] | npt.NDArray[Any]"
 
 
 def vector(name: str, value: Vector) -> Triple:
-    """Three numbers as floats. ValueError: not three."""
+    """ValueError: not three numbers."""
     numbers = np.asarray(value, np.float64)
     if numbers.shape != (3,):
         raise ValueError(f"{name} = {value!r}: must be three numbers")

@@ -1,5 +1,4 @@
-"""pt-farm: scene files on a Dask cluster. `pt` reads and renders them on the workers and writes pictures here, so
-options, messages and files are pt's."""
+"""pt-farm: scene files on a Dask cluster. `pt` reads and renders them on the workers and writes pictures here."""
 
 from __future__ import annotations
 
@@ -36,7 +35,7 @@ from pt.farm._sum import write_film
 def cluster(arguments: argparse.Namespace) -> Iterator[Any]:
     logging.getLogger("distributed").setLevel(logging.ERROR)
     try:
-        dask: Any = importlib.import_module("distributed")  # without types; the import takes half a second
+        dask: Any = importlib.import_module("distributed")  # untyped; the import is slow
     except ImportError as error:
         refuse(f"needs Dask: pip install './lib/python[farm]' ({error})", INTERNAL)
     if arguments.scheduler:
@@ -82,7 +81,7 @@ def write_pictures(film: Film, arguments: argparse.Namespace, facts: dict[str, A
 
 
 def described(job: FileJob, frame: int | None) -> tuple[FileJob, dict[str, Any]]:
-    """A job with its settings and pt's facts about it. Error: pt refuses it."""
+    """Error: pt refuses the scene."""
     job = job if frame is None else replace(job, arguments=(*job.arguments, "--frames", str(frame)))
     reader = Program(job.arguments, job.files, device_of(job))
     reader.close()

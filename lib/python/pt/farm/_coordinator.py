@@ -27,7 +27,7 @@ from pt.farm._workers import MOST_FETCHED, Member, Try, now, submit
 TICK = 0.25  # seconds between checks for late parts and progress
 SLOTS = 2  # parts per worker: one renders while another travels or waits
 
-# Tiles that keep a device busy. CPU: 4 for each of 16 cores. GPU: 262,144 pixels, about the largest GPUs' invocations.
+# Tiles that keep a device busy. CPU: 4 for each of 16 cores. GPU: 262,144 pixels, the largest GPUs' invocations.
 LEAST_TILES = {True: 64, False: 4096}
 LEAD = 0.05  # seconds for travel and merging
 LATE = 3.0  # times the expected seconds, after which a part is late
@@ -219,7 +219,7 @@ class Coordinator:
             self._waiting.appendleft((each.number, each.part))
 
     def _may_try(self, member: Member, number: int) -> bool:
-        """Whether a worker may have a part: not if it has it already or, while there are others, if it failed at it."""
+        """Whether a worker may have a part: neither twice nor, while there are others, after failing at it."""
         if any(each.number == number for each in member.tries.values()):
             return False
         tried = self._tries.get(number, [])

@@ -1,4 +1,4 @@
-"""The workers of a job: they join, get introduced, and leave or are refused."""
+"""A job's workers: they join, get introduced, and leave or are refused."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from pt.farm._task import Outcome, codecs, introduce
 from pt.farm._workers import Done, Member, Try, addresses, now, submit
 
 MOST_FAILURES = 3  # in a row, after which a worker gets no more parts
-LOOK_SECONDS = 0.25  # between queries of the scheduler: some kilobytes for a hundred workers
+LOOK_SECONDS = 0.25  # between queries of the scheduler
 
 
 class Crew:
@@ -36,7 +36,6 @@ class Crew:
 
     @property
     def is_there(self) -> bool:
-        """Whether any worker is fit."""
         return any(member.identity for member in self)
 
     def look(self) -> list[tuple[str, Try]]:

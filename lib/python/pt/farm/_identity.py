@@ -1,4 +1,4 @@
-"""A film's identity: the lines of its header from `scene` to `device` (lib/film/FORMAT.md). Films with equal ones add
+"""A film's identity: the lines of its header from `scene` to `device` (lib/film/FORMAT.md). Films of one identity add
 up, so unfit workers are recognised before they work."""
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ class Identity:
 
 
 def identity_of(data: bytes) -> Identity:
-    """The identity in a film's bytes. ValueError: not a film."""
+    """Reads a film's bytes. ValueError: not a film."""
     names = dict(line.partition(" ")[::2] for line in _header(data).decode("ascii", "replace").splitlines())
     keys = list(names)
     if FIRST not in names or LAST not in names:
@@ -35,8 +35,7 @@ def identity_of(data: bytes) -> Identity:
 
 
 def with_models(data: bytes, models: frozenset[str]) -> bytes:
-    """A film's bytes with these models as its devices: such films add up, and say that they are mixed. ImportError:
-    xxhash is missing."""
+    """A film's bytes with these models as its devices, so that mixed films add up. ImportError: xxhash is missing."""
     xxhash = importlib.import_module("xxhash")
     header = _header(data)
     start = header.index(b"\n" + LAST.encode() + b" ") + 1

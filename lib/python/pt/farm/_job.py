@@ -67,8 +67,8 @@ def name_of(data: bytes) -> str:
 
 
 def read_job(scene: str, options: list[str], device: str | None) -> FileJob:
-    """A job from a scene file (- for standard input) and options of `pt render`. It includes all files named by strings
-    in the scene and values of --set; those outside the scene's folder get other names. OSError: a file cannot be read.
+    """A job from a scene file (- for standard input) and options of `pt render`, with all files named by strings in the
+    scene and values of --set; those outside the scene's folder get other names. OSError: a file cannot be read.
     """
     place = pathlib.Path("stdin.json" if scene == "-" else scene)
     with sys.stdin.buffer if scene == "-" else open(place, "rb", opener=regular) as file:

@@ -11,7 +11,7 @@ from pt._files import Path
 
 class FarmError(RuntimeError):
     """The picture cannot be made; the message has the workers' reports. The checkpoint has the returned films. result:
-    the library's result behind it, or ERROR_INTERNAL."""
+    the library's, or ERROR_INTERNAL."""
 
     def __init__(self, message: str, result: int = enums.Result.ERROR_INTERNAL) -> None:
         super().__init__(message)
@@ -28,8 +28,9 @@ class Options:
     checkpoint         name of a file, resumed if it exists; None: none
     checkpoint_every   seconds
     wait_for_workers   seconds without a ready worker until an error
-    mixed              workers with other devices and drivers may join: the picture then equals one machine's
-                       statistically, not bitwise, and its film names all devices. Needs the module xxhash
+    mixed              workers with other devices and drivers may join: the picture equals one machine's statistically,
+    not
+                       bitwise, and its film names all devices. Needs the module xxhash
     """
 
     part_seconds: float = 5.0

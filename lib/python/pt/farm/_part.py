@@ -44,7 +44,6 @@ class Part:
 
 
 def is_film_of(film: Film, part: Part, shape: tuple[int, int]) -> bool:
-    """Whether a film has exactly the samples of a part."""
     indices = np.arange(shape[0] * shape[1], dtype=np.uint32).reshape(shape)
     found = []
     for tile in film.tiles:
@@ -69,7 +68,7 @@ Cells = list[tuple[tuple[range, ...], Indices]]  # ranges of samples, and the ti
 
 
 def cells_of(film: Film | None, shape: tuple[int, int]) -> Cells:
-    """The samples of a film's tiles; missing tiles have none."""
+    """Tiles that the film lacks have no samples."""
     found: dict[tuple[range, ...], list[Indices]] = {}
     seen = np.zeros(shape, bool)
     indices = np.arange(seen.size, dtype=np.uint32).reshape(shape)

@@ -38,8 +38,6 @@ def device_of(job: AnyJob) -> str | None:
 
 
 class Library:
-    """Renders in this process."""
-
     def __init__(self, job: Job) -> None:
         self._settings = job.settings
         self._context = Context(device_of(job))
@@ -61,8 +59,6 @@ class Library:
 
 
 class File:
-    """Renders by the program."""
-
     def __init__(self, job: FileJob) -> None:
         self._program = Program(job.arguments, job.files, device_of(job))
 

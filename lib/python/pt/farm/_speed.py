@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 FIRST_GUESS = 2000.0  # samples of tiles per second: a slow core
-LEAST_SECONDS = 0.1  # of the shortest part; the smallest of 1920x1080 takes 0.03 s
+LEAST_SECONDS = 0.1  # of the shortest part
 REMEMBERED = 5.0  # seconds of earlier parts that count
 BUSY_SHARE = 0.5  # of the coordinator's time, for adding films
 

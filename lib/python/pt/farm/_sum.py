@@ -83,7 +83,7 @@ def _give_back() -> None:
 
 
 def write_film(film: Film, path: Path) -> None:
-    """Packs by zstd, like the program, if a module is installed; `pt merge` and `pt render --resume` read both."""
+    """Packs by zstd, like the program, if a module is installed."""
     packer = _zstd.packer(film.size)
     if packer is None:
         film.save(path)

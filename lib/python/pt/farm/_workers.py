@@ -91,7 +91,7 @@ async def _gathered(client: Any, future: Any) -> object:
 
 
 def _fetched(client: Any, future: Any, seconds: float) -> Outcome | None:
-    """A task's outcome. Any fault of a living worker becomes an outcome that counts against it."""
+    """Any fault of a living worker becomes an outcome that counts against it."""
     if future.status not in ("finished", "error"):
         return None
     try:

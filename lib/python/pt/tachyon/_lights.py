@@ -13,15 +13,15 @@ from pt._vectors import Triple
 FloatArray = npt.NDArray[np.float64]
 
 DEFAULT_RADIUS = 1 / 50  # of a light without a radius, relative to its distance
-LEAST_RADIUS = 1e-6  # likewise: a smaller lamp is taken to lie on a surface
+LEAST_RADIUS = 1e-6  # relative to the extent: a smaller lamp counts as on a surface
 SUN_DISTANCE = 100.0  # relative to the extent of the scene
 LEAST_SHARE = 1 / 3  # of lights before a bright background, so that shapes keep a lit side; by taste
 
 
 @dataclass(frozen=True)
 class Light:
-    """A light of Tachyon. It gives a white matt surface that faces it at the distance d the radiance color / (a + b d +
-    c d^2), where (a, b, c) is the attenuation."""
+    """A light gives a white matt surface that faces it at the distance d the radiance color / (a + b d + c d^2), where
+    (a, b, c) is the attenuation."""
 
     file_place: str
     color: Triple
@@ -33,14 +33,14 @@ class Light:
 
 @dataclass(frozen=True)
 class Surroundings:
-    """What limits the size of lamps: the surfaces of the scene, and its camera."""
+    """The scene's surfaces and camera, which limit the size of lamps."""
 
     centers: FloatArray  # (n, 3)
     ends: FloatArray  # (n, 3): of capsules; of spheres, their centers
     radii: FloatArray  # (n,)
     planes: list[Plane]
-    camera: FloatArray  # (3,), its position
-    target: FloatArray  # (3,), what it looks at
+    camera: FloatArray  # position, (3,)
+    target: FloatArray  # (3,)
 
     def clearance(self, point: FloatArray) -> float:
         """The distance from the point to the nearest surface."""
@@ -63,7 +63,7 @@ class Surroundings:
 def view_target(centers: FloatArray, radii: FloatArray, planes: list[Plane], position: Triple,
                 direction: Triple) -> FloatArray:
     """A target for a camera that has only a direction: the point ahead nearest to the middle of the box around all
-    spheres; if no spheres are ahead, where the nearest plane is met; otherwise the point at the distance 1."""
+    spheres; without spheres ahead, the hit on the nearest plane; otherwise the point at the distance 1."""
     start = np.array(position)
     way = np.array(direction) / np.linalg.norm(direction)
     distance = 0.0
@@ -80,7 +80,7 @@ def view_target(centers: FloatArray, radii: FloatArray, planes: list[Plane], pos
 
 
 def dimmed(lights: list[Light], background: Triple) -> list[Light]:
-    """The lights without what the background gives in their place: it lights surfaces here, and does not in Tachyon."""
+    """Dims the lights by the background's light, which Tachyon's background does not give."""
     together = max(map(sum, zip(*(light.color for light in lights))), default=0.0)
     share = max(1.0 - max(background) / together, LEAST_SHARE) if together else 1.0
     return [replace(light, color=(share * light.color[0], share * light.color[1], share * light.color[2]))
@@ -88,13 +88,12 @@ def dimmed(lights: list[Light], background: Triple) -> list[Light]:
 
 
 def lamps_of(lights: list[Light], around: Surroundings) -> tuple[list[Sphere], list[str]]:
-    """A ball for each light, and warnings about those that can have none.
+    """A ball for each light, and warnings about lights without a ball.
 
     A ball of radius r and radiance L gives a white surface that faces it at the distance d the radiance L (r / d)^2. L
-    is chosen so that this is what the light gives at the camera's target. A light without a radius gets 1/50 of its
-    distance as its radius, and is hidden from the camera. A lamp's radius is at most half of its distance from the
-    nearest surface and, if the camera sees it, from the camera. Directional lights are put at a hundred times the
-    extent of the scene.
+    gives the light's radiance at the camera's target. A light without a radius gets 1/50 of its distance as its radius,
+    and is hidden from the camera. A lamp's radius is at most half of its distance from the nearest surface and, if the
+    camera sees it, from the camera. Directional lights are put at a hundred times the extent of the scene.
     """
     extent = around.extent(lights)
     lamps: list[Sphere] = []

@@ -49,21 +49,21 @@ class TachyonScene:
 def read(path: str | os.PathLike[str], *, leave_out_others: bool = False) -> TachyonScene:
     """Reads a scene file of Tachyon. Lengths stay as they are; the rest becomes:
 
-    colors                     linear, unchanged; Tachyon shows them with the exposure 0 and the gamma 1, which pt-tachyon
+    colors                     linear, unchanged; Tachyon shows them with the exposure 0 and the gamma 1, which
+    pt-tachyon
                                writes into the scene file
     axes, left-handed          z has the other sign
-    ZOOM                       half of the height is seen at the tangent 0.5 / ZOOM; with ORTHOGRAPHIC the vertical_extent
-                               is 1 / ZOOM
+    ZOOM                       half of the height has the tangent 0.5 / ZOOM; with ORTHOGRAPHIC the vertical_extent is
+                               1 / ZOOM
     DIFFUSE, SPECULAR > 0      diffuse, and a mirror: specular with the glossiness 1e6
     PHONG p, PHONG_SIZE n,     glossiness n, specular 2 p / (n + 2), so that the highlight is as bright
       without SPECULAR
-    FCYLINDER, POLYCYLINDER    capsules, whose ends are round; the flat caps (RING) that VMD puts on them are inside
-    BACKGROUND                 a ball around everything that shines in this color, and so also lights the scene; none if
-                               black. Lights are dimmed by as much, but not below a third
-    a light, which has no      a lamp that lights what the camera looks at as the light would; with a radius RAD it is in
-      size                     view, without one hidden from the camera, with a 50th of its distance as its radius.
-                               Nearer surfaces get more from it and farther ones less, which Tachyon's lights do not know
-
+    FCYLINDER, POLYCYLINDER    capsules, whose ends are round; VMD's flat caps (RING) are inside
+    BACKGROUND                 a ball around everything that shines in this color and lights the scene; none if black.
+                               Lights are dimmed by as much, but not below a third
+    a light, which has no      a lamp that gives the camera's target the same light; visible with a radius RAD, hidden
+    from
+      size                     the camera without, and then a 50th of its distance in radius
     FOG                        left out, with a note
 
     leave_out_others   leaves out everything except these shapes, planes, lights and the camera, and counts it in the
@@ -138,7 +138,7 @@ class _Reader:
             self.sphere_materials.append(self.textures.reference())
         elif keyword == "FCYLINDER":
             self.chain([words.vector("BASE"), words.vector("APEX")])
-        elif keyword == "POLYCYLINDER":  # which Tachyon, too, draws with balls at all points
+        elif keyword == "POLYCYLINDER":  # Tachyon, too, draws balls at all points
             words.expect("POINTS")
             self.chain([words.point("POINTS") for _ in range(words.size("POINTS"))])
         elif keyword == "RING":
@@ -163,7 +163,7 @@ class _Reader:
             self.background = words.color("BACKGROUND")
         elif keyword == "FOG":
             self.fog()
-        elif keyword == "SHADER_MODE":  # how Tachyon shades; light is found otherwise here
+        elif keyword == "SHADER_MODE":  # light is found otherwise here
             while (word := words.keyword("END_SHADER_MODE")) != "END_SHADER_MODE":
                 if word == "AMBIENT_OCCLUSION":
                     self.left_out[word] = f"{words.place()}: {word}: its light from all sides is left out"
@@ -190,7 +190,7 @@ class _Reader:
             self.left_out["FOG"] = f"{place}: FOG: it is left out, far surfaces have their full colors"
 
     def ring(self) -> None:
-        """A ring is left out if it closes an end of the cylinder before it, as those of VMD do."""
+        """Leaves out a ring that closes an end of the cylinder before it, as VMD's do."""
         words = self.words
         center, _ = words.vector("CENTER"), words.direction("NORMAL")
         inner, outer = words.named("INNER"), words.named("OUTER")
@@ -256,7 +256,7 @@ class _Reader:
         middle."""
         left, right, bottom, top = (self.words.number("FRUSTUM") for _ in range(4))
         height, width = top - bottom, right - left
-        tolerance = 1e-4 * height  # files have so many digits
+        tolerance = 1e-4 * height  # the digits of files
         if not (height > 0.0 and abs(width - self.aspect * height) <= self.aspect * tolerance and
                 abs(left + right) <= tolerance and abs(bottom + top) <= tolerance):
             self.words.refuse("FRUSTUM: must be even about the middle, and of square pixels")

@@ -24,7 +24,7 @@ class Textures:
         self.materials: list[Material] = []
 
     def define(self) -> None:
-        """Reads what follows TEXDEF. A later definition replaces an earlier one of the same name."""
+        """Reads a definition after TEXDEF. A later one of the same name replaces it."""
         name = self._words.word("the name of a TEXDEF")
         self._named[name] = self._body()
 
@@ -68,7 +68,7 @@ class Textures:
         self._skip_pattern()
         if mirror > 0.0:
             specular, exponent = (mirror, mirror, mirror), MIRROR_GLOSSINESS
-        else:  # the lobe's peak is (n + 2) / 2 times its weight, where Tachyon's is the highlight itself
+        else:  # the lobe's peak is (n + 2) / 2 times its weight; Tachyon's is the highlight itself
             weight = 2.0 * highlight / (exponent + 2.0)
             red, green, blue = color if is_metal else (1.0, 1.0, 1.0)
             specular = (weight * red, weight * green, weight * blue)

@@ -11,10 +11,7 @@ from pt._vectors import Triple
 
 class Words:
     """Reads word by word. Keywords may be in upper or lower case; # begins a comment. Every method raises ValueError
-    with file and line.
-
-    lines   lines of the file, taken one by one, so that a large file is never held whole
-    name    name of the file, for messages
+    with file and line. lines: taken one by one, so a large file is never held whole.
     """
 
     def __init__(self, lines: Iterable[str], name: str) -> None:

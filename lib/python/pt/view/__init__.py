@@ -1,6 +1,7 @@
-"""A picture that is seen while it refines, in a page of the browser.
+"""A picture that refines in a page of the browser.
 
     from pt.view import View
+
     view = View("scene.json")   # or data of particles, or a film; in a notebook the last line of a cell shows it
     print(view.address)
 
@@ -16,7 +17,7 @@ __all__ = ["View"]
 
 
 def __getattr__(name: str) -> Any:
-    """Imports View when it is first used: it needs aiohttp, which the command's --help does without."""
+    """Imports View on first use: it needs aiohttp, the command's --help does not."""
     if name != "View":
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     from pt.view._view import View

@@ -1,4 +1,4 @@
-"""What is shown at a moment: pixels, and what is told beside them."""
+"""A frame of a view: pixels, and facts shown beside them."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from pt._stats import ErrorEstimate
 
 LAYERS: Final = {"mean": Quantity.RADIANCE, "standard error": Quantity.STANDARD_ERROR, "samples": Quantity.SAMPLE_COUNT,
                  "depth": Quantity.DEPTH, "normal": Quantity.NORMAL, "albedo": Quantity.ALBEDO}
-OF_SAMPLES: Final = 3  # the first layers; the others tell what camera rays meet first
+OF_SAMPLES: Final = 3  # the first layers; the others show first hits of camera rays
 METHODS: Final[dict[str, Any]] = {"sampler": Sampler, "estimator": Estimator}
 
 
@@ -24,8 +24,8 @@ METHODS: Final[dict[str, Any]] = {"sampler": Sampler, "estimator": Estimator}
 class Frame:
     """number   counts published frames
     state    what the page shows beside the pixels
-    pixels   of the layer, height x width x 3; None: there is no picture yet
-    values   the layers of samples, of which single pixels are told
+    pixels   of the layer, height x width x 3; None: no picture yet
+    values   the layers of samples, for answers about single pixels
     """
 
     number: int
@@ -49,7 +49,7 @@ class Frame:
 
 
 def facts_of(estimate: ErrorEstimate) -> dict[str, Any]:
-    """JSON has no infinity: what is not known is null."""
+    """JSON has no infinity: unknown numbers are null."""
     numbers = {"error": estimate.relative_rmse, "low": estimate.relative_rmse_low, "high": estimate.relative_rmse_high}
     return {**{name: number if math.isfinite(number) else None for name, number in numbers.items()},
             "uncertain": [name_of(flag) for flag in Uncertain if flag in estimate.uncertain]}
@@ -60,12 +60,12 @@ def name_of(member: Any) -> str:
     return name
 
 
-# What there is to choose from on the page.
+# The page's menus.
 CHOICES: Final = {"layer": list(LAYERS), **{name: [name_of(each) for each in kinds] for name, kinds in METHODS.items()}}
 
 
 def faults_of(text: str) -> list[dict[str, Any]]:
-    """Messages with the names and lines of files where they have them."""
+    """Messages, with names and lines of files where known."""
     faults = []
     for line in text.splitlines():
         if found := re.match(r"(?:ERROR: |WARNING: )?([^\s:][^:]*):(\d+):(?:\d+:)? *(.*)", line):

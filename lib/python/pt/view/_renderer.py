@@ -1,4 +1,4 @@
-"""The thread that renders what a view shows, and publishes it as frames."""
+"""The thread that renders a view, and publishes it as frames."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ from pt.view._frame import LAYERS, OF_SAMPLES, Frame, facts_of, faults_of, name_
 from pt.view._source import Shown, Source
 
 MOVING_SECONDS: Final = 0.03  # for a sample of each pixel, while the camera moves
-STILL_SECONDS: Final = 0.25  # after which the camera no longer does
+STILL_SECONDS: Final = 0.25  # after the last move
 PUBLISHED_SHARE: Final = 0.03  # of the time
 LOOK_SECONDS: Final = 0.5  # from one look at the files to the next
 SHADERS: Final = (".comp", ".glsl", ".h")
 
 
 class Renderer:
-    """source        what is shown
+    """source        the picture
     shader_dir    kernels that are compiled instead of the library's
     published     called with each frame, on the thread that renders
     """
@@ -37,7 +37,7 @@ class Renderer:
         self._source, self._published, self._device, self._most = source, published, device, most
         self._shader_dir = shader_dir
         self._context: Context | None = None
-        self._faults: dict[str, str] = {}  # by what is at fault
+        self._faults: dict[str, str] = {}  # by cause
         self._history: list[list[float]] = []
         self._guides: dict[str, Array] = {}
         self._playing, self._moving, self._layer = True, False, "mean"
@@ -102,7 +102,7 @@ class Renderer:
             self._context.close()
 
     def _runs(self) -> bool:
-        """A picture that is stopped gets a sample all the same when it begins anew."""
+        """A stopped picture also gets a sample when it begins anew."""
         wanted = self._playing or self._moving or not self._count
         return wanted and self._count < self._most and "rendering" not in self._faults
 
@@ -137,7 +137,7 @@ class Renderer:
             self._publish()
 
     def _take(self, changes: dict[str, Any]) -> bool:
-        """Takes over changes; whether the picture begins anew."""
+        """Takes over changes; returns whether the picture begins anew."""
         self._playing = changes.get("playing", self._playing)
         self._layer = changes.get("layer", self._layer)
         width, height = changes.get("size", (self._settings.width, self._settings.height))
@@ -187,7 +187,7 @@ class Renderer:
     # Files.
 
     def _look(self) -> dict[pathlib.Path, tuple[int, int]]:
-        """What tells whether files have changed."""
+        """Size and time of each file."""
         files = [*self._shown.files, *(self._shader_dir.glob("*") if self._shader_dir else ())]
         found = {}
         for path in files:
@@ -199,7 +199,7 @@ class Renderer:
         return found
 
     def _read_again(self) -> bool:
-        """Reads what has changed; whether the picture begins anew."""
+        """Reads changed files; returns whether the picture begins anew."""
         signatures = self._look()
         changed = {path for path, facts in signatures.items() if self._signatures.get(path) != facts}
         self._signatures = signatures
@@ -227,7 +227,7 @@ class Renderer:
         return restarts or bool(changed and not self._context)
 
     def _adopt(self, shown: Shown) -> None:
-        """Takes over what the file says anew; what was chosen in the page, and not in the file, stays."""
+        """Takes over the file's changes; choices made in the page stay."""
         if shown.camera != self._shown.camera:
             self._camera = shown.camera
         fields = {name: value for name, value in vars(shown.settings).items()
@@ -276,7 +276,7 @@ class Renderer:
         return self._guides[self._layer]
 
     def _pivot(self, context: Context) -> float | None:
-        """The depth of what is in the middle, about which the camera turns."""
+        """The depth of the middle pixel, about which the camera turns."""
         if "pivot" not in self._guides:
             rows, columns = self._shape
             middle: Rectangle = (columns // 2, rows // 2, 1, 1)
@@ -285,7 +285,7 @@ class Renderer:
         return depth if math.isfinite(depth) else None
 
     def _remember(self, estimate: ErrorEstimate) -> None:
-        """Adds a point to the curve, which keeps every other one when there are many."""
+        """Adds a point to the curve; a long curve keeps every other one."""
         if math.isfinite(estimate.relative_rmse_high):
             self._history.append([self._seconds, estimate.relative_rmse, estimate.relative_rmse_low,
                                   estimate.relative_rmse_high])

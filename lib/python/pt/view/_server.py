@@ -1,4 +1,4 @@
-"""The server of the page. It listens on 127.0.0.1 alone; whoever knows the token in its address may see and steer."""
+"""The server of the page. It listens on 127.0.0.1 alone; anybody with the token in its address may see and steer."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ TYPES: Final = {".html": "text/html", ".css": "text/css", ".js": "text/javascrip
 MOST_SOCKETS: Final = 16
 MOST_BYTES: Final = 2**20  # of a message: the text of a file
 MOST_PIXELS: Final = 2**24
-IDLE_SECONDS: Final = 10.0  # after which nobody looks
+IDLE_SECONDS: Final = 10.0  # without a page until the view counts as unwatched
 NAMES: Final = r"(?:127\.0\.0\.1|localhost|\[::1\])(?::\d{1,5})?"  # of a host; at the other end of a tunnel the port differs
 HEADERS: Final = {
     "Content-Security-Policy": "default-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' blob: data:; base-uri 'none'; "
@@ -50,7 +50,7 @@ class Show(Protocol):
 class Server:
     """A thread that serves from construction until close().
 
-    show    what is seen; set before the first request
+    show    the picture; set before the first request
     files   those that may be read and written in the page, by the names that it shows
     """
 
@@ -72,7 +72,7 @@ class Server:
         self._is_ready.wait()
 
     def published(self, _: Frame) -> None:
-        """Tells of a new frame; any thread."""
+        """Announces a new frame; any thread."""
         if self._thread.is_alive():
             self._loop.call_soon_threadsafe(self._announce)
 
@@ -102,8 +102,8 @@ class Server:
     @web.middleware
     async def _checked(self, request: web.Request, handler: Callable[[web.Request], Awaitable[web.StreamResponse]]
                        ) -> web.StreamResponse:
-        """Refuses whoever does not know the token, and pages of others, which reach this server by another name or say
-        where they come from."""
+        """Refuses requests without the token, and other sites' pages, which reach this server by another name or state
+        their origin."""
         host, origin = request.headers.get("Host", ""), request.headers.get("Origin")
         if not re.fullmatch(NAMES, host) or origin not in (None, f"http://{host}"):
             raise web.HTTPForbidden(text="pt view: this host or origin is refused\n")
@@ -180,7 +180,7 @@ class Server:
             pass  # the page is closed
 
     async def _answer(self, connection: web.WebSocketResponse, text: str, wanted: asyncio.Event) -> None:
-        """Does what a message asks for, or says what is wrong with it."""
+        """Does what a message asks for, or reports its fault."""
         assert self.show
         try:
             message = json.loads(text)
@@ -208,7 +208,7 @@ class Server:
             await connection.send_json({"refused": f"{type(error).__name__}: {error}"})
 
     def _file(self, name: Any) -> pathlib.Path:
-        """Only what is listed, so that no name leads elsewhere."""
+        """Only listed names, so that none leads elsewhere."""
         files = self._files()
         if not isinstance(name, str) or name not in files:
             raise ValueError("no such file is open to the page")
@@ -216,12 +216,12 @@ class Server:
 
 
 async def _add_headers(_: web.Request, response: web.StreamResponse) -> None:
-    """Of every answer, also of refusals."""
+    """Adds headers to every answer, also to refusals."""
     response.headers.update(HEADERS)
 
 
 def _log() -> logging.Logger:
-    """For faults of this server. Requests that are no HTTP are answered, and not worth a line."""
+    """Logs faults of this server. Requests that are no HTTP are answered, and not worth a line."""
     log = logging.Logger("pt.view", logging.ERROR)
     log.addHandler(logging.StreamHandler())
     log.addFilter(lambda record: not (record.exc_info and isinstance(record.exc_info[1], http_exceptions.HttpProcessingError)))
@@ -229,7 +229,7 @@ def _log() -> logging.Logger:
 
 
 def changes_of(message: dict[str, Any]) -> dict[str, Any]:
-    """What a page may change, checked. ValueError, TypeError, KeyError: it may not, or not so."""
+    """The changes that a page asks for, checked. ValueError, TypeError, KeyError: not permitted."""
     changes: dict[str, Any] = {}
     for name, value in message.items():
         if name == "camera":

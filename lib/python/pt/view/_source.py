@@ -1,4 +1,4 @@
-"""What a view shows: a scene file, particles, or a film."""
+"""The contents of a view: a scene file, particles, or a film."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class Source(Protocol):
         """Reads it, perhaps again. Error, ValueError, OSError: it cannot be read."""
 
     def explained(self, error: Exception) -> str:
-        """What is wrong, in the words of the file."""
+        """The error in the words of the file."""
 
     def saved(self, camera: Camera) -> tuple[str, bytes]:
         """Name and contents of a file with the scene and another camera."""
@@ -66,7 +66,7 @@ class SceneSource:
         return Shown(read.scene, read.camera, read.settings, display, [self.path, *map(pathlib.Path, read.files)])
 
     def explained(self, error: Exception) -> str:
-        """What the library refuses is refused again by the program, which knows the line."""
+        """Repeats the library's refusal by the program, which knows the line."""
         try:
             if not str(error).startswith(str(self.path)):
                 Program([str(self.path)]).film(0, 1, [0])
@@ -120,7 +120,7 @@ class FigureSource:
 
 
 def source_of(path: pathlib.Path, options: Options) -> Source | Film:
-    """By the name: .json is a scene, .ptfilm a film, anything else particles."""
+    """Reads .json as a scene, .ptfilm as a film, anything else as particles."""
     if path.suffix == ".ptfilm":
         return Film.load(path)
     return SceneSource(path) if path.suffix == ".json" else FigureSource(path, options)

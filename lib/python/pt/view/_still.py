@@ -1,4 +1,4 @@
-"""A film as it is, where no more samples are taken."""
+"""A film without further samples."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pt.view._frame import LAYERS, OF_SAMPLES, Frame, facts_of, name_of
 
 
 class Still:
-    """Does for a film what Renderer does for a scene."""
+    """Renderer's counterpart for a film."""
 
     def __init__(self, film: Film, name: str, published: Callable[[Frame], None]) -> None:
         self._published = published

@@ -1,4 +1,4 @@
-"""A view: what renders, and the server of its page."""
+"""A view: a renderer, and the server of its page."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ class View:
     """Shows a scene file, data of particles, or a film in a page of the browser, for as long as it is open.
 
     what         a file's name, or a Film. Scenes are read by the program pt, in the PATH or named by PT_PROGRAM
-    size         width and height in pixels; None: those of the scene
+    size         width and height in pixels; None: the scene's
     samples      the most that a pixel gets
     device       as of Context
-    shader_dir   kernels to use instead of the library's, open to an editor in the page, as is the scene then
+    shader_dir   kernels to use instead of the library's; they and the scene open in an editor in the page
     port         0: a free one
     options      of pt.figure, for particles
 
-    It listens on 127.0.0.1 alone, and whoever knows `address` may see and steer it. A notebook shows it, if its server
-    runs on the machine of the browser or the port is forwarded. Error, ValueError, OSError: what cannot be shown.
+    It listens on 127.0.0.1 alone; anybody with `address` may see and steer it. A notebook shows it, if its server runs
+    on the machine of the browser or the port is forwarded. Error, ValueError, OSError: it cannot be shown.
     """
 
     def __init__(self, what: Path | Film, *, size: tuple[int, int] | None = None, samples: int = 65536,

@@ -12,8 +12,7 @@ function axes(camera) {
   return [right, cross(right, forward), forward];
 }
 
-// The same picture, but with look_at at this depth: that is what the camera turns about. Where a lens has no focus of its
-// own, it keeps what was sharp.
+// The same picture with look_at, the center of turns, at this depth. A lens without a focus of its own stays focused.
 export function turnsAbout(camera, depth) {
   const forward = axes(camera)[2];
   const moved = {...camera, look_at: add(camera.position, forward, depth)};

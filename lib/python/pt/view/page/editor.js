@@ -8,7 +8,7 @@ const keywords = new Set(("attribute break buffer case const continue default di
   "precision restrict return shared struct switch uniform while true false").split(" "));
 const types = /^(void|bool|int|uint|float|double|[biud]?vec[234]|mat[234](x[234])?)$/;
 
-// A word at a time, as GLSL and JSON have them; comments of both may go over lines.
+// By words; comments may span lines.
 const language = StreamLanguage.define({
   startState: () => ({inComment: false}),
   token(stream, state) {

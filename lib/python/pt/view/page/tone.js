@@ -1,4 +1,4 @@
-// How radiance is shown: the curves and bytes of `pt tonemap`, whose comments in cli/image/tone_map.cpp name their papers.
+// The display transform of `pt tonemap`; cli/image/tone_map.cpp names the papers.
 
 export const curves = {
   none() {},
@@ -78,7 +78,7 @@ export function toBytes(radiance, {exposure, curve, gamma}) {
   return bytes;
 }
 
-// The stops that bring the average to middle grey, as automatic_exposure() of pt.
+// As automatic_exposure() of pt.
 export function automaticExposure(radiance) {
   const means = [];
   for (let i = 0; i < radiance.length; i += 3) {
@@ -101,7 +101,7 @@ export function automaticExposure(radiance) {
   return Math.min(Math.max(Math.sign(hundredths) * Math.floor(Math.abs(hundredths) + 0.5) / 100, -64), 64);
 }
 
-// A grey of each pixel's first number, from the least to the greatest that is finite; what is not is black.
+// A grey of each pixel's first number, from the least to the greatest finite one; others are black.
 function toGreys(values, isNearBright) {
   let least = Infinity, greatest = -Infinity;
   for (let i = 0; i < values.length; i += 3)

@@ -1,4 +1,4 @@
-// The page: what comes from the socket is shown, what is done here is sent.
+// The page: shows what comes from the socket, sends what is done here.
 import {orbit, pan, turnsAbout, zoom} from "./camera.js";
 import {automaticExposure, curves, layerBytes, toBytes} from "./tone.js";
 
@@ -8,7 +8,7 @@ let socket, editor;
 let state = {};   // as sent with the last frame
 let pixels;       // Float32Array of RGB, of the layer
 let display;      // exposure (a number), automatic, curve, gamma (0: the sRGB curve)
-let camera;       // what is on its way to the server, or there
+let camera;       // at the server, or on its way there
 let pointer;      // the pixel under it
 let asks = false; // an answer about a pixel is outstanding
 
@@ -157,7 +157,7 @@ function tellPixel(pixel) {
 // The camera.
 
 let drag;        // pointers that are down, by their ids
-let settled = 0; // when the server's camera counts again: frames of cameras before the last move may be on their way
+let settled = 0; // when the server's camera counts again: frames of older cameras may be on their way
 
 function move(next) {
   camera = next;
@@ -166,7 +166,7 @@ function move(next) {
   $("camera").value = line(camera);
 }
 
-// About what is in the middle. While the camera moves that stays where it was.
+// Turns about the middle of the picture, which stays the center while the camera moves.
 function pivoted() {
   return state.pivot && camera === state.camera && !state.moving ? turnsAbout(camera, state.pivot) : camera;
 }
@@ -246,7 +246,7 @@ function watchKeys() {
 const play = () => send({playing: !state.playing});
 const back = () => move(state.first_camera);
 
-// What is chosen once the first frame tells what there is.
+// Fills the menus from the first frame.
 function begin() {
   document.title = $("name").textContent = state.name;
   const {exposure, tonemap, gamma} = state.display;
