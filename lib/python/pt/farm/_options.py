@@ -28,9 +28,8 @@ class Options:
     checkpoint         name of a file, resumed if it exists; None: none
     checkpoint_every   seconds
     wait_for_workers   seconds without a ready worker until an error
-    mixed              workers with other devices and drivers may join: the picture equals one machine's statistically,
-    not
-                       bitwise, and its film names all devices. Needs the module xxhash
+    mixed              workers with other devices and drivers may join: the picture equals one machine's
+                       statistically, not bitwise, and its film names all devices. Needs the module xxhash
     """
 
     part_seconds: float = 5.0

@@ -1,4 +1,4 @@
-"""Figures of particles: `pt.figure(data)`, and what reads the data."""
+"""Figures of particles: `pt.figure(data)`, and the readers of data."""
 
 from pt.figures._accept import frames, load
 from pt.figures._cell import Cell

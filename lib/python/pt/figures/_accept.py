@@ -1,4 +1,4 @@
-"""Turns what users have into particles: files, arrays, tables and objects of other packages."""
+"""Turns files, arrays, tables and objects of other packages into particles."""
 
 from __future__ import annotations
 
@@ -28,14 +28,14 @@ def load(data: Any, *, frame: int | None = None, model_number: int | None = None
     data            the name of a file, "-" for standard input; an array of shape (n, 3), (n, 2) or, with frames, (t, n,
                     3); a dict of columns; a frame of pandas or polars; ASE's Atoms or a list of them; a universe or a
                     group of atoms of MDAnalysis; a data collection of OVITO; or Particles
-    frame           counted from 0, or from -1 backwards, without those that have no particles; None: the last one, for
-                    MDAnalysis the current one, and the first of several models
+    frame           from 0, or from -1 backwards, without empty frames; None: the last one, for MDAnalysis the current
+                    one, and the first of several models
     model_number    of PDB and mmCIF, the number that the file gives to a model
-    columns         names in place of those that are looked for: {"x": "lon", "y": "lat"} or "x=lon,y=lat", for
+    columns         names to use: {"x": "lon", "y": "lat"} or "x=lon,y=lat", for
                     x, y, z, radius, diameter, element, type, red, green, blue
-    format          of a file, in place of the one that its first bytes and its name suggest
-    topology        for a trajectory (XTC, TRR, DCD, ...), the file that says what its atoms are
-    atom_style      of LAMMPS data files that do not say it, and whose columns leave more than one
+    format          of a file, instead of the detected one
+    topology        file of atoms for a trajectory (XTC, TRR, DCD, ...)
+    atom_style      of LAMMPS data files that do not state it, and whose columns leave more than one
     drop_nonfinite  leaves out particles whose position or radius is not finite; otherwise they are an error
 
     Arrays of float32 and float64 are read in place. Raises DataError.
@@ -82,8 +82,7 @@ def _of_model(source: Frames, number: int) -> int:
 
 
 def _index(source: Frames, frame: int) -> int:
-    """The number of a frame, counted from 0. Frames of a file are counted only if a negative number makes it
-    necessary."""
+    """Counts a file's frames only for a negative number."""
     if frame >= 0 and source.has(frame):
         return frame
     count = source.count()

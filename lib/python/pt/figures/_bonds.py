@@ -1,4 +1,4 @@
-"""Bonds between particles: by covalent radii, by a cutoff or given; each is drawn as two halves, one of each atom."""
+"""Bonds between particles: by covalent radii, by a cutoff or given; each is drawn as two halves."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ from pt.figures._rods import Rods
 from pt.figures._templates import agreeing, free_ions, known_residues
 
 # O'Boyle et al. 2011, "Open Babel: An open chemical toolbox", Journal of Cheminformatics 3:33, and its documentation:
-# two atoms are bonded if their distance is at most the sum of their covalent radii and this tolerance, and more than
-# the least distance, below which they are alternative places of one atom. In angstroms.
+# atoms are bonded if their distance is at most the sum of their covalent radii and this tolerance, and more than the
+# least distance (alternative places of one atom). In angstroms.
 TOLERANCE: Final = 0.45
 LEAST_DISTANCE: Final = 0.4
-BALL_SHARE: Final = 0.5  # radius of a ball that has a stick, as a share of that of a ball alone; by taste
+BALL_SHARE: Final = 0.5  # of a ball with a stick, relative to a ball alone; by taste
 STICK_SHARES: Final = {"space-filling": 0.07, "ball-and-stick": 0.07, "sticks": 0.14}  # of the median bond; by taste
 
 
 def bonds_of(particles: Particles, options: Options, radii: Array, notes: list[str]) -> Rods:
-    """Halves of bonds, from their atoms to their middles. radii: of the particles, if no bonds were wanted."""
+    """radii: of the particles, if no bonds were wanted."""
     rule = _rule(options.bond_rule)
     if isinstance(rule, np.ndarray):
         found = _of_pairs(particles, rule)
@@ -51,7 +51,7 @@ def bonds_of(particles: Particles, options: Options, radii: Array, notes: list[s
 
 
 def _rule(bonds: Any) -> float | None | Array:
-    """A cutoff, pairs, or None: those of the data, by residues and by covalent radii."""
+    """A cutoff, pairs, or None: from the data, residues and covalent radii."""
     if bonds is True or isinstance(bonds, str) and bonds == "auto":
         return None
     try:
@@ -76,7 +76,7 @@ def _of_pairs(particles: Particles, pairs: Array) -> Bonds:
 
 
 def _with_images(particles: Particles, bonds: Bonds) -> Bonds:
-    """In a periodic cell, with the nearest image: that is so for bonds shorter than half of the cell's thickness."""
+    """To the nearest image of a periodic cell, valid below half of the cell's thickness."""
     if particles.cell is None or bonds.images is not None:
         return bonds
     first, second = bonds.pairs.T
@@ -86,7 +86,7 @@ def _with_images(particles: Particles, bonds: Bonds) -> Bonds:
 
 
 def _automatic(particles: Particles, notes: list[str]) -> Bonds:
-    """The bonds of the data; where these are not all, also those that names of residues and distances say."""
+    """The data's bonds; if incomplete, also those by names of residues and by distance."""
     given = particles.bonds
     if given is not None and given.is_complete:
         notes.append(f"bonds are the {len(given.pairs):,} of the data")
@@ -139,13 +139,13 @@ def _guessed(particles: Particles, notes: list[str]) -> Bonds:
 
 
 def stick_radius(ways: Doubles, model: str, radii: Array) -> float:
-    """The radius of sticks that options do not give; without bonds, as if balls touched."""
+    """The default radius of sticks; without bonds, as if balls touched."""
     lengths = 2.0 * np.linalg.norm(ways, axis=1)
     return STICK_SHARES[model] * float(np.median(lengths if len(lengths) else 2.0 * radii))
 
 
 def meeting_in_sight(halves: Rods, balls: Array) -> Rods:
-    """Halves of bonds that meet in the middle of what is seen of a bond between its balls, where these differ.
+    """Halves that meet in the middle of the visible bond.
 
     balls   radii, in shape (n,) or (1,)
     """
@@ -157,7 +157,7 @@ def meeting_in_sight(halves: Rods, balls: Array) -> Rods:
 
 
 def ball_radii(radii: Array, model: str, stick: float, is_given: bool) -> Array:
-    """Radii of the balls of a model: sticks end in balls of their own radius."""
+    """Sticks end in balls of their own radius."""
     if model == "sticks":
         return np.array([stick])
     result: Array = radii * radii.dtype.type(BALL_SHARE) if model == "ball-and-stick" and not is_given else radii

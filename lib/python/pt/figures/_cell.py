@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 Array = npt.NDArray[Any]
 
-FLAT: Final = 1e-10  # as a share of the product of the lengths: less volume counts as none
+FLAT: Final = 1e-10  # relative to the product of the lengths: less volume counts as none
 
 
 @dataclass(frozen=True)
@@ -19,9 +19,9 @@ class Cell:
     """A cell, triclinic or not, left-handed or not.
 
     origin    shape (3,): where the edges begin
-    vectors   shape (3, 3): a row for each edge; a row of zeros is an edge that does not exist
-    periodic  shape (3,): whether the cell repeats along each edge; never along one that does not exist
-    is_crystal_of_macromolecule  whether it is the crystal's cell of a protein or a nucleic acid
+    vectors   shape (3, 3): a row for each edge; zeros if it does not exist
+    periodic  shape (3,): whether the cell repeats along each existing edge is_crystal_of_macromolecule  whether it is a
+    protein's or a nucleic acid's crystal cell
     """
 
     origin: Array
@@ -32,7 +32,7 @@ class Cell:
     @staticmethod
     def of(vectors: npt.ArrayLike, origin: npt.ArrayLike = (0, 0, 0), periodic: npt.ArrayLike = True,
            is_crystal_of_macromolecule: bool = False) -> Cell | None:
-        """A cell; None if the vectors are not finite, all 0, or not independent."""
+        """None if the vectors are not finite, all 0, or not independent."""
         rows = np.array(vectors, np.float64)
         rows = np.diag(rows) if rows.shape == (3,) else rows.reshape(3, 3)
         lengths = np.linalg.norm(rows, axis=1)
@@ -48,8 +48,8 @@ class Cell:
     @staticmethod
     def of_lengths(lengths: npt.ArrayLike, angles: npt.ArrayLike, periodic: npt.ArrayLike = True,
                    is_crystal_of_macromolecule: bool = False) -> Cell | None:
-        """A cell whose first edge lies along x and whose second one lies in the plane of x and y. angles: in degrees,
-        between edges 2 and 3, 1 and 3, 1 and 2. None as from of()."""
+        """A cell with its first edge along x and its second in the plane of x and y. angles: degrees, between edges 2
+        and 3, 1 and 3, 1 and 2. None as from of()."""
         a, b, c = np.array(lengths, np.float64)
         alpha, beta, gamma = np.cos(np.radians(np.array(angles, np.float64)))
         sine = np.sqrt(1 - gamma**2)

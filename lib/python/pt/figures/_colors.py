@@ -24,19 +24,18 @@ Bytes: TypeAlias = npt.NDArray[np.uint8]
 RGB: TypeAlias = tuple[int, ...]
 
 PLAIN: Final = "#96aabe"  # a light bluish grey
-# Okabe and Ito 2008, "Color Universal Design", which color-blind people can tell apart: blue, orange, bluish green,
-# vermilion, sky blue, reddish purple, yellow. The order is our own: the first two differ most in lightness too.
+# Okabe and Ito 2008, "Color Universal Design". Our order: the first two differ most in lightness too.
 PALETTE: Final = ((0, 114, 178), (230, 159, 0), (0, 158, 115), (213, 94, 0), (86, 180, 233), (204, 121, 167),
                   (240, 228, 66))
 MOST_CATEGORIES: Final = 1000
-SKEW: Final = 4.0  # range of all over that of 1% to 99%; 1 if uniform, 2 for a million normal numbers, 3 exponential
+SKEW: Final = 4.0  # whole range over the 1% to 99% range; uniform: 1, a million normal numbers: 2, exponential: 3
 
 
 @dataclass(frozen=True)
 class ColorBar:
     """Colors for numbers, by matplotlib.
 
-    low, high   numbers of the first and the last color; if they are equal, the norm is wider and has them in its middle
+    low, high   numbers of the first and the last color; the norm is wider if they are equal
     no_value    color for NaN, if there are any
     """
 
@@ -50,7 +49,7 @@ class ColorBar:
 
 @dataclass(frozen=True)
 class Swatches:
-    """Colors for categories: names, and sRGB of shape (k, 3)."""
+    """Names, and sRGB of shape (k, 3)."""
 
     title: str
     names: tuple[str, ...]
@@ -61,14 +60,14 @@ Legend: TypeAlias = "ColorBar | Swatches | None"
 
 
 def srgb(name: str, color: Any) -> RGB:
-    """A color from "#rrggbb", a name that matplotlib knows, or three numbers from 0 to 1."""
+    """A color from "#rrggbb", a matplotlib name, or three numbers from 0 to 1."""
     if isinstance(color, str) and len(color) == 7 and color[0] == "#":
         try:
             red, green, blue = bytes.fromhex(color[1:])
             return red, green, blue
         except ValueError:
             pass
-    named = module("matplotlib.colors", f"{name} = {color!r}")  # importing it takes a third of a second
+    named = module("matplotlib.colors", f"{name} = {color!r}")  # slow to import
     try:
         red, green, blue = (math.floor(255 * float(each) + 0.5) for each in named.to_rgb(color))
     except ValueError:
@@ -77,7 +76,7 @@ def srgb(name: str, color: Any) -> RGB:
 
 
 def colors_of(particles: Particles, given: Options, notes: list[str]) -> tuple[Bytes, Legend]:
-    """Colors in shape (n, 3), or (3,) if all have the same."""
+    """Shape (n, 3), or (3,) if all have the same."""
     color = given.color
     count = len(particles.positions)
     if isinstance(color, str) and "=" in color:
@@ -122,15 +121,14 @@ def _named(particles: Particles, color: str, given: Options, notes: list[str]) -
 
 
 def components(particles: Particles, name: str) -> list[str]:
-    """The columns of a vector's components: those of "vx,vy,vz", or those that "velocity" and "v" stand for."""
+    """A vector's columns: the names in "vx,vy,vz", or the columns that "velocity" and "v" stand for."""
     ways = [[f"{name}[{k}]" for k in range(3)], [f"{name}{axis}" for axis in "xyz"], [f"{name}_{axis}" for axis in "xyz"]]
     found = [way for way in ways if all(each in particles.columns for each in way)]
     return found[0] if found else name.split(",")
 
 
 def _direct(colors: Any, notes: list[str]) -> Bytes:
-    """Given sRGB colors: floats from 0 to 1, unsigned integers from 0 to their largest, other integers from 0 to
-    255."""
+    """sRGB floats from 0 to 1, unsigned integers from 0 to their largest, other integers from 0 to 255."""
     array = np.asarray(colors)
     if array.dtype.kind == "i" and array.size and 0 <= array.min() and array.max() <= 255:
         array = array.astype(np.uint8)
@@ -163,7 +161,7 @@ def _of_values(values: Array, title: str, given: Options, notes: list[str]) -> t
 
 
 def _of_types(particles: Particles, given: Options, own: Mapping[str, str]) -> tuple[Bytes, Legend]:
-    """Colors of types: elements have their own, other types those of the palette."""
+    """Elements have their own colors, other types the palette's."""
     known: dict[str, RGB] = {}
     kind, labels = ("type", column(particles, "type")) if particles.elements is None else ("element", particles.elements)
     names, codes = categories(labels)
@@ -180,7 +178,7 @@ def _of_types(particles: Particles, given: Options, own: Mapping[str, str]) -> t
 
 
 def _found_in(particles: Particles, word: str) -> str:
-    """For a message: the columns that have a word."""
+    """Names the columns that have a word, for a message."""
     found = [name for name, values in particles.columns.items() if values.dtype.kind in "US" and (values.astype(str) == word).any()]
     return f"; it is in the column {' and '.join(found)}: --color {found[0]} (color={found[0]!r}) colors by it" if found else ""
 
@@ -202,7 +200,7 @@ def _of_categories(title: str, names: list[str], codes: Array, given: Options, k
 
 
 def distinct_colors(count: int) -> list[RGB]:
-    """So many colors, no two alike: the palette, then hues by the golden ratio, in rings of lightness."""
+    """Distinct colors: the palette, then hues by the golden ratio, in rings of lightness."""
     colors: list[RGB] = list(PALETTE)
     k = 0
     while len(colors) < count:
@@ -215,7 +213,6 @@ def distinct_colors(count: int) -> list[RGB]:
 
 
 def _colormap(colormap: Any) -> Any:
-    """A color map of matplotlib, by its name or as an object."""
     if not isinstance(colormap, str):
         return colormap
     colormaps = module("matplotlib", "a color map").colormaps

@@ -86,7 +86,7 @@ def add_option(group: Any, option: Field[Any]) -> None:
 
 
 def joined(words: list[str]) -> list[str]:
-    """Arguments with "--up -z" joined to "--up=-z": otherwise argparse takes -z for an option."""
+    """Joins "--up -z" to "--up=-z": otherwise argparse takes -z for an option."""
     result: list[str] = []
     for word in words:
         if result and re.fullmatch(r"--[a-z-]+", result[-1]) and re.fullmatch(r"-([xyz]|[\d.][\d.,eE+%-]*)", word):
@@ -97,7 +97,7 @@ def joined(words: list[str]) -> list[str]:
 
 
 def check(given: argparse.Namespace) -> None:
-    """Checks names, and options that contradict each other, before minutes are spent."""
+    """Checks names and contradictory options before minutes are spent."""
     series = given.turntable or given.frames
     pictures = [path for path in given.output if path != "-"]
     files = [(path, PICTURES) for path in pictures] + [
@@ -145,7 +145,7 @@ class Shown:
 
 
 def staged(given: argparse.Namespace, options: Options) -> Any:
-    """Yields the number of each picture (None if it is the only one) and what it shows."""
+    """Yields the number of each picture (None if it is the only one) and its contents."""
     if given.frames:
         first, last = given.frames
         return zip(range(first, last + 1), frames(lambda: read_frames(given.data, first, last, **options.reading), options,
@@ -163,7 +163,7 @@ def draw(given: argparse.Namespace, options: Options) -> int:
     for number, each in staged(given, options):
         if not given.quiet:
             for note in each.notes:
-                if (words := re.sub(r"\d", "", note)) not in told:  # of a series, once for all numbers
+                if (words := re.sub(r"\d", "", note)) not in told:  # once for all numbers
                     tell("pt-figure", note)
                     told.add(words)
         if given.legend and not number:

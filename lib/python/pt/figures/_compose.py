@@ -16,14 +16,12 @@ OUTLINE_LIGHT: Final = 0.01  # nearly black
 def compose(radiance: npt.NDArray[np.float32], stage: Any, shares: Shares, exposure: float) -> tuple[Doubles, Doubles]:
     """Returns linear light multiplied by alpha, shape (height, width, 3), and alpha, shape (height, width).
 
-    stage   radiance of the same scene without its particles: a number if all pixels are alike, otherwise an image
+    stage   radiance of the scene without its particles: a number if all pixels are alike, otherwise an image
 
-    What the particles and their shadows change in the scene is applied to the background, as Debevec does for
-    photographs (1998, "Rendering Synthetic Objects into Real Scenes", section 5). Over white, a pixel of which the
-    particles cover the share a is T(radiance) + (1 - a) (1 - T(stage)), where T applies the exposure. So a floor is
-    white where nothing darkens it, has no horizon, and its shadows fade as the lamp's light does with distance. Alpha
-    is the smallest that gives this light over white: at least the particles' share and, in a shadow, by how much it
-    darkens.
+    The change of the scene by particles and shadows is applied to the background (Debevec 1998, "Rendering Synthetic
+    Objects into Real Scenes", section 5). Over white a pixel with the particles' share a is T(radiance) + (1 - a) (1 -
+    T(stage)), where T applies the exposure: a floor is white where nothing darkens it, has no horizon, and its shadows
+    fade with distance. Alpha is the smallest that gives this light over white.
     """
     behind = np.clip(stage * 2.0**exposure, 0.0, 1.0)
     share = shares.shapes[:, :, None]

@@ -16,7 +16,7 @@ SYMBOLS: Final = tuple(
     "Hg Tl Pb Bi Po At Rn Fr Ra Ac Th Pa U Np Pu Am Cm".split())
 """By atomic number; 0 is no known element, here and in the tables below."""
 
-# Angstroms, 0 where there is none: Alvarez, Dalton Trans. 42 (2013) 8617.
+# Angstroms, 0: unknown. Alvarez, Dalton Trans. 42 (2013) 8617.
 VAN_DER_WAALS_RADII: Final = np.array((
     0,
     1.2, 1.43, 2.12, 1.98, 1.91, 1.77, 1.66, 1.5, 1.46, 1.58, 2.5, 2.51, 2.25, 2.19, 1.9, 1.89, 1.82, 1.94, 2.73,
@@ -60,8 +60,8 @@ COLORS: Final = np.frombuffer(bytes.fromhex(
 NUMBERS: Final = {symbol: number for number, symbol in enumerate(SYMBOLS) if number} | {"D": 1, "T": 1}
 _NUMBERS: Final = {symbol.lower(): number for symbol, number in NUMBERS.items()}
 
-# Atom names of the Protein Data Bank and of water models that are not elements, such as "CB": if one of them is among
-# labels in capitals, CA is a carbon and HG a hydrogen.
+# Atom names of the Protein Data Bank and of water models that are not elements: beside one of them, CA is a carbon and
+# HG a hydrogen.
 _ATOM_NAMES: Final = frozenset("CB CG CZ CM HA HB HT HW OW OT OXT NZ NH".split())
 _IONS: Final = {"NA": 11, "CL": 17, "MG": 12, "ZN": 30, "FE": 26, "MN": 25, "BR": 35, "LI": 3, "SE": 34, "SOD": 11,
                 "CLA": 17, "POT": 19, "CAL": 20}
@@ -70,7 +70,7 @@ _UNITED: Final = (13.019, 14.027, 15.035, 16.043)  # CH to CH4 of united atoms
 
 
 def distinct(labels: Array) -> tuple[Array, Array]:
-    """The different labels, in order of appearance, and for each particle the index of its label."""
+    """Labels in order of appearance, and for each particle the index of its label."""
     codes = np.full(len(labels), -1, np.int32)
     values: list[Any] = []
     while (first := int(np.argmin(codes))) < len(labels) and codes[first] < 0:
@@ -83,7 +83,7 @@ def distinct(labels: Array) -> tuple[Array, Array]:
 
 
 def categories(labels: Array) -> tuple[list[str], Array]:
-    """The different labels in ascending order, as text, and for each particle the index of its label."""
+    """Labels in ascending order, as text, and for each particle the index of its label."""
     values, codes = distinct(labels)
     order = np.argsort(values)
     names = [f"{value:.9g}" if labels.dtype.kind == "f" else str(value) for value in values[order]]
@@ -91,7 +91,7 @@ def categories(labels: Array) -> tuple[list[str], Array]:
 
 
 def _letters(label: str) -> str:
-    """The letters of a label, without digits, charges and what follows: Fe for Fe2+, H for 1HB2, C for C_3."""
+    """Fe for Fe2+, H for 1HB2, C for C_3."""
     found = re.match(r"[\d\s]*([A-Za-z]*)", label)
     return found.group(1) if found else ""
 
@@ -108,8 +108,8 @@ def _number(label: str, is_atom_name: bool) -> int:
 def elements_of(labels: Array) -> tuple[Array | None, list[str]]:
     """Atomic numbers, shape (n,), uint8, 0 for labels that are not elements; None if none is. And notes for the user.
 
-    labels  shape (n,): symbols in any case, also with digits or charges; D and T; names of atoms as in PDB files;
-            or atomic numbers
+    labels  shape (n,): symbols in any case, also with digits or charges; D and T; atom names as in PDB files; or atomic
+            numbers
     """
     values, codes = distinct(labels)
     names = [str(value) for value in values]
@@ -130,8 +130,8 @@ def elements_of(labels: Array) -> tuple[Array | None, list[str]]:
 
 
 def elements_of_masses(masses: Array) -> npt.NDArray[np.uint8]:
-    """Atomic numbers of masses in daltons, 0 for those of no element; all are 0 if the masses seem to be in other units, in
-    which most are 1. United atoms of carbon and hydrogen are carbon."""
+    """Atomic numbers of masses in daltons, 0 for no element; all 0 if most are 1, as in other units. United atoms of
+    carbon and hydrogen are carbon."""
     away = np.abs(masses[:, None] - MASSES)
     away[:, 0] = np.inf
     nearest = away.argmin(axis=1)

@@ -6,7 +6,7 @@ import importlib
 from types import ModuleType
 from typing import Final
 
-# For each optional module, the extra of this package that installs it.
+# The package's extra that installs each optional module.
 EXTRAS: Final = {"matplotlib": "figure", "PIL": "figure", "pandas": "figure", "zstandard": "figure-atoms",
                  "gemmi": "figure-atoms", "chemfiles": "figure-atoms", "gsd": "figure-atoms", "trimesh": "figure-points",
                  "pyvista": "figure-points", "laspy": "figure-points"}
@@ -17,12 +17,12 @@ class DataError(ValueError):
 
 
 def module(name: str, purpose: str) -> ModuleType:
-    """An optional module, which is imported when it is first needed: most take long and have no types."""
+    """Imports an optional module on first need: most import slowly and have no types."""
     try:
         return importlib.import_module(name)
     except ImportError as error:
         package = name.partition(".")[0]
         if (error.name or name).partition(".")[0] != package:
-            raise  # the module is there, but something that it needs is not
+            raise  # the module exists, but something that it needs does not
         way = f"'pt[{EXTRAS[package]}]', or {package} alone" if package in EXTRAS else package
         raise DataError(f"{purpose} needs the module {package}: pip install {way}") from None

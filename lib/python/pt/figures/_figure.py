@@ -46,11 +46,11 @@ LEGENDS: Final = ("svg", "pdf", "png")
 
 @dataclass(frozen=True)
 class Drawn:
-    """Particles as balls, in scene units: those of the data, times a power of two if they are far from 1.
+    """Particles as balls, in scene units: the data's, times a power of two if they are far from 1.
 
     colors     shape (n, 3), or (3,) if all have the same
     scale      scene units per unit of the data
-    settled    options that followed from the data, in the units of the data
+    settled    options that followed from the data, in its units
     opacities  shape (n,); None: all are opaque
     """
 
@@ -81,7 +81,7 @@ class Drawn:
 
     @property
     def all_radii(self) -> Array:
-        """Of balls, then of rods."""
+        """Radii of balls, then of rods."""
         if not self.rods:
             return self.radii
         return np.concatenate([self.radii, *(np.full(len(each.atoms), each.radius) for each in self.rods)])
@@ -130,7 +130,7 @@ def prepare(particles: Particles, options: Options, scale: float | None = None, 
 
 
 def _shown(particles: Particles, options: Options, radii: Array, notes: list[str]) -> Array | None:
-    """Which particles are drawn; None: all."""
+    """None: all are drawn."""
     conditions = [options.where] if isinstance(options.where, str) else options.where
     shown: Array | None = np.logical_and.reduce([holds(particles, each) for each in conditions]) if conditions else None
     if shown is not None and not shown.any():
@@ -160,7 +160,7 @@ def _check(name: str, radii: Array, shown: Array | None) -> None:
 
 def _in_range(positions: Array, radii: Array, cell: Cell | None, scale: float | None
               ) -> tuple[Array, Array, Cell | None, float]:
-    """The particles in units that suit the library's range of lengths."""
+    """Units suit the library's range of lengths."""
     if scale is None:
         largest = max(float(radii.max()), 0.0 if cell is None else float(np.abs(cell_corners(cell)).max()),
                       *(float(np.abs(positions[rows]).max()) for rows in chunks(len(positions))))
@@ -173,7 +173,7 @@ def _in_range(positions: Array, radii: Array, cell: Cell | None, scale: float | 
 
 
 def view_of(drawn: Drawn, options: Options, turns: bool = False) -> View:
-    """The view of a figure. turns: as in View.of."""
+    """turns: as in View.of."""
     size = options.size
     if size is not None and options.colorbar and drawn.legend is not None:
         size = size[0] - _strip_width(raster(drawn.legend, size[1], INK), size[1]), size[1]
@@ -203,7 +203,7 @@ class Staged:
 
     @functools.cached_property
     def notes(self) -> list[str]:
-        """What was decided by the data, and what is not shown."""
+        """Choices made by the data, and what is not shown."""
         pixels = pixels_per_length(self.layout.camera, self.layout.size[1], self.layout.distance)
         narrow = narrow_note(self.drawn.radii, pixels, self.layout.size, self.drawn.scale)
         return [*self.drawn.notes, *([narrow] if narrow else [])]
@@ -260,9 +260,9 @@ class Figure(Image):
     """A rendered figure: an Image whose picture has background, lines and color bar, and whose numbers are the radiance
     without them.
 
-    scene      what was rendered, with camera and settings
-    legend     what the colors mean; None if they mean nothing
-    notes      sentences on what was decided by the data, and on what is not shown
+    scene      as rendered, with camera and settings
+    legend     meaning of the colors, or None
+    notes      sentences on choices made by the data, and on what is not shown
     error      of the radiance, stated by the renderer, as for any Image
     """
 
@@ -330,8 +330,8 @@ class Figure(Image):
         return encode_png(self.picture(np.uint8 if bits == 8 else np.uint16, exposure))
 
     def save(self, path: Path, *, exposure: float | None = None, bits: int = 8) -> None:
-        """Writes the picture if the path ends in .png or .jpg, and the linear radiance if it ends in .exr or .npy. The
-        file is written whole or not at all. ValueError: another ending."""
+        """Writes the picture (.png, .jpg) or the linear radiance (.exr, .npy), whole or not at all. ValueError: another
+        ending."""
         format = format_of(path, (*PICTURES, "npy"))
         if format == "npy":
             super().save(path)
@@ -344,8 +344,8 @@ class Figure(Image):
         self._staged.save_legend(path)
 
     def save_scene(self, path: Path) -> None:
-        """Writes a scene file for `pt render`, and beside it NPY files of the particles. It does not have the
-        background, outlines, color bar or seed."""
+        """Writes a scene file for `pt render`, and beside it NPY files of the particles, without the background,
+        outlines, color bar or seed."""
         self._staged.save_scene(path)
 
     def _repr_png_(self) -> bytes:

@@ -1,5 +1,4 @@
-"""Which balls decide what a picture shows: all but a few that are far from all others. And notes on pictures that show
-little."""
+"""Which balls decide the frame: all but a few that are far from all others. And notes on pictures that show little."""
 
 from __future__ import annotations
 
@@ -16,7 +15,7 @@ from pt.figures._spread import middle_of, reaches_of, usual_reach
 
 FAR: Final = 4.0  # times as far from the middle as all others
 BEYOND: Final = 1.25  # times as far as these: is left out
-LARGE: Final = 10.0  # times as far as all particles: of a cell that leaves little of the picture to them; by taste
+LARGE: Final = 10.0  # times as far as all particles: a cell that leaves them little of the picture; by taste
 OUTSIDE: Final = 0.1  # share of the particles that may be outside of the cell unmentioned
 WALL: Final = 0.01  # of the cell's edges: how far outside does not count
 LEAST_COVER: Final = 0.1  # of the picture, by balls that are narrower than a pixel
@@ -24,8 +23,8 @@ WIDTH: Final = 8.0  # pixels, of balls that are well seen; by taste
 
 
 def far_away(positions: Array, radii: Array, notes: list[str]) -> Array | None:
-    """Which balls are so far from all others, and so few, that a picture of all would hardly show the others; None if there
-    are none. A ball as large as all others together is never one."""
+    """The few balls so far away that a picture of all would hardly show the others; None: none. A ball as large as all
+    others together is never one."""
     reaches = reaches_of(positions, radii)
     usual = usual_reach(reaches)
     usual = max(usual, float(reaches.max(where=radii > usual, initial=0.0)))

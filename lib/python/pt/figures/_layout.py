@@ -23,8 +23,8 @@ MOST_ASPECT: Final = 2.0
 
 @dataclass(frozen=True)
 class Balls:
-    """What must be wholly in the picture. centers: shape (n, 3). radii: shape (n,). points: shape (k, 3), such as a
-    cell's corners."""
+    """The contents of the picture. centers: shape (n, 3). radii: shape (n,). points: shape (k, 3), such as a cell's
+    corners."""
 
     centers: Array
     radii: Array
@@ -39,8 +39,7 @@ class Balls:
 
 @dataclass(frozen=True)
 class View:
-    """The direction of a figure, and the size of its picture. All that it needs to know of balls is how far they
-    reach."""
+    """A figure's direction and picture size; of the balls it needs reaches only."""
 
     compass: Compass
     axes: Doubles
@@ -51,7 +50,7 @@ class View:
 
     @staticmethod
     def through(camera: Camera, up: Direction, size: tuple[int, int], scale: float) -> View:
-        """The view through a given camera, which is in the units of the data."""
+        """Through a given camera, in the units of the data."""
         right, above, back = camera.axes()
         return View(Compass.of(up_vector(up)), np.array([right, above, -back]), size, "",
                     camera=camera._scaled(scale))
@@ -76,7 +75,7 @@ class View:
         return View(compass, axes, size, projection, spin)
 
     def turned(self, angle: float) -> View:
-        """The view of a turntable's camera that has gone round by so many radians."""
+        """The view of a turntable's camera turned by an angle in radians."""
         assert self.spin is not None
         return replace(self, axes=self.axes @ _rotation(self.spin.axis, angle).T)
 
@@ -92,8 +91,7 @@ class View:
 
 
 def _shape(extents: Doubles) -> tuple[int, int]:
-    """The size of a picture with the proportions of what is seen, but never a ribbon: PIXELS in all, sides multiples of
-    8."""
+    """A size with the extents' proportions, but never a ribbon: PIXELS in all, sides multiples of 8."""
     aspect = min(max(float(extents[0] / extents[1]), 1.0 / MOST_ASPECT), MOST_ASPECT)
     sides = [8 * math.floor(side / 8.0 + 0.5) for side in (math.sqrt(PIXELS * aspect), math.sqrt(PIXELS / aspect))]
     return sides[0], sides[1]
@@ -101,8 +99,7 @@ def _shape(extents: Doubles) -> tuple[int, int]:
 
 @dataclass(frozen=True)
 class Layout:
-    """distance: from the camera to the middle of what is shown, along the view; of a camera within that, half of its
-    extent."""
+    """distance: from the camera to the middle of the contents, along the view; from within, half of their extent."""
 
     size: tuple[int, int]
     axes: Doubles

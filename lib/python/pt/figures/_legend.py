@@ -1,4 +1,4 @@
-"""The legend of a figure's colors, drawn by matplotlib: as a file of its own, or for a strip beside the picture."""
+"""The legend of a figure's colors, by matplotlib: in a file, or for a strip beside the picture."""
 
 from __future__ import annotations
 
@@ -17,18 +17,17 @@ POINTS_PER_INCH: Final = 72.0
 
 
 def _matplotlib(part: str = "") -> Any:
-    """matplotlib, imported when it is first needed: that takes a third of a second."""
+    """Imported on first need, because that is slow."""
     return module(f"matplotlib.{part}".rstrip("."), "a legend")
 
 
 def _plain(text: str) -> str:
-    """Text that matplotlib shows as it is, not as TeX."""
+    """Text that matplotlib does not take for TeX."""
     return text.replace("$", r"\$")
 
 
 def draw(legend: Legend, height: float, font: float, ink: Any) -> Any:
-    """The legend as a matplotlib Figure. height: of a color bar, and the most of a column of swatches, inches. font:
-    points."""
+    """A matplotlib Figure. height: of a color bar, and the most of a column of swatches, inches. font: points."""
     if legend is None:
         raise ValueError("legend: there is nothing to tell, as all colors are given or alike")
     with _matplotlib().rc_context({"font.size": font, "text.color": ink, "axes.labelcolor": ink, "axes.edgecolor": ink,
@@ -61,7 +60,7 @@ def _draw_swatches(sheet: Any, swatches: Swatches, height: float, font: float, i
 
 
 def save(legend: Legend, file: Any, format: str) -> None:
-    """Writes the legend to a file; equal legends give equal bytes. format: svg, pdf, png."""
+    """Equal legends give equal bytes. format: svg, pdf, png."""
     dates = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
     with _matplotlib().rc_context({"svg.hashsalt": "pt"}):
         draw(legend, 2.4, 10.0, "#222222").savefig(file, format=format, dpi=200, bbox_inches="tight", pad_inches=0.08,
@@ -69,8 +68,8 @@ def save(legend: Legend, file: Any, format: str) -> None:
 
 
 def raster(legend: Legend, height: int, ink: Any) -> npt.NDArray[np.float64]:
-    """The legend as pixels of shape (rows, columns, 4), from 0 to 1, no higher than the picture if the text allows.
-    height: the picture's."""
+    """Pixels of shape (rows, columns, 4), from 0 to 1, no higher than the picture if the text allows. height: the
+    picture's."""
     font = max(9.0, 0.02 * height * POINTS_PER_INCH / PIXELS_PER_INCH)
     buffer = io.BytesIO()
     draw(legend, 0.62 * height / PIXELS_PER_INCH, font, ink).savefig(

@@ -12,11 +12,11 @@ from pt.figures._cell import Cell
 
 Array = npt.NDArray[Any]
 
-MOST_COMPARED: Final = 400_000_000  # pairs, which takes about a minute
-MOST_FOUND: Final = 20_000_000  # of these, which takes 2 GB
+MOST_COMPARED: Final = 400_000_000  # pairs: about a minute
+MOST_FOUND: Final = 20_000_000  # of these: 2 GB
 COMPARED_AT_ONCE: Final = 1 << 21
 SLACK: Final = 1.0 + 2.0**-30  # so that roundings put no neighbour two cells away
-AHEAD: Final = ((0, 1), (1, -1), (1, 0), (1, 1))  # of the rows of a grid next to one: with it and these, each pair is met once
+AHEAD: Final = ((0, 1), (1, -1), (1, 0), (1, 1))  # of the rows of a grid next to one, for which each pair is met once
 
 
 class Pairs(NamedTuple):
@@ -34,8 +34,8 @@ class Pairs(NamedTuple):
 
 
 def pairs_within(positions: Array, cutoff: float, cell: Cell | None, radii: Array | None = None, slack: float = 0.0) -> Pairs:
-    """All pairs no farther apart than the cutoff and, if there are radii, than their sum and the slack. Raises
-    ValueError if there are too many to find."""
+    """All pairs no farther apart than the cutoff and, if there are radii, than their sum and the slack. ValueError: too
+    many."""
     positions = positions.astype(np.float64)
     sources, shifts = _images(positions, cell, cutoff)
     places = positions[sources] if cell is None else positions[sources] + shifts @ cell.vectors
@@ -70,8 +70,8 @@ def _is_first(first: Array, second: Array, steps: Array) -> Array:
 
 
 def _images(positions: Array, cell: Cell | None, cutoff: float) -> tuple[Array, Array]:
-    """The particles brought into the cell, then their images that are no farther from it than the cutoff: indices of
-    the particles, and by how many edges each has been moved."""
+    """The particles brought into the cell, then their images within the cutoff of it: indices of the particles, and by
+    how many edges each has been moved."""
     sources = np.arange(len(positions))
     if cell is None:
         return sources, np.zeros((len(positions), 3))
@@ -93,7 +93,7 @@ def _images(positions: Array, cell: Cell | None, cutoff: float) -> tuple[Array, 
 
 
 def _candidates(places: Array, cutoff: float) -> Iterator[tuple[Array, Array]]:
-    """Pairs in the same or adjacent cells of a grid whose sides are the cutoff, each of them once."""
+    """Pairs in the same or adjacent cells of a grid whose sides are the cutoff."""
     low = places.min(axis=0)
     side = max(cutoff * SLACK, float((places.max(axis=0) - low).max()) * 2.0**-20)  # so that keys fit into 64 bits
     cells = np.floor((places - low) / side).astype(np.int64) + 1

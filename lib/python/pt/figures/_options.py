@@ -1,5 +1,5 @@
-"""The options of a figure. This one description makes the keywords of pt.figure(), the options of pt-figure, their
-words in help() and --help, and their checks."""
+"""The options of a figure: one description for the keywords of pt.figure(), the options of pt-figure, help() and
+--help, and their checks."""
 
 from __future__ import annotations
 
@@ -31,8 +31,8 @@ MOST_SAMPLES: Final = 65536  # with a target error
 
 
 def _option(group: str, default: Any, metavar: str, words: str, **more: Any) -> Any:
-    """An option. more: choices; rule, the condition on its value and the words for it; flag, its name on the command
-    line; read, which makes its value from text there."""
+    """more: choices; rule, the condition on its value and the words for it; flag, its name on the command line; read,
+    which makes its value from text there."""
     return field(default=default, metadata={"group": group, "metavar": metavar, "words": words, **more})
 
 
@@ -165,7 +165,7 @@ class Options:
 
     @property
     def bond_rule(self) -> Bonds:
-        """The bonds that are drawn; None: none are. A model of sticks has some."""
+        """None: no bonds are drawn. A model of sticks has some."""
         given = not (self.bonds is None or self.bonds is False)
         return self.bonds if given else "auto" if self.drawn_model != "space-filling" else None
 
@@ -182,7 +182,7 @@ class Options:
 
 
 def described() -> str:
-    """The options for a docstring."""
+    """For a docstring."""
     return "\n".join(_paragraph(each) for each in fields(Options))
 
 

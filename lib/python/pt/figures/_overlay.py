@@ -1,5 +1,5 @@
-"""What is laid over a rendered figure, outlines, and the share of each pixel that is not background. Both follow from
-what camera rays meet first, 16 rays a pixel, or more where rays pass balls at random."""
+"""Outlines over a rendered figure, and each pixel's share of shapes. Both follow from first hits of 16 rays a pixel, or
+more where rays pass balls at random."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ from pt._fit import Array, Doubles
 
 PER_SIDE: Final = 4  # rays along each side of a pixel
 MOST_PER_SIDE: Final = 32  # then random shares are within 0.016, a standard deviation
-MOST_RAYS: Final = 2**32 - 1  # pixels that an image of the library has at most
-BAND_ROWS: Final = 32  # few enough that their hits take less memory on the device than the picture does
-LEAST_STEP: Final = 0.1  # depth behind an outline, as a share of the radius: less has no outline
+MOST_RAYS: Final = 2**32 - 1  # the most pixels of the library's images
+BAND_ROWS: Final = 32  # so few that their hits take less device memory than the picture
+LEAST_STEP: Final = 0.1  # depth behind an outline, relative to the radius: less has no outline
 LEAST_RADIUS: Final = 2.5  # of a ball with an outline, in line widths: smaller ones would be all outline
 
 
@@ -35,7 +35,7 @@ class Shares:
 class Overlaid:
     """first   index of the first particle among all spheres and capsules
     count   of particles, bonds, vectors and edges of the cell, in this order
-    radii   shape (n,): of those that have outlines: all but the edges
+    radii   shape (n,), without the edges, which have no outlines
     """
 
     first: int
@@ -45,20 +45,19 @@ class Overlaid:
 
 
 def line_width(size: tuple[int, int]) -> float:
-    """Width of lines in pixels: 0.0016 of the picture's longer side, at least one."""
+    """In pixels: 0.0016 of the picture's longer side, at least one."""
     return max(1.0, 0.0016 * max(size))
 
 
 def rays_per_side(samples: float, pixels: int) -> int:
-    """Where opacity makes shares random, which then are as exact as the radiance of so many samples."""
+    """As many rays as samples where opacity makes shares random."""
     most = min(MOST_PER_SIDE, math.isqrt(MOST_RAYS // pixels))
     return max(min(math.ceil(math.sqrt(samples)), most), PER_SIDE)
 
 
 def read_shares(context: Context, camera: Camera, settings: RenderSettings, overlaid: Overlaid, per_side: int = PER_SIDE
                 ) -> Shares:
-    """Shares of the pixels. The context must have the scene and the camera; its render settings are replaced. Outlines
-    take PER_SIDE."""
+    """The context must have the scene and the camera; its render settings are replaced. Outlines take PER_SIDE."""
     width, height = settings.width, settings.height
     shares = Shares(np.zeros((height, width)), np.zeros((height, width)))
     margin = math.ceil(0.5 * line_width((width, height))) + 1 if overlaid.outlines else 0
@@ -79,7 +78,7 @@ def read_shares(context: Context, camera: Camera, settings: RenderSettings, over
 
 def _share(hits: Array, per_side: int) -> Doubles:
     counts: Any = hits.view(np.uint8)
-    rows: Any = sum(counts[i::per_side] for i in range(per_side))  # NumPy takes twenty times as long along short axes
+    rows: Any = sum(counts[i::per_side] for i in range(per_side))  # NumPy is slow along short axes
     rows = rows.astype(np.uint16)
     cells: Doubles = sum(rows[:, i::per_side] for i in range(per_side)) / per_side**2
     return cells
@@ -103,8 +102,8 @@ def pixels_per_length(camera: Camera, height: int, depths: Any) -> Any:
 
 
 def _outlines(index: Array, depths: Array, overlaid: Overlaid, pixels: Any, width: float) -> Array:
-    """The outlines of balls: where a ball ends in front of something that is not a ball, or is farther by more than a
-    tenth of the ball's radius."""
+    """Balls have outlines in front of anything but a ball, and of balls that are farther by more than a tenth of the
+    radius."""
     has_outline, is_shape = index < len(overlaid.radii), index < overlaid.count
     radii = overlaid.radii[np.where(has_outline, index, 0) if overlaid.radii.strides[0] else np.zeros_like(index)]
     large = has_outline & (radii * pixels >= LEAST_RADIUS * width)

@@ -1,4 +1,4 @@
-"""Particles as a figure draws them: positions, columns, and what the data say of elements, types, radii and colors."""
+"""Particles as a figure draws them: positions, columns, elements, types, radii and colors."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ from pt.figures._errors import DataError
 
 Array = npt.NDArray[Any]
 
-NEGLIGIBLE: Final = 1e-12  # as a share of the largest coordinate: 1e-5 of what float32 can tell apart
+NEGLIGIBLE: Final = 1e-12  # relative to the largest coordinate: 1e-5 of float32's resolution
 MANY_COLUMNS: Final = 1000
-MOST_COMPARED: Final = 2_000_000  # particles that are compared to find those in the same place
+MOST_COMPARED: Final = 2_000_000  # particles that are compared to find coinciding ones
 MOST_SORTED: Final = 100_000
 _ODD: Final = np.uint64(0x9E3779B97F4A7C15)  # 2^64 over the golden ratio: Knuth's multiplicative hash
 
@@ -48,8 +48,7 @@ class Bonds:
     """Bonds that the data give, each of them once.
 
     pairs        shape (k, 2): indices of the particles
-    images       shape (k, 3): the bond leads to the second particle moved by images @ cell.vectors; None: to its
-                 nearest image
+    images       shape (k, 3): moves the second particle by images @ cell.vectors; None: to its nearest image
     is_complete  whether there are no other bonds
     """
 
@@ -59,14 +58,15 @@ class Bonds:
 
     @staticmethod
     def of(pairs: npt.ArrayLike, images: Array | None = None, is_complete: bool = True) -> Bonds:
-        """Without bonds of particles to themselves, and with none twice."""
+        """Drops bonds of particles to themselves, and duplicates."""
         rows = np.array(pairs, np.intp).reshape(-1, 2)
         if images is None:
             rows = np.unique(np.sort(rows[rows[:, 0] != rows[:, 1]], axis=1), axis=0)
         return Bonds(rows, images, is_complete)
 
     def among(self, rows: Array, count: int) -> Bonds:
-        """The bonds between some of so many particles, by their new indices. rows: the old indices, in the new order."""
+        """The bonds between selected particles, by their new indices. count: of all. rows: the old indices, in the new
+        order."""
         new = np.full(count, -1, np.intp)
         new[rows] = np.arange(len(rows))
         pairs = new[self.pairs]
@@ -76,15 +76,15 @@ class Bonds:
 
 @dataclass
 class Particles:
-    """n particles, n >= 1, and what the data say of them.
+    """n particles, n >= 1.
 
     positions  shape (n, 3), float32 or float64, finite
-    columns    every column of the data under its own name, shape (n,), numbers or str; those of coordinates are views
-    elements   shape (n,), uint8: atomic numbers, 0 for an unknown element; None: the data have no elements
+    columns    every column of the data under its own name, shape (n,), numbers or str; coordinates are views
+    elements   shape (n,), uint8: atomic numbers, 0: unknown; None: the data have no elements
     types      shape (n,), int or str: labels that are not elements
     radii      shape (n,): a column "radius", or half a column "diameter"
     colors     shape (n, 3) or (n, 4): sRGB, floats from 0 to 1, uint8 or uint16
-    bonds      those of the data; None: they say nothing of bonds
+    bonds      the data's; None: unknown
     name       name of the data, for messages
     notes      warnings for the user
     """
@@ -104,11 +104,11 @@ class Particles:
         return len(self.positions)
 
     def column(self, name: str) -> Array:
-        """The column of that name, or the only one whose name differs only in case."""
+        """By name, or by the only one that differs in case."""
         return self.columns[_found(self.columns, name, self.name)]
 
     def select(self, mask: Array) -> Particles:
-        """The particles that a mask, a slice or indices select, in that order. If all are kept, they are not copied."""
+        """Selects by a mask, a slice or indices, in their order. If all are kept, they are not copied."""
         if mask.dtype == bool and mask.all():
             return self
         chosen = {key: None if value is None else value[mask] for key, value in
@@ -130,8 +130,7 @@ class Particles:
         return self._moved(positions, slice(None), bonds=bonds)
 
     def _moved(self, positions: Array, rows: Any, **changed: Any) -> Particles:
-        """Particles with other positions, and these rows of the other columns. Columns of coordinates stay views of
-        positions."""
+        """Other positions, and these rows of the other columns. Columns of coordinates stay views of positions."""
         axes = {self.positions[:, axis].ctypes.data: axis for axis in range(3)}
         columns = {}
         for name, values in self.columns.items():
@@ -142,11 +141,11 @@ class Particles:
 
 @dataclass
 class Table:
-    """The contents of a file or an object, before it is known what the columns mean.
+    """The contents of a file or an object, before columns have meanings.
 
     columns   arrays of one or two dimensions; positions may also be one column of two or three components
     is_text   whether numbers come from text, so that their type does not tell the scale of colors
-    elements  atomic numbers, 0 if unknown; None: columns may have them
+    elements  atomic numbers, 0: unknown; None: columns may have them
     types     labels that are not elements, though they may look so
     rows      indices of the file's atoms that the table has; None: all
     sites     how many atoms the file has, drawn or not
@@ -164,8 +163,7 @@ class Table:
 
 
 def assembled(name: str, given: Table, mapping: Mapping[str, str], drop_nonfinite: bool) -> Particles:
-    """Particles from columns, which are found by their names, or by those in a mapping: {"x": "pos_x", "radius":
-    "r"}."""
+    """Columns are found by their names, or by those in a mapping: {"x": "pos_x", "radius": "r"}."""
     notes = list(given.notes)
     parts, table = _split(name, given.columns)
     chosen = {role: _found(parts, source, name) for role, source in mapping.items()}
@@ -207,7 +205,7 @@ def _split(name: str, columns: Mapping[str, npt.ArrayLike]) -> tuple[dict[str, A
 
 
 def _without_objects(array: Array) -> Array:
-    """An array that pandas and others keep as objects, as numbers or, failing that, words."""
+    """Objects, as pandas keeps them, become numbers or, failing that, words."""
     if array.dtype != object:
         return array
     try:
@@ -217,14 +215,13 @@ def _without_objects(array: Array) -> Array:
 
 
 def _plain(name: str) -> str:
-    """A name in lower case, without units in brackets, separators and quotes: posx for "Pos_X [m]"."""
+    """Lower case without units in brackets, separators and quotes: posx for "Pos_X [m]"."""
     name = re.sub(r"\s*[\[(](?!\d+[\])])[^\])]*[\])]\s*$", "", name)
     return re.sub(r"[^a-z0-9]", "", name.lower())
 
 
 def _found(columns: Mapping[str, Array], name: str, data: str) -> str:
-    """The name of a column that was asked for by name, in whatever case, or by number from 1 if columns have no
-    names."""
+    """The name of a column by name in any case, or by number from 1 if columns have no names."""
     if name in columns:
         return name
     similar = [each for each in columns if each.lower() == name.lower()]
@@ -236,7 +233,7 @@ def _found(columns: Mapping[str, Array], name: str, data: str) -> str:
 
 
 def _first(columns: Mapping[str, Array], names: tuple[str, ...]) -> str | None:
-    """The first of these names that is there; an exact match comes before another case."""
+    """The first of these names in the columns; an exact match comes before another case."""
     folded: dict[str, str] = {}
     for each in columns:
         folded.setdefault(each.lower(), each)
@@ -246,7 +243,7 @@ def _first(columns: Mapping[str, Array], names: tuple[str, ...]) -> str | None:
 
 def coordinate_names(names: list[str]) -> tuple[list[str], bool]:
     """Which columns are positions (two, three or none), and whether they are fractions of the cell. Exact names come
-    first, so that beside x, y and z a column Z is the atomic number, as it mostly is."""
+    first, so that beside x, y and z a column Z is the atomic number."""
     if all(axis in names for axis in "xyz"):
         return ["x", "y", "z"], False
     plain: dict[str, str] = {}
@@ -311,8 +308,7 @@ def _common_table(columns: list[Array]) -> Array | None:
 
 
 def _flushed(positions: Array) -> Array:
-    """Positions with 0 in place of numbers such as 3e-19 that rounding leaves: negligible beside the largest
-    coordinate."""
+    """Replaces numbers such as 3e-19 that rounding leaves by 0: negligible beside the largest coordinate."""
     least, largest = np.inf, 0.0
     for rows in chunks(len(positions)):
         sizes = np.abs(positions[rows])
@@ -347,9 +343,8 @@ def _finite(particles: Particles, drop: bool) -> Particles:
 
 
 def _note_coinciding(particles: Particles) -> None:
-    """Notes how many particles are in the same place as another one. Places are told apart by a projection in which
-    different ones do not coincide; if there are many particles, only those whose projections have a hash that begins
-    with zeros are compared."""
+    """Notes how many particles coincide with another. Compares projections in which different places do not coincide;
+    of many particles, only projections whose hash begins with zeros."""
     count, bits = len(particles), (len(particles) // MOST_SORTED).bit_length()
     if count > MOST_COMPARED:
         return
@@ -385,7 +380,7 @@ def _put_radii(particles: Particles, chosen: dict[str, str]) -> None:
 
 
 def _with_extent(particles: Particles) -> Particles:
-    """The particles without those of radius 0. If all have it, the radii say nothing."""
+    """Drops particles of radius 0. If all have it, the radii count as unknown."""
     if particles.radii is None or (particles.radii != 0).all():
         return particles
     count = int((particles.radii == 0).sum())
@@ -398,8 +393,8 @@ def _with_extent(particles: Particles) -> Particles:
 
 
 def _put_labels(particles: Particles, chosen: dict[str, str]) -> None:
-    """Fills in elements or, failing that, types. A column of types has elements if it has words that are mostly known
-    symbols."""
+    """Fills in elements or, failing that, types. A column of types has elements if its words are mostly known symbols.
+    """
     columns = particles.columns
     element, kind = (chosen.get(role) or _first(columns, names) for role, names in
                      (("element", _ELEMENTS), ("type", _TYPES)))
@@ -421,8 +416,7 @@ def _are_numbers(labels: Array) -> bool:
 
 
 def _colors(columns: Mapping[str, Array], chosen: dict[str, str], is_text: bool, notes: list[str]) -> Array | None:
-    """Colors of the particles. The type tells their scale; for other integers and for numbers from text, the largest
-    number does."""
+    """Their type decides the scale; for other integers and for numbers from text, the largest number does."""
     choices = (tuple(chosen.get(key, key) for key in _COLORS[0]), *_COLORS)
     found = next((names for names in ([_first(columns, (name,)) for name in choice] for choice in choices)
                   if None not in names[:3]), None)
@@ -445,7 +439,7 @@ def _colors(columns: Mapping[str, Array], chosen: dict[str, str], is_text: bool,
     if kinds in ({"u1"}, {"u2"}) or (kinds == {"f"} and not is_text):
         return colors
     largest = float(np.nanmax(colors[:, :3], initial=0))
-    # Tolerates rounding: a component of 1.0000001 does not mean that all of them are bytes.
+    # Tolerates rounding: a component of 1.0000001 does not mean bytes.
     scale = 1.0 if largest <= 1.5 else 255.0 if largest <= 258 else 65535.0
     notes.append(f"colors {', '.join(names)} are taken to go from 0 to {scale:g}: the largest is {largest:g}")
     return np.clip(colors / scale, 0, 1)

@@ -1,4 +1,4 @@
-"""Radii of particles: given, from their elements or types, or from how far apart they are; and opacities."""
+"""Radii of particles: given, from their elements or types, or from distances; and opacities."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ PROBES: Final = 1000
 IN_CELL: Final = 8  # particles in a cell, if they fill their box evenly
 MOST_PAIRS: Final = 4_000_000
 TABLE_BITS: Final = 20
-COVER: Final = 0.01  # share of the picture that balls cover at least, where nothing says their radii; by taste
-THIN: Final = 0.001  # least radius of such balls, as a share of the picture: together, a radius of a pixel
-SLACK: Final = 0.225  # half of what bonded atoms are farther apart than their covalent radii at most, in angstroms
+COVER: Final = 0.01  # share of the picture that balls of unknown radii cover at least; by taste
+THIN: Final = 0.001  # their least radius, as a share of the picture: one pixel
+SLACK: Final = 0.225  # half of the most by which bonded atoms exceed their covalent radii, in angstroms
 MOST_FACTOR: Final = 3.0  # of covalent radii: some balls of dilute gases have to stay apart; by taste
 STEPS: Final = np.indices((3, 3, 3)).reshape(3, 1, 27) - 1
 
 
 def column(particles: Particles, name: str) -> Array:
-    """A column by its name; "radius", "type" and "element" work whatever the data call them."""
+    """A column by name; "radius", "type" and "element" also by meaning."""
     known = {"radius": particles.radii, "type": particles.types, "element": particles.elements}
     values = known.get(name) if name not in particles.columns else None
     if values is None:
@@ -39,7 +39,7 @@ def column(particles: Particles, name: str) -> Array:
 
 
 def radii_of(particles: Particles, radius: Radius, notes: list[str]) -> Array:
-    """Radii in shape (n,), or one number for all. notes: receives sentences for the user."""
+    """Shape (n,), or one number for all. notes: receives sentences for the user."""
     factor = 1.0
     if isinstance(radius, str):
         product = re.fullmatch(r"\s*([-+.\deE]+)\s*\*\s*(.+?)\s*", radius)
@@ -80,7 +80,7 @@ def _unscaled(particles: Particles, radius: Radius, notes: list[str]) -> Array:
 
 
 def opacities_of(particles: Particles, opacity: Opacity) -> Array | None:
-    """Opacities in shape (n,), or (1,) for all; None if nothing is said."""
+    """Shape (n,), or (1,) for all; None: unknown."""
     if opacity is None:
         return None
     shares = _numbers("opacity", _number_or_column(particles, opacity) if isinstance(opacity, str) else opacity,
@@ -121,16 +121,15 @@ def _automatic(particles: Particles, notes: list[str]) -> Array:
 
 
 def covalent_factor(particles: Particles) -> float | None:
-    """By what covalent radii are multiplied if nothing says the radii: 1 if neighbours are bonded, more if they are farther
-    apart, such as in noble gases and of the C-alphas of a protein. None: distances are not in angstroms, or there are no
-    elements."""
+    """The factor of covalent radii if no radii are known: 1 if neighbours are bonded, more if they are farther apart,
+    as in noble gases and C-alphas of proteins. None: distances are not in angstroms, or there are no elements."""
     if particles.elements is None:
         return None
     radii = elements.COVALENT_RADII[np.unique(particles.elements)]
     radii = radii[radii > 0]
     typical = typical_radius(particles.positions)
-    # The distance between neighbours is two covalent radii in a bond, up to three times that in a solid without bonds,
-    # 16 times in a gas at 0 degrees Celsius and 1 bar: other distances are not in angstroms.
+    # Neighbours are two covalent radii apart in a bond, three times that in a solid without bonds, 16 times in a gas at
+    # 0 degrees Celsius and 1 bar: other distances are not in angstroms.
     if not len(radii) or not 0.7 * radii.min() <= typical <= 30.0 * radii.max():
         return None
     largest = float(radii.max())
@@ -148,7 +147,7 @@ def _seen(typical: float, positions: Array, notes: list[str]) -> float:
 
 
 def _of_elements(particles: Particles, numbers: npt.NDArray[np.uint8], kind: str, notes: list[str]) -> Array:
-    """Radii of elements; unknown elements have the mean of the known ones."""
+    """Unknown elements have the mean of the known ones."""
     table = (elements.COVALENT_RADII if kind == "covalent" else elements.VAN_DER_WAALS_RADII).astype(np.float32)
     there = np.flatnonzero(np.bincount(numbers, minlength=len(table)))
     known = there[table[there] > 0]
@@ -175,7 +174,7 @@ def _of_types(particles: Particles, radii: Mapping[str, float]) -> Array:
 
 def typical_radius(positions: Array) -> float:
     """Half of the distance between most nearest neighbours, so that most balls just touch; for random points, half of
-    the median distance to the fourth neighbour, of fewer than twelve to a nearer one. Neighbours at the same place do not
+    the median distance to the fourth neighbour, of fewer than twelve to a nearer one. Coinciding neighbours do not
     count."""
     first, fourth = _neighbour_distances(positions)
     if not len(first):
@@ -190,10 +189,9 @@ def typical_radius(positions: Array) -> float:
 
 
 def _neighbour_distances(positions: Array) -> tuple[Array, Array]:
-    """For a sample of the particles, the distances to the nearest and the fourth neighbour, if these are in adjacent
-    cells of a grid."""
+    """Distances of a sample to the nearest and the fourth neighbour, if these are in adjacent cells of a grid."""
     count = len(positions)
-    fourth = min(4, max(count // 3, 1)) - 1  # of few particles, one far away must not be everybody's fourth neighbour
+    fourth = min(4, max(count // 3, 1)) - 1  # one far particle of a few must not be everybody's fourth neighbour
     low, high = (np.array([end(column) for column in positions.T], np.float64) for end in (np.min, np.max))
     extent = high - low
     broad = extent > 1e-6 * extent.max()
@@ -226,8 +224,8 @@ def _neighbour_distances(positions: Array) -> tuple[Array, Array]:
 
 
 def _near(positions: Array, places: Doubles, low: Doubles, side: float) -> tuple[Doubles, Array, Array]:
-    """The positions in and around the cells of some places, ordered by cell; and where in that order each of a place's
-    27 cells begins and ends."""
+    """The positions in and around the cells of some places, ordered by cell; and where each of a place's 27 cells
+    begins and ends in that order."""
     keys = _keys(_cells(places, low, side)[:, :, None] + STEPS)
     wanted = np.zeros(1 << TABLE_BITS, bool)
     wanted[keys] = True
@@ -244,14 +242,14 @@ def _near(positions: Array, places: Doubles, low: Doubles, side: float) -> tuple
 
 
 def _cells(positions: Array, low: Doubles, side: float) -> Array:
-    """Cells of the grid by their coordinates, shape (3, n)."""
+    """Shape (3, n)."""
     cells: Array = np.floor((coordinates(positions) - low[:, None]) / side).astype(np.int64)
     return cells
 
 
 def _keys(cells: Array) -> Array:
-    """Hashes of a grid's cells: Teschner et al. 2003, "Optimized Spatial Hashing for Collision Detection of Deformable
-    Objects". Cells that share a key by chance cost time but change nothing, since distances decide."""
+    """Hashes: Teschner et al. 2003, "Optimized Spatial Hashing for Collision Detection of Deformable Objects".
+    Collisions cost time but change nothing, since distances decide."""
     hashed = cells[0] * 73856093 ^ cells[1] * 19349663 ^ cells[2] * 83492791
     keys: Array = (hashed ^ hashed >> TABLE_BITS) & (1 << TABLE_BITS) - 1
     return keys

@@ -1,4 +1,4 @@
-"""Elements by the names of residues and atoms, as force fields, the Protein Data Bank and AutoDock write them."""
+"""Elements by the names of residues and atoms in force fields, the Protein Data Bank and AutoDock."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from pt.figures._elements import NUMBERS, SYMBOLS, listed
 
 Array = npt.NDArray[Any]
 
-VIRTUAL: Final = 255  # in place of an atomic number: a site that is no atom
+VIRTUAL: Final = 255  # instead of an atomic number: a site that is no atom
 
 AMINO_ACIDS: Final = frozenset(
     "ALA ARG ASN ASP CYS GLN GLU GLY HIS ILE LEU LYS MET PHE PRO SER THR TRP TYR VAL MSE SEC ASX GLX ACE NME NMA NH2 "
@@ -41,7 +41,7 @@ _ANYWHERE: Final = re.compile(r"(MW|EPW?|LP[A-Z]?|DUM|DU)\d*")
 
 
 def element_of(name: str, residue: str) -> int:
-    """The atomic number of an atom by its name and that of its residue; 0 if it is not known; or VIRTUAL."""
+    """An atomic number, 0 if unknown, or VIRTUAL."""
     letters = re.sub(r"[^A-Za-z]", "", name)
     capitals, kind = letters.upper(), re.sub(r"[-+\d]", "", residue).upper()
     if not letters:
@@ -66,7 +66,7 @@ def element_of(name: str, residue: str) -> int:
 
 
 def is_free_ion(residue: str) -> bool:
-    """Whether a residue is an ion that is bonded to nothing, by its name: of an alkali or alkaline earth metal, or a halide."""
+    """Whether a residue is an unbonded ion: an alkali or alkaline earth metal, or a halide."""
     return _IONS.get(re.sub(r"[-+\d]", "", residue).upper(), 0) in _ALKALI_AND_HALIDES or residue in _CHARGED
 
 
@@ -77,12 +77,12 @@ def is_polymer(residue: str) -> bool:
 
 
 def autodock_element(kind: str) -> int:
-    """The atomic number of a type of AutoDock, the last column of pdbqt files."""
+    """AutoDock's type, the last column of pdbqt files."""
     return _AUTODOCK.get(kind.upper(), _NUMBERS.get(kind.upper(), 0))
 
 
 def are_beads(names: Array, residues: Array) -> bool:
-    """Whether these are beads of MARTINI, which stand for several atoms each."""
+    """Whether these are beads of MARTINI, each of which is several atoms."""
     found = set(np.unique(names).tolist())
     if "GL1" in found and "PO4" in found:
         return True
@@ -111,7 +111,7 @@ def elements_by_residue(names: Array, residues: Array, wanted: Array | None = No
     elements[slice(None) if wanted is None else wanted] = numbers[codes.reshape(-1)]
     notes = []
     if len(numbers) and (numbers != VIRTUAL).any():
-        # Those that are easily taken for others.
+        # Names easily taken for others.
         odd = [f"{value.removesuffix(' of ')} is {SYMBOLS[number]}"
                for value, (name, *_), number in zip(values.tolist(), split, numbers.tolist())
                if 0 < number < VIRTUAL and len(name) > 1 and name[:2].upper() in _NUMBERS]

@@ -1,4 +1,4 @@
-"""What is drawn as capsules: halves of bonds and vectors, which begin in particles, and the edges of the cell."""
+"""Capsules of a figure: halves of bonds and vectors, which begin in particles, and the edges of the cell."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Rods:
     others   shape (k,): particles that must be shown, too
     ways     shape (k, 3): from one end to the other
     radius   for all
-    starts   shape (k, 3): from the center of the particle to the first end; None: that is in the center
+    starts   shape (k, 3): from the particle's center to the first end; None: 0
     """
 
     atoms: Array
@@ -37,7 +37,7 @@ class Rods:
     starts: Doubles | None = None
 
     def among(self, shown: Array) -> Rods:
-        """Those whose particles are shown, with the indices of the particles that are left."""
+        """Keeps rods of shown particles, with the new indices."""
         kept = shown[self.atoms] & shown[self.others]
         index = np.cumsum(shown) - 1
         return replace(self, atoms=index[self.atoms[kept]], others=index[self.others[kept]], ways=self.ways[kept],
@@ -49,7 +49,7 @@ class Rods:
 
 
 def vectors_of(particles: Particles, given: Vectors, scale: float | None, radii: Array) -> tuple[Rods, float]:
-    """Vectors, and their scale, which is 0 if it is not given and all are 0."""
+    """Vectors, and their scale: 0 if it is not given and all are 0."""
     if isinstance(given, str):
         names = components(particles, given)
         if len(names) != 3:
@@ -70,7 +70,7 @@ def vectors_of(particles: Particles, given: Vectors, scale: float | None, radii:
 
 
 def cell_corners(cell: Cell) -> Doubles:
-    """Shape (2^k, 3) of a cell with k edges: bit i of a corner's index says whether it is at the end of edge i."""
+    """Shape (2^k, 3) for k edges: bit i of a corner's index tells the end of edge i."""
     vectors = cell.vectors[cell.vectors.any(axis=1)]
     edges = np.arange(len(vectors))
     corners: Doubles = cell.origin + (np.arange(2**len(vectors))[:, None] >> edges & 1) @ vectors
@@ -78,7 +78,7 @@ def cell_corners(cell: Cell) -> Doubles:
 
 
 def cell_edges(cell: Cell) -> Doubles:
-    """Both ends of the twelve edges, shape (2, 12, 3); of the four of a flat cell."""
+    """Both ends of the twelve edges, shape (2, 12, 3); of a flat cell's four."""
     corners = cell_corners(cell)
     steps = [1 << edge for edge in range(len(corners).bit_length() - 1)]
     pairs = [(k, k | step) for k in range(len(corners)) for step in steps if not k & step]

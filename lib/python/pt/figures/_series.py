@@ -1,5 +1,4 @@
-"""Series of pictures, the frames of a trajectory or a turntable, with one camera, one scale of colors and one rule for
-radii."""
+"""Frames of a trajectory or a turntable, with one camera, one scale of colors and one rule for radii."""
 
 from __future__ import annotations
 
@@ -21,9 +20,9 @@ from pt.figures._radii import covalent_factor
 
 
 def frames(read: Callable[[], Iterator[Particles]], options: Options, trails: int = 0) -> Iterator[Staged]:
-    """Stages each frame. All frames are read twice, the first time to find what fits all of them.
+    """Stages each frame. Reads all frames twice, first to find what fits all of them.
 
-    trails   through how many frames before it the trails of a picture lead
+    trails   through how many earlier frames a picture's trails lead
     """
     options, view, reaches, scale = _common(read(), options)
     layout = Layout.of(view, reaches, options.style, options.floor)
@@ -34,7 +33,7 @@ def frames(read: Callable[[], Iterator[Particles]], options: Options, trails: in
 
 
 def _common(trajectory: Iterator[Particles], options: Options) -> tuple[Options, View, Doubles, float]:
-    """The options with what all frames share, their view, how far they reach in it, and their scale."""
+    """The options shared by all frames, their view, reaches and scale."""
     view: View | None = None
     reaches: Doubles | None = None
     scale: float | None = None
@@ -60,8 +59,7 @@ def _common(trajectory: Iterator[Particles], options: Options) -> tuple[Options,
 
 
 def _rule(particles: Particles, drawn: Drawn, options: Options) -> Radius:
-    """The rule for radii that the first frame sets, so that radii of later frames do not follow from their own
-    distances."""
+    """The first frame's rule for radii, so that later frames' distances change nothing."""
     if options.radius is not None or particles.radii is not None:
         return options.radius
     factor = covalent_factor(particles)

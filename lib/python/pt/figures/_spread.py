@@ -1,4 +1,4 @@
-"""How far most particles are spread, whatever a few far away do."""
+"""How far most particles are spread; a few far ones do not count."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ import numpy as np
 
 from pt._fit import Array, Doubles, chunks, coordinates
 
-FEW: Final = 0.005  # share of the balls that do not count, if they are the farthest; of fewer balls, one
+FEW: Final = 0.005  # share of the farthest balls that do not count; of fewer balls, one
 LEAST_COUNT: Final = 5  # from which on one does not count
-SAMPLE: Final = 100_000  # particles that tell the middle
+SAMPLE: Final = 100_000  # particles that decide the middle
 
 
 def middle_of(positions: Array) -> Doubles:
-    """The median along each axis, which a few particles far away do not move."""
+    """The median along each axis."""
     middle: Doubles = np.median(positions[::max(len(positions) // SAMPLE, 1)], axis=0).astype(np.float64)
     return middle
 

@@ -1,5 +1,4 @@
-"""What surrounds the particles of a figure: soft light and, if wanted, a floor. Sizes follow the data, so that
-angstroms and light years look alike."""
+"""The surroundings of a figure: soft light and, if wanted, a floor. Sizes follow the data."""
 
 from __future__ import annotations
 
@@ -19,7 +18,7 @@ KEY_AZIMUTH: Final = math.radians(-35.0)  # chosen by eye: shapes show best, and
 KEY_ELEVATION: Final = math.radians(40.0)
 FLOOR: Final = Material(diffuse=0.8)
 EDGES: Final = Material(diffuse=0.09)  # of the cell
-FLOOR_GAP: Final = 1e-4  # share of the radius: where a ball touched the floor, roundings would decide which is in front
+FLOOR_GAP: Final = 1e-4  # relative to the radius: touching the floor, roundings would decide which is in front
 
 
 @dataclass(frozen=True)
@@ -36,17 +35,16 @@ class Stage:
 
 
 def material_of(style: str) -> Material:
-    """The material of a style. A white ball reflects no more than it receives."""
+    """A white ball reflects no more than it receives."""
     specular = 0.12 if style == "glossy" else 0.0
     return Material(diffuse=1.0 - specular, specular=specular, glossiness=60.0 if specular else 0.0)
 
 
 def make_stage(style: str, axes: Doubles, distance: float, center: Doubles, radius: float, floor: Plane | None) -> Stage:
     """axes: right, up and forward of the view. distance: from the camera to the middle of the data. center, radius: of
-    a ball around everything that is seen."""
+    a ball around everything."""
     material = material_of(style)
-    # The lamp is farther away than the camera, and far enough that its light is nearly as strong at the far end of the
-    # data.
+    # The lamp is farther than the camera, and nearly as strong at the far end of the data.
     far = max(20.0 * radius, 4.0 * distance)
     occlusion = style == "ambient-occlusion"
     surround = Sphere(center, 10.0 * far, Material(emission=1.0 if occlusion else SURROUND_BRIGHTNESS))
@@ -55,8 +53,8 @@ def make_stage(style: str, axes: Doubles, distance: float, center: Doubles, radi
     level = math.cos(KEY_ELEVATION)
     direction = (level * math.sin(KEY_AZIMUTH) * axes[0] - level * math.cos(KEY_AZIMUTH) * axes[2] +
                  math.sin(KEY_ELEVATION) * axes[1])
-    # A lamp of radiance L and half angle a gives a surface that faces it the irradiance pi L sin^2(a); a white one then
-    # has 1 / pi of that as its radiance (Lambert).
+    # A lamp of radiance L and half angle a gives a facing surface the irradiance pi L sin^2(a); a white one has 1 / pi
+    # of that as its radiance (Lambert).
     sine = math.sin(KEY_HALF_ANGLE)
     key = Sphere(center + far * direction, far * sine, Material(emission=KEY_BRIGHTNESS / (sine * sine)))
     return Stage((surround, key), floor, material)

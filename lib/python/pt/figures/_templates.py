@@ -28,12 +28,12 @@ _HYDROGEN: Final = 1
 
 
 def known_residues(particles: Particles) -> Array:
-    """Which particles belong to residues whose bonds are known by name, shape (n,)."""
+    """Particles of residues whose bonds are known by name, shape (n,)."""
     return _of_names(particles, lambda name: name.upper() in WATERS or is_polymer(name.upper()))
 
 
 def free_ions(particles: Particles) -> Array:
-    """Which particles are ions that have no bonds, shape (n,)."""
+    """Ions without bonds, shape (n,)."""
     residues = residues_of(particles)
     result: Array = _of_names(particles, is_free_ion) & (np.bincount(residues)[residues] == 1)
     return result
@@ -57,8 +57,7 @@ def residues_of(particles: Particles) -> Array:
 
 
 def agreeing(particles: Particles, first: Array, second: Array, squares: Array) -> Array:
-    """Which of some pairs that are near enough for a bond are one by the names of their atoms; those of residues that are
-    not known remain."""
+    """Which near pairs are bonds by the names of their atoms; unknown residues' pairs remain."""
     names = np.char.replace(np.char.upper(particles.columns["name"].astype(str)), "*", "'")
     words, codes = np.unique(names, return_inverse=True)
     known, residues = known_residues(particles), residues_of(particles)

@@ -1,4 +1,4 @@
-"""Trails: where particles were in earlier frames, as capsules from each place to the one before."""
+"""Trails through a particle's earlier places, as capsules."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ WIDTH: Final = 0.2  # radius of trails, in median radii of particles; by taste
 
 
 def trails_of(particles: Particles, past: Sequence[Particles], radii: Array) -> Rods:
-    """past: earlier frames, the latest first. A step of more than half of a periodic cell is taken to be one through
-    its walls, and left out."""
+    """past: earlier frames, the latest first. A step of more than half of a periodic cell counts as one through its
+    walls, and is left out."""
     positions = particles.positions.astype(np.float64)
     newer, known = positions, np.ones(len(positions), bool)
     atoms, starts, ways = [], [], []
@@ -38,7 +38,7 @@ def trails_of(particles: Particles, past: Sequence[Particles], radii: Array) -> 
 
 
 def _rows(particles: Particles, frame: Particles) -> Array:
-    """The row of each particle in another frame, by its id if there are ids; -1: it has none."""
+    """The row of each particle in another frame, by its id if there are ids; -1: none."""
     if "id" not in particles.columns or "id" not in frame.columns:
         if len(particles) != len(frame):
             raise DataError(f"trails: {frame.name}: of {len(frame):,} particles and, later, {len(particles):,}, there must "

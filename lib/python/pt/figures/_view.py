@@ -1,4 +1,4 @@
-"""Where a figure is seen from, a side by name or a direction, and the axes of the picture that follow."""
+"""The direction of a figure's view, by name or by numbers, and the axes of the picture."""
 
 from __future__ import annotations
 
@@ -11,9 +11,8 @@ import numpy as np
 from pt._fit import Doubles
 from pt.figures._options import VIEWS, Direction
 
-# The three-quarter view, by taste: turned from the front towards the right so far that neither an edge of a box nor its
-# diagonal lies along the line of sight, and above the horizon. Flat data would hide themselves, so they are seen from
-# higher up.
+# The three-quarter view, by taste: neither an edge of a box nor its diagonal lies along the line of sight. Flat data
+# would hide themselves, so they are seen from higher up.
 AZIMUTH: Final = 30.0
 ELEVATION_OF_BODIES: Final = 22.0
 ELEVATION_OF_DISCS: Final = 50.0
@@ -21,8 +20,7 @@ BODY: Final = 0.5  # relative height from which on data are not flat
 
 
 def unit(vector: Doubles) -> Doubles:
-    """The unit vector of one of any length except 0. It is scaled by its largest component first, so that squares do
-    not overflow."""
+    """Scales by the largest component first, so that squares do not overflow."""
     scaled = vector / np.abs(vector).max()
     result: Doubles = scaled * (1.0 / math.sqrt(scaled[0] * scaled[0] + scaled[1] * scaled[1] + scaled[2] * scaled[2]))
     return result
@@ -50,8 +48,8 @@ def up_vector(up: Direction) -> Doubles:
 
 @dataclass(frozen=True)
 class Compass:
-    """The directions, in the data's coordinates, that the views "right" and "front" look from. Right is x, or y if up
-    is nearest to x. Front is right x up: -y if z is up, z if y is up, as in simulations and for molecules."""
+    """The data's directions for the views "right" and "front". Right is x, or y if up is nearest to x. Front is right x
+    up: -y if z is up, z if y is up, as in simulations and for molecules."""
 
     right: Doubles
     front: Doubles
@@ -65,9 +63,9 @@ class Compass:
 
 
 def relative_height(extents: Doubles) -> float:
-    """The size of data along up, as a share of their size across it: 0 for a layer, 1 for a cube.
+    """The size of data along up, relative to their size across it: 0 for a layer, 1 for a cube.
 
-    extents: of the centres along right, front and up.
+    extents: of the centers along right, front and up.
     """
     across = math.hypot(extents[0], extents[1])
     return float(extents[2] / (across / math.sqrt(2.0))) if across > 0.0 else 1.0
@@ -92,8 +90,8 @@ def toward_camera(view: Direction, compass: Compass, height: float) -> Doubles:
 
 
 def view_axes(toward: Doubles, compass: Compass) -> Doubles:
-    """Right, up and forward of the picture, in rows: right x up = -forward. In a view along up, right is the compass's
-    right."""
+    """Right, up and forward of the picture, in rows: right x up = -forward. Views along up take right from the compass.
+    """
     forward = -toward
     across = np.cross(forward, compass.up)
     right = compass.right if np.linalg.norm(across) < 1e-6 else unit(across)

@@ -50,8 +50,7 @@ def read(path: str | os.PathLike[str], *, leave_out_others: bool = False) -> Tac
     """Reads a scene file of Tachyon. Lengths stay as they are; the rest becomes:
 
     colors                     linear, unchanged; Tachyon shows them with the exposure 0 and the gamma 1, which
-    pt-tachyon
-                               writes into the scene file
+                               pt-tachyon writes into the scene file
     axes, left-handed          z has the other sign
     ZOOM                       half of the height has the tangent 0.5 / ZOOM; with ORTHOGRAPHIC the vertical_extent is
                                1 / ZOOM
@@ -62,8 +61,7 @@ def read(path: str | os.PathLike[str], *, leave_out_others: bool = False) -> Tac
     BACKGROUND                 a ball around everything that shines in this color and lights the scene; none if black.
                                Lights are dimmed by as much, but not below a third
     a light, which has no      a lamp that gives the camera's target the same light; visible with a radius RAD, hidden
-    from
-      size                     the camera without, and then a 50th of its distance in radius
+      size                     from the camera without, and then a 50th of its distance in radius
     FOG                        left out, with a note
 
     leave_out_others   leaves out everything except these shapes, planes, lights and the camera, and counts it in the
