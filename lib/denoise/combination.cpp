@@ -12,11 +12,10 @@ namespace pt {
 
 namespace {
 
-constexpr double few_tiles =
-    8.0; // an estimate from fewer is uncertain, as one from as few pixels is (error_estimate.cpp)
-constexpr double normal_90 = 1.28; // for the normal distribution, 90% lie below so many standard deviations
+constexpr double few_tiles = 8.0;  // fewer make an estimate uncertain, like as few pixels in error_estimate.cpp
+constexpr double normal_90 = 1.28; // 90% of a normal distribution lie below this many standard deviations
 
-// Squares of errors, each times a weight, summed by tile.
+// Weighted squares of errors, summed by tile.
 struct Squares {
     explicit Squares(const Halves &halves) :
         noise(halves),
@@ -37,12 +36,12 @@ struct Squares {
 
     Tiles noise;
     Tiles free_products;
-    Tiles limit_products; // of what limits took
+    Tiles limit_products; // of the moves that limits took away
     Tiles first_moves;
     Tiles second_moves;
 };
 
-// The expected squares of the errors of each tile.
+// Expected squares of errors.
 Tiles by_tile(Squares squares, const Tiles &value_counts) {
     Tiles products = squares.first_moves; // of sums
     for (std::size_t tile = 0; tile < products.numbers.size(); ++tile)
@@ -56,7 +55,7 @@ Tiles by_tile(Squares squares, const Tiles &value_counts) {
     return std::move(squares.noise);
 }
 
-// How many equal tiles would have the same ratio of their squares to their sum.
+// Number of equal tiles with the same ratio of squares to sum.
 double effective_count(const Tiles &sums) {
     double sum = 0.0;
     double squares = 0.0;
@@ -67,8 +66,8 @@ double effective_count(const Tiles &sums) {
     return sum > 0.0 ? squared(sum) / squares : 0.0;
 }
 
-// The root of the mean of squares, from their sums by tile. Its bounds come from how tiles differ: by noise, and also
-// by what they show, which makes the bounds too wide rather than too narrow.
+// The root of a mean, from sums by tile. The differences of tiles, in noise and in content, make its bounds rather too
+// wide.
 Interval root_mean(const Tiles &sums, const Tiles &value_counts, bool uncertain) {
     double sum = 0.0;
     double count = 0.0;

@@ -1,4 +1,4 @@
-// Two images of independent noise, what a filter makes of them, and how far each value is moved towards that.
+// Two images of independent noise, both filtered, and how far each value moves towards its filtered one.
 #pragma once
 
 #include <cstddef>

@@ -14,7 +14,7 @@ float spread_at(const Halves &halves, std::size_t index) {
     return 0.5F * std::abs(halves.first[index] - halves.second[index]);
 }
 
-// The values that the halves have about one.
+// Range of the halves' values around one.
 struct Support {
     float lowest;
     float highest;
@@ -31,7 +31,7 @@ Support support_about(const Halves &halves, std::size_t x, std::size_t y, std::s
 
 float reach_at(const Halves &halves, std::size_t x, std::size_t y, std::size_t channel) {
     constexpr float most_raised = 16.0F;
-    constexpr float standard_errors = 2.0F * 1.41421356F; // of a half, in those of the mean of both
+    constexpr float standard_errors = 2.0F * 1.41421356F; // two of a half, in standard errors of the mean of both
     const float own = spread_at(halves, halves.index(x, y, channel));
     const float about = median_about(halves, x, y, channel, &spread_at);
     return standard_errors * std::max(own, std::min(about, most_raised * own));
@@ -41,9 +41,9 @@ float limited(float move, float value, float reach, const Support &support) {
     return std::clamp(move, std::max(-reach, support.lowest - value), std::min(reach, support.highest - value));
 }
 
-// Shortens moves upwards (sign 1) or downwards (-1) of a channel so that the sum of all is at most `most` in that
-// direction. The sum is a concave function of the longest move's length, so Newton's method from 0 approaches the
-// length from below, and ends when it passes no other move.
+// Shortens moves upwards (sign 1) or downwards (-1) so that their sum is at most `most`. The sum is a concave function
+// of the longest move's length, so Newton's method from 0 approaches the length from below, and ends when it passes no
+// other move.
 void shorten(std::vector<float> &moves, std::size_t channel, float sign, double most) {
     float longest = 0.0F;
     for (std::size_t longer_before = 0;;) {

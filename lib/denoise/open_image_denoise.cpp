@@ -12,8 +12,8 @@ namespace pt {
 
 namespace {
 
-// Of the C interface of Open Image Denoise 2, as its documentation has it (openimagedenoise.org, "Open Image Denoise
-// API"). Handles are opaque pointers; enumerations are as large as int.
+// The C interface of Open Image Denoise 2 (openimagedenoise.org, "Open Image Denoise API"). Handles are opaque
+// pointers; enumerations are as large as int.
 constexpr int oidn_device_type_default = 0;
 constexpr int oidn_device_type_cpu = 1;
 constexpr int oidn_format_float3 = 3;
@@ -23,7 +23,7 @@ constexpr int oidn_error_unsupported_hardware = 5;
 
 class Library {
 public:
-    // It stays loaded: threads that it has started may still end.
+    // The library stays loaded: threads that it has started may still end.
     explicit Library(const std::string &path) : path_(path), handle_(platform::load_module(platform::path_of(path))) {
         find("oidnNewDevice", new_device);
         find("oidnCommitDevice", commit_device);
@@ -44,7 +44,7 @@ public:
     void *(*new_device)(int type);
     void (*commit_device)(void *device);
     void (*release_device)(void *device);
-    int (*get_device_error)(void *device, const char **message); // which is then forgotten
+    int (*get_device_error)(void *device, const char **message); // forgets the error
     void *(*new_filter)(void *device, const char *type);
     void *(*new_buffer)(void *device, std::size_t size);
     void (*write_buffer)(void *buffer, std::size_t offset, std::size_t size, const void *from);
@@ -84,7 +84,7 @@ pt_result result_of(int error) {
     }
 }
 
-// Errors are kept by the device, NULL for those of its creation.
+// The device keeps its errors; device NULL keeps errors of creation.
 void require_success(const Library &library, void *device) {
     const char *message = nullptr;
     const int error = library.get_device_error(device, &message);

@@ -5,8 +5,7 @@
 
 namespace pt {
 
-// Filters both images, each by itself, into memory of their size. Throws PT_ERROR_UNSUPPORTED where the library is not
-// there.
+// Filters each image by itself, into memory of its size. Throws PT_ERROR_UNSUPPORTED if the library cannot be loaded.
 void run_open_image_denoise(const pt_denoise_info &info, float *first_filtered, float *second_filtered);
 
 } // namespace pt

@@ -10,12 +10,12 @@ namespace pt {
 
 namespace {
 
-// What pixels say for moving, summed over channels.
+// A pixel's evidence, summed over channels.
 enum Sum : std::size_t { gain, noise_square, free_products, limit_products, products, sum_count };
 
 using Sums = std::array<double, sum_count>;
 
-// The sums of tiles, with one kind of weights.
+// Sums by tile, with one kind of weights.
 class Evidence {
 public:
     explicit Evidence(const Halves &halves) : shares_(halves), sums_(shares_.numbers.size()), largest_(sums_.size()) {}
@@ -27,7 +27,7 @@ public:
             largest_[tile] = pixel;
     }
 
-    // Lowers shares to those that are best by all pixels, and by all but the one of each tile that gains most.
+    // Lowers shares to the best by all pixels, and by all but the one of each tile that gains most.
     void lower(Tiles &shares) {
         lower_by_sums(shares);
         for (std::size_t tile = 0; tile < sums_.size(); ++tile)

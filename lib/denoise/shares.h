@@ -1,11 +1,11 @@
-// By what share moves are scaled.
+// Scales of the moves.
 #pragma once
 
 #include "lib/denoise/tiles.h"
 
 namespace pt {
 
-// The t of combination.h for each tile, of the halves' moves, which are limited.
+// The t of combination.h for each tile. The moves must be limited.
 Tiles best_shares(const Halves &halves);
 
 } // namespace pt

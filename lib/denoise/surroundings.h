@@ -1,4 +1,4 @@
-// The 3x3 pixels about one, repeated at the image's edges, in one channel.
+// The 3x3 pixels around one, repeated at the image's edges, in one channel.
 #pragma once
 
 #include "lib/denoise/halves.h"
@@ -9,7 +9,7 @@
 
 namespace pt {
 
-// Calls visit(index) for them, row by row.
+// Calls visit(index) row by row.
 template <typename Visit>
 void for_each_about(const Halves &halves, std::size_t x, std::size_t y, std::size_t channel, Visit &&visit) {
     for (std::size_t row = 0; row < 3; ++row)

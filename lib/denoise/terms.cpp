@@ -11,10 +11,10 @@ float mean_at(const Halves &halves, std::size_t index) {
     return 0.5F * (halves.first[index] + halves.second[index]);
 }
 
-// D(A) D(B), whose factors are independent, stands for the square of the limit: the square of S would have noise in it,
-// and weigh dark places too little. But a filter that spreads a lamp over dark pixels must not hide there, so it counts
-// no more than the raw pixel, or four times what is about it. A half that met little at the edge of something bright is
-// weighed as a film's edges are (pixel_error.h): the less is known of its limit, the more.
+// The factors of D(A) D(B) are independent, so their product stands for the square of the limit; the square of S would
+// include noise, and weigh dark places too little. It is at most the raw square, or the squared four-fold median
+// around, so that a lamp spread over dark pixels does not hide there. Halves that met little beside something bright
+// count like a film's edges (pixel_error.h).
 double relative_weight(const Halves &halves, std::size_t x, std::size_t y, std::size_t channel) {
     constexpr double most_above_median = 4.0;
     const std::size_t index = halves.index(x, y, channel);
@@ -23,7 +23,7 @@ double relative_weight(const Halves &halves, std::size_t x, std::size_t y, std::
     const double mean = 0.5 * (first + second);
     const double product = std::max(double{halves.first_filtered[index]} * halves.second_filtered[index], 0.0);
     double most_square = squared(mean);
-    if (mean < 0.0 || product > most_square) // else the median, which takes most of the time, changes nothing
+    if (mean < 0.0 || product > most_square) // else the median would change nothing
         most_square = squared(std::max(mean, most_above_median * median_about(halves, x, y, channel, &mean_at)));
     gpu::Limit limit{};
     limit.square = std::min(product, most_square) + relative_offset;

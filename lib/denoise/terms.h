@@ -1,4 +1,4 @@
-// What a value of both halves says of the error, in the names of combination.h.
+// A value's contributions to the error, in the names of combination.h.
 #pragma once
 
 #include "lib/denoise/halves.h"
@@ -22,9 +22,8 @@ struct Terms {
 
 Terms terms_at(const Halves &halves, std::size_t x, std::size_t y, std::size_t channel);
 
-// The faults of a place, by its sums of products of free moves, of products of what limits took from them, and a lower
-// bound. Sums of squares are not below 0. What limits leave counts three times, since D(B), which stands for r in it,
-// has a part of the noise of B: calibrated.
+// The faults of a tile by combination.h. Limited moves count three times, since D(B), which stands for r, has a part of
+// the noise of B: calibrated.
 inline double faults(double free_products, double limit_products, double least) {
     const double of_filter = std::max(free_products, 0.0);
     const double of_limits = std::max(limit_products, 0.0);

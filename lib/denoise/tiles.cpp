@@ -4,7 +4,7 @@ namespace pt {
 
 namespace {
 
-// Along one axis, of `count` tiles that are `step` apart.
+// Along one axis, for `count` tiles that are `step` apart.
 void spread(std::vector<double> &numbers, std::size_t first, std::size_t count, std::size_t step) {
     double before = numbers[first];
     for (std::size_t i = 0; i < count; ++i) {

@@ -1,4 +1,4 @@
-// Numbers of an image's tiles of 8x8 pixels: with those about it, a tile has hundreds of values.
+// Numbers of an image's tiles of 8x8 pixels; with its neighbors, a tile has hundreds of values.
 #pragma once
 
 #include "lib/denoise/halves.h"
@@ -21,8 +21,8 @@ struct Tiles {
     std::vector<double> numbers; // row by row
 };
 
-// Means over tiles and those about them, with half of the weight for each step away; an outermost tile stands for those
-// beyond the edge as well, so that the sum of all stays.
+// Averages each tile with its neighbors, with half of the weight for each step away. Outermost tiles repeat beyond the
+// edge, so the sum of all stays.
 void spread(Tiles &tiles);
 
 // Between two tiles, and how near to the second.
@@ -34,7 +34,7 @@ struct Place {
     Place(std::size_t pixel, std::size_t count);
 };
 
-// Linear between the middles of tiles, so that there are no seams.
+// Linear between the middles of tiles, so without seams.
 double at(const Tiles &tiles, const Place &x, const Place &y);
 
 // Calls visit(tile, x, y) for all pixels, tile by tile.

@@ -1,4 +1,4 @@
-// A film as bytes: header, exact sums, checksum. FORMAT.md describes them.
+// A film as bytes: header, exact sums, checksum (FORMAT.md).
 #pragma once
 
 #include "lib/base/digest.h"
@@ -21,7 +21,7 @@ public:
 
     std::uint64_t size_bytes() const { return size_bytes_; }
 
-    // Returns the first pixel's word in a plane. Parts without samples are not stored.
+    // The first pixel's word in a plane. Parts without samples are not stored.
     std::uint64_t plane_offset(std::size_t tile, std::uint32_t part, std::size_t plane) const;
     bool has_part(std::size_t tile, std::uint32_t part) const { return tiles_[tile].counts[part] > 0; }
     const PartCounts &counts(std::size_t tile) const { return tiles_[tile].counts; }
@@ -53,8 +53,8 @@ private:
     std::span<std::byte> bytes_;
 };
 
-// Hands on a film's bytes in order, in pieces of at most a megabyte: the words of each plane of each part that has
-// samples, tile by tile, then end().
+// Hands on a film's bytes in order, in pieces of at most a megabyte: the words of each plane of each nonempty part,
+// tile by tile, then end().
 class FilmStream {
 public:
     using Receive = std::function<void(std::span<const std::byte>)>; // may throw
@@ -73,7 +73,6 @@ private:
     std::vector<std::byte> piece_;
 };
 
-// The bytes must outlive the reader.
 class FilmReader {
 public:
     // Throws PT_ERROR_INCOMPATIBLE if the bytes are no film, damaged, or of another size.

@@ -23,8 +23,7 @@ std::optional<std::string> value_in(const FilmIdentity &identity, const std::str
     return fact == identity.end() ? std::nullopt : std::optional(fact->value);
 }
 
-// Reads a fact that is a number within bounds, in its only spelling. On failure records a violation and returns
-// `least`.
+// A number within bounds, in its only spelling. On failure records a violation and returns `least`.
 template <typename Number>
 Number number_in(const FilmIdentity &identity, const char *name, Number least, Number most, Violations &violations) {
     const std::string text = value_in(identity, name).value_or("nothing");

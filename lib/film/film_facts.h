@@ -1,4 +1,4 @@
-// A film's identity as numbers, and the conditions under which films can be added.
+// A film's identity as numbers, and the conditions for adding films.
 #pragma once
 
 #include "lib/film/film_header.h"
@@ -22,8 +22,8 @@ struct FilmFacts {
 // Throws PT_ERROR_INCOMPATIBLE if a fact is missing or cannot be pt_save_film's.
 FilmFacts facts_of(const FilmIdentity &identity);
 
-// Throws PT_ERROR_INCOMPATIBLE with a rule for each fact that differs. other: of the film or context that it is added
-// to; place: its name, "as in this context".
+// Throws PT_ERROR_INCOMPATIBLE with a rule for each fact that differs. place: where the film is added, "as in this
+// context".
 void require_same(const FilmIdentity &film, const FilmIdentity &other, const std::string &place);
 
 // Throws PT_ERROR_INCOMPATIBLE if the sets overlap or have too many samples together. where: " in" which pixels, for

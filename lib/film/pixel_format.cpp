@@ -8,7 +8,7 @@ namespace pt {
 
 namespace {
 
-// Pixels with an alpha of 1. convert: from float to a component.
+// Alpha is 1. convert: from float to a component.
 template <typename Convert>
 void write_with_alpha(std::span<const float> values, std::byte *to, const Convert &convert) {
     for (std::size_t first = 0; first < values.size(); first += 3) {

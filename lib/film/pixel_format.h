@@ -22,8 +22,7 @@ constexpr std::uint32_t pixel_bytes(std::uint32_t format) {
     return components * component_bytes(format);
 }
 
-// The float16 nearest to a number >= 0, ties to even; infinity from 65520 on. With integers, like
-// shaders/resolved.glsl.
+// Nearest float16 to a number >= 0, ties to even; infinity from 65520 on.
 std::uint16_t half_bits(float value);
 
 // values: R, G and B per pixel. The format must have them.

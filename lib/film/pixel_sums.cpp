@@ -14,7 +14,6 @@ namespace pt {
 
 namespace {
 
-// The sums of one pixel in one part.
 class PartPixel {
 public:
     PartPixel(const PixelSums &sums, std::uint32_t part, std::size_t pixel) : sums_(sums), part_(part), pixel_(pixel) {}
@@ -43,7 +42,7 @@ struct WordAndCarry {
     std::uint32_t carry;
 };
 
-// In 32 bits, so that compilers vectorise over pixels.
+// Uses 32 bits, so that compilers vectorise over pixels.
 WordAndCarry sum_of(std::uint32_t a, std::uint32_t b, std::uint32_t carry) {
     const std::uint32_t sum = a + b;
     const std::uint32_t with_carry = sum + carry;

@@ -15,18 +15,18 @@
 
 namespace pt {
 
-// A part's words, plane by plane (gpu_layout.h). Word: std::uint32_t, or const.
+// A part's words, plane by plane (gpu_layout.h).
 template <typename Word>
 struct PartWords {
     Word *first;        // of the first pixel
     std::size_t stride; // between planes
 };
 
-// Adds consecutive pixels' sums in one part to another part's.
+// Adds one part of consecutive pixels to another.
 void add_words(const PartWords<std::uint32_t> &to, const PartWords<const std::uint32_t> &from,
                std::size_t pixel_count) noexcept;
 
-// Undoes the addition.
+// Undoes add_words().
 void subtract_words(const PartWords<std::uint32_t> &to, const PartWords<const std::uint32_t> &from,
                     std::size_t pixel_count) noexcept;
 
@@ -36,7 +36,7 @@ public:
 
     std::size_t pixel_count() const { return pixel_count_; }
 
-    // The sums are then undefined until they are set.
+    // The sums are then undefined.
     void resize(std::size_t pixel_count) {
         words_.resize(pixel_count * words_per_pixel);
         pixel_count_ = pixel_count;
@@ -54,21 +54,19 @@ public:
 
     void add(const PixelSums &other) noexcept;
 
-    // Adds one part of consecutive pixels of `from` to a part of the pixels from to_first on.
+    // Adds consecutive pixels' part in `from` to a part of pixels from to_first on.
     void add_part(std::uint32_t to_part, std::size_t to_first, const PixelSums &from, std::uint32_t from_part,
                   std::size_t first, std::size_t count) noexcept;
 
     // Adds the other part of consecutive pixels to this one and empties it.
     void fold_into(std::uint32_t part, std::size_t first, std::size_t count) noexcept;
 
-    // Moves sums of consecutive pixels, of these samples, to a larger set's split, which may put all of them on one
-    // side.
+    // Moves these samples' sums to a larger set's split, which may put all of them on one side.
     void split_for(const SampleSet &samples, std::uint64_t split, std::size_t first, std::size_t count) noexcept;
 
-    // Copies consecutive pixels of `from`.
     void copy(const PixelSums &from, std::size_t first, std::size_t count, std::size_t to_first) noexcept;
 
-    // Copies the intersection of two rectangles of an image: `own` of this object, of_from of the other.
+    // Copies the intersection of two rectangles of an image, this object's `own` and the other's of_from.
     void copy(const Rectangle &own, const PixelSums &from, const Rectangle &of_from) noexcept;
 
     // Accepted or rejected samples.
@@ -77,7 +75,7 @@ public:
     // Whether this many samples can have such sums: each accepted one is below 2^FILM_MAX_EXPONENT.
     bool holds(const PartCounts &expected) const;
 
-    // R, G and B of each pixel. quantity: a PT_QUANTITY_* of samples; unit: as for PixelValues.
+    // R, G and B of each pixel. quantity: a PT_QUANTITY_* of samples. unit: of the sums, in radiance.
     std::vector<float> values(std::uint32_t quantity, double unit) const;
 
     bool operator==(const PixelSums &) const = default;
@@ -87,20 +85,18 @@ private:
     std::vector<std::uint32_t> words_;
 };
 
-// One channel of a pixel.
 struct PixelValue {
     float mean;           // 0 if all samples were rejected
     float standard_error; // of the mean, from its parts; infinity if one is empty, as with up to 8 samples
     float lesser;         // of the parts' means; 0 where the standard error is infinity
 };
 
-// Rounds as in quotient.h. The sums must outlive it.
+// Rounds as in quotient.h.
 class PixelValues {
 public:
     // unit: of the sums, a power of two, in radiance.
     PixelValues(const PixelSums &sums, double unit);
 
-    // Per channel.
     std::array<float, 3> means(std::size_t pixel);
     std::array<PixelValue, 3> of(std::size_t pixel);
 

@@ -13,16 +13,16 @@ gpu::uvec4 words_of(WideSum sum) {
             static_cast<std::uint32_t>(sum >> 64), static_cast<std::uint32_t>(sum >> 96)};
 }
 
-// Relative error at most 2^-52: both halves and their sum are rounded. The lower half by words, since converting
-// unsigned 64-bit numbers takes an unpredictable branch.
+// Relative error at most 2^-52. Words make up the lower half, since converting unsigned 64-bit numbers takes an
+// unpredictable branch.
 double nearly(WideSum number) {
     const double lower = static_cast<double>(static_cast<std::uint32_t>(number >> 32)) * 0x1p32 +
                          static_cast<double>(static_cast<std::uint32_t>(number));
     return static_cast<double>(static_cast<std::uint64_t>(number >> 64)) * 0x1p64 + lower;
 }
 
-// The float nearest to a product, if all doubles within a relative 2^-50 of it round to that float (Ziv 1991, Fast
-// evaluation of elementary mathematical functions with correctly rounded last bit); rarely nothing.
+// The float nearest to a product, unless some double within a relative 2^-50 rounds to another float (Ziv 1991, Fast
+// evaluation of elementary mathematical functions with correctly rounded last bit).
 std::optional<float> rounded_product(WideSum number, double factor) {
     constexpr std::uint64_t tie = std::uint64_t{1} << 28; // half of the 29 bits that a float lacks
     const double product = nearly(number) * factor;
@@ -33,7 +33,7 @@ std::optional<float> rounded_product(WideSum number, double factor) {
     return std::nullopt;
 }
 
-// Rounded once. Outside double's normal numbers, 2^128 times it is outside float's.
+// Rounded once. If this is outside double's normal numbers, products are outside float's.
 double factor_of(std::uint32_t divisor, int exponent) {
     return std::ldexp(1.0 / divisor, exponent);
 }
@@ -61,7 +61,7 @@ float PartQuotients::mean_of(WideSum sum, std::uint32_t count, double factor) co
     return std::bit_cast<float>(gpu::mean_bits(words_of(sum), count, exponent_));
 }
 
-// For sums below 2^96 the products have 128 bits, and double mostly suffices for the quotient.
+// The products of sums below 2^96 have 128 bits, and double mostly suffices for the quotient.
 PartQuotients::Difference PartQuotients::difference(WideSum sum_a, WideSum sum_b) const {
     bool first_is_less = false;
     std::optional<float> error;

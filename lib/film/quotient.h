@@ -7,10 +7,9 @@
 
 namespace pt {
 
-// Sums of samples.
 __extension__ using WideSum = unsigned __int128;
 
-// For two parts with a and b samples, sums in units of 2^exponent.
+// a, b: samples of two parts. Sums are in units of 2^exponent.
 class PartQuotients {
 public:
     PartQuotients(std::uint32_t a, std::uint32_t b, int exponent);
@@ -20,7 +19,7 @@ public:
     // The mean of all samples, rounded once to nearest; 0 without samples.
     float mean(WideSum sum_a, WideSum sum_b) const { return mean_of(sum_a + sum_b, a_ + b_, factor_); }
 
-    // For parts with at least one sample each. standard_error: of the mean, derived at gpu::ErrorDivisor.
+    // Requires samples in both parts. standard_error: of the mean, derived at gpu::ErrorDivisor.
     struct Difference {
         float standard_error;
         float lesser; // of the parts' means

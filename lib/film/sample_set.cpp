@@ -9,9 +9,8 @@ namespace pt {
 
 namespace {
 
-constexpr std::uint64_t min_part = 8; // samples
+constexpr std::uint64_t min_part = 8;
 
-// The smallest multiple of factor >= index.
 std::uint64_t multiple_from(std::uint64_t index, std::uint64_t factor) {
     return (index + factor - 1) / factor * factor;
 }
@@ -100,8 +99,8 @@ std::string text_of(const SampleSet &samples) {
     return text;
 }
 
-// The common leading digits of two numbers, then a one, then zeros: of the numbers above the first and up to the
-// second, this ends with most zeros.
+// The common leading digits of two numbers, then a one, then zeros: the number above the first and up to the second
+// with most trailing zeros.
 std::uint64_t split_of(const SampleRange &hull) {
     if (hull.count() < 2)
         return multiple_from(hull.end, min_part);

@@ -1,6 +1,5 @@
-// The samples of a film, as disjoint ranges of indices, and their division into two parts: the older part has the
-// samples below a split, the newer part the others. The split depends on the first and last sample only, so films of
-// any ranges can be added in any order.
+// The samples of a film, as disjoint ranges of indices. A split divides them into an older and a newer part. It depends
+// on the first and last sample only, so films of any ranges can be added in any order.
 #pragma once
 
 #include "shaders/gpu_layout.h"
@@ -36,7 +35,7 @@ public:
     SampleSet() = default;
     explicit SampleSet(const SampleRange &range) { add(range); }
 
-    // In ascending order, none empty, none adjacent to the next.
+    // Ascending, none empty, none adjacent to the next.
     const std::vector<SampleRange> &ranges() const { return ranges_; }
 
     bool empty() const { return ranges_.empty(); }
@@ -46,10 +45,9 @@ public:
     // Empty without samples.
     SampleRange hull() const;
 
-    // The first common samples.
     std::optional<SampleRange> overlap(const SampleSet &other) const;
 
-    // The first run of missing samples at or after an index, up to the next present one; empty if none is missing.
+    // The first run of missing samples at or after an index; empty if none is missing.
     SampleRange next_missing(std::uint64_t from) const;
 
     // The samples must be missing so far.
@@ -68,25 +66,22 @@ std::string text_of(const SampleSet &samples);
 enum FilmPart : std::uint32_t { older_part, newer_part };
 static_assert(gpu::FILM_PARTS == 2);
 
-// Samples in each part.
 using PartCounts = std::array<std::uint64_t, gpu::FILM_PARTS>;
 
-// The index with the most trailing zero bits among those with samples on both sides, if it is a multiple of 8.
-// Otherwise the next multiple of 8 after the last sample, and all samples are in the older part: fewer than 8 in a part
-// would say next to nothing.
+// The index with most trailing zero bits among those with samples on both sides, if it is a multiple of 8. Otherwise
+// the next multiple of 8 after the last sample, and all samples are in the older part: fewer than 8 would say next to
+// nothing.
 //
-// Samples [0, N) are split at the largest power of two below N. At N = 2^k both parts are runs of 2^(k - 1) points that
-// begin at a multiple of 2^(k - 1), the best sets of a sequence.
+// At N = 2^k, [0, N) splits into runs of 2^(k - 1) points that begin at a multiple of 2^(k - 1), the best sets of a
+// sequence.
 //
-// A range has exactly one index with the most zeros, since between two with equally many lies one with more. So when
-// films are added, each has the split of the sum or lies on one side of it. Hence two parts are enough to add films in
-// any order with the same result.
+// The index is unique, since between two with equally many zeros lies one with more. So films that are added each have
+// the split of the sum or lie on one side of it: two parts suffice.
 std::uint64_t split_of(const SampleRange &hull);
 
 PartCounts part_counts(const SampleSet &samples);
 
-// Whether a sample is its part's first. before: range of the samples so far; split: with the sample included. If the
-// split moves, all samples of `before` are on one side of it.
+// Whether a sample is its part's first. before: range of the samples so far. split: with the sample included.
 bool begins_part(const SampleRange &before, std::uint64_t split, std::uint64_t sample);
 
 } // namespace pt

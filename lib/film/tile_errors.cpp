@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t channel_count = 3;
 
-// For each pixel of a row, the values to its left, in it and to its right, sorted. Missing ones come first.
+// Per pixel of a row: the values to its left, in it and to its right, sorted. Missing ones come first.
 using SortedRow = std::array<gpu::Sorted, tile_size>;
 
 SortedRow sorted_row(const TileValues &tile, std::size_t channel, std::size_t y) {
@@ -24,7 +24,6 @@ SortedRow sorted_row(const TileValues &tile, std::size_t channel, std::size_t y)
     return row;
 }
 
-// rows: of the tile, in one channel.
 gpu::Neighbourhood neighbourhood_at(const std::array<SortedRow, tile_size> &rows, const TileValues &tile, std::size_t x,
                                     std::size_t y) {
     const bool is_first = y == 0;
@@ -38,7 +37,6 @@ gpu::Neighbourhood neighbourhood_at(const std::array<SortedRow, tile_size> &rows
     return gpu::neighbourhood(above, rows[y][x], below, is_first, is_last, x == 0 || x + 1 == tile.width);
 }
 
-// Adds what one value tells to its pixel. means: of the tile.
 void add_value(const TileValues &tile, std::size_t channel, std::size_t pixel, const gpu::Neighbourhood &near,
                const gpu::ValueSet &means, PixelErrors &errors) {
     const PixelValue &value = tile.pixels[pixel][channel];
@@ -105,7 +103,7 @@ TileErrors tile_errors(const TileValues &tile) {
 
 namespace {
 
-// rows: rows of the film that begin with the first row of the tile.
+// rows: begin with the first row of the tile.
 TileErrors errors_of(const Rectangle &pixels, const SampleSet &samples, double unit, std::uint32_t film_width,
                      const PixelSums &rows) {
     TileValues tile{
@@ -123,7 +121,7 @@ TileErrors errors_of(const Rectangle &pixels, const SampleSet &samples, double u
 
 } // namespace
 
-// A row of tiles is read only if one of them has changed.
+// Reads a row of tiles only if one of them has changed.
 std::span<const TileErrors> FilmErrors::of(const TileSamples &samples, double unit, const ReadRows &read) {
     const TileGrid &grid = samples.grid();
     const bool is_known = !tiles_.empty() && samples_.grid() == grid;

@@ -11,14 +11,13 @@
 namespace pt {
 
 struct TileGrid {
-    std::uint32_t width = 0;  // pixels of the film
-    std::uint32_t height = 0; // pixels of the film
+    std::uint32_t width = 0; // pixels of the film
+    std::uint32_t height = 0;
 
     std::uint32_t columns() const { return (width + gpu::TILE_SIZE - 1) / gpu::TILE_SIZE; }
     std::uint32_t rows() const { return (height + gpu::TILE_SIZE - 1) / gpu::TILE_SIZE; }
     std::size_t count() const { return std::size_t{columns()} * rows(); }
 
-    // In the film.
     Rectangle pixels(std::size_t tile) const {
         const auto x = static_cast<std::uint32_t>(tile % columns()) * gpu::TILE_SIZE;
         const auto y = static_cast<std::uint32_t>(tile / columns()) * gpu::TILE_SIZE;

@@ -12,7 +12,6 @@ namespace pt {
 
 namespace {
 
-// Sorts and removes duplicates.
 std::vector<std::uint32_t> distinct(std::vector<std::uint32_t> numbers) {
     std::sort(numbers.begin(), numbers.end());
     numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
@@ -50,7 +49,6 @@ std::vector<TileMap::Span> runs_of(const TileMap::Band &band, const std::vector<
     return runs;
 }
 
-// From left to right, for rows that meet the same tiles.
 std::vector<TileMap::Piece> cut_rows(const std::vector<TileMap::Span> &spans, const Rectangle &rows) {
     std::vector<TileMap::Piece> pieces;
     std::uint32_t x = rows.x;
@@ -68,7 +66,7 @@ std::vector<TileMap::Piece> cut_rows(const std::vector<TileMap::Span> &spans, co
     return pieces;
 }
 
-// Whether both rows of pieces, of equal width, have the same columns and tiles.
+// Whether both rows of pieces have the same columns and tiles.
 bool continue_below(std::span<const TileMap::Piece> pieces, std::span<const TileMap::Piece> below) {
     return std::ranges::equal(pieces, below, [](const TileMap::Piece &a, const TileMap::Piece &b) {
         return a.pixels.x == b.pixels.x && a.tile == b.tile;
@@ -79,7 +77,7 @@ Rectangle shifted(const Rectangle &pixels, const Rectangle &origin) {
     return {pixels.x + origin.x, pixels.y + origin.y, pixels.width, pixels.height};
 }
 
-// The samples of a rectangle's pixels, empty if no tile has them; no value if they differ.
+// Empty if no tile has the pixels; no value if their samples differ.
 std::optional<SampleSet> samples_of(const TileMap &map, const std::vector<FilmTile> &tiles, const Rectangle &pixels) {
     const SampleSet none;
     const auto samples_in = [&](const TileMap::Piece &piece) -> const SampleSet & {

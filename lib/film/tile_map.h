@@ -1,5 +1,5 @@
-// Maps pixels to a film's tiles, by rows. Checks tile lists, cuts them along each other, brings them to the canonical
-// form of written films, and converts them to and from the tiles of a grid.
+// Maps pixels to a film's tiles. Checks tile lists, cuts them along each other, brings them to the canonical form of
+// written films, and converts them to and from the tiles of a grid.
 #pragma once
 
 #include "lib/film/film_header.h"
@@ -38,13 +38,12 @@ public:
     // more memory than its film's sums.
     explicit TileMap(const std::vector<FilmTile> &tiles);
 
-    // Sorted from the top down, without rows that have no pixels.
+    // Ordered from the top down; rows without pixels are in none.
     const std::vector<Band> &bands() const { return bands_; }
 
     // NULL if no tile has the pixel.
     const Span *find(std::uint32_t x, std::uint32_t y) const;
 
-    // The pieces into which tiles cut a rectangle.
     std::vector<Piece> cut(const Rectangle &pixels) const;
 
 private:
@@ -54,8 +53,8 @@ private:
 // Contains all tiles; at least one.
 Rectangle bounds_of(const std::vector<FilmTile> &tiles);
 
-// The same pixels and samples in canonical form: neighbors in a row with equal samples are joined, then equal runs in
-// adjacent rows. Sorted from the top down, then from left to right.
+// The same pixels and samples: neighbors in a row with equal samples are joined, then equal runs in adjacent rows.
+// Sorted from the top down, then from left to right.
 std::vector<FilmTile> canonical_tiles(const std::vector<FilmTile> &tiles);
 
 // As few tiles as possible. pixels: the film's, in the image.

@@ -1,4 +1,4 @@
-// The samples of each tile of a film. Different sets are kept once, as many tiles share one.
+// The samples of each tile of a film. Tiles share equal sets.
 #pragma once
 
 #include "lib/film/sample_set.h"
@@ -13,7 +13,6 @@ namespace pt {
 
 class TileSamples {
 public:
-    // No samples.
     TileSamples() = default;
     explicit TileSamples(const TileGrid &grid, SampleSet all = {}) : grid_(grid), sets_{std::move(all)} {}
 
@@ -23,11 +22,10 @@ public:
     bool even() const { return set_of_.empty(); }
     const SampleSet &of(std::size_t tile) const { return even() ? sets_.front() : sets_[set_of_[tile]]; }
 
-    // Different sets, perhaps some that no tile has any more, and the index of a tile's set.
+    // Different sets, perhaps some that no tile has any more.
     const std::vector<SampleSet> &sets() const { return sets_; }
     std::uint32_t set_of(std::size_t tile) const { return even() ? 0 : set_of_[tile]; }
 
-    // Over all tiles.
     bool empty() const;
     std::uint64_t least() const; // of a pixel
     std::uint64_t most() const;
@@ -37,7 +35,7 @@ public:
     void add(std::span<const std::uint32_t> tiles, const SampleRange &range);
     void set(std::size_t tile, const SampleSet &samples);
 
-    // For consecutive rows of pixels, beginning with a row of tiles.
+    // For consecutive rows of pixels that begin with a row of tiles.
     TileSamples rows(std::uint32_t first_row, std::uint32_t row_count) const;
 
     // Takes no memory.

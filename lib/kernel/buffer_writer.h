@@ -14,7 +14,7 @@ namespace pt {
 // Offset and row distance are multiples of 4.
 struct BufferTarget {
     vk::Buffer buffer;
-    std::uint64_t offset; // of the first pixel
+    std::uint64_t offset;
     std::uint64_t row_bytes;
     vulkan::Semaphores semaphores;
 };
@@ -27,7 +27,6 @@ public:
     };
     static PieceLimits piece_limits(const vulkan::Limits &limits);
 
-    // The arguments must outlive the writer.
     BufferWriter(vulkan::Device &device, ResolvePipelines &pipelines, DeviceFilm &film, const PieceLimits &limits);
     // Waits for the device.
     ~BufferWriter();
@@ -52,8 +51,8 @@ private:
     ResolvePipelines &pipelines_;
     DeviceFilm &film_;
     PieceLimits limits_;
-    PixelResults results_;                    // lost pixels only
-    std::vector<vulkan::DescriptorSet> sets_; // by piece and strip
+    PixelResults results_; // lost pixels only
+    std::vector<vulkan::DescriptorSet> sets_;
     std::optional<vulkan::Device::Ticket> under_way_;
 };
 

@@ -115,7 +115,6 @@ void Coverage::read(const BoundScene &bound, const CoverageQuery &query, double 
     }
 }
 
-// One range per tile at a time, in as many dispatches as needed.
 void Coverage::count(const Look &look, gpu::CoverageConstants constants) {
     const std::uint64_t bytes = (1 + std::uint64_t{constants.pixel_count}) * count_bytes;
     device_.submit([&](const auto &commands) { buffers_->covered.clear(commands, 0, bytes); });

@@ -24,7 +24,6 @@ struct CoverageQuery {
 
 class Coverage {
 public:
-    // Both arguments must outlive the object.
     Coverage(vulkan::Device &device, std::span<const std::uint32_t> code);
 
     // Calls receive(counts) for consecutive pieces of the pixels, row by row. tests_per_submission: ray-surface tests

@@ -56,10 +56,9 @@ public:
     // Records a copy: planes without gaps, part after part.
     void copy_to(const vk::raii::CommandBuffer &commands, const PixelRange &pixels, const vulkan::Buffer &to) const;
 
-    // Fills `sums`.
     void read(std::uint32_t first_pixel, PixelSums &sums);
 
-    // New sums for all pixels. The film is unchanged until replace().
+    // The film is unchanged until replace().
     class NewSums {
     public:
         // Throws PT_ERROR_OUT_OF_DEVICE_MEMORY.
@@ -67,7 +66,7 @@ public:
 
         void write(std::uint32_t first_pixel, const PixelSums &sums);
 
-        // Replaces the film's sums in one submission. All must have been written.
+        // In one submission. All sums must have been written.
         void replace();
 
     private:
@@ -88,7 +87,6 @@ private:
 void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, const PixelRange &pixels,
                 std::uint32_t most_pixels, const std::function<void(const PixelSums &)> &receive);
 
-// Reads one piece, as large as `sums`.
 void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, std::uint32_t first_pixel,
                 PixelSums &sums);
 

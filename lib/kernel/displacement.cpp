@@ -33,7 +33,7 @@ struct Losses {
 
 // tree: NULL outside. length: 0 except of a capsule.
 Losses losses_of(const SphereTree *tree, double length, double radius) {
-    const double half_diagonal = 0.5 * std::sqrt(3.0); // of a grid cube of side 1
+    const double half_diagonal = 0.5 * std::sqrt(3.0);
     return {tree ? half_diagonal * tree->grid().step : 0.0,
             tree && tree->has_opacities() ? rounding_of_radii * radius : 0.0,
             length > 0.0 ? rounding_of_capsules * (length + radius) : 0.0};
@@ -96,7 +96,6 @@ glm::dvec3 without_less_than(double rounding, const glm::dvec3 &vector) {
     return glm::mix(vector, glm::dvec3(0.0), glm::lessThanEqual(glm::abs(vector), glm::dvec3(rounding)));
 }
 
-// The surface, relative to the camera.
 struct Displaced {
     double pixels;
     SpherePlace place;

@@ -23,7 +23,7 @@ struct ErrorQuery {
 
 class ErrorReader {
 public:
-    // All arguments must outlive the reader. estimate: from estimate_pipeline(). The film must have whole tiles.
+    // estimate: from estimate_pipeline(). The film must have whole tiles.
     ErrorReader(vulkan::Device &device, const vulkan::ComputePipeline &estimate, DeviceFilm &film);
 
     using Receive = std::function<void(const TileErrors &)>;
@@ -47,9 +47,9 @@ private:
     vulkan::Device &device_;
     const vulkan::ComputePipeline &estimate_;
     DeviceFilm &film_;
-    vulkan::Buffer errors_;       // of a strip, by workgroup
-    vulkan::Buffer tile_counts_;  // by tile of the film
-    vulkan::Buffer tile_squares_; // by tile of the film
+    vulkan::Buffer errors_;      // of a strip, by workgroup
+    vulkan::Buffer tile_counts_; // by tile of the film
+    vulkan::Buffer tile_squares_;
     std::vector<vulkan::DescriptorSet> sets_;
 };
 

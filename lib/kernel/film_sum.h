@@ -23,8 +23,8 @@ public:
         DeviceFilm &film;
     };
 
-    // All arguments must outlive the object. sources: films of one size. add: from add_pipeline(), on the first film's
-    // device. Throws PT_ERROR_OUT_OF_DEVICE_MEMORY.
+    // sources: films of one size. add: from add_pipeline(), on the first film's device. Throws
+    // PT_ERROR_OUT_OF_DEVICE_MEMORY.
     FilmSum(const std::vector<Source> &sources, const vulkan::ComputePipeline &add, std::uint32_t row_count);
 
     // The rows gathered last.
@@ -34,7 +34,6 @@ public:
     void gather(std::uint32_t first_row, const PixelRange &wanted);
 
 private:
-    // Another device's film, arriving in pieces.
     struct Distant {
         Source source;
         std::vector<vulkan::Buffer> slots;
@@ -55,9 +54,9 @@ private:
     DeviceFilm film_;
     std::list<Distant> others_;
     std::uint32_t piece_pixels_;
-    std::vector<vulkan::Buffer> slots_; // written by the host
-    std::vector<std::vector<vulkan::DescriptorSet>> slot_sets_;
-    std::vector<std::vector<vulkan::DescriptorSet>> own_sets_; // by strip of the first film and of the sum
+    std::vector<vulkan::Buffer> slots_;
+    std::vector<std::vector<vulkan::DescriptorSet>> slot_sets_; // by slot and strip of the sum
+    std::vector<std::vector<vulkan::DescriptorSet>> own_sets_;  // by strip of the first film and of the sum
 };
 
 vulkan::ComputePipeline add_pipeline(vulkan::Device &device, std::span<const std::uint32_t> code);

@@ -25,7 +25,6 @@ struct FirstHitQuery {
 
 class FirstHits {
 public:
-    // Both arguments must outlive the object.
     FirstHits(vulkan::Device &device, std::span<const std::uint32_t> code);
 
     // Calls receive(bytes) for consecutive pieces of the pixels, row by row. Objects are the kernels' surface numbers.

@@ -32,7 +32,6 @@ float specular_probability(const Material &material) {
     return std::clamp(specular / (specular + diffuse), 1e-3F, 1.0F - 1e-3F);
 }
 
-// Writes surfaces by their number in kernels.
 class Writer {
 public:
     Writer(std::vector<glm::vec4> &words, const Features &features) :

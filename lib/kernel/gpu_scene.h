@@ -1,5 +1,5 @@
 // A scene as kernels read it, seen by one camera: twins merged, in the kernels' order, in float32 (layout:
-// shaders/gpu_layout.h). Made by Renderer; shared by all kernels and devices.
+// shaders/gpu_layout.h). Shared by all devices.
 #pragma once
 
 #include "lib/kernel/prepared_scene.h"

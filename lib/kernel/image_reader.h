@@ -18,7 +18,6 @@ namespace pt {
 
 class ImageReader {
 public:
-    // All arguments must outlive the reader.
     ImageReader(vulkan::Device &device, ResolvePipelines &pipelines, DeviceFilm &film) :
         device_(device),
         pipelines_(pipelines),
@@ -43,8 +42,8 @@ private:
         std::uint64_t count() const { return (total + most - 1) / most; }
         std::uint64_t pixels_of(std::uint64_t piece) const { return std::min(most, total - piece * most); }
 
-        std::uint64_t total; // pixels
-        std::uint64_t most;  // pixels of a piece
+        std::uint64_t total;
+        std::uint64_t most; // pixels of a piece
         std::uint64_t bytes_of_pixel;
     };
 

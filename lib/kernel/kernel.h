@@ -26,8 +26,7 @@ namespace pt {
 
 class Kernel {
 public:
-    // device, pipelines, film and tree must outlive the kernel. tree: the scene's tree buffer, or NULL. Throws
-    // PT_ERROR_UNSUPPORTED for scenes beyond the device.
+    // tree: the scene's tree buffer, or NULL. Throws PT_ERROR_UNSUPPORTED for scenes beyond the device.
     Kernel(vulkan::Device &device, TracePipelines &pipelines, DeviceFilm &film, const vulkan::Buffer *tree,
            std::shared_ptr<const GpuScene> scene, const RenderSettings &settings);
 
@@ -96,8 +95,8 @@ private:
     std::uint32_t max_dispatch_samples_; // per pixel
     bool overlap_;                       // dispatches may add to the film at the same time
     vulkan::Buffer scene_;
-    const vulkan::Buffer *tree_; // may be NULL
-    vulkan::Buffer points_;      // used in turn by the slices under way
+    const vulkan::Buffer *tree_;
+    vulkan::Buffer points_; // used in turn by the slices under way
     TileLists tile_lists_;
     std::vector<vulkan::DescriptorSet> sets_;
     std::uint32_t next_table_ = 0; // in points_

@@ -38,7 +38,6 @@ bool lies_apart(const MovingBall &ball, const PointBox &box);
 // Whether a hidden sphere lies apart from everything visible, so that no path gets into it. tree: may be NULL.
 bool lies_apart(const SeenSphere &hidden, const SeenScene &scene, const SphereTree *tree, const Camera &camera);
 
-// tree: may be NULL.
 KernelSurfaces kernel_surfaces(const SeenScene &distinct, const SphereTree *tree, const Camera &camera);
 
 } // namespace pt

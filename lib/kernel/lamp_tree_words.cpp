@@ -18,7 +18,6 @@ struct Ball {
     glm::vec3 way{0.0F};
     float radius = 0.0F;
 
-    // Centers as the shutter opens and closes.
     std::array<glm::dvec3, 2> ends() const { return {glm::dvec3(open), glm::dvec3(open) + glm::dvec3(way)}; }
 };
 

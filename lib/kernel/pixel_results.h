@@ -18,7 +18,7 @@ public:
     // Size of the header, a multiple of every device's alignment.
     static constexpr std::uint64_t findings_bytes = 256;
 
-    // The device must outlive it. bytes: room for pixels. what: for error messages.
+    // bytes: room for pixels. what: for error messages.
     PixelResults(vulkan::Device &device, std::uint64_t bytes, const std::string &what) :
         found_(device, vulkan::BufferUse::Storage, findings_bytes + bytes, what),
         host_(device, vulkan::BufferUse::HostRead, findings_bytes + bytes, what) {}

@@ -165,7 +165,7 @@ constexpr std::array<std::uint32_t, sequence_dimensions> primes = [] {
 
 std::uint32_t sobol(std::uint32_t index, std::uint32_t dimension) {
     std::uint32_t x = 0;
-    for (std::uint32_t rest = index; rest != 0; rest &= rest - 1) // set bits
+    for (std::uint32_t rest = index; rest != 0; rest &= rest - 1)
         x ^= sobol_matrices[dimension][static_cast<std::uint32_t>(std::countr_zero(rest))];
     return x;
 }
@@ -231,7 +231,7 @@ public:
 private:
     void write_sobol(std::uint32_t index, std::uint32_t first, std::span<std::uint32_t> coordinates) const {
         std::ranges::fill(coordinates, 0U);
-        for (std::uint32_t rest = index; rest != 0; rest &= rest - 1) { // set bits
+        for (std::uint32_t rest = index; rest != 0; rest &= rest - 1) {
             const std::uint32_t *row = &rows_[static_cast<std::uint32_t>(std::countr_zero(rest))][first];
             for (std::size_t i = 0; i < coordinates.size(); ++i)
                 coordinates[i] ^= row[i];

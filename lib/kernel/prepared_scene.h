@@ -23,8 +23,8 @@ struct PreparedScene {
     std::vector<std::uint32_t> used_indices; // from the scene's materials into used_materials
     bool gloss;                              // some used material has a specular lobe
     std::shared_ptr<const SphereTree> tree;  // most spheres if there are many, else NULL
-    bool moves;                              // some sphere moves
-    std::vector<std::uint32_t> lamp_order;   // emitting spheres in the order of lamp_tree.h
+    bool moves;
+    std::vector<std::uint32_t> lamp_order; // emitting spheres in the order of lamp_tree.h
 
     // Makes no tree.
     explicit PreparedScene(Scene of);
@@ -41,11 +41,9 @@ struct PreparedScene {
     const std::string &digest() const;
 
 private:
-    // before: may be NULL.
     static PreparedScene prepared(CheckedScene checked, std::optional<std::uint32_t> tree_from,
                                   const SphereTree *before, WorkProgress &progress);
 
-    // left_out: spheres outside the tree.
     static PreparedScene with_tree(const CheckedScene &checked, const std::vector<std::uint32_t> &left_out,
                                    const SphereTree *before, WorkProgress &progress);
 

@@ -125,7 +125,7 @@ double depth_of_ball(const glm::dvec3 &centre, double radius, const ParallelView
         return out_of_view;
     const double half_chord = std::sqrt((radius - least) * (radius + least));
     if (depth + half_chord <= 0.0)
-        return out_of_view; // behind
+        return out_of_view;
     const double distance = glm::length(centre);
     const double power = (distance - radius) * (distance + radius) - (across - least) * (across + least);
     return depth > 0.0 && power > 0.0 ? power / (depth + half_chord) : 0.0;

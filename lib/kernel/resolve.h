@@ -25,7 +25,6 @@ struct ImageQuery {
 
 class ResolvePipelines {
 public:
-    // Both arguments must outlive the object.
     ResolvePipelines(vulkan::Device &device, std::span<const std::uint32_t> code) : device_(device), code_(code) {}
 
     // Built on first use. Layouts are equal, so buffers bound for one format serve all.
@@ -39,8 +38,8 @@ private:
 
 struct ResolvedPiece {
     Rectangle pixels;
-    std::uint32_t first_word; // in the bound buffer
-    std::uint32_t row_words;  // from row to row
+    std::uint32_t first_word;
+    std::uint32_t row_words; // from row to row
 };
 
 // Records the dispatches, with barriers before and after. sets: by strip of the film.

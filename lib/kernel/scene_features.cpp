@@ -78,7 +78,6 @@ std::uint64_t lamp_trips(const Features &features) {
                                               : 2 * std::uint64_t{features[gpu::ID_LAMP_COUNT]};
 }
 
-// Per vertex: its own loop, the lamps and a walk.
 std::uint64_t loop_trips_per_branch(const Features &features) {
     const std::uint64_t vertex = 1 + lamp_trips(features) + loop_trips_per_walk(features);
     return (features[gpu::ID_MAX_PATH_LENGTH] - 1) * vertex;

@@ -28,7 +28,7 @@ struct BoundScene {
 
 class SceneKernel {
 public:
-    // device and code must outlive the object. bindings: including the scene's.
+    // bindings: including the scene's.
     SceneKernel(vulkan::Device &device, std::span<const std::uint32_t> code, std::vector<vulkan::Binding> bindings,
                 std::uint32_t push_constant_bytes);
 

@@ -72,7 +72,6 @@ std::vector<std::uint32_t> compile(pt_compile_glsl_fn compiler, const std::strin
     return words;
 }
 
-// words: by kernel, in the members' order.
 KernelCode code_of(std::vector<std::vector<std::uint32_t>> words) {
     const auto kept = std::make_shared<const std::vector<std::vector<std::uint32_t>>>(std::move(words));
     const auto &of = *kept;

@@ -62,7 +62,7 @@ bool ends_block(Opcode opcode) {
 struct Fact {
     std::optional<std::uint32_t> value; // of a constant of 32 bits, or a Boolean
     std::optional<std::uint32_t> spec_id;
-    std::uint32_t place = 0; // offset of a block or function
+    std::uint32_t place = 0;
     std::uint32_t taken = 0; // the only branch of a block with a constant condition, else 0
     bool is_reached = false; // a block by branches, a function by calls
     bool is_merge = false;   // a kept instruction names the block as a merge block

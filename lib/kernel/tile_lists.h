@@ -14,7 +14,6 @@ namespace pt {
 
 class TileLists {
 public:
-    // The device must outlive the lists.
     TileLists(vulkan::Device &device, const TileGrid &grid) :
         tile_count_(static_cast<std::uint32_t>(grid.count())),
         slice_lists_(device.policy().queue_depth),

@@ -24,7 +24,6 @@ public:
     // For scenes that alternate. Work under way uses at most the last two.
     static constexpr std::size_t most_kept = 8;
 
-    // The device must outlive the pipelines.
     explicit TracePipelines(vulkan::Device &device, KernelCode code = embedded_code());
 
     // Takes the driver cache's key for this code and device, once.

@@ -1,4 +1,3 @@
-// Deals samples, and takes them in; see accumulation.h.
 #include "lib/render/accumulation.h"
 
 #include <algorithm>
@@ -37,8 +36,8 @@ bool Accumulation::set(TileTasks tasks, std::optional<double> unit_of_error) {
     return !tasks_.empty();
 }
 
-// Once the time is over, takes in slices that have ended, but deals nothing: so a call returns however short slices
-// are, and waits for nothing if nothing is under way.
+// Once the time is over, takes in slices that have ended, but deals nothing, so that a call returns however short
+// slices are.
 bool Accumulation::run(Clock::time_point until) {
     const bool begins = !is_under_way();
     for (const auto &device : devices_)
@@ -55,7 +54,7 @@ bool Accumulation::run(Clock::time_point until) {
     return !is_under_way();
 }
 
-// Starts as many slices as there is room for. Cancellations from now on count.
+// Starts as many slices as there is room for.
 void Accumulation::deal() {
     if (cancellation_.is_asked())
         stop();
@@ -75,7 +74,7 @@ bool Accumulation::deal_to(RenderDevice &device) {
     if (!has_room_for(slice, device))
         return false;
     const bool is_last = tasks_.ends_all(slice.tiles.size());
-    // Before anything is started: started samples must be counted.
+    // Before anything is started, since started samples must be counted.
     Begun next{slice, &device, samples_,
                is_last && unit_of_error_ && devices_.size() == 1 && device.estimates_behind()};
     next.samples.add(slice.tiles, slice.samples);
@@ -92,7 +91,7 @@ bool Accumulation::deal_to(RenderDevice &device) {
     return true;
 }
 
-// Every device may have to make room for the samples of a slice.
+// Every device may have to make room for a slice's samples.
 bool Accumulation::has_room_for(const TileSlice &slice, const RenderDevice &taker) const {
     return taker.has_room() && (!slice.moves_split() ||
                                 std::ranges::all_of(devices_, [](const auto &device) { return device->has_room(); }));
@@ -136,8 +135,7 @@ double Accumulation::fraction() const {
     return std::min(static_cast<double>(done_) / static_cast<double>(wanted_), 1.0);
 }
 
-// The device whose slice ends first, if any by that time. Among several devices the first that is seen to be done,
-// since Vulkan can wait for only one.
+// The device whose slice ends first, if any by then. Vulkan can wait for only one device, so several are polled.
 RenderDevice *Accumulation::next_to_finish(Clock::time_point until) const {
     constexpr std::chrono::microseconds pause{50}; // a thousandth of a slice
     if (devices_.size() == 1)

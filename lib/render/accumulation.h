@@ -25,7 +25,7 @@ struct Progress {
 };
 
 // Whether samples are under way, and whether they were cancelled. The only part of a context that any thread may touch
-// at any time. Owned by Renderer.
+// at any time.
 class Cancellation {
 public:
     void begin() noexcept { state_ = State::UnderWay; }
@@ -54,8 +54,7 @@ class Accumulation {
 public:
     using Clock = std::chrono::steady_clock;
 
-    // devices, cancellation and work must outlive it. samples: in the films already. wanted: at most, tiles times
-    // samples, for the progress.
+    // samples: in the films already. wanted: at most, tiles times samples, for the progress.
     Accumulation(const RenderDevices &devices, TileSamples samples, std::uint32_t first_sample, std::uint64_t wanted,
                  const Progress &progress, const Cancellation &cancellation, DeviceWork &work);
     Accumulation(const Accumulation &) = delete;
@@ -72,25 +71,25 @@ public:
 
     bool is_under_way() const;
 
-    // Begins nothing new, except to complete samples that some tiles have begun.
+    // Begins nothing new, except to complete begun samples.
     void stop() { stopped_ = true; }
     bool stopped() const { return stopped_; }
 
-    // Call after an exception: completes begun samples, so that the films hold whole ones. Returns false if that fails
-    // too; the films are then void, and nothing is under way.
+    // Call after an exception: completes begun samples, so that the films hold whole ones. If that fails too, returns
+    // false; the films are then void, and nothing is under way.
     bool complete() noexcept;
 
-    // Done share of the wanted samples, in [0, 1].
+    // Done share, in [0, 1].
     double fraction() const;
 
     // In the films. Only while nothing is under way.
     const TileSamples &samples() const { return samples_; }
 
-    // Whether the last submission has estimated the error too, which saves one. Only with a single device.
+    // Whether the last submission has estimated the error too. Only with a single device.
     bool has_estimate() const { return has_estimate_; }
 
 private:
-    // A slice that is started on one device after the other. If one fails, complete() continues from there.
+    // Started on one device after the other. If one fails, complete() continues from there.
     struct Begun {
         TileSlice slice;
         const RenderDevice *taker; // of its samples
@@ -119,7 +118,7 @@ private:
     std::uint32_t first_sample_;
     TileTasks tasks_;
     std::optional<double> unit_of_error_;
-    std::optional<Begun> begun_; // of the tasks
+    std::optional<Begun> begun_;
     bool has_estimate_ = false;
     bool stopped_ = false; // by the caller or a failure
 };

@@ -13,7 +13,7 @@
 
 namespace pt {
 
-// To be raised by any change to the bits of samples, in the kernel or its input, or to the samples that a target error
+// Must rise with any change to the bits of samples, in the kernel or its input, or to the samples that a target error
 // takes.
 inline constexpr std::uint32_t estimator_version = 7;
 

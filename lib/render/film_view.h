@@ -25,18 +25,17 @@ namespace pt {
 
 class FilmView {
 public:
-    // The devices must outlive it.
     explicit FilmView(const RenderDevices &devices) : devices_(devices) {}
 
     // Reads the samples in the image's format. Throws PT_ERROR_INTERNAL if a driver lost work.
     void read(const Image &image, const ImageQuery &query, const TileSamples &samples);
 
-    // The image without gaps in the first device's memory, if that device makes images; otherwise nothing. Valid until
-    // the next call or a new film.
+    // The image without gaps in the first device's memory, if that device makes images. Valid until the next call or a
+    // new film.
     std::optional<std::span<std::byte>> map(const ImageQuery &query);
 
-    // Gives the estimator all tiles' errors, and fills in query.by_tile. is_recorded: the only device has done this in
-    // the submission that took the samples. Throws likewise.
+    // Gives the estimator all tiles' errors, and fills in query.by_tile. is_recorded: the submission that took the
+    // samples has done the work. Throws PT_ERROR_INTERNAL if a driver lost work.
     void estimate(ErrorEstimator &estimator, const ErrorQuery &query, bool is_recorded);
 
     // Call when the samples have changed.
@@ -48,11 +47,10 @@ public:
     // Call before films or kernels are replaced.
     void drop() noexcept { sums_.clear(); }
 
-    // The devices' films, brought up to date.
+    // Brings the films up to date.
     static std::vector<DeviceFilm *> films(const RenderDevices &devices);
 
 private:
-    // The sum of some rows of the films, and its readers.
     struct Sum {
         Sum(const std::vector<FilmSum::Source> &sources, RenderDevice &home, std::uint32_t row_count);
 

@@ -15,7 +15,6 @@ namespace {
 
 constexpr std::uint32_t buffer_word_bytes = 4; // of a kernel's writes
 
-// The part of a width x height image that is wanted.
 template <typename Source>
 Rectangle rectangle_of(const Source &source, std::uint32_t width, std::uint32_t height) {
     if (source.x == 0 && source.y == 0 && source.width == 0 && source.height == 0)
@@ -23,7 +22,7 @@ Rectangle rectangle_of(const Source &source, std::uint32_t width, std::uint32_t 
     return {source.x, source.y, source.width, source.height};
 }
 
-// Checks a rectangle's columns or rows: at least one, all within the image.
+// name: of the columns or rows.
 bool check_extent(const Subject &image, const char *name, std::uint32_t extent, const Member &begin,
                   std::uint32_t first, std::uint32_t limit) {
     image.require(extent >= 1, name, extent, "must be >= 1, but where x, y, width and height are all 0");
@@ -47,7 +46,7 @@ void check_quantity(const Subject &image, std::uint32_t quantity, std::uint32_t 
                                                  : "PT_FORMAT_R32UI is for PT_QUANTITY_OBJECT alone");
 }
 
-// The rules for images in any memory. alignment: of rows, bytes; offset: of the image in its memory.
+// alignment: of rows, bytes. offset: of the image in its memory.
 template <typename Source>
 ImageLayout checked_layout(const Subject &image, const Source &source, std::uint32_t alignment, std::uint64_t offset,
                            std::uint32_t width, std::uint32_t height, ImageSource of) {

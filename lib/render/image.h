@@ -35,14 +35,14 @@ struct BufferImage {
 // A context has all quantities, films and lent buffers only samples' quantities.
 enum class ImageSource { Context, Samples };
 
-// Checks an image with a known struct_size; width and height of the rendered pixels are >= 1. Throws
-// PT_ERROR_INVALID_ARGUMENT with all broken rules.
+// source.struct_size is checked already; width, height >= 1: of the rendered pixels. Throws PT_ERROR_INVALID_ARGUMENT
+// with all broken rules.
 Image validated_image(const pt_image &source, std::uint32_t width, std::uint32_t height, ImageSource of);
-// The same for an image in the library's memory, without gaps.
+// For an image in the library's memory, without gaps.
 ImageLayout validated_mapped_layout(const pt_image &source, std::uint32_t width, std::uint32_t height);
 BufferImage validated_image(const pt_buffer_image &source, std::uint32_t width, std::uint32_t height);
 
-// The caller's memory, filled pixel by pixel, row by row.
+// Fills the caller's memory, row by row.
 class ImageRows {
 public:
     explicit ImageRows(const Image &image);
@@ -51,8 +51,7 @@ public:
     void put(std::span<const std::byte> pixels);
     void put(std::span<const float> values);
 
-    // Takes R, G and B of consecutive pixels of an image of this width, from first_pixel on, and keeps those within the
-    // rectangle.
+    // Takes R, G and B of consecutive pixels of an image of this width, and keeps those within the rectangle.
     void put_part(std::uint64_t first_pixel, std::uint32_t width, std::span<const float> values);
 
 private:

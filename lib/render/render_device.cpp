@@ -1,4 +1,3 @@
-// Film, kernel and slices of a device; see render_device.h.
 #include "lib/render/render_device.h"
 
 #include "lib/base/error.h"
@@ -83,7 +82,7 @@ void RenderDevice::drop_bound() noexcept {
 }
 
 void RenderDevice::set_pipelines(const KernelCode &code, std::unique_ptr<TracePipelines> pipelines) noexcept {
-    drop_bound(); // it uses the old ones
+    drop_bound(); // to the old pipelines
     first_hits_.reset();
     coverage_.reset();
     resolve_.reset();
@@ -113,7 +112,7 @@ void RenderDevice::prepare(const std::shared_ptr<const GpuScene> &scene, const R
         kernel_->show(scene, settings);
         return;
     }
-    drop_kernel(); // before the new one takes memory
+    drop_kernel(); // frees its memory first
     plant(scene->tree);
     kernel_.emplace(device_, *pipelines_, *film_, tree_buffer_ ? &*tree_buffer_ : nullptr, scene, settings);
     const double tests_per_path = surface_tests_per_path(kernel_->features(), scene->tree.get());
@@ -122,7 +121,6 @@ void RenderDevice::prepare(const std::shared_ptr<const GpuScene> &scene, const R
                                      .max_samples = kernel_->max_samples()});
 }
 
-// Uploads a tree once, for all kernels.
 void RenderDevice::plant(const std::shared_ptr<const SphereTree> &tree) {
     if (tree == tree_)
         return;

@@ -1,5 +1,5 @@
 // A device's share of the rendering: its film, kernel and slices under way. Owned by Renderer, which deals samples to
-// its devices. Films are exact sums, so it does not matter which device takes a sample.
+// its devices; any device may take any sample, because films are exact sums.
 #pragma once
 
 #include "lib/kernel/buffer_writer.h"
@@ -28,7 +28,7 @@ namespace pt {
 
 class RenderDevice {
 public:
-    // The instance must outlive it. target_seconds: aim for a slice; caller: see vulkan::Device.
+    // target_seconds: aim for a slice. caller: see vulkan::Device.
     RenderDevice(vulkan::Instance &instance, const vk::raii::PhysicalDevice &physical_device,
                  const vulkan::DevicePolicy &policy, const KernelCode &code, double target_seconds,
                  const vulkan::CallerVulkan *caller = nullptr);
@@ -71,8 +71,8 @@ public:
     // The film is void from now on.
     void discard_samples() noexcept;
 
-    // Pipelines for other code, as far as the present kernel needs them. Throws PT_ERROR_SHADER if the driver refuses
-    // the code.
+    // Makes pipelines for other code that the present kernel needs. Throws PT_ERROR_SHADER if the driver refuses the
+    // code.
     std::unique_ptr<TracePipelines> make_pipelines(const KernelCode &code);
     void set_pipelines(const KernelCode &code, std::unique_ptr<TracePipelines> pipelines) noexcept;
 
@@ -97,13 +97,13 @@ public:
     // estimates_behind() must hold.
     void start(const TileSlice &slice, const ErrorQuery *estimate = nullptr);
 
-    // Whether finish() would return at once, after waiting until the given time. Only while work is under way.
+    // Waits until then; returns whether finish() would return at once. Only while work is under way.
     bool is_done(vulkan::Device::Clock::time_point until) { return device_.is_done(under_way_.front().ticket, until); }
 
-    // Notes slices that have ended meanwhile. Otherwise a slice counts as ended when it is looked at.
+    // Notes slices that have ended, which otherwise count as ended when looked at.
     void look() { device_.look(); }
 
-    // Waits for the oldest slice. seconds: its duration, or an estimate if nobody saw it end.
+    // Waits for the oldest slice. seconds: estimated if nobody saw it end.
     struct Finished {
         std::uint64_t tile_samples; // tiles times samples; 0 if another device took them
         double seconds;
@@ -128,27 +128,27 @@ private:
     KernelCode code_;
     std::unique_ptr<TracePipelines> pipelines_; // never NULL
     double target_seconds_;
-    double tests_per_second_;                         // assumed for kernels not measured yet
-    std::optional<ResolvePipelines> resolve_;         // of the code; made on first use
-    std::optional<vulkan::ComputePipeline> estimate_; // likewise
-    std::optional<vulkan::ComputePipeline> add_;      // for films of several devices
+    double tests_per_second_;                 // assumed for kernels not measured yet
+    std::optional<ResolvePipelines> resolve_; // of the code; made on first use
+    std::optional<vulkan::ComputePipeline> estimate_;
+    std::optional<vulkan::ComputePipeline> add_; // for films of several devices
     std::optional<DeviceFilm> film_;
     std::optional<ImageReader> image_reader_; // of the film; made on first use
     std::optional<BufferWriter> buffer_writer_;
     std::optional<ErrorReader> error_reader_;
     std::shared_ptr<const SphereTree> tree_; // in the buffer
     std::optional<vulkan::Buffer> tree_buffer_;
-    std::optional<FirstHits> first_hits_; // of the code; made on first use
-    std::optional<Coverage> coverage_;    // likewise
+    std::optional<FirstHits> first_hits_;
+    std::optional<Coverage> coverage_;
     std::optional<Kernel> kernel_;
-    std::optional<Schedule> schedule_; // of the kernel
-    std::vector<Work> under_way_;      // in order of start; has room for all
-    bool film_is_void_ = true;         // to be cleared before use
+    std::optional<Schedule> schedule_;
+    std::vector<Work> under_way_; // in order of start; has room for all
+    bool film_is_void_ = true;    // to be cleared before use
 };
 
-using RenderDevices = std::vector<std::unique_ptr<RenderDevice>>; // of a renderer, at least one
+using RenderDevices = std::vector<std::unique_ptr<RenderDevice>>;
 
-// Hands kernels built in a call to the caller, at its end.
+// Hands built kernels to the caller at the end of a call.
 class KernelsKept {
 public:
     explicit KernelsKept(const RenderDevices &devices) : devices_(devices) {}

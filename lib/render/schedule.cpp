@@ -1,4 +1,3 @@
-// Sizes submissions by the time of those before; see schedule.h.
 #include "lib/render/schedule.h"
 
 #include "shaders/gpu_layout.h"
@@ -9,7 +8,7 @@ namespace pt {
 
 namespace {
 
-// Limit to growth over the largest measured submission: a wrong guess must not run into drivers' timeouts.
+// Limits growth over the largest measured submission: a wrong guess must not run into drivers' timeouts.
 constexpr double max_growth = 2.0;
 
 constexpr double paths_of_tile = gpu::WORKGROUP_SIZE; // with one sample
@@ -30,8 +29,7 @@ std::uint64_t Schedule::samples(std::size_t tile_count, std::uint64_t most) cons
                                      std::min<std::uint64_t>(most, limits_.max_samples));
 }
 
-// As few equal shares as the budget allows: a small last share would waste a submission's overhead. If there are
-// several, each exceeds half of the budget.
+// As few equal shares as the budget allows, since a small last share would waste a submission's overhead.
 std::size_t Schedule::tiles(std::size_t left, std::uint64_t sample_count) const {
     const auto affordable = static_cast<std::size_t>(std::clamp(budget_ / paths_of(1, sample_count), 1.0, 0x1p32));
     const std::size_t shares = (left + affordable - 1) / affordable;
@@ -42,10 +40,10 @@ double Schedule::expected_seconds(double paths) const {
     return limits_.target_seconds * paths / budget_;
 }
 
-// A submission takes an overhead, about 0.1 ms, and a time per path, which one measurement cannot tell apart. So the
-// excess over the expected time is treated as overhead: exact for submissions of the whole budget, while small ones
-// change little. For overhead o and rate r the step x -> x t / (o + x / r) has the only stable fixed point x = r (t -
-// o), the budget that takes target_seconds with its overhead.
+// A submission takes an overhead o and a time per path, which one measurement cannot tell apart. So the excess over the
+// expected time counts as overhead: exact for the whole budget, while small submissions change little. With the rate r,
+// the step x -> x t / (o + x / r) has the only stable fixed point x = r (t - o), where a submission takes
+// target_seconds.
 void Schedule::measured(double paths, double seconds) {
     if (!(seconds >= 0.0))
         return;

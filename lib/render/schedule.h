@@ -1,5 +1,4 @@
-// Sizes submissions to equal times. Knows neither clock nor device: RenderDevice asks how much, runs it, and reports
-// the time.
+// Sizes submissions to equal times. RenderDevice asks how much, runs it, and reports the time.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +19,7 @@ public:
     // Samples of each of these tiles in one submission, from 1 to most.
     std::uint64_t samples(std::size_t tile_count, std::uint64_t most) const;
 
-    // How many of the remaining tiles the next submission takes, with these samples each; at least 1.
+    // Number of remaining tiles that the next submission takes, with these samples each; at least 1.
     std::size_t tiles(std::size_t left, std::uint64_t sample_count) const;
 
     // Paths that should take the time of one submission.
@@ -28,12 +27,12 @@ public:
 
     double expected_seconds(double paths) const;
 
-    // Learns from a measured time; negative ones and NaN are ignored.
+    // Learns from a measured time; ignores negative ones and NaN.
     void measured(double paths, double seconds);
 
 private:
     ScheduleLimits limits_;
-    double budget_; // paths expected to take target_seconds
+    double budget_;
 };
 
 // Counts every tile as whole.

@@ -1,5 +1,5 @@
-// Divides the work on tiles' missing samples into slices. Knows no device: Accumulation asks for the next slice and has
-// a device take it.
+// Divides the work on tiles' missing samples into slices. Accumulation asks for the next slice and has a device take
+// it.
 #pragma once
 
 #include "lib/film/tile_samples.h"
@@ -16,15 +16,15 @@ namespace pt {
 
 class TileTasks {
 public:
-    // The samples of a tile's pixels at the end.
+    // Wanted samples of a tile's pixels.
     using Goal = std::function<std::uint64_t(std::uint32_t)>;
 
-    // tiles: ascending. Tiles below their goal take the next samples that they lack, from first_sample on, as far as
-    // those are consecutive. Some may then still have too few, and need a new goal.
+    // tiles: ascending. Tiles below their goal take the next samples that they lack, from first_sample on, so far as
+    // those are consecutive. Some may then still need a new goal.
     TileTasks(const TileSamples &present, std::uint32_t first_sample, std::span<const std::uint32_t> tiles,
               const Goal &goal);
 
-    // Needs equal samples in all tiles, and takes no longer for many. all_tiles must outlive it.
+    // Needs equal samples in all tiles, and takes no longer for many.
     TileTasks(const SampleSet &present, std::uint32_t first_sample, std::span<const std::uint32_t> all_tiles,
               std::uint64_t goal);
 
@@ -32,7 +32,7 @@ public:
 
     bool empty() const { return tasks_.empty(); }
 
-    // Whether some tiles have begun samples that others, with the same samples before, have not.
+    // Whether some tiles have begun samples that others, equal before, have not.
     bool is_within_samples() const { return !empty() && tasks_.back().next_tile > 0; }
 
     // As large as the device's schedule allows. Must not be empty().
@@ -52,7 +52,7 @@ private:
         std::uint64_t wanted; // at the end
         SampleRange before;   // hull of the samples that they have
         SampleRange samples;  // to be taken
-        SampleRange chunk{};  // the part of these that tiles take now
+        SampleRange chunk{};  // part of `samples` that tiles take now
         std::vector<std::uint32_t> found{};
         std::span<const std::uint32_t> tiles{}; // ascending: these, or all
         std::size_t next_tile = 0;              // takes the chunk next

@@ -17,7 +17,7 @@ namespace {
 // Positions in the scene buffer, a few times as many, have 32 bits.
 constexpr std::uint64_t max_surface_count = std::uint64_t{1} << 30;
 
-// of pt_set_scene with many spheres
+// Share of pt_set_scene's time with many spheres.
 constexpr double share_of_checks = 0.08;
 
 glm::vec3 color(const float (&components)[3]) {

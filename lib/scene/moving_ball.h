@@ -16,7 +16,6 @@ namespace pt {
 
 enum class Kind : std::uint8_t { ball = gpu::KIND_BALL, capsule = gpu::KIND_CAPSULE };
 
-// The set of kinds present.
 class Kinds {
 public:
     void add(Kind kind) { bits_ |= static_cast<std::uint32_t>(kind); }
@@ -62,7 +61,7 @@ inline constexpr double side_margin = 0x1p-16;
 // 2^-22 d, which reaches the share at 2^20 radii; there a center's rounding is visible anyway.
 inline constexpr double two_spheres = 0.25;
 
-// Adds a margin beyond float32's rounding.
+// Adds a margin for float32's rounding.
 inline double with_margin(double length) {
     return length * (1.0 + side_margin);
 }
@@ -118,7 +117,7 @@ inline glm::vec4 way_word(const MovingBall &ball) {
     return std::isfinite(inverse) ? glm::vec4(rounded, inverse) : glm::vec4(0.0F);
 }
 
-// The inverse of way_word().
+// Inverse of way_word().
 inline MovingBall surface_of(const glm::dvec3 &open, double radius, const glm::vec4 &way) {
     return {open, glm::dvec3(way), radius, way.w > 0.0F ? Kind::capsule : Kind::ball};
 }

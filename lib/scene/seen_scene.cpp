@@ -13,8 +13,8 @@ namespace {
 // Radius over distance from which a sphere is nearly flat. Below, center and radius cost a hit at most 5 of 24 bits.
 constexpr double nearly_flat = 32.0;
 
-// For lamps. A lamp held as a plane is found by directions alone, which adds noise. At this ratio its surface is off by
-// 2^-24 R, 1/256 of the distance.
+// The ratio for lamps. As planes, lamps are found by directions alone, which adds noise. At this ratio the surface is
+// off by 2^-24 R, 1/256 of the distance.
 constexpr double nearly_flat_lamp = 65536.0;
 
 bool is_large(const SeenSphere &sphere, double ratio) {

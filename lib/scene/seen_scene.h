@@ -16,7 +16,7 @@ struct SeenSphere : MovingBall {
     std::uint32_t material; // index into Scene::materials
     std::uint32_t index;    // into Scene::spheres
     bool emits;
-    bool hidden;  // from the camera
+    bool hidden;
     bool is_flat; // held as a plane with a curvature, because it is so large
 
     SeenSphere(const Sphere &sphere, const Material &of_sphere, const Camera &camera, std::uint32_t of_index = 0);
@@ -28,13 +28,13 @@ struct SeenSphere : MovingBall {
 // A plane, or a huge sphere as a slightly curved plane. For x relative to the camera and y = x + offset * normal:
 // dot(normal, y) + curvature / 2 * dot(y, y) = 0 as the shutter opens.
 struct CurvedPlane {
-    glm::dvec3 normal;      // unit vector at the point nearest to the camera; outward for a sphere
-    double offset;          // signed distance of the camera, positive on the normal's side
-    double curvature;       // 1 / radius; 0 for a plane
-    glm::dvec3 way;         // while the shutter is open
-    std::uint32_t material; // index into Scene::materials
-    std::uint32_t index;    // into Scene::planes, or with a curvature Scene::spheres
-    bool hidden = false;    // from the camera
+    glm::dvec3 normal; // unit vector at the point nearest to the camera; outward for a sphere
+    double offset;     // signed distance of the camera, positive on the normal's side
+    double curvature;  // 1 / radius; 0 for a plane
+    glm::dvec3 way;    // while the shutter is open
+    std::uint32_t material;
+    std::uint32_t index; // into Scene::planes, or with a curvature Scene::spheres
+    bool hidden = false;
 };
 
 // Turns the normal towards the camera. index: into Scene::planes.

@@ -69,7 +69,6 @@ public:
 private:
     static constexpr std::size_t chunk_size = 256; // 19 KiB, within the first cache
 
-    // from(first, count) returns indices.
     template <typename From, typename Use>
     void for_each_read(std::size_t all, WorkProgress &progress, From from, Use use) const {
         std::array<Sphere, chunk_size> spheres;

@@ -22,7 +22,6 @@ constexpr double two_planes = 0x1p-8;
 // Incommensurable components tell spheres on a lattice apart: 1, sqrt(2), sqrt(3) over sqrt(6).
 constexpr glm::dvec3 generic_direction(0.40824829046386307, 0.5773502691896258, 0.7071067811865476);
 
-// Largest distance of a twin's center.
 double tolerance(const SeenSphere &sphere) {
     return std::min(same_size * sphere.radius + same_place * sphere.distance, two_spheres * sphere.radius);
 }
@@ -78,7 +77,6 @@ public:
     std::size_t size() const { return points_.size(); }
     std::uint32_t index(std::size_t i) const { return points_[i].index; }
 
-    // Whether another element within reach of the i-th one has a property.
     template <typename Property>
     bool any_near(std::size_t i, double reach, Property &&property) const {
         for (std::size_t k = i; k > 0 && points_[i].place - points_[k - 1].place <= reach; --k)

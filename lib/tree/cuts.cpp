@@ -41,7 +41,6 @@ private:
     float scale_;
 };
 
-// Everything before this bin, and the rest.
 struct BinCut {
     float cost = std::numeric_limits<float>::infinity(); // no cut
     int bin = 0;
@@ -136,7 +135,7 @@ Halves swept_halves(const Part &part) {
         std::array<TreeItem, most_swept> items;
         for (std::size_t i = 0; i < count; ++i)
             items[places[i]] = part.items[i];
-        std::array<float, most_swept> surfaces_from{}; // of the balls from each place on
+        std::array<float, most_swept> surfaces_from{};
         Box after;
         for (std::size_t i = count - 1; i > 0; --i) {
             after.add_ball(items[i]);

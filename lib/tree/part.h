@@ -86,7 +86,6 @@ inline Box centres_of(Items items) {
     return box;
 }
 
-// Box of the balls, or of a sample.
 inline Box balls_of(Items items) {
     Box box;
     for_each_or_sample(items, [&](const TreeItem &item) { box.add_ball(item); });
@@ -96,9 +95,9 @@ inline Box balls_of(Items items) {
 // If it is large, its boxes are a sample's.
 struct Part {
     Items items;
-    Box centres;               // a point only if all are there
-    float surface = 0.0F;      // of the box around the spheres
-    bool has_no_twins = false; // otherwise it may have some
+    Box centres;          // a point only if all are there
+    float surface = 0.0F; // of the box around the spheres
+    bool has_no_twins = false;
 };
 
 struct Halves {
@@ -106,7 +105,6 @@ struct Halves {
     Part second;
 };
 
-// Nodes of the lowest level.
 inline float nodes_for(std::size_t count) {
     return static_cast<float>((count + tree_width - 1) / tree_width);
 }

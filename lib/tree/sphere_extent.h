@@ -34,10 +34,9 @@ struct SphereExtent {
                  glm::dvec3(-std::numeric_limits<double>::infinity())};
     double largest_radius = 0.0;
     bool moves = false; // even if only a sphere left out does: a kernel reads the ways of all or of none
-    Kinds kinds;        // of the tree
+    Kinds kinds;
     std::uint32_t lamp_count = 0;
 
-    // materials: all of the scene.
     SphereExtent(const SphereSource &spheres, std::span<const std::uint32_t> left_out,
                  std::span<const TreeMaterial> materials, WorkProgress &progress) {
         constexpr double share_of_extent = 0.06; // of the remaining work

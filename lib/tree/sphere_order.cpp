@@ -35,7 +35,6 @@ Halves divided(const Part &part, std::uint32_t depth) {
     return part.items.size() <= most_swept ? swept_halves(part) : binned_halves(part);
 }
 
-// Input that all steps share.
 struct Making {
     const BitsOfSphere &bits_of;
     WorkProgress &progress;
@@ -101,7 +100,8 @@ struct Children {
     std::span<Part> all() { return std::span(parts).first(count); }
 };
 
-// The larger surface goes first or, deep in the tree, more spheres, so that no child has more than a quarter of them.
+// The part with the larger surface goes first; deep in the tree the one with more spheres, so that no child has more
+// than a quarter of them.
 bool goes_before(const Part &part, const Part &other, std::uint32_t depth) {
     return depth < free_depth ? part.surface > other.surface : part.items.size() > other.items.size();
 }
@@ -115,8 +115,8 @@ Part *next_of(std::span<Part> parts, std::uint32_t depth) {
     return next;
 }
 
-// Divides a node's parts until there are enough children. Twins have equal centers, so only halving, cuts among few
-// spheres and single points separate them; twins are removed before these.
+// Divides a node's parts until there are enough children. Twins have equal centers, so cuts separate them only among
+// few spheres or at one point, and halving may; twins are removed before these.
 Children children_of(Part node, const Making &making, std::uint32_t depth) {
     Children children;
     if (node.items.size() <= tree_width || node.centres.is_point() || depth == free_depth)

@@ -15,7 +15,6 @@ inline constexpr std::uint32_t default_tree_from = 113;
 // With capsules: testing each takes several times as long, and lavapipe compiles long lists for seconds.
 inline constexpr std::uint32_t tree_of_others_from = 24;
 
-// Counts visible spheres.
 std::uint32_t tree_pays_from(const SphereSource &spheres);
 
 // Spheres better tested one by one: huge and distant ones, which would make the tree's grid coarse, and few capsules.

@@ -51,7 +51,6 @@ public:
     std::uint32_t first_child() const { return words_[1].x; }
     std::uint32_t first_place() const { return words_[1].y; }
 
-    // As rounded.
     GridBox box(std::uint32_t child) const;
 
 private:

@@ -31,7 +31,7 @@ inline constexpr std::uint64_t max_recorded_bytes = 65'536;
 
 class Buffer {
 public:
-    // what: name for error messages. The device must outlive the buffer. Throws PT_ERROR_OUT_OF_DEVICE_MEMORY.
+    // what: name for error messages. Throws PT_ERROR_OUT_OF_DEVICE_MEMORY.
     Buffer(Device &device, BufferUse use, std::uint64_t bytes, const std::string &what);
     ~Buffer();
     Buffer(Buffer &&other) noexcept;

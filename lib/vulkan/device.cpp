@@ -64,7 +64,6 @@ Limits limits_of(const vk::raii::PhysicalDevice &device) {
             .loop_trip_budget = ends ? llvmpipe_loop_trips : std::numeric_limits<std::uint64_t>::max()};
 }
 
-// Identifies the model and the driver's version.
 std::array<std::uint32_t, 7> driver_id_of(const vk::raii::PhysicalDevice &device) {
     const vk::PhysicalDeviceProperties properties = device.getProperties();
     std::array<std::uint32_t, 7> id = {properties.vendorID, properties.deviceID, properties.driverVersion};
@@ -312,7 +311,6 @@ std::chrono::nanoseconds Device::wait_time() const {
     return std::min(wait_step, policy_.patience);
 }
 
-// Waits up to timeout; returns whether the submission has ended.
 bool Device::look_at(Submission &submission, std::chrono::nanoseconds timeout) {
     if (submission.end)
         return true;

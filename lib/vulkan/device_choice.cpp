@@ -116,14 +116,14 @@ std::size_t indexed_device(std::span<const pt_device_info> devices, const std::s
 pt_device_info describe(const vk::raii::PhysicalDevice &device) {
     const vk::PhysicalDeviceProperties basic = device.getProperties();
     pt_device_info info{};
-    const auto kind = static_cast<std::uint32_t>(basic.deviceType); // newer kinds may exist
+    const auto kind = static_cast<std::uint32_t>(basic.deviceType);
     info.kind = kind <= std::uint32_t{PT_DEVICE_CPU} ? kind : std::uint32_t{PT_DEVICE_OTHER};
     copy_text(info.name, basic.deviceName);
     info.memory_bytes = largest_device_heap(device);
     const std::string reason = unsuitable_reason(device, basic.apiVersion);
     copy_text(info.reason, reason);
     info.suitable = reason.empty() ? 1 : 0;
-    if (basic.apiVersion >= VK_API_VERSION_1_2) { // needed for the properties below
+    if (basic.apiVersion >= VK_API_VERSION_1_2) {
         const auto chain = device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceIDProperties,
                                                  vk::PhysicalDeviceDriverProperties>();
         const auto &uuid = chain.get<vk::PhysicalDeviceIDProperties>().deviceUUID;

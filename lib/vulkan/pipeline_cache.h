@@ -23,7 +23,6 @@ struct KernelStore {
 class PipelineCache {
 public:
     PipelineCache() = default;
-    // The device must outlive it.
     explicit PipelineCache(const vk::raii::Device &device);
 
     const vk::raii::PipelineCache &handle() const { return cache_; }

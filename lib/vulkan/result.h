@@ -12,7 +12,6 @@ namespace pt::vulkan {
 // PT_ERROR_INTERNAL for unlisted ones.
 pt_result result_of(vk::Result result);
 
-// Throws a pt::Error.
 [[noreturn]] void throw_translated(const vk::SystemError &error, std::string_view what_was_being_done);
 
 template <typename Function>

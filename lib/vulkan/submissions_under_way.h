@@ -10,7 +10,7 @@ namespace pt::vulkan {
 
 class SubmissionsUnderWay {
 public:
-    // most: running at a time. The device must outlive this object.
+    // most: running at a time.
     SubmissionsUnderWay(Device &device, std::size_t most) : device_(device) { tickets_.reserve(most); }
     SubmissionsUnderWay(const SubmissionsUnderWay &) = delete;
     SubmissionsUnderWay &operator=(const SubmissionsUnderWay &) = delete;
