@@ -1,4 +1,4 @@
-// Evaluates the elementary functions for pt_get_accuracy: one function at one argument per invocation.
+// Elementary functions for pt_get_accuracy: one function and argument per invocation.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 

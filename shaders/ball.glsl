@@ -1,5 +1,5 @@
-// Balls, which may move, and capsules, balls swept along a segment. KINDS and TREE_KINDS have a bit per kind present.
-// Part of scene.glsl.
+// Balls, which may move, and capsules, balls swept along a segment. KINDS and TREE_KINDS have a bit per kind. Part of
+// scene.glsl.
 #ifndef BALL_GLSL
 #define BALL_GLSL
 
@@ -8,7 +8,7 @@
 // Vulkan does not promise infinities.
 const float NO_HIT = 3.0e38;
 
-// A ball at a time, or a capsule's first end. axis: vector to the other end, and 1 / its length.
+// A ball at a time, or a capsule's first end. axis: to its other end; 1 / length.
 struct Ball {
     vec4 centre_radius;
     vec4 axis;
@@ -18,7 +18,7 @@ const vec4 NO_AXIS = vec4(0.0);
 
 const bool HAS_WAYS = MOTION == 1u || KINDS > KIND_BALL;
 
-// Reads the words of gpu_layout.h.
+// Arguments are words of gpu_layout.h.
 Ball ball_from(vec4 centre_radius, vec4 way, float time, uint kinds)
 {
     bool is_capsule = (kinds & KIND_CAPSULE) != 0u && way.w > 0.0;
@@ -27,7 +27,7 @@ Ball ball_from(vec4 centre_radius, vec4 way, float time, uint kinds)
     return Ball(centre_radius, is_capsule ? way : NO_AXIS);
 }
 
-// The swept ball's center nearest to a place. to_first: from the place to the first center.
+// Center of the swept ball nearest to a place. to_first: from the place to the first center.
 vec3 nearest_centre(Ball ball, vec3 centre, vec3 to_first, uint kinds)
 {
     if ((kinds & KIND_CAPSULE) == 0u)
@@ -36,19 +36,19 @@ vec3 nearest_centre(Ball ball, vec3 centre, vec3 to_first, uint kinds)
     return centre + clamp(-dot(to_first, axis.xyz * axis.w) * axis.w, 0.0, 1.0) * axis.xyz;
 }
 
-// sphere_distance() for spheres that no path enters.
+// sphere_distance() where no path enters spheres.
 float distance_from_outside(vec3 to_centre, float radius, vec3 direction, bool leaving)
 {
     float b = dot(to_centre, direction);
     vec3 across = to_centre - b * direction;
     float squared_half_chord = radius * radius - dot(across, across);
-    float nearer = b - sqrt(squared_half_chord); // any value if there is no root
+    float nearer = b - sqrt(squared_half_chord); // arbitrary without a root
     return !leaving && squared_half_chord >= 0.0 && b > 0.0 ? nearer : NO_HIT;
 }
 
-// Distance along a unit vector to a sphere, or NO_HIT (shaders/README.md, section 3). to_centre: center - origin;
-// leaving: the ray starts on the sphere; outside: a ray that starts elsewhere is outside. Side and direction decide,
-// because rounding may flip the sign of the distance near the sphere.
+// Distance along a unit vector to a sphere, or NO_HIT (shaders/README.md, section 3). to_centre: from the origin;
+// leaving: the ray starts on the sphere; outside: other rays start outside. These decide, because rounding may flip the
+// sign of the distance.
 float sphere_distance(vec3 to_centre, float radius, vec3 direction, bool leaving, bool inside, bool outside)
 {
     if (INSIDE == 0)
@@ -111,9 +111,8 @@ vec3 to_met(Ball ball, vec3 to_first, vec3 direction, bool to_last, uint kinds)
     return to_first + swept_to(to_first, ball.axis, ball.centre_radius.w, direction, to_last);
 }
 
-// Whether a ray that starts on another surface is outside of a sphere. Where rays pass surfaces, the other surface may
-// coincide with the sphere, as an atom does with the end of its bond: within `rounding` of the sphere the start counts as on
-// it, and is outside if the ray leads outwards.
+// Whether a ray that starts on another surface is outside of a sphere. Where rays pass surfaces, both may coincide, as
+// an atom and the end of its bond: within `rounding` of the sphere a ray that leads outwards is outside.
 bool is_outside(vec3 to_centre, float radius, vec3 direction, float rounding)
 {
     float squared = dot(to_centre, to_centre);
@@ -125,7 +124,7 @@ bool is_outside(vec3 to_centre, float radius, vec3 direction, float rounding)
 }
 
 // sphere_distance() for a ball. from_side: its place relative to where the side is decided. From inside, a capsule's
-// last ball counts. A ray that leaves inwards usually starts on another ball than it meets.
+// last ball counts; a ray that leaves inwards usually starts on another one.
 float ball_distance(Ball ball, vec3 to_first, vec3 from_side, vec3 direction, bool leaving, bool inside, float rounding,
                     uint kinds)
 {

@@ -8,11 +8,11 @@
 struct CameraRay {
     vec3 origin;
     vec3 direction;
-    float time; // from 0 (shutter opens) to 1 (shutter closes)
+    float time; // in [0, 1], from shutter open to closed
 };
 
-// Offset from the image's middle in pixels, right and down. place: in [0, 1)^2 within the pixel (column, row), counted
-// from the top left. The pixel's part is a multiple of 1/2, hence exact in images of any width.
+// Offset from the image's middle in pixels, right and down. place: in [0, 1)^2 within the pixel. The pixel's part is a
+// multiple of 1/2, hence exact.
 vec2 image_place(CameraView camera, uvec2 pixel, vec2 place)
 {
     return 0.5 * vec2(ivec2(2u * pixel) - ivec2(camera.width, camera.height)) + place;
@@ -25,8 +25,8 @@ vec3 camera_direction(CameraView camera, vec2 from_middle)
     return normalize(camera.forward + from_middle.x * camera.right - from_middle.y * camera.up);
 }
 
-// The ray's start: the pinhole or, with STARTS_AHEAD, on the plane through the origin across the view. Nothing in view
-// is nearer, except surfaces that parallel rays do not see (lib/kernel/ray_start.h).
+// The pinhole or, with STARTS_AHEAD, a point of the plane through the origin across the view. Nothing in view is nearer
+// (lib/kernel/ray_start.h).
 vec3 camera_origin(CameraView camera, vec2 from_middle)
 {
     if (STARTS_AHEAD == 0)
@@ -35,7 +35,7 @@ vec3 camera_origin(CameraView camera, vec2 from_middle)
     return start.x * camera.right - start.y * camera.up;
 }
 
-// numbers: place in the pixel (x, y), time (z).
+// numbers: place in the pixel; time.
 CameraRay ray_through(CameraView camera, uvec2 pixel, vec3 numbers)
 {
     vec2 from_middle = image_place(camera, pixel, numbers.xy);

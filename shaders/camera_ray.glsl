@@ -6,10 +6,10 @@
 #include "dimensions.glsl"
 #include "sampling.glsl"
 
-// disc: the point of the lens in the unit disc, right and down. All rays of a place in the image meet in the plane of
-// focus. With F the length of forward and f the distance of the plane, the pinhole's ray meets it at f / F times its
-// place; a ray that starts a beside it meets it there if its place changes by -a F / f. lens_blur is F / f times the
-// lens's radius, lens_radius the part of it where rays start, ahead of the lens.
+// disc: point of the lens in the unit disc, right and down. All rays of an image place meet in the plane of focus: with
+// F the length of forward and f the plane's distance, a ray that starts a beside the pinhole meets the pinhole's ray if
+// its image place changes by -a F / f. lens_blur is F / f times the lens's radius; lens_radius is the part of it where
+// rays start.
 CameraRay ray_through_lens(CameraView camera, uvec2 pixel, vec3 numbers, vec2 disc)
 {
     vec2 from_middle = image_place(camera, pixel, numbers.xy);
@@ -18,7 +18,7 @@ CameraRay ray_through_lens(CameraView camera, uvec2 pixel, vec3 numbers, vec2 di
     return CameraRay(origin, camera_direction(camera, from_middle - camera.lens_blur * disc), numbers.z);
 }
 
-// Box filter: samples are uniform over the pixel's square.
+// Box filter.
 CameraRay camera_ray(CameraView camera, uvec2 pixel, SampleKey key)
 {
     if (LENS == 1)

@@ -1,4 +1,4 @@
-// Counts a pixel's samples whose camera rays meet a surface, by tracing these rays again. One invocation per pixel.
+// Counts a pixel's samples whose camera rays meet a surface, by tracing these rays again: one invocation per pixel.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -10,10 +10,9 @@ layout(push_constant) uniform Push { CoverageConstants view; };
 #include "camera_ray.glsl"
 #include "camera_walk.glsl"
 
-// Rays that a driver cut short, then the pixels' counts.
 layout(set = 0, binding = BINDING_COVERED) buffer Covered { uint lost_rays; uint counts[]; } covered;
 
-// First and last requested sample of each tile; none if last < first.
+// First and last sample of each tile; none if last < first.
 layout(set = 0, binding = BINDING_TILES) readonly buffer TileSamples { uvec2 ranges[]; } tile_samples;
 
 uint tile_of(uvec2 pixel)
@@ -51,7 +50,7 @@ void main()
     bool done;
     do {
         count += meets_something(pixel, current) ? 1u : 0u;
-        done = current == last; // which may be the largest number
+        done = current == last; // may be the largest number
         ++current;
     } while (!done);
     if (TREE == 1u && walk_was_cut)

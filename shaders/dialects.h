@@ -1,5 +1,4 @@
-// Lets one text be both C++ and GLSL, for formulas that host and kernels share. Only the type of numbers differs:
-// double on the host, float32 in kernels.
+// Makes C++ and GLSL of one text, for formulas that host (in double) and kernels (in float32) share.
 #ifndef PT_DIALECTS_H
 #define PT_DIALECTS_H
 
@@ -29,7 +28,8 @@ using std::sqrt;
 
 inline constexpr float infinity = std::numeric_limits<float>::infinity();
 
-// By value, so that compilers vectorise loops. Returns the first argument if either is NaN, like std::min and std::max.
+// Arguments are values, so that compilers vectorise loops. If one is NaN the first is returned, as by std::min and
+// std::max.
 template <typename Type>
 constexpr Type less_of(Type a, Type b) {
     return b < a ? b : a;
@@ -79,7 +79,7 @@ inline real square_of_quotient(real dividend, real square_of_divisor) {
 #define more_of max
 #define infinity uintBitsToFloat(0x7f800000u)
 
-// Divides before squaring: the dividend's square may overflow, and a small divisor's may be 0.
+// Divides before squaring, since the dividend's square may overflow and a small divisor's may be 0.
 float square_of_quotient(float dividend, float square_of_divisor)
 {
     float quotient = dividend == 0.0 ? 0.0 : dividend * inversesqrt(square_of_divisor);

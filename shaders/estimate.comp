@@ -1,5 +1,5 @@
-// Sums the pixels' errors: one workgroup for adjacent tiles. Tiles are independent and sums have a fixed order, so a
-// film always gives the same bits.
+// Sums pixels' errors, one workgroup for adjacent tiles. The order of sums is fixed, so a film always gives the same
+// bits.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -16,17 +16,17 @@ layout(push_constant) uniform Push { EstimateConstants estimate; };
 
 layout(set = 0, binding = BINDING_RESOLVED) writeonly buffer Groups { TileErrors groups[]; } estimated;
 
-// Per tile: its samples in the older and newer part, if tiles differ; on request its squared relative errors, shown by
-// samples and expected from unseen light.
+// Values of tiles: samples in the older and newer part, if tiles differ; on request squared relative errors, from
+// samples and from unseen light.
 layout(set = 0, binding = BINDING_TILE_COUNTS) readonly buffer TileCounts { uvec2 counts[]; } tile_samples;
 layout(set = 0, binding = BINDING_TILE_SQUARES) writeonly buffer TileSquares { vec2 squares[]; } tile_squares;
 
 const uint TILES = ESTIMATE_WORKGROUP_SIZE / TILE_SIZE;
 
 struct Findings {
-    uvec2 rejected; // samples, low and high word
-    uint unknown;   // pixels without a sample in either part
-    uint lost;      // pixels with unexpected sample counts
+    uvec2 rejected; // low and high word
+    uint unknown;   // without a sample in either part
+    uint lost;      // with unexpected sample counts
 };
 
 const uint SQUARE = 0u;
@@ -37,26 +37,26 @@ const uint SQUARE_KINDS = 4u;
 
 struct Squares {
     float sum;
-    float shares; // squared and summed
+    float shares; // sum of squared shares
 };
 
-// Error sums of a tile's column, later of a tile.
+// Sums of a tile's column, later of a tile.
 struct Errors {
     Squares squares[SQUARE_KINDS];
-    uint met_again; // values
+    uint met_again;
     float unseen;
     Findings findings;
 };
 
-// Each invocation has a tile's column, so that memory reads are adjacent.
+// A column of a tile per invocation makes memory reads adjacent.
 shared float means[TILE_SIZE][ESTIMATE_WORKGROUP_SIZE]; // of one channel
 shared ValueSet column_sets[ESTIMATE_WORKGROUP_SIZE];
-shared Errors errors[ESTIMATE_WORKGROUP_SIZE]; // of columns, then of tiles
+shared Errors errors[ESTIMATE_WORKGROUP_SIZE];
 
-// Loaded ahead, for speed on GPUs.
+// Fetched ahead, for speed on GPUs.
 const uint PIXELS_ASKED_FOR = 4u;
 
-// A multiple of 2^-60.
+// number: in units of 2^-60.
 float as_float(WholeNumber number)
 {
     return float(number.words[0]) * exp2(-60.0) + float(number.words[1]) * exp2(-28.0)
@@ -108,7 +108,7 @@ Findings findings_of(PartCount older, PartCount newer, uvec2 expected)
                     uvec2(older.done, newer.done) != expected ? 1u : 0u);
 }
 
-// The pixel and its neighbors left and right, within its tile.
+// The pixel with its neighbors left and right in the tile.
 Sorted row_about(uint y, uint column, uint first, uint last)
 {
     float left = column > first ? means[y][max(column, 1u) - 1u] : BELOW_ALL;
@@ -116,14 +116,13 @@ Sorted row_about(uint y, uint column, uint first, uint last)
     return sorted(left, means[y][column], right);
 }
 
-// Exactly 1 for the whole sum, although division may err: the host computes a tile's spread as a difference of shares.
-// sum != 0.
+// Exactly 1 for the whole sum, although division may err, since the host subtracts shares. sum != 0.
 float share_of(float part, float sum)
 {
     return part == sum ? 1.0 : part / sum;
 }
 
-// Squares of shares; squares of the summands may leave float32's range.
+// Shares are squared, because squares of values may leave float32's range.
 Squares squares_of(float values[TILE_SIZE])
 {
     Squares all = Squares(0.0, 0.0);
@@ -158,7 +157,7 @@ ErrorSquares squares_of_tiles(uint kind, uvec2 size)
     return all;
 }
 
-// An invocation per kind of squares; the first also writes the rest.
+// One invocation per kind of squares; the first writes the rest.
 void write_errors(uint group, uint invocation, uvec2 size)
 {
     if (invocation < SQUARE_KINDS) {
@@ -198,7 +197,7 @@ void main()
     const uint first_tile = estimate.first_tile + corner.x / TILE_SIZE
                           + gl_WorkGroupID.y * ((estimate.film_width + TILE_SIZE - 1u) / TILE_SIZE);
 
-    // A column of pixels. The first pixel replaces those outside the film.
+    // A column; its first pixel replaces those outside the film.
     const uint pixels = invocation < size.x ? size.y : 0u;
     const uint first_pixel = corner.y * estimate.film_width + corner.x + (pixels > 0u ? invocation : 0u);
     const uint last = size.y - 1u;
@@ -261,7 +260,7 @@ void main()
         [[unroll]] for (uint i = 0u; i < TILE_SIZE; ++i)
             tile_set = united(tile_set, column_sets[first_column + i]);
 
-        // Expected errors; the rows around a pixel are kept for the next.
+        // Expected errors. Rows around a pixel are kept for the next.
         const bool is_row = size.y == 1u;
         const bool is_column = first_column == last_column;
         const bool is_beside_edge = invocation == first_column || invocation == last_column;
@@ -293,17 +292,17 @@ void main()
                 met_again += limit.alone > 0.0 && !once && is_met_again(mean, lessers[i]) ? 1u : 0u;
                 unseen += unseen_square(mean, near.largest, sample_count, offset_square);
             }
-        barrier(); // before the next channel's means
+        barrier();
     }
 
-    // Sums of columns, of tiles, of all.
+    // Sums of columns, tiles, all.
     [[unroll]] for (uint kind = 0u; kind < SQUARE_KINDS; ++kind)
         errors[invocation].squares[kind] = squares_of(squares[kind]);
     errors[invocation].met_again = met_again;
     errors[invocation].unseen = unseen;
     errors[invocation].findings = findings;
     barrier();
-    // One kind of squares of a tile per invocation; one per tile also sums the rest.
+    // One kind of squares of a tile per invocation; one per tile sums the rest.
     const uint tile = invocation % TILES;
     const uint kind = min(invocation / TILES, SQUARE_KINDS - 1u);
     const uint first = tile * TILE_SIZE;
@@ -317,7 +316,7 @@ void main()
             of_tile.unseen += errors[first + i].unseen;
             of_tile.findings = united(of_tile.findings, errors[first + i].findings);
         }
-    barrier(); // all have read the columns
+    barrier();
     if (invocation < SQUARE_KINDS * TILES)
         errors[tile].squares[kind] = of_kind;
     if (invocation < TILES) {
@@ -328,7 +327,7 @@ void main()
     barrier();
     write_errors(gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x, invocation, size);
 
-    // Host-visible memory. Infinite if a pixel lacks samples in a part.
+    // Writes host-visible memory. Infinite if a pixel lacks samples in a part.
     if (estimate.by_tile == 1u && invocation < TILES && first < size.x)
         tile_squares.squares[first_tile + tile] =
             of_tile.findings.unknown > 0u

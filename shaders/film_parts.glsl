@@ -4,10 +4,9 @@
 
 #include "film.glsl"
 
-// Sample counts in one part.
 struct PartCount {
     uint accepted;
-    uint done; // accepted or left out
+    uint done; // with those left out
 };
 
 PartCount part_count(uint part, uint pixel_in_strip, uint strip_pixel_count)

@@ -1,6 +1,6 @@
-// First hits of camera rays in a rectangle, one ray per invocation. Depth and object belong to the ray through the
-// pixel's center at half the shutter's time, because their means are meaningless. Normal and albedo are means over
-// pixel and shutter: denoisers need the image's own edges.
+// First hits of camera rays in a rectangle, one ray per invocation. Depth and object are of the ray through the pixel's
+// center at half the shutter's time, because means are meaningless. Normal and albedo are means over pixel and shutter,
+// because denoisers need the image's own edges.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -15,17 +15,16 @@ layout(push_constant) uniform Push { FirstHitConstants view; };
 
 const uint FLOAT_INFINITY_BITS = 0x7f800000u;
 
-shared vec3 values[WORKGROUP_SIZE]; // of the rays of a mean
+shared vec3 values[WORKGROUP_SIZE];
 
-// Place in the pixel (x, y) and time (z): a rank-1 lattice (Korobov 1959). The multipliers 3 and 5 maximise the
-// distance of points.
+// Place in the pixel; time. A rank-1 lattice (Korobov 1959) of the largest distance between points.
 vec3 lattice_point(uint ray)
 {
     uvec3 point = uvec3(ray, 3u * ray, 5u * ray) % FILTER_RAYS;
     return (vec3(point) + 0.5) / float(FILTER_RAYS);
 }
 
-// As in dimensions.glsl; the golden ratio (0x9e3779b9 / 2^32) spreads neighboring pixels' numbers.
+// Like dimensions.glsl's; the golden ratio spreads neighboring pixels' numbers.
 uint opacity_number(uint pixel_index, uint ray) { return (pixel_index + 1u) * 0x9e3779b9u + bitfieldReverse(ray); }
 
 // Depth along the view. Rays start at the pinhole, or on a plane across the view.
@@ -79,7 +78,6 @@ void main()
     if (!is_there || ray_index != 0u)
         return;
 
-    // Takes the mean over the rays of the pixel.
     if (takes_mean) {
         for (uint i = 1u; i < FILTER_RAYS; ++i)
             value += values[gl_LocalInvocationIndex + i];

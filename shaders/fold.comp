@@ -1,4 +1,4 @@
-// Adds one part of the film to the part that the frame names, and empties it. One invocation per pixel of the tiles.
+// Adds one part of the film to the frame's part, and empties it: one invocation per pixel of the tiles.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -19,7 +19,7 @@ void main()
     uint stride = frame.strip_pixel_count;
     uint kept = frame.film_part * FILM_WORDS * stride + at.in_strip;
     uint emptied = (1u - frame.film_part) * FILM_WORDS * stride + at.in_strip;
-    uvec4 moved; // of the rare words
+    uvec4 moved;
     uvec4 rare;
     [[unroll]] for (uint channel = 0u; channel < 3u; ++channel) {
         uint first = channel * FILM_SUM_WORDS * stride;
@@ -34,7 +34,7 @@ void main()
     film_add_rare_words(kept, stride, rare);
     film.words[kept + FILM_ACCEPTED * stride] += film.words[emptied + FILM_ACCEPTED * stride];
 
-    // A part to be overwritten needs zeros in its rare words only.
+    // A part about to be overwritten needs zeros in rare words only.
     if (frame.is_first == 0u) {
         [[unroll]] for (uint plane = 0u; plane < FILM_WORDS; ++plane)
             film.words[emptied + plane * stride] = 0u;

@@ -24,7 +24,7 @@ PT_CONSTANT SCENE_IN_STORAGE = 0;
 PT_CONSTANT SCENE_IN_UNIFORM = 1;
 PT_CONSTANT SCENE_IN_CONSTANTS = 2;
 
-// Kinds of balls (lib/scene/moving_ball.h), a bit each.
+// A bit per kind (lib/scene/moving_ball.h).
 PT_CONSTANT KIND_BALL = 1;
 PT_CONSTANT KIND_CAPSULE = 2;
 
@@ -41,12 +41,12 @@ PT_CONSTANT KIND_CAPSULE = 2;
 // Blocks of each vertex that a branch leaves:
 //   place on a lamp (2) and which lamp (1, if there are several), unless every lamp has been sampled
 //   direction (2), specular or diffuse lobe (1, with GLOSS), survival of Russian roulette (1, for long paths)
-PT_CONSTANT EVERY_LAMP_LIMIT = 4;    // up to this many lamps are all sampled at the first vertex
+PT_CONSTANT EVERY_LAMP_LIMIT = 4;    // most lamps all sampled at the first vertex
 PT_CONSTANT SPOT_LIMIT = 8;          // per scene
-PT_CONSTANT ROULETTE_MIN_LENGTH = 8; // paths that may be this long play Russian roulette
+PT_CONSTANT ROULETTE_MIN_LENGTH = 8; // least MAX_PATH_LENGTH with Russian roulette
 
 PT_FUNCTION uint camera_dimensions(uint motion) { return 2 + motion; }
-// Blocks before the ray towards a spot, of that ray, and shared by all branches.
+// Blocks before a spot's ray, of that ray, and of all branches together.
 PT_FUNCTION uint every_lamp_blocks(uint camera_blocks, uint lamp_count)
 {
     return camera_blocks + (lamp_count <= EVERY_LAMP_LIMIT ? lamp_count : 0);
@@ -69,7 +69,7 @@ PT_FUNCTION uint vertex_blocks(uint vertex, uint lamp_count)
     return chosen_lamp_dimensions(vertex, lamp_count) > 0 ? 2 : 1;
 }
 
-// Blocks of a sample and one of its branches.
+// Blocks of a sample and one branch.
 PT_FUNCTION uint path_blocks(uint max_path_length, uint camera_blocks, uint lamp_count, uint spot_count)
 {
     const uint of_sample = shared_blocks(camera_blocks, lamp_count, spot_count);
@@ -77,8 +77,8 @@ PT_FUNCTION uint path_blocks(uint max_path_length, uint camera_blocks, uint lamp
     return max_path_length < 2 ? of_sample : first + (max_path_length - 2) * vertex_blocks(2, lamp_count);
 }
 
-// Blocks of a sample in the point table: the shared ones, then each branch's own. Branch b of B has the points of
-// sample B i + b of the sequence, for sample i.
+// Blocks of a sample in the point table: shared ones, then each branch's own. Branch b of B has the points of sample B
+// i + b for sample i.
 PT_FUNCTION uint row_blocks(uint table_blocks, uint shared_count, uint branches)
 {
     return table_blocks == 0 ? 0 : shared_count + branches * (table_blocks - shared_count);
@@ -103,7 +103,7 @@ PT_CONSTANT BINDING_TILE_SQUARES = 5;
 // add.comp, with BINDING_FILM.
 PT_CONSTANT BINDING_ADDED = 3;
 
-// Invocations, one pixel each: a multiple of the vector widths of software Vulkan and of GPU subgroups.
+// One pixel per invocation. A multiple of vector widths.
 PT_CONSTANT WORKGROUP_SIZE = 64;
 
 // ---- Scene buffer: an array of vec4, positions relative to the camera -----------------------------------------------
@@ -160,7 +160,7 @@ PT_CONSTANT TREE_LAMP_BIT = 0x80000000u;
 PT_CONSTANT TREE_COLOR_STEPS = 1023;
 PT_CONSTANT TREE_OPACITY_STEPS = 255u;
 
-// The tree as a camera sees it: grid point p is at (p - camera) step + shift, relative to the camera.
+// Grid point p is at (p - camera) step + shift, relative to the camera.
 struct TreeFrame {
     ivec3 camera;       // a grid point
     uint reserved_0;
@@ -198,7 +198,7 @@ PT_FUNCTION uint lamp_tree_top_groups(uint lamp_count, uint levels)
     return (lamp_count + (4u << (2u * levels)) - 1u) >> (2u * levels + 2u);
 }
 
-// Groups of the last level, and of all levels.
+// Groups of the last level, and of all.
 PT_FUNCTION uint lamp_tree_slot_groups(uint lamp_count, uint levels)
 {
     return lamp_tree_top_groups(lamp_count, levels) << (2u * levels);
@@ -212,42 +212,40 @@ PT_FUNCTION uint lamp_tree_groups(uint lamp_count, uint levels)
 // The parts have different samples (lib/film/sample_set.h): the image is their sum, and their difference shows its
 // error.
 PT_CONSTANT FILM_PARTS = 2;
-// Words 0 to 3, 4 to 7 and 8 to 11 of a part are the exact sums of R, G and B in film units
-// (FrameConstants.film_scale): unsigned 128-bit fixed point, least significant word first, with FILM_FRACTION_BITS bits
-// of fraction.
+// Words 0 to 11 of a part are sums of R, G and B in film units (FrameConstants.film_scale): unsigned 128-bit fixed
+// point, least significant word first, with FILM_FRACTION_BITS bits of fraction.
 PT_CONSTANT FILM_SUM_WORDS = 4;
 PT_CONSTANT FILM_FRACTION_BITS = 60;
-PT_CONSTANT FILM_ACCEPTED = 12; // samples in the sums
+PT_CONSTANT FILM_ACCEPTED = 12; // samples summed
 PT_CONSTANT FILM_REJECTED = 13; // samples left out
 PT_CONSTANT FILM_WORDS = 14;
-// Samples per invocation, at most (film.glsl).
+// Most samples of an invocation (film.glsl).
 PT_CONSTANT FILM_MAX_GATHERED = 511;
-// Accepted samples have components in [0, 2^28) film units, so 2^32 of them stay below 2^60.
+// Accepted components are in [0, 2^28) film units, so 2^32 samples stay below 2^60.
 PT_CONSTANT FILM_MAX_EXPONENT = 28;
-// No standard error is given for fewer samples: the difference of the parts would say little.
+// Fewer samples get no standard error: the parts' difference says little.
 PT_CONSTANT FILM_MIN_ERROR_SAMPLES = 9;
 
 // ---- The error of an image -----------------------------------------------------------------------------------------
 // Side of a tile in pixels: far wider than the correlation of neighbors, yet small images have hundreds of tiles.
 PT_CONSTANT TILE_SIZE = 8;
-PT_CONSTANT ESTIMATE_WORKGROUP_SIZE = 128; // adjacent pixels, in 16 tiles; the size that every device allows
+PT_CONSTANT ESTIMATE_WORKGROUP_SIZE = 128; // 16 adjacent tiles; every device allows this size
 
-// Expected squared errors of some tiles, and their spread. Shares of the sum are squared instead of the values, so that
-// squares stay within float's range.
+// Squared errors of some tiles, and their spread. Shares of the sum are squared, so that squares stay within float's
+// range.
 struct ErrorSquares {
     float sum;          // over pixels and channels
-    float pixel_shares; // sum of the pixels' squared shares
-    float tile_shares;  // sum of the tiles' squared shares
-    float part_share;   // sum of the tiles' shares, each times its fraction of a whole tile's pixels
+    float pixel_shares; // squared shares of pixels, summed
+    float tile_shares;  // of tiles
+    float part_share;   // tiles' shares, each times its fraction of a whole tile's pixels, summed
 };
 
-// Errors of the tiles of a workgroup.
 struct TileErrors {
     ErrorSquares square;          // of (x - r)^2, in film units
-    ErrorSquares relative_square; // of (x - r)^2 / (r^2 + offset^2), times relative_scale^2, without values met once
-    ErrorSquares met_once;        // the same for values met once, with limits r known without them
-    ErrorSquares as_lamps;        // the same for values met once, with r their own means
-    float unseen;                 // the same for light that no sample met, not scaled
+    ErrorSquares relative_square; // of (x - r)^2 / (r^2 + offset^2), times relative_scale^2; without values met once
+    ErrorSquares met_once;        // of values met once, with limits r known without them
+    ErrorSquares as_lamps;        // of values met once, with r their own means
+    float unseen;                 // of light that no sample met, not scaled
     uint met_again;               // number of values
     uint unknown_pixels;          // without a sample in either part
     uint lost_pixels;             // whose samples a driver lost
@@ -258,13 +256,13 @@ struct TileErrors {
 // The camera, for all kernels that take rays from it.
 struct CameraView {
     vec3 right;        // unit vector
-    float start_scale; // rays start at this times their pixel distance from the image's middle
+    float start_scale; // rays start at this times their pixel offset from the image's middle
     vec3 up;           // unit vector
-    uint width;        // of the image, pixels
-    vec3 forward;      // length: distance of the image plane in pixels; 1 for parallel rays
-    uint height;       // of the image, pixels
-    float lens_radius; // where rays start (only with LENS)
-    float lens_blur;   // radius in pixels of the image of a point infinitely far away (only with LENS)
+    uint width;        // of the image, in pixels
+    vec3 forward;      // length: distance of the image plane in pixels, or 1 for parallel rays
+    uint height;
+    float lens_radius; // where rays start (with LENS)
+    float lens_blur;   // radius in pixels of an infinitely far point's image (with LENS)
     uint reserved[2];
 };
 
@@ -272,23 +270,23 @@ struct FrameConstants {
     CameraView camera;
     uvec2 seed;             // mixed from pt_render.seed
     float film_scale;       // film units per radiance, a power of two
-    uint film_first_pixel;  // index of the film's first pixel in the image, row by row
-    uint strip_first_pixel; // of the strip's, in the film
+    uint film_first_pixel;  // index in the image, row by row
+    uint strip_first_pixel; // in the film
     uint strip_pixel_count;
-    uint first_entry;  // of this dispatch, in the list of tiles
-    uint film_part;    // the part that receives the samples
-    uint is_first;     // 1: the part has no samples of these pixels yet; in a fold: such a dispatch follows
+    uint first_entry;  // in the list of tiles
+    uint film_part;    // the part that gets the samples
+    uint is_first;     // 1: the part has no sample of these pixels; in a fold: such a dispatch follows
     uint first_sample; // index in the sequence
     uint sample_count; // >= 1
-    uint share;        // most samples of an invocation; invocations along y take consecutive shares
+    uint share;        // most samples of an invocation; invocations along y share the samples
 };
 
 PT_CONSTANT ANY_COUNT = 0xffffffffu;
 
 // resolve.comp. Pixels are numbered row by row over the film.
 struct ResolveConstants {
-    uvec2 sample_counts; // required of each pixel in the older and the newer part; ANY_COUNT: not checked
-    int exponent;        // the sums' unit is this power of two, in radiance
+    uvec2 sample_counts; // required in the older and the newer part; ANY_COUNT: not checked
+    int exponent;        // sums are in units of 2^exponent radiance
     uint quantity;       // PT_QUANTITY_* of pt.h
     uint film_width;
     uint strip_first_pixel;
@@ -311,18 +309,18 @@ struct FirstHitConstants {
     uint first_of_rectangle; // first pixel of this dispatch, row by row over the rectangle
     uint pixel_count;
 };
-// Rays averaged per pixel, for quantities that are means.
+// Rays averaged per pixel.
 PT_CONSTANT FILTER_RAYS = 16;
 PT_FUNCTION uint rays_of_pixel(uint quantity)
 {
     return quantity == QUANTITY_NORMAL || quantity == QUANTITY_ALBEDO ? FILTER_RAYS : 1;
 }
 
-// coverage.comp. Pixels as above. Each tile may have a part of the range of samples.
+// coverage.comp. Tiles may have parts of the samples.
 struct CoverageConstants {
     CameraView camera;
     uvec2 seed;
-    uint first_row; // of the film, in the image; tiles are counted from it
+    uint first_row; // of the film, in the image
     uint first_pixel;
     uint rectangle_width;
     uint first_of_rectangle;
@@ -337,13 +335,13 @@ struct EstimateConstants {
     uint strip_pixel_count;
     uint row_count;
     uint first_tile;       // of the strip, in the film
-    uvec2 sample_counts;   // per pixel in the older and the newer part; ANY_COUNT: tiles differ
+    uvec2 sample_counts;   // in the older and the newer part; ANY_COUNT: tiles differ
     uint by_tile;          // 1: also writes each tile's errors
     float relative_offset; // in film units
     float relative_scale;
 };
 
-// add.comp: consecutive pixels of a strip, and equally many to add.
+// add.comp: consecutive pixels of a strip.
 struct AddConstants {
     uint strip_pixel_count;
     uint first_pixel; // in the strip
@@ -353,7 +351,7 @@ struct AddConstants {
 };
 
 #ifdef __cplusplus
-// Vulkan guarantees 128 bytes of push constants; GLSL uses std430 offsets.
+// Vulkan guarantees 128 bytes of push constants. GLSL uses std430 offsets.
 static_assert(sizeof(CameraView) == 64 && offsetof(CameraView, start_scale) == 12 && offsetof(CameraView, up) == 16);
 static_assert(offsetof(CameraView, forward) == 32 && offsetof(CameraView, height) == 44);
 static_assert(offsetof(CameraView, lens_radius) == 48 && offsetof(CameraView, lens_blur) == 52);

@@ -1,5 +1,4 @@
-// The tree of lamps, for scenes with too many lamps to visit from every vertex. gpu_layout.h has the layout;
-// lib/scene/lamp_tree.cpp builds it.
+// The tree of lamps, for scenes with many lamps. gpu_layout.h has the layout; lib/scene/lamp_tree.cpp builds it.
 #ifndef LAMP_TREE_GLSL
 #define LAMP_TREE_GLSL
 
@@ -11,7 +10,7 @@ const bool HAS_LAMP_TREE = LAMP_TREE_LEVELS > 0u;
 
 // Four siblings, a component each.
 struct Siblings {
-    vec4 x, y, z; // middles, relative to the vertex
+    vec4 x, y, z; // relative to the vertex
     vec4 power;  // 0: no node
     vec4 spread; // for lamps their radius
 };
@@ -31,11 +30,11 @@ Siblings siblings_of(uint group, Vertex vertex, float time)
                     stored_word(word + 3u), stored_word(word + 4u));
 }
 
-// All probabilities are precise: choosing a lamp and querying its probability must round alike.
+// Probabilities are precise: choosing a lamp and querying its probability must round alike.
 
 // Expected light, up to a common factor: power / (d^2 + s / 2) times the mean cosine, with distance d and spread s.
-// Lamps' heights over the horizon, at least 0, have a mean of about (h + sqrt(h^2 + s / 3)) / 2; as a quotient below
-// the horizon, which does not cancel and is never 0.
+// Lamps' heights over the horizon have a mean of about (h + sqrt(h^2 + s / 3)) / 2; below the horizon a quotient avoids
+// cancellation and is never 0.
 vec4 node_importance(Siblings nodes, vec3 normal)
 {
     precise vec4 height = nodes.x * normal.x + nodes.y * normal.y + nodes.z * normal.z;
@@ -50,7 +49,7 @@ vec4 node_importance(Siblings nodes, vec3 normal)
     return importance;
 }
 
-// The weight of view_lamp(). A lamp that the vertex lies on is at the horizon.
+// The weight of view_lamp().
 vec4 lamp_importance(Siblings lamps, vec3 normal)
 {
     vec4 radius = lamps.spread;
@@ -69,9 +68,9 @@ float sum_of(vec4 importance)
     return sum;
 }
 
-// The top groups as seen from a vertex, for all its choices.
+// Serves all choices of a vertex.
 struct LampTreeTop {
-    vec4 importance[LAMP_TREE_TOP_GROUPS]; // per group, of its nodes
+    vec4 importance[LAMP_TREE_TOP_GROUPS];
 };
 
 LampTreeTop lamp_tree_top(Vertex vertex, float time)
@@ -90,16 +89,16 @@ LampTreeTop lamp_tree_top(Vertex vertex, float time)
 // index may differ between invocations.
 float component_of(vec4 v, uint index) { return index < 2u ? (index == 0u ? v.x : v.y) : (index == 2u ? v.z : v.w); }
 
-// A way down the tree, to a given lamp or one chosen by a random number.
+// A way down the tree, to a given lamp or a random one.
 struct LampWalk {
     bool chooses;
-    uint slot;         // of the given lamp
-    float u;           // the rest of the number
-    uint finer;        // hash of the number
+    uint slot;         // of a given lamp
+    float u;           // remaining random number
+    uint finer;
     float probability; // of the choices so far
 };
 
-// First word of the slots' lamps; the lamps' slots follow.
+// Followed by the lamps' slots.
 uint lamp_tree_slots()
 {
     return LAMP_TREE + lamp_tree_group_words(MOTION) * lamp_tree_groups(LAMP_COUNT, LAMP_TREE_LEVELS);
@@ -113,9 +112,9 @@ LampWalk walk_to(uint lamp)
 
 LampWalk walk_by(uint number) { return LampWalk(true, 0u, float(number >> 8u) * NUMBER_STEP, number, 1.0); }
 
-// Descends to one of four children, in proportion to `importance` or, if all are 0, to `others`: the last child of
-// positive importance whose predecessors' sum does not exceed the number, so rounding never chooses importance 0. A
-// choice of probability p leaves the number 1 / p times as coarse; bits of a hash refill it.
+// Descends to one of four children, in proportion to `importance` or, if all are 0, to `others`. Takes the last
+// positive one whose predecessors' sum does not exceed the number, so rounding never chooses importance 0. A choice of
+// probability p leaves a number 1 / p times as coarse; hash bits refill it.
 uint take_child(inout LampWalk walk, vec4 importance, vec4 others, uint given)
 {
     vec4 part = sum_of(importance) > 0.0 ? importance : others;
@@ -137,7 +136,7 @@ uint take_child(inout LampWalk walk, vec4 importance, vec4 others, uint given)
     return child;
 }
 
-// Descends from the top to a lamp. Top groups count as much as their nodes together.
+// Returns a lamp's slot. A top group counts as the sum of its nodes.
 uint walk_down(inout LampWalk walk, LampTreeTop top, Vertex vertex, float time)
 {
     const uint groups = lamp_tree_top_groups(LAMP_COUNT, LAMP_TREE_LEVELS);

@@ -1,4 +1,4 @@
-// Lamps: emitting spheres, chosen by their possible contribution and sampled by solid angle.
+// Lamps: emitting spheres, chosen by possible contribution and sampled by solid angle.
 #ifndef LIGHTS_GLSL
 #define LIGHTS_GLSL
 
@@ -12,12 +12,12 @@ struct LampView {
     float squared_distance;
     float inverse_distance;
     float squared_radius;
-    float squared_sine; // of half the lamp's angle; 1 from inside
-    float weight;       // for choosing a lamp; 0: cannot be sampled
+    float squared_sine; // of half the lamp's angle; 1 inside
+    float weight;       // for choosing; 0: cannot be sampled
 };
 
-// weight times pi bounds the irradiance: radiance (r / d)^2 min(1, (n . v + r) / d). A lamp partly above the horizon
-// thus has a positive weight. Directions find lamps that hold or touch the vertex.
+// weight times pi bounds the irradiance: radiance (r / d)^2 min(1, (n . v + r) / d). It is positive for a lamp partly
+// above the horizon. Only directions find lamps that hold or touch the vertex.
 LampView view_lamp(Vertex vertex, uint lamp, float time)
 {
     vec4 sphere = sphere_of_lamp(lamp, time);
@@ -33,11 +33,11 @@ LampView view_lamp(Vertex vertex, uint lamp, float time)
     return view;
 }
 
-// Share of the choices made uniformly among the lamps in sight: by weight alone, a strong but hidden lamp would leave
-// few samples to the others. If nothing is hidden, raises the second moment by at most a ninth.
+// Share of uniform choices among lamps in sight: by weight alone, a strong but hidden lamp would leave few samples to
+// others. Raises the second moment by at most a ninth.
 const float UNIFORM_SHARE = 0.1;
 
-// The lamps as seen from a vertex. Views of a few lamps are kept, others are recomputed.
+// The lamps as seen from a vertex. Views of few lamps are kept.
 const bool KEEP_VIEWS = LAMP_COUNT <= EVERY_LAMP_LIMIT;
 
 struct Lamps {
@@ -45,9 +45,9 @@ struct Lamps {
     float time;
     LampView views[EVERY_LAMP_LIMIT];
     float total_weight;
-    float in_sight;        // number of lamps with positive weight
-    float share_of_weight; // probability per unit of weight
-    float uniform_share;   // probability per lamp in sight, from the uniform choices
+    float in_sight;        // lamps of positive weight
+    float share_of_weight; // probability per weight
+    float uniform_share;   // uniform choices' probability per lamp in sight
     LampTreeTop tree;
 };
 
@@ -97,7 +97,7 @@ float lamp_probability(Lamps lamps, float weight)
     return weight > 0.0 ? (LAMP_COUNT == 1u ? 1.0 : probability) : 0.0;
 }
 
-// The tree's uniform share covers all lamps, since those in sight are not counted.
+// The uniform share covers all lamps, since lamps in sight are not counted.
 float lamp_probability_by_tree(LampWalk walk)
 {
     precise float probability = (1.0 - UNIFORM_SHARE) * walk.probability + UNIFORM_SHARE / float(LAMP_COUNT);
@@ -110,7 +110,7 @@ struct LampChoice {
     float probability;
 };
 
-// The result of choose() if it takes this lamp. The index may differ between invocations.
+// choose()'s result for this lamp.
 LampChoice choice_of(Lamps lamps, uint lamp)
 {
     if (HAS_LAMP_TREE) {
@@ -122,11 +122,10 @@ LampChoice choice_of(Lamps lamps, uint lamp)
     return LampChoice(lamp, view, lamp_probability(lamps, view.weight));
 }
 
-// Chooses by the tree. number: a multiple of 2^-32. The uniform share may choose a lamp that cannot be sampled, which
-// then gives no light.
+// number: times 2^-32. A uniform choice may take a lamp that cannot be sampled and gives no light.
 LampChoice choose_by_tree(Lamps lamps, uint number)
 {
-    const uint uniform_numbers = 429496729u; // UNIFORM_SHARE 2^32; ten times as many fit into 32 bits
+    const uint uniform_numbers = 429496729u; // UNIFORM_SHARE 2^32
     bool uniformly = number < uniform_numbers;
     uint lamp, low;
     umulExtended(number * 10u, LAMP_COUNT, lamp, low);
@@ -138,8 +137,8 @@ LampChoice choose_by_tree(Lamps lamps, uint number)
     return LampChoice(lamp, view_lamp(lamps.vertex, lamp, lamps.time), lamp_probability_by_tree(walk));
 }
 
-// Low numbers choose uniformly among the lamps in sight, the rest by weight, summed in the order of the total, so that
-// rounding loses no small probability. A walk that ends short takes the last lamp in sight.
+// Low numbers choose uniformly among lamps in sight, others by weight, summed in the order of the total, so that small
+// probabilities survive rounding. Short of the target it takes the last lamp in sight.
 LampChoice choose(Lamps lamps, uint number)
 {
     if (HAS_LAMP_TREE)
@@ -160,13 +159,13 @@ LampChoice choose(Lamps lamps, uint number)
     return choice_of(lamps, chosen);
 }
 
-// 1 - cos of half the lamp's angle, as sin^2 / (1 + cos), which does not cancel.
+// sin^2 / (1 + cos) does not cancel.
 float one_minus_cos(LampView view)
 {
     return view.squared_sine / (1.0 + sqrt(1.0 - view.squared_sine));
 }
 
-// Density over solid angle of directions to a chosen lamp, 1 / (2 pi (1 - cos)); 0 if it cannot be sampled.
+// Density over solid angle for a chosen lamp, 1 / (2 pi (1 - cos)); 0 if it cannot be sampled.
 float cone_density(LampView view)
 {
     float density = (0.5 / PI) * (1.0 + sqrt(1.0 - view.squared_sine)) / view.squared_sine;
@@ -175,11 +174,11 @@ float cone_density(LampView view)
 
 struct LampSample {
     ShadowRay shadow;
-    float density; // over solid angle, given the lamp; 0: cannot be sampled
+    float density; // per solid angle, given the lamp; 0: cannot be sampled
 };
 
-// A direction uniform in the lamp's cone, and the distance to the lamp, d cos - sqrt(r^2 - d^2 sin^2), with h = 1 - cos
-// from the axis: an intersection would miss tiny far lamps by rounding.
+// A direction uniform in the lamp's cone, with h = 1 - cos to its axis, and the distance d cos - sqrt(r^2 - d^2 sin^2);
+// an intersection would miss tiny far lamps by rounding.
 LampSample sample_lamp(LampChoice choice, vec2 u)
 {
     LampView view = choice.view;

@@ -1,5 +1,5 @@
-// A pixel of a tile and its neighbors in the tile, in one channel. Values are float32 >= 0 on the host too, since they
-// are only compared.
+// A pixel and its neighbors in its tile, in one channel. Values are float32 >= 0 on the host too, since they are only
+// compared.
 #ifndef PT_NEIGHBOURHOOD_H
 #define PT_NEIGHBOURHOOD_H
 
@@ -9,10 +9,10 @@
 namespace pt::gpu {
 #endif
 
-// Stands for neighbors outside the tile.
+// A neighbor outside the tile.
 PT_CONSTANT float BELOW_ALL = -1.0f;
 
-// In ascending order.
+// Ascending.
 struct Sorted {
     float low;
     float middle;
@@ -30,8 +30,8 @@ PT_FUNCTION Sorted sorted(float a, float b, float c)
     return values;
 }
 
-// The median of nine values in three sorted rows: the median of the largest low, the median middle and the smallest
-// high value (Paeth 1990, Median finding on a 3 x 3 grid).
+// Median of nine values in three sorted rows: the median of the largest low, the median middle and the smallest high
+// value (Paeth 1990, Median finding on a 3 x 3 grid).
 PT_FUNCTION float median_of_rows(Sorted a, Sorted b, Sorted c)
 {
     return sorted(more_of(more_of(a.low, b.low), c.low), sorted(a.middle, b.middle, c.middle).middle,
@@ -39,7 +39,7 @@ PT_FUNCTION float median_of_rows(Sorted a, Sorted b, Sorted c)
         .middle;
 }
 
-// The same values, with the missing one last.
+// Sorts the missing value last instead of first.
 PT_FUNCTION Sorted with_missing_above(Sorted row)
 {
     row.low = row.middle;
@@ -53,9 +53,9 @@ struct Neighbourhood {
     float largest;
 };
 
-// From rows of three values, missing ones first in their row. With k of nine values present, the median has (k - 1) / 2
-// values below it. It is the fifth of nine if 4 - (k - 1) / 2 missing values count as lowest and the rest as highest:
-// two of three at an edge, three of five at a corner.
+// Rows have missing values first. Of k values present, (k - 1) / 2 are below the median, which is the fifth of nine if
+// 4 - (k - 1) / 2 missing ones count as lowest and the rest as highest: two of three at an edge, three of five at a
+// corner.
 PT_FUNCTION Neighbourhood neighbourhood(Sorted above, Sorted row, Sorted below, bool is_first_row, bool is_last_row,
                                         bool is_beside_edge)
 {
@@ -79,7 +79,7 @@ PT_FUNCTION Neighbourhood neighbourhood(Sorted above, Sorted row, Sorted below, 
     return near;
 }
 
-// A pixel's neighbors in a single row or column.
+// The same for a tile of a single row or column.
 PT_FUNCTION Neighbourhood neighbourhood_in_line(Sorted line)
 {
     Neighbourhood near;
@@ -88,7 +88,7 @@ PT_FUNCTION Neighbourhood neighbourhood_in_line(Sorted line)
     return near;
 }
 
-// A column from rows of one value each.
+// Rows have one value each.
 PT_FUNCTION Sorted column_of(Sorted above, Sorted row, Sorted below, bool is_first_row, bool is_last_row)
 {
     return sorted(is_first_row ? BELOW_ALL : above.high, row.high, is_last_row ? BELOW_ALL : below.high);

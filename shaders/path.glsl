@@ -1,4 +1,4 @@
-// One path: the light of one sample.
+// One sample's light.
 #ifndef PATH_GLSL
 #define PATH_GLSL
 
@@ -11,8 +11,8 @@
 #include "step.glsl"
 #include "vertex.glsl"
 
-// Light that reaches the first vertex from a second one, in a spot's direction. Weighted against the branches, which
-// find it too (Veach 1997, chapter 9). Light over more vertices is left to the branches.
+// Light from a second vertex in a spot's direction, weighted against the branches, which also find it (Veach 1997,
+// chapter 9). Branches alone find light over more vertices.
 vec3 light_by_way_of_spot(Vertex vertex, Material material, Spots spots, SampleKey key, float time)
 {
     vec3 numbers = spot_numbers(key);
@@ -31,10 +31,10 @@ vec3 light_by_way_of_spot(Vertex vertex, Material material, Spots spots, SampleK
     path.vertex_count = 2u;
     departure_share = 1.0;
     extend(path, key, blocks_at_spot(), MAX_PATH_LENGTH - 1u, time);
-    return met ? path.radiance : vec3(0.0); // after a miss it may be NaN
+    return met ? path.radiance : vec3(0.0); // may be NaN after a miss
 }
 
-// Weight of light over the branch's second vertex, which a ray to a spot may find too.
+// Weight of light over the branch's second vertex, which a spot's ray may find.
 float share_beside_spots(Spots spots, Path path, Vertex first, float time)
 {
     float distance = dot(path.arrival.point - first.position, path.arrival.direction);
@@ -42,20 +42,19 @@ float share_beside_spots(Spots spots, Path path, Vertex first, float time)
     return density > 0.0 ? power_heuristic(arrival_density, density) : 1.0;
 }
 
-// The light of the first vertex and all paths from it. This is most of the picture: hence every lamp is sampled if they
-// are few, and longer paths leave in several branches.
+// Light of the first vertex and all paths from it, most of the picture: so every lamp is sampled if they are few, and
+// several branches leave.
 vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
 {
     const float directions = float(BRANCH_COUNT);
-    const vec3 whole = vec3(1.0); // throughput
+    const vec3 whole = vec3(1.0);
     Vertex vertex = vertex_at(arrival, time);
     Material material = material_to_leave(vertex.surface, 1u);
     Lamps lamps;
     if (SAMPLE_LAMPS)
         lamps = lamps_from(vertex, time);
 
-    // Lamp b shares a walk over the scene with the ray of branch b; lamps beyond the last branch have walks of their
-    // own.
+    // Lamp b shares a walk with branch b; lamps beyond the last branch walk alone.
     vec3 radiance = vec3(0.0);
     if (SAMPLE_EVERY_LAMP && LAMP_COUNT > BRANCH_COUNT) {
         Start start = Start(vertex.position, vertex.surface, vertex.inside);
@@ -114,7 +113,7 @@ vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
 
 vec3 emitted_by(uint surface) { return may_emit(surface) ? emission_of(surface).rgb : vec3(0.0); }
 
-// Radiance of one sample: emission plus throughput-weighted light at up to MAX_PATH_LENGTH vertices.
+// Emission plus throughput-weighted light at up to MAX_PATH_LENGTH vertices.
 vec3 path_radiance(CameraView camera, uvec2 pixel, SampleKey key)
 {
     CameraRay ray = camera_ray(camera, pixel, key);

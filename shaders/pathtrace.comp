@@ -1,4 +1,4 @@
-// The path tracer: each invocation takes samples of a slice in one pixel of a tile. Invocations along y share a pixel.
+// The path tracer: each invocation takes some samples of a pixel in a tile. Invocations along y share a pixel.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -13,9 +13,9 @@ layout(push_constant) uniform Push { FrameConstants frame; };
 #include "tile_pixel.glsl"
 #include "tree_path.glsl"
 
-// Push constants are read once, into `held`: lavapipe 22.3 reads them for one invocation after the other.
+// `held` copies push constants once: lavapipe 22.3 reads them for one invocation after the other.
 
-// The key of a pixel's sample, by its number in the slice.
+// number: in the slice.
 SampleKey key_of_sample(SampleKey pixel, FrameConstants held, uint number)
 {
     const uint row_length = row_blocks(TABLE_BLOCKS, blocks_of_sample(), BRANCH_COUNT);
@@ -56,7 +56,6 @@ void take_samples_by_steps(uvec2 pixel, uint pixel_index, uint done, uint end, i
     bool begins = true;
     do {
         if (walk.done) {
-            // Uses the walk's result.
             if (!begins) {
                 begins = ends_with(current, walk, departure, lamps);
                 if (begins) {
@@ -65,7 +64,7 @@ void take_samples_by_steps(uvec2 pixel, uint pixel_index, uint done, uint end, i
                 }
             }
 
-            // Begins the next walk, of this sample or the next.
+            // The next walk, of this sample or the next.
             if (!begins) {
                 walk = leave_last_vertex(current, departure, lamps);
             } else if (done < end) {
@@ -86,7 +85,6 @@ void main()
         return;
     uvec2 pixel = uvec2(at.in_image % frame.camera.width, at.in_image / frame.camera.width);
 
-    // This invocation's samples of the slice.
     uint done = gl_GlobalInvocationID.y * frame.share;
     uint end = min(done + frame.share, frame.sample_count);
 

@@ -1,5 +1,5 @@
 // The physically-normalised Phong model (shaders/README.md, section 4; Lafortune and Willems 1994): f = diffuse / pi +
-// specular (n + 2) / (2 pi) max(0, wo . r)^n, with the mirror direction r.
+// specular (n + 2) / (2 pi) max(0, wo . r)^n, r the mirror direction.
 #ifndef PHONG_GLSL
 #define PHONG_GLSL
 
@@ -7,14 +7,14 @@
 #include "scene.glsl"
 #include "vertex.glsl"
 
-// Otherwise directions follow the cosine, or are uniform.
+// Else directions follow the cosine or are uniform.
 const bool SAMPLE_LOBES = ESTIMATOR != ESTIMATOR_UNIFORM && ESTIMATOR != ESTIMATOR_COSINE;
 
 struct Material {
     vec3 diffuse;               // albedo / pi
     vec3 specular;              // factor times (n + 2) / (2 pi)
     float glossiness;           // n
-    float specular_probability; // of choosing the lobe for a direction
+    float specular_probability; // of the lobe for a direction
 };
 
 Material material_of(uint surface)
@@ -26,7 +26,7 @@ Material material_of(uint surface)
 }
 
 // The lobe's share in a path's last direction if lamps are sampled too (shaders/README.md, section 5). Below 1, because
-// lamp sampling cannot find all light.
+// lamp sampling misses some light.
 const float LAST_SPECULAR_PROBABILITY = 0.97;
 
 Material at_last_direction(Material material)
@@ -36,21 +36,21 @@ Material at_last_direction(Material material)
     return material;
 }
 
-// max(0, wo . r)^n for unit vectors as 2^(n log2(1 - y)), y = |wo - r|^2 / 2; n = 0: 1 on the half space about r. The
-// chord keeps y precise near r, where pow(wo . r, n) would be 35% off at n = 1e6.
+// max(0, wo . r)^n = 2^(n log2(1 - y)), y = |wo - r|^2 / 2; n = 0: the half space about r. The chord keeps y precise
+// near r, where pow(wo . r, n) errs by 35% at n = 1e6.
 float lobe_power(vec3 r, vec3 wo, float n)
 {
     vec3 chord = wo - r;
     float y = 0.5 * dot(chord, chord);
-    float power = exp2_negative(n * log2_one_minus(y)); // any value where there is no lobe
+    float power = exp2_negative(n * log2_one_minus(y)); // arbitrary for y >= 1
     return y < 1.0 ? power : 0.0;
 }
 
-// A surface's reflection in one direction.
+// Reflection in one direction.
 struct Reflection {
     vec3 f;
-    float cosine;  // of the outgoing direction; 0 below the horizon
-    float density; // of sample_direction, over solid angle
+    float cosine;  // of the direction; 0 below the horizon
+    float density; // of sample_direction(), per solid angle
 };
 
 Reflection reflection(Material material, Vertex vertex, vec3 outgoing)
@@ -68,14 +68,13 @@ Reflection reflection(Material material, Vertex vertex, vec3 outgoing)
     return Reflection(f, cosine, ESTIMATOR == ESTIMATOR_UNIFORM ? 0.5 / PI : density);
 }
 
-// Polar angle about r with density (n + 1) / (2 pi) (wo . r)^n.
+// Polar angle about r, density (n + 1) / (2 pi) (wo . r)^n.
 vec2 lobe_cos_sin(float n, float u)
 {
     return narrow_cos_sin(one_minus_exp2(log2_one_minus(u) / (n + 1.0)));
 }
 
-// May lie below the horizon, with value 0; another draw or a renormalised lobe would have a density other than
-// reflection()'s.
+// May lie below the horizon, with value 0: reflection() has the density of the whole lobe.
 vec3 sample_direction(Material material, Vertex vertex, vec2 place, float lobe)
 {
     if (ESTIMATOR == ESTIMATOR_UNIFORM)

@@ -1,5 +1,5 @@
-// Expected squared errors of a pixel's value (shaders/README.md, section 11), from its mean, the standard error, the
-// lesser of its parts' means, and its neighbors. In radiance on the host, in film units in kernels.
+// Expected squared errors of a pixel (shaders/README.md, section 11), from mean, standard error, the lesser of its
+// parts' means, and neighbors. In radiance on the host, in film units in kernels.
 #ifndef PT_PIXEL_ERROR_H
 #define PT_PIXEL_ERROR_H
 
@@ -14,7 +14,7 @@ PT_FUNCTION real squared(real value)
     return value * value;
 }
 
-// Gives the mean of all values but one. Values are >= 0.
+// Gives the mean of all values but one.
 struct ValueSet {
     real sum;
     real count;
@@ -50,43 +50,43 @@ PT_FUNCTION ValueSet united(ValueSet a, ValueSet b)
     return a;
 }
 
-// Without the largest of the others, which may be a firefly.
+// The largest of the others may be a firefly.
 PT_FUNCTION real mean_besides_and_without_largest(ValueSet values, real value)
 {
     real largest_of_others = value < values.largest ? values.largest : values.second;
     return more_of(values.sum - value - largest_of_others, 0.0) / more_of(values.count - 2.0, 1.0);
 }
 
-// The level about a pixel, from its neighbors' median and its tile; at least an eighth of a brighter neighbor, since
-// the mean of eight pixels cannot be less.
+// The level about a pixel, from its neighbors' median and its tile; at least an eighth of a brighter neighbor, since the
+// mean of eight pixels cannot be less.
 PT_FUNCTION real around(real mean, ValueSet tile, real median_beside, real largest_beside)
 {
     real of_brighter = largest_beside > mean ? 0.125 * largest_beside : 0.0;
     return more_of(more_of(median_beside, of_brighter), mean_besides_and_without_largest(tile, mean));
 }
 
-// The squared limit that divides squared errors must not come from the bright sample that made the error: it is at most
-// the squares of the darker part's mean and of the level around, and at most the own mean's.
+// The limit that divides squared errors must not come from the bright sample that made the error. It is at most the
+// squares of the darker part's mean and of the level around, and at most the own mean's.
 //
-// At an edge the level around is bright, but a part with at least half of the samples is dark. A share p of samples of
-// value M is bright, one of N was so far: the mean is T = M / N, the squared error about T^2. If the prior of p is
-// uniform, y = N p has the density y e^-y, and the limit is M p. The expectation of T^2 / (M^2 p^2 + k^2), with k^2 =
-// known, is the integral of y e^-y / (y^2 + k^2 / T^2): ln(T / k) less a constant of about 1 that depends on the prior.
-// Leaving it out fits the calibration scenes.
+// At an edge the level around is bright, but at least half of the samples are dark. A share p of samples has value M,
+// so far one of N: the mean is T = M / N, the squared error about T^2. If the prior of p is uniform, y = N p has
+// the density y e^-y, and the limit is M p. The expectation of T^2 / (M^2 p^2 + k^2), k^2 = known, is the integral of y
+// e^-y / (y^2 + k^2 / T^2): ln(T / k) less about 1, depending on the prior. Leaving out the constant fits the
+// calibration scenes.
 struct Limit {
     real square;       // with the offset
-    real known;        // the darker part's squared mean, with the offset
-    real light_beyond; // > 0: an edge, where the logarithm applies
+    real known;        // the darker part's, with the offset
+    real light_beyond; // > 0: an edge; the logarithm applies
     real alone;        // > 0: brighter than the level around
 };
 
-PT_CONSTANT real E_SQUARED = 7.39; // where an edge's logarithm passes 1, and a pixel begins to stand out
+PT_CONSTANT real E_SQUARED = 7.39; // from where an edge's logarithm passes 1, and a pixel stands out
 
 // standard_error / (mean - lesser) = sqrt(f / (1 - f)) if the darker part has a share f of the samples: 1 for halves,
-// up to float rounding.
+// but for rounding.
 PT_CONSTANT real OF_HALVES = 0.99;
 
-// offset_square: keeps black pixels from counting without bound.
+// offset_square: bounds the relative errors of black pixels.
 PT_FUNCTION Limit limit_of(real standard_error, real mean, real lesser, real around, real offset_square)
 {
     Limit limit;
@@ -99,7 +99,7 @@ PT_FUNCTION Limit limit_of(real standard_error, real mean, real lesser, real aro
     return limit;
 }
 
-// Squared error over the squared limit, as far as samples tell.
+// The part of the error that samples show.
 PT_FUNCTION real relative_square(real standard_error, Limit limit)
 {
     real square = square_of_quotient(standard_error, limit.square);
@@ -112,9 +112,9 @@ PT_FUNCTION real square_as_lamp(real standard_error, real mean, real offset_squa
     return square_of_quotient(standard_error, squared(mean) + offset_square);
 }
 
-// A pixel that stands out is a lamp or highlight of about its size, which many samples meet, or a rare bright sample.
-// Light in one part alone was met once, and cannot be told apart; in both parts it was met again.
-// lib/film/error_estimate.cpp compares their numbers.
+// A pixel that stands out is a lamp or highlight, which many samples meet, or one rare bright sample. Light in one part
+// alone was met once, and may be either; light in both was met again. lib/film/error_estimate.cpp compares their
+// numbers.
 PT_FUNCTION bool is_met_once(real standard_error, real mean, real lesser)
 {
     return lesser <= 0.02 * mean && standard_error >= OF_HALVES * (mean - lesser);
@@ -125,15 +125,14 @@ PT_FUNCTION bool is_met_again(real mean, real lesser)
     return lesser >= 0.25 * mean;
 }
 
-// Light of a neighbor's mean M may fill a share p of this pixel too, which none of N samples met: so only if the mean
-// is below M / N. A random edge leaves a corner of the pixel, whose area is as the square of its height, so a share
-// below p has the probability c sqrt(p). Let a^2 = (T^2 + offset) / M^2 and b = 1 / (N a). The squared error p M^2 / N
-// then has the relative expectation
+// A neighbor's light M may fill a share p of this pixel that none of N samples met, if the mean is below M / N. A
+// random edge cuts off a corner with area as the square of its height, so a share below p has the probability c
+// sqrt(p). Let a^2 = (T^2 + offset) / M^2 and b = 1 / (N a). The squared error p M^2 / N has the relative expectation
 //
 // integral from 0 to 1 / N of c / (2 sqrt(p)) p / N / (a^2 + p^2) dp = c sqrt(b / N) G(sqrt(b)),
 //
 // where G(t), the integral of u^2 / (1 + u^4) from 0 to t, is approximated by t^3 / (3 + 0.81 t^2 + 0.9 t^3), at most a
-// seventh less and exact at both ends. c = 0.055 is calibrated (shaders/README.md, section 11).
+// seventh less. c = 0.055 is calibrated (shaders/README.md, section 11).
 PT_FUNCTION real unseen_square(real mean, real largest_beside, real sample_count, real offset_square)
 {
     real brightest = largest_beside / sample_count;

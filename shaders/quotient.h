@@ -1,5 +1,5 @@
-// Quotients of exact sums and counts, as float32 bits computed with integers, equal on every device and the host:
-// Vulkan allows errors in float division and may flush small results.
+// Quotients of exact sums and counts as float32 bits, computed with integers, so equal everywhere: Vulkan permits
+// errors of float division and flushed small results.
 #ifndef PT_QUOTIENT_H
 #define PT_QUOTIENT_H
 
@@ -9,7 +9,7 @@
 namespace pt::gpu {
 #endif
 
-// Up to 160 bits, least significant word first.
+// Least significant word first.
 PT_CONSTANT uint NUMBER_WORDS = 5u;
 struct WholeNumber {
     uint words[NUMBER_WORDS];
@@ -24,8 +24,7 @@ PT_FUNCTION WholeNumber whole_number(uvec4 sum)
     return number;
 }
 
-// (high 2^32 + low) 2^exponent; if inexact, the number is more by less than 2^exponent. The top bit of high is set,
-// unless the number is 0.
+// (high 2^32 + low) 2^exponent, or more by less than 2^exponent if inexact. high has its top bit set, unless all is 0.
 struct LeadingBits {
     uint high;
     uint low;
@@ -33,7 +32,7 @@ struct LeadingBits {
     bool inexact;
 };
 
-// The upper of two words shifted left together; bits < 32.
+// Upper word after a shift of both; bits < 32.
 PT_FUNCTION uint shifted_left(uint upper, uint lower, int bits)
 {
     return upper << bits | (lower >> 1) >> (31 - bits);
@@ -58,12 +57,12 @@ PT_FUNCTION LeadingBits leading_bits(WholeNumber number)
     return leading;
 }
 
-// Rounds quotient 2^exponent, slightly more if inexact, to nearest, ties to even. quotient has at least 25 bits.
+// Rounds quotient 2^exponent, or slightly more if inexact, to nearest, ties to even. quotient has at least 25 bits.
 // Overflow gives infinity.
 PT_FUNCTION uint rounded(uint quotient, int exponent, bool inexact)
 {
     int top = findMSB(quotient);
-    int magnitude = top + exponent; // the number is in [2^magnitude, 2^(magnitude + 1))
+    int magnitude = top + exponent; // in [2^magnitude, 2^(magnitude + 1))
     if (magnitude > 127)
         return 0x7f800000u;
     // Below 2^-126 a float's last bit is 2^-149.
@@ -73,12 +72,12 @@ PT_FUNCTION uint rounded(uint quotient, int exponent, bool inexact)
     uint rest = quotient & ((1u << dropped) - 1u);
     uint half_of_last = 1u << (dropped - 1);
     bool up = rest > half_of_last || (rest == half_of_last && (inexact || (kept & 1u) == 1u));
-    // A normal float's leading one increments the exponent's bits; so does a carry.
+    // The leading one increments the exponent; so does a carry.
     return (uint(float_exponent + 126) << 23) + kept + (up ? 1u : 0u);
 }
 
-// dividend 2^exponent / divisor, rounded once; divisor >= 1. Long division of numbers with top bits set, so the
-// quotient is in (1/2, 2): 26 bits, of which the first may be 0.
+// dividend 2^exponent / divisor, rounded once; divisor >= 1. Long division of numbers with top bits set: the quotient
+// is in (1/2, 2) and has 26 bits, the first perhaps 0.
 PT_FUNCTION uint quotient_bits(LeadingBits dividend, uint divisor, int exponent)
 {
     if (dividend.high == 0u)
@@ -91,7 +90,7 @@ PT_FUNCTION uint quotient_bits(LeadingBits dividend, uint divisor, int exponent)
     const int places = 25;
     int place = 0;
     do {
-        bool beyond = rest >= 0x80000000u; // its double has 33 bits
+        bool beyond = rest >= 0x80000000u; // doubling gives 33 bits
         rest = rest << 1 | next >> 31;
         next <<= 1;
         bool fits = beyond || rest >= normal_divisor;
@@ -103,13 +102,13 @@ PT_FUNCTION uint quotient_bits(LeadingBits dividend, uint divisor, int exponent)
                    dividend.inexact || (rest | next) != 0u);
 }
 
-// The bits of sum 2^exponent / count; 0 without samples.
+// Bits of sum 2^exponent / count; 0 without samples.
 PT_FUNCTION uint mean_bits(uvec4 sum, uint count, int exponent)
 {
     return count == 0u ? 0u : quotient_bits(leading_bits(whole_number(sum)), count, exponent);
 }
 
-// floor(sqrt(high 2^32 + low)), bit by bit.
+// floor(sqrt(high 2^32 + low)).
 PT_FUNCTION uint square_root(uint high, uint low)
 {
     uint root = 0u;
@@ -138,7 +137,7 @@ PT_FUNCTION WholeNumber product(uvec4 sum, uint count)
     return number;
 }
 
-// a - b modulo 2^160; borrow: 1 if a < b.
+// a - b modulo 2^160. borrow: 1 if a < b.
 PT_FUNCTION WholeNumber difference(WholeNumber a, WholeNumber b, PT_OUT(uint) borrow)
 {
     borrow = 0u;
@@ -151,13 +150,13 @@ PT_FUNCTION WholeNumber difference(WholeNumber a, WholeNumber b, PT_OUT(uint) bo
     return a;
 }
 
-// |A b - B a| for the sums A of a samples and B of b samples. first_is_less: A / a < B / b.
+// |A b - B a| for sums A of a samples and B of b. first_is_less: A / a < B / b.
 PT_FUNCTION WholeNumber weighted_difference(uvec4 sum_a, uint a, uvec4 sum_b, uint b, PT_OUT(bool) first_is_less)
 {
     uint borrow;
     WholeNumber number = difference(product(sum_a, b), product(sum_b, a), borrow);
     first_is_less = borrow == 1u;
-    // Two's complement: -x = ~x + 1.
+    // -x = ~x + 1
     uint mask = first_is_less ? 0xffffffffu : 0u;
     uint carry = borrow;
     PT_UNROLL for (uint i = 0u; i < NUMBER_WORDS; ++i)
@@ -165,21 +164,21 @@ PT_FUNCTION WholeNumber weighted_difference(uvec4 sum_a, uint a, uvec4 sum_b, ui
     return number;
 }
 
-// The standard error of the mean of both parts, with sums A, B of a, b >= 1 samples (shaders/README.md, section 11):
+// Standard error of the mean of both parts, with sums A, B of a, b >= 1 samples (shaders/README.md, section 11):
 //
 // s = |A / a - B / b| sqrt(a b) / (a + b) = |A b - B a| / ((a + b) sqrt(a b))
 //
 // For samples of variance v, (A / a - B / b)^2 has the expectation v / a + v / b, and the mean of all the variance v /
-// (a + b). The numerator is exact. Root and divisor are cut to 32 bits, each by less than 2^-31, so the rounded
-// quotient is within .52 of its last place.
+// (a + b). The numerator is exact. Root and divisor are cut to 32 bits, each by less than 2^-31, so the result is
+// within .52 of its last place.
 struct ErrorDivisor {
     uint divisor; // its top bit is set
-    int exponent; // the quotient is times 2^exponent
+    int exponent; // times 2^exponent
 };
 
 PT_FUNCTION ErrorDivisor error_divisor(uint a, uint b)
 {
-    // sqrt(a b 2^(2 shift)), one of whose top two bits is set.
+    // sqrt(a b 2^(2 shift)), with one of its top two bits set.
     uint square_high, square_low;
     umulExtended(a, b, square_high, square_low);
     int zeros = square_high != 0u ? 31 - findMSB(square_high) : 63 - findMSB(square_low);
@@ -200,7 +199,7 @@ PT_FUNCTION ErrorDivisor error_divisor(uint a, uint b)
     return result;
 }
 
-// The standard error's bits, times 2^exponent.
+// times 2^exponent
 PT_FUNCTION uint standard_error_bits(WholeNumber numerator, ErrorDivisor divisor, int exponent)
 {
     return quotient_bits(leading_bits(numerator), divisor.divisor, exponent + divisor.exponent);

@@ -5,19 +5,19 @@
 #include "maths.glsl"
 #include "scene.glsl"
 
-// With KNOWN_SIDES the camera decides a path's side of each surface: rounding may put a vertex close to another surface
-// on its wrong side, where paths end or leak.
+// The camera decides with KNOWN_SIDES on which side of each surface paths are: rounding may put a vertex on the wrong
+// side of a close surface, where paths end or leak.
 
-// A ray's start: on which surface, if any, and whether inside a sphere.
+// A ray's start.
 struct Start {
     vec3 origin;
-    uint surface; // NO_SURFACE for rays from the camera
+    uint surface; // NO_SURFACE from the camera
     bool inside;
 };
 
 // Distance along a unit vector to a plane, or NO_HIT: 2 |h| / q or q / k of shaders/README.md, section 3. level: at the
 // origin; leaving: the ray starts on the plane. side: the camera's height over a flat plane; if it decides, a ray
-// towards the plane hits it, at a negative distance if rounding has put the origin behind it.
+// towards the plane hits it, at a negative distance from an origin behind it.
 float plane_distance(Level level, vec3 direction, bool leaving, bool inside, float side)
 {
     float slope = dot(level.gradient, direction);
@@ -43,8 +43,8 @@ float plane_distance(Level level, vec3 direction, bool leaving, bool inside, flo
 }
 
 struct Hit {
-    float distance; // NO_HIT: none; negative if rounding has put the start beyond the surface
-    uint surface;   // NO_SURFACE for none
+    float distance; // NO_HIT, or negative if rounding has put the start beyond the surface
+    uint surface;   // or NO_SURFACE
 };
 
 void keep_closer(inout Hit hit, float distance, uint surface)
@@ -54,16 +54,16 @@ void keep_closer(inout Hit hit, float distance, uint surface)
     hit.surface = closer ? surface : hit.surface;
 }
 
-// A ray to a lamp: any earlier hit blocks it.
+// Any earlier hit blocks the lamp.
 struct ShadowRay {
     vec3 direction;
-    float distance; // to the lamp; 0 without a lamp
-    uint lamp;      // its surface, which never blocks itself
+    float distance; // 0: no lamp
+    uint lamp;      // its surface; never blocks itself
 };
 
 const ShadowRay NO_SHADOW_RAY = ShadowRay(vec3(0.0), 0.0, NO_SURFACE);
 
-// A walk fetches a surface once for all its rays.
+// A walk fetches each surface once.
 float distance_to_sphere(Start start, vec3 direction, uint sphere, Ball ball)
 {
     vec3 to_first = ball.centre_radius.xyz - start.origin;
@@ -82,7 +82,7 @@ float distance_to_plane(Start start, vec3 direction, uint plane, Level level, fl
     return plane_distance(level, direction, plane == start.surface, start.inside, camera_height(plane, time));
 }
 
-// At equal distances the first surface is seen.
+// The first surface is seen at equal distances.
 bool blocks(ShadowRay shadow, float distance, uint surface)
 {
     bool before = distance < shadow.distance || (CLOSE_LAMPS == 1 && distance == shadow.distance && surface < shadow.lamp);
@@ -107,9 +107,9 @@ void shade_plane(inout bool blocked, Start start, ShadowRay shadow, uint plane, 
     blocked = blocked || blocks(shadow, distance_to_plane(start, shadow.direction, plane, level, time), plane);
 }
 
-// For lamps that nearly coincide with another sphere, the ray ends at its intersection: both distances then come from
-// one formula, so exactly one is less, and light that both emit counts once. A ray that misses by rounding ends at the
-// sampled point.
+// The shadow ray to a lamp that nearly coincides with another sphere ends at its own intersection. Both distances then
+// come from one formula, so exactly one is less, and light that both emit counts once. After a miss by rounding it ends
+// at the sampled point.
 ShadowRay ended_as_met(ShadowRay shadow, Start start, float time)
 {
     if (CLOSE_LAMPS == 1 && shadow.distance > 0.0 && is_walked_lamp(shadow.lamp)) {

@@ -1,4 +1,4 @@
-// Turns the film's sums into an image: one invocation per pixel of a rectangle, which may extend beyond the strip.
+// Turns sums into an image: one invocation per pixel of a rectangle, which may extend beyond the strip.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -13,7 +13,6 @@ layout(push_constant) uniform Push { ResolveConstants resolve; };
 
 layout(constant_id = 0) const uint FORMAT = FORMAT_RGB32F;
 
-// Fewer samples say next to nothing.
 bool knows_error(PartCount older, PartCount newer)
 {
     return older.done + newer.done >= FILM_MIN_ERROR_SAMPLES && older.accepted > 0u && newer.accepted > 0u;

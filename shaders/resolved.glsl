@@ -1,5 +1,5 @@
-// The pixels of an image that is read back, in each format. Float16 bits are computed with integers, because Vulkan
-// leaves packHalf2x16's rounding and small numbers to the device. They equal the host's (lib/film/pixel_format.h).
+// Pixels that are read back, in each format. Float16 is computed with integers, as on the host
+// (lib/film/pixel_format.h): Vulkan leaves packHalf2x16's rounding and small numbers to the device.
 #ifndef RESOLVED_GLSL
 #define RESOLVED_GLSL
 
@@ -7,19 +7,19 @@
 
 #include "gpu_layout.h"
 
-layout(set = 0, binding = BINDING_RESOLVED) writeonly buffer Resolved { uint words[]; } resolved; // of pixels
-layout(set = 0, binding = BINDING_FINDINGS) buffer Findings { uint lost_pixels; } findings; // which a driver cut short
+layout(set = 0, binding = BINDING_RESOLVED) writeonly buffer Resolved { uint words[]; } resolved;
+layout(set = 0, binding = BINDING_FINDINGS) buffer Findings { uint lost_pixels; } findings; // cut short by the driver
 
 const uint SIGN_BIT = 0x80000000u;
 const uint HALF_INFINITY_BITS = 0x7c00u;
 const uint HALF_ONE_BITS = 0x3c00u;
 
-// A float32 >= 0 or infinity, rounded to nearest, ties to even; infinity from 65520 on.
+// Rounds a float32 >= 0 to nearest, ties to even; infinity from 65520 on.
 uint half_bits(uint float_bits)
 {
     const uint smallest_normal = 0x38800000u; // 2^-14
     const uint difference_of_biases = 0x38000000u;
-    // Below 2^-14 the last bit is 2^-24; below 2^-25 the result is 0.
+    // Below 2^-14 the last bit is 2^-24.
     bool normal = float_bits >= smallest_normal;
     uint number = normal ? float_bits - difference_of_biases : (float_bits & 0x7fffffu) | 0x800000u;
     uint dropped = normal ? 13u : min(126u - (float_bits >> 23), 25u);
@@ -27,11 +27,11 @@ uint half_bits(uint float_bits)
     uint rest = number & ((1u << dropped) - 1u);
     uint half_of_last = 1u << (dropped - 1u);
     bool up = rest > half_of_last || (rest == half_of_last && (kept & 1u) == 1u);
-    // A carry goes into the exponent, and turns the largest number into infinity.
+    // A carry increments the exponent; beyond the largest number it gives infinity.
     return min(kept + (up ? 1u : 0u), HALF_INFINITY_BITS);
 }
 
-// For either sign.
+// Takes either sign.
 uint signed_half_bits(uint float_bits)
 {
     return half_bits(float_bits & ~SIGN_BIT) | ((float_bits & SIGN_BIT) >> 16u);
@@ -42,7 +42,7 @@ uint words_of_pixel(uint format)
     return format == FORMAT_R32UI ? 1u : format == FORMAT_RGBA16F ? 2u : format == FORMAT_RGBA32F ? 4u : 3u;
 }
 
-// value: three floats' bits, or a whole number in the first.
+// value: three floats' bits, or a whole number first.
 void write_pixel(uint first_word, uint format, uvec3 value)
 {
     if (format == FORMAT_R32UI) {

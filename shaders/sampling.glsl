@@ -4,14 +4,14 @@
 
 #include "maths.glsl"
 
-// About the z axis. The polar angle itself is not needed; Vulkan allows acos 4096 ulp.
+// Angles about the z axis. The polar angle itself is not needed; Vulkan allows acos 4096 ulp.
 struct SphericalAngles {
     float cos_polar;
     float sin_polar;
-    float azimuth; // in turns, [0, 1)
+    float azimuth; // turns, [0, 1)
 };
 
-// Uniform on the sphere, density 1 / (4 pi). sqrt(1 - cos^2) would cancel at the poles.
+// Density 1 / (4 pi) on the sphere. sqrt(1 - cos^2) would cancel at the poles.
 SphericalAngles uniform_spherical_angles(vec2 u)
 {
     return SphericalAngles(1.0 - 2.0 * u.x, 2.0 * sqrt(u.x * (1.0 - u.x)), u.y);
@@ -24,7 +24,7 @@ vec3 spherical_direction(SphericalAngles angles)
     return vec3(angles.sin_polar * cosine, angles.sin_polar * sine, angles.cos_polar);
 }
 
-// Uniform on the hemisphere about the unit vector axis, density 1 / (2 pi).
+// Density 1 / (2 pi) about the unit vector axis.
 vec3 uniform_hemisphere_direction(vec3 axis, vec2 u)
 {
     vec3 direction = spherical_direction(uniform_spherical_angles(u));
@@ -32,7 +32,7 @@ vec3 uniform_hemisphere_direction(vec3 axis, vec2 u)
 }
 
 // Uniform on the unit disc (Shirley and Chiu, "A Low Distortion Map Between Disk and Square", Journal of Graphics Tools
-// 2(3), 1997): the larger coordinate is the radius, the ratio gives the angle from the nearer axis.
+// 2(3), 1997).
 vec2 concentric_disc(vec2 u)
 {
     vec2 place = 2.0 * u - 1.0;
@@ -45,9 +45,8 @@ vec2 concentric_disc(vec2 u)
     return radius * sign(place) * (along_x ? vec2(cosine, sine) : vec2(sine, cosine));
 }
 
-// Turns a vector about z to the unit vector axis, by the basis of Duff et al., "Building an Orthonormal Basis,
-// Revisited" (JCGT 6(1), 2017): s = sign(z), a = -1 / (s + z), vectors (1 + s a x^2, s a x y, -s x), (a x y, s + a y^2,
-// -y), (x, y, z); q is a common term.
+// Turns z to the unit vector axis by the basis of Duff et al., "Building an Orthonormal Basis, Revisited" (JCGT 6(1),
+// 2017): s = sign(z), a = -1 / (s + z), vectors (1 + s a x^2, s a x y, -s x), (a x y, s + a y^2, -y), (x, y, z).
 vec3 rotate_to_axis(vec3 axis, vec3 v)
 {
     float s = axis.z < 0.0 ? -1.0 : 1.0;
@@ -56,33 +55,31 @@ vec3 rotate_to_axis(vec3 axis, vec3 v)
     return vec3(v.x + axis.x * along, s * v.y + axis.y * along, v.z * axis.z - q);
 }
 
-// cos_sin_polar: of the angle to axis; azimuth: in turns.
+// cos_sin_polar: to the axis; azimuth: in turns.
 vec3 direction_about(vec3 axis, vec2 cos_sin_polar, float azimuth)
 {
     return rotate_to_axis(axis, spherical_direction(SphericalAngles(cos_sin_polar.x, cos_sin_polar.y, azimuth)));
 }
 
-// Density cos(theta) / pi on a hemisphere (Malley). sqrt(1 - x^2 - y^2) would cancel near the horizon.
+// Density cos(theta) / pi (Malley). sqrt(1 - x^2 - y^2) would cancel near the horizon.
 vec2 cosine_hemisphere_cos_sin(float u)
 {
     return vec2(sqrt(1.0 - u), sqrt(u));
 }
 
-// Uses h = 1 - cos, because sqrt(h (2 - h)) does not cancel in narrow cones.
+// h = 1 - cos: sqrt(h (2 - h)) does not cancel in narrow cones.
 vec2 narrow_cos_sin(float one_minus_cos)
 {
     return vec2(1.0 - one_minus_cos, sqrt(one_minus_cos * (2.0 - one_minus_cos)));
 }
 
-// Power heuristic, exponent 2, of density a > 0 against b >= 0 (Veach 1997, chapter 9). Squares overflow only where the
-// weight is 0.
+// Exponent 2, a > 0 against b >= 0 (Veach 1997, chapter 9). Squares overflow only where the weight is 0.
 float power_heuristic(float a, float b)
 {
     float ratio = b / a;
     return 1.0 / (1.0 + ratio * ratio);
 }
 
-// The same divided by a.
 float power_heuristic_over_density(float a, float b)
 {
     float inverse = 1.0 / a;

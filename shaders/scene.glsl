@@ -16,8 +16,7 @@ layout(set = 0, binding = BINDING_SCENE_STORAGE) readonly buffer SceneStorage { 
 
 const uint SURFACE_COUNT = SPHERE_COUNT + PLANE_COUNT;
 
-// Runs a statement for each index from first to end - 1, both constants. Short loops are unrolled
-// (DevicePolicy::unrolled).
+// Runs a statement for constants first to end - 1. Short loops are unrolled (DevicePolicy::unrolled).
 #define FOR_EACH(index, first, end, statement)                                                                         \
     if ((end) > (first)) {                                                                                             \
         uint index = (first);                                                                                          \
@@ -48,8 +47,8 @@ vec4 scene_word(uint index)
     return SCENE_SOURCE == SCENE_IN_UNIFORM ? scene_uniform.words[index] : stored_word(index);
 }
 
-// The word first + index; index < count may differ between invocations. Constants have no addresses, so it is selected
-// from all. The branch never taken stops constant folding, so all scene sources round alike.
+// Word first + index; index < count may differ between invocations. Constants have no addresses, so all are compared. A
+// branch never taken stops constant folding, so all scene sources round alike.
 vec4 scene_word_among(uint first, uint count, uint index)
 {
     if (SCENE_SOURCE != SCENE_IN_CONSTANTS)
@@ -65,10 +64,10 @@ vec4 scene_word_among(uint first, uint count, uint index)
     return word;
 }
 
-// Whether surfaces share material words: in small scenes the lookup costs more than it saves.
+// Whether surfaces share material words, which is slower in small scenes.
 const bool HAS_TABLE = SCENE_SOURCE == SCENE_IN_STORAGE;
 
-// First words of the scene buffer's blocks ...
+// Blocks' first words ...
 const uint EMISSION = SURFACE_COUNT;
 const uint EMITTING_SPHERES = LAMP_COUNT + SKY_COUNT;
 const uint DIFFUSE = 2u * SURFACE_COUNT;
@@ -84,23 +83,22 @@ const uint TABLE = TREE_FRAME + 5u * TREE;
 
 #include "tree.glsl"
 
-// The storage buffer has four indices per word.
 uint stored_index(uint block, uint index)
 {
     return floatBitsToUint(stored_word(block + index / 4u)[index % 4u]) - MATERIAL_INDEX_BITS;
 }
 
-// The first word of a surface's material in the storage buffer.
+// First word in the storage buffer.
 uint material_words(uint surface)
 {
     bool in_tree = TREE == 1u && surface >= SURFACE_COUNT;
     return TABLE + (1u + GLOSS) * (in_tree ? tree_material(surface - SURFACE_COUNT) : stored_index(INDICES, surface));
 }
 
-// Lamps outside the tree come first, numbered like their surfaces.
+// Lamps outside the tree come first, numbered like surfaces.
 const uint WALKED_LAMPS = LAMP_COUNT - TREE_LAMPS;
 
-// A surface's lamp number; at least LAMP_COUNT for other surfaces.
+// The lamp's number; at least LAMP_COUNT for other surfaces.
 uint lamp_of(uint surface)
 {
     if (TREE_LAMPS == 0u)
@@ -123,7 +121,7 @@ bool may_emit(uint surface)
     return surface < WALKED_LAMPS + SKY_COUNT || (PLANES_EMIT == 1u && is_plane) || is_lamp;
 }
 
-// Radiance of a surface that may emit; its mean over channels.
+// Radiance, and its mean.
 vec4 emission_of(uint surface)
 {
     if (!HAS_TABLE)
@@ -146,7 +144,7 @@ vec4 diffuse_of(uint surface)
     return HAS_TABLE ? scene_word(material_words(surface)) : scene_word_among(DIFFUSE, SURFACE_COUNT, surface);
 }
 
-// Factor times (n + 2) / (2 pi), and the glossiness n.
+// Factor times (n + 2) / (2 pi), and glossiness n.
 vec4 specular_of(uint surface)
 {
     if (GLOSS == 0)
@@ -154,7 +152,7 @@ vec4 specular_of(uint surface)
     return HAS_TABLE ? scene_word(material_words(surface) + 1u) : scene_word_among(SPECULAR, SURFACE_COUNT, surface);
 }
 
-// A sphere at a time from 0 (shutter opens) to 1 (closes). The index is a loop's, ...
+// A sphere at a time in [0, 1], open to closed. The index is a loop's, ...
 Ball ball_at(uint sphere, float time)
 {
     return ball_from(scene_word(sphere), HAS_WAYS ? scene_word(MOTIONS + sphere) : vec4(0.0), time, KINDS);
@@ -188,19 +186,17 @@ vec4 sphere_of_lamp(uint lamp, float time)
     return ball_among(WALKED_LAMPS, lamp, time).centre_radius;
 }
 
-// Whether a lamp's surface is outside the tree.
 bool is_walked_lamp(uint surface) { return TREE_LAMPS == 0u || surface < WALKED_LAMPS; }
 
-// A point relative to a plane.
 struct Level {
     float height;    // on the side of the normal
-    vec3 gradient;   // of the height; the normal, on the plane
+    vec3 gradient;   // of the height; on the plane the normal
     float curvature;
 };
 
-// A sphere far larger than its distance is a plane of curvature k = 1 / R (shaders/README.md, section 3). With its
-// nearest point p = -offset n to the camera, outward unit normal n and y = x - p, the height is (|x - center|^2 - R^2)
-// / (2 R) = n . y + k / 2 |y|^2, with gradient n + k y. For motion by m, x - t m replaces x.
+// A sphere far larger than its distance is a plane of curvature k = 1 / R (shaders/README.md, section 3). With p =
+// -offset n its nearest point to the camera, n its outward normal there and y = x - p, the height is (|x - center|^2 -
+// R^2) / (2 R) = n . y + k / 2 |y|^2, its gradient n + k y. Motion by m replaces x by x - t m.
 Level level_of(vec4 normal_offset, vec4 curvature_motion, vec3 point, float time)
 {
     vec4 n = normal_offset;
@@ -223,7 +219,7 @@ Level level_at(uint plane, vec3 point, float time)
     return level_of(scene_word(plane), curvature, point, time);
 }
 
-// Like level_at(), for any plane.
+// level_at() for any plane.
 Level level_among(uint plane, vec3 point, float time)
 {
     uint index = plane - SPHERE_COUNT;

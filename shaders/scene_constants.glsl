@@ -1,11 +1,10 @@
-// The scene as specialization constants, for SCENE_IN_CONSTANTS. CPU drivers fold them into the code, which is much
-// faster than reading a buffer.
+// The scene as specialization constants (SCENE_IN_CONSTANTS), which CPU drivers fold into code.
 #ifndef SCENE_CONSTANTS_GLSL
 #define SCENE_CONSTANTS_GLSL
 
 #include "specialization.h"
 
-// Specialization constants are scalars with names and numbers of their own, so macros write out every one.
+// Specialization constants are scalars, each with a name and number.
 #define SCENE_FLOAT(word, component, name)                                                                             \
     layout(constant_id = CONSTANT_COUNT + 4u * uint(word) + component) const float scene_##word##name = 0.0;
 #define SCENE_WORD(word)                                                                                               \

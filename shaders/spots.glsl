@@ -1,6 +1,6 @@
 // Spots: small and far brighter than their surroundings (README.md, section 7). A glow is where a lamp is close to a
-// plane, an image is where a polished sphere or plane mirrors a lamp; lib/kernel/light_spots.h finds them. The first
-// vertex sends one ray more towards a spot (path.glsl).
+// plane; an image is where a polished surface mirrors a lamp. lib/kernel/light_spots.h finds them; path.glsl sends one
+// ray more towards a spot.
 #ifndef SPOTS_GLSL
 #define SPOTS_GLSL
 
@@ -10,7 +10,7 @@
 struct SpotWord {
     uint lamp;
     uint surface;
-    float reflectance; // mean of R, G and B
+    float reflectance; // mean over channels
     float glossiness;  // of a mirror image; negative: a glow
 };
 
@@ -27,10 +27,10 @@ vec4 plane_word(uint surface) { return scene_word_among(SPHERE_COUNT, max(PLANE_
 
 bool is_glow(SpotWord word) { return GLOSS == 0u || word.glossiness < 0.0; }
 
-// A spot as seen from a vertex.
+// Seen from a vertex.
 struct Spot {
     vec4 place;   // image: unit vector, exponent of its lobe; glow: the lamp's middle, squared height over the plane
-    float weight; // for choosing a spot; 0: cannot be seen
+    float weight; // for choosing; 0: cannot be seen
 };
 
 struct Spots {
@@ -38,7 +38,7 @@ struct Spots {
     float total_weight;
 };
 
-// By possible irradiance, less what directions find anyway. The factor is empirical.
+// Possible irradiance, less what directions find anyway. The factor is empirical.
 float spot_weight(float irradiance, float found_anyway)
 {
     return irradiance / (1.0 + 10.0 * found_anyway);
@@ -59,7 +59,7 @@ Spot view_glow(Vertex vertex, vec4 lamp, float radiance, SpotWord word)
     return Spot(vec4(lamp.xyz, squared_height), seen ? spot_weight(irradiance, squared_height * form) : 0.0);
 }
 
-// The point where a surface mirrors a lamp.
+// Where a surface mirrors a lamp.
 struct MirrorPoint {
     vec3 position;
     vec3 normal;
@@ -78,9 +78,8 @@ MirrorPoint mirror_point_of_plane(Vertex vertex, vec4 lamp, uint surface)
     return MirrorPoint(position, height > 0.0 ? plane.xyz : -plane.xyz, 0.0, height * lamp_height > 0.0);
 }
 
-// Alhazen's problem: the normal bisects the angle between the ways to the vertex, a, and to the lamp, b. Iterates from
-// a start that is right for far points (the bisector) and near ones (the ratio of heights). A remaining error costs
-// variance, not bias.
+// Alhazen's problem: the normal bisects the angle between the ways a to the vertex and b to the lamp. Iterates from a
+// start that is right for far points (bisector) and near ones (ratio of heights). An error costs variance, not bias.
 MirrorPoint mirror_point_of_sphere(Vertex vertex, vec4 lamp, uint surface, float time)
 {
     vec4 sphere = ball_of(surface, time).centre_radius;
@@ -104,7 +103,7 @@ MirrorPoint mirror_point_of_sphere(Vertex vertex, vec4 lamp, uint surface, float
     return MirrorPoint(sphere.xyz + radius * normal, normal, 1.0 / radius, exists);
 }
 
-// Narrower lobes would show the rounding of float32 directions.
+// Narrower lobes would show float32's rounding of directions.
 const float LARGEST_SPOT_EXPONENT = 1e6;
 
 Spot view_image(Vertex vertex, vec4 lamp, float radiance, SpotWord word, float time)
@@ -151,7 +150,7 @@ Spots spots_from(Vertex vertex, float time)
     return spots;
 }
 
-// The last spot of positive weight whose predecessors' sum does not exceed the number.
+// The last one of positive weight whose predecessors' sum does not exceed the number.
 uint choose_spot(Spots spots, float number)
 {
     float target = number * spots.total_weight;
@@ -167,7 +166,7 @@ uint choose_spot(Spots spots, float number)
     return chosen;
 }
 
-// Image: a lobe about it. Glow: to where a direction of cosine density, down from the lamp's middle, meets the plane.
+// Image: a lobe about it. Glow: where a direction of cosine density, down from the lamp's middle, meets the plane.
 vec3 direction_to_spot(Spots spots, uint spot, vec3 position, float time, vec2 place)
 {
     SpotWord word = spot_word(spot);
@@ -191,7 +190,7 @@ vec3 direction_to_spot(Spots spots, uint spot, vec3 position, float time, vec2 p
     return direction;
 }
 
-// Density over solid angle of directions to spots of the surface that the ray has met.
+// Density over solid angle, summed over spots of the surface that the ray met.
 float spot_density(Spots spots, Arrival arrival, float distance, float time)
 {
     float density = 0.0;

@@ -1,4 +1,4 @@
-// One step of a path, from a vertex to the next, with the light of both.
+// A path's step from a vertex to the next, with the light of both.
 #ifndef STEP_GLSL
 #define STEP_GLSL
 
@@ -9,7 +9,7 @@
 #include "tree_walk.glsl"
 #include "vertex.glsl"
 
-// The first vertex samples every lamp if they are few. Otherwise, and at later vertices, one lamp is chosen.
+// Few lamps are all sampled at the first vertex; otherwise one is chosen.
 const bool SAMPLE_LAMPS = (ESTIMATOR == ESTIMATOR_MIS || ESTIMATOR == ESTIMATOR_LIGHT) && LAMP_COUNT > 0u;
 const bool SAMPLE_EVERY_LAMP = SAMPLE_LAMPS && LAMP_COUNT <= EVERY_LAMP_LIMIT;
 
@@ -18,17 +18,17 @@ struct Path {
     vec3 throughput;
     vec3 radiance;
     uint vertex_count;
-    bool alive;        // whether the path goes on
+    bool alive;
 };
 
-// Spot kernels only: state of the current path.
-float arrival_density; // of the direction to the last vertex, times the directions that left the one before
-float departure_share; // weight of light found by the next departure; a spot's ray finds the rest
+// The current path, with spots only.
+float arrival_density; // of the direction to the last vertex, times the directions that left the vertex before
+float departure_share; // weight of light that the next departure finds; a spot's ray finds the rest
 
 Path path_from(Arrival first) { return Path(first, vec3(1.0), vec3(0.0), 1u, true); }
 
-// Weights of light that both lamp sampling and a direction may find: by multiple importance sampling, or all to the
-// lamps. Densities are multiplied by the vertex's number of such samples (Veach 1997, section 9.2.2).
+// Weights of light that lamp sampling and directions find: by multiple importance sampling, or all to lamps. Densities
+// are multiplied by the vertex's number of samples (Veach 1997, section 9.2.2).
 float lamp_weight_over_density(float lamp_density, float direction_density)
 {
     return ESTIMATOR == ESTIMATOR_LIGHT ? 1.0 / lamp_density
@@ -42,7 +42,7 @@ float direction_weight_against(float direction_density, float lamp_density)
     return power_heuristic(direction_density, lamp_density);
 }
 
-// The unweighted light of a lamp if the shadow ray is not blocked.
+// light: unweighted, for an open shadow ray.
 struct LampLight {
     ShadowRay shadow;
     vec3 light;
@@ -63,7 +63,7 @@ LampLight light_of_lamp(vec3 throughput, Vertex vertex, Material material, LampC
     return LampLight(found.shadow, light, density > 0.0 ? towards.cosine * weight : 0.0);
 }
 
-// Expected samples of the lamp; choices: of the vertex, 0: it samples every lamp once.
+// Expected samples of the lamp. choices: of the vertex; 0: every lamp once.
 float lamp_samples(LampChoice choice, float choices)
 {
     return choices > 0.0 ? choice.probability * choices : 1.0;
@@ -77,26 +77,25 @@ LampLight light_of_chosen_lamp(vec3 throughput, Vertex vertex, Material material
     return light_of_lamp(throughput, vertex, material, choice, numbers.place, samples, directions);
 }
 
-// Stratified over the branches. The sum may round up to 1.
+// Stratified over branches. The sum may round up to 1.
 float lobe_number(float number, uint branch, float directions)
 {
     return at_most((number + float(branch)) / directions, LARGEST_NUMBER);
 }
 
-// One direction from a vertex, and light of a lamp.
+// A direction, and light of a lamp.
 struct Departure {
     vec3 origin;
     vec3 direction;
-    float density;      // of the direction, times the vertex's directions
-    float strongest;    // largest component of the throughput
+    float density;      // times the vertex's directions
+    float strongest;    // component of the throughput
     bool carries_light;
-    float survival;     // random number for Russian roulette
+    float survival;     // for Russian roulette
     LampLight lamp;
-    float lamp_choices; // 0: the vertex samples every lamp
+    float lamp_choices; // 0: every lamp is sampled
 };
 
-// Applies the vertex's reflection to the throughput. The caller chooses lamp and numbers, which is faster on GPUs than
-// a branch here.
+// The caller chooses lamp and numbers: on GPUs faster than a branch here.
 Departure depart(inout Path path, Vertex vertex, Material material, LampLight lamp, float lamp_choices, vec4 numbers,
                  float directions)
 {
@@ -107,14 +106,14 @@ Departure depart(inout Path path, Vertex vertex, Material material, LampLight la
     departure.density = onwards.density * directions;
     path.throughput *= onwards.f * (departure.density > 0.0 ? onwards.cosine / departure.density : 0.0);
     departure.strongest = strongest_of(path.throughput);
-    departure.carries_light = !(departure.strongest <= 0.0); // NaN goes on, to be rejected by the film
+    departure.carries_light = !(departure.strongest <= 0.0); // NaN goes on, for the film to reject
     departure.survival = numbers.w;
     departure.lamp = lamp;
     departure.lamp_choices = lamp_choices;
     return departure;
 }
 
-// Moves the path to the hit, and adds the lamp's light unless it is blocked.
+// Applies the walk's results.
 void arrive(inout Path path, Departure departure, Lamps lamps, Hit hit, bool blocked)
 {
     float lamp_weight = departure.lamp.weight;
@@ -122,7 +121,7 @@ void arrive(inout Path path, Departure departure, Lamps lamps, Hit hit, bool blo
         lamp_weight *= departure_share;
     path.radiance += departure.lamp.light * (blocked ? 0.0 : lamp_weight);
 
-    // The hit surface's emission, weighted against lamp sampling if that could have found it.
+    // Weighted against lamp sampling, if that could find the emission.
     path.alive = hit.surface != NO_SURFACE && departure.carries_light;
     if (path.alive && may_emit(hit.surface)) {
         float weight = 1.0;
@@ -143,8 +142,8 @@ void arrive(inout Path path, Departure departure, Lamps lamps, Hit hit, bool blo
     path.arrival = Arrival(departure.origin + hit.distance * departure.direction, departure.direction, hit.surface);
     ++path.vertex_count;
 
-    // Russian roulette from the fourth vertex on, by the throughput's strongest component relative to the branch's
-    // share. The floor bounds the weight, as random numbers are multiples of 2^-24.
+    // Russian roulette from the fourth vertex on, by the strongest component relative to the branch's share. The floor
+    // bounds weights, since random numbers are multiples of 2^-24.
     if (ROULETTE && path.vertex_count >= 4u) {
         float survival = at_most(at_least(departure.strongest * float(BRANCH_COUNT), 0.05), 1.0);
         path.alive = path.alive && departure.survival < survival;
@@ -152,8 +151,8 @@ void arrive(inout Path path, Departure departure, Lamps lamps, Hit hit, bool blo
     }
 }
 
-// Whether a direction may lead to an emitting surface. hit: the first outside the tree. The last direction finds only
-// emission, so a few tests may spare a long walk.
+// Whether a direction may meet an emitting surface. hit: outside the tree. The last direction finds only emission, so a
+// few tests may save a walk.
 bool may_meet_light(Start start, vec3 direction, Hit hit, float time)
 {
     const uint few_lamps = 16u;
@@ -180,7 +179,6 @@ bool is_hidden(ShadowRay towards_lamp, Start start, float time, uint opacity_num
     return walk.blocked;
 }
 
-// Traces the departure's ray and its shadow ray.
 Walk walk_onwards(Vertex vertex, Path path, inout Departure departure, float time, uint opacity_number)
 {
     Start start = Start(vertex.position, vertex.surface, vertex.inside);
@@ -208,7 +206,7 @@ void leave(inout Path path, Vertex vertex, Material material, LampLight lamp, La
     arrive(path, departure, lamps, ahead(walk.hit), walk.blocked);
 }
 
-// Under a sky, or where planes emit, the last direction is not special, since only directions find that light.
+// The last direction is not special where it alone finds some light: under skies and emitting planes.
 Material material_to_leave(uint surface, uint vertex_count)
 {
     Material material = material_of(surface);
@@ -216,7 +214,7 @@ Material material_to_leave(uint surface, uint vertex_count)
     return SAMPLE_LAMPS && SKY_COUNT + PLANES_EMIT == 0u && last ? at_last_direction(material) : material;
 }
 
-// Moves a path on from a vertex beyond the first. as_vertex: the path length that the material assumes; begin: the
+// Moves the path on from a vertex beyond the first. as_vertex: the path length that the material assumes; begin: the
 // vertex's first block.
 void extend(inout Path path, SampleKey key, uint begin, uint as_vertex, float time)
 {

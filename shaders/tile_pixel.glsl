@@ -1,18 +1,18 @@
-// An invocation's pixel: a workgroup has a tile of the film, from a list. Uses FrameConstants frame.
+// An invocation's pixel. A workgroup has a tile of the film, from a list. Uses FrameConstants frame.
 #ifndef TILE_PIXEL_GLSL
 #define TILE_PIXEL_GLSL
 
-// Each tile's first pixel in the film.
+// Tiles' first pixels in the film.
 layout(set = 0, binding = BINDING_TILES) readonly buffer Tiles { uint first_pixels[]; } tiles;
 
 struct TilePixel {
     uint in_image;
     uint in_strip;
-    bool exists; // tiles may be cut by the image's edge and by the strip's ends
+    bool exists; // tiles may be cut by edges of image and strip
 };
 
-// Pixels before the strip wrap to huge indices and fail the test. Invocations follow Morton's curve (1966), so that
-// neighboring pixels run in step and their tree walks are alike.
+// Pixels before the strip wrap to huge indices and fail the test. Morton's curve (1966): neighboring pixels run in
+// step, and their tree walks are alike.
 TilePixel tile_pixel()
 {
     uint corner = tiles.first_pixels[frame.first_entry + gl_WorkGroupID.x];

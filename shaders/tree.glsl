@@ -1,4 +1,4 @@
-// Access to the tree buffer, laid out in gpu_layout.h.
+// The tree buffer (layout: gpu_layout.h).
 #ifndef TREE_GLSL
 #define TREE_GLSL
 
@@ -13,7 +13,7 @@ uvec4 tree_word(uint index) { return texelFetch(tree_spheres, int(index)); }
 // The scene buffer as integers.
 layout(set = 0, binding = BINDING_SCENE_STORAGE) readonly buffer SceneBits { uvec4 words[]; } scene_bits;
 
-// Components of TreeFrame.
+// TreeFrame.
 ivec3 tree_camera() { return ivec3(scene_bits.words[TREE_FRAME].xyz); }
 vec3 tree_shift() { return scene_storage.words[TREE_FRAME + 1u].xyz; }
 float tree_step() { return scene_storage.words[TREE_FRAME + 1u].w; }
@@ -25,10 +25,10 @@ uint tree_first_color() { return scene_bits.words[TREE_FRAME + 3u].z; }
 uint tree_first_lamp() { return scene_bits.words[TREE_FRAME + 3u].w; }
 float tree_shutter_time() { return scene_storage.words[TREE_FRAME + 4u].x; }
 
-// Grid coordinates of the center, and the radius's bits.
+// Grid coordinates of the center; radius bits.
 uvec4 tree_sphere_word(uint place) { return tree_word(place); }
 
-// word: the sphere's. Relative to a grid point (base) and an offset in steps (rest).
+// Relative to a grid point (base) and an offset in steps (rest).
 Ball tree_ball_from(uvec4 word, ivec3 base, vec3 rest, uint place, float time)
 {
     vec3 centre = (vec3(ivec3(word.xyz) - base) - rest) * tree_step();
@@ -50,7 +50,7 @@ uint tree_surface(uint place)
     return tree_word(tree_first_surface() + place / 4u)[place % 4u];
 }
 
-// The lamp's number in the tree; at least TREE_LAMPS for other spheres.
+// The lamp's number; at least TREE_LAMPS for other spheres.
 uint tree_lamp(uint place)
 {
     uint word = tree_surface(place);
@@ -59,7 +59,7 @@ uint tree_lamp(uint place)
 
 uint tree_lamp_place(uint lamp) { return tree_word(tree_first_lamp() + lamp).x; }
 
-// The index of the material in the table.
+// Index in the table.
 uint tree_material(uint place)
 {
     uint word = tree_surface(place);
@@ -67,7 +67,6 @@ uint tree_material(uint place)
     return is_lamp ? tree_word(tree_first_lamp() + (word - TREE_LAMP_BIT)).y : word;
 }
 
-// The sphere's own color.
 vec3 tree_color(uint place)
 {
     uint word = tree_word(tree_first_color() + place / 4u)[place % 4u];

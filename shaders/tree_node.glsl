@@ -4,19 +4,18 @@
 
 #include "scene.glsl"
 
-// A ray on the grid. Differences from grid points are exact, so precision grows as spheres get nearer, wherever the
-// camera is.
+// A ray on the grid. Differences from grid points are exact, so precision grows near spheres, wherever the camera is.
 struct GridRay {
     ivec3 base;    // grid point next to the start
     vec3 rest;     // from base to the start, in steps
-    float advance; // of the start beyond the ray's origin
+    float advance; // from the origin to the start
     float margin;  // of boxes, in steps
-    bool is_near;  // whether the ray may reach the tree
+    bool is_near;  // may reach the tree
 };
 
-// Rays from far away start at the ball about the grid: the start's rounding, 2^-24 of the way, is then common to all
-// spheres. Boxes hold spheres exactly, but a hit is rounded as if the center moved by 2^-21 of its distance: one
-// rounding of the distance, four of dot products. The margin is four times that.
+// Rays from far away start at the ball about the grid, so the start's rounding, 2^-24 of the way, is common to all
+// spheres. A hit is rounded as if the center moved by 2^-21 of its distance (one rounding of the distance, four of dot
+// products); boxes get four times that.
 GridRay grid_ray(vec3 origin, vec3 direction)
 {
     const float reach = float(TREE_REACH);
@@ -43,7 +42,7 @@ GridRay grid_ray(vec3 origin, vec3 direction)
     return ray;
 }
 
-// 1 / direction per grid step, kept finite: components near 0 change the ray by less than the margin.
+// Grid step over direction, kept finite: components near 0 change the ray by less than the margin.
 vec3 inverse_of(vec3 direction)
 {
     const float least = 8.6736174e-19; // 2^-60
@@ -54,27 +53,27 @@ vec3 inverse_of(vec3 direction)
 
 const uint NO_NODE = ~0u;
 
-// Up to three children still to be entered, nearest first: the first child's number, never 0, above three places of two
-// bits each, the last one repeated.
+// A group holds up to three children still to be entered, nearest first: the first child's number, never 0, above three
+// places of two bits, the last one repeated.
 uint next_of(uint group) { return (group >> 6) + (group & 3u); }
 bool has_one(uint group) { return ((group ^ (group >> 2)) & 3u) == 0u; }
 uint without_next(uint group) { return (group & ~15u) | ((group >> 2) & 15u); }
 
-// Byte i of a word as 1 + byte / 256.
+// Returns 1 + byte / 256.
 float byte_as_float(uint word, uint i)
 {
     uint bits = i == 0u ? word << 15 : i == 1u ? word << 7 : i == 2u ? word >> 1 : word >> 9;
     return uintBitsToFloat((bits & 0x7f8000u) | 0x3f800000u);
 }
 
-// The part of a node that a ray enters before a distance. Distances are compared as the integers of their bits:
-// negative ones lose against 0, as they should.
+// The part of a node that a ray enters before a distance. Distances are compared as integers: negative ones lose
+// against 0, as they should.
 struct Entered {
-    uint node;   // nearest child, or NO_NODE
-    uint others; // a group, if has_others
+    uint node;   // nearest child
+    uint others; // a group
     bool has_others;
     uint first_place;
-    uint spheres;     // bit i: the ray enters the box of the sphere at first_place + i
+    uint spheres;     // bit i: the box of the sphere at first_place + i
 };
 
 struct NodeWords {
@@ -99,7 +98,7 @@ Entered enter_node(NodeWords words, GridRay ray, vec3 inverse, float before)
     uvec3 nearer = uvec3(backwards.x ? high.x : low.x, backwards.y ? high.y : low.y, backwards.z ? high.z : low.z);
     uvec3 farther = uvec3(backwards.x ? low.x : high.x, backwards.y ? low.y : high.y, backwards.z ? low.z : high.z);
 
-    // Along the ray: 256 node steps, and the corner less that, to cancel the 1 in byte_as_float().
+    // Lengths along the ray: 256 node steps, and the corner without the 1 of byte_as_float().
     uvec3 exponents = uvec3(head.w, head.w >> 5, head.w >> 10) & 31u;
     vec3 width = uintBitsToFloat((exponents + 135u) << 23) * inverse;
     vec3 corner = (vec3(ivec3(head.xyz) - ray.base) - ray.rest) * inverse - width;
@@ -110,7 +109,7 @@ Entered enter_node(NodeWords words, GridRay ray, vec3 inverse, float before)
 
     uint inner_count = (head.w >> 20) & 7u;
     uint child_count = (head.w >> 16) & 7u;
-    uint keys[TREE_WIDTH]; // per entered child node: distance, with the child's index in the two low bits
+    uint keys[TREE_WIDTH]; // of entered child nodes: distance, and the child's index in the two low bits
     uint entered = 0u;
     uint i = 0u;
     [[unroll]] do {
@@ -126,7 +125,7 @@ Entered enter_node(NodeWords words, GridRay ray, vec3 inverse, float before)
     } while (i < TREE_WIDTH);
     entered &= (1u << child_count) - 1u;
 
-    // Sorts the keys, by a network.
+    // A sorting network.
     uint a = min(keys[0], keys[1]);
     uint b = max(keys[0], keys[1]);
     uint c = min(keys[2], keys[3]);

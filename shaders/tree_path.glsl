@@ -1,24 +1,23 @@
-// Paths among the spheres of a tree, step by step. Invocations that run in step wait for the longest walk. So all walk
-// some trips, then those that are done go on with their path, branch or sample (Aila and Laine, "Understanding the
-// Efficiency of Ray Traversal on GPUs", HPG 2009, section 3.3). Samples have the values of path.glsl.
+// Paths among tree spheres, step by step. Invocations in step wait for the longest walk, so all walk some trips, then
+// finished ones go on with their path, branch or sample (Aila and Laine, "Understanding the Efficiency of Ray Traversal
+// on GPUs", HPG 2009, section 3.3). Results equal path.glsl's.
 #ifndef TREE_PATH_GLSL
 #define TREE_PATH_GLSL
 
 #include "path.glsl"
 
-// Progress of a sample, whose paths follow each other.
+// A sample whose paths follow each other.
 struct TreeSample {
     SampleKey key;
     CameraRay camera;
-    bool has_met;   // whether the camera ray has hit something
-    Arrival first;  // the camera ray's hit
-    vec3 radiance;  // of the finished paths
+    bool has_met;   // the camera ray has hit something
+    Arrival first;  // that hit
+    vec3 radiance;  // of finished paths
     uint branch;
     Path path;
 };
 
-// One per branch, or per lamp if the first vertex sends a ray to each and they are more. Departures beyond the branches
-// carry only their lamp's light, and come first.
+// One per branch, or per lamp if more. Departures beyond the branches have only their lamp's light, and come first.
 const uint FIRST_DEPARTURES = SAMPLE_EVERY_LAMP && LAMP_COUNT > BRANCH_COUNT ? LAMP_COUNT : BRANCH_COUNT;
 const uint FIRST_BRANCH = FIRST_DEPARTURES > BRANCH_COUNT ? BRANCH_COUNT : 0u;
 
@@ -40,7 +39,6 @@ Walk leave_last_vertex(inout TreeSample current, out Departure departure, out La
     Vertex vertex = vertex_at(current.path.arrival, time);
     Material material = material_to_leave(vertex.surface, current.path.vertex_count);
 
-    // The branch's own lamp, or a chosen one.
     LampLight lamp = NO_LAMP_LIGHT;
     if (SAMPLE_LAMPS) {
         lamps = lamps_from(vertex, time);
@@ -68,10 +66,9 @@ Walk leave_last_vertex(inout TreeSample current, out Departure departure, out La
     return walk_onwards(vertex, current.path, departure, time, opacity_number(key, current.path.vertex_count));
 }
 
-// Applies a finished walk. Returns whether the sample ends.
+// Returns whether the sample ends.
 bool ends_with(inout TreeSample current, Walk walk, Departure departure, Lamps lamps)
 {
-    // The camera ray's hit.
     if (!current.has_met) {
         current.has_met = true;
         if (walk.hit.surface == NO_SURFACE)
@@ -81,7 +78,6 @@ bool ends_with(inout TreeSample current, Walk walk, Departure departure, Lamps l
         return MAX_PATH_LENGTH == 1u;
     }
 
-    // A path's hit, then the next branch if the path ends.
     arrive(current.path, departure, lamps, ahead(walk.hit), walk.blocked);
     if (current.path.alive && current.path.vertex_count < MAX_PATH_LENGTH)
         return false;

@@ -1,21 +1,20 @@
-// Rays against the spheres of a tree. A walk finds the same sphere as a test of all spheres: ties are decided by the
-// spheres alone, and no box that may hold a nearer one is skipped.
+// Rays against tree spheres. The result equals a test of all spheres: ties depend on spheres alone, and no box with a
+// nearer one is skipped.
 #ifndef TREE_WALK_GLSL
 #define TREE_WALK_GLSL
 
 #include "ray_tests.glsl"
 #include "tree_node.glsl"
 
-// Rounding by 2^-24 of an advance may make a farther sphere tie with a nearer one: boxes are entered up to 2^-22 of it
+// An advance rounded by 2^-24 may make a farther sphere tie with a nearer one, so boxes are entered up to 2^-22 of it
 // beyond the hit.
 const float ADVANCE_ROUNDED = 0.99999976; // 1 - 2^-22
 
 // Sorts before every tree sphere; for surfaces outside the tree.
 const uvec4 NO_SPHERE_WORD = uvec4(0u, 0u, 0u, ~0u);
 
-// Order of spheres at equal distances, independent of the tree's shape: of concentric ones the larger, nearer from
-// outside, otherwise the lower word. The place decides only if spheres differ by motion alone; such trees have no fixed
-// shape (sphere_tree.h).
+// Order at equal distances, independent of the tree's shape: of concentric spheres the larger, else the lower word. The
+// place decides only between spheres that differ by motion; such trees have no fixed shape (sphere_tree.h).
 bool goes_before(uvec4 word, uint surface, uvec4 other_word, uint other_surface)
 {
     return word.x != other_word.x   ? word.x < other_word.x
@@ -34,7 +33,7 @@ void keep_closer_of_tree(inout Hit hit, inout uvec4 hit_word, float distance, ui
     hit_word = closer ? word : hit_word;
 }
 
-// Distance to a tree sphere, or NO_HIT. ball: relative to the ray's start.
+// Distance or NO_HIT. ball: relative to the ray's start.
 float distance_in_tree(Start start, GridRay ray, vec3 direction, uint surface, Ball ball, float time)
 {
     bool leaving = surface == start.surface;
@@ -44,15 +43,14 @@ float distance_in_tree(Start start, GridRay ray, vec3 direction, uint surface, B
         return ray.advance + distance_from_outside(to_centre, ball.centre_radius.w, direction, leaving);
     }
     vec3 from_side = KNOWN_SIDES == 1 ? tree_ball(surface - SURFACE_COUNT, time).centre_radius.xyz : to_first;
-    // A vertex is off by 2^-22 of its distance at most. 16 more steps of the grid hold the sticks of an atom, which are
-    // set apart by one each (lib/tree/coincident_spheres.h).
+    // A vertex is off by 2^-22 of its distance at most. An atom's sticks, one step apart, are within 16 steps
+    // (lib/tree/coincident_spheres.h).
     float rounding = 2.3841858e-7 * dot(abs(start.origin), vec3(1.0)) + 16.0 * tree_step();
     return ray.advance +
            ball_distance(ball, to_first, from_side, direction, leaving, start.inside, rounding, TREE_KINDS);
 }
 
-// Whether the sphere blocks the shadow ray. distance: where the ray meets it. A lamp outside the tree sorts before all
-// tree spheres.
+// distance: where the shadow ray meets the sphere. A lamp outside the tree sorts before tree spheres.
 bool blocks_in_tree(Start start, GridRay ray, ShadowRay shadow, vec3 direction, float distance, uint surface,
                     uvec4 word, Ball ball)
 {
@@ -66,7 +64,7 @@ bool blocks_in_tree(Start start, GridRay ray, ShadowRay shadow, vec3 direction, 
     return ball_blocks(ball, ball.centre_radius.xyz, direction, at_end, shadow.distance - ray.advance, TREE_KINDS);
 }
 
-// See ended_as_met() in ray_tests.glsl.
+// See ended_as_met().
 ShadowRay ended_as_met_in_tree(ShadowRay shadow, Start start, float time)
 {
     if (CLOSE_LAMPS == 1 && TREE_LAMPS > 0u && shadow.distance > 0.0 && shadow.lamp >= SURFACE_COUNT) {
@@ -79,14 +77,14 @@ ShadowRay ended_as_met_in_tree(ShadowRay shadow, Start start, float time)
     return shadow;
 }
 
-// The shadow ray of a vertex, if any, then the path's ray, if followed. One walk for both: where invocations run in
-// step and the shadow ray ends early, the path's ray goes on at once.
+// The vertex's shadow ray, if any, then the path's ray, if followed: an invocation whose shadow ray ends early turns to
+// its path's ray at once.
 struct Walk {
     Start start;
     vec3 direction;
     ShadowRay shadow;
     float time;
-    uint opacity_number; // see dimensions.glsl
+    uint opacity_number;
     Hit hit;      // starts with the closest surface outside the tree
     bool blocked; // starts with surfaces outside the tree
     uvec4 hit_word;
@@ -95,29 +93,29 @@ struct Walk {
     vec3 path_inverse;
     vec3 shadow_inverse;
     bool follows_path;
-    bool seeks_light; // seeks nothing but light: without lamps in the tree, any sphere ends the ray
+    bool seeks_light; // needs emission only: without lamps in the tree any of its spheres ends the ray
     bool in_shadow;
-    uint node;        // to enter next, or NO_NODE
-    uint first_place; // child spheres of the last node; `spheres` marks those still to be tested
+    uint node;        // to be entered next
+    uint first_place; // of the last node's child spheres; `spheres` marks those to be tested
     uint spheres;
     int height; // of the stack, or ENDED
     bool done;
 };
 
-// Whether all invocations execute all branches, as on lavapipe; every walk is then ended.
+// Whether all invocations execute all branches, as on lavapipe; then each walk is ended.
 const bool IN_STEP = WALK_TRIPS == 0u;
 
-// Groups still to be entered, outside Walk because functions copy arguments. IN_STEP they are in registers, the last
-// first: lavapipe accesses arrays one invocation at a time where indices differ. Otherwise each is at its height.
+// Groups to be entered. Outside Walk, because functions copy arguments. IN_STEP they are in registers, the last first,
+// because lavapipe accesses arrays one invocation at a time; otherwise each is at its height.
 const uint STACK_SIZE = TREE_LEVELS > 0u ? TREE_LEVELS : 1u;
 uint walk_stack[STACK_SIZE];
 
-// The height of a finished walk. Not `done`: a driver may cut the loop while the compiler assumes that it ended.
+// Not `done`: a driver may cut the loop while the compiler assumes that it ended.
 const int ENDED = -1;
 
 const uint ROOT = 0u;
 
-// hit and blocked: of surfaces outside the tree. Without a tree the walk ends here.
+// hit and blocked: outside the tree. Without a tree the walk ends here.
 Walk walk_from(Start start, vec3 direction, bool is_followed, ShadowRay shadow, float time, uint opacity_number,
                Hit hit, bool blocked)
 {
@@ -148,7 +146,7 @@ Walk walk_from(Start start, vec3 direction, bool is_followed, ShadowRay shadow, 
     return walk;
 }
 
-// Pushes a group or takes the next node of the top one; the stack moves along in registers.
+// Pushes a group or takes a node of the top one; all registers move.
 void keep_or_take(inout Walk walk, bool keeps, uint group)
 {
     uint last = walk_stack[0];
@@ -190,7 +188,7 @@ GridRay ray_of(Walk walk, bool in_shadow)
     return ray;
 }
 
-// Enters the walk's node, up to the nearest hit so far.
+// Enters the node up to the nearest hit so far.
 Entered enter(Walk walk, NodeWords words, GridRay ray, bool in_shadow)
 {
     vec3 inverse = in_shadow ? walk.shadow_inverse : walk.path_inverse;
@@ -198,7 +196,6 @@ Entered enter(Walk walk, NodeWords words, GridRay ray, bool in_shadow)
     return enter_node(words, ray, inverse, before - ray.advance * ADVANCE_ROUNDED);
 }
 
-// Takes the next sphere to be tested.
 uint next_place(inout Walk walk)
 {
     uint place = walk.first_place + uint(findLSB(walk.spheres));
@@ -208,9 +205,8 @@ uint next_place(inout Walk walk)
 
 bool is_in_tree(uint surface) { return surface >= SURFACE_COUNT && surface != NO_SURFACE; }
 
-// An odd hash of a sphere's word in grid steps, so independent of scale. No two spheres share a word
-// (lib/tree/coincident_spheres.h). Ends like lowbias32 (Wellons, "Prospecting for hash functions", 2018), where each
-// input bit flips half of the output.
+// An odd hash of a sphere's word in grid steps, so independent of scale. Words differ (lib/tree/coincident_spheres.h).
+// Ends like lowbias32 (Wellons, "Prospecting for hash functions", 2018), where each input bit flips half of the output.
 uint opacity_generator(uvec4 word)
 {
     uint radius = word.w - floatBitsToUint(tree_step());
@@ -221,15 +217,14 @@ uint opacity_generator(uvec4 word)
     return hash ^ (hash >> 16u) | 1u;
 }
 
-// Whether a ray passes a sphere, at random (Enderton et al. 2010, "Stochastic transparency"), but as a function of
-// sphere and ray number, so that neither the order of tests nor the split of samples matters. Spheres, and rays of a
-// path, decide independently. See opacity_number().
+// Whether a ray passes a sphere, at random (Enderton et al. 2010, "Stochastic transparency"). Depends on sphere and
+// ray number alone, so neither the order of tests nor the split of samples matters. See opacity_number().
 bool passes(uvec4 word, uint opacity_number)
 {
     if (TREE_OPACITY == 0)
         return false;
     uint number = opacity_generator(word) * opacity_number;
-    const float steps = float(TREE_OPACITY_STEPS) / 16777216.0; // of 24 bits, exact in a float
+    const float steps = float(TREE_OPACITY_STEPS) / 16777216.0; // exact in a float
     return float(number >> 8u) * steps >= float(word.w & TREE_OPACITY_STEPS);
 }
 
@@ -247,8 +242,8 @@ void test_sphere(inout Walk walk, bool exists, uint place, uvec4 word, GridRay r
     keep_closer_of_tree(walk.hit, walk.hit_word, meets && !in_shadow ? distance : NO_HIT, surface, word);
 }
 
-// At most a node and a sphere. IN_STEP the sphere is of an earlier node and tested last, so that neither waits for the
-// other. Both are fetched together, since lavapipe 22.3 spills registers around each fetch.
+// Takes a node and a sphere at most. The sphere is of an earlier node, so that neither waits for the other. Both are
+// fetched together, since lavapipe 22.3 spills registers around each fetch.
 void trip_in_step(inout Walk walk, bool in_shadow)
 {
     bool tests = walk.spheres != 0u;
@@ -265,7 +260,7 @@ void trip_in_step(inout Walk walk, bool in_shadow)
     test_sphere(walk, tests, place, word, ray, in_shadow);
 }
 
-// Taking a node before the sphere's test would be slower on GPUs.
+// Taking a node before the sphere's test is slower on GPUs.
 void trip(inout Walk walk, bool in_shadow)
 {
     GridRay ray = ray_of(walk, in_shadow);
@@ -285,7 +280,7 @@ void trip(inout Walk walk, bool in_shadow)
         take(walk);
 }
 
-// Continues until the walk is done or, unless IN_STEP, for most_trips. has_shadow: false if no shadow ray is possible.
+// Continues until the walk is done or, unless IN_STEP, for most_trips. has_shadow: false if shadow rays are impossible.
 void go_on(inout Walk walk, uint most_trips, bool has_shadow)
 {
     uint trips = 0u;
@@ -296,7 +291,7 @@ void go_on(inout Walk walk, uint most_trips, bool has_shadow)
         else
             trip(walk, in_shadow);
 
-        // Ends this ray, and turns to the path's ray.
+        // Turns to the path's ray.
         bool ray_ends = walk.spheres == 0u && walk.node == NO_NODE;
         if (in_shadow)
             ray_ends = ray_ends || walk.blocked;
@@ -313,7 +308,7 @@ void go_on(inout Walk walk, uint most_trips, bool has_shadow)
     } while (!walk.done && (IN_STEP || trips < most_trips));
 }
 
-// Set if a driver has ended a walk early, as some limit loops: the sample is lost.
+// Set if a driver that limits loops has ended a walk early: the sample is lost.
 bool walk_was_cut = false;
 
 void finish(inout Walk walk, bool has_shadow)

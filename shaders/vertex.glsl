@@ -1,4 +1,4 @@
-// The point of a surface that a path has reached.
+// A point of a path on a surface.
 #ifndef VERTEX_GLSL
 #define VERTEX_GLSL
 
@@ -6,21 +6,20 @@
 
 struct Vertex {
     vec3 position;
-    vec3 normal; // unit, on the side that the path came from
-    vec3 mirror; // unit direction of a mirror's reflection
+    vec3 normal; // unit, on the path's side
+    vec3 mirror; // unit direction of mirror reflection
     uint surface;
-    bool inside; // of the sphere; for a plane, behind its normal
+    bool inside; // of the sphere; behind a plane's normal
 };
 
-// A ray's hit.
 struct Arrival {
     vec3 point;     // off the surface by the distance's rounding
-    vec3 direction; // of the ray, a unit vector
+    vec3 direction; // unit vector of the ray
     uint surface;
 };
 
-// Moves the hit onto the surface: the distance's rounding puts it off along the ray, up to thousands of times farther
-// than a point's own rounding.
+// Moves the hit onto the surface: the distance's rounding displaces it along the ray, up to thousands of times its own
+// rounding.
 Vertex vertex_at(Arrival arrival, float time)
 {
     uint surface = arrival.surface;

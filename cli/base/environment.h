@@ -11,7 +11,7 @@ std::filesystem::path user_cache();
 // Asks llvmpipe for vectors of 512 bits, unless the user chose a width. Not while other threads run.
 void widen_vectors();
 
-// With AVX-512 only. Call before an instance is created.
+// Does so with AVX-512 only. Call before an instance is created.
 void choose_vector_width();
 
 } // namespace cli

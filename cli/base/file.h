@@ -83,7 +83,7 @@ private:
 void check_report_file(const std::string &path);
 void write_report_file(const std::string &path, std::string_view text);
 
-// On stderr if standard output is taken.
+// Uses stderr if standard output is taken.
 void print_for_people(const std::string &lines, bool standard_output_is_taken);
 
 Failure unreadable(const std::string &path, const platform::InputError &error);

@@ -32,7 +32,7 @@ public:
         part_end_ = end;
     }
 
-    // On a terminal, after a tenth of a second.
+    // Shows the share on a terminal after a tenth of a second.
     void update_scene(double share, Clock::time_point now);
 
     // Prints at most ten times a second, and at the end. The percentage never falls.

@@ -210,7 +210,7 @@ void write_film_file(const std::string &path, std::span<const std::byte> film) {
     file.commit();
 }
 
-// Of other files the first bytes suffice for a refusal.
+// The first bytes of another file suffice for a refusal.
 std::vector<std::byte> read_film_file(const std::string &path) {
     return read_file(path, [&](platform::InputFile &file) {
         constexpr std::string_view packed = "\x28\xb5\x2f\xfd";

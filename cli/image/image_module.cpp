@@ -115,7 +115,7 @@ bool write_layers(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec, const 
     return true;
 }
 
-// In memory, because OpenImageIO ignores failures of closing a file, as on a full disk.
+// Encodes in memory, because OpenImageIO ignores failures of closing a file, as on a full disk.
 std::vector<unsigned char> encode(const ImageData &image, const char *extension) {
     const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(std::string("image.") + extension);
     if (!output)

@@ -18,7 +18,7 @@
 
 namespace cli {
 
-// In pixels, from the top left.
+// Pixels, from the top left.
 struct Rectangle {
     std::uint32_t x;
     std::uint32_t y;
@@ -68,7 +68,7 @@ struct ImageAttribute {
     std::variant<std::string, std::int32_t, double> value; // float32 in a file
 };
 
-// For PNG and JPEG.
+// The text for PNG and JPEG.
 inline std::string attribute_text(const ImageAttribute &attribute) {
     if (const auto *text = std::get_if<std::string>(&attribute.value))
         return *text;

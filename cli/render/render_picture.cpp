@@ -68,7 +68,7 @@ std::string ending_of(const RenderReport &report, const ImageRender::Result &ren
     return interrupted ? "signal" : rendered.ended_by.value_or(report.target_reached() ? "error" : "samples");
 }
 
-// Without a signal. A missing file outweighs missing samples, which a checkpoint can supply.
+// The outcome without a signal. A missing file outweighs missing samples, which a checkpoint can supply.
 ExitCode outcome_of(const RenderReport &report, const ImageRender::Result &rendered, bool all_written) {
     if (!all_written)
         return ExitCode::file;
@@ -127,8 +127,8 @@ RenderedImage denoised_halves(const RenderOptions &options, const RenderedImage 
     return image;
 }
 
-// With stopping rules both halves grow by a half in each round, as in the Python package. Denoising each round gives
-// its error. A stop leaves the last round's picture.
+// Both halves grow by a half in each round if a rule may end the rendering, as in the Python package. Denoising each
+// round gives its error. A stop leaves the last round's picture.
 ImageRender::Result render_halves(const RenderTask &task, ImageRender &render, const Stop &stop) {
     constexpr double growth = 1.5;
     const Clock::time_point start = Clock::now();

@@ -38,7 +38,7 @@ struct RenderReport {
     bool target_reached() const { return target_error > 0.0 && error.relative_rmse_high <= target_error; }
 };
 
-// Without times and the scene's name.
+// Has no times and no name of the scene.
 RenderReport film_report(const FilmHandle &film);
 
 nlohmann::ordered_json stats_json(const RenderReport &report);

@@ -30,7 +30,7 @@ struct RenderTask {
 // Throws Failure if the images exceed the memory of any process here.
 void require_host_memory(const RenderTask &task);
 
-// In bytes.
+// Bytes of the images in memory.
 std::uint64_t image_bytes(const RenderTask &task);
 
 // Throws the library's refusal of an argument, blaming the option or the place in the file that set it.

@@ -11,7 +11,7 @@
 
 namespace cli {
 
-// With subfolders. Empty without a name.
+// Subfolders included. Empty without a name.
 std::set<std::filesystem::path> shader_files(const std::filesystem::path &shader_dir);
 
 // Empty contents: a missing file.

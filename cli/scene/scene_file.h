@@ -21,7 +21,7 @@
 
 namespace cli {
 
-// From (0, 0, 1) to the origin.
+// Looks from (0, 0, 1) to the origin.
 constexpr pt_camera default_camera() {
     auto camera = sized<pt_camera>();
     camera.position[2] = 1.0;

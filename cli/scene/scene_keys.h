@@ -53,7 +53,7 @@ struct SceneSection {
     bool may_move() const { return form != SectionForm::members || name == "camera"; }
 };
 
-// Without `animation`, whose keys are paths.
+// Omits `animation`, whose keys are paths.
 std::span<const SceneSection> scene_sections();
 
 const SceneSection *find_section(std::string_view name);

@@ -58,7 +58,7 @@ struct SphereColumns {
     pt_sphere_array spheres() const; // points into this object
 };
 
-// In order of the scene.
+// Paths in the scene's order.
 std::vector<std::string> column_paths(const SceneFile &scene);
 
 // Throws Failure: ExitCode::file if a file is unreadable, ExitCode::scene if it is unsuitable.

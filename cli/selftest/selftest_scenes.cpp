@@ -11,7 +11,7 @@
 namespace cli {
 namespace {
 
-// Of one check on a correct device; about 1e-6 for all checks.
+// Probability that one check fails on a correct device; about 1e-6 for all checks.
 constexpr double false_alarm = 1e-7;
 
 // Bernstein (Boucheron, Lugosi, Massart, Concentration Inequalities, 2013, section 2.8), solved for t: P(|error| > t)
