@@ -92,7 +92,7 @@ TEST_F(ErrorsTest, NameTheFieldOfEachStruct) {
     accumulate(1);
     const pt_accumulate_info too_many = samples(UINT32_MAX);
     render = valid_render();
-    render.first_sample = 2; // the last index would be 2^32
+    render.first_sample = 2;
     ASSERT_EQ(pt_set_render(context(), &render), PT_OK);
     expect_rule(pt_accumulate(context(), &too_many), "accumulate", -1, "sample_count", -1);
     accumulate(1);
@@ -148,7 +148,7 @@ TEST_F(ErrorsTest, StayAsLongAsTheMessage) {
     set_all();
     EXPECT_LT(pt_set_camera(context(), nullptr), PT_OK);
     const pt_broken_rule before = rule_of(context(), 0);
-    set_all(); // success leaves the last error
+    set_all();
     EXPECT_STREQ(before.subject, "camera");
     EXPECT_EQ(rule_of(context(), 0).subject, before.subject);
     std::vector<float> pixels(width * height * 3);

@@ -43,7 +43,6 @@ std::vector<uint32_t> misread_sizes(const T &value, const Call &call) {
     return misread;
 }
 
-// A struct as compiled with newer headers.
 template <typename T>
 struct Newer {
     T known;

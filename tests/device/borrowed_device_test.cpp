@@ -29,7 +29,6 @@ using pt::vulkan::DescriptorSet;
 using pt::vulkan::Device;
 using pt::vulkan::Instance;
 
-// Records whether the queue is locked; one device at a time.
 class QueueSpy {
 public:
     explicit QueueSpy(const vk::raii::Device &device) {
@@ -97,7 +96,6 @@ protected:
         device.finish();
         EXPECT_EQ(device.film().rejected_samples(), 0U);
         device.discard_samples();
-        // Transfers that shared memory would skip.
         std::array<std::byte, 64> words{};
         Buffer buffer(device.device(), BufferUse::Storage, words.size(), "test");
         clear(device.device(), buffer);

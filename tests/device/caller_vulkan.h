@@ -88,7 +88,7 @@ private:
         const vk::DebugUtilsMessengerCreateInfoEXT messenger = messenger_info(messages);
         if (!validation())
             return context.createInstance({.pApplicationInfo = &application});
-        return context.createInstance({.pNext = &messenger, // reports creation and destruction of the instance too
+        return context.createInstance({.pNext = &messenger,
                                        .pApplicationInfo = &application,
                                        .enabledLayerCount = layers.size(),
                                        .ppEnabledLayerNames = layers.data(),

@@ -85,7 +85,6 @@ protected:
         return read(quantity);
     }
 
-    // Against sphere tracing in double.
     std::size_t wrong_pixels(const Given &seen, const Given &truth) {
         const std::vector<float> depths = first_hits(seen, PT_QUANTITY_DEPTH);
         std::vector<std::uint32_t> objects(std::size_t{picture.x} * picture.y);
@@ -240,7 +239,6 @@ TEST_F(Capsules, AreSeenInParallel) {
         covered += share / (3.0 * picture.x * picture.y);
     const double area = 2.0 * 0.5 * std::hypot(2.0, 0.5) + std::numbers::pi * 0.25;
     EXPECT_NEAR(covered, area / 24.0, 2e-3);
-    // Cosine of normal and ray, over a disc and a rectangle.
     const double facing = 2.0 / 3.0 * std::numbers::pi * 0.25 + std::numbers::pi / 4.0 * std::hypot(2.0, 0.5);
     glm::dvec3 normal(0.0);
     double albedo = 0.0;

@@ -71,7 +71,6 @@ protected:
         return values_of(from, std::size_t{picture_width} * rows, quantity);
     }
 
-    // Requires pixels at edges too.
     static void expect_that_of_radiance(pt_context *of, std::uint32_t rows = picture_height) {
         const std::vector<float> expected = read(of, PT_QUANTITY_RADIANCE, rows);
         EXPECT_EQ(read(of, PT_QUANTITY_COVERAGE, rows), expected);
@@ -81,7 +80,7 @@ protected:
 
 TEST_F(Coverage, IsThatOfTheSamplesThemselves) {
     struct Case {
-        std::uint32_t spheres; // few, or enough for a tree
+        std::uint32_t spheres;
         double motion;
         std::uint32_t sampler;
         double aperture = 0.0;
@@ -101,7 +100,6 @@ TEST_F(Coverage, IsThatOfTheSamplesThemselves) {
     }
 }
 
-// More samples than a table of points holds.
 TEST_F(Coverage, OfManySamplesIsTakenInParts) {
     const Context hurried = create_context([](pt_create_info &info) { info.submit_milliseconds = 1; });
     ASSERT_TRUE(hurried);

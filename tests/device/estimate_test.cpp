@@ -29,7 +29,7 @@ public:
         for (std::uint32_t i = 0; i < width * height; ++i) {
             const bool lit = (i % width * 3 + i / width * 2) % 61 > 20;
             const bool firefly = uniform_(generator_) < 0.004;
-            const bool half_lit = uniform_(generator_) < 0.03; // in one part alone, as at an edge
+            const bool half_lit = uniform_(generator_) < 0.03;
             const double level = lit ? 0.4 + 0.3 * std::sin(0.05 * (i % width)) : 0.0;
             for (std::uint32_t part = 0; part < pt::gpu::FILM_PARTS; ++part) {
                 const double noise = 1.0 + 0.2 * (uniform_(generator_) - 0.5);
@@ -196,7 +196,6 @@ TEST_F(EstimateTest, SamplesThatATileLostAreAnError) {
     EXPECT_NO_THROW(reader.read({1.0, samples, squares}, [](const auto &) {}));
 }
 
-// One sample missing or too many in any pixel.
 TEST_F(EstimateTest, SamplesThatAPixelLostAreAnErrorOnTheHost) {
     Films films;
     pt::PixelSums sums = films.film(45, 21);

@@ -53,7 +53,7 @@ constexpr uint32_t mean_samples = 48;
 
 struct Means {
     Estimate whole;
-    Estimate glossy_part; // right of the glossy ball, below the horizon
+    Estimate glossy_part;
 };
 
 Means means_of(const Batches &batches) {

@@ -21,7 +21,7 @@
 
 namespace api {
 
-using Outcomes = std::map<std::string, std::string>; // result and message by call
+using Outcomes = std::map<std::string, std::string>;
 
 inline Outcomes outcomes_of_every_call(pt_context *context) {
     const pt_scene scene = valid_scene();

@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <utility>
 
-// Compares a * 2^shift with b: -1, 0 or 1.
 inline int compare_shifted(pt::WideSum a, int shift, pt::WideSum b) {
     if (shift < 0)
         return -compare_shifted(b, -shift, a);

@@ -90,7 +90,6 @@ protected:
         return static_cast<uint32_t>(most);
     }
 
-    // Pieces, none of which fills a dispatch, against one submission.
     void expect_same_in_pieces(const Paths &paths, uint32_t sample_count) {
         const uint64_t submissions = stats().submit_count;
         const Image at_once = small_image_of(paths, {sample_count});
@@ -145,7 +144,6 @@ TEST_F(ExactnessTest, TheTargetErrorIsReachedAtTheFirstCheckThatSaysSo) {
     EXPECT_GT(error().relative_rmse_high, target);
 }
 
-// The target is out of reach, or reached with the last sample.
 TEST_F(ExactnessTest, SamplesMayRunOutBeforeTheTargetErrorIsReached) {
     set_up_coursework(context(), 3);
     for (const double target : {1e-9, 1e9}) {
@@ -174,7 +172,6 @@ TEST_F(ExactnessTest, StandardErrorsAreThoseOfTheFilmsParts) {
         readback(image);
         return image;
     };
-    // Largest deviation over its rounding bound.
     const auto deviation = [&](const Image &found, const Image &older, const Image &newer, double a, double b) {
         double worst = 0.0;
         for (std::size_t i = 0; i < found.size(); ++i) {

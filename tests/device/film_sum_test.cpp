@@ -82,7 +82,6 @@ private:
     std::mt19937 generator_{2026};
 };
 
-// Some rows and pixels; the target is not empty.
 TEST_F(FilmSumTest, IsThatOfTheHost) {
     add_films();
     const pt::vulkan::ComputePipeline add = pipeline();

@@ -24,7 +24,6 @@ __extension__ using Wide = unsigned __int128;
 constexpr std::uint32_t pixels = 1000;
 constexpr std::uint32_t per_pixel = 40;
 
-// Both steps are exact in double.
 Wide multiple_of_2_to_minus_60(float value) {
     return static_cast<Wide>(std::nearbyint(std::ldexp(double{value}, 60)));
 }
@@ -66,7 +65,6 @@ std::uint32_t word(const std::vector<std::uint32_t> &film, std::size_t plane, st
     return film[(pt::gpu::FILM_WORDS + plane) * pixels + pixel];
 }
 
-// The first part must not change.
 TEST(Film, DeviceSumsAreExact) {
     struct {
         std::uint32_t per_pixel, count, film_part;
@@ -238,7 +236,6 @@ TEST(Film, SumsThatNoSamplesHaveAreSeen) {
 
 using FilmStrips = VulkanFixture;
 
-// Plane i holds 100 i + p at pixel p.
 TEST_F(FilmStrips, AreReadAsOne) {
     constexpr std::uint32_t film_pixels = 16;
     pt::DeviceFilm film(device(), 4, 4, 6);

@@ -46,7 +46,7 @@ struct Counts {
     std::uint32_t pixels = 0;
     std::uint32_t certain = 0;
     std::uint32_t spheres = 0;
-    std::uint32_t means = 0; // of every eighth pixel that float32 decides
+    std::uint32_t means = 0;
 };
 
 glm::dvec3 albedo_of(const Given &given, std::uint32_t object) {
@@ -61,7 +61,6 @@ glm::dvec3 albedo_of(const Given &given, std::uint32_t object) {
     return albedo;
 }
 
-// Over a pixel's rays; empty if a ray is undecided.
 struct Means {
     Vector normal{0.0L};
     Real normal_tolerance = 0.0L;
@@ -182,13 +181,13 @@ public:
                                        {material.emission.r, 0, 0},
                                        0,
                                        0});
-        given.materials[1].specular[0] = 0.5F; // above 1 in red with the diffuse share
+        given.materials[1].specular[0] = 0.5F;
         if (chance(0.3))
             given.materials[2].flags = PT_MATERIAL_HIDDEN_FROM_CAMERA;
         given.spheres = caller_spheres(scene.spheres);
         for (const pt::Plane &plane : scene.planes)
             given.planes.push_back({{plane.normal.x, plane.normal.y, plane.normal.z}, plane.offset, 1, 0});
-        if (chance(0.4)) // a sky; in the tree unless far away
+        if (chance(0.4))
             given.spheres.push_back({{0, 0, 0}, decades(0.8, 3), {0, 0, 0}, 1, 0});
         set_camera(given);
         return given;
@@ -271,7 +270,7 @@ TEST_F(RandomFirstHit, OfALatticeInASkyIsThatOfAList) {
     for (int i = 0; i < 125; ++i)
         shot.spheres.push_back(
             {{0.5 * (i % 5) - 1, 0.5 * (i / 5 % 5) - 1, 0.5 * (i / 25) - 1}, 0.125, {0, 0, 0}, 0, 0});
-    for (const double sky : {16.0, 128.0}) // in the tree, and too large for it
+    for (const double sky : {16.0, 128.0})
         for (const double narrowness : {1.0, 0.25, 0.05, 1e-3, 1e-6})
             for (const bool is_parallel : {false, true}) {
                 SCOPED_TRACE(std::to_string(sky) + ", " + std::to_string(narrowness) +

@@ -88,7 +88,6 @@ TEST_F(FirstHit, RectanglesRowsAndDevicesAgree) {
         EXPECT_EQ(read(shared.get(), quantity), all);
         EXPECT_EQ(read(hurried.get(), quantity), all);
     }
-    // Half floats keep the signs of normals.
     const std::vector<float> normal = read(context(), PT_QUANTITY_NORMAL);
     std::vector<std::uint16_t> halves(normal.size() / 3 * 4);
     target = {};
@@ -116,7 +115,6 @@ TEST_F(FirstHit, RectanglesRowsAndDevicesAgree) {
                                    std::span(all_objects).subspan(std::size_t{9} * picture_width, 7 * picture_width)));
 }
 
-// First hits take no sample and change none.
 TEST_F(FirstHit, IsNothingToSamples) {
     for (const Given &given : {coursework(), many(true)}) {
         const Context without = create_context();

@@ -11,7 +11,6 @@ public:
     Gate(const Gate &) = delete;
     Gate &operator=(const Gate &) = delete;
 
-    // Commands recorded afterwards wait for open().
     void record(const vk::raii::CommandBuffer &commands) const {
         commands.waitEvents(*event_, vk::PipelineStageFlagBits::eHost, vk::PipelineStageFlagBits::eComputeShader, {},
                             {}, {});

@@ -93,7 +93,6 @@ std::vector<Hiding> closed_scenes() {
     between_planes.spheres = {ball(0, 0, -9, 1, shining), ball(1.5, 0, -9, 0.75, shining)};
     between_planes.planes = {{{0, 0, 1}, 6, shining + hidden, 0}, {{0, 0, 1}, 12, shining + hidden, 0}};
 
-    // The camera is above one globe, which holds the ball, and inside another.
     Hiding &globes = add("globes");
     globes.spheres = {ball(0, 0, -9, 1, shining), ball(0, 0, -1e7 - 5, 1e7, shining + hidden),
                       ball(0, 0, -1e7 + 3, 1e7, shining + hidden)};
@@ -208,11 +207,11 @@ TEST_F(HiddenFromCamera, BlackSurfacesKeepLightOut) {
         for (pt_sphere &sphere : open.spheres)
             sphere.radius *= sphere.material == black + hidden ? 1e-3 : 1.0;
         for (pt_plane &plane : open.planes)
-            plane.offset = -1e6; // behind the camera and the lamps
+            plane.offset = -1e6;
         const std::vector<float> lit = image_of(open, render, 8);
         double light = 0.0;
         for (std::size_t i = 0; i < image.size(); ++i)
-            if (covered[i] > 0.0F && lit[i] < 4.0F) { // the lamp itself may be in view
+            if (covered[i] > 0.0F && lit[i] < 4.0F) {
                 ASSERT_EQ(image[i], 0.0F) << "at " << i;
                 light += static_cast<double>(lit[i]);
             }

@@ -18,7 +18,6 @@ namespace {
 constexpr std::uint32_t fold_width = 16;
 constexpr std::uint32_t fold_height = 12;
 
-// Rarely used words are 0.
 pt::PixelSums random_sums() {
     std::mt19937 random(5);
     pt::PixelSums sums;
@@ -32,7 +31,6 @@ pt::PixelSums random_sums() {
     return sums;
 }
 
-// Strips are cut within rows.
 class HostFold : public VulkanFixture {
 protected:
     void SetUp() override {

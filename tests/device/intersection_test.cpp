@@ -46,7 +46,7 @@ std::vector<Met> follow(const Ball &ball, const std::vector<Ray> &rays, Held hel
     scene.materials = {{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0}};
     scene.spheres = {{ball.center, ball.radius, {held == Held::ByItsCenter ? ball.radius : 0.0, 0, 0}, 0}};
     const pt::Camera camera{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0.0, 1.0};
-    const pt::PreparedScene prepared(scene); // without the check that refuses such motion
+    const pt::PreparedScene prepared(scene);
     const pt::GpuScene gpu_scene = pt::gpu_scene({pt::seen_scene(scene, camera), false, false}, prepared, camera,
                                                  {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4});
     const auto count = static_cast<std::uint32_t>(rays.size());
@@ -164,7 +164,6 @@ private:
     std::mt19937 engine_;
 };
 
-// Tilted, so that no component is exact.
 Ball under_the_camera(double radius, double height) {
     return {-(radius + height) * glm::normalize(glm::dvec3(0.1, 1.0, -0.2)), radius};
 }
@@ -200,7 +199,6 @@ TEST(Intersection, TheSameBoundFailsForHugeSpheresHeldByTheirCenter) {
     EXPECT_GT(worst.position, 100.0);
 }
 
-// From up to five radii away.
 TEST(Intersection, CurvedPlanesAreMetFromFarAway) {
     RandomRays random(2);
     const Ball ball = under_the_camera(1e3, 1.5);

@@ -142,7 +142,7 @@ TEST_F(KeptKernelsApiTest, AreKeptUnderOneKeyAndGivenBack) {
     EXPECT_EQ(rendered(second.get(), 3), rendered(context(), 3));
     pt_device_info device{};
     ASSERT_EQ(pt_get_context_device(second.get(), &device), PT_OK);
-    if (device.kind == PT_DEVICE_CPU) { // lavapipe adds nothing; other drivers may
+    if (device.kind == PT_DEVICE_CPU) {
         EXPECT_EQ(again.stores.size(), 0U) << "what is kept already";
     }
 }
@@ -160,7 +160,7 @@ TEST_F(KeptKernelsApiTest, DamagedAndForeignOnesAreLeftAlone) {
         ASSERT_NO_FATAL_FAILURE(api::set_all(first.get()));
         rendered(first.get(), 1);
     }
-    ASSERT_GE(keeper.stores.size(), 1U); // GPUs build kernels for images too
+    ASSERT_GE(keeper.stores.size(), 1U);
     EXPECT_TRUE(loads_quietly());
     Kept &bytes = keeper.kept.begin()->second;
     const Kept whole = bytes;

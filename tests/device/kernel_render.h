@@ -61,7 +61,6 @@ public:
         return film_by(probe);
     }
 
-    // Specialised by the driver; ten times slower to build.
     FilmWords film_by_driver(std::uint32_t source) const {
         const auto values = with_scene_source(constants(), source, words());
         Probe probe(pt::embedded_code().pathtrace, sizeof frame_, values);
@@ -104,7 +103,6 @@ public:
     // Empty without a tree.
     std::vector<glm::uvec4> &tree() { return tree_; }
 
-    // Throws if samples are lost.
     std::vector<float> radiance(const FilmWords &film) const {
         const pt::PixelSums sums = sums_of(film, width * height);
         for (std::size_t pixel = 0; pixel < sums.pixel_count(); ++pixel)

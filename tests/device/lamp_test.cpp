@@ -20,7 +20,6 @@ struct Lamp {
     float radiance;
 };
 
-// First one for each lamp, then the samples.
 struct Drawn {
     glm::vec3 direction;
     float distance;
@@ -60,10 +59,9 @@ std::vector<Drawn> draw(const std::vector<Lamp> &lamps, const Viewpoint &from, s
 }
 
 const std::vector<Lamp> uneven_lamps = {
-    {{0.5F, 3.0F, -1.0F}, 1.0F, 2.0F},       {{4.0F, -0.3F, 2.0F}, 0.8F, 30.0F}, // center below the horizon
-    {{-300.0F, 500.0F, 200.0F}, 0.5F, 1e6F},                                     // r / d = 8e-4
-    {{-0.6F, 0.55F, 0.5F}, 0.9F, 0.01F},                                         // surface 0.05 away
-    {{0.0F, -5.0F, 0.0F}, 2.0F, 1e8F},                                           // wholly below the horizon
+    {{0.5F, 3.0F, -1.0F}, 1.0F, 2.0F},       {{4.0F, -0.3F, 2.0F}, 0.8F, 30.0F},  // center below the horizon
+    {{-300.0F, 500.0F, 200.0F}, 0.5F, 1e6F}, {{-0.6F, 0.55F, 0.5F}, 0.9F, 0.01F}, // surface 0.05 away
+    {{0.0F, -5.0F, 0.0F}, 2.0F, 1e8F},                                            // wholly below the horizon
     {{-3.0F, 1.0F, 4.0F}, 0.02F, 5000.0F},   {{1.0F, 0.2F, -0.5F}, 0.1F, 1e-4F},
 };
 constexpr std::size_t below_horizon = 4;

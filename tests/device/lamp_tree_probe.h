@@ -35,7 +35,6 @@ public:
         probe_.set_scene(scene.words);
     }
 
-    // The lamps' choice_of(), then `count` draws.
     std::vector<TreeDrawn> draw(const TreeVertex &vertex, std::uint32_t count, std::uint32_t seed = 1) {
         const Push push{glm::vec4(vertex.position, 0), glm::vec4(vertex.normal, vertex.time), vertex.surface, seed,
                         lamp_count_ + count};

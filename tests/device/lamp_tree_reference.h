@@ -114,7 +114,6 @@ private:
     std::uint32_t top_ = 0;
 };
 
-// By shaders/README.md, from the lamps themselves.
 inline std::vector<double> lamp_weights(const pt::GpuScene &scene, const TreeVertex &vertex) {
     std::vector<double> weights;
     const pt::SceneBlocks blocks(scene.features);

@@ -47,7 +47,6 @@ std::vector<Case> cases() {
 
 using Lens = LightInDouble;
 
-// The others take two samplers each, because each needs a kernel.
 TEST_F(Lens, ShowsWhatAPathTracerInDoubleDoes) {
     const std::vector<Case> all = cases();
     for (std::size_t i = 0; i < all.size(); ++i) {

@@ -44,7 +44,6 @@ constexpr uint32_t lamp_batches = 16;
 
 // ---- Huge moving balls
 
-// The top is at height -1.
 struct FloorBall {
     double radius;
     double motion[3];
@@ -92,7 +91,6 @@ TEST_F(HugeMotion, InTheLimitOfNoneIsRest) {
         }
 }
 
-// The inside of a moving lamp this large is never seen.
 TEST_F(HugeMotion, OfALampTheOutsideIsSeen) {
     constexpr double radius = 1e6;
     const pt_material materials[] = {{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0, 0}, {{0, 0, 0}, {0, 0, 0}, {4, 4, 4}, 0, 0}};

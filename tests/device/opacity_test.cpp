@@ -181,7 +181,6 @@ TEST_F(Opacity, OfOneSurfaceIsEvenlySpread) {
     EXPECT_GT(largest_error(PT_SAMPLER_RANDOM), 10.0 / 256.0);
 }
 
-// Paths run on both sides of each shell.
 Given shells() {
     Given given = cloud(20);
     for (const auto &[height, radius] : {std::pair(0.0, 2.0), {0.0, 1.2}, {-1.5, 1.8}, {-0.5, 3.0}})
@@ -197,7 +196,6 @@ TEST_F(Opacity, LeavesPlanesOpaque) {
     EXPECT_EQ(std::ranges::count(radiance, 0.0F), static_cast<std::ptrdiff_t>(radiance.size()));
 }
 
-// Atoms in a zigzag and the halves of their bonds, all of one radius.
 Given sticks() {
     Given given;
     given.camera = camera_at({0, 0, 8}, {0, 0, 0}, 0.5);

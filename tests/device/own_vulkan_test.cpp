@@ -134,7 +134,7 @@ TEST_F(OwnVulkanTest, ContextsInTwoThreadsShareTheQueue) {
     EXPECT_EQ(together[1], alone[1]);
     EXPECT_NE(together[0], together[1]);
     EXPECT_EQ(mutex.locks, mutex.unlocks);
-    EXPECT_GE(mutex.locks, 2 * rounds + 2); // a submission per image at least
+    EXPECT_GE(mutex.locks, 2 * rounds + 2);
 }
 
 TEST_F(OwnVulkanTest, TheQueueIsFreeWhileTheContextCallsBack) {

@@ -27,7 +27,7 @@ const std::string under_way =
 const std::string not_under_way = "no samples are under way: call pt_start first";
 
 using Pixels = std::vector<float>;
-using Pattern = std::vector<uint64_t>; // nanoseconds of the polls, repeated
+using Pattern = std::vector<uint64_t>;
 
 struct Use {
     uint32_t devices;

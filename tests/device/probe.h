@@ -13,7 +13,6 @@
 #include <span>
 #include <vector>
 
-// With the validation layer unless PT_TEST_NO_VALIDATION is set.
 pt::vulkan::Device &probe_device();
 
 // ID_POINT_BLOCKS of probes: 16 KiB, which every device offers.

@@ -61,7 +61,7 @@ public:
         if (chance(picture.kind == hidden ? 1.0 : 0.4))
             given.spheres.push_back({{0, 0, 0}, uniform(15, 30), {0, 0, 0}, perhaps_hidden(picture.kind, lamp), 0});
         given.planes[0].material = perhaps_hidden(picture.kind, 1);
-        if (picture.kind == hidden) // between the camera and the balls, or through them
+        if (picture.kind == hidden)
             given.planes.push_back(
                 {{uniform(-0.2, 0.2), uniform(-0.2, 0.2), 1}, -uniform(0, 4), material_count + 1, 0});
         set_camera(given, picture.kind);
@@ -106,7 +106,7 @@ private:
                 ball.motion[i % 3] = uniform(-1, 1);
             given.spheres.push_back(ball);
         }
-        if (kind == spots) { // makes a glow on the floor
+        if (kind == spots) {
             given.spheres[0] = {{uniform(-1, 1), -1.25, uniform(1, 2.5)}, 0.2, {0, 0, 0}, lamp, 0};
             given.spheres[1] = {{uniform(-1.5, 1.5), -0.8, uniform(0, 1)}, 0.7, {0, 0, 0}, glossy, 0};
         }
@@ -119,7 +119,6 @@ private:
         }
     }
 
-    // Materials of later copies do not count.
     void add_twins(Given &given, double apart) {
         const std::size_t count = given.spheres.size();
         for (std::size_t i = 0; i < count; ++i) {

@@ -18,7 +18,6 @@ struct ResolvedPixel {
     ResolvedPart parts[2];
 };
 
-// All lengths of sums and counts are equally likely.
 class RandomSums {
 public:
     std::uint32_t count(std::uint32_t most) {
@@ -85,7 +84,6 @@ inline pt::PixelSums film_of(const std::vector<ResolvedPixel> &pixels) {
                 sums.plane(part, word)[i] = static_cast<std::uint32_t>(
                     pixels[i].parts[part].sums[word / pt::gpu::FILM_SUM_WORDS] >> 32 * (word % 4));
             sums.plane(part, pt::gpu::FILM_ACCEPTED)[i] = pixels[i].parts[part].accepted;
-            // Equal sample counts in all pixels, modulo 2^32 as on the device.
             sums.plane(part, pt::gpu::FILM_REJECTED)[i] = 100 - pixels[i].parts[part].accepted;
         }
     return sums;

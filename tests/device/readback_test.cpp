@@ -166,7 +166,7 @@ TEST_F(ReadbackTest, RectanglesMustLieWithinWhatIsRendered) {
     render(context());
     std::vector<float> pixels(std::size_t{3} * whole_width * whole_height);
     pt_image target = image_target(pixels);
-    target.y = whole_height - 1; // counts rendered rows, not the image's
+    target.y = whole_height - 1;
     target.width = 1;
     target.height = 1;
     EXPECT_EQ(pt_readback(context(), &target), PT_OK) << pt_last_error(context());

@@ -69,7 +69,6 @@ protected:
         CallerVulkanFixture::TearDown();
     }
 
-    // Both parts of its film get samples.
     void use_context(bool like_gpus) {
         const pt_vulkan vulkan = caller_->handles();
         pt_create_info info{};
@@ -97,7 +96,6 @@ protected:
         return std::bit_cast<std::uint64_t>(static_cast<VkSemaphore>(*semaphore));
     }
 
-    // After writing the image over guard words.
     BufferContents expected(const pt_buffer_image &image) const {
         const std::uint64_t row =
             std::uint64_t{image.width == 0 ? lent_width : image.width} * pt::pixel_bytes(image.format);

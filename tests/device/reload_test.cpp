@@ -135,7 +135,7 @@ TEST_F(ReloadTest, AContextIsNotCreatedOfWhatDoesNotCompile) {
 
 TEST_F(ReloadTest, AFailureKeepsKernelsAndSamples) {
     accumulate_on(own(), 3);
-    double_the_radiance(); // must not take effect while another file is broken
+    double_the_radiance();
     const std::string film = shaders_.read("film.glsl");
     expect_refusal(shaders_.break_film());
     expect_samples(own(), 3, 1);

@@ -62,7 +62,6 @@ std::array<double, 6> sums_of_tiles(const std::function<void(const pt::ErrorRead
     return sums;
 }
 
-// Samples that move the film's split up or down, and samples that do not.
 TEST_F(RenderDeviceTest, AnErrorBehindItsSamplesIsThatOfTheFilm) {
     pt::RenderDevice device = ready_device(60.0, pt::vulkan::gpu_like_policy());
     set_up(device);

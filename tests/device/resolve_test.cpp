@@ -91,7 +91,6 @@ private:
     std::optional<pt::ResolvePipelines> pipelines_;
 };
 
-// Units for usual means, and beyond both ends of float's range.
 TEST_F(Resolve, BitsAreThoseOfTheExactQuotient) {
     device_with(pt::vulkan::gpu_like_policy());
     RandomSums random;
@@ -134,7 +133,7 @@ TEST_F(Resolve, FormatsAreThoseOfTheHost) {
             numbers.push_back(number);
     }
     numbers.resize(3 * std::size_t{width} * height);
-    constexpr int exponent = -60; // of the last bit of numbers and sums
+    constexpr int exponent = -60;
     std::vector<ResolvedPixel> pixels(std::size_t{width} * height);
     for (std::size_t i = 0; i < numbers.size(); ++i)
         pixels[i / 3].parts[0].sums[i % 3] = static_cast<WideSum>(std::ldexp(numbers[i], -exponent));

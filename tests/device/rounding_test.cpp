@@ -22,7 +22,6 @@ protected:
         bool operator==(const Outcome &) const = default;
     };
 
-    // A context's whole life in one rounding mode.
     Outcome render(int rounding) {
         std::fesetround(rounding);
         const Context made = create_context([](pt_create_info &info) { info.flags = 0; });

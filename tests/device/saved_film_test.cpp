@@ -101,7 +101,6 @@ protected:
         return picture;
     }
 
-    // Of the samples [first, end).
     Bytes part(uint32_t first, uint32_t end) {
         set_up(context(), settings(first));
         accumulate_on(context(), end - first);
@@ -173,9 +172,9 @@ TEST_F(SavedFilm, AContextGoesOnWithTheSamplesThatAreMissing) {
     ASSERT_EQ(add(context(), late), PT_OK) << pt_last_error(context());
     accumulate_on(context(), 7); // 10 to 16
     ASSERT_EQ(add(context(), middle), PT_OK) << pt_last_error(context());
-    accumulate_on(context(), 13); // 17 to 19, 50 to 59
+    accumulate_on(context(), 13);
     EXPECT_EQ(picture_of(context()).stats.sample_count, 80U);
-    accumulate_on(context(), 20); // 60 to 69, 90 to 99
+    accumulate_on(context(), 20);
     EXPECT_TRUE(picture_of(context()) == expected);
     EXPECT_FALSE(whole(99) == expected);
 }

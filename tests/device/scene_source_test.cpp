@@ -58,7 +58,6 @@ InvarianceScene scene_with_lamps(int lamp_count) {
     return scene;
 }
 
-// At rest, with enough lamps that each vertex chooses one.
 InvarianceScene diffuse_scene() {
     InvarianceScene scene = scene_with_lamps(gpu::EVERY_LAMP_LIMIT + 1);
     for (pt_material &material : scene.materials)
@@ -92,7 +91,6 @@ TEST_F(SceneSource, KeepsTheBitsOfADiffuseSceneWithManyLamps) {
     EXPECT_FALSE(same.holds(gpu::SCENE_IN_CONSTANTS, words));
     EXPECT_FALSE(same.holds(gpu::SCENE_IN_STORAGE, table_words(render.features(), words)));
 
-    // The floor gets the ball's material by its index alone.
     std::vector<glm::vec4> table = table_words(render.features(), render.words());
     const std::uint32_t ball = render.features()[gpu::ID_LAMP_COUNT];
     const std::uint32_t floor = render.features().surface_count() - 1;
@@ -120,7 +118,6 @@ TEST_F(SceneSource, KeepsTheBitsWithOneLampMotionGlossAndAHugeSphere) {
     EXPECT_TRUE(render.film_by_driver(gpu::SCENE_IN_UNIFORM) == same.film) << "whoever fills the constants in";
 }
 
-// The lamps differ by place alone.
 TEST_F(SceneSource, KeepsTheBitsOfTwoEqualLamps) {
     InvarianceScene scene = scene_with_lamps(2);
     scene.spheres[2].material = scene.spheres[1].material;

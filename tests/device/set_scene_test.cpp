@@ -96,7 +96,7 @@ protected:
 
 TEST_F(SetSceneTest, TellsHowFarItIs) {
     Cloud cloud(many);
-    for (int round = 0; round < 3; ++round, cloud.move()) { // first built, then with the shape kept
+    for (int round = 0; round < 3; ++round, cloud.move()) {
         Told told;
         ASSERT_EQ(set_telling(context(), cloud.scene(), told), PT_OK) << pt_last_error(context());
         EXPECT_GE(told.shares.size(), 2U);

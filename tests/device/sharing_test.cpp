@@ -18,7 +18,6 @@ using Image = std::vector<float>;
 
 class SharingTest : public ContextFixture {
 protected:
-    // Uses the fixture's device device_count times.
     Context context_on(uint32_t device_count, uint32_t submit_milliseconds, bool like_gpus = false) {
         return create_context([&](pt_create_info &info) { info.submit_milliseconds = submit_milliseconds; },
                               [&](const pt_create_info *info, pt_context **context) {
@@ -51,7 +50,6 @@ protected:
     }
 };
 
-// Submissions of 1 ms hold a sample of some tiles, of 50 ms many samples.
 TEST_F(SharingTest, SeveralDevicesGiveTheBitsOfOne) {
     const Context alone = context_on(1, 50);
     set_up(alone.get());
@@ -127,7 +125,6 @@ TEST_F(SharingTest, RowsAreThoseOfTheWholeImage) {
     EXPECT_NE(image_of(context(), 7), Image(whole.begin(), whole.begin() + std::ptrdiff_t{shared_width} * 7 * 3));
 }
 
-// Two bands of rows, and a rectangle across both.
 TEST_F(SharingTest, LargeFilmsMeetInBands) {
     constexpr uint32_t width = 1060;
     constexpr uint32_t height = 500;

@@ -40,7 +40,6 @@ struct SpotOf {
     float glossiness;
 };
 
-// The vertex is on a wall that faces the scene.
 std::vector<DrawnSpot> draw_spots(const std::vector<SpotOf> &spots, std::uint32_t count) {
     struct {
         glm::vec4 position, normal;

@@ -111,11 +111,11 @@ TEST_F(TracePipelinesTest, AHandfulIsKept) {
     for (std::uint32_t lamps = 0; lamps < kernels.size(); ++lamps)
         EXPECT_EQ(of_lamps(lamps), kernels[lamps]) << lamps;
     of_lamps(0);
-    of_lamps(100); // replaces the kernel for one
+    of_lamps(100);
     EXPECT_EQ(of_lamps(0), kernels[0]);
     for (std::uint32_t lamps = 2; lamps < kernels.size(); ++lamps)
         EXPECT_EQ(of_lamps(lamps), kernels[lamps]) << lamps;
-    of_lamps(1); // replaces the kernel for none
+    of_lamps(1);
     for (std::uint32_t lamps = 2; lamps < kernels.size(); ++lamps)
         EXPECT_EQ(of_lamps(lamps), kernels[lamps]) << lamps;
 }

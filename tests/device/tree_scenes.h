@@ -67,18 +67,18 @@ private:
         const auto material = static_cast<std::uint32_t>(i % 50 == 7 ? 0 : 1 + i % 2);
         pt::Sphere sphere{point(2.0), 0.4 * spacing * uniform(0.3, 1.0), glm::dvec3(0.0), material};
         switch (kind_) {
-        case 1: // one in three anywhere, the others within a thousandth
+        case 1:
             sphere.center = i % 3 == 0 ? point(2.0) : glm::dvec3(0.5, -0.3, 1.0) + 1e-3 * point(1.0);
             sphere.radius *= i % 3 == 0 ? 1.0 : 1e-3;
             break;
-        case 2: // nested, less than a hundredth apart
+        case 2:
             sphere.center = glm::dvec3(0.0);
             sphere.radius = 0.5 + 1.5 * static_cast<double>(i) / static_cast<double>(count);
             break;
         case 3:
             sphere.radius = uniform(0.5, 1.0);
             break;
-        case 4: { // touching, at multiples of one half
+        case 4: {
             const auto side = static_cast<std::size_t>(std::ceil(std::cbrt(static_cast<double>(count))));
             sphere.center = 0.5 * glm::dvec3(static_cast<double>(i % side), static_cast<double>(i / side % side),
                                              static_cast<double>(i / side / side)) -

@@ -186,7 +186,7 @@ std::optional<bool> is_seen_alike(const pt::Scene &scene, const pt::Camera &came
     const FilmWords film_kept = render_kept.film_by(probe);
     probe.set_scene(render_new.words());
     const FilmWords film_new = render_new.film_by(probe);
-    render_kept.radiance(film_kept); // throws if a sample is lost
+    render_kept.radiance(film_kept);
     return film_kept == film_new;
 }
 

@@ -90,7 +90,7 @@ TEST_F(RenderedTwins, SendTheirLightOnce) {
     struct Case {
         std::initializer_list<Named> once;
         std::initializer_list<Named> twice;
-        std::uint32_t path_length; // 2 where a floor under the sky reflects lamps only
+        std::uint32_t path_length;
     };
     const Case cases[] = {{{lamp, floor_plane}, {lamp, lamp, floor_plane}, 2},
                           {{lamp, floor_plane}, {lamp, lamp, lamp, floor_plane}, 2},

@@ -55,7 +55,7 @@ TEST_F(VulkanTest, ADynamicOffsetChoosesThePartOfAStreamedBuffer) {
     Buffer values(device(), BufferUse::Storage, 64 * 4, "values");
     const DescriptorSet set = pipeline.bind(std::array<pt::vulkan::BufferRange, 2>{offsets, values});
     const std::uint32_t steps = 1;
-    for (const std::uint32_t round : {0U, 1U}) { // the second overwrites what the first has read
+    for (const std::uint32_t round : {0U, 1U}) {
         std::uint32_t expected = 0;
         for (std::uint32_t part = 0; part < 3; ++part) {
             const std::array words = {1000 * round + 10 * part + 1, 0U, 0U, 0U};
@@ -102,7 +102,7 @@ TEST_F(VulkanTest, AnAllocationThatTheDriverRefusesIsAnErrorWithoutTrace) {
     EXPECT_EQ(error->code(), PT_ERROR_OUT_OF_DEVICE_MEMORY);
     EXPECT_TRUE(names(*error, "1073741824 bytes for the film")) << error->what();
     EXPECT_EQ(device().allocated_bytes(), before);
-    messages_.clear(); // the driver reports it too
+    messages_.clear();
     clear_all(device(), Buffer(device(), BufferUse::Storage, 1U << 20, "film"));
 }
 #endif
@@ -123,7 +123,6 @@ INSTANTIATE_TEST_SUITE_P(, VulkanTransferTest, testing::Values(true, false),
 
 TEST_P(VulkanTransferTest, DownloadReturnsWhatWasUploaded) {
     Device &device = device_under_test();
-    // More than two staging buffers, not a multiple of one.
     const std::vector<std::uint32_t> values = counting((33U << 20) / 4 + 3);
     Buffer buffer(device, BufferUse::Storage, values.size() * 4, "test");
     upload(buffer, values);

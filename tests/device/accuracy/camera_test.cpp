@@ -27,7 +27,6 @@ struct Result {
     glm::vec4 direction, lens_origin, lens_direction;
 };
 
-// Fields of view from 1e-8 to nearly pi, 1 to 16384 pixels.
 std::vector<Item> items() {
     Inputs inputs(4);
     std::vector<Item> items;

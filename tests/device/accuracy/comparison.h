@@ -17,10 +17,8 @@ constexpr Real half_ulp = 0x1p-24L; // of 1
 
 class Comparison {
 public:
-    // unit: of the errors, for the table.
     Comparison(std::string function, std::string unit) : function_(std::move(function)), unit_(std::move(unit)) {}
 
-    // bound: the largest permitted error.
     void add(Real value, Real exact, Real bound, const std::vector<float> &input);
     void add(const glm::vec3 &value, const Direction &exact, Real bound, const std::vector<float> &input);
 
@@ -35,7 +33,7 @@ private:
     std::string unit_;
     std::size_t count_ = 0;
     Real largest_error_ = 0;
-    Real worst_share_ = -1; // as a share of its bound
+    Real worst_share_ = -1;
     Real worst_error_ = 0;
     Real worst_bound_ = 0;
     std::vector<float> worst_input_;

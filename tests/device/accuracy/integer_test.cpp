@@ -33,7 +33,6 @@ std::vector<Item> items() {
                                    : item.number.x % std::bit_cast<std::uint32_t>(0x1p28F);
         items.push_back(item);
     }
-    // All bits, none, one; ends of each binade; denormal numbers.
     for (std::uint32_t bit = 0; bit < 32; ++bit)
         items.push_back({{0, 0xffffffffU, 1U << bit, ~(1U << bit)}, {1U << bit % 28, 0, 0, 0}});
     for (std::uint32_t exponent = 1; exponent < 127 + 28; ++exponent)

@@ -44,7 +44,6 @@ Item passing_ray(Inputs &inputs, double distance, double radius, double impact, 
     return {glm::vec3(center), static_cast<float>(radius), glm::vec3(direction), start};
 }
 
-// Up to a million radii away, within 1e-6 of grazing, from inside, and on the surface.
 std::vector<Item> items() {
     Inputs inputs(10);
     std::vector<Item> items;
@@ -131,7 +130,6 @@ Exact exact_larger_sphere(Item item) {
     return exact_sphere(item);
 }
 
-// Clearly outside in float32, or leaving on the outside.
 bool starts_outside(const Item &item) {
     const Real d = glm::length(Direction(item.center));
     const Real r = item.radius;
@@ -140,9 +138,9 @@ bool starts_outside(const Item &item) {
 
 struct Wrong {
     std::size_t undecided = 0;
-    std::size_t found = 0;      // hits without a reference, or the reverse
-    std::size_t of_control = 0; // the same for the larger sphere
-    std::size_t shadows = 0;    // wrong shadow rays
+    std::size_t found = 0;
+    std::size_t of_control = 0;
+    std::size_t shadows = 0; // wrong shadow rays
 };
 
 // Shadow rays end a tenth before or behind hits beyond 1e-4 |center|: 100 float32 errors.

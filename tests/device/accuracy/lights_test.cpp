@@ -45,7 +45,6 @@ std::vector<Lamp> lamps() {
     return lamps;
 }
 
-// Sines r / d from 1e-7 to 1 - 1e-6. A quarter of the normals put the lamp at the horizon.
 std::vector<Item> items(const std::vector<Lamp> &lamps) {
     Inputs inputs(7);
     std::vector<Item> items;
@@ -66,14 +65,12 @@ std::vector<Item> items(const std::vector<Lamp> &lamps) {
     return items;
 }
 
-// Error of sqrt(square) for an error `bound` of its argument.
 Real root_bound(Real square, Real bound) {
     const Real root = std::sqrt(std::max<Real>(square, 0));
     return std::max(std::sqrt(std::max<Real>(square, 0) + bound) - root,
                     root - std::sqrt(std::max<Real>(square - bound, 0)));
 }
 
-// A lamp seen from a vertex, with float32 bounds, u = 2^-24.
 struct View {
     Direction axis;
     Real distance;

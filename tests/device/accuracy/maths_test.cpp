@@ -31,7 +31,6 @@ TEST(AccuracyMaths, OfElementaryFunctions) {
     }
 }
 
-// At the ends of a binade and far from any float.
 TEST(AccuracyMaths, ErrorsAreInUlpOfTheExactValue) {
     EXPECT_EQ(pt::error_in_ulp(1.0F, 1.0), 0.0);
     EXPECT_EQ(pt::error_in_ulp(1.0F + 0x1p-23F, 1.0), 1.0);

@@ -14,7 +14,7 @@ namespace accuracy::phong {
 namespace {
 
 struct Item {
-    glm::vec3 axis; // of the lobe; the incoming direction
+    glm::vec3 axis;
     float glossiness;
     glm::vec3 outgoing;
     float diffuse;
@@ -40,7 +40,6 @@ glm::vec3 beside(Inputs &inputs, const glm::vec3 &direction, double angle) {
     return {glm::normalize(std::cos(angle) * axis + std::sin(angle) * across)};
 }
 
-// Exponents 0 to 1e9; most directions where the lobe is neither 0 nor 1.
 std::vector<Item> items(bool about_mirror) {
     Inputs inputs(about_mirror ? 2 : 3);
     std::vector<Item> items;

@@ -67,7 +67,7 @@ Direction concentric(const glm::vec2 &numbers) {
         return Direction(0);
     const bool beside = std::abs(x) > std::abs(y);
     const Real angle = beside ? pi / 4 * (y / x) : pi / 2 - pi / 4 * (x / y);
-    const Real side = (beside ? x : y) / radius; // 1, or -1 in the opposite wedges
+    const Real side = (beside ? x : y) / radius;
     return side * radius * Direction(std::cos(angle), std::sin(angle), 0);
 }
 

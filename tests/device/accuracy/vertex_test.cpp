@@ -29,7 +29,6 @@ struct Result {
     glm::vec4 mirror;
 };
 
-// Spheres (center, radius), then planes (normal, offset).
 std::vector<glm::vec4> surfaces() {
     Inputs inputs(8);
     std::vector<glm::vec4> surfaces;
@@ -42,7 +41,6 @@ std::vector<glm::vec4> surfaces() {
     return surfaces;
 }
 
-// The rays end within a thousandth of their length from the surface.
 std::vector<Item> items(const std::vector<glm::vec4> &surfaces) {
     Inputs inputs(9);
     std::vector<Item> items;

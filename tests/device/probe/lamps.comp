@@ -17,7 +17,6 @@ struct Drawn {
     float probability;
 };
 
-// An entry for each lamp, with density and probability only, then the samples.
 layout(set = 0, binding = 2) writeonly buffer Output { Drawn drawn[]; };
 
 void main()

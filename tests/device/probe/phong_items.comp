@@ -23,7 +23,6 @@ void main()
     vec3 outgoing = item.outgoing_diffuse.xyz;
     vec3 specular = vec3(item.normal_specular.w * (n + 2.0) / (2.0 * PI));
     Material material = Material(vec3(item.outgoing_diffuse.w / PI), specular, n, item.numbers_probability.z);
-    // The axis is also the incoming direction, with the lobe about its mirror image.
     vec3 normal = item.normal_specular.xyz;
     Vertex vertex = Vertex(vec3(0.0), normal, reflect(axis, normal), 0u, false);
     Reflection found = reflection(material, vertex, outgoing);
