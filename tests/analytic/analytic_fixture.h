@@ -10,7 +10,6 @@
 
 namespace analytic {
 
-// R, G, B, row by row from the top.
 struct Image {
     std::uint32_t width;
     std::uint32_t height;

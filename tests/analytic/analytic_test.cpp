@@ -30,7 +30,6 @@ struct Measurement {
     Estimate radiance;
 };
 
-// Relative to the exact value.
 struct Bounds {
     Bounds(const Measurement &measured, const Exact &exact) :
         tabulated(error_bound(exact.relative_std, measured.sample_count)),
@@ -93,7 +92,7 @@ TEST_P(Analytic, PixelsAreExact) {
         EXPECT_TRUE(exact) << pixel.x << ", " << pixel.y << ": " << measured.radiance.mean << " +- "
                            << measured.radiance.standard_error << ", expected " << pixel.exact.radiance;
         if (exact && !sees_errors && resolves(measured, pixel.exact)) {
-            sees_errors = true; // once per scene: it takes another render
+            sees_errors = true;
             expect_to_see_errors(scene, pixel, measured);
         }
     }

@@ -19,7 +19,6 @@ struct Crop {
     std::uint32_t y;
 };
 
-// Has the parity of size.
 inline std::uint32_t crop_size(std::uint32_t size, std::uint32_t position) {
     const auto twice = [&](std::uint32_t edge) {
         return static_cast<std::uint32_t>(std::abs(2 * std::int64_t{edge} - std::int64_t{size}));

@@ -30,7 +30,6 @@ double largest_error(const Image &image, double exact) {
     return std::ldexp(largest, 24);
 }
 
-// The camera is exactly on the sphere and looks inwards.
 TEST_F(ExactLight, FromASphereItselfItsFarSideIsSeen) {
     for (const float emission : {0.0F, 0.5F}) {
         // A lamp behind shows leaks; lamps and black spheres are stored differently.

@@ -19,7 +19,7 @@ using namespace analytic;
 struct Shape {
     std::uint32_t width;
     std::uint32_t height;
-    double window_height; // of the image plane at distance 1
+    double window_height;
 };
 
 class ImageSize : public AnalyticFixture, public testing::WithParamInterface<Shape> {};
@@ -37,7 +37,6 @@ Image render_sphere(const Shape &shape, double radius, const auto &image_of) {
     return image_of(scene, camera);
 }
 
-// A power of two, best for Sobol points.
 std::uint32_t samples_for(const Shape &shape) {
     return std::bit_floor(std::clamp((1U << 22) / (shape.width * shape.height), 256U, 1U << 18));
 }

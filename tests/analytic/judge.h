@@ -13,7 +13,6 @@ inline constexpr double false_alarms = 1e-6;
 inline constexpr double tabulated_pixels = 147;
 inline constexpr double false_alarm_per_judgement = false_alarms / (2.0 * tabulated_pixels);
 
-// The standard deviation of one sample relative to the value.
 struct Exact {
     double radiance;
     double relative_std;

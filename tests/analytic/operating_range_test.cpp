@@ -92,7 +92,7 @@ TEST_F(DISABLED_OperatingRange, Scale) {
 struct Look {
     const char *name;
     glm::dvec3 direction;
-    double motion; // of the subject, in about radii
+    double motion;
 };
 
 const std::vector<Look> looks = {{"along an axis", {0, 0, -1}, 0.0},
@@ -140,7 +140,7 @@ TEST_F(DISABLED_OperatingRange, DistanceOfASphere) {
 }
 
 constexpr double floor_side = 0.1;
-constexpr double lamp_height = 3.1; // above the floor y = -1
+constexpr double lamp_height = 3.1;
 
 // Mean over a square about (0, 0) on a floor of albedo 0.8 under a lamp of radius 1, emission 10 at (3, 2.1, 0): two
 // Gauss nodes per direction, to 1e-7.
@@ -164,7 +164,6 @@ TEST_F(DISABLED_OperatingRange, DistanceOfALitFloor) {
     }
 }
 
-// Light goes with emission * radius^2.
 TEST_F(DISABLED_OperatingRange, SizeOfALamp) {
     std::printf("\nradius / distance of a lamp\n");
     for (int exponent = -15; exponent <= 2; ++exponent) {

@@ -20,7 +20,6 @@ std::vector<std::string> fields(const std::string &line) {
     return found;
 }
 
-// A grid of 64 x 64 lamps with emission 1 to 7.
 void add_lamp_grid(cli::SceneFile &scene) {
     for (std::uint32_t i = 0; i < 64; ++i)
         for (std::uint32_t j = 0; j < 64; ++j)

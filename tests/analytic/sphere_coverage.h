@@ -48,7 +48,7 @@ private:
     double x_;
     double y_;
     double z_;
-    double tangent_; // squared length of tangents from the origin
+    double tangent_;
 };
 
 } // namespace analytic

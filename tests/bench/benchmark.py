@@ -29,7 +29,7 @@ from benchmark_figures import DEFAULT, ESTIMATORS, SAMPLERS, print_report, scene
 from mitsuba_scene import obstacle
 
 ERROR_AND_TIME = [sys.executable, "-B", str(pathlib.Path(__file__).with_name("error_and_time.py"))]
-MITSUBA_FACTOR = 4  # its sample counts are this much larger, for the same errors
+MITSUBA_FACTOR = 4
 
 
 def parse_arguments():
@@ -50,7 +50,6 @@ def parse_arguments():
 
 
 def bench(command, folder):
-    """The figures of a program that writes them like error_and_time.py."""
     path = os.path.join(folder, "bench.json")
     subprocess.run([*command, "--json", path], check=True)
     with open(path, encoding="utf-8") as file:

@@ -13,7 +13,6 @@ COARSE = 0.01  # the largest error of a reference, over the smallest error measu
 
 
 def points_of(cells, unit):
-    """Cells -> sample count -> (cost, error)."""
     by_count = {}
     for cell in cells:
         by_count.setdefault(cell["spp"], []).append(cell)
@@ -58,7 +57,6 @@ def ratio_text(figures):
 
 
 def behind(report):
-    """Options ahead of the default, the furthest first."""
     found = []
     for name, scene in report["scenes"].items():
         for option, figures in scene["options"].items():
@@ -71,7 +69,6 @@ def behind(report):
 
 
 def coarse_references(report):
-    """References whose own error is too large."""
     lines = []
     for name, scene in report["scenes"].items():
         least = min(point["rel_mse"] for figures in scene["options"].values() for point in figures["points"])

@@ -87,7 +87,6 @@ class References(unittest.TestCase):
 
 class RealDevice(unittest.TestCase):
     def run_script(self, name, *arguments):
-        """Files that it leaves in FOLDER, by name, and its output."""
         with tempfile.TemporaryDirectory() as folder:
             done = subprocess.run([sys.executable, "-B", FOLDER / name, *(each.replace("FOLDER", folder)
                                                                          for each in arguments)],

@@ -8,7 +8,6 @@ ROUNDING = 1e-5  # of a mean without noise, relative: Mitsuba sums a pixel's sam
 
 
 def block_means(pixels, width, height):
-    """Each channel's mean over each block."""
     means = []
     for top in range(0, height, BLOCK):
         for left in range(0, width, BLOCK):
@@ -19,7 +18,6 @@ def block_means(pixels, width, height):
 
 
 def whole_means(blocks):
-    """Channel means of the image."""
     return [statistics.fmean(blocks[channel::3]) for channel in range(3)]
 
 

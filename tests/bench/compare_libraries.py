@@ -34,7 +34,7 @@ def parse_arguments():
     parser.add_argument("--path-lengths", default="3,6", metavar="L,...")
     parser.add_argument("--size", default="64x32", metavar="WxH")
     parser.add_argument("--seeds", type=int, default=8)
-    parser.add_argument("--one", metavar="NAME,L", help=argparse.SUPPRESS)  # in a process of its own
+    parser.add_argument("--one", metavar="NAME,L", help=argparse.SUPPRESS)
     return parser.parse_args()
 
 
@@ -52,7 +52,6 @@ def render(renderer, options, length, samples, seed):
 
 
 def figures_of(pictures, pooled):
-    """Median cost and error at one sample count."""
     variances = (statistics.variance(values) for values in zip(*(image for _, image in pictures)))
     errors = [variance / (r * r + 0.01) for variance, r in zip(variances, pooled)]
     return statistics.median(cost for cost, _ in pictures), statistics.fmean(errors)

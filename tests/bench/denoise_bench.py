@@ -33,7 +33,6 @@ COLUMNS = {"default": "raw", "filtered": "filtered", "combined": "combined", "Mi
 
 
 def timed(function, *arguments, **more):
-    """The result and its CPU seconds."""
     start = time.process_time()
     result = function(*arguments, **more)
     return result, time.process_time() - start
@@ -103,7 +102,6 @@ def measure(options, name):
 
 
 def print_scenes(scenes):
-    """relMSE and cost at 16 and 64 samples."""
     rows = [["scene", "samples", *COLUMNS.values()]]
     for name, scene in scenes.items():
         for i in 1, 2:

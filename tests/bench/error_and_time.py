@@ -123,7 +123,6 @@ class Bench:
         return whole, {"spp": samples, "seed": self.options.seed, "mse": mse, "rel_mse": rel_mse}
 
     def measure(self, sampler, estimator, samples, seed, reference):
-        """Wall and CPU seconds, MSE, relMSE."""
         for warm_up in True, False:  # the second set_render discards the first run's samples
             self.set_render(SAMPLERS[sampler], ESTIMATORS[estimator], seed)
             if warm_up:

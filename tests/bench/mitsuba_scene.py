@@ -47,7 +47,6 @@ def emitter(material):
 
 class MitsubaScene:
     def __init__(self, variant, scene, size=None, lengths=None):
-        """size: width and height; lengths: path lengths, if not the scene's."""
         import mitsuba
         mitsuba.set_variant(variant)
         import drjit
@@ -96,7 +95,6 @@ class MitsubaScene:
                          "component_format": "float32", "rfilter": {"type": "box"}}}
 
     def render(self, length, sampler, spp, seed):
-        """Wall seconds, CPU seconds, image."""
         start, before = time.perf_counter(), resource.getrusage(resource.RUSAGE_SELF)
         image = self.np.array(self.mi.render(self.scene, sensor=self.sensors[sampler],
                                              integrator=self.integrators[length], seed=seed, spp=spp))

@@ -45,7 +45,6 @@ class Phong(mi.BSDF):
         return self.value_and_density(si, wo)[1]
 
     def sample(self, ctx, si, sample1, sample2, active=True):
-        """Chooses a lobe by albedo; the density includes both."""
         cosine = dr.power(sample2.x, 1 / (self.glossiness + 1))
         sine = dr.safe_sqrt(1 - cosine * cosine)
         sin_phi, cos_phi = dr.sincos(dr.two_pi * sample2.y)

@@ -25,7 +25,6 @@ def kind(function):
 
 
 def scene(name, seed):
-    """The JSON of a scene file, without other files."""
     made = KINDS[name](random.Random(f"{name} {seed}"))
     return made | {"film": {"width": 64, "height": 32}}
 
@@ -64,14 +63,12 @@ def opacity(rng, low=0.02, high=0.98):
 
 
 def view(rng, distance=8.0, height=1.5, fov=40):
-    """A camera of a scene about (0, 1, 0)."""
     turn = rng.uniform(-0.6, 0.6)
     return {"position": [distance * math.sin(turn), height + rng.uniform(0, 2), distance * math.cos(turn)],
             "look_at": [0, 1, 0], "vertical_fov": fov * rng.uniform(0.8, 1.2)}
 
 
 def sunlit(rng):
-    """Lamps outside the picture, and their materials."""
     return ([ball((rng.uniform(-9, 9), rng.uniform(7, 12), rng.uniform(3, 9)), rng.uniform(0.5, 2), "key"),
              ball((0, 0, 0), 60, "sky")],
             {"key": warm(rng, rng.uniform(10, 60)), "sky": lamp(between_powers(rng, 0.02, 1))})
@@ -184,7 +181,6 @@ def motion_blur(rng):
 
 @kind
 def out_of_focus(rng):
-    """Small lamps on polished balls before a large lens."""
     gloss = {"diffuse": 0.1, "specular": 0.8, "glossiness": between_powers(rng, 300, 50000)}
     lens = {"aperture": rng.uniform(0.1, 1), "focus": rng.uniform(3, 12)}
     lamps = [ball((4, 6, 6), between_powers(rng, 0.05, 0.3), "lamp"), ball(place(rng), 0.03, "lamp")]
@@ -229,7 +225,6 @@ def mostly_black(rng):
 
 @kind
 def moving_tree(rng):
-    """Beyond 113 spheres, among moving lamps."""
     flying = [each | {"motion": [rng.uniform(0, 2) * share for share in direction(rng)], "color": tint(rng)}
               for each in balls(rng, rng.randint(115, 220), (0.05, 0.2), ("floor",))]
     lamps = [ball(place(rng), 0.05, "lamp") | {"motion": direction(rng)} for _ in range(rng.randint(2, 8))]
@@ -246,7 +241,6 @@ def lamps_in_a_tree(rng):
 
 @kind
 def tiny_far_lamps(rng):
-    """Distant suns, nearly points, on glossy balls."""
     count = rng.randint(1, 4)
     suns = []
     for _ in range(count):
@@ -285,7 +279,6 @@ def many_lamps(rng):
 
 @kind
 def planes_only(rng):
-    """A corner of planes under one that shines."""
     faces = [([0, 1, 0], 0), ([0, 0, 1], 3), ([1, 0, 0], 3), ([-1, 0, 0], 4)]
     planes = [{"normal": normal, "offset": offset, "material": rng.choice(("red", "leaf", "gloss"))}
               for normal, offset in faces]

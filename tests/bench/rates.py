@@ -23,7 +23,7 @@ from table import print_table
 
 SCENES = ("coursework", "coursework-diffuse", "coursework-motion", "many-lamps")
 PATH_LENGTHS = (2, 6)
-FEW = 16  # samples of the shorter run, and of the run to a PNG
+FEW = 16
 MOST = 1 << 20
 
 
@@ -67,7 +67,6 @@ class Program:
 
 
 def choose_sample_count(program, case):
-    """Samples that take the wanted time, by runs of growing length."""
     few = program.render(case, FEW)["sampling"]
     many = 4 * FEW
     while True:

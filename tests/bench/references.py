@@ -110,7 +110,6 @@ def write_exr(options, name, facts):
 
 
 def check(options, name):
-    """The table's facts about a reference."""
     import mitsuba
     from mitsuba_scene import obstacle
     mitsuba.set_variant(options.variant)

@@ -117,7 +117,6 @@ class Library:
         return time.perf_counter() - start
 
     def render(self, length, samples, seed=0):
-        """Wall and CPU seconds of the samples, and the picture."""
         self.renderer.set_render(self.options.width, self.options.height, max_path_length=length, seed=seed)
         start, before = time.perf_counter(), cpu_seconds()
         self.renderer.accumulate(samples)
@@ -191,7 +190,6 @@ def relative_error(image, reference):
 
 
 def difference_of_means(image, reference):
-    """Relative, and in standard errors by the pixels' differences."""
     pixels = [sum(image[i:i + 3]) - sum(reference[i:i + 3]) for i in range(0, len(image), 3)]
     mean = statistics.fmean(pixels)
     error = statistics.pstdev(pixels, mean) / math.sqrt(len(pixels))

@@ -4,10 +4,10 @@ import array
 import random
 
 SEED = 5
-EXTENT = (8.0, 4.0, 4.0)  # of the cloud; fills the picture
+EXTENT = (8.0, 4.0, 4.0)
 MATERIALS = {"lamp": {"emission": [60, 54, 45]}, "floor": {"diffuse": 0.6}, "white": {"diffuse": 0.6},
              "red": {"diffuse": [0.8, 0.3, 0.2]}, "blue": {"diffuse": [0.2, 0.5, 0.8]}}
-COLORS = ("white", "red", "blue")  # of the spheres, in turn
+COLORS = ("white", "red", "blue")
 
 
 def surroundings():

@@ -39,8 +39,6 @@ RELATIVE_BITS = pt.Uncertain.RELATIVE_RMSE | pt.Uncertain.UNSEEN | pt.Uncertain.
 
 @dataclass
 class Stated:
-    """A picture's stated and true errors."""
-
     scene: str
     size: str
     count: int
@@ -59,8 +57,6 @@ class Stated:
 
 @dataclass
 class Stopped:
-    """A picture rendered to a target."""
-
     scene: str
     size: str
     target: float
@@ -79,7 +75,6 @@ class Found:
 
 
 def sets_of(name):
-    """The scenes of a set, as JSON or as paths, by name."""
     if name == "own":
         return {path.stem: read_scene(path) for path in sorted(FOLDER.glob("*.json"))} | calibration_scenes()
     if name.startswith("random:"):
@@ -88,7 +83,6 @@ def sets_of(name):
 
 
 def read(scene):
-    """Scene, camera and settings, as the program reads them."""
     path = os.fspath(scene.resolve()) if isinstance(scene, pathlib.Path) else "scene.json"
     files = {} if isinstance(scene, pathlib.Path) else {path: json.dumps(scene).encode()}
     program = Program([path], files)

@@ -21,7 +21,7 @@
 
 namespace {
 
-constexpr std::uint32_t width = 27; // no multiples of the tile size
+constexpr std::uint32_t width = 27;
 constexpr std::uint32_t height = 20;
 constexpr std::uint32_t tile_count = 4 * 3;
 constexpr std::uint32_t most_of_tile = 13;

@@ -12,7 +12,7 @@ import time
 from command_line import COURSEWORK, PATIENCE, PT, SCENES, CommandLineTest, default_signals, main
 
 KILLS = int(os.environ.get("PT_TEST_KILLS", "4"))
-MOST_DELAY = 0.7  # seconds until a kill, from the start or the run's first checkpoint
+MOST_DELAY = 0.7
 SAMPLES_A_KILL = 2000  # few renderings end before their kill
 
 
@@ -210,7 +210,6 @@ class Resume(CommandLineTest):
         self.assertEqual(self.contents("c.ptfilm"), self.checkpoint)
 
     def test_damaged_ones_are_refused(self):
-        """FilmBytes and the fuzzer damage more."""
         flipped = bytearray(self.checkpoint)
         flipped[len(flipped) // 2] ^= 4
         for damaged in self.checkpoint[:100], self.checkpoint[:-1], flipped:

@@ -134,7 +134,6 @@ class RealDevice(ColumnsTest):
         self.expect(3, "render", "s.json", "-o", "a.png", error='capsules[1]: "end" is missing')
 
     def test_columns_are_the_opacities_that_they_list(self):
-        """Lamps beside them are opaque."""
         opacities = [0.5, 1, 0.25]
         self.scene(*[{"center": CENTERS[3 * i:3 * i + 3], "radius": RADII[i], "material": "a", "opacity": opacities[i]}
                      for i in range(3)])

@@ -5,7 +5,7 @@ import json
 from command_line import COURSEWORK, PT, CommandLineTest, main
 
 SIZE = ("--size", "5x3", "--spp", "1")
-BRIGHTER = {"FAKE_PT_FAIL": "split:1"}  # the stand-in's blue is 3 instead of 2
+BRIGHTER = {"FAKE_PT_FAIL": "split:1"}
 MSE, RELATIVE_MSE = 1 / 3, 1 / (4 + 0.01) / 3
 
 

@@ -115,7 +115,7 @@ class RealDeviceDenoise(DenoiseTest):
     def test_films_denoise_to_the_same_picture(self):
         whole = self.stated()
         self.render("-o", "first.exr", "--film", "first.ptfilm", "--spp", "8", "--layers", "albedo,normal")
-        for first in "0", "5":  # the second half in two parts
+        for first in "0", "5":
             self.render("--film", f"part{first}.ptfilm", "--spp", "5" if first == "0" else "3", "--seed", OTHER_SEED,
                         "--first-sample", first)
         self.expect(0, "merge", "part5.ptfilm", "part0.ptfilm", "--film", "second.ptfilm")

@@ -61,7 +61,7 @@ class ExitCodes(CommandLineTest):
     def setUp(self):
         super().setUp()
         self.write("broken.json", "{")
-        self.program = PT  # films that can be added, and different pictures
+        self.program = PT
         small = ["--size", "4x2", "--spp", "4"]
         for name, first in ("first", "0"), ("second", "4"):
             self.expect(0, "render", COURSEWORK, *small, "--first-sample", first, "--film", f"{name}.ptfilm")

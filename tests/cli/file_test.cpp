@@ -85,7 +85,7 @@ TEST(AtomicFile, FollowsNoOneElsesLinksWhereEverybodyMayWrite) {
         std::filesystem::create_directory(folder.file("open"));
         folder.write("of root/target", "old");
         std::filesystem::create_symlink("../of root/target", folder.file("open/link"));
-        std::filesystem::create_symlink("open/link", folder.file("own link")); // to a link that may not be followed
+        std::filesystem::create_symlink("open/link", folder.file("own link"));
         ASSERT_EQ(lchown(folder.file("open/link").c_str(), c.link_owner, c.link_owner), 0);
         ASSERT_EQ(chown(folder.file("open").c_str(), c.folder_owner, c.folder_owner), 0);
         ASSERT_EQ(chmod(folder.file("open").c_str(), c.folder), 0);

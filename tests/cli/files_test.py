@@ -148,7 +148,7 @@ class LinksOfOthers(CommandLineTest):
                               ("t.png", ("tonemap", "r.exr"))):
             with self.subTest(name=name):
                 self.write("of root", "kept")
-                target = "../of root" if "--checkpoint" not in command else "../new"  # existing files are kept anyway
+                target = "../of root" if "--checkpoint" not in command else "../new"
                 subprocess.run(["ln", "-s", target, name], cwd=self.path("open"), check=True, user=65534)
                 self.expect(6, *command, f"open/{name}", error=f"cannot write open/{name}: the link open/{name} {self.RULE}")
                 self.assertEqual((self.read("of root"), self.files()),

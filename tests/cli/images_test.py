@@ -22,7 +22,6 @@ def cut(image, rectangle):
 
 
 def texts_of(data):
-    """keyword -> text of a PNG."""
     return dict(body.decode("latin-1").split("\0") for kind, body in png_chunks(data) if kind == "tEXt")
 
 
@@ -133,7 +132,6 @@ class Exr(ImagesTest):
 
 class EqualRuns(CommandLineTest):
     def images(self, folder, **environment):
-        """Renders once per folder, with this environment."""
         os.mkdir(self.path(folder))
         paths = [f"{folder}/a.{kind}" for kind in ("png", "jpg", "exr")]
         outputs = [word for path in paths for word in ("-o", path)]

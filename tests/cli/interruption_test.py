@@ -13,7 +13,6 @@ from command_line import COURSEWORK, PATIENCE, CommandLineTest, default_signals,
 
 class Interruption(CommandLineTest):
     def interrupt(self, submission, *options, **environment):
-        """SIGINT comes in this submission, four per sample."""
         return self.run_pt("render", COURSEWORK, "-o", "a.png", "--spp", "200", "--size", "2x2", *options,
                            FAKE_PT_SIGNAL=f"{int(signal.SIGINT)}:{submission}", **environment)
 

@@ -68,7 +68,7 @@ TEST(KernelFolder, HasABoundOfItsSize) {
     const auto path = [&](std::size_t number) { return temporary.file("kernels/" + kernel_key(number)); };
     keep(folder, kernel_key(1), "x");
     keep(folder, kernel_key(2), "x");
-    std::filesystem::resize_file(path(1), KernelFolder::most_bytes); // takes no room on disk
+    std::filesystem::resize_file(path(1), KernelFolder::most_bytes);
     const auto now = std::filesystem::file_time_type::clock::now();
     std::filesystem::last_write_time(path(1), now - std::chrono::hours(1));
     std::filesystem::last_write_time(path(2), now - std::chrono::hours(2));

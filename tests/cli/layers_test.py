@@ -5,7 +5,7 @@ import struct
 
 from command_line import COURSEWORK, PT, CommandLineTest, main, read_exr_attributes, read_exr_channels, read_png
 
-WIDTH, HEIGHT = 9, 37  # two blocks of an .exr and a part of one
+WIDTH, HEIGHT = 9, 37
 SIZE = ("--size", f"{WIDTH}x{HEIGHT}", "--spp", "2")
 ALL = "mean,standard-error,sample-count,depth,normal,albedo,object-id"
 CHANNELS = ["B", "G", "N.X", "N.Y", "N.Z", "R", "Z", "albedo.B", "albedo.G", "albedo.R", "id", "sample_count",
@@ -143,7 +143,7 @@ class RealDeviceLayers(LayersTest):
         self.assertEqual(read_exr_attributes(self.path("a.exr"))["pt.quantity"], ("string", b"radiance"))
         pixels = [{name: rows[y][x] for name, rows in with_layers.items()} for y in range(height) for x in range(width)]
         self.assertEqual({pixel["sample_count"] for pixel in pixels}, {2.0})
-        self.assertTrue({pixel["id"] for pixel in pixels} <= set(range(8)))  # four spheres and four planes
+        self.assertTrue({pixel["id"] for pixel in pixels} <= set(range(8)))
         self.assertGreater(len({pixel["id"] for pixel in pixels}), 5)
         # The camera looks from (0, 0, 1) at the wall z = -18.5.
         for pixel in pixels:

@@ -23,7 +23,6 @@ EITHER = {"camera": (["vertical_fov", "aperture", "focus"], ["projection", "vert
 
 
 def rows_after(heading):
-    """The first table's cells below a heading."""
     table = re.search(rf"{re.escape(heading)}.*?\n\|[-| ]+\|\n((?:\|[^\n]*\n)+)", MANUAL, re.DOTALL)[1]
     return [[cell.strip() for cell in line.strip("|").split("|")] for line in table.splitlines()]
 
@@ -37,7 +36,6 @@ def section_rows(section):
 
 
 def number_of(text):
-    """Parses "1e18", "-64" or "2^64 - 1"."""
     base, _, minus = text.replace("2^64", str(2**64)).partition(" - ")
     number = float(base) if re.search(r"[.e]", base) else int(base)
     return number - int(minus or 0)
@@ -56,7 +54,6 @@ def beyond(least, largest):
 
 
 def commands_of(page):
-    """The program's commands in a page's shell blocks, as words."""
     return [shlex.split(line.split(" # ")[0]) for block in re.findall(r"```sh\n(.*?)```", page, re.DOTALL)
             for line in block.splitlines() if line.startswith("pt ")]
 
@@ -105,7 +102,7 @@ class RealDevice(CommandLineTest):
             words = command[1:command.index(">")] if ">" in command else command[1:]
             if command[1] == "denoise":  # with the library's stand-in
                 words += ["--denoise", os.environ["OPEN_IMAGE_DENOISE"]]
-            if "--watch" not in command:  # does not end by itself
+            if "--watch" not in command:
                 self.expect(0, *words, *smaller)
         for name in "picture.png", "picture.exr", "figures.json", "darker.jpg":
             self.assertIn(name, self.files())
@@ -191,7 +188,7 @@ class RealDevice(CommandLineTest):
             for number in beyond(*ends):
                 self.expect(2, "render", "scene.json", "-o", "a.png", f"{option}={number}", error=option)
         self.assertEqual(len(ranges), 10)
-        ranges["--spp"] = (1, 1)  # the largest would take long
+        ranges["--spp"] = (1, 1)
         for end in 0, 1:
             options = [f"{option}={ends[end]}" for option, ends in ranges.items()]
             self.expect(0, "render", "scene.json", "-o", "a.png", "--size", "4x2", *options)

@@ -13,7 +13,7 @@ class Merge(CommandLineTest):
     program = PT
     small = ("render", COURSEWORK, "--size", "24x13", "-q")
 
-    made = {}  # the parts' bytes, rendered once
+    made = {}
 
     def setUp(self):
         super().setUp()

@@ -84,7 +84,7 @@ TEST(Progress, NeverFallsWhateverIsExpected) {
     progress.expect(1000);
     progress.update_samples(60.0, start + milliseconds(2000));
     progress.expect(80);
-    progress.update_samples(80.0, start + milliseconds(2001)); // at the end, though soon after the last
+    progress.update_samples(80.0, start + milliseconds(2001));
     std::istringstream lines(output.str());
     for (const auto &[fraction, samples, total] :
          {std::array{0.5, 50.0, 100.0}, {0.5, 60.0, 1000.0}, {1.0, 80.0, 80.0}}) {

@@ -7,7 +7,7 @@
 
 struct Refusal {
     cli::ExitCode code = cli::ExitCode::done;
-    std::string message; // empty if the call returns
+    std::string message;
 };
 
 template <typename Call>

@@ -48,7 +48,7 @@ TEST(RenderReport, ErrorText) {
     report.target_error = 0.0044;
     EXPECT_EQ(cli::error_text(report), "error 0.42% (0.4% to 0.44%); target reached after 32 samples");
     report.requested_sample_count = 32;
-    report.target_error = 0.0043; // between the estimate and its upper bound
+    report.target_error = 0.0043;
     EXPECT_EQ(cli::error_text(report), "error 0.42% (0.4% to 0.44%); target not reached: 0.44% is above 0.43% after 32 "
                                        "samples, raise --spp");
     report.requested_sample_count = 64; // stopped by a signal, because more were allowed
@@ -83,7 +83,7 @@ TEST(RenderReport, AnUncertainErrorIsCalledSo) {
         report.error.uncertain = uncertain;
         return cli::error_text(report);
     };
-    EXPECT_EQ(text_with(PT_UNCERTAIN_RMSE), "error 0.42% (0.4% to 0.44%)"); // the relative one is known
+    EXPECT_EQ(text_with(PT_UNCERTAIN_RMSE), "error 0.42% (0.4% to 0.44%)");
     EXPECT_EQ(text_with(PT_UNCERTAIN_RELATIVE_RMSE),
               "error 0.42% (0.4% to 0.44%), uncertain: a few bright pixels make most of it, more samples tell");
     EXPECT_EQ(text_with(PT_UNCERTAIN_UNSEEN),

@@ -44,7 +44,6 @@ constexpr const char *small = R"({
               "estimator": "uniform" }
 })";
 
-// One colored sphere moves all into an array.
 TEST(SceneFile, SpheresMayHaveColors) {
     const auto sphere = [](const std::string &rest) {
         return R"({"center": [1, 2, 3], "radius": 1, "material": "a")" + rest + "}";
@@ -171,7 +170,7 @@ TEST(SceneFile, SyntaxErrorsHaveLineAndColumn) {
     EXPECT_TRUE(refusal("{} {}").starts_with("1:4: syntax error"));
     EXPECT_TRUE(refusal("{\"film\": {\"width\": 1,}}").starts_with("1:22: syntax error"));
     EXPECT_TRUE(refusal("{\"film\": \"\xff\"}").starts_with("1:11: syntax error"));
-    EXPECT_TRUE(refusal("{\"film\": {").starts_with("1:11: syntax error")); // the end, one past the last letter
+    EXPECT_TRUE(refusal("{\"film\": {").starts_with("1:11: syntax error"));
     EXPECT_TRUE(refusal("{\n").starts_with("2:1: syntax error"));
 }
 
@@ -180,7 +179,7 @@ TEST(SceneFile, AMissingCommaIsToldWhereItBelongs) {
     EXPECT_EQ(refusal("{\"film\": {\n\"width\": 4\n  \"height\": 2}}"), "2:11: " + missing);
     EXPECT_EQ(refusal("{\"film\": {\n\"tonemap\": \"agx\" // a remark\n  \"height\": 2}}"), "2:17: " + missing);
     EXPECT_EQ(refusal("{\"film\": {}\n\n\"render\": {}}"), "1:12: " + missing);
-    EXPECT_EQ(refusal("{\"spheres\": [{}\n{}]}").substr(0, 3), "1: "); // the first one is refused before
+    EXPECT_EQ(refusal("{\"spheres\": [{}\n{}]}").substr(0, 3), "1: ");
     EXPECT_EQ(refusal("{\"camera\": {\"position\": [1, 2\n3]}}"), "1:30: " + missing);
     EXPECT_EQ(refusal("{\"camera\": {\"position\": [1, [2]\ntrue]}}"), "1:32: " + missing);
     EXPECT_NE(refusal("{\"film\": {\"width\": 4 x}}").find("invalid literal"), std::string::npos);

@@ -151,7 +151,6 @@ using cli::parse_scene;
 
 using Numbers = std::vector<double>;
 
-// Camera, sphere and lamp move.
 constexpr const char *moving = R"({
   "camera": { "position": [0, 0, 9], "look_at": [0, 0, 0] },
   "materials": { "the lamp": { "emission": 1 } },

@@ -29,7 +29,6 @@ BEYOND_SCHEMAS = ("unknown material", "must be a later frame", "as many numbers 
 
 
 def places(value, path=()):
-    """Paths of all values inside."""
     members = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
     for key, member in members:
         yield (*path, key)
@@ -46,7 +45,6 @@ def changed(place, change):
 
 
 def changes():
-    """Scenes that differ from SCENE in one place."""
     for place in places(SCENE):
         def put(other):
             return lambda parent, key: parent.__setitem__(key, other)  # noqa: B023
@@ -123,7 +121,7 @@ class Schema(CommandLineTest):
             spheres = scene.get("spheres")
             if isinstance(spheres, list) and any(isinstance(each, dict) and isinstance(each.get("center"), str)
                                                  for each in spheres):
-                continue  # a file's name, see above
+                continue
             is_valid = self.validator.is_valid(scene)
             refused = self.refused_by(self.fake, scene, "--size", "4x2")
             kind = "valid" if is_valid else "reader"

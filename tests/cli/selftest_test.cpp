@@ -73,7 +73,6 @@ TEST(SelftestScene, WithoutNoiseEveryPixelCounts) {
     EXPECT_EQ(scene_count, 2);
 }
 
-// By the midpoint rule over time.
 TEST(SelftestScene, RecedingLampByQuadrature) {
     const SelftestScene scene = cli::selftest_scenes().back();
     ASSERT_EQ(scene.name, "receding lamp");

@@ -55,7 +55,6 @@ class RealDevice(CommandLineTest):
         self.assertIn(f"\npassed: all {len(report['checks'])} checks\n", self.output)
 
     def failed_directions(self, *faults, prefixes=("Phong lobe", "hemisphere", "weights", "samples")):
-        """Failed checks of directions with edited shaders."""
         shutil.rmtree(self.path("shaders"), ignore_errors=True)
         shutil.copytree(os.path.join(SCENES, "..", "..", "shaders"), self.path("shaders"))
         for name, old, new in faults:
@@ -82,7 +81,6 @@ class RealDevice(CommandLineTest):
             self.assertTrue(any(name.startswith(f"{kind}: side") for name in sides), sides)
 
     def test_weights(self):
-        """Each kind of weight, 2% too large."""
         for file, weight, failing in (
                 ("step.glsl", "power_heuristic_over_density(lamp_density, direction_density)", ("chosen lamp", "glow", "lamp")),
                 ("step.glsl", "power_heuristic(direction_density, lamp_density)", ("chosen lamp", "lamp")),

@@ -49,7 +49,6 @@ class ShaderDir(WatchTest):
         pt.line_with("wrote a.png")
         self.expect_picture(1.0)
 
-        # An included file that does not compile, and then a warning in it.
         film = self.read("shaders/film.glsl")
         self.save("shaders/film.glsl", self.edited("film.glsl", "FilmPixel empty_film_pixel()\n",
                                                    "FilmPixel empty_film_pixel(\n"))
@@ -62,7 +61,6 @@ class ShaderDir(WatchTest):
         pt.line_with("wrote a.png")
         self.expect_picture(1.0)
 
-        # Without a file, without the folder, and restored.
         os.remove(self.path("shaders/phong.glsl"))
         pt.line_with("shaders/phong.glsl: No such file or directory")
         os.rename(self.path("shaders"), self.path("aside"))
@@ -126,8 +124,6 @@ class ShaderDir(WatchTest):
 
 
 class MaterialsPage(CommandLineTest):
-    """The example of shaders/MATERIALS.md, verbatim."""
-
     program = PT
 
     def values(self, *arguments):

@@ -16,7 +16,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds long_enough = std::chrono::minutes{10}; // for events that come at once or never
+constexpr milliseconds long_enough = std::chrono::minutes{10};
 
 TEST(SourceFiles, AreTheSceneAndTheShaders) {
     const TemporaryFolder folder;

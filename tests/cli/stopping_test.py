@@ -103,7 +103,7 @@ class ExitCodes(CommandLineTest):
     def test_every_piece_has_its_share_of_the_time(self):
         self.expect(0, "render", COURSEWORK, "-o", "a.png", "--size", "2x4", "--piece-rows", "1", "--time", "0.4",
                     "--stats", "s.json", "--spp", "1000000", FAKE_PT_SAMPLE_MS=1)
-        self.assertGreater(json.loads(self.read("s.json"))["spp"], 0)  # the fewest of the pieces
+        self.assertGreater(json.loads(self.read("s.json"))["spp"], 0)
         self.assertEqual(self.errors.count("black"), 0)
 
 
@@ -216,7 +216,6 @@ class RealDeviceError(CommandLineTest):
         self.assertTrue(0 < stats["relative_rmse_low"] < stats["relative_rmse"] < stats["relative_rmse_high"] <= 0.1)
         self.assertTrue(0 < stats["rmse_low"] < stats["rmse"] < stats["rmse_high"])
 
-        # One check earlier was too early.
         self.expect(0, *arguments, "-o", "b.exr", "--spp", str(stats["spp"]))
         self.assertEqual(read_exr_channels(self.path("a.exr")), read_exr_channels(self.path("b.exr")))
         self.assertEqual(json.loads(self.read("s.json"))["rmse"], stats["rmse"])

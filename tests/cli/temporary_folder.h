@@ -29,7 +29,6 @@ public:
         return text.str();
     }
 
-    // Includes hidden files, such as temporary ones.
     std::ptrdiff_t count() const {
         return std::distance(std::filesystem::directory_iterator(path_), std::filesystem::directory_iterator());
     }

@@ -19,7 +19,6 @@ using cli::ToneMap;
 constexpr ToneCurve all_curves[] = {ToneCurve::none, ToneCurve::reinhard, ToneCurve::aces, ToneCurve::agx,
                                     ToneCurve::neutral};
 
-// 1e-12 is thousands of roundings near 1.
 constexpr double rounding = 1e-12;
 
 void expect_color(const Color &color, const Color &expected, double tolerance) {
@@ -27,7 +26,6 @@ void expect_color(const Color &color, const Color &expected, double tolerance) {
         EXPECT_NEAR(color[channel], expected[channel], tolerance) << "channel " << channel;
 }
 
-// Over 20 stops around middle grey, and 0.
 bool is_nondecreasing(const std::function<double(double)> &curve) {
     double last = curve(0.0);
     for (int i = 0; i <= 20'000; ++i) {
@@ -147,7 +145,7 @@ std::vector<float> grey(std::initializer_list<float> pixels) {
 TEST(Exposure, TheAverageOfLogarithmsBecomesMiddleGrey) {
     EXPECT_EQ(automatic_exposure(grey({0.18F})), 0.0);
     EXPECT_EQ(automatic_exposure(grey({0.72F})), -2.0);
-    EXPECT_EQ(automatic_exposure(grey({0.09F, 0.36F})), 0.0); // half and twice, with nearly equal weights
+    EXPECT_EQ(automatic_exposure(grey({0.09F, 0.36F})), 0.0);
     EXPECT_EQ(automatic_exposure(grey({0x1p-20F * 0.09F, 0x1p-20F * 0.36F})), 20.0) << "moves with the picture";
 }
 

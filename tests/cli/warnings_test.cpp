@@ -40,7 +40,7 @@ const Texts unlit{"s.json: no surface emits light: the picture is black"};
 
 TEST(Warnings, NoLight) {
     EXPECT_EQ(warnings_of("", ""), unlit);
-    EXPECT_EQ(warnings_of(scene_of(sphere(9, 1, "grey"))), unlit); // the lamps' materials are unused
+    EXPECT_EQ(warnings_of(scene_of(sphere(9, 1, "grey"))), unlit);
     EXPECT_EQ(warnings_of(scene_of(sphere(9, 1, "blue lamp"))), Texts());
     EXPECT_EQ(warnings_of(scene_of("", lamp_plane(3))), Texts());
 }
@@ -104,7 +104,7 @@ TEST(Warnings, SamplesLeftOut) {
     cli::RenderReport report{};
     report.render.width = 1;
     report.render.height = 4;
-    report.window = {{0, 1, 1, 2}, 1, 4}; // a crop of two rows
+    report.window = {{0, 1, 1, 2}, 1, 4};
     report.stats.sample_count = 8;
     const std::vector<float> two_pixels(6, 0.18F);
     EXPECT_EQ(image_warnings(report, two_pixels), Texts());

@@ -26,7 +26,7 @@ class Scenes(WatchTest):
         self.assertEqual(self.width(), 4)
         self.save("s.json", scene_text(5))
         pt.line_with("wrote a.png: 5x2")
-        self.save("s.json", scene_text(6))  # the replaced file is watched too
+        self.save("s.json", scene_text(6))
         pt.line_with("wrote a.png: 6x2")
         self.write("other.json", scene_text(9))
         os.utime(self.path("s.json"))

@@ -50,6 +50,5 @@ class WatchTest(CommandLineTest):
         return Watching(process)
 
     def save(self, name, text):
-        """Like editors: a new file replaces the old one."""
         self.write(name + "~", text)
         os.replace(self.path(name + "~"), self.path(name))

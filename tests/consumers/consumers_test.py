@@ -20,7 +20,6 @@ class Failed(Exception):
 
 
 def run(*command, expect=0, cwd=None, **environment):
-    """The command must exit with `expect`."""
     done = subprocess.run([str(word) for word in command], cwd=cwd, env={**os.environ, **environment},
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     if done.returncode != expect:
@@ -40,7 +39,6 @@ def check_enclosure(*command, **environment):
 
 
 def files_with(tree, *texts):
-    """Files that contain one of the texts."""
     found = []
     for path in sorted(tree.rglob("*")):
         if path.is_file() and not path.is_symlink():
@@ -102,7 +100,6 @@ class Steps:
             require(sorted(texts) == sorted(set(" and ".join(holders).split(" and "))), f"{package} has {holders}, {texts}")
 
     def check_manual(self, share):
-        """Manual pages of all commands, and bash's completion."""
         text = (share / "man/man1/pt.1").read_text()
         commands = re.findall(r"^  (\w+) ", text.split("Commands:\n")[1].split("\n\n")[0], re.MULTILINE)
         require("render" in commands, f"pt.1 refers to {commands}")
@@ -120,7 +117,6 @@ class Steps:
             require(said == expected, f"completion of {words} is {said}")
 
     def c99(self):
-        """pkg-config with both libraries, and README.md's program."""
         folder = self.folder("c99")
         strict = [self.options.c_compiler, "-std=c99", "-pedantic-errors", "-Wall", "-Wextra", "-Werror"]
         enclosure = HERE / "c99" / "enclosure.c"
@@ -154,7 +150,6 @@ class Steps:
             require((pathlib.Path(shaders) / "pathtrace.comp").is_file(), f"there are no shaders in {shaders}")
 
     def package(self):
-        """find_package in C++ with both libraries, in C with the static one."""
         folder = self.folder("package")
         for project in "package", "package_c":
             build = folder / project
@@ -171,7 +166,6 @@ class Steps:
         check_enclosure(folder / "package_c/enclosure_static")
 
     def configure_subproject(self, build, *settings):
-        """Folders with files compiled with optimisation, and without."""
         run(self.options.cmake, "-S", HERE / "subproject", "-B", build, "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON",
             f"-DPT_DIRECTORY={SOURCE}", f"-DCMAKE_C_COMPILER={self.options.c_compiler}",
             f"-DCMAKE_CXX_COMPILER={self.options.cxx_compiler}", "-G", "Ninja", *settings)
@@ -218,7 +212,6 @@ class Steps:
         require(installed == ["enclosure_static"], f"the project's installation has {installed}")
 
     def python(self):
-        """The Python example has the bits of the C example."""
         folder = self.folder("python")
         library = {"PT_LIBRARY": str(self.library / "libpt.so.0.3"), "PYTHONPATH": str(SOURCE / "lib" / "python")}
         run(sys.executable, "-B", EXAMPLES / "smallest.py", cwd=folder, **library)

@@ -24,7 +24,6 @@ constexpr std::uint32_t height = 160;
 constexpr double much_noise = 0.7;
 constexpr std::size_t value_count = std::size_t{3} * width * height;
 
-// Stripes, whose edges a filter blurs.
 double limit_at(std::size_t index) {
     return 0.6 + 0.4 * static_cast<double>(index / 3 % width / 12 % 2) + 0.1 * static_cast<double>(index % 3);
 }
@@ -99,11 +98,11 @@ struct Denoising {
 };
 
 struct Stated {
-    std::vector<double> differences; // stated squares less true ones
+    std::vector<double> differences;
     double mean_true = 0.0;
     double mean_raw = 0.0;
-    double mean_ratio = 0.0;          // of stated roots to true ones
-    double mean_relative_ratio = 0.0; // the same of relative errors
+    double mean_ratio = 0.0;
+    double mean_relative_ratio = 0.0;
 };
 
 Stated over_seeds(const char *wish, double deviation, int seed_count = 6) {
@@ -347,7 +346,7 @@ TEST(Denoise, SaysWhatItLacks) {
     const std::string message = pt_last_error(nullptr);
     EXPECT_EQ(message.find("denoise.library = \"no-such-library.so\": Open Image Denoise 2 cannot be loaded: "), 0U);
     EXPECT_NE(message.find("pip install pyoidn"), std::string::npos);
-    denoising.info.library = "libm.so.6"; // which has none of the functions
+    denoising.info.library = "libm.so.6";
     EXPECT_EQ(denoising.run(), PT_ERROR_UNSUPPORTED);
     EXPECT_NE(std::string(pt_last_error(nullptr)).find("oidnNewDevice"), std::string::npos);
 }

@@ -36,7 +36,6 @@ std::string wish() {
     return text ? text : "";
 }
 
-// Over the pixels of the image.
 float mean_about(const Filter &filter, const float *color, std::ptrdiff_t x, std::ptrdiff_t y, std::size_t channel,
                  std::ptrdiff_t radius, float most) {
     const auto width = static_cast<std::ptrdiff_t>(filter.width);

@@ -41,7 +41,6 @@ class Command(unittest.TestCase):
             json.dump(SCENE, file)
 
     def refused(self, *words):
-        """Of a command that ends before any worker starts."""
         said, words = io.StringIO(), ["pt-farm", "render", "scene.json", *words]
         before, sys.argv = sys.argv, words
         try:
@@ -99,7 +98,6 @@ class Command(unittest.TestCase):
         self.same("a.exr", "c.exr")
 
     def test_workers_without_the_program(self):
-        """Workers without the program are reported, and others render."""
         programs = {"with": PT, "without": "/none/pt"}
         nannies = {name: {"cls": distributed.Nanny, "options": {"nthreads": 1, "env": {"PT_PROGRAM": path}}}
                    for name, path in programs.items()}
@@ -115,7 +113,6 @@ class Command(unittest.TestCase):
         self.assertTrue((found.film.readback(pt.Quantity.SAMPLE_COUNT) == 4096).all())
 
     def test_files_of_a_scene_go_with_it(self):
-        """Files in the scene's folder keep their names, others get new ones."""
         os.makedirs("in/sub")
         for name in ("in/a.npy", "in/sub/b.npy", "c.npy", "in/d.npy"):
             with open(name, "w") as file:
@@ -152,7 +149,6 @@ class Command(unittest.TestCase):
         self.assertEqual([os.stat(f"f-0{frame}.exr").st_mtime_ns for frame in (0, 2)], [times[0], times[2]])
 
     def test_interrupted_and_going_on(self):
-        """Ctrl-C reaches the workers too."""
         words = ["--checkpoint", "k.ptfilm", "--local-workers", "2", "--part-seconds", "0.1"]
         program = subprocess.Popen([sys.executable, "-m", "pt.farm._command", "render", "scene.json", "-o", "a.exr",
                                     "--spp", str(ENDLESS), *words],

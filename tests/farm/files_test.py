@@ -35,7 +35,6 @@ class Files(unittest.TestCase):
         self.assertEqual(done.returncode, 0, f"{words}\n{done.stdout}")
 
     def parts(self, line):
-        """Also runs the line that adds its films."""
         self.run_line(line)
         self.assertEqual(len(os.listdir(self.folder)), 16)
         self.run_line(command("pt merge").replace("picture.png", "sum.exr"))

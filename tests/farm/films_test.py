@@ -39,11 +39,10 @@ render_part = _task.render_part
 
 def slow(name, part, codecs):
     time.sleep(0.08)
-    return _task.render_part(name, part, codecs)  # the unpatched function of the worker's process
+    return _task.render_part(name, part, codecs)
 
 
 def waiting(path):
-    """A worker named "failing" fails at once."""
     def task(name, part, codecs):
         if distributed.get_worker().name == "failing":
             return _task.Outcome(error="this disk is full", may_help_elsewhere=True)
@@ -136,7 +135,7 @@ class Farm(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.whole = whole(SAMPLES)
-        cls.shared = cls.enterClassContext(local_cluster(2))  # by tests that leave the workers unchanged
+        cls.shared = cls.enterClassContext(local_cluster(2))
 
     def farm(self, samples=SAMPLES, cluster=None, task=slow, job=JOB, **arguments):
         arguments.setdefault("options", QUICK)
@@ -186,7 +185,6 @@ class Farm(unittest.TestCase):
         self.assertEqual(found.film, self.whole)
 
     def test_faulty_outcomes(self):
-        """Short parts, so that each worker gets some."""
         options = dataclasses.replace(QUICK, part_seconds=0.004, most_tries=50)
         with mock.patch.object(_coordinator, "least_seconds", lambda workers, adding_seconds: 0.05):
             found = self.farm(2 * SAMPLES, task=faulty, options=options)
@@ -247,7 +245,7 @@ class Farm(unittest.TestCase):
             self.assertEqual(pt.Film.load(path), self.whole)
             seen = []
             self.farm(options=options, progress=lambda now, film: seen.append((now.samples, now.samples_wanted)))
-            self.assertEqual(set(seen), {(SAMPLES, SAMPLES)})  # also when all samples were there at the start
+            self.assertEqual(set(seen), {(SAMPLES, SAMPLES)})
 
     def test_goes_on_from_tiles_that_are_ahead(self):
         with tempfile.TemporaryDirectory() as folder, pt.Context() as context:
@@ -279,7 +277,6 @@ class Farm(unittest.TestCase):
             self.assertEqual(self.farm(samples, options=options, task=render_part).film, whole(samples))
 
     def test_a_full_disk(self):
-        """The rendering continues, and checkpoints resume when there is room."""
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "kept.ptfilm")
 
@@ -300,7 +297,6 @@ class Farm(unittest.TestCase):
             self.assertEqual(pt.Film.load(path), self.whole)
 
     def assert_accounts(self, seen):
-        """Every part was rendered once, and none was lost."""
         self.assertEqual(seen.forgotten, 0, seen.messages)
         self.assertEqual((seen.repeated, seen.dropped, seen.lost, seen.failed), (0, 0, 0, 0))
         self.assertEqual(seen.issued, seen.parts)
@@ -338,7 +334,6 @@ class Farm(unittest.TestCase):
 
 
 def coordinator(path):
-    """Runs until killed, with a checkpoint at every batch."""
     _task.render_part = slow
     with local_cluster(2) as cluster, Client(cluster) as client:
         farm.render(client, JOB, SAMPLES, options=farm.Options(part_seconds=0.1, checkpoint=path, checkpoint_every=0.0))

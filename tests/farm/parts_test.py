@@ -17,7 +17,7 @@ class Parts(unittest.TestCase):
             context.set_camera(pt.Camera(position=(0, 1.5, 5), target=(0, 1, 0)))
             context.set_render(pt.RenderSettings(136, 100, first_sample=10))
             counts = np.zeros((13, 17), np.uint32)
-            counts[12, 3:] = 5  # the last row, of 4 pixels, without its first tiles
+            counts[12, 3:] = 5
             context.accumulate_tiles(counts)
             film = context.film()
         left = missing_parts(cells_of(film, goals.shape), 8, goals)
@@ -26,7 +26,6 @@ class Parts(unittest.TestCase):
                          [(8, 10, 14), (8, 32, 207), (15, 32, 14)])
 
     def test_what_goes_on(self):
-        """Goals raised from old counts lack the same parts as the film with those counts."""
         random = np.random.default_rng(1)
         before = random.integers(1, 4, (13, 17), np.uint32) * 8
         after = before + random.integers(0, 3, (13, 17), np.uint32) * 8

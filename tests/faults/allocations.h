@@ -5,7 +5,6 @@
 
 namespace faults {
 
-// In its scope this thread's allocations are the library's.
 class InLibrary {
 public:
     InLibrary();

@@ -13,7 +13,6 @@ using namespace faults;
 
 class FailingAllocation : public Injection {
 public:
-    // goes_on: later ones fail too.
     FailingAllocation(std::size_t number, bool goes_on, std::size_t &failures) :
         number_(number),
         goes_on_(goes_on),

@@ -19,7 +19,7 @@ struct KeptDevice {
 VkInstance the_instance = VK_NULL_HANDLE;
 std::vector<KeptDevice> devices;
 std::map<VkShaderModule, std::string> codes;
-std::map<std::tuple<VkDevice, std::string, std::string>, VkPipeline> pipelines; // by device, code and constants
+std::map<std::tuple<VkDevice, std::string, std::string>, VkPipeline> pipelines;
 
 } // namespace
 

@@ -12,7 +12,6 @@ VkResult kept_device(PFN_vkCreateDevice create, VkPhysicalDevice physical_device
 void put_back(VkDevice device);
 void put_all_back();
 
-// Equal device, code and constants make equal pipelines.
 void note_code(VkShaderModule module, const VkShaderModuleCreateInfo *info);
 VkResult kept_pipeline(PFN_vkCreateComputePipelines create, VkDevice device, const VkComputePipelineCreateInfo *info,
                        VkPipeline *pipeline);

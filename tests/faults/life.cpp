@@ -23,7 +23,7 @@ namespace {
 
 constexpr uint32_t width = 24;
 constexpr uint32_t height = 20;
-constexpr uint32_t other_film_end = 12; // in both parts of the film
+constexpr uint32_t other_film_end = 12;
 
 // Long paths: a millisecond is too short for all pixels.
 struct Scene {
@@ -174,7 +174,6 @@ void Life::tell() {
 
     save_film("pt_save_film");
 
-    // The setters again discard samples.
     call("pt_set_scene, again", set_scene);
     accumulate_to("", 1, 0.0);
     add_film("pt_add_film");

@@ -13,20 +13,19 @@
 namespace faults {
 
 struct Setting {
-    bool gpu;                     // see pose_as_gpu
-    uint32_t device_count;        // the one device, several times
-    uint32_t submit_milliseconds; // a submission takes one by the clock
+    bool gpu; // see pose_as_gpu
+    uint32_t device_count;
+    uint32_t submit_milliseconds;
 };
 
 using Image = std::vector<float>;
 using Film = std::vector<char>;
 
-// By sample count, from an undisturbed life.
 struct ExpectedImages {
     std::map<uint32_t, Image> radiance;
     std::map<uint32_t, Image> standard_error;
-    Film film;       // of all samples
-    Film other_film; // of the samples after the first
+    Film film; // of all samples
+    Film other_film;
 };
 
 ExpectedImages undisturbed_images();
@@ -45,7 +44,6 @@ using Steps = std::set<std::string>;
 
 class Life {
 public:
-    // injected: the calls with faults.
     Life(const Setting &setting, const ExpectedImages &expected, const Steps &injected);
     ~Life();
     Life(const Life &) = delete;
@@ -57,7 +55,7 @@ public:
     void live(Injection &injection);
 
     const Steps &attempted() const { return attempted_; }
-    const Steps &met() const { return met_; } // calls that had a fault
+    const Steps &met() const { return met_; }
     bool lost() const { return lost_; }
 
 private:
@@ -89,7 +87,7 @@ private:
     const Setting setting_;
     const ExpectedImages &expected_;
     Injection *injection_ = nullptr;
-    Steps left_; // calls still to be injected
+    Steps left_;
     Steps attempted_;
     Steps met_;
     bool lost_ = false;

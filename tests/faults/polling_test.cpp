@@ -47,7 +47,6 @@ struct PolledScene {
     pt_scene scene() const { return scene_of(materials, spheres, planes); }
 };
 
-// Above, on and below the floor; in and on the ball.
 constexpr double places[][3] = {{0, 1, 0}, {0, 0, 0}, {0, -1, 0}, {0, 1, -4.5}, {0, 1, -3}, {0, 1.5, 0}};
 
 long pipelines() {

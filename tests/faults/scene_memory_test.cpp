@@ -45,7 +45,6 @@ struct ManySpheres {
     }
 };
 
-// Bytes per sphere, beyond the initial ones.
 struct Taken {
     double meanwhile; // peak
     double after;
@@ -70,7 +69,6 @@ protected:
 
     pt_context *context() const { return context_; }
 
-    // First without an earlier scene, then with its shape.
     void expect_at_most(ManySpheres &spheres, double meanwhile, double after) {
         const Taken anew = taken_by(context(), spheres.scene());
         EXPECT_LE(anew.meanwhile, meanwhile);

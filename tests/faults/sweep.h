@@ -9,7 +9,6 @@
 
 namespace faults {
 
-// The fault at a place of each call, from 1.
 using InjectionAt = std::function<std::unique_ptr<Injection>(std::size_t number)>;
 
 // One round per place, in the steps of the previous round. After each life all Vulkan objects and memory are gone.

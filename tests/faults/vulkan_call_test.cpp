@@ -16,11 +16,11 @@ using namespace faults;
 
 pt_result expected_result(const CallFault &fault) {
     // Unknown work, or work that does not end, loses the device.
-    if (fault.function == "vkWaitForFences" && fault.result == VK_TIMEOUT) // reported by the next look
+    if (fault.function == "vkWaitForFences" && fault.result == VK_TIMEOUT)
         return PT_OK;
     if (fault.function == "vkWaitForFences" || fault.function == "vkResetFences")
         return PT_ERROR_DEVICE_LOST;
-    if (fault.function == "vkGetFenceStatus") // a later wait reports it
+    if (fault.function == "vkGetFenceStatus")
         return fault.result == VK_ERROR_DEVICE_LOST ? PT_ERROR_DEVICE_LOST : PT_OK;
     if (fault.function == "vkGetPipelineCacheData") // the cache is optional
         return PT_OK;

@@ -57,7 +57,7 @@ CallFault fault;
 bool posing = false;
 std::uint64_t largest_heap = UINT64_MAX;
 std::set<const void *> lost; // devices and queues
-std::set<VkFence> hanging;   // fences never seen as signalled
+std::set<VkFence> hanging;
 std::map<VkQueue, VkDevice> devices_of_queues;
 std::multiset<std::pair<const void *, Call>> live; // objects and their makers
 PFN_vkDeviceWaitIdle wait_idle = nullptr;
@@ -161,7 +161,6 @@ void note_effect(const std::tuple<A...> &arguments) {
             heap.size = std::min<VkDeviceSize>(heap.size, largest_heap);
 }
 
-// Calls Vulkan, unless the object is kept.
 template <Call call, typename Real, typename... A>
 auto made(Real real, A... values) {
     [[maybe_unused]] const std::tuple<A...> arguments(values...);

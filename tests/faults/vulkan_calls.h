@@ -13,7 +13,7 @@ namespace faults {
 struct CallFault {
     std::string function; // empty: not reached
     VkResult result = VK_SUCCESS;
-    std::size_t error_count = 0; // errors that Vulkan allows the function
+    std::size_t error_count = 0;
 };
 
 // The number-th call that can fail, from 1 (0: none), returns the function's error_index-th error, modulo their count.
@@ -23,7 +23,6 @@ void fail_call(std::size_t number, std::size_t error_index);
 
 CallFault call_fault();
 
-// Lost and hung devices work again.
 void heal_devices();
 
 // Discrete GPUs: staging buffers, two submissions at a time, limited patience.

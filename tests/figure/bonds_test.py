@@ -101,7 +101,7 @@ class Residues(unittest.TestCase):
 
     def test_names_within_residues(self):
         near = residues(("ALA", 1, "N", 7, 0), ("ALA", 1, "CA", 6, 1.45), ("ALA", 1, "O", 8, 2.7), ("ALA", 1, "XYZ", 6, 4.0))
-        self.assertEqual(self.pairs(near), [[0, 1], [2, 3]])  # CA and O do not bond; XYZ is unknown
+        self.assertEqual(self.pairs(near), [[0, 1], [2, 3]])
         self.assertEqual(self.pairs(Particles(near.positions, elements=near.elements)), [[0, 1], [1, 2], [2, 3]])
 
     def test_hydrogens_have_one_bond(self):
@@ -125,7 +125,7 @@ class Residues(unittest.TestCase):
         self.assertEqual(self.pairs(stretched), [[0, 1], [0, 2]])
         notes = []
         stretched.bonds = Bonds.of([[0, 1], [0, 2]], is_complete=False)
-        self.assertEqual(self.pairs(stretched, notes), [[0, 1], [0, 2], [2, 3]])  # atoms with bonds get no others
+        self.assertEqual(self.pairs(stretched, notes), [[0, 1], [0, 2], [2, 3]])
         self.assertEqual(notes, ["bonds are 2 of the data, and 1 by distance"])
         self.assertEqual(self.pairs(stretched.select(np.array([True, False, True, True]))), [[0, 1], [1, 2]])
 
@@ -216,7 +216,6 @@ class Looks(unittest.TestCase):
         np.testing.assert_array_equal(first.drawn.radii, second.drawn.radii)
 
     def test_halves_have_the_colors_of_their_atoms(self):
-        """Red left of the middle, blue right, nothing without bonds; ends of bonds through walls are in the picture."""
         options = {"radius": 0.2, "color": np.uint8([[255, 0, 0], [0, 0, 255]]), "size": (61, 31), "view": "front",
                    "samples": 4}
         with pt.Context() as context:
@@ -311,7 +310,6 @@ class Trails(unittest.TestCase):
 
     @staticmethod
     def steps(series, trails, **options):
-        """Begin, end and particle of each capsule in the last picture."""
         drawn = list(frames(lambda: iter(series), Options(radius=0.5, size=(40, 30), **options), trails))[-1].drawn
         return [(begin.tolist(), end.tolist(), atom) for rods in drawn.rods
                 for begin, end, atom in zip(drawn.begins(rods), drawn.ends(rods), rods.atoms)]

@@ -120,14 +120,13 @@ class Cells(unittest.TestCase):
         self.assertIsNone(drawn.cell)
         self.assertEqual([note[:25] for note in drawn.notes], ["8 of 8 particles are outs", "the cell is not drawn: mo"])
         self.assertIsNotNone(drawn_of(chain, TEN, box="lines").cell)
-        for positions in (CUBE * 3 + (5, 5, 19), CUBE * 0.9 + 1):  # beside it, or in a corner
+        for positions in (CUBE * 3 + (5, 5, 19), CUBE * 0.9 + 1):
             self.assertIsNotNone(drawn_of(positions, TEN).cell)
         for count, is_drawn in ((50, True), (51, False)):
             positions = np.vstack([CUBE[:count] * 2 + (15, 5, 5), CUBE[count:100] * 2 + 5])
             self.assertEqual(drawn_of(positions, TEN).cell is not None, is_drawn)
 
     def test_a_cell_much_larger_than_its_particles_is_not_drawn(self):
-        """One ball in the middle of a cell with corners 5 away."""
         for radius, is_drawn in ((0.52, True), (0.48, False)):
             drawn = drawn_of([[5.0, 5, 5]], TEN, radius=radius)
             self.assertEqual((drawn.cell is not None, len(drawn.notes)), (is_drawn, 1 - is_drawn))

@@ -60,7 +60,7 @@ class Numbers(unittest.TestCase):
         np.testing.assert_array_equal(rgb[7], (16, 32, 48))
         self.assertEqual((legend.no_value, legend.low), ((16, 32, 48), values[np.arange(COUNT) != 7].min()))
         self.assertIn("1 particles have no", notes)
-        rgb, legend, notes = colored(values, scale="log")  # 0 and less have no logarithm
+        rgb, legend, notes = colored(values, scale="log")
         self.assertEqual(legend.low, values[values > 0].min())
         self.assertTrue((rgb[values <= 0] == 191).all())
 

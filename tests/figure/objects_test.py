@@ -18,7 +18,6 @@ EDGES = np.array([[9.0, 0, 0], [1, 8, 0], [2, 3, 7]])
 
 
 def stand_in(name, **attributes):
-    """An object of a type whose module has this name."""
     kind = type(name.rpartition(".")[2], (types.SimpleNamespace,), {"__module__": name.rpartition(".")[0]})
     return kind(**attributes)
 
@@ -52,7 +51,6 @@ class Steps(list):
 
 
 def universe():
-    """The first of two frames is the current one."""
     if installed("MDAnalysis"):
         import MDAnalysis
         from MDAnalysis.lib.mdamath import triclinic_box
@@ -180,7 +178,6 @@ class Files(unittest.TestCase):
                 self.read("a.pcd", content.encode())
 
     def test_las(self):
-        """16-bit colors below 256 are bytes."""
         if installed("laspy"):
             import laspy
             las = laspy.LasData(laspy.LasHeader(point_format=3, version="1.2"))

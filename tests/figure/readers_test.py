@@ -43,7 +43,6 @@ class InAFolder(unittest.TestCase):
         return load(path, **options)
 
     def refusal(self, name, content, **options):
-        """The message about a file, without its folder."""
         with self.assertRaises(DataError) as raised:
             self.read(name, content, **options)
         return str(raised.exception).replace(f"{self.folder}/", "")
@@ -120,7 +119,6 @@ class Cells(InAFolder):
 
 
 def many_frames(count):
-    """Frame i has one particle, at x = i."""
     return "".join(f"1\nframe\nH {i} 0 0\n" for i in range(count))
 
 
@@ -296,7 +294,6 @@ class Damaged(InAFolder):
     """
 
     def particles(self, name, data):
-        """None if refused with a message that names the file."""
         try:
             return self.read(name, data)
         except DataError as error:

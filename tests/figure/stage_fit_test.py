@@ -145,7 +145,7 @@ class Series(unittest.TestCase):
             sides = [float(rim.max()) for rim in rims(each.layout.camera, (90, 60), particles.positions,
                                                       each.drawn.radii[0])]
             self.assertLess(max(sides), 1 - 2 * MARGIN + 1e-9)
-        self.assertAlmostEqual(max(sides), 1 - 2 * MARGIN)  # of the last, the largest
+        self.assertAlmostEqual(max(sides), 1 - 2 * MARGIN)
 
     def test_types_keep_their_colors_where_some_are_missing(self):
         trajectory = [Particles(np.eye(3)[:2], types=np.array(names)) for names in (["b", "d"], ["a", "d"])]

@@ -10,7 +10,6 @@
 
 namespace fuzz {
 
-// The input and neighbours chosen by the bytes.
 void examine_neighbourhood(const Input &input, std::span<const std::uint8_t> bytes);
 
 // -- by variant --

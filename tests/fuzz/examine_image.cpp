@@ -19,7 +19,6 @@ namespace fuzz {
 
 namespace {
 
-// Whether the samples exist and rendering takes less than seconds.
 bool can_be_rendered(const Input &input) {
     constexpr double most_tests = 4e6;
     const pt_render &render = input.render;

@@ -118,7 +118,6 @@ void read_claims(ByteReader &bytes, Input &input) {
     input.tail_byte = bytes.one_in(8) ? 1 : 0;
 }
 
-// Reads stay in the structs, or are refused.
 void read_columns(ByteReader &bytes, Input &input) {
     static constexpr std::uint32_t right_types[] = {PT_TYPE_FLOAT64, PT_TYPE_FLOAT64, PT_TYPE_FLOAT64, PT_TYPE_UINT32,
                                                     PT_TYPE_SRGB8};
@@ -166,7 +165,6 @@ pt_sphere_array columns_of(const Input &input, std::size_t first, std::size_t co
     return array;
 }
 
-// In memory of exactly their size.
 void write_arrays(const Input &input, std::span<const pt_sphere_array> arrays) {
     const std::size_t size = std::clamp<std::size_t>(input.columns.struct_size, sizeof(std::uint32_t), 65536);
     input.array_bytes.assign(arrays.size() * size, input.tail_byte);

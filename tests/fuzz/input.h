@@ -32,8 +32,8 @@ struct Input {
 
     // The last spheres may be columns that point into the structs.
     struct Columns {
-        std::uint32_t count = 0;      // spheres in both
-        bool has_colors = false;      // sRGB, from the centers' bytes
+        std::uint32_t count = 0; // spheres in both
+        bool has_colors = false;
         std::uint32_t claimed = none; // the column of both arrays that `claim` replaces
         pt_column claim{}; // data: NULL, or replaced by the column's place; read within the structs or refused
         std::uint32_t more_spheres = 0; // 2^27 or more

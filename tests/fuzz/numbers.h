@@ -23,7 +23,7 @@ public:
 private:
     double ordinary();
     double any_magnitude(); // of any sign, in [1e-18, 1e18]
-    double boundary();      // an end of a range
+    double boundary();
     bool breaks_rule() { return wild_ && bytes_.one_in(16); }
     double anything();
 

@@ -25,7 +25,6 @@ inline void complain(void *, std::int32_t level, const char *line) {
     require(level == PT_LOG_INFO, line);
 }
 
-// Kernels are built only when features change.
 inline pt_context *context() {
     static const std::unique_ptr<pt_context, DestroyContext> created = [] {
         pt_create_info info{};

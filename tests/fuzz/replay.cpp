@@ -69,7 +69,6 @@ Bytes mutated(const std::vector<Bytes> &corpus) {
 
 } // namespace
 
-// Replaces, deletes or inserts a byte.
 std::size_t LLVMFuzzerMutate(std::uint8_t *data, std::size_t size, std::size_t max_size) {
     const std::size_t place = mutation_random() % (size + 1);
     const auto byte = static_cast<std::uint8_t>(mutation_random());

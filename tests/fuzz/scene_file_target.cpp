@@ -32,7 +32,6 @@ bool is_number_character(std::uint8_t character) {
            std::string_view("+-.eE").find(static_cast<char>(character)) != std::string_view::npos;
 }
 
-// Returns 0 without a number, or without room.
 std::size_t exchange_number(std::span<std::uint8_t> room, std::size_t size, std::mt19937 &random) {
     static constexpr std::string_view numbers[] = {
         "0",     "-0",   "1",     "-1",       "2",      "0.5",    "0.999999999999", "1e18",   "-1e18",

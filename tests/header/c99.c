@@ -17,7 +17,6 @@ static int32_t count_calls(void *user, double fraction) {
     return fraction < 0.0 || fraction > 1.0;
 }
 
-/* A sphere around the camera emits red. */
 static int render(pt_context *context, float *pixels, uint64_t size_bytes) {
     const pt_material material = {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, {2.0f, 0.0f, 0.0f}, 0.0f, 0};
     const pt_sphere sphere = {{0.0, 0.0, 0.0}, 5.0, {0.0, 0.0, 0.0}, 0, 0};

@@ -160,7 +160,6 @@ TEST(Camera, AcceptsExtremes) {
     EXPECT_EQ(camera_outcome(camera), "accepted");
 }
 
-// Float32 axes keep their precision with `up` almost parallel to the view.
 TEST(Camera, AxesAreOrthonormalToFloatPrecision) {
     const double views[][3] = {{1, 2, 3}, {-1, 1e-9, 0}, {1e-17, 3e-18, -2e-18}, {1e17, -1e18, 7e16}};
     for (const auto &view : views) {

@@ -159,7 +159,6 @@ TEST(CallerVulkan, APhysicalDeviceMustBeSuitable) {
 using Property = vk::MemoryPropertyFlagBits;
 using Types = std::vector<std::uint32_t>;
 
-// The GPU's memory, the host's, and a window onto the GPU's.
 vk::PhysicalDeviceMemoryProperties gpu_memory() {
     vk::PhysicalDeviceMemoryProperties memory;
     memory.memoryTypeCount = 3;

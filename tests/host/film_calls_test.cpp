@@ -22,7 +22,6 @@ struct CloseFilm {
 };
 using OpenedFilm = std::unique_ptr<pt_film, CloseFilm>;
 
-// In an image of 9 x 7: the left three columns have the samples [0, 3), the others [0, 20).
 film_maker::Samples two_tiles() {
     film_maker::Samples samples;
     for (std::uint32_t y = 2; y < 5; ++y)
@@ -127,7 +126,6 @@ std::int32_t append(void *user, const void *data, std::uint64_t size) {
     return bytes.size() > 2'000'000 ? 1 : 0;
 }
 
-// More than one megabyte; cancelled within two.
 TEST(FilmCalls, HandOnTheBytes) {
     for (const std::uint32_t width : {20'000U, 40'000U}) {
         film_maker::Samples samples;

@@ -67,7 +67,6 @@ inline void expect_holds(const pt::GridBox &box, const Held &sphere) {
     }
 }
 
-// Returns the number of spheres below.
 inline std::size_t expect_boxes_hold(const pt::SphereTree &tree, std::uint32_t node, std::vector<pt::GridBox> &boxes) {
     const std::span<const glm::uvec4> words(tree.words());
     const pt::TreeNodeView view(words.subspan(std::size_t{node} * pt::gpu::TREE_NODE_WORDS));

@@ -33,7 +33,7 @@ TEST(LiesApart, OfBallsIsBesideOrWithin) {
 TEST(LiesApart, OfBallsThatMoveIsSoAllTheTime) {
     EXPECT_FALSE(lies_apart(ball(0, 1), ball(-5, 1, 10)));
     EXPECT_TRUE(lies_apart(ball(0, 1, 10), ball(-5, 1, 10)));
-    EXPECT_FALSE(lies_apart(ball(0, 1), ball(-3, 5, 7.5))); // the shell reaches it at last
+    EXPECT_FALSE(lies_apart(ball(0, 1), ball(-3, 5, 7.5)));
     EXPECT_TRUE(lies_apart(ball(0, 1), ball(-3, 5, 3)));
 }
 

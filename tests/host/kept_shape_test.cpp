@@ -23,7 +23,6 @@ using Spheres = std::vector<pt_sphere>;
 
 constexpr std::size_t ball_count = 2000; // in [-1, 1]^3, a spacing of 0.16
 
-// By normal deviates of this size.
 Spheres moved(Spheres spheres, double by) {
     std::mt19937 engine(29);
     std::normal_distribution<double> normal;
@@ -45,7 +44,6 @@ std::string digest_of(const pt::SphereTree &tree) {
     return digest.text();
 }
 
-// All but the order of spheres and nodes.
 void expect_alike(const pt::SphereTree &tree, const pt::SphereTree &other) {
     EXPECT_EQ(tree.sphere_count(), other.sphere_count());
     EXPECT_EQ(tree.moves(), other.moves());
@@ -160,7 +158,6 @@ TEST(KeptShape, IsNotForTwins) {
     EXPECT_FALSE(kept(tree, with_twins));
 }
 
-// The limit is a quarter, in one step or several.
 TEST(KeptShape, IsGivenUpWhereANewTreeWouldBeMuchBetter) {
     const Spheres spheres = heap(ball_count, 0.0);
     const pt::SphereTree tree = tree_of(spheres);

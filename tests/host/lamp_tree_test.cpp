@@ -47,7 +47,7 @@ TEST(LampTreeShape, HasASlotForEachLampAndMostAreTaken) {
 TEST(LampTreeOrder, HasEveryLampOnceAndNeighboursTogether) {
     pt::Scene scene;
     scene.materials.push_back({glm::vec3(0.5F), glm::vec3(0), glm::vec3(0), 0});
-    for (int i = 0; i < 256; ++i) { // sixteen clusters of four by four, with dark balls between
+    for (int i = 0; i < 256; ++i) {
         const int heap = i % 16;
         const glm::dvec3 middle(100 * (heap % 4), 0, 100 * (heap / 4));
         lamp_scenes::add_lamp(scene, middle + glm::dvec3(i / 16 % 4, 0, i / 64), 0.25, 1);

@@ -81,7 +81,6 @@ TEST(LightSpots, AreNoneWhereTheyWouldBeMany) {
     EXPECT_EQ(spots_of(room), 0U);
 }
 
-// Lamp, surface, reflectance, glossiness; independent of the camera.
 TEST(LightSpots, AreTheLastWordsOfTheScene) {
     const SpotRoom room{.ball_specular = 0.5F};
     const pt::GpuScene scene = scene_of_room(room);

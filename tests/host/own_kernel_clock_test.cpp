@@ -19,7 +19,6 @@ TEST(OwnKernelClockTest, WaitsTwiceAsLongAfterEachThatWasBuiltInVain) {
     EXPECT_TRUE(clock.is_time(1.01)) << "one has paid";
 }
 
-// The camera stops again and again, for a thousand seconds.
 TEST(OwnKernelClockTest, WhatIsBuiltInVainIsAShareOfTheTime) {
     for (const double stop : {0.5, 1.1, 2.3, 5.0, 9.0, 31.0, 33.0}) {
         pt::OwnKernelClock clock;

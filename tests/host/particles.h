@@ -45,7 +45,6 @@ struct Particles {
         return array;
     }
 
-    // With materials made by hand.
     std::vector<pt_sphere> spheres() const {
         std::vector<pt_sphere> spheres;
         for (std::size_t i = 0; i < count; ++i)
@@ -70,7 +69,6 @@ struct Particles {
         return pt::owned_scene(checked_scene_of(scene));
     }
 
-    // The error's result and message, or "accepted".
     std::string outcome() const {
         try {
             validated();

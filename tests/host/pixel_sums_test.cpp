@@ -95,9 +95,8 @@ pt::WideSum sum_of(const Planes &pixel, std::uint32_t part, std::uint32_t channe
     return sum;
 }
 
-// Words of ones and zeros pass and start carries.
 TEST(PixelSums, AddAsNumbersOfAllWords) {
-    constexpr std::size_t count = 600; // more than are added at a time
+    constexpr std::size_t count = 600;
     std::mt19937 random(1);
     std::vector<Planes> pixels[3];
     for (std::vector<Planes> &some : pixels) {
@@ -174,7 +173,6 @@ void expect_those_of_kernels(const Usual &usual) {
         }
 }
 
-// Weights of one and two words, products beyond 128 bits, subnormals, overflow.
 TEST(PixelSums, HaveTheValuesOfKernels) {
     for (const Usual &usual : {Usual{8, 8, 0, 84},
                                {32, 8, 0, 84},

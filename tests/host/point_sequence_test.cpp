@@ -34,7 +34,6 @@ bool fills_boxes(const Coordinates &x, const Coordinates &y, std::uint32_t digit
     return std::ranges::all_of(hits, [](std::uint32_t count) { return count == 1; });
 }
 
-// Equal leading digits, up to 32.
 int common_digits(std::uint32_t a, std::uint32_t b) {
     return std::countl_zero(a ^ b);
 }
@@ -84,7 +83,6 @@ TEST(RadicalInverse, IsExact) {
     }
 }
 
-// The largest base is not in the file.
 TEST(RadicalInverse, OfTheLastDimensionMatchesItsDigits) {
     ASSERT_EQ(dimension_of_base(311), pt::sequence_dimensions - 1);
     for (const std::uint32_t index : {0U, 1U, 310U, 311U, 96720U, 4294967295U}) {
@@ -247,7 +245,6 @@ TEST(PointTable, RowsAreThePoints) {
     }
 }
 
-// A sample's numbers never share a dimension.
 TEST(PointTable, TimeIsTheFifthDimensionOfSobol) {
     const pt::PointLayout layout{{3, 2, 2, 2}, 2, 1};
     const std::vector<Coordinates> dimensions =

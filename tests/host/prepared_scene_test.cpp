@@ -16,7 +16,6 @@ pt::Scene small_scene() {
             {{{0, 1, 0}, 0.25, 0}}};
 }
 
-// The scene changes unnoticed, which shows when the digest is computed.
 TEST(PreparedScene, ComputesTheDigestOnceWhereItIsAskedFor) {
     pt::PreparedScene prepared(small_scene());
     prepared.scene.spheres[0].radius = 2.0;

@@ -68,7 +68,6 @@ TEST(RayStart, IsJustBeforeTheFirstSurfaceInView) {
     EXPECT_NEAR(start_of({}, {{{0, 1, 0}, -1e6 - 2, 0}}, camera), 1e6 / 0.6 * (1 - width), 20) << "a ceiling";
 }
 
-// Down to a quarter of the view's width.
 TEST(RayStart, IsOutsideOfTinyFarBalls) {
     const pt::Camera camera = looking_along(oblique, 1e-8);
     for (int i = 0; i < 200; ++i) {
@@ -120,7 +119,6 @@ TEST(RayStart, OfParallelRaysIsFiveEighthsOfTheDiagonalBeforeTheFirstSurface) {
     EXPECT_NEAR(start_of({towards}, {}, camera), 1e4 - 103 - before, 1e-9);
 }
 
-// Otherwise vertices track the sides of all surfaces.
 TEST(RayStart, OfParallelRaysIsOnOneSideOfALongCapsuleAcrossTheView) {
     pt::Camera camera = parallel_along(oblique, 2.0);
     pt::Sphere capsule{camera_position - 500.0 * camera.right, 0.25, 1000.0 * camera.right, 0, pt::Kind::capsule};
@@ -145,7 +143,7 @@ TEST(RayStart, NothingInViewIsBeforeIt) {
     const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(engine); };
     const auto direction = [&] { return glm::dvec3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)); };
     const auto in_view = [&] { return uniform(0, 1) < 0.5 ? uniform(-1, 1) : std::copysign(1.0, uniform(-1, 1)); };
-    int near_misses[2] = {0, 0}; // of parallel rays, and of others
+    int near_misses[2] = {0, 0};
     for (int round = 0; round < 600; ++round) {
         const bool is_parallel = round % 3 == 0;
         const double fov = std::pow(10.0, uniform(-8, -2.5));

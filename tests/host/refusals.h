@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-// The thrown message, or "accepted".
 template <typename Call>
 std::string outcome_of(pt_result code, const Call &call) {
     try {

@@ -34,7 +34,6 @@ TEST(SceneBlocks, ShareMaterialsInScenesTooLargeForTheUniformBuffer) {
     EXPECT_EQ(row_of_balls(342, 100).words.size(), 342U + 1 + 86 + 101);
 }
 
-// The words of the most surfaces exceed 32 bits.
 TEST(SceneBlocks, HoldTheLargestScenes) {
     constexpr std::uint32_t most_surfaces = (1U << 30) - 1;
     pt::Features features{};

@@ -86,9 +86,7 @@ TEST(FeatureInside, IsWhetherTheCameraIsInASphere) {
 // A resting sphere becomes a curved plane, which needs no such feature.
 TEST(FeatureInside, IsTrueWhereFloat32CannotTell) {
     constexpr double radius = 2;
-    const auto touches = [](double distance) { // at half time; farther off at others
-        return inside({ball_at({-8, distance, 0}, radius, {16, 0, 0})});
-    };
+    const auto touches = [](double distance) { return inside({ball_at({-8, distance, 0}, radius, {16, 0, 0})}); };
     EXPECT_TRUE(touches(radius * (1 - 0x1p-20)));
     EXPECT_TRUE(touches(radius));
     EXPECT_TRUE(touches(radius * (1 + 0x1p-20)));
@@ -102,7 +100,6 @@ TEST(FeatureInside, IsTrueWhereFloat32CannotTell) {
         }
 }
 
-// The center is over the camera at half time.
 TEST(FeatureInside, IsAtAnyTimeOfTheShutter) {
     const auto passing = [](double height, const Shutter &shutter) {
         return inside({ball_at({-8, height, 0}, 1, {16, 0, 0})}, shutter);
@@ -125,7 +122,6 @@ pt::Plane floor_at(double height, bool upwards = true) {
     return {{0, side, 0}, -side * (eye.y + height), dark};
 }
 
-// Lamps are found by index.
 TEST(FeaturePlanesEmit, IsWhetherAnythingButALampEmits) {
     pt::Plane glowing = floor_at(-5);
     glowing.material = shining;
@@ -164,9 +160,9 @@ TEST(FeaturePlanesBlock, IsWhetherALampIsNotAllOnTheSideOfTheCamera) {
 
 TEST(FeaturePlanesBlock, IsByAnyPlaneAndAnyLamp) {
     const pt::Plane tilted = {{0.6, 0, 0.8}, 7 - glm::dot(glm::dvec3(0.6, 0, 0.8), eye), dark}; // 7 from the camera
-    const pt::Sphere near = lamp_at({0, 1, -5}, 1);        // 3 from the tilted plane
-    const pt::Sphere far = lamp_at({-6, 1, -8}, 1);        // 3 beyond it
-    const pt::Sphere across = lamp_at({-4.2, 1, -5.6}, 1); // its center is on it
+    const pt::Sphere near = lamp_at({0, 1, -5}, 1);
+    const pt::Sphere far = lamp_at({-6, 1, -8}, 1); // 3 beyond it
+    const pt::Sphere across = lamp_at({-4.2, 1, -5.6}, 1);
     const pt::Sphere high = lamp_at({0, 6, -5}, 1);
     EXPECT_FALSE(planes_block({near}, {tilted, floor_at(-4), floor_at(4)}));
     EXPECT_TRUE(planes_block({far}, {tilted, floor_at(-4), floor_at(4)}));
@@ -176,7 +172,6 @@ TEST(FeaturePlanesBlock, IsByAnyPlaneAndAnyLamp) {
     EXPECT_FALSE(planes_block({high, near}, {floor_at(-4), tilted}));
 }
 
-// Crosses the floor at half time.
 TEST(FeaturePlanesBlock, IsAtAnyTimeOfTheShutter) {
     const auto falling = [](const Shutter &shutter) {
         return planes_block({lamp_at({0, 3, -5}, 1, {0, -12, 0})}, {floor_at(-4)}, shutter);

@@ -109,7 +109,6 @@ TEST(Scene, BrokenRulesOfPlanesAreNamed) {
          {[](Draft &d) { d.planes[1].reserved = 1; }, "planes[1].reserved = 1: must be 0"}});
 }
 
-// Arrays that are too long must not be read.
 TEST(Scene, BrokenRulesOfArraysAreNamed) {
     expect_refusals<Draft>(Draft(), scene_outcome,
                            {{[](Draft &d) { d.spoil = [](pt_scene &s) { s.spheres = nullptr; }; },

@@ -23,7 +23,6 @@ namespace {
 constexpr double overhead = 1e-4; // seconds per submission
 constexpr double paths_of_tile = pt::gpu::WORKGROUP_SIZE;
 
-// Seconds for `paths`, after paths_before.
 using Device = std::function<double(double paths_before, double paths)>;
 
 Device constant_device(double paths_per_second) {
@@ -37,7 +36,6 @@ Device throttled_device(double paths_per_second, double paths_until_then) {
     };
 }
 
-// Times vary by factors up to 1.5, log-uniformly.
 Device noisy_device(double paths_per_second) {
     return [=, generator = std::mt19937(1)](double, double paths) mutable {
         const double exponent = std::ldexp(static_cast<double>(generator()), -31) - 1.0; // in [-1, 1)
@@ -75,7 +73,6 @@ std::vector<Step> simulate(std::uint32_t tile_count, std::uint64_t samples, cons
     return steps;
 }
 
-// The first fault, or "nothing".
 std::string fault(const std::vector<Step> &steps, std::uint32_t tile_count, std::uint64_t samples,
                   const pt::ScheduleLimits &limits) {
     std::uint64_t samples_done = 0;
@@ -124,7 +121,7 @@ constexpr std::size_t warm_up = 20;
 double share_on_target(const std::vector<Step> &steps, const pt::ScheduleLimits &limits) {
     int judged = 0;
     int good = 0;
-    for (std::size_t i = warm_up; i + 1 < steps.size(); ++i) { // the last is the rest
+    for (std::size_t i = warm_up; i + 1 < steps.size(); ++i) {
         ++judged;
         good += steps[i].seconds <= 2.0 * limits.target_seconds && steps[i].seconds >= 0.5 * limits.target_seconds;
     }

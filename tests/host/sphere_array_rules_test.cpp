@@ -95,7 +95,7 @@ TEST(SphereArrays, BrokenRulesOfValuesAreNamed) {
               p.spoil = [](pt_sphere_array &a) { a.material = {}; };
           },
           "sphere_arrays[0].material = 0: must be < material_count (0)"},
-         {[](Particles &p) { // a common value is reported once
+         {[](Particles &p) {
               p.radius = {-1};
               p.spoil = [](pt_sphere_array &a) { a.radius.stride_bytes = 0; };
           },
@@ -104,7 +104,6 @@ TEST(SphereArrays, BrokenRulesOfValuesAreNamed) {
 
 const void *const not_there = reinterpret_cast<const void *>(std::uintptr_t{64}); // reading it would crash
 
-// Arrays that are too long are not read.
 TEST(SphereArrays, BrokenRulesOfCountsAreNamed) {
     expect_refusals<Particles>(
         {}, outcome,

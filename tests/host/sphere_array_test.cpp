@@ -108,7 +108,6 @@ TEST(SphereArrays, HaveOneValueForAllOrDefaults) {
     }
 }
 
-// Checked only: they would take 4 GiB.
 TEST(SphereArrays, MayHaveTwoToTheTwentySixthSpheres) {
     Particles particles;
     particles.count = 1U << 26;
@@ -186,7 +185,6 @@ TEST(SphereArrays, OfOtherSizesAreRefused) {
 TEST(SphereArrays, ColorsMultiplyTheDiffuse) {
     const Particles particles;
     const pt::Scene scene = particles.validated();
-    // The second reflects nothing in any color.
     ASSERT_EQ(scene.materials.size(), 5U);
     EXPECT_EQ(scene.spheres[0].material, 0U);
     EXPECT_EQ(scene.spheres[1].material, 2U);

@@ -155,7 +155,6 @@ struct Told {
     }
 };
 
-// The stage is half of the whole.
 TEST(SphereOrder, TellsHowFarItIs) {
     for (const Kind &kind : kinds()) {
         SCOPED_TRACE(kind.name);

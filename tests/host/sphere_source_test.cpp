@@ -15,7 +15,6 @@ namespace sphere_arrays {
 
 namespace {
 
-// All sizes, empty ones too.
 TEST(SphereSource, ReadsInOrderAcrossArrays) {
     std::vector<float> center(3 * 2000);
     std::vector<float> color(3 * 2000);
@@ -129,7 +128,6 @@ TEST(Scene, KnowsWhereTheCallerHasASphere) {
     EXPECT_EQ(place(9), "sphere_arrays 2 4");
 }
 
-// An opacity held as 1 lets none pass.
 TEST(SphereSource, KnowsOpacitiesThatLetRaysPass) {
     const std::vector<float> center{0, 0, 0, 4, 0, 0, 8, 0, 0};
     const float radius = 1.0F;

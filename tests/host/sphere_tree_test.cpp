@@ -126,7 +126,6 @@ pt::SphereTree tree_with(const pt_sphere_array &capsules, const std::vector<pt_s
     return {pt::SphereSource(spheres, {&capsules, 1}), left_out, two_materials, nobody};
 }
 
-// From x = 30 to 90, around a lamp at 60.
 TEST(SphereTree, KnowsLampsInCapsules) {
     std::vector<pt_sphere> spheres = heap(40, 0.0);
     for (pt_sphere &sphere : spheres)
@@ -142,7 +141,6 @@ TEST(SphereTree, KnowsLampsInCapsules) {
     }
 }
 
-// Outlying spheres' motion adds ways to the tree; capsules' does not.
 TEST(SphereTree, HasWaysIfWhatIsLeftOutMoves) {
     const auto has_ways = [](const pt::SphereTree &tree) {
         const pt::gpu::TreeFrame frame = tree.frame(camera_at(glm::dvec3(0.0)));

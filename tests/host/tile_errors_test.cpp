@@ -26,7 +26,6 @@ struct Value {
     double lesser;
 };
 
-// With fireflies, edges and black pixels.
 class Tile {
 public:
     Tile(const Size &size, unsigned seed) : values_{.width = size.width, .height = size.height, .sample_count = 64.0} {
@@ -49,7 +48,6 @@ public:
         return {static_cast<double>(mean), static_cast<double>(standard_error), static_cast<double>(lesser)};
     }
 
-    // Right and bottom are exclusive.
     std::vector<double> means(std::size_t channel, std::size_t left, std::size_t top, std::size_t right,
                               std::size_t bottom) const {
         std::vector<double> means;
@@ -59,7 +57,6 @@ public:
         return means;
     }
 
-    // The pixel and its neighbours, ascending.
     std::vector<double> means_about(std::size_t channel, std::size_t x, std::size_t y) const {
         std::vector<double> found =
             means(channel, std::max<std::size_t>(x, 1) - 1, std::max<std::size_t>(y, 1) - 1, x + 2, y + 2);

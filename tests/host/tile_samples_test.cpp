@@ -117,7 +117,6 @@ TEST(TileGrid, EdgesHaveSmallerTiles) {
     EXPECT_EQ(pixels, 210U);
 }
 
-// At times all tiles hold the same.
 TEST(TileSamples, AreThoseThatWereAddedToEach) {
     std::mt19937 generator(18);
     TileSamples samples(small_grid);
@@ -160,7 +159,6 @@ TEST(TileSamples, RowsOfTilesAreAFilmOfTheirOwn) {
     EXPECT_EQ(lower.total(), 16U * 16U);
 }
 
-// Tiles of a task differ by at most one sample.
 TEST(TileTasks, BringTilesToTheirGoals) {
     std::mt19937 random(1);
     for (int round = 0; round < 200; ++round) {

@@ -51,7 +51,6 @@ double cost_of(std::span<const pt::TreeItem> first, std::span<const pt::TreeItem
     return surface_of(first) * nodes(first.size()) + surface_of(second) * nodes(second.size());
 }
 
-// Over all cuts between different coordinates along these axes.
 double least_cost(Items items, std::size_t first_axis = 0, std::size_t last_axis = 2) {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t axis = first_axis; axis <= last_axis; ++axis) {

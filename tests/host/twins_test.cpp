@@ -77,7 +77,6 @@ TEST(Twins, AreSpheresThatDifferByAMillionthOfTheirSize) {
         }
 }
 
-// From afar float32 merges more, but never touching balls.
 TEST(Twins, AreSpheresWhoseCentersFloat32HoldsAlike) {
     EXPECT_EQ(distinct({ball({0, 0, -1e3}, 1), ball({4e-4, 0, -1e3}, 1)}).size(), 1U);
     EXPECT_EQ(distinct({ball({0, 0, -1e2}, 1), ball({4e-4, 0, -1e2}, 1)}).size(), 2U);
@@ -93,7 +92,6 @@ TEST(Twins, MoveTogether) {
     EXPECT_EQ(distinct({moving, ball({0, 0, -5}, 1, {0, 2 + 1e-7, 0})}).size(), 1U);
 }
 
-// For huge spheres the surface near the camera counts.
 TEST(Twins, OfHugeSpheresAreLikePlanes) {
     constexpr double radius = 1e9;
     const Sphere floor = ball({0, -1 - radius, 0}, radius);

@@ -12,7 +12,6 @@
 #include <string>
 #include <vector>
 
-// The scene, and how spheres are stored.
 enum class InvarianceOf { Coursework, ManyLamps, Tree };
 
 inline std::string name_of(InvarianceOf what) {
@@ -41,7 +40,6 @@ struct InvarianceScene {
         return what == InvarianceOf::Coursework ? coursework() : many_lamps();
     }
 
-    // Enough lamps that one is chosen.
     static InvarianceScene many_lamps() {
         InvarianceScene result = coursework();
         for (int i = 0; i < 6; ++i)

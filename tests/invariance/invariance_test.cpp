@@ -60,7 +60,7 @@ private:
 // Powers of two change no mantissa. A length in the kernel would show the more, the farther it is from the scene's
 // size.
 TEST_P(Invariance, UnitOfLength) {
-    for (const int exponent : {-50, -20, -4, 20, 50}) { // lengths of 2e-16 to 3e16
+    for (const int exponent : {-50, -20, -4, 20, 50}) {
         SCOPED_TRACE(exponent);
         InvarianceScene scaled = scene();
         scaled.scale(std::ldexp(1.0, exponent));
@@ -115,7 +115,6 @@ TEST_P(Invariance, OrderOfMaterials) {
     expect_same_bits(added);
 }
 
-// Enough balls for surfaces to share materials.
 class InvarianceOfLargeScenes : public ContextFixture, public testing::WithParamInterface<bool> {
 protected:
     Context create_fixtures_context() override {

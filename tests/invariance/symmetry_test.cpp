@@ -66,7 +66,6 @@ protected:
         return render_batches(render, batch_count, batch_samples);
     }
 
-    // Rendered once for all tests.
     const Batches &original() {
         static std::map<InvarianceOf, Batches> rendered;
         Batches &batches = rendered[GetParam()];
@@ -75,7 +74,6 @@ protected:
         return batches;
     }
 
-    // restore: undoes the change in the image.
     template <typename Restore>
     void expect_same_image(InvarianceScene changed, const Restore &restore) {
         const Agreement same = agreement(original(), restore(batches_of(changed, 1000)));

@@ -73,7 +73,6 @@ def missing_files(page, names, files):
 
 
 def commands_without_source(text):
-    """Python scripts in shell commands that are missing, and options that none of them has."""
     wrong = []
     for block in re.findall(r"```sh\n(.*?)```", text, re.DOTALL):
         for line in block.replace("\\\n", " ").splitlines():

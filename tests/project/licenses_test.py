@@ -45,7 +45,6 @@ def included():
 
 
 def linked(rules):
-    """Component and libraries, of Ninja's rules."""
     found = set()
     for output, component in BINARIES.items():
         for words in re.findall(rf"^build {re.escape(output)}.*\n(?:  .*\n)*?  LINK_LIBRARIES = (.*)$", rules, re.MULTILINE):
@@ -57,7 +56,6 @@ def linked(rules):
 
 
 def copied():
-    """Files with a license beside them."""
     return {("python", f"{path.relative_to(ROOT).with_suffix('.js')}") for path in (ROOT / "lib").rglob("*.LICENSE")}
 
 

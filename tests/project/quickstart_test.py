@@ -39,7 +39,6 @@ class Quickstart(unittest.TestCase):
         path.chmod(0o755)
 
     def run_script(self, command, failing="", installed=""):
-        """Sets self.lines (commands) and self.output."""
         notes = self.root / "notes"
         notes.write_text("")
         done = subprocess.run(["sh", self.root / "cmake" / "quickstart.sh", command], text=True, capture_output=True,
@@ -79,7 +78,6 @@ class Quickstart(unittest.TestCase):
         self.assertFalse([line for line in self.lines if line.startswith("apt-get")])
 
     def test_all_parts_of_the_tests_run_and_those_that_fail_are_named(self):
-        # Tidy has no tests.
         steps = {preset: [f"{step} {preset}" for step in ("cmake --preset", "cmake --build --preset", "ctest --preset")]
                  for preset in ("release", "sanitize", "tidy")}
         del steps["tidy"][2]

@@ -22,7 +22,6 @@ def doxygen_complaints(doxygen, settings, headers):
 
 
 def silent_functions(header):
-    """Functions whose comment does not mention threads."""
     functions = re.findall(r"/\*\*((?:(?!\*/).)*)\*/\s*PT_API[^;]*?\b(pt_\w+)\([^;]*\);", header, re.DOTALL)
     return sorted(set(re.findall(r"^PT_API[^;(]*?\b(pt_\w+)\(", header, re.MULTILINE)) -
                   {name for comment, name in functions if "thread" in comment})

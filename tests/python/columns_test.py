@@ -108,7 +108,6 @@ class Columns(unittest.TestCase):
         self.assertGreater(np.abs(images[0] - self.plain).max(), 0.01)
 
     def test_nothing_is_copied(self):
-        """Changes of the arrays count until the scene is set."""
         positions, radii, colors = np.zeros_like(POSITIONS), RADII.astype(float), np.zeros_like(COLORS)
         array = pt.SphereArray(positions, radii, INDICES, color=colors)
         self.assertTrue(np.shares_memory(array.center, positions))

@@ -84,7 +84,7 @@ class Processes(unittest.TestCase):
         context.accumulate(1)
         child = os.fork()
         if child == 0:
-            signal.alarm(60)  # a call on the parent's context may hang
+            signal.alarm(60)
             status = 1
             try:
                 context.stats()

@@ -12,7 +12,6 @@ import pt
 
 ROOT = pathlib.Path(sys.argv.pop(1))
 EXAMPLES = ROOT / "lib/python/examples"
-# Makes the pages' programs small.
 SMALLER = (("floor=True)", "floor=True, size=(32, 24), samples=4)"), ("640, 480", "32, 24"), ("1000,", "16,"),
            ("accumulate(64)", "accumulate(4)"))
 

@@ -154,7 +154,7 @@ class Plans(unittest.TestCase):
         ready(self.context, **self.SHAPE).accumulate(24)
         whole = self.context.film()
         below = np.zeros((13, 17), np.uint32)
-        below[6:, 3:] = 24  # neither the first row nor the first column
+        below[6:, 3:] = 24
         parts = [self.tiles(0, below), self.tiles(0, np.where(below, 0, 9)), self.tiles(9, np.where(below, 0, 15))]
         self.assertEqual(sum(parts), whole)
         self.assertNotEqual(parts[0] + parts[1], whole)

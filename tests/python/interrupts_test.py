@@ -121,7 +121,6 @@ class Interrupts(unittest.TestCase):
             pt.Context(log=fail)
 
     def test_what_others_cannot_raise_goes_its_way(self):
-        """Finalizers' exceptions are reported where they were before."""
         told = []
         sys.unraisablehook, hook = lambda raised: told.append(raised.exc_type), sys.unraisablehook
 

@@ -10,7 +10,6 @@ SCENE = pt.Scene([pt.Sphere((0, 1, 0), 1, GLOSSY), pt.Sphere((2, 4, 2), 1, LAMP)
 CAMERA = pt.Camera(position=(0, 1.5, 5), target=(0, 1, 0))
 WIDTH, HEIGHT = 24, 16
 
-# The same for the program.
 SCENE_FILE = {
     "camera": {"position": [0, 1.5, 5], "look_at": [0, 1, 0], "vertical_fov": 45},
     "film": {"width": 24, "height": 16},

@@ -107,7 +107,6 @@ class Sections(unittest.TestCase):
             self.assertEqual(len(found.scene.sphere_arrays[1]), 1)
 
     def test_fog_is_left_out(self):
-        """As written by VMD after the background, by default."""
         fog = "Fog {} Start 0.5 End 10 Density 0.4 Color 1 1 1\nTexDef gold"
         for kind in ("Linear", "Exp", "Exp2"):
             found = parsed(("TexDef gold", fog.format(kind)))
@@ -194,8 +193,6 @@ class Sections(unittest.TestCase):
 
 
 class Lamps(unittest.TestCase):
-    """A camera at (0, 0, 8) looks at the origin."""
-
     @staticmethod
     def around(spheres=(), planes=(), way=(0, 0, 0)):
         table = np.array(spheres, float).reshape(-1, 4)
@@ -208,7 +205,6 @@ class Lamps(unittest.TestCase):
 
     @staticmethod
     def irradiance(lamp):
-        """Irradiance of a facing surface at the origin."""
         widest = math.asin(lamp.radius / np.linalg.norm(lamp.center))
         angles = (np.arange(20000) + 0.5) * widest / 20000
         return 2 * math.pi * lamp.material.emission[1] * np.sum(np.cos(angles) * np.sin(angles)) * widest / 20000
@@ -233,7 +229,7 @@ class Lamps(unittest.TestCase):
         plane = pt.Plane((0, 2, 0), -7.9375, 0)
         self.assertAlmostEqual(self.only_lamp(light, [], [plane]).radius, 0.03125 / 2, 12)
         seen = _lights.Light("", (1, 1, 1), (0, 0, 7.875), radius=0.125)
-        self.assertEqual(self.only_lamp(seen).radius, 0.0625)  # half the way to the camera
+        self.assertEqual(self.only_lamp(seen).radius, 0.0625)
         lamps, warnings = _lights.lamps_of([_lights.Light("a:7", (1, 1, 1), (3, 4, 0))],
                                            self.around(planes=[pt.Plane((0, 1, 0), -4, 0)]))
         self.assertEqual((lamps, warnings), ([], ["a:7: the light lies on a surface, and is left out"]))
@@ -265,7 +261,6 @@ class Pictures(unittest.TestCase):
                 self.assertGreater(self.differences(found)[0], 300)
 
     def differences(self, found):
-        """Wrong pixels, and whether nearly all are certain."""
         width, height = found.settings.width, found.settings.height
         name = "perspective" if found.camera.vertical_extent is None else "parallel"
         shown = np.frombuffer((DATA / f"{name}.ppm").read_bytes()[-3 * width * height:], np.uint8)
@@ -325,7 +320,7 @@ class Damage(unittest.TestCase):
         text, chance, refused = (DATA / "perspective.dat").read_text(), random.Random(2), 0
         for index in range(200):
             changed = list(text)
-            for _ in range(1 + index % 3):  # half of them in the camera
+            for _ in range(1 + index % 3):
                 changed[chance.randrange(len(text) if index % 2 else 250)] = chance.choice("0123456789.-+eE# \nvbfls\xff")
             refused += self.outcome("".join(changed)) is None
         self.assertTrue(50 < refused < 200, refused)

@@ -198,7 +198,7 @@ class Browser(unittest.TestCase):
         self.assertRegex(fault, r"^phong\.glsl:[12]: ")
         self.browser.until("document.querySelector('.cm-lint-marker-error')")
         self.shot("error")
-        self.browser.until(f"{SAMPLES} > {before}")  # the last good kernels continue
+        self.browser.until(f"{SAMPLES} > {before}")
         self.browser.call("Input.dispatchKeyEvent", type="keyDown", key="z", code="KeyZ", windowsVirtualKeyCode=90, modifiers=2)
         self.browser.until("document.getElementById('edited').textContent === 'not saved'")
         self.browser.call("Input.dispatchKeyEvent", type="keyDown", key="s", code="KeyS", windowsVirtualKeyCode=83, modifiers=2)

@@ -37,8 +37,6 @@ def text_of(scene):
 
 
 class Page:
-    """Acts like a page, one step at a time."""
-
     def __init__(self, view):
         self.address, self.loop, self.state, self.pixels = view.address, asyncio.new_event_loop(), {}, None
 
@@ -258,9 +256,9 @@ class Views(unittest.TestCase):
                 self.assertEqual(renderer._count, stopped["samples"])
                 page.send({"playing": True})
                 page.frame(lambda state: state["samples"] > stopped["samples"])
-                with Page(view) as other:  # a second browser sees the same
+                with Page(view) as other:
                     self.assertEqual(other.frame(lambda state: state["samples"])["size"], [24, 16])
-            while renderer._is_watched:  # until the server knows that all have left
+            while renderer._is_watched:
                 pass
             renderer._thread.join(0.3)  # work in progress
             count = renderer._count
@@ -375,7 +373,7 @@ class Command(unittest.TestCase):
                     os.lchown(folder, owner_of_link, 0)
                 os.chown(folder, owner, 0)
                 done = subprocess.run(self.command(scene, "--no-browser", "--edit"), cwd=name, env=environment, text=True,
-                                      capture_output=True, timeout=60)  # a view that starts does not end
+                                      capture_output=True, timeout=60)
                 self.assertEqual((done.returncode, done.stderr),
                                  (6, "pt-view: --edit: pt-shaders is another user's: use another folder\n"))
                 (shutil.rmtree if owner_of_link is None else os.remove)(folder)

@@ -41,7 +41,7 @@ class Case:
     relative: float  # over the raw image's error
     absolute: float
     gain: float  # mean square of the raw image's relative error over the denoised one's
-    light: float  # difference of means over its noise
+    light: float
     brighter: int  # values above every value of both halves in the 3x3 pixels about them
     stated: float  # over the true relative error
     holds: bool
@@ -49,7 +49,6 @@ class Case:
 
 
 def scene_files(options):
-    """Arguments of `pt render` and files for it, by name."""
     for path in [*(sorted(FOLDER.glob("*.json")) if options.own else []), *options.files]:
         yield path.stem, str(path.resolve()), {}
     made = [*(scenes().items() if options.own else []),

@@ -31,9 +31,9 @@ COUNTS = [16, 64, 256, 1024]
 TRUTH_WORK = 1 << 28  # pixels times samples
 LEAST_TRUTH, MOST_TRUTH = 1 << 15, 1 << 17  # samples
 MANY_SEEDS, FEW_SEEDS, STATED_SEEDS = 96, 24, 6
-SMALL_PICTURE = 1 << 13  # pixels; their error scatters most between seeds
+SMALL_PICTURE = 1 << 13
 MOST_SAMPLES = 4096
-RELATIVE_BITS = 2 + 4 + 8  # the bits of PT_UNCERTAIN_* about relative_rmse
+RELATIVE_BITS = 2 + 4 + 8
 
 
 @dataclass
@@ -45,7 +45,7 @@ class Case:
     count: int
     ratio: float  # stated / true
     uncertain: bool
-    holds: bool  # the true error is within the bounds
+    holds: bool
 
 
 class Calibration:

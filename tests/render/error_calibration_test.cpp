@@ -162,7 +162,6 @@ TEST_F(StatedError, OfLampsBelowAPixelIsThatByManySamples) {
     }
 }
 
-// Ranges that begin later, or with gaps, joined by pt_add_film.
 struct RangesCase {
     std::vector<pt::SampleRange> ranges;
     uint32_t max_path_length;
@@ -201,7 +200,6 @@ TEST_F(StatedError, OfRangesIsThatByTheReference) {
     }
 }
 
-// The error stated from parts made of single samples by a rule.
 template <typename PartOf>
 double error_from_parts(const std::vector<Image> &samples, const PartOf &part_of) {
     const auto count = static_cast<double>(samples.size());

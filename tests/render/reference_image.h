@@ -12,7 +12,7 @@
 struct ReferenceImage {
     std::uint32_t width;
     std::uint32_t height;
-    std::vector<float> radiance; // R, G, B per pixel
+    std::vector<float> radiance;
 };
 
 // From tests/reference/<name>.exr.

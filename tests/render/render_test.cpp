@@ -23,8 +23,8 @@ struct Case {
     const char *reference;
     bool diffuse;
     uint32_t max_path_length;
-    double reference_rmse; // as stated with the reference
-    uint32_t sampler;      // random like the reference's samples
+    double reference_rmse;
+    uint32_t sampler; // random like the reference's samples
 };
 
 using Image = std::vector<float>;
@@ -70,7 +70,7 @@ double noise_of_mean(const std::vector<Image> &batches) {
 }
 
 struct Agreement {
-    double mean_square_t; // over blocks of 8 x 8 pixels
+    double mean_square_t;
     double largest_t;
 };
 

@@ -13,8 +13,6 @@ PROGRAM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil
 
 
 class Chromium:
-    """`complaints` collects errors and failed loads."""
-
     def __init__(self, width=1400, height=860):
         self.folder = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         self.complaints = []
@@ -69,14 +67,12 @@ class Chromium:
         self.until(f"location.href === {json.dumps(address)} && document.readyState === 'complete'")
 
     def value(self, expression):
-        """Evaluates JavaScript and awaits promises."""
         said = self.call("Runtime.evaluate", expression=expression, awaitPromise=True, returnByValue=True)
         if "exceptionDetails" in said:
             raise RuntimeError(said["exceptionDetails"].get("exception", {}).get("description", expression))
         return said["result"].get("value")
 
     def until(self, expression, seconds=60):
-        """Waits for a true value of JavaScript."""
         end = time.monotonic() + seconds
         while not self.value(f"!!({expression})"):
             if time.monotonic() > end:

@@ -85,7 +85,6 @@ protected:
     pt_stats stats() { return stats_of(context()); }
     pt_error_estimate error() { return error_of(context()); }
 
-    // Whether a few samples take several submissions.
     static bool is_on_cpu(pt_context *on) {
         pt_device_info info{};
         EXPECT_EQ(pt_get_context_device(on, &info), PT_OK) << pt_last_error(on);

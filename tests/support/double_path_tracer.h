@@ -105,7 +105,7 @@ private:
         }
         glm::dvec3 radiance(0.0);
         glm::dvec3 weight(1.0);
-        double density = 0.0; // of the direction, if lamps are sampled too
+        double density = 0.0;
         for (std::uint32_t vertex = 0; vertex < render.max_path_length; ++vertex) {
             const Hit hit = first_hit(origin, direction, time, vertex == 0);
             if (std::isinf(hit.distance))

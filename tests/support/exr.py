@@ -5,7 +5,6 @@ import zlib
 
 
 def parse_exr_header(data):
-    """name -> (type, bytes), and the header's size."""
     assert data[:4] == b"\x76\x2f\x31\x01"
     attributes, position = {}, 8
     while data[position] != 0:

@@ -29,7 +29,7 @@ inline Vector vector_of(const double (&v)[3]) {
 struct Ray {
     Vector direction; // unit
     Real time;
-    Vector start;        // its origin plus the start of float32's distances
+    Vector start;
     Vector origin{0.0L}; // relative to the camera
     Vector spread{0.0L}; // sizes of the two terms of each component of origin
 };
@@ -78,7 +78,6 @@ inline Meeting meet_sphere(const pt_sphere &sphere, const Vector &camera, const 
     meeting.is_uncertain = height > 0.0L && r - l < touching;
     meeting.is_uncertain = meeting.is_uncertain || std::abs(height) < astray;
     const Real half_chord = std::sqrt((r - l) * (r + l));
-    // The roots' product is the camera's power: the nearer root without cancellation.
     meeting.distance = height > 0.0L ? height * (glm::length(center) + r) / (along + half_chord) : along + half_chord;
     const Vector from_center = meeting.distance * ray.direction - center;
     const Vector outward = glm::normalize(from_center);
@@ -114,8 +113,8 @@ inline Meeting meet_plane(const pt_plane &plane, const Vector &camera, const Ray
 
 struct View {
     Vector position, right, up, forward;
-    Real focal_pixels = 0.0L;   // distance of the image plane, in pixels
-    Real parallel_pixel = 0.0L; // side of a pixel, for parallel rays
+    Real focal_pixels = 0.0L;
+    Real parallel_pixel = 0.0L;
     std::uint32_t width, height;
     Real shutter_open, shutter_close;
     Real start_distance = 0.0L;

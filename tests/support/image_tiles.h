@@ -10,7 +10,6 @@
 
 namespace pt {
 
-// R, G, B of each pixel.
 struct ImageValues {
     std::vector<float> mean;
     std::vector<float> standard_error;

@@ -47,7 +47,6 @@ inline pt::Scene in_a_box(std::uint32_t count, double decades, double motion = 0
     return scene;
 }
 
-// Some clusters are cut by a horizon.
 inline pt::Scene in_clusters(std::uint32_t count) {
     std::mt19937 generator(8);
     std::normal_distribution<double> normal;

@@ -104,7 +104,6 @@ inline pt_camera camera_at(const glm::dvec3 &position, const glm::dvec3 &target,
     return camera;
 }
 
-// Every third ball moves; the view is 4 high at the origin. Many make a tree.
 inline Given random_scene(std::uint32_t seed, std::uint32_t rods, std::uint32_t balls, double distance) {
     std::mt19937 engine(seed);
     const auto uniform = [&](double low, double high) {
@@ -168,7 +167,6 @@ inline double mean_of_block(const std::vector<float> &image, glm::uvec2 first) {
     return sum / (3.0 * block.x * block.y);
 }
 
-// In standard errors estimated from the images.
 struct Deviation {
     double of_image = 0.0;
     double largest = 0.0; // magnitude among blocks

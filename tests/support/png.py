@@ -5,7 +5,6 @@ import zlib
 
 
 def png_chunks(data):
-    """(name, contents) of each chunk."""
     assert data[:8] == b"\x89PNG\r\n\x1a\n"
     position = 8
     while position < len(data):

@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <vector>
 
-// R, G, B of each pixel.
 inline std::vector<float> render_image(pt_context *context, const pt_scene &scene, const pt_camera &camera,
                                        const pt_render &render, std::uint32_t samples) {
     const pt_accumulate_info count{sizeof count, samples, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};

@@ -37,7 +37,6 @@ class Renderer:
         self.context = ctypes.c_void_p()
 
     def call(self, function, *arguments):
-        """Returns the function's result or raises its error."""
         return checked(self.library, getattr(self.library, function)(self.context, *arguments), self.context)
 
     def device(self):
@@ -86,8 +85,6 @@ class Renderer:
 
 
 class SceneRenderer(Renderer):
-    """Takes the JSON of a scene file with a camera."""
-
     def __init__(self, scene, **create_info):
         super().__init__(**create_info)
         self.set_json(scene)

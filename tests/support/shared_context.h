@@ -19,7 +19,6 @@ inline pt_result create_shared(uint32_t devices_of_each, const pt_create_info &i
     });
 }
 
-// Trees from this number of spheres on.
 inline pt_result create_with_tree_from(uint32_t spheres, const pt_create_info *info, pt_context **context) {
     return pt::guard(pt::thread_last_error, [&] {
         pt::CreateSettings settings = pt::validated_create(*info);

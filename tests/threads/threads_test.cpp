@@ -20,7 +20,6 @@ constexpr uint32_t height = 16;
 
 using Image = std::vector<float>;
 
-// Stops a call and counts its reports.
 struct Progress {
     std::atomic<bool> stop{false};
     std::atomic<int> calls{0};
@@ -48,7 +47,6 @@ pt_context *ready_context(uint64_t seed) {
     return context;
 }
 
-// Returns pt_accumulate's result, and the image if wanted.
 pt_result live(uint64_t seed, uint32_t sample_count, Progress &progress, Image *image = nullptr) {
     pt_context *const context = ready_context(seed);
     const pt_accumulate_info info{sizeof info, sample_count, &Progress::report, &progress, 0, 0, 0, nullptr, 0, 0};
