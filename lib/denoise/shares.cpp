@@ -27,7 +27,7 @@ public:
             largest_[tile] = pixel;
     }
 
-    // Lowers shares to the best by all pixels, and by all but the one of each tile that gains most.
+    // Lowers shares to the best by all pixels, then to the best without the pixel of each tile that gains most.
     void lower(Tiles &shares) {
         lower_by_sums(shares);
         for (std::size_t tile = 0; tile < sums_.size(); ++tile)

@@ -11,10 +11,10 @@ float mean_at(const Halves &halves, std::size_t index) {
     return 0.5F * (halves.first[index] + halves.second[index]);
 }
 
-// The factors of D(A) D(B) are independent, so their product stands for the square of the limit; the square of S would
-// include noise, and weigh dark places too little. It is at most the raw square, or the squared four-fold median
-// around, so that a lamp spread over dark pixels does not hide there. Halves that met little beside something bright
-// count like a film's edges (pixel_error.h).
+// Estimates the square of the limit by D(A) D(B), whose factors are independent; the square of S would include noise,
+// and weigh dark places too little. A lamp that the filter spreads over dark pixels must not hide there, so the
+// estimate is limited to the square of the raw pixel or of four times the median around. Halves that met little beside
+// something bright count like a film's edges (pixel_error.h).
 double relative_weight(const Halves &halves, std::size_t x, std::size_t y, std::size_t channel) {
     constexpr double most_above_median = 4.0;
     const std::size_t index = halves.index(x, y, channel);

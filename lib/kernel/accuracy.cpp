@@ -39,8 +39,8 @@ constexpr float complements[] = {0.0625F, 0.25F, 0.5F, 0.75F, 0.875F, 0.999F};
 constexpr float exponents[] = {-0.5F, -1.0F, -1.5F, -24.5F, -99.5F};
 constexpr float squares[] = {1.0F, 2.0F, 4.0F};
 
-// Errors in u = 2^-24; an ulp is 1 to 2 u of its value. Sums, products: u. Vulkan ("Precision and Operation of SPIR-V
-// Instructions"): division 2.5 ulp, inversesqrt 2 ulp, sqrt as 1 / inversesqrt.
+// Bounds add the errors of all steps, in u = 2^-24; an ulp is 1 to 2 u of its value. Sums, products: u. Vulkan
+// ("Precision and Operation of SPIR-V Instructions"): division 2.5 ulp, inversesqrt 2 ulp, sqrt as 1 / inversesqrt.
 constexpr ElementaryFunction functions[] = {
     // sin: 1/2 - u 1, product 1, q 1.95; half an ulp. cos, worst near 1 (p = 4): w^2 0.5, p's last sum 1, cofactor 1.2,
     // constant 0.9, remainder 0.1; half an ulp.

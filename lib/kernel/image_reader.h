@@ -1,4 +1,4 @@
-// Reads a film as an image, made by resolve.comp on the device, so only 4 to 16 bytes per pixel cross the bus. Owned by
+// Reads a film as an image. resolve.comp makes the pixels, so only 4 to 16 bytes of each cross the bus. Owned by
 // RenderDevice; bound to its film.
 #pragma once
 

@@ -32,7 +32,7 @@ public:
 
     bool empty() const { return tasks_.empty(); }
 
-    // Whether some tiles have begun samples that others, equal before, have not.
+    // Whether only some of a chunk's tiles have begun its samples.
     bool is_within_samples() const { return !empty() && tasks_.back().next_tile > 0; }
 
     // As large as the device's schedule allows. Must not be empty().
