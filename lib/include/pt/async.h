@@ -13,17 +13,17 @@
  *         result = pt_readback(context, &image);
  *
  * - Threads: the library starts none. Between calls each device works through at most two submissions
- *   (pt_create_info.submit_milliseconds); only pt_poll gives devices more work. To keep them busy, let pt_poll wait for
- *   as long as the program can spare, or make submissions longer than the time between two polls. Any thread may poll,
- *   one at a time, and cancel, also while another one polls.
- * - While samples are under way, from a pt_start that returns PT_PENDING to the first pt_poll that returns anything
- *   else, all other calls on the context are refused (PT_ERROR_INVALID_STATE) and change nothing, except pt_cancel,
+ *   (pt_create_info.submit_milliseconds); only pt_poll gives it more. To keep devices busy, let pt_poll wait for as
+ *   long as the program can spare, or make submissions longer than the time between two polls. Any thread may poll, one
+ *   at a time, and cancel, also while another one polls.
+ * - Samples are under way from a pt_start that returns PT_PENDING to the first pt_poll that returns anything else.
+ *   Meanwhile all other calls on the context are refused (PT_ERROR_INVALID_STATE), except pt_cancel,
  *   pt_get_context_device, pt_last_error, pt_get_broken_rule and pt_destroy, which waits for the submissions under way.
- *   To change the scene or the camera earlier, call pt_cancel and then pt_poll to the end: until the submissions under
- *   way have ended and, where one sample of all pixels takes several, those that complete it.
- * - Ownership: pt_start copies its arguments; only a lent device (pt/vulkan.h) must outlive the context as always.
- * - Callbacks: info.progress must be NULL, since pt_poll returns the progress. All others are called within pt_start
- * and pt_poll, on their thread, never between calls.
+ *   To change scene or camera earlier, call pt_cancel, then pt_poll to the end: until the submissions under way and
+ *   those that complete a sample of all pixels have ended.
+ * - Ownership: pt_start copies its arguments.
+ * - Callbacks: info.progress must be NULL, since pt_poll returns the progress. All others run within pt_start and
+ *   pt_poll, on their thread.
  * - Failures: whole samples are kept, as by pt_accumulate. A pt_poll that fails has ended the work under way, perhaps
  *   after waiting longer than asked. Any call on the context may follow, unless the device is lost.
  */
@@ -38,28 +38,28 @@ extern "C" {
 
 /** Begins to add samples without waiting for them.
  *
- * Returns PT_PENDING if samples are now under way, to be polled. PT_TARGET_REACHED: the image has the target error
- * already, and nothing is under way. All kernels for the samples are built here (pt_prepare builds most of them ahead).
- * If the image has a number of samples at which a target error is checked, it is checked first.
+ * PT_PENDING: samples are under way, to be polled. PT_TARGET_REACHED: the image has the target error already, and
+ * nothing is under way. Builds all kernels for the samples (pt_prepare builds most of them ahead). Checks a target
+ * error first if the image has a number of samples at which it is checked.
  *
  * One thread at a time per context. Fails as pt_accumulate does, and with PT_ERROR_INVALID_ARGUMENT if info.progress is
  * not NULL. */
 PT_API pt_result pt_start(pt_context *context, const pt_accumulate_info *info);
 
-/** Takes in finished work, gives the devices more, and waits for them, for at most this many nanoseconds.
+/** Takes in finished work, gives the devices more, and waits for at most this many nanoseconds.
  *
- * With 0 it does not wait; with UINT64_MAX it waits until all is done. It may take longer when a target error is
- * checked, which reads the image. It builds no kernel: a scene that deserves its own (PT_CREATE_NO_SCENE_KERNELS) gets
- * it from the next pt_start.
+ * 0: does not wait. UINT64_MAX: waits until all is done. May take longer when a target error is checked, which reads
+ * the image. Builds no kernel: a scene that deserves its own (PT_CREATE_NO_SCENE_KERNELS) gets it from the next
+ * pt_start.
  *
  * fraction may be NULL. Otherwise it receives, unless the call fails, the share of the samples that is done, in [0, 1],
  * which never falls.
  *
  * One thread at a time per context. PT_PENDING: samples are still under way. Every other result ends what pt_start
- * began, except when a call is refused because it comes from a callback or while another thread is in a call. PT_OK:
- * all samples are taken. PT_TARGET_REACHED: fewer were enough. PT_CANCELLED: pt_cancel was called; there are fewer
- * samples, all of them whole. PT_ERROR_INVALID_STATE: nothing is under way. PT_ERROR_OUT_OF_DEVICE_MEMORY,
- * PT_ERROR_SHADER, PT_ERROR_DEVICE_LOST: the driver said so. */
+ * began, except a refusal of a call in a callback or while another thread is in a call. PT_OK: all samples are taken.
+ * PT_TARGET_REACHED: fewer were enough. PT_CANCELLED: pt_cancel was called; fewer samples are taken, all of them whole.
+ * PT_ERROR_INVALID_STATE: nothing is under way. PT_ERROR_OUT_OF_DEVICE_MEMORY, PT_ERROR_SHADER, PT_ERROR_DEVICE_LOST:
+ * the driver said so. */
 PT_API pt_result pt_poll(pt_context *context, uint64_t nanoseconds, double *fraction);
 
 /** Asks for no more samples, and returns at once. pt_poll then ends what pt_start began, and a pt_accumulate under way

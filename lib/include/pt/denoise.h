@@ -5,10 +5,10 @@
  * applied to the other: B is the limit plus noise independent of D(A). The picture lies between the raw image
  * (A + B) / 2 and the filtered one (D(A) + D(B)) / 2, where the error is least. It moves towards the latter only as far
  * as both images support:
- * - a value by no more than 2 sqrt(2) |A - B| / 2, which counts up to 16 times where most of the 3x3 pixels about it
- *   differ more; equal values keep their mean,
- * - to no value beyond those that A and B have within the 3x3 pixels about it,
- * - the mean of a channel by no more than its standard error.
+ * - a value moves by at most 2 sqrt(2) |A - B| / 2, up to 16 times that where most of the 3x3 pixels about it differ
+ *   more; equal values keep their mean,
+ * - no value leaves the range of A and B within the 3x3 pixels about it,
+ * - the mean of a channel moves by at most its standard error.
  */
 #ifndef PT_DENOISE_H
 #define PT_DENOISE_H
@@ -29,8 +29,8 @@ typedef struct pt_denoise_info {
      * chooses */
     uint32_t any_device;
     const float *first; /**< radiance: PT_QUANTITY_RADIANCE; finite */
-    /** the same with another pt_render.seed and all else equal, also each pixel's number of samples. Two parts of one
-     * sequence depend on each other: their error would be stated too small */
+    /** the same with another pt_render.seed and all else equal, also each pixel's number of samples. Parts of one
+     * sequence depend on each other: the stated error would be too small */
     const float *second;
     const float *albedo; /**< PT_QUANTITY_ALBEDO */
     const float *normal; /**< PT_QUANTITY_NORMAL */
@@ -44,10 +44,10 @@ typedef struct pt_denoise_info {
  * On the CPU the result does not depend on the number of threads, which Open Image Denoise starts itself. Uses no
  * context.
  *
- * error receives the error of the denoised picture, and error->struct_size must be set. Squared errors are estimated
- * with a standard error from the spread over tiles of 8 x 8 pixels: rmse and relative_rmse are 1.28 of these above the
- * estimate, bounds 1.96 to both sides. PT_UNCERTAIN_RMSE and PT_UNCERTAIN_RELATIVE_RMSE: the error comes from fewer
- * than 8 such tiles, and the upper bound is doubled. Light that no sample has met is not included.
+ * error receives the denoised picture's error; error->struct_size must be set. Squared errors have a standard error
+ * from their spread over tiles of 8 x 8 pixels: rmse and relative_rmse are 1.28 of it above the estimate, bounds 1.96
+ * to both sides. PT_UNCERTAIN_RMSE and PT_UNCERTAIN_RELATIVE_RMSE: the error comes from fewer than 8 such tiles, and
+ * the upper bound is doubled. Light that no sample has met is not included.
  *
  * Any thread; pt_last_error(NULL) has the message of a failure. PT_ERROR_INVALID_ARGUMENT: a rule is broken.
  * PT_ERROR_UNSUPPORTED: the library is missing, of another version, or does not run on this processor. */

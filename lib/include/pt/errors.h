@@ -29,16 +29,16 @@ typedef struct pt_broken_rule {
 
 /** Returns the number of broken rules in the message of pt_last_error; 0 if it is about no field.
  *
- * If rule is not NULL, receives the broken rule with the given index, rule->struct_size bytes of it. Only the first
- * eight are kept, as in the message; for an index beyond these all other fields are 0 or NULL. If there was no memory
- * left for the message, there are no rules.
+ * If rule is not NULL, it receives the broken rule with the given index, rule->struct_size bytes of it. Only the first
+ * eight are kept, as in the message; beyond these all other fields are 0 or NULL. No rules are kept if there was no
+ * memory for the message.
  *
- * context, NULL or not, and threads are as for pt_last_error; never fails, and does not change the last error. */
+ * context and threads are as for pt_last_error. Never fails, and does not change the last error. */
 PT_API uint64_t pt_get_broken_rule(const pt_context *context, uint32_t index, pt_broken_rule *rule);
 
-/** Writes a warning about the scene as the camera sees it: the surface that is moved farthest by rounding, if that is
- * more than a pixel (pt_sphere_array.end and opacity state the precision). subject, index, member and component name
- * the field that causes it, rule says by how much and what to do. "sphere_arrays[0].radius[7] = 1e+06: ..."
+/** Writes a warning about the scene as the camera sees it: the surface that rounding moves farthest, if that is more
+ * than a pixel (pt_sphere_array.end and opacity state the precision). subject, index, member and component name the
+ * field that causes it; rule says by how much and what to do. "sphere_arrays[0].radius[7] = 1e+06: ..."
  *
  * Without such a surface, or as long as scene, camera or render settings are missing, all other fields are 0 or NULL.
  * Strings live until the next call with the context. warning->struct_size must be set; no more bytes than that are

@@ -18,28 +18,28 @@ typedef void (*pt_queue_fn)(void *user);
  *
  * Needed     instance and device come from the Vulkan loader that this library is linked to (libvulkan.so.1). The
  *            instance was created with VkApplicationInfo.apiVersion 1.2 or higher, and the physical device supports
- *            Vulkan 1.2: the kernels are SPIR-V 1.5. No feature and no extension is needed, except
- *            VK_KHR_portability_subset if the device has it, as Vulkan demands. The device was created from one
- *            physical device, not from a group. The queue's family has VK_QUEUE_COMPUTE_BIT.
+ *            Vulkan 1.2: the kernels are SPIR-V 1.5. No feature or extension is needed, except
+ *            VK_KHR_portability_subset if the device has it. The device was created from one physical device, not from
+ *            a group. The queue's family has VK_QUEUE_COMPUTE_BIT.
  * Lifetime   all handles must outlive the context, which destroys none of them. Its own objects are destroyed at the
  *            latest in pt_destroy, without allocation callbacks. It waits only for its own submissions, by fences.
  * Threads    Vulkan allows a queue one thread at a time. The context calls lock_queue and unlock_queue around every
- *            vkQueueSubmit, and does not hold the queue while it waits or calls back; they may lock a mutex that all
- *            users of the queue share, other contexts included. Without them nobody else may use the queue during a
- *            call on this context, not even by vkDeviceWaitIdle. All other use of the device needs no lock.
+ *            vkQueueSubmit, and holds no lock while it waits or calls back. They may lock a mutex that all users of the
+ *            queue share. Without them nobody else may use the queue during a call on this context, not even by
+ *            vkDeviceWaitIdle. All other use of the device needs no lock.
  * Order      the context uses only its own buffers and those that pt_readback_to_buffer names. Its pipeline barriers
- *            are for compute and transfers; they may delay other commands in the queue, but never change what these do.
+ *            for compute and transfers may delay other commands in the queue, but never change their results.
  * Time       other work ahead in the queue must not wait for the calling thread. Its time counts as the context's own:
- * it makes submissions smaller, and on a GPU the device counts as lost if one has not ended after 10 seconds. Rounding
- * drivers' threads inherit the floating-point mode of the thread that starts them, so the caller must create the device
- * while rounding to nearest. Loss       once the device is lost, calls fail with PT_ERROR_DEVICE_LOST. If submissions
- * of this context hang at pt_destroy, their objects are left on the device until the process ends.
+ *            it makes submissions smaller, and a GPU counts as lost if one has not ended after 10 seconds.
+ * Rounding   drivers' threads inherit the floating-point mode of the thread that starts them, so the caller must create
+ *            the device while rounding to nearest.
+ * Loss       calls fail with PT_ERROR_DEVICE_LOST. If submissions of this context hang at pt_destroy, their objects are
+ *            left on the device until the process ends.
  *
- * Errors of pt_create: PT_ERROR_INVALID_ARGUMENT for a field that breaks a rule, as far as the library can see. It
- * cannot see whether handles are alive and belong together (except that it looks for the physical device in the
- * instance), nor that an instance is older than 1.2 if the driver offers newer functions all the same.
- * PT_ERROR_UNSUPPORTED if the physical device is not suitable (pt_device_info.reason). Other errors are as without
- * pt_vulkan.
+ * Errors of pt_create: PT_ERROR_INVALID_ARGUMENT for a field that breaks a rule. The library cannot see whether handles
+ * are alive and belong together (except that it looks for the physical device in the instance), nor that an instance is
+ * older than 1.2 if the driver offers newer functions all the same. PT_ERROR_UNSUPPORTED if the physical device is not
+ * suitable (pt_device_info.reason). Other errors are as without pt_vulkan.
  */
 struct pt_vulkan {
     uint32_t struct_size;     /**< sizeof(pt_vulkan) */
@@ -61,16 +61,15 @@ struct pt_vulkan {
  *            the image. vkCmdCopyBufferToImage copies it into a VkImage.
  * Before     the caller's earlier accesses to the memory must have ended, as a fence shows, or wait_semaphore is
  *            signalled after them: the kernel's writes wait for it in VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT. Its signal
- *            operation must have been submitted already. (On Mesa's lavapipe the call waits for the earlier work.)
+ *            operation must have been submitted already. (Mesa's lavapipe makes the call wait.)
  * After      the writes are VK_ACCESS_SHADER_WRITE_BIT in VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT. Without
  *            signal_semaphore the call returns when they have ended and are available, also to the host
  *            (VK_ACCESS_HOST_READ_BIT): mapped memory that is not coherent is to be invalidated, and commands on the
  *            device see them after a barrier with that source. With signal_semaphore the call returns once the work is
  *            submitted, and commands that wait for the semaphore see them without a barrier, in the stages that wait.
  * Lifetime   with signal_semaphore, the buffer and both semaphores must live until it has been signalled and waited
- *            for. The context keeps what it needs itself, and may be used and destroyed meanwhile: the queue orders
- *            later calls that change what is read behind this one, and pt_set_render, pt_destroy and the next
- *            pt_readback_to_buffer wait for it. */
+ *            for. The context may be used and destroyed meanwhile: the queue orders later changes of its memory behind
+ *            this call, and pt_set_render, pt_destroy and the next pt_readback_to_buffer wait for it. */
 typedef struct pt_buffer_image {
     uint32_t struct_size;      /**< sizeof(pt_buffer_image) */
     uint32_t quantity;         /**< PT_QUANTITY_RADIANCE, STANDARD_ERROR or SAMPLE_COUNT: see pt_readback */
