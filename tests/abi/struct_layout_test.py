@@ -1,6 +1,5 @@
 """Sizes and offsets of structs: struct_layout_test.py HEADERS TABLE ROOT C_COMPILER; with only the first and the last
-argument it prints the table. Structs may grow at the tail only. The output of ROOT/lib/python/generate.py must be
-current, and the Python package must have the same layout."""
+argument it prints the table. Structs grow at the tail only; ROOT/lib/python/generate.py's output is current."""
 
 import ctypes
 import importlib.util

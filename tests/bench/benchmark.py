@@ -1,19 +1,18 @@
 """Renders the benchmark's scenes with pt's default, every other sampler and estimator, and Mitsuba where it can express
-the scene. Prints a table, first where the default is behind, and draws error against time.
+the scene; prints a table and draws error against time (benchmark.png, with matplotlib).
 
     PT_LIBRARY=build/lib/libpt.so python3 tests/bench/benchmark.py --mitsuba mitsuba/bin/python --json benchmark.json
 
-The plot, benchmark.png, needs matplotlib. --mitsuba names a Python that can import it:
+--mitsuba names a Python with Mitsuba:
 
     python3 -m venv mitsuba && mitsuba/bin/pip install mitsuba
 
-Variant llvm_ad_rgb (CPU) needs LLVM's shared library, named by DRJIT_LIBLLVM_PATH (Debian: libllvm19; with libllvm15
-Mitsuba 3.9.1 ends with "Cannot select: fminimum" on processors with AVX-512); cuda_ad_rgb runs on a GPU.
+Variant llvm_ad_rgb (CPU) needs LLVM's shared library, named by DRJIT_LIBLLVM_PATH (Debian: libllvm19; libllvm15 fails
+on processors with AVX-512); cuda_ad_rgb runs on a GPU.
 
-Every round measures all scenes and options in turn. Costs: median CPU seconds (GPU: wall seconds) of sampling. Errors:
-mean relMSE (README.md) against references (references.py). Targets: the default's errors at its two largest sample
-counts. Ratio: an option's cost of the target over the default's, interpolated in logarithms; "~": extrapolated with the
-slope -1.
+Every round measures all in turn. Costs: median CPU seconds (GPU: wall seconds) of sampling. Errors: mean relMSE
+(README.md) against references (references.py). Targets: the default's errors at its two largest sample counts. Ratio:
+an option's cost of the target over the default's, interpolated in logarithms; "~": extrapolated with the slope -1.
 """
 
 import argparse

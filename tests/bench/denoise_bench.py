@@ -1,11 +1,10 @@
 """Error against CPU seconds of raw, filtered and combined (as `pt` shows them) images, and of Mitsuba's by the same
-filter. Prints a table and draws a plot.
+filter: a table and a plot.
 
     PT_LIBRARY=build/lib/libpt.so python3 tests/bench/denoise_bench.py --mitsuba mitsuba/bin/python --json denoise.json
 
-Scenes, references, size, Mitsuba and relMSE: see benchmark.py. Needs Open Image Denoise (also in Python: pip install
-pyoidn) and matplotlib. Albedo and normals are pt's, also for Mitsuba. Costs: median CPU seconds of sampling and
-filtering; errors: means over the rounds.
+Scenes, references, Mitsuba and relMSE: see benchmark.py. Needs Open Image Denoise (also in Python: pip install pyoidn)
+and matplotlib. Albedo and normals are pt's, also for Mitsuba. Costs: median CPU seconds of sampling and filtering.
 """
 
 import argparse

@@ -3,12 +3,11 @@
     PT_LIBRARY=build/lib/libpt.so python3 tests/bench/error_and_time.py cli/scenes/coursework.json --size 64x32 \\
         --samplers random,sobol --spp 4,16 --rounds 1 --json bench.json
 
-Every round renders every sampler, estimator and sample count in turn, with the seed + its number.
+Every round renders all in turn, with the seed + its number.
 
 seconds, cpu s  median wall and CPU seconds of sampling alone
 mse, rel_mse    mean of (x - r)^2 and of (x - r)^2 / (r^2 + 0.01) against the reference r, over the rounds
-slope           of log MSE against log N since the previous count; -1 for independent samples. Rounds of halton differ
-                little, because its points do not depend on pixel and seed
+slope           of log MSE against log N since the previous count; -1 for independent samples
 """
 
 import argparse

@@ -1,16 +1,15 @@
-"""Measures the duration of libpt's calls in milliseconds.
+"""Measures the duration of libpt's calls in milliseconds, for the coursework scene.
 
     python3 tests/bench/latency.py --library old=OLD/libpt.so --library new=build/lib/libpt.so --sizes 1024x512
 
-Libraries are measured in one process, in turn; figures are medians over the rounds, for the coursework scene. The
-camera moves before every new picture.
+Libraries are measured in one process, in turn; figures are medians. The camera moves before every new picture.
 
 64 samples      pt_accumulate on a film with samples
 readback        pt_readback of the radiance into memory written before
-map             pt_map_image of the same, and a read of the last pixel
+map             pt_map_image, and a read of the last pixel
 camera + 1      pt_set_camera and pt_accumulate of one sample
 picture of N    pt_set_camera, pt_accumulate of N samples, and pt_readback
-to ERROR        pt_set_camera and pt_accumulate with a target error; its samples; and the same number without a target
+to ERROR        pt_set_camera and pt_accumulate with a target error; its samples; the same number without a target
 """
 
 import argparse

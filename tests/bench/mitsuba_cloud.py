@@ -1,7 +1,7 @@
-"""Renders clouds of spheres with Mitsuba for scale.py, as it asks: a line of JSON in, a line out, until the input ends.
+"""Renders clouds of spheres with Mitsuba for scale.py: a line of JSON in, a line out.
 
     {"count": N}                                        builds the scene; its seconds
-    {"length": L, "samples": S, "seed": I, "image": F}  renders; seconds, and the pixels as floats in the file F, if any
+    {"length": L, "samples": S, "seed": I, "image": F}  renders; seconds; pixels as floats in the file F, if any
 """
 
 import argparse

@@ -1,6 +1,6 @@
 """The material of pt as a BSDF of Mitsuba 3: f = diffuse / pi + specular (n + 2) / (2 pi) max(0, w_o . r)^n, with the
-mirror image r of w_i and the glossiness n (Phong 1975; Lafortune and Willems 1994). Importing it needs a variant of
-Mitsuba to be set; register() makes the plugin "pt_phong" known.
+mirror image r of w_i and the glossiness n (Phong 1975; Lafortune and Willems 1994). Set Mitsuba's variant before
+importing it; register() adds the plugin "pt_phong".
 """
 
 import drjit as dr

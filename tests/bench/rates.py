@@ -2,7 +2,7 @@
 
     python3 tests/bench/rates.py --pt build/bin/pt --json rates.json
 
-Runs the program on scenes of cli/scenes. Every round runs all cases in turn; figures are medians.
+Every round runs all cases in turn; figures are medians.
 
 samples/s       from the difference of two sample counts; per wall second of sampling and per CPU second (not on a GPU)
 first, cold     seconds to create the context and take the first sample without compiled kernels

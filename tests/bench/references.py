@@ -3,15 +3,13 @@
     PT_LIBRARY=build/lib/libpt.so python3 tests/bench/references.py render made      # where a GPU is
     DRJIT_LIBLLVM_PATH=libLLVM.so.19.1 mitsuba/bin/python tests/bench/references.py check made
 
-`render` needs only Python and libpt. It writes NAME.pfm, the mean of 16 images of different seeds by `mis` and `sobol`,
-and NAME.json with its own relMSE (from the differences of the 16) and block means of 64 images by another estimator
-with random numbers. The own error must be at most a hundredth of the smallest error measured against it; benchmark.py
-reports others.
+`render` writes NAME.pfm, the mean of 16 images of different seeds by `mis` and `sobol`, and NAME.json with its own
+relMSE and block means of 64 images by another estimator with random numbers. The own error should be at most a
+hundredth of the smallest error measured against it; benchmark.py reports others.
 
-`check` needs Mitsuba (see benchmark.py). It compares the reference with the other estimator by means of blocks of 16x16
-pixels: no channel may differ by more than 6 standard errors. Mitsuba's mean of 16 images, where it can express the
-scene, may differ by as much or by half a percent. Then it writes NAME.exr and references.json into
-tests/reference/bench, or --output.
+`check` needs Mitsuba (benchmark.py). The reference and the other estimator may differ by 6 standard errors in each
+channel of blocks of 16x16 pixels, Mitsuba's mean of 16 images by as much or by half a percent. Then it writes NAME.exr
+and references.json into tests/reference/bench, or --output.
 """
 
 import argparse

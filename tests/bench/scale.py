@@ -5,20 +5,19 @@
     python3 tests/bench/scale.py --library pt=build/lib/libpt.so --cloud lamps --counts 1,10,100,1e3,1e4
 
 Lamps have eight balls below them; their brightness spans four powers of ten. "dark-lamps" has balls in their places:
-the difference is the cost of choosing lamps. benchmark.py says how to install Mitsuba. Every round measures all in
-turn; figures are medians.
+the difference is the cost of choosing lamps. Mitsuba: see benchmark.py. Every round measures all in turn; figures are
+medians.
 
 scene           seconds of pt_set_scene; of building Mitsuba's scene
 bytes           device memory per sphere: pt_stats.device_bytes with and without the cloud
-first           seconds from the scene to a picture of one sample at the first path length, including compilation (the
-                driver's disk cache is off; Mitsuba has its own)
+first           seconds from the scene to a picture of one sample at the first path length, including compilation
 M/s, M/CPU s    million samples per wall and per CPU second (not on a GPU). From path length 3 on a sample follows 1 to
                 4 paths from its first vertex in pt, one in Mitsuba
 
-With --error-samples a second table compares costs at equal error, at the first path length: relMSE (README.md) at this
-many samples (4 times as many in Mitsuba), against the first library's picture of 64 times as many samples and another
-seed, whose own error is included. Ratio: cost x relMSE over the first library's. "off by": difference of the mean from
-the reference's, relative and in standard errors; above 1% no ratio is stated.
+--error-samples adds costs at equal error, at the first path length: relMSE (README.md) at this many samples (4 times as
+many in Mitsuba), against the first library's picture of 64 times as many samples and another seed, whose own error is
+included. Ratio: cost x relMSE over the first library's. "off by": difference of the mean from the reference's, relative
+and in standard errors; above 1% no ratio is stated.
 """
 
 import argparse

@@ -1,5 +1,5 @@
-"""scale.py: arithmetic, clouds, and runs with lists and trees of spheres and lamps. No times are judged. Arguments:
-unittest's; PT_LIBRARY names the library."""
+"""scale.py: arithmetic, clouds, and runs with lists and trees of spheres and lamps. No times are judged. PT_LIBRARY
+names the library."""
 
 import json
 import math

@@ -1,12 +1,11 @@
-"""How good the error is that an image states of itself, and a target error: tables over sets of scenes.
+"""How good an image's stated error and a target error are: tables over sets of scenes.
 
     PT_LIBRARY=build/lib/libpt.so PT_PROGRAM=build/bin/pt python3 tests/bench/stated_error.py SET ... [--jobs N]
 
-A SET is `own` (cli/scenes and tests/render/calibration_scenes.py), `random:SEED` (the hundred of random_scenes.py from
-this seed on), or a folder of scene files. A picture's own error is the root of the mean, over pixels and channels, of
-its squared error relative to an image of many samples; the rms over seeds is the root of the mean of their squares.
-An error that is not uncertain is certain. A picture counts if the reference's own error is at most a fifth of its
-own. --keep writes the estimator's input for some seeds, as NumPy's .npz, to try another estimator without rendering.
+A SET is `own` (cli/scenes and tests/render/calibration_scenes.py), `random:SEED` (the hundred of random_scenes.py), or
+a folder of scene files. A picture's own error is the root of the mean, over pixels and channels, of its squared error
+relative to an image of many samples; the rms is over seeds. A picture counts if the reference's own error is at most a
+fifth of its own. --keep writes the estimator's input for some seeds as NumPy's .npz, to try other estimators.
 """
 
 import argparse

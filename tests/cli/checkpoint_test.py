@@ -1,5 +1,5 @@
-"""Checkpoints: renderings killed at any moment and resumed on any machine end with the same bytes. PT_TEST_KILLS: how
-often one rendering is killed (default: 4)."""
+"""Renderings killed at any moment and resumed on any machine end with the same bytes. PT_TEST_KILLS: number of kills
+(default: 4)."""
 
 import json
 import os

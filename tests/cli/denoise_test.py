@@ -1,6 +1,4 @@
-"""`pt render --denoise` and `pt denoise` with a stand-in for Open Image Denoise (OPEN_IMAGE_DENOISE in the
-environment).
-"""
+"""`pt render --denoise` and `pt denoise`, with a stand-in for Open Image Denoise (OPEN_IMAGE_DENOISE)."""
 
 import json
 import os

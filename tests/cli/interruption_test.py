@@ -1,4 +1,4 @@
-"""Signals while rendering, and the files left; exit_codes_test has each signal's code."""
+"""Signals while rendering, and the files left."""
 
 import fcntl
 import os

@@ -1,4 +1,4 @@
-"""cli/README.md against the program: examples, tables, ranges. README.md's first scene runs too."""
+"""cli/README.md against the program: examples, tables, ranges."""
 
 import json
 import os

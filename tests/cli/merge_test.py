@@ -1,4 +1,4 @@
-"""`pt merge`: parts add up to the bits of the whole; others are refused with a reason."""
+"""`pt merge`: parts add up to the bits of the whole."""
 
 import json
 import os

@@ -1,6 +1,4 @@
-"""Files from strangers that are no files are refused at once; printed texts steer no terminal.
-Arguments: see command_line.py.
-"""
+"""Files that are no files are refused at once; printed texts steer no terminal."""
 
 import json
 import os

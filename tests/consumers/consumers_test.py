@@ -1,5 +1,5 @@
-"""Users' programs, built from the installed library: consumers_test.py STEP with the paths below, `install` first. The
-installation is moved before use, and no program finds the build folder."""
+"""Users' programs, built from the installed library: consumers_test.py STEP, `install` first. The installation is moved
+before use."""
 
 import argparse
 import json

@@ -1,5 +1,5 @@
-"""A compiler launcher that takes equal objects from another build. Arguments: a file with the other build's commands
-(`ninja -t compdb`), the other build, this build's folder of pt, and the compiler's words."""
+"""A compiler launcher that takes equal objects from another build. Arguments: a file with that build's commands (`ninja
+-t compdb`), that build, this build's folder of pt, and the compiler's words."""
 
 import json
 import pathlib

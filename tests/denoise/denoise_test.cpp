@@ -1,4 +1,4 @@
-// Stated errors of denoised images against true ones, with fake_open_image_denoise.cpp as the filter.
+// Stated errors of denoised images against true ones; fake_open_image_denoise.cpp filters.
 #include "tests/support/statistics.h"
 
 #include <pt/denoise.h>

@@ -1,4 +1,4 @@
-// A program's own Vulkan, with the validation layer. PT_TEST_DEVICE and PT_TEST_NO_VALIDATION as in context_fixture.h.
+// A program's own Vulkan, with the validation layer. Environment: context_fixture.h.
 #pragma once
 
 #include "lib/vulkan/device_choice.h"

@@ -1,4 +1,4 @@
-// Rays against one sphere, from huge ones to starts a few ulp from the surface, against long double.
+// Rays against one sphere, huge or from a few ulp away, against long double.
 #include "intersection.spv.h"
 #include "lib/kernel/gpu_scene.h"
 #include "tests/device/probe.h"

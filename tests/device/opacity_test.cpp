@@ -1,4 +1,4 @@
-// Opacity: shares in closed form, light against a path tracer in double, and bits that must not change.
+// Opacity: shares in closed form, and light against a path tracer in double.
 #include "tests/support/light_in_double.h"
 
 #include <pt/stats.h>

@@ -1,4 +1,4 @@
-// pt_reload_shaders: kernels are replaced on success only, and all samples are of one kernel.
+// pt_reload_shaders replaces kernels on success only; all samples are of one kernel.
 #include "lib/render/renderer.h"
 #include "lib/scene/scene.h"
 #include "tests/device/api_fixture.h"

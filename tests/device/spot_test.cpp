@@ -1,4 +1,4 @@
-// Spots: the mean of 1 / density over directions that end in a region is its solid angle.
+// Spots: the mean of 1 / density over directions into a region is its solid angle.
 #include "shaders/specialization.h"
 #include "spots.spv.h"
 #include "tests/device/probe.h"

@@ -1,4 +1,4 @@
-// Which kernel a scene gets: its own, or one for all scenes of its kind.
+// Whether a scene gets its own kernel or a common one.
 #include "lib/kernel/trace_pipelines.h"
 
 #include "tests/device/vulkan_fixture.h"

@@ -1,5 +1,5 @@
-// An instance and a device, beneath pt.h. Messages of the validation layer fail the test. PT_TEST_NO_VALIDATION,
-// PT_TEST_DEVICE: as in context_fixture.h.
+// An instance and a device, beneath pt.h. Messages of the validation layer fail the test. Environment:
+// context_fixture.h.
 #pragma once
 
 #include "lib/vulkan/device.h"

@@ -1,5 +1,5 @@
 """The commands of lib/python/FARM.md give the picture of one process. Arguments: the program pt, FARM.md, and a
-stand-in for Open Image Denoise. GNU parallel and Dask are optional."""
+stand-in for Open Image Denoise."""
 
 import importlib.util
 import os

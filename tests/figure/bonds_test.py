@@ -1,4 +1,4 @@
-"""Bonds and vectors of figures: known molecules and crystals, all pairs by brute force, and the picture."""
+"""Bonds and vectors of known molecules and crystals, by brute force, and in the picture."""
 
 import itertools
 import unittest

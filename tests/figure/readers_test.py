@@ -1,5 +1,5 @@
-"""Files of independent writers and of users hold what they should, or are refused by name, line and rule.
-Argument: the folder of the files. All cloud.* hold the same particles; LAMMPS wrote melt and tilted in two ways."""
+"""Files of independent writers and of users hold what they should, or are refused by name, line and rule. Argument: the
+folder of the files. All cloud.* hold the same particles."""
 
 import bz2
 import gzip

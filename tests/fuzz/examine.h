@@ -1,5 +1,5 @@
-// Checks for every input; a program links examine_numbers.cpp (host) or examine_image.cpp (rendered). A failed check
-// ends the process.
+// Checks for every input, by examine_numbers.cpp (host) or examine_image.cpp (rendered). A failed check ends the
+// process.
 #pragma once
 
 #include "tests/fuzz/input.h"

@@ -1,4 +1,4 @@
-// Films from bytes: accepted ones are written back to the same bytes, others refused as pt/film.h says.
+// Films from bytes: accepted ones are written back to the same bytes.
 #include "tests/fuzz/film_input.h"
 #include "tests/fuzz/require.h"
 

@@ -1,4 +1,4 @@
-// NPY files from bytes: accepted ones have all numbers, others a message with the file's name.
+// NPY files from bytes: accepted ones have all numbers.
 #include "tests/fuzz/mutation.h"
 #include "tests/fuzz/require.h"
 

@@ -1,4 +1,4 @@
-// The headers in C++: numbers and types of the binary interface must never change (sizes: tests/abi/struct_layout.txt).
+// The headers in C++: numbers and types of the binary interface never change (sizes: tests/abi/struct_layout.txt).
 #include <pt/accuracy.h>
 #include <pt/async.h>
 #include <pt/denoise.h>

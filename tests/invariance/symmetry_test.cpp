@@ -1,4 +1,4 @@
-// Changes that keep the image but not its noise, estimated from seeds.
+// Changes that keep the image but not its noise.
 #include "tests/invariance/invariance_scene.h"
 #include "tests/support/batch_fixture.h"
 

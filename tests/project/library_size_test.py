@@ -1,5 +1,4 @@
-"""The stripped shared library, part of every wheel and package, stays small. Arguments: the strip program, the library.
-"""
+"""The stripped shared library stays small. Arguments: the strip program, the library."""
 
 import os
 import subprocess

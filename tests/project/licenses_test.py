@@ -1,5 +1,5 @@
-"""cmake/licenses/parts.txt names all code of others: included headers, libraries that Ninja links, and files with a
-license beside them. Arguments: the project's folder, and a build's."""
+"""cmake/licenses/parts.txt names all code of others: headers, linked libraries, and files with a license beside them.
+Arguments: the project's folder, and a build's."""
 
 import pathlib
 import re

@@ -1,4 +1,4 @@
-"""Files from strangers that are no files are refused at once; printed texts steer no terminal."""
+"""Files that are no files are refused at once; printed texts steer no terminal."""
 
 import contextlib
 import io

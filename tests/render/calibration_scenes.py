@@ -1,5 +1,4 @@
-"""Scenes whose error is hard to state: lamps below a pixel, stars, streets, windows, caustics, chains of glossy balls,
-mostly black pictures, and figures."""
+"""Scenes whose error is hard to state, such as lamps below a pixel, caustics and mostly black pictures."""
 
 import math
 import random

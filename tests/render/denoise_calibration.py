@@ -2,10 +2,9 @@
 
     python3 tests/render/denoise_calibration.py [--own] [--hundred SEED] [--files SCENE ...] [--images FOLDER] [--worst N]
 
-Scenes: cli/scenes and calibration_scenes.py (--own), a hundred of tests/bench/random_scenes.py from a seed on, and
-scene files. PT_LIBRARY names the library and PT_PROGRAM the program, which reads the scenes; needs NumPy and Open Image
-Denoise (pip install pyoidn, or LD_LIBRARY_PATH). --images keeps renderings in the folder and uses them again; --render
-renders only, without Open Image Denoise.
+Scenes: cli/scenes and calibration_scenes.py (--own), a hundred of tests/bench/random_scenes.py, and scene files.
+PT_LIBRARY and PT_PROGRAM name library and program; needs NumPy and Open Image Denoise (pip install pyoidn, or
+LD_LIBRARY_PATH). --images keeps renderings in the folder and uses them again; --render renders only.
 
 An image has two halves of samples. Errors are differences to an image of many samples. A denoised image is worse if its
 error exceeds the raw image's by more than 2%. Light: the difference of the two images' means over the raw one's

@@ -4,9 +4,8 @@
                                               [--sizes WIDTHxHEIGHT ...] [--jobs N]
 
 PT_LIBRARY names the library; --before another one to compare with. Scenes come from cli/scenes and
-calibration_scenes.py, by default in 64 x 32, 128 x 64, 256 x 128 and 512 x 256 pixels. The true error is the root mean
-squared relative error over 24 seeds (96 for at most 8192 pixels) against an image of many samples of another seed.
-Stated errors come from the first six seeds. A GPU takes minutes.
+calibration_scenes.py. The true error is the root mean squared relative error over 24 seeds (96 for at most 8192 pixels)
+against an image of many samples of another seed. Stated errors come from the first six seeds.
 """
 
 import argparse

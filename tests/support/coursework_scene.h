@@ -1,4 +1,4 @@
-// The coursework scene: two lamps, two balls, a floor and three walls, glossy or diffuse.
+// The coursework scene, glossy or diffuse.
 #pragma once
 
 #include "tests/support/scene_of.h"

@@ -1,5 +1,4 @@
-"""Runs a command, and again if LeakSanitizer itself crashed, as GCC 12's sometimes does while it stops threads ("Tracer
-caught signal 11"). Other failures, or three crashes in a row, fail.
+"""Runs a command, and again if LeakSanitizer itself crashed ("Tracer caught signal 11" of GCC 12), up to three times.
 """
 
 import subprocess

@@ -1,4 +1,4 @@
-// Contexts in two threads, and cancellation from another thread. The preset thread adds ThreadSanitizer.
+// Contexts in two threads, and cancellation from another. The preset thread adds ThreadSanitizer.
 #include "tests/support/context_calls.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/image_target.h"

@@ -1,5 +1,5 @@
-/* A user's program in C99: inside an emitting ball every pixel has exactly its radiance. Another expectation as
- * argument is the negative control. */
+/* A user's program in C99: inside an emitting ball every pixel has exactly its radiance. Negative control: another
+ * expectation as argument. */
 #include <pt/pt.h>
 
 #include <stdio.h>
