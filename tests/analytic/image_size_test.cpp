@@ -87,7 +87,6 @@ TEST(ImageSizeClosedForm, SharesAddUpToTheArea) {
     EXPECT_NEAR(sum, sphere_coverage.area(), 1e-6);
 }
 
-// A workgroup, one less and one more; the greatest lengths, in small windows; primes.
 INSTANTIATE_TEST_SUITE_P(Shapes, ImageSize,
                          testing::Values(Shape{1, 1, 1.0}, Shape{63, 1, 0.02}, Shape{64, 1, 0.02}, Shape{65, 1, 0.02},
                                          Shape{16384, 1, 2.0 / 16384}, Shape{1, 16384, 1.0}, Shape{61, 37, 1.0},

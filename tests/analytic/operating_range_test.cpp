@@ -115,7 +115,6 @@ double area_in_motion(double distance, double way) {
     return sum;
 }
 
-// The sphere fills pi / (d^2 - 1) of a square of 16 / (d^2 - 1).
 TEST_F(DISABLED_OperatingRange, DistanceOfASphere) {
     for (const Look &look : looks) {
         std::printf("\ndistance from a sphere's surface / radius, %s\n", look.name);
@@ -178,7 +177,6 @@ TEST_F(DISABLED_OperatingRange, SizeOfALamp) {
     }
 }
 
-// Motion along itself changes nothing visible; motion by 1 needs a radius of at least 32.
 TEST_F(DISABLED_OperatingRange, SizeOfAFloorBall) {
     for (const double motion : {0.0, 1e-9, 1.0}) {
         std::printf("\nradius of a sphere that is the floor, motion %g\n", motion);

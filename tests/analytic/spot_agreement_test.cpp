@@ -56,7 +56,6 @@ protected:
         set_up(scene_of(materials, spheres, planes), camera);
     }
 
-    // The lamp's edge would dominate the noise.
     std::vector<std::size_t> pixels_without_lamp() {
         const Batches emission = render_batches(render_of(32, 16, 1), 1, 256);
         std::vector<std::size_t> pixels;

@@ -56,7 +56,6 @@ def bench(command, folder):
 
 
 def run_pt(options, name, counts, number, folder):
-    """One round: option -> cells, and the device."""
     cells = {}
     for samplers, estimators in ((SAMPLERS, DEFAULT[1:]), (DEFAULT[:1], ESTIMATORS)):
         command = [*ERROR_AND_TIME, str(scene_path(name)), "--reference", str(options.references / f"{name}.exr"),

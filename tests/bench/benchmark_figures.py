@@ -26,7 +26,6 @@ def ratios_of_round(cells, option, targets, unit):
 
 
 def scene_figures(rounds, unit):
-    """rounds: option -> cells, for each round."""
     points, wall = ({option: points_of([cell for cells in rounds for cell in cells[option]], key)
                      for option in rounds[0]} for key in (unit, "seconds"))
     aims = sorted(points["default"])[-2:]

@@ -27,7 +27,6 @@ def mean_and_error(runs):
 
 
 def compare(runs, expected_runs):
-    """Largest deviation of the means in standard errors, and the relative resolution."""
     largest_z, relative = 0, []
     for (mean, error), (expected, expected_error) in zip(mean_and_error(runs), mean_and_error(expected_runs)):
         noise = math.hypot(error, expected_error, ROUNDING * expected)

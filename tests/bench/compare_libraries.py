@@ -60,7 +60,7 @@ def figures_of(pictures, pooled):
 def measure(name, length, options):
     scene = load_scene(name)
     if len(scene["spheres"]) + len(scene.get("planes", [])) <= FEW_SURFACES:
-        os.environ.setdefault("LP_NATIVE_VECTOR_WIDTH", "512")  # as pt does where the CPU can
+        os.environ.setdefault("LP_NATIVE_VECTOR_WIDTH", "512")
     os.environ["MESA_SHADER_CACHE_DISABLE"] = "true"
     from scene_renderer import SceneRenderer  # loads a driver
 

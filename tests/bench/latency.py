@@ -89,7 +89,6 @@ def measure_size(contexts, arguments, path_length):
 
 
 def measure_errors(contexts, arguments):
-    """Few rounds, because libraries may be slow."""
     for error in filter(None, arguments.errors.split(",")):
         for _ in range(min(arguments.rounds, 3)):
             for context in contexts:

@@ -75,7 +75,6 @@ class MitsubaScene:
         return {"type": "scene", **shapes}
 
     def frame(self, plane, position):
-        """normal . x + offset = 0; the rectangle's center is nearest to the origin."""
         length = math.hypot(*plane["normal"])
         normal, offset = [n / length for n in plane["normal"]], plane["offset"] / length
         if sum(n * x for n, x in zip(normal, position)) + offset < 0:

@@ -75,7 +75,6 @@ def sunlit(rng):
 
 
 def on_floor(rng, materials, spheres, camera=None, length=None, capsules=()):
-    """A scene with a floor, of calibration_scenes' materials and others."""
     return {"camera": camera or view(rng), "render": {"max_path_length": length or rng.randint(3, 6)},
             "materials": fixed.BACKGROUND | materials, "spheres": spheres, "capsules": list(capsules),
             "planes": fixed.FLOOR}
@@ -140,7 +139,6 @@ def windows(rng):
 
 @kind
 def veils(rng):
-    """Nested shells that differ in their radii alone, about lamps or before them."""
     lamps = [ball((x, rng.uniform(0.5, 2), rng.uniform(-2.5, -1.5)), rng.uniform(0.08, 0.2), "lamp")
              for x in (-2, -0.7, 0.7, 2)]
     shells = [ball((0, 1, 0.3 * i), rng.uniform(1, 3), "leaf") | {"opacity": opacity(rng, 0.05, 0.6)}
@@ -190,7 +188,6 @@ def out_of_focus(rng):
 
 @kind
 def slits(rng):
-    """Lamps behind a grid of balls or bars, which they shine through."""
     lamps = [ball((rng.uniform(-2, 2), rng.uniform(1, 3), -4), between_powers(rng, 0.05, 0.5), "lamp")
              for _ in range(rng.randint(1, 3))]
     gap = rng.uniform(0.44, 0.6)

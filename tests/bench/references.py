@@ -45,7 +45,6 @@ def parse_arguments():
 
 
 def own_error(images, mean):
-    """relMSE of the mean of independent images."""
     count = len(images)
     squares = [math.fsum((image[i] - m) ** 2 for image in images) / (m * m + 0.01) for i, m in enumerate(mean)]
     return math.fsum(squares) / len(squares) / (count * (count - 1))

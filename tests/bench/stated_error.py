@@ -97,8 +97,6 @@ def short(values):
 
 
 class Pictures:
-    """The pictures of a scene in one size."""
-
     def __init__(self, context, scene, settings, size, options):
         self.context, self.name, self.size, self.options = context, scene, size, options
         self.settings = settings

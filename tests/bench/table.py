@@ -2,7 +2,6 @@
 
 
 def print_table(rows):
-    """rows: lists of texts of equal length; the first is the heading."""
     widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
     for row in rows:
         print("| " + " | ".join(cell.ljust(width) for cell, width in zip(row, widths)) + " |")

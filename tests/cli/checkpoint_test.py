@@ -42,7 +42,6 @@ class KilledRender(KeptRender):
         return os.stat(self.path(name)).st_ino if os.path.exists(self.path(name)) else None
 
     def test_killed_at_any_moment(self):
-        """Every other run is killed after its first checkpoint, and so progresses."""
         name = "der Prüf punkt é.ptfilm"
         options = self.options(SAMPLES_A_KILL * KILLS)
         expected = self.whole(*options)

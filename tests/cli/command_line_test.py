@@ -62,7 +62,6 @@ class Usage(CommandLineTest):
         self.assertEqual(self.files(), [])
 
     def test_failing_allocations_end_the_program(self):
-        # Each run fails at another allocation of the parsing.
         codes = []
         for number in range(1, 3000, 61):
             codes.append(self.run_pt("render", COURSEWORK, "-o", "a.png", "--gamma", "0", FAKE_PT_ALLOCATION=number))
@@ -134,7 +133,6 @@ class Outputs(CommandLineTest):
             self.assertEqual(attributes[name], ("string", text.encode()), name)
         self.assertEqual(attributes["pt.maxPathLength"], ("int", struct.pack("<i", 2)))
         self.assertTrue(attributes["software"][1].startswith(b"pt "))
-        # Channels are ordered by name; type 2 is 32-bit float.
         channels = attributes["channels"][1]
         self.assertEqual([channels.index(name + b"\0\2\0\0\0") for name in (b"B", b"G", b"R")], [0, 18, 36])
 

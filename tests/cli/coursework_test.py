@@ -21,7 +21,6 @@ SIDE = 16  # of a block, pixels
 
 
 def pixels_of(path):
-    """Larger images are averaged, like a box filter."""
     channels = read_exr_channels(path)
     image = numpy.stack([numpy.array(channels[name]) for name in "RGB"], axis=2)
     side = len(image) // 64

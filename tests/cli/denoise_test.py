@@ -41,7 +41,7 @@ class Denoise(DenoiseTest):
             self.render("-o", "a.png", DENOISE, "--spp", "8", code=130, FAKE_PT_SIGNAL=f"2:{submission}",
                         error="stopped by SIGINT after 0 of 8 samples per pixel; nothing was written")
         self.assertEqual(self.files(), [])
-        for submission in "150", "180":  # in the second round, from 16 to 24 samples of each half
+        for submission in "150", "180":
             self.render("-o", "a.exr", DENOISE, "--time", "999", code=130, FAKE_PT_SIGNAL=f"2:{submission}",
                         error="stopped by SIGINT after 32 of 65536 samples per pixel")
             self.render("-o", "b.exr", DENOISE, "--spp", "32")

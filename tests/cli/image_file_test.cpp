@@ -158,7 +158,7 @@ TEST(ImageFile, JpegIsClose) {
     const auto read = read_pixels<std::uint8_t>(folder.file("a.jpeg"), OIIO::TypeDesc::UINT8);
     ASSERT_EQ(read.size(), bytes.size());
     for (const std::uint8_t value : read)
-        EXPECT_NEAR(value, 100, 1); // one color: only a coefficient's rounding is lost
+        EXPECT_NEAR(value, 100, 1);
 }
 
 TEST(ImageFile, JpegHasMetadataInItsDescription) {

@@ -180,7 +180,7 @@ class Tonemap(ImagesTest):
                 self.assertEqual(self.scan_of("b.jpg"), self.scan_of("a.jpg"))
 
     def scan_of(self, name):
-        """From the quantisation tables on, without metadata."""
+        """A JPEG from its quantisation tables on, without metadata."""
         data = self.contents(name)
         return data[data.index(b"\xff\xdb"):]
 

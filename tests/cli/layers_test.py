@@ -39,7 +39,6 @@ class LayersTest(CommandLineTest):
 
 class Layers(LayersTest):
     def test_each_is_where_it_belongs(self):
-        # The stand-in's numbers are each pixel's place.
         for crop, pieces in (((0, 0, WIDTH, HEIGHT), ()), ((2, 3, 5, 33), ("--piece-rows", "10"))):
             with self.subTest(crop=crop):
                 self.render("-o", "a.exr", "--layers", ALL, "--crop", ",".join(map(str, crop)), *pieces)
@@ -79,7 +78,6 @@ class Layers(LayersTest):
 
 
 class Alpha(LayersTest):
-    # The stand-in's coverage grows from 0 to 1 across the width.
     SHARES = [as_float(column / (WIDTH - 1)) for column in range(WIDTH)]
 
     def test_an_exr_has_it_beside_the_colors(self):
@@ -153,7 +151,6 @@ class RealDeviceLayers(LayersTest):
             self.assertLessEqual(math.hypot(*(pixel[f"N.{axis}"] for axis in "XYZ")), 1 + 1e-6)
 
     def test_alpha_is_that_of_the_samples(self):
-        # With radiance 1 the mean is the share of samples that hit.
         self.write("ball.json", """{"materials": {"white": {"emission": 1}},
                                     "spheres": [{"center": [0, 0, -4], "radius": 1, "material": "white"}]}""")
         self.expect(0, "render", "ball.json", *SIZE, "-o", "a.exr", "-o", "a.png", "--alpha", "--exposure", "0")

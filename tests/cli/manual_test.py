@@ -48,7 +48,6 @@ def range_of(cell):
 
 
 def beyond(least, largest):
-    """Just outside a range; next to it for integers."""
     step = 1 if isinstance(least, int) and isinstance(largest, int) else abs(largest) * 1e-3
     return least - step, largest + step
 
@@ -135,7 +134,6 @@ class RealDevice(CommandLineTest):
         self.assertRegex(self.output, r"^wrote ball.png: 48x24, .*\nexposure .* \(auto\)\nerror .*; target reached")
 
     def test_the_tour_of_the_readme(self):
-        """Each row shows its last command's output (here in a smaller size)."""
         root = os.path.join(SCENES, "..", "..")
         with open(os.path.join(root, "README.md"), encoding="utf-8") as file:
             tour = file.read().split("\n## A tour in five steps\n")[1].split("\n## ")[0]
@@ -157,7 +155,6 @@ class RealDevice(CommandLineTest):
 
     def render_scene(self, code, section, values):
         self.write("s.json", scene_with(section, values))
-        # An option would replace the key that must be refused.
         self.expect(code, "render", "s.json", *(self.small if code == 0 else ("-o", "a.png", "--size", "4x2", "-q")))
 
     def test_examples_of_keys(self):

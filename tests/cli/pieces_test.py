@@ -20,7 +20,6 @@ class Pieces(CommandLineTest):
         for rows, count in ((1, 33), (10, 4), (32, 2)):
             with self.subTest(rows=rows):
                 self.assertEqual(self.pixels("--piece-rows", str(rows)), whole)
-                # 3 floats for each of 40x33 pixels; the stand-in claims 4096 bytes.
                 self.assertIn(f"{count} pieces of up to {rows} rows: 4.0 KiB on the device, 15.5 KiB for the image",
                               self.errors)
         self.assertEqual(self.pixels("--piece-rows", "34"), whole)
@@ -67,8 +66,6 @@ class Steps(CommandLineTest):
 
 
 class HostMemory(CommandLineTest):
-    """Limits the address space to 2 GiB."""
-
     def run_in_little_memory(self, *arguments):
         def little_memory():
             default_signals()
@@ -84,7 +81,6 @@ class HostMemory(CommandLineTest):
     def test_an_image_that_is_too_large_is_refused_before_it_is_rendered(self):
         if self.run_in_little_memory("--version").returncode != 0:
             self.skipTest("sanitizers need terabytes of addresses")
-        # 12 bytes for each of 2^28 pixels
         large = ("--size", "16384x16384", "--spp", "1")
         self.assertEqual(self.refusal(2, "render", COURSEWORK, "-o", "a.exr", *large),
                          "pt: --size 16384x16384: the image takes 3.0 GiB of memory, more than the 2.0 GiB that this "

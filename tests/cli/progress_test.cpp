@@ -19,7 +19,6 @@ using std::chrono::milliseconds;
 
 const Progress::Clock::time_point start{};
 
-// A callback every 10 ms for 2 s.
 std::string output_of(ProgressStyle style, std::size_t columns = 80) {
     std::ostringstream output;
     {
@@ -109,7 +108,6 @@ TEST(Progress, StyleFollowsTheTerminal) {
     EXPECT_EQ(cli::progress_style("json", true, true), ProgressStyle::none); // -q
 }
 
-// A scene may be ready before a line is due.
 TEST(Progress, OfTheSceneIsALineThatGoesAway) {
     const auto output_after = [](ProgressStyle style, int milliseconds_in_all) {
         std::ostringstream output;

@@ -15,7 +15,6 @@ namespace {
 using cli::parse_scene;
 using cli::SceneFile;
 
-// Without the file's name; "" if accepted.
 std::string refusal(const std::string &text) {
     const Refusal refused = refusal_of([&] { parse_scene(text, "s.json"); });
     if (refused.message.empty())
@@ -321,7 +320,6 @@ TEST(SceneFile, ExplainsWhatTheLibraryRefuses) {
     EXPECT_EQ(explained({"accumulate", none, "sample_count", none, "", "0", "y"}), "s.json:11: render.spp = 0: y");
     EXPECT_EQ(explained({"render", none, "estimator", none, "", "9", "x"}), "s.json:12: render.estimator = 9: x");
     EXPECT_EQ(explained({"materials", 99, "x", none, "", "0", "y"}), "s.json:6: materials[99].x = 0: y");
-    // From an option, or a name of the library.
     EXPECT_EQ(explained({"create", none, "device", none, "", "7", "y"}), "--device = 7: y");
     EXPECT_EQ(explained({"scene", none, "", none, "", "NULL", "y"}), "s.json: scene = NULL: y");
 }

@@ -86,7 +86,7 @@ TEST(SelftestScene, RecedingLampByQuadrature) {
     EXPECT_NEAR(scene.expected, sum / steps, 1e-8);
 }
 
-// Light found by a sample of one kind and some directions, each weighted by the power heuristic.
+// Light by a sample of one kind and some directions, weighted by the power heuristic.
 class TwoWays {
 public:
     explicit TwoWays(int directions) : directions_(directions) {}

@@ -70,7 +70,6 @@ class RealDevice(CommandLineTest):
     def test_directions(self):
         kinds = "Phong lobe, n = 20", "hemisphere, by cosine", "hemisphere, uniform"
         self.assertEqual(self.failed_directions(), [])
-        # Slightly wrong densities, and an azimuth without a twentieth of the circle.
         self.assertEqual(self.failed_directions(
             ("sampling.glsl", "return SphericalAngles(1.0", "u.x = 0.98 * u.x + 0.01;\n    return SphericalAngles(1.0"),
             ("sampling.glsl", "vec2(sqrt(1.0 - u), sqrt(u))", "vec2(sqrt(1.0 - 0.99 * u), sqrt(0.99 * u))"),

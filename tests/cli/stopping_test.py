@@ -7,7 +7,6 @@ import subprocess
 
 from command_line import COURSEWORK, PATIENCE, PT, CommandLineTest, main, read_exr_channels, read_png
 
-# Hours of samples; the first check of the error comes after 16.
 ENDLESS = ("--spp", "1000000", "--time", "0.5")
 SLOW = {"FAKE_PT_SAMPLE_MS": 20}
 
@@ -69,7 +68,6 @@ class ExitCodes(CommandLineTest):
         self.assertEqual(self.files(), ["a.png", "c.ptfilm"])
 
     def test_another_signal_later_ends_it_at_once(self):
-        """A sample of an hour stands for a hung driver."""
         process = self.start("render", COURSEWORK, "-o", "a.png", "--spp", "2", "--size", "2x2", "--progress", "json",
                              FAKE_PT_SAMPLE_MS=3_600_000)
         while process.poll() is None:

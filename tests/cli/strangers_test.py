@@ -21,8 +21,6 @@ def sparse(path, start, size):
 
 
 class NoFiles(CommandLineTest):
-    """A device, a named pipe without a writer, and a folder, wherever a file is read."""
-
     def setUp(self):
         super().setUp()
         os.mkfifo(self.path("pipe"))

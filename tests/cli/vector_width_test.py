@@ -44,7 +44,6 @@ class RealDeviceWidth(CommandLineTest):
         self.assertTrue(os.listdir(self.path("cache/pt/shaders-512")))
 
     def test_a_checkpoint_goes_on_wherever_caches_can_be(self):
-        """Cron and services have other cache folders, or none."""
         self.write("file", "")
         picture = ("render", COURSEWORK, "--size", "16x8", "--device", self.device, "--checkpoint", "c.ptfilm", "--spp")
         self.expect(0, *picture, "8", "-o", "a.png", XDG_CACHE_HOME=self.path("cache"))

@@ -88,7 +88,6 @@ TEST(Warnings, TargetsThatSayNothing) {
               Texts{"--error: the target is 200%; two percent are written 2% or 0.02"});
 }
 
-// The library counts capsules as an array of spheres.
 TEST(Warnings, OfTheLibraryNameTheFilesField) {
     const cli::SceneFile scene = cli::parse_scene(std::string("{")
                                                       .append(camera)

@@ -16,8 +16,6 @@ def scene_text(width, emission=1.0):
 
 
 class Watching:
-    """Both streams come through one pipe, in order."""
-
     def __init__(self, process):
         self.process = process
         self.seen = []

@@ -33,7 +33,6 @@ def require(holds, message):
 
 
 def check_enclosure(*command, **environment):
-    """Exact radiances, and failure with another expectation."""
     run(*command, **environment)
     run(*command, "2.5", expect=1, **environment)
 
@@ -109,7 +108,6 @@ class Steps:
         self.check_completion(share / "bash-completion/completions/pt")
 
     def check_completion(self, script):
-        """As bash calls it: a function that reads the words and fills a variable."""
         for words, expected in ((["pt", "re"], "render"), (["pt", "render", "--check"], "--checkpoint --checkpoint-every"),
                                 (["pt", "render", "sc"], "")):
             ask = f'source "$1"; shift; COMP_WORDS=("$@"); COMP_CWORD={len(words) - 1}; _pt; echo "${{COMPREPLY[*]}}"'
@@ -223,7 +221,6 @@ class Steps:
         require((folder / "smallest.pfm").read_bytes() == image, "smallest.c and smallest.py differ")
 
     def check_program(self, program, folder, *options, **environment):
-        """The program finds its library and the module for EXR and JPEG."""
         scene = SOURCE / "cli" / "scenes" / "coursework.json"
         outputs = [folder / name for name in ("x.exr", "x.jpg", "x.png")]
         written = [word for output in outputs for word in ("-o", output)]
@@ -232,7 +229,6 @@ class Steps:
             require(output.read_bytes().startswith(magic), f"{output} is of another format")
 
     def check_program_without_module(self, program, folder, **environment):
-        """Without the module only PNG; the refusal says what to install."""
         scene = SOURCE / "cli" / "scenes" / "coursework.json"
         small = [scene, "--size", "16x8", "--spp", "1"]
         run(program, "render", *small, "-o", folder / "only.png", **environment)

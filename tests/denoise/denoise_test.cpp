@@ -269,7 +269,7 @@ TEST(Denoise, IsNotPersuadedByOnePixel) {
 }
 
 // The filter spreads a lamp over two pixels to each side, where relative errors would be a million times the raw
-// image's. With the filter's values as limits they would seem small.
+// image's. They would seem small with the filter's values as limits.
 TEST(Denoise, DoesNotSpreadALamp) {
     constexpr std::size_t first = 64;
     constexpr std::size_t end = 68;

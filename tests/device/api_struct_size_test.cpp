@@ -28,7 +28,6 @@ T with_tail(const T &value, uint32_t size, int byte) {
     return copy;
 }
 
-// Sizes at which bytes behind an older struct matter.
 template <typename T, typename Call>
 std::vector<uint32_t> misread_sizes(const T &value, const Call &call) {
     std::vector<uint32_t> misread;

@@ -137,7 +137,6 @@ private:
     vk::raii::Queue queue_;
 };
 
-// Any message of the layer, leaks included, fails the test.
 class CallerVulkanFixture : public testing::Test {
 protected:
     void SetUp() override { caller_.emplace(messages_); }

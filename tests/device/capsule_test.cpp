@@ -210,7 +210,6 @@ TEST_F(Capsules, AreMetWhereTheirDistanceIsZero) {
     EXPECT_TRUE(stats().features & PT_FEATURE_TREE);
 }
 
-// One end along the axis; a rectangle and two half discs across.
 TEST_F(Capsules, AreSeenInParallel) {
     constexpr double radius = 0.75;
     Given given;

@@ -13,7 +13,6 @@
 
 namespace {
 
-// One in a million for the file.
 constexpr double false_alarms = 1e-6;
 constexpr double comparisons = 1000;
 double allowed(std::size_t batch_count) {
@@ -80,7 +79,6 @@ TEST_P(EstimatorMeans, AgreeForAllEstimatorsAndSamplers) {
     const Means reference = means_of(render_batches(render, mean_batches, 8 * mean_samples));
     const double bound = allowed(mean_batches);
     double worst_error = 0.0;
-    // A sampler's numbers do not depend on the estimator.
     for (const uint32_t estimator :
          {PT_ESTIMATOR_UNIFORM, PT_ESTIMATOR_COSINE, PT_ESTIMATOR_BSDF, PT_ESTIMATOR_LIGHT, PT_ESTIMATOR_MIS})
         for (const uint32_t sampler : {PT_SAMPLER_RANDOM, PT_SAMPLER_HALTON, PT_SAMPLER_HALTON_CP, PT_SAMPLER_SOBOL}) {

@@ -96,7 +96,6 @@ TEST(Film, DeviceSumsAreExact) {
     }
 }
 
-// The brightest sample fills the first window, half units the others.
 TEST(Film, WindowsHoldTheMostSamplesThatAnInvocationGathers) {
     struct {
         std::uint32_t per_pixel, count, film_part;
@@ -197,7 +196,7 @@ TEST(Film, LostSamplesAreAnError) {
     });
     EXPECT_EQ(error.code(), PT_ERROR_INTERNAL);
     EXPECT_STREQ(error.what(), "the driver did 3 of 4 samples of a pixel in one part of the film");
-    // Not even if the other part has one too many.
+    // A surplus in the other part does not compensate.
     EXPECT_EQ(error_of([] {
                   pt::require_samples(one_pixel({9, 5, 0}, {9, 3, 0}).samples_of(0), {4, 4});
               }).code(),

@@ -32,7 +32,6 @@ inline Given coursework() {
             {scene.planes.begin(), scene.planes.end()}};
 }
 
-// Enough spheres for a tree, with planes and a globe too large for the tree.
 inline Given many(bool moves) {
     Given given;
     given.materials = some_materials();

@@ -87,7 +87,6 @@ TEST_F(HostFold, IsUndoneUnlessItIsKept) {
     EXPECT_TRUE(words() == before_);
 }
 
-// The next kernel would take the rare words to be 0.
 TEST_F(HostFold, LeavesRareWordsToKernels) {
     for (const std::size_t plane : {std::size_t{3}, std::size_t{7}, std::size_t{11}, std::size_t{13}}) {
         before_.plane(1, plane)[100] = 1;

@@ -75,7 +75,7 @@ struct Reference {
         half_chord = std::sqrt(std::max(0.0L, radius * radius - glm::dot(across, across)));
         height = (glm::length(from_center) - radius) * (glm::length(from_center) + radius) / (2.0L * radius);
     }
-    // By products: to_middle -+ half_chord would cancel.
+    // Divides products, because to_middle -+ half_chord would cancel.
     long double near_root(long double radius) const {
         return to_middle > 0 ? 2 * radius * height / (to_middle + half_chord) : to_middle - half_chord;
     }

@@ -76,7 +76,6 @@ public:
         return probe;
     }
 
-    // Films read the tree's current words. walk_trips: ID_WALK_TRIPS.
     Probe probe_of_tree(std::uint32_t walk_trips = 0) const {
         Constants of_scene = this->constants();
         of_scene[pt::gpu::ID_WALK_TRIPS] = walk_trips;

@@ -21,7 +21,6 @@ constexpr std::uint32_t kernel_height = 21;
 
 class KernelTest : public VulkanFixture {
 protected:
-    // One kernel serves all, because building it takes longest.
     std::vector<pt::PixelSums> film_sums(std::uint32_t invocations, const std::vector<std::uint32_t> &sample_counts) {
         pt::vulkan::Device &device = device_with({.patience = std::chrono::hours{1},
                                                   .share_memory = true,

@@ -68,7 +68,6 @@ constexpr std::size_t below_horizon = 4;
 // Probabilities off by 3% add 2^19 * 0.03^2 = 472 to a chi-square with a standard deviation below 4.
 constexpr std::uint32_t draws_of_lamps = 1U << 19;
 
-// One false alarm in a million for the file.
 const double lamp_bound = statistics::normal_quantile(1e-6 / 2);
 
 void expect_stated_probabilities(const std::vector<Lamp> &lamps) {
@@ -94,7 +93,7 @@ void expect_stated_probabilities(const std::vector<Lamp> &lamps) {
 TEST(LampChoice, FollowsTheStatedProbability) {
     expect_stated_probabilities(uneven_lamps);
     std::vector<Lamp> few(uneven_lamps.begin(), uneven_lamps.begin() + 4);
-    few[0].radiance = 5000.0F; // else the far lamp has all but a thousandth
+    few[0].radiance = 5000.0F;
     expect_stated_probabilities(few);
 }
 

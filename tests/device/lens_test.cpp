@@ -33,7 +33,6 @@ struct Case {
     std::uint32_t reference_samples;
 };
 
-// Rays of the narrow view start ahead of the lens; floor and a ball cut the last lens.
 std::vector<Case> cases() {
     Given cut = random_balls(5, 7, 8.0);
     cut.camera.position[1] = -1.0;

@@ -12,7 +12,6 @@
 
 namespace {
 
-// One false alarm in a million for the file.
 constexpr double motion_comparisons = 200;
 double allowed_deviation(std::size_t batch_count) {
     return student_bound(1e-6 / motion_comparisons, batch_count);
@@ -94,7 +93,6 @@ TEST_F(HugeMotion, InTheLimitOfNoneIsRest) {
 TEST_F(HugeMotion, OfALampTheOutsideIsSeen) {
     constexpr double radius = 1e6;
     const pt_material materials[] = {{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0, 0}, {{0, 0, 0}, {0, 0, 0}, {4, 4, 4}, 0, 0}};
-    // The lamp overhead fills the view, unless the camera is inside the sphere.
     const pt_sphere spheres[] = {{{0, -1e-3 - radius, 0}, radius, {1e3, 0, 0}, 0, 0}, {{0, 50, 0}, 5, {0, 0, 0}, 1, 0}};
     const pt_scene scene = scene_of(materials, spheres, {});
     pt_camera camera{};

@@ -41,7 +41,6 @@ protected:
     }
 };
 
-// Path length 1 shows emission alone, 3 includes lamps.
 TEST_F(NegativeZero, OfMaterialsIsZero) {
     for (const std::uint32_t max_path_length : {1U, 3U})
         EXPECT_EQ(image_of(scene_with_zeros(-0.0F), max_path_length), image_of(scene_with_zeros(0.0F), max_path_length))

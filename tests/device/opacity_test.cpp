@@ -96,7 +96,6 @@ TEST_F(Opacity, IsTheShareOfRaysThatMeet) {
     EXPECT_NEAR(passed(0.0F, 0.0F), 1.0, 1e-6);
 }
 
-// Concentric spheres, and spheres whole grid steps apart along an axis.
 TEST_F(Opacity, OfTwoSpheresIsIndependent) {
     const auto passed = [&](const glm::dvec3 &second, double radius, double extent) {
         return share_passed(
@@ -134,7 +133,6 @@ TEST_F(Opacity, OfSurfacesThatDifferIsIndependent) {
     EXPECT_NEAR(share_passed(star), std::pow(1.0 - std::round(25.5) / 255.0, 8.0), 0.008);
 }
 
-// Balls in one place that differ in their color or their motion alone.
 TEST_F(Opacity, OfColorsAndMotionsIsIndependent) {
     Given given = under_sky({});
     given.camera.shutter_close = 1.0;

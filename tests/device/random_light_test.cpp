@@ -84,7 +84,6 @@ private:
         return material + (kind == hidden && chance(0.4) ? material_count : 0);
     }
 
-    // Moderate exponents where the estimator samples no lobes or no lamps.
     void set_materials(Given &given, Kind kind) {
         const double exponent = kind == weak_estimators ? decades(0, 1.3) : decades(0, kind == spots ? 4 : 3);
         given.materials.push_back({{0.2F, 0.1F, 0.1F}, {0.5F, 0.6F, 0.7F}, {0, 0, 0}, static_cast<float>(exponent), 0});

@@ -22,7 +22,6 @@ constexpr std::byte untouched{0xa5};
 
 class ReadbackTest : public ContextFixture {
 protected:
-    // Both parts of the film get samples, so standard errors are numbers.
     static void render(pt_context *context) {
         const CourseworkScene coursework;
         pt_render settings = render_of(whole_width, whole_height + 2 * first_row, 3);

@@ -195,7 +195,6 @@ TEST_F(ReadbackToBufferTest, HasTheBitsOfReadback) {
     }
 }
 
-// The call returns before the gated work ends.
 TEST_F(ReadbackToBufferTest, WithASemaphoreToSignalTheHostDoesNotWait) {
     for (const bool like_gpus : {false, true}) {
         use_context(like_gpus);
@@ -266,7 +265,6 @@ TEST_F(ReadbackToBufferTest, TheContextGoesOnMeanwhile) {
     caller_->device().waitIdle();
 }
 
-// Later samples move the film's split before the earlier image is made.
 TEST_F(ReadbackToBufferTest, LaterSamplesDoNotChangeIt) {
     for (const bool like_gpus : {false, true}) {
         use_context(like_gpus);

@@ -218,7 +218,6 @@ TEST_F(Resolve, SamplesLostOnTheWayToABufferAreAnError) {
     writer.write(of_one, {buffer.handle(), 0, width * 12, {}});
 }
 
-// The loss is in the first of several pieces; the device stays usable.
 TEST_F(Resolve, LostSamplesAreAnError) {
     device_with(pt::vulkan::gpu_like_policy());
     constexpr std::uint32_t high = 1200;

@@ -51,8 +51,8 @@ inline Blocks as_integers(const std::vector<glm::vec4> &numbers) {
 }
 
 inline constexpr std::uint32_t table_blocks = 4;
-inline constexpr std::uint32_t shared_blocks = 1;  // of a scene without lamps
-inline constexpr std::uint32_t most_blocks = 6000; // of a path; more than the table holds
+inline constexpr std::uint32_t shared_blocks = 1; // of a scene without lamps
+inline constexpr std::uint32_t most_blocks = 6000;
 
 // Rows for up to 256 samples with one branch fill the probe's table.
 inline pt::PointLayout layout_of(std::uint32_t branches) {

@@ -155,7 +155,7 @@ bool is_shifted_in_pixels(const Table &table, const Blocks &blocks, std::uint32_
     return true;
 }
 
-// Such shifts keep Sobol's nets in every pixel.
+// The shifts keep Sobol's nets in every pixel.
 TEST(SamplerShifts, AreOneInEachPixelAndDimension) {
     Request request;
     request.pixel_count = 256;

@@ -9,7 +9,6 @@
 #include <span>
 #include <vector>
 
-// Appends the scene's words if they are constants.
 inline std::vector<std::uint32_t> with_scene_source(std::span<const std::uint32_t> constants, std::uint32_t source,
                                                     std::span<const glm::vec4> words) {
     std::vector<std::uint32_t> result(constants.begin(), constants.end());
@@ -22,7 +21,7 @@ inline std::vector<std::uint32_t> with_scene_source(std::span<const std::uint32_
     return result;
 }
 
-// With wrong words if the scene is in constants.
+// Fills the buffer with wrong words if the scene is in constants.
 inline void set_scene_for(Probe &probe, std::uint32_t source, std::span<const glm::vec4> words) {
     if (source == pt::gpu::SCENE_IN_CONSTANTS)
         probe.set_scene(std::vector<glm::vec4>(words.size(), glm::vec4(-77.0F)));

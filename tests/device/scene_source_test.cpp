@@ -35,7 +35,6 @@ struct Comparison {
         return render.film(source, words) == film;
     }
 
-    // Storage buffers are for large scenes, whose surfaces share materials.
     bool holds_in_storage() const {
         return holds(gpu::SCENE_IN_STORAGE, table_words(render.features(), render.words()));
     }
@@ -165,7 +164,6 @@ TEST_F(SceneSource, KeepsTheBitsOfASingleSurface) {
     EXPECT_TRUE(Comparison(render).holds(gpu::SCENE_IN_UNIFORM, render.words()));
 }
 
-// A second scene of the same features may read a buffer.
 class SceneSourceTest : public ContextFixture {
 protected:
     static std::vector<float> image_of(pt_context *on, const InvarianceScene &source) {

@@ -70,7 +70,6 @@ std::vector<DrawnSpot> draw_spots(const std::vector<SpotOf> &spots, std::uint32_
     return probe.run<DrawnSpot>({}, count, push, count);
 }
 
-// The mean direction, where the spot is brightest.
 glm::dvec3 middle_of(const std::vector<DrawnSpot> &drawn, std::uint32_t surface) {
     glm::dvec3 sum(0);
     for (const DrawnSpot &sample : drawn)

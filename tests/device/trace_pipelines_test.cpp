@@ -31,7 +31,6 @@ using Words = std::vector<glm::vec4>;
 const Words ball = {{0, 0, -4, 1}, {1, 1, 1, 1}, {0, 0, 0, 0}};
 const Words other_ball = {{0, 0, -5, 1}, {1, 1, 1, 1}, {0, 0, 0, 0}};
 
-// Kernels are identified by address while kept.
 class TracePipelinesTest : public VulkanFixture {
 protected:
     void use(bool scene_in_constants) {

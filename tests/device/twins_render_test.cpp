@@ -20,7 +20,6 @@ namespace {
 constexpr std::uint32_t batch_count = 8;
 constexpr std::uint32_t samples = 64;
 
-// One in a million for the file.
 constexpr double comparisons = 15;
 
 std::vector<double> means_of(const Batches &batches) {

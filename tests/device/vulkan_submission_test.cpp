@@ -91,7 +91,6 @@ TEST_F(VulkanTest, ASubmissionIsWaitedForUntilATime) {
     EXPECT_GE(device().finish(ticket), 5e-3);
 }
 
-// The duration then ends at the moment of looking.
 TEST_F(VulkanTest, ASubmissionMayEndUnseen) {
     const auto seconds_of = [&](double expected, bool seen) {
         const Device::Ticket ticket = device().start([](const auto &) {});

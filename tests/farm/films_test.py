@@ -159,7 +159,7 @@ class Farm(unittest.TestCase):
         def progress(seen, film):
             if len(calls) < 2 and seen.workers + (seen.failed >= MOST_FAILURES) == workers:
                 calls.append(seen)
-                if len(calls) == 2:  # the second after all are fit: now they have parts
+                if len(calls) == 2:
                     if stopped is not None:
                         held.append(self.process_of(stopped))
                         os.kill(held[0], signal.SIGSTOP)
@@ -302,7 +302,6 @@ class Farm(unittest.TestCase):
         self.assertEqual(seen.issued, seen.parts)
 
     def test_accounts_of_parts(self):
-        """A coordinator that drops a part reports it, though its film is complete."""
         options, wanted = dataclasses.replace(QUICK, patience=60.0), set()
         found = self.farm(task=render_part, options=options, progress=lambda now, film: wanted.add(now.samples_wanted))
         self.assertEqual(wanted, {SAMPLES})  # also in earlier rounds

@@ -34,7 +34,6 @@ bool allocation_threw();
 
 long live_allocations();
 
-// Measures the library's peak memory from here; returns its bytes.
 long begin_most_bytes();
 long most_live_bytes();
 

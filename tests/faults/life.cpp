@@ -196,7 +196,6 @@ void Life::look(const std::string &step, const Function &function) {
         call(step, function);
 }
 
-// Repeats the call if a fault made it fail.
 void Life::call(const std::string &step, const Function &function) {
     const State before = state();
     call(step, function, [&] {

@@ -36,7 +36,6 @@ public:
 
     virtual void arm() = 0;
 
-    // Checks the result; false if no fault happened.
     virtual bool disarm(const std::string &step, pt_result result, const std::string &message) = 0;
 };
 
@@ -51,7 +50,6 @@ public:
 
     static Steps all_steps();
 
-    // From pt_get_devices to pt_destroy, or until the device is lost.
     void live(Injection &injection);
 
     const Steps &attempted() const { return attempted_; }

@@ -29,7 +29,6 @@ struct Way {
     bool by_tile;
 };
 
-// Short submissions cut passes over the image, and clear it in pieces.
 constexpr Way ways[] = {{false, 1, 50, 0, false},   {false, 2, 1, 0, false}, {false, 1, 50, 0.05, false},
                         {false, 1, 50, 0, true},    {true, 1, 50, 0, false}, {true, 1, 1, 0, false},
                         {true, 2, 50, 0.05, false}, {true, 1, 50, 0, true}};

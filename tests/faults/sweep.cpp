@@ -36,7 +36,7 @@ void sweep(const Setting &setting, const ExpectedImages &expected, const Steps &
         const std::unique_ptr<Injection> injection = injection_at(number);
         Steps met;
         Steps left = wanted;
-        while (!left.empty()) { // a lost device ends a life early
+        while (!left.empty()) {
             const long allocations_before = live_allocations();
             Life life(setting, expected, left);
             life.live(*injection);

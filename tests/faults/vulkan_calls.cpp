@@ -85,7 +85,7 @@ std::optional<VkResult> result_by_plan(Call call) {
     return fault.result;
 }
 
-// By the library's clock: of a submission, and of a look at a hung one.
+// Durations by the library's clock.
 constexpr std::chrono::milliseconds submission_time{1};
 constexpr std::chrono::milliseconds look_time{100};
 constexpr std::chrono::microseconds polling_time{300};

@@ -64,7 +64,6 @@ class Known(unittest.TestCase):
             self.assertGreater(count(BENZENE), 12)
 
     def test_crystals(self):
-        """Diamond has 4 bonds an atom, rock salt 6, also in the smallest cell and after particles have left theirs."""
         diamond = np.vstack([FACES, FACES + 0.25]), [6] * 8, 3.567
         salt = np.vstack([FACES, FACES + (0.5, 0, 0)]), [11] * 4 + [17] * 4, 5.64
         for (basis, numbers, length), times, each in ((diamond, 1, 4), (diamond, 2, 4), (salt, 1, 6), (salt, 2, 6)):
@@ -160,7 +159,6 @@ class BruteForce(unittest.TestCase):
             self.assertEqual(2 * count(Particles(positions), 0.1), expected)
 
     def test_images_that_the_data_give(self):
-        """Wrapping moves the atoms and keeps their bonds."""
         cell = Cell.of([10, 10, 10])
         given = Particles(np.array([[0.5, 0, 0], [11, 0, 0]]), elements=np.uint8([6, 6]), cell=cell,
                           bonds=Bonds.of([[0, 1]], np.array([[-2, 0, 0]])))

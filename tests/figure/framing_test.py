@@ -109,7 +109,7 @@ class Cells(unittest.TestCase):
                                      "back"] * told)
         few = np.vstack([inside, CUBE[80:88] + (15, 5, 5)])
         self.assertEqual(drawn_of(few, TEN).notes, [])
-        for beyond, told in ((0.05, 0), (0.15, 1)):  # a hundredth of the edge does not count
+        for beyond, told in ((0.05, 0), (0.15, 1)):
             self.assertEqual(len(drawn_of(np.vstack([few, CUBE[:20] * 0.01 + (5, 10 + beyond, 5)]), TEN).notes), told)
         self.assertEqual(drawn_of(CUBE + 15, TEN, box="none").notes, [])
         self.assertEqual(drawn_of(CUBE * 2 + 15, TEN, wrap=True).notes, [])

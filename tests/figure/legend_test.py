@@ -61,7 +61,6 @@ class InThePicture(unittest.TestCase):
             picture = self.figure(background=background, title="$E$ / eV").to_srgb8()
             self.assertEqual(picture.shape, (160, 240, channels))
             strip = picture[:, -60:, :3].astype(int)
-            # A column of the bar has the colors of the map from above, but for its border.
             best = max(range(60), key=lambda x: len({tuple(c) for c in strip[:, x]} & {tuple(c) for c in TABLE.tolist()}))
             found = [TABLE.tolist().index(c) for c in strip[:, best].tolist() if c in TABLE.tolist()]
             self.assertGreater(len(found), 80)

@@ -163,7 +163,7 @@ class Files(unittest.TestCase):
         for key, values in zip(records.dtype.names, [*PLACES.T, packed]):
             records[key] = values
         text = "".join(f"{x} {y} {z} {color} 0 0 0\n" for (x, y, z), color in zip(PLACES, packed))
-        for kind in "FU":  # color bytes as those of a float, or as a number
+        for kind in "FU":  # color bytes as a float's bytes, or as a number
             found = self.read("a.pcd", head.format(kind, 3, "binary").encode() + records.tobytes())
             np.testing.assert_array_equal(found.positions, PLACES)
             np.testing.assert_array_equal(found.colors[1], (0x40, 0x50, 0x60))
@@ -207,7 +207,6 @@ class Files(unittest.TestCase):
 
     @unittest.skipUnless(installed("ase"), "ASE is not installed")
     def test_elements_of_pdb_files_without_their_columns(self):
-        """Names of atoms in residues decide, not of ions, nor against columns."""
         rows = (("ATOM", " CA ", "ALA", "", 6), ("ATOM", "HG11", "VAL", "", 1), ("ATOM", "1HB ", "ALA", "", 1),
                 ("ATOM", "SD  ", "MET", "", 16), ("ATOM", "CA  ", "CA ", "", 20), ("HETATM", "ZN  ", "ZN ", "", 30),
                 ("ATOM", " CA ", "ALA", "CA", 20))

@@ -32,7 +32,6 @@ def layout_of(particles, **look):
 
 
 def rims(camera, size, centers, radii):
-    """The reach of each ball to the left, right, bottom and top, as a share of half the picture."""
     right, above, back = camera.axes()
     ways = centers - np.array(camera.position)
     depth = -(ways @ back)

@@ -28,7 +28,7 @@ class InAFolder(unittest.TestCase):
     def setUp(self):
         self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
         self.enterContext(warnings.catch_warnings())
-        warnings.simplefilter("error")  # of other packages: they would be shown
+        warnings.simplefilter("error")
 
     def read(self, name, content, **options):
         path = self.folder / name

@@ -43,7 +43,7 @@ struct Input {
     } columns;
     mutable std::vector<std::uint8_t> array_bytes; // made by scene()
     std::array<std::uint32_t, 3> struct_sizes{sizeof(pt_scene), sizeof(pt_camera), sizeof(pt_render)};
-    std::uint8_t tail_byte = 0; // follows structs whose size is too large
+    std::uint8_t tail_byte = 0;
 
     pt_scene scene() const; // points into this object
 };

@@ -53,7 +53,6 @@ TEST(Image, IsTightByDefault) {
     EXPECT_EQ(layout_of(objects).row_bytes, width * 4);
 }
 
-// The last row needs no gap; a single row may have any.
 TEST(Image, MayHaveGapsBetweenRows) {
     pt_image source = valid_image();
     source.row_bytes = 64;

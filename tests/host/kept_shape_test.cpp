@@ -182,7 +182,6 @@ TEST(KeptShape, IsGivenUpWhereANewTreeWouldBeMuchBetter) {
     EXPECT_LT(steps, 30);
 }
 
-// One far sphere makes the other boxes small shares.
 TEST(KeptShape, IsGivenUpWhereTheWholeIsAnother) {
     const Spheres spheres = heap(ball_count, 0.0);
     const pt::SphereTree tree = tree_of(spheres);

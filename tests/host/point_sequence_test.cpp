@@ -215,7 +215,6 @@ std::vector<Coordinates> dimensions_of(const Table &table, const pt::PointLayout
     return dimensions;
 }
 
-// Any two share as many leading digits as Sobol's points.
 bool is_scrambled_sobol(const Coordinates &coordinates, const Indices &indices, std::uint32_t dimension) {
     for (std::size_t i = 0; i < indices.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)

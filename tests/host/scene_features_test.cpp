@@ -83,7 +83,6 @@ TEST(FeatureInside, IsWhetherTheCameraIsInASphere) {
     EXPECT_TRUE(inside({ball_at({0, 0, -5}, 6), ball_at({0, 5, 0}, 4)})) << "in the first alone";
 }
 
-// A resting sphere becomes a curved plane, which needs no such feature.
 TEST(FeatureInside, IsTrueWhereFloat32CannotTell) {
     constexpr double radius = 2;
     const auto touches = [](double distance) { return inside({ball_at({-8, distance, 0}, radius, {16, 0, 0})}); };

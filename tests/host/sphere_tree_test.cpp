@@ -66,7 +66,6 @@ TEST(SphereTree, NumbersLampsInTheScenesOrder) {
     }
 }
 
-// Twins: one path in both directions, or places within a grid step.
 TEST(SphereTree, KeepsTheFirstOfTwins) {
     std::vector<pt_sphere> spheres = heap(100, 0.0);
     spheres[0].center[0] = 100; // 2^-22 of it is 2^7 steps

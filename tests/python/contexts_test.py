@@ -60,7 +60,6 @@ class Lives(unittest.TestCase):
         self.assertEqual(len(self.destroyed), 1)
 
     def test_nothing_is_left_of_films(self):
-        """Each film takes 10 MB; of fifty only a few exist at a time."""
         with pt.Context() as context:
             context.render(SCENE, CAMERA, settings(width=300, height=300), 1)
             film = context.film()

@@ -49,7 +49,6 @@ class Films(unittest.TestCase):
         self.assertEqual(sum(copies), self.whole)
 
     def test_streams(self):
-        """Pieces come in order and complete; an exception ends the writing."""
         pieces = []
         self.whole.stream(pieces.append)
         self.assertEqual(b"".join(pieces), self.whole.to_bytes())
@@ -139,8 +138,6 @@ class Films(unittest.TestCase):
 
 
 class Plans(unittest.TestCase):
-    """One context decides, others take tiles' samples."""
-
     ERROR, MOST, SHAPE = 0.006, 4096, {"width": 136, "height": 100}
 
     def setUp(self):

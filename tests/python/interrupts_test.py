@@ -9,7 +9,7 @@ import pt
 from pictures import SCENE, WHITE, cloud, ready
 
 ENDLESS = 2**20  # minutes on a CPU
-MANY = 300_000  # spheres; their tree takes some hundred milliseconds
+MANY = 300_000
 
 
 class Alarm(Exception):

@@ -85,7 +85,6 @@ class Sections(unittest.TestCase):
         self.assertEqual(parsed(("Metal", "Plastic")).scene.materials[0].specular, (0.05, 0.05, 0.05))
 
     def test_cylinders_are_capsules(self):
-        """As written by VMD, with and without caps, and a chain."""
         tube = "FCylinder\n  Base 1 2 3\n  Apex 4 5 6.5\n  Rad 0.25\n metal\n"
         caps = ("Ring\nCenter 1 2 3 \nNormal 0.6 0.6 0.5 \nInner 0.0  Outer 0.25 \n metal\n"
                 "Ring\nCenter 4 5 6.5 \nNormal -0.6 -0.6 -0.5 \nInner 0.0  Outer 0.25 \n metal\n")

@@ -147,7 +147,6 @@ class Browser(unittest.TestCase):
         self.assertEqual(json.loads(facts)["width"], 256)
 
     def test_fingers_orbit_and_zoom(self):
-        """One finger turns about the center of view, two that part move closer."""
         self.open()
         line = "document.getElementById('camera').value"
         self.browser.until(f"{SAMPLES} > 8")

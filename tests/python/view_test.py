@@ -252,7 +252,7 @@ class Views(unittest.TestCase):
                 page.frame(lambda state: state["samples"] > 1)
                 page.send({"playing": False})
                 stopped = page.frame(lambda state: not state["playing"])
-                renderer._thread.join(0.3)  # time for samples that must not be taken
+                renderer._thread.join(0.3)
                 self.assertEqual(renderer._count, stopped["samples"])
                 page.send({"playing": True})
                 page.frame(lambda state: state["samples"] > stopped["samples"])

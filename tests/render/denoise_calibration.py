@@ -57,7 +57,6 @@ def scene_files(options):
 
 
 def rendered(context, path, files, options):
-    """Truth, albedo, normals and, by samples, halves."""
     program = Program([path], files)
     try:
         read = program.scene()

@@ -48,8 +48,6 @@ class Case:
 
 
 class Calibration:
-    """A scene in one size, with its limit by many samples."""
-
     def __init__(self, name, scene, size):
         self.name = name
         self.size = size

@@ -162,7 +162,6 @@ private:
         return color(scene_.materials[lamp.material].emission) * reflection.value_times_cosine(to) / density;
     }
 
-    // height: 1 - cos of the angle to the axis.
     glm::dvec3 around(const glm::dvec3 &axis, double height) {
         const glm::dvec3 other = std::abs(axis.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
         const glm::dvec3 x = glm::normalize(glm::cross(axis, other));

@@ -149,7 +149,7 @@ struct View {
     }
 };
 
-// By the library's own rule. Lamps keep their centers up to a radius of 65536 times their height.
+// Applies the library's own rule. Lamps keep their centers up to a radius of 65536 times their height.
 inline bool is_held_as_plane(const pt_sphere &sphere, const pt_material &material, const View &view) {
     const auto vector = [](const double(&v)[3]) { return glm::dvec3(v[0], v[1], v[2]); };
     pt::Camera start{};

@@ -174,7 +174,6 @@ struct Deviation {
 
 class LightInDouble : public ContextFixture {
 protected:
-    // Other seeds and, for samplers that ignore seeds, other samples.
     static Deviation deviation(pt_context *context, const Given &given, const Blocks &exact, pt_render render) {
         std::vector<std::vector<float>> images;
         for (render.seed = 1; render.seed <= image_count; ++render.seed) {

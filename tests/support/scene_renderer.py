@@ -68,7 +68,6 @@ class Renderer:
         self.call("pt_readback", structs.pt_image(data=ctypes.addressof(values), size_bytes=ctypes.sizeof(values)))
 
     def image(self):
-        """R, G, B of each pixel, row by row from the top."""
         pixels = array.array("f", bytes(4 * self.value_count))
         self.readback((ctypes.c_float * self.value_count).from_buffer(pixels))
         return pixels

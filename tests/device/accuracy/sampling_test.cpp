@@ -58,7 +58,7 @@ Direction mirrored_up(const Direction &direction, const Item &item, const glm::v
     return side < 0 ? -direction : direction;
 }
 
-// By wedges between the square's diagonals, unlike the kernel.
+// Uses the wedges between the square's diagonals, unlike the kernel.
 Direction concentric(const glm::vec2 &numbers) {
     const Real x = 2 * Real{numbers.x} - 1;
     const Real y = 2 * Real{numbers.y} - 1;

@@ -18,7 +18,7 @@ struct Met {
     vec4 position_distance;
     vec4 normal;
     uint surface;
-    uint blocked; // as an endless shadow ray
+    uint blocked; // of an endless shadow ray
     uint inside;
     uint unused;
 };
