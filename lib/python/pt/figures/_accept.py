@@ -8,10 +8,11 @@ from typing import Any
 
 import numpy as np
 
+from pt.figures._assembled import assembled
 from pt.figures._elements import listed
 from pt.figures._errors import DataError
 from pt.figures._options import Columns
-from pt.figures._particles import Particles, assembled
+from pt.figures._particles import Particles
 from pt.figures.readers import open_frames
 from pt.figures.readers._frames import Frames, Listed, one_frame
 from pt.figures.readers._numpy import frames_of_array, frames_of_arrays

@@ -9,7 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from pt.figures._cell import Cell
-from pt.figures._particles import Table, coordinate_names
+from pt.figures._columns import coordinate_names
+from pt.figures._particles import Table
 from pt.figures.readers._frames import TextFrames
 from pt.figures.readers._lines import Lines
 from pt.figures.readers._rows import Layout, Rows, are_numbers, number, shown

@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from pt.figures._errors import DataError, module
-from pt.figures._particles import LABELS
+from pt.figures._columns import LABELS
 from pt.figures.readers._lines import Lines
 
 Array = npt.NDArray[Any]

@@ -9,7 +9,8 @@ from typing import Any, Final
 
 import numpy.typing as npt
 
-from pt.figures._particles import Table, coordinate_names
+from pt.figures._columns import coordinate_names
+from pt.figures._particles import Table
 from pt.figures.readers._lines import Lines
 from pt.figures.readers._rows import Layout, Rows, fields_of, is_comment, is_number, shown
 
