@@ -21,7 +21,7 @@ namespace {
 constexpr double full_turn = 2.0 * std::numbers::pi;
 constexpr double float_pi = 3.14159274101257324; // PI of shaders/maths.glsl
 
-// Folded exactly to a quarter turn, so that zeros are exact. u: turns in [0, 1].
+// Folds exactly to a quarter turn, so that zeros are exact.
 double sine_of_turn(double u) {
     if (u > 0.5)
         return -sine_of_turn(u - 0.5);
@@ -40,7 +40,7 @@ constexpr float exponents[] = {-0.5F, -1.0F, -1.5F, -24.5F, -99.5F};
 constexpr float squares[] = {1.0F, 2.0F, 4.0F};
 
 // Bounds add the errors of all steps, in u = 2^-24; an ulp is 1 to 2 u of its value. Sums, products: u. Vulkan
-// ("Precision and Operation of SPIR-V Instructions"): division 2.5 ulp, inversesqrt 2 ulp, sqrt as 1 / inversesqrt.
+// ("Precision and Operation of SPIR-V Instructions"): division 2.5 ulp, inversesqrt 2 ulp.
 constexpr ElementaryFunction functions[] = {
     // sin: 1/2 - u 1, product 1, q 1.95; half an ulp. cos, worst near 1 (p = 4): w^2 0.5, p's last sum 1, cofactor 1.2,
     // constant 0.9, remainder 0.1; half an ulp.
@@ -85,7 +85,7 @@ std::vector<float> accuracy_arguments(const ElementaryFunction &function) {
         arguments.insert(arguments.end(),
                          {std::nextafter(below, small), below, place, above, std::nextafter(above, large)});
     }
-    // Multiples of the golden ratio modulo 1 are evenly spread (Weyl 1916).
+    // Its multiples modulo 1 are evenly spread (Weyl 1916).
     constexpr std::uint32_t golden_ratio = 0x9e3779b9U;
     const std::uint32_t first_bits = magnitude_bits(function.first);
     const std::uint64_t bits_range = magnitude_bits(function.last) - first_bits;

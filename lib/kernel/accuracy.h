@@ -1,4 +1,4 @@
-// Measures the accuracy of a device's elementary functions against double precision.
+// Compares a device's elementary functions with double precision.
 #pragma once
 
 #include "lib/vulkan/device.h"
@@ -16,22 +16,22 @@ namespace pt {
 struct ElementaryFunction {
     const char *name;
     double (*exact)(double);
-    double bound;                  // on the error of conforming devices, in ulp of the exact value
-    float first, last;             // range of arguments, of one sign; |last| > |first|
+    double bound;                  // on the error of conforming devices, in ulp
+    float first, last;             // of one sign; |last| > |first|
     std::span<const float> places; // where it switches formulas
 };
 
 std::span<const ElementaryFunction> elementary_functions();
 
-// Always the same: the range's ends, `places` and their neighbors, then half evenly over the range and half over its
-// exponents.
+// The range's ends, `places` and their neighbors, then half evenly over the range and half over its exponents.
 constexpr std::uint32_t arguments_per_function = 16384;
 std::vector<float> accuracy_arguments(const ElementaryFunction &function);
 
-// In ulp of `exact`: 2^(e - 23) for 2^e <= |exact| < 2^(e + 1). Infinite for NaN, infinities, and if only `exact` is 0.
+// An ulp of `exact` is 2^(e - 23) for 2^e <= |exact| < 2^(e + 1). Infinite for NaN, infinities, and if only `exact` is
+// 0.
 double error_in_ulp(float value, double exact);
 
-// Evaluates all functions, one after the other, like shaders/accuracy.comp. Unwritten values are NaN. Throws
+// Evaluates the functions one after the other, like shaders/accuracy.comp. Unwritten values are NaN. Throws
 // PT_ERROR_INTERNAL if the kernel writes past its values.
 std::vector<float> evaluate(vulkan::Device &device, std::span<const std::uint32_t> spirv,
                             std::span<const float> arguments);

@@ -1,4 +1,4 @@
-// Resolves a film into a caller's buffer on the device. Owned by RenderDevice; bound to its film.
+// Resolves a film into a caller's buffer. Owned by RenderDevice; bound to its film.
 #pragma once
 
 #include "lib/kernel/pixel_results.h"
@@ -33,8 +33,8 @@ public:
     BufferWriter(const BufferWriter &) = delete;
     BufferWriter &operator=(const BufferWriter &) = delete;
 
-    // Waits for the device, unless there is a semaphore to signal; then the next call waits. Throws PT_ERROR_INTERNAL
-    // if a driver lost work; nothing has been written if an earlier call's was lost.
+    // Waits for the device, or with a semaphore to signal leaves that to the next call. Throws PT_ERROR_INTERNAL if a
+    // driver lost work; nothing has been written if an earlier call's was lost.
     void write(const ImageQuery &query, const BufferTarget &target);
 
 private:

@@ -80,7 +80,6 @@ void Coverage::make_room(std::uint64_t pixels, std::size_t tiles) {
                              {device_, Storage, tile_bytes, "samples of tiles"}});
 }
 
-// Limited by `affordable`, the table of points and the driver's loop trips.
 std::uint64_t Coverage::samples_in_dispatch(const Features &features, double affordable) const {
     const std::uint64_t rows =
         device_.limits().max_uniform_range / sizeof(PointBlock) / camera_layout(features).row_blocks();

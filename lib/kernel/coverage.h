@@ -1,5 +1,5 @@
-// Counts the camera rays that meet a surface (shaders/coverage.comp), traced again so that the film needs no fourth
-// channel. Owned by RenderDevice.
+// Counts the camera rays that meet a surface (shaders/coverage.comp). It traces them again, so the film needs no fourth
+// channel.
 #pragma once
 
 #include "lib/film/film_header.h"

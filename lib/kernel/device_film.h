@@ -1,4 +1,4 @@
-// Exact sums of samples in a device's memory, in strips. Owned by RenderDevice.
+// Exact sums of samples in a device's memory, in strips.
 #pragma once
 
 #include "lib/film/pixel_sums.h"
@@ -35,8 +35,7 @@ public:
 
     static constexpr std::uint64_t bytes_per_pixel = PixelSums::words_per_pixel * sizeof(std::uint32_t);
 
-    // Must be cleared before use. Throws PT_ERROR_OUT_OF_DEVICE_MEMORY, or PT_ERROR_UNSUPPORTED for sizes beyond the
-    // device.
+    // Clear before use. Throws PT_ERROR_OUT_OF_DEVICE_MEMORY, or PT_ERROR_UNSUPPORTED for sizes beyond the device.
     DeviceFilm(vulkan::Device &device, std::uint32_t width, std::uint32_t height, std::uint32_t max_strip_pixels);
 
     std::uint32_t width() const { return grid_.width; }
@@ -45,12 +44,11 @@ public:
     std::vector<Strip> &strips() { return strips_; }
     const std::vector<Strip> &strips() const { return strips_; }
 
-    // Whether the host can access the film in place.
     bool is_host_memory() const;
 
     void clear(const vk::raii::CommandBuffer &commands) const;
 
-    // Whether strips are whole rows of tiles, as the error kernel needs.
+    // Whether strips are whole rows of tiles.
     bool has_whole_tiles() const;
 
     // Records a copy: planes without gaps, part after part.
@@ -82,7 +80,7 @@ private:
     std::vector<Strip> strips_;
 };
 
-// Reads the sum of equally large films, which together hold `samples`, in pieces. Throws PT_ERROR_INTERNAL if a driver
+// Reads the sum of films of one size, which together hold `samples`, in pieces. Throws PT_ERROR_INTERNAL if a driver
 // lost work.
 void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, const PixelRange &pixels,
                 std::uint32_t most_pixels, const std::function<void(const PixelSums &)> &receive);
@@ -90,7 +88,7 @@ void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, 
 void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, std::uint32_t first_pixel,
                 PixelSums &sums);
 
-// Not a power of two: planes at such distances would share the processor's cache sets.
+// Not a power of two, since planes would share the processor's cache sets.
 inline constexpr std::uint32_t piece_pixels = 130'000;
 
 std::uint32_t max_strip_pixels(const vulkan::Limits &limits);

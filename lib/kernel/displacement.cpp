@@ -22,7 +22,7 @@ constexpr double rounding_of_capsules = 0x1p-21;
 // of the radius; opacities take its last bits
 constexpr double rounding_of_radii = 0.5 * (gpu::TREE_OPACITY_STEPS + 1) * 0x1p-23;
 
-// How far rounding may move a surface, in scene units.
+// Largest displacements by rounding, in scene units.
 struct Losses {
     double of_center;
     double of_radius;
@@ -31,7 +31,7 @@ struct Losses {
     double all() const { return of_center + of_radius + of_capsule; }
 };
 
-// tree: NULL outside. length: 0 except of a capsule.
+// tree: NULL for surfaces outside. length: of a capsule.
 Losses losses_of(const SphereTree *tree, double length, double radius) {
     const double half_diagonal = 0.5 * std::sqrt(3.0);
     return {tree ? half_diagonal * tree->grid().step : 0.0,
@@ -43,7 +43,7 @@ Losses losses_of(const SphereTree *tree, const MovingBall &surface) {
     return losses_of(tree, surface.kind == Kind::capsule ? glm::length(surface.way) : 0.0, surface.radius);
 }
 
-// The side of a pixel, measured on what it shows.
+// The side of a pixel at the depth of what it shows.
 class PixelSides {
 public:
     PixelSides(const Camera &camera, const RenderSettings &settings) :
@@ -52,11 +52,10 @@ public:
         of_parallel_(camera.vertical_extent / settings.height),
         at_distance_1_(2.0 * camera.tan_half_fov / settings.height) {}
 
-    // A lower bound for a moving ball; infinite out of view.
+    // A lower bound; infinite out of view.
     double nearest(const MovingBall &ball) const { return at(depth_(ball)); }
 
-    // A lower bound for a surface. Long ways are divided until the parts are short or far. From inside, a ball's wall
-    // is seen.
+    // A lower bound. Long ways are divided until the parts are short or far. From inside, a ball's wall is seen.
     double of_surface(const MovingBall &surface) const {
         const double depth = depth_(surface);
         const double short_way = view_ > 0.0 ? view_ : 0.25 * std::max(surface.radius, depth);

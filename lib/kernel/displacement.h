@@ -1,4 +1,4 @@
-// Tells how far rounding moves surfaces in the picture.
+// How far rounding moves surfaces in the picture.
 #pragma once
 
 #include "lib/base/error.h"

@@ -16,7 +16,7 @@ std::uint32_t groups_in_row(const TileGrid &grid) {
     return (grid.width + gpu::ESTIMATE_WORKGROUP_SIZE - 1) / gpu::ESTIMATE_WORKGROUP_SIZE;
 }
 
-// Units in which the squares of all relative errors are normal floats.
+// With these units the squares of all relative errors are normal floats.
 struct RelativeUnits {
     float offset;  // in film units
     float scale;   // errors are below 2^FILM_MAX_EXPONENT; scaled, over the offset, below 2^60
@@ -25,7 +25,7 @@ struct RelativeUnits {
     // Converts the kernel's squares.
     double undone() const { return 1.0 / (static_cast<double>(scale) * static_cast<double>(scale) * factor); }
 
-    // Offsets far above the film's values alone are the denominator, so limiting them scales all squares equally.
+    // An offset far above the film's values makes up the whole denominator, so limiting it scales all squares equally.
     explicit RelativeUnits(double unit) {
         constexpr double far_above = 1e13;
         const double exact = std::sqrt(relative_offset) / unit;

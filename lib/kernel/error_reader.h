@@ -32,7 +32,7 @@ public:
     // lost work.
     void read(const ErrorQuery &query, const Receive &receive);
 
-    // The same in two steps, for a film of one strip. record() appends to commands that take samples; collect() reads
+    // read() in two steps, for a film of one strip. record() appends to commands that take samples; collect() reads
     // once they have ended. No other such commands may be under way.
     void record(const vk::raii::CommandBuffer &commands, const ErrorQuery &query);
     void collect(const ErrorQuery &query, const Receive &receive) const;

@@ -1,5 +1,5 @@
 // Sums devices' films, or some of their rows, in the first device's memory (add.comp). Other films come through host
-// memory. Owned by FilmView; bound to the films.
+// memory.
 #pragma once
 
 #include "lib/kernel/device_film.h"
@@ -23,14 +23,13 @@ public:
         DeviceFilm &film;
     };
 
-    // sources: films of one size. add: from add_pipeline(), on the first film's device. Throws
-    // PT_ERROR_OUT_OF_DEVICE_MEMORY.
+    // sources: films of one size. add: add_pipeline() on the first film's device. Throws PT_ERROR_OUT_OF_DEVICE_MEMORY.
     FilmSum(const std::vector<Source> &sources, const vulkan::ComputePipeline &add, std::uint32_t row_count);
 
     // The rows gathered last.
     DeviceFilm &film() { return film_; }
 
-    // Sums rows from first_row on. Sums of pixels outside `wanted` are undefined.
+    // Sums rows from first_row on, defined for `wanted` only.
     void gather(std::uint32_t first_row, const PixelRange &wanted);
 
 private:
@@ -40,7 +39,7 @@ private:
     };
 
     struct Added {
-        PixelRange pixels;                           // of the films; each plane has a word per pixel
+        PixelRange pixels;                           // of the films
         std::span<const vulkan::DescriptorSet> sets; // by strip of the sum
     };
 

@@ -1,5 +1,4 @@
-// Reads depth, normal, albedo and object of first hits (shaders/first_hit.comp), with or without samples. Owned by
-// RenderDevice.
+// Reads depth, normal, albedo and object of first hits (shaders/first_hit.comp), with or without samples.
 #pragma once
 
 #include "lib/film/film_header.h"

@@ -178,7 +178,7 @@ gpu::FrameConstants frame_constants(const Camera &camera, const RenderSettings &
     return constants;
 }
 
-// Indices in the caller's scene, where planes follow all spheres.
+// In the caller's scene planes follow all spheres.
 std::vector<std::uint32_t> objects_of(const KernelSurfaces &surfaces, const PreparedScene &scene) {
     const Scene &held = scene.scene;
     const std::size_t sphere_count = scene.tree ? scene.tree->scene_sphere_count() : held.spheres.size();

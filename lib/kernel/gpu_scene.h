@@ -1,5 +1,5 @@
 // A scene as kernels read it, seen by one camera: twins merged, in the kernels' order, in float32 (layout:
-// shaders/gpu_layout.h). Shared by all devices.
+// shaders/gpu_layout.h).
 #pragma once
 
 #include "lib/kernel/prepared_scene.h"
@@ -19,7 +19,7 @@ struct GpuScene {
     std::vector<glm::vec4> words;
     gpu::FrameConstants frame;              // the constant part
     std::shared_ptr<const SphereTree> tree; // may be NULL
-    double start_distance;                  // of the coordinates' origin, along the view from the pinhole (ray_start.h)
+    double start_distance;                  // of the coordinates' origin from the pinhole, along the view
     std::vector<std::uint32_t> objects;     // of the surfaces outside the tree, in the caller's scene
 
     // surface: the kernels' number. PT_NO_OBJECT for NO_SURFACE.
@@ -29,7 +29,7 @@ struct GpuScene {
 // Throws PT_ERROR_UNSUPPORTED if a sphere that must be held as a plane moves too far.
 GpuScene gpu_scene(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings);
 
-// For twins merged already. start: where camera rays start.
+// distinct: with twins merged. start: where camera rays start.
 GpuScene gpu_scene(const DistinctScene &distinct, const PreparedScene &scene, const Camera &start,
                    const RenderSettings &settings);
 

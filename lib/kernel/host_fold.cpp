@@ -10,7 +10,7 @@ namespace pt {
 
 namespace {
 
-// Kernels assume these planes to be 0 in an empty part. Ordered like rare_plane() of film.glsl.
+// 0 in an empty part, and ordered like rare_plane() of film.glsl.
 constexpr std::array<std::size_t, 4> rare_planes = {gpu::FILM_SUM_WORDS - 1, 2 * gpu::FILM_SUM_WORDS - 1,
                                                     3 * gpu::FILM_SUM_WORDS - 1, gpu::FILM_REJECTED};
 

@@ -46,7 +46,6 @@ void ImageReader::read(const ImageQuery &query, const std::function<void(std::sp
     }
 }
 
-// A single submission, since the host has nothing else to do.
 std::span<std::byte> ImageReader::map(const ImageQuery &query) {
     const Pieces pieces(query);
     const std::uint64_t image_bytes = pieces.total * pieces.bytes_of_pixel;

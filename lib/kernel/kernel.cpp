@@ -22,7 +22,7 @@ std::uint64_t checked_scene_bytes(const vulkan::Device &device, std::size_t word
     return bytes;
 }
 
-// Samples of a pixel, limited by the driver's loop trips and the table of points.
+// Samples of a pixel, limited by loop trips and the table of points.
 std::uint32_t samples_of_dispatch(const vulkan::Device &device, const Features &features, const PointLayout &layout,
                                   std::uint32_t table_bytes) {
     const std::uint64_t trips = loop_trips_per_sample(features);
@@ -204,7 +204,6 @@ BoundScene Kernel::bound_scene() {
 vulkan::Device::Ticket Kernel::start(const TileSlice &slice, bool on_cleared_film, const Behind &behind) {
     const std::vector<Batch> batches = slice.takes ? next_batches(slice) : std::vector<Batch>();
     upload_points(batches);
-    // Small scenes go with the commands; others need a transfer.
     if (gpu_scene_->words.size() * sizeof(glm::vec4) > vulkan::max_recorded_bytes)
         upload_scene();
     const vulkan::ComputePipeline &fold = pipelines_.fold();

@@ -1,5 +1,4 @@
-// The path-tracing kernel, specialised to a scene's features, with its buffers. RenderDevice makes a new one for other
-// features.
+// The path-tracing kernel, specialised to a scene's features, with its buffers.
 #pragma once
 
 #include "lib/kernel/device_film.h"
@@ -40,10 +39,10 @@ public:
     // For other kernels, while no work is under way.
     BoundScene bound_scene();
 
-    // Builds this kernel's pipelines in another cache of the device. Throws PT_ERROR_SHADER if the driver refuses one.
+    // Builds this kernel's pipelines in another cache. Throws PT_ERROR_SHADER if the driver refuses one.
     void build(TracePipelines &pipelines) const;
 
-    // Makes drivers compile that do so at the first dispatch. No work may be under way.
+    // Some drivers compile only at the first dispatch. No work may be under way.
     void dispatch_nothing();
 
     // Per pixel and submission.
@@ -52,14 +51,14 @@ public:
     // Records commands after the samples.
     using Behind = std::function<void(const vk::raii::CommandBuffer &)>;
 
-    // Starts a slice. At most queue_depth slices of the device may be under way.
+    // At most queue_depth slices of the device may be under way.
     vulkan::Device::Ticket start(const TileSlice &slice, bool on_cleared_film, const Behind &behind = {});
 
     // Waits for a slice and returns its seconds, estimated by expected_seconds if the device cannot measure.
     double finish(vulkan::Device::Ticket ticket, double expected_seconds = 0.0);
 
 private:
-    // One per dispatch of a slice, at most 4 MiB. The film's split may add a dispatch.
+    // Tables of points: one per dispatch of a slice, at most 4 MiB. The film's split may add a dispatch.
     static constexpr std::uint32_t max_tables = 64;
 
     struct Batch {
@@ -67,7 +66,7 @@ private:
         std::uint32_t sample_count;
         std::uint32_t table_offset;
         FilmPart part;
-        bool begins_part; // the part has no samples of these pixels yet
+        bool begins_part; // no samples of these pixels yet
 
         SampleRange range() const { return {first_sample, std::uint64_t{first_sample} + sample_count}; }
     };
@@ -81,7 +80,7 @@ private:
     std::uint32_t sharers_of(std::size_t tile_count, std::uint32_t sample_count) const;
     bool folds_on_host() const;
 
-    // Whether a dispatch overwrites its part. Overlapping dispatches add atomically instead.
+    // Overlapping dispatches do not overwrite their part but add atomically.
     std::uint32_t overwrites(bool part_is_empty) const { return part_is_empty && !overlap_ ? 1 : 0; }
 
     vulkan::Device &device_;
@@ -93,7 +92,7 @@ private:
     gpu::FrameConstants frame_;
     std::uint32_t table_bytes_;          // of points, per dispatch
     std::uint32_t max_dispatch_samples_; // per pixel
-    bool overlap_;                       // dispatches may add to the film at the same time
+    bool overlap_;                       // dispatches may add at the same time
     vulkan::Buffer scene_;
     const vulkan::Buffer *tree_;
     vulkan::Buffer points_; // used in turn by the slices under way

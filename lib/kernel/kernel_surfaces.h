@@ -1,4 +1,4 @@
-// The surfaces that one camera sees, in the kernels' order. Made by gpu_scene.
+// The surfaces that one camera sees, in the kernels' order.
 #pragma once
 
 #include "lib/scene/camera.h"

@@ -12,7 +12,7 @@ namespace pt {
 
 namespace {
 
-// Rounded, since nodes must contain the lamps as the kernel sees them.
+// Rounded: nodes must contain the lamps as the kernel sees them.
 struct Ball {
     glm::vec3 open;
     glm::vec3 way{0.0F};
@@ -37,8 +37,8 @@ Ball ball_of(const SeenSphere &sphere) {
     return {glm::vec3(sphere.open), glm::vec3(sphere.way), static_cast<float>(sphere.radius)};
 }
 
-// Divides by the largest power, rounded down to a power of two, and multiplies by the lamps' extent if above 1, so that
-// the kernel's quotients by squared distances lie between 1e-17 and 1e17.
+// Divides by the largest power, rounded down to a power of two, and multiplies by the lamps' extent if above 1. The
+// kernel's quotients by squared distances then lie between 1e-17 and 1e17.
 std::vector<Lamp> scaled_lamps(std::span<const TreeLamp> lamps) {
     double largest_power = 0.0;
     double size = 1.0;

@@ -1,4 +1,4 @@
-// Finds spots, small places far brighter than others, which random rays seldom find (shaders/spots.glsl).
+// Finds spots: small places far brighter than others, which random rays seldom find (shaders/spots.glsl).
 #pragma once
 
 #include "lib/kernel/kernel_surfaces.h"

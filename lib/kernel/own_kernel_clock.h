@@ -1,4 +1,4 @@
-// Decides when a scene has been rendered long enough for a kernel of its own to pay. TracePipelines measures the time.
+// Decides when a scene has been rendered long enough for a kernel of its own to pay.
 #pragma once
 
 #include <algorithm>
@@ -6,17 +6,17 @@
 namespace pt {
 
 // A kernel for one scene pays after a second. Waiting that long costs at most twice the optimum (the ski rental
-// problem). The wait doubles whenever a kernel was left before it paid, and falls back when one has paid. Useless
-// kernels then grow with the logarithm of the time.
+// problem). The wait doubles whenever a kernel was left before it paid, and falls back when one has paid. The number of
+// useless kernels then grows with the logarithm of time.
 class OwnKernelClock {
 public:
     static constexpr double seconds_to_pay = 1.0;
     static constexpr double longest_wait = 32.0;
 
-    // seconds: time for which the scene has been rendered.
+    // seconds: for which the scene has been rendered.
     bool is_time(double seconds) const { return seconds > wait_; }
 
-    // seconds: time for which the last own kernel was used.
+    // seconds: for which the last own kernel was used.
     void left_after(double seconds) {
         wait_ = seconds < seconds_to_pay ? std::min(2.0 * wait_, longest_wait) : seconds_to_pay;
     }

@@ -1,4 +1,4 @@
-// A kernel's results per pixel, on the device and for the host: the number of lost pixels, then words.
+// A kernel's results per pixel, on the device and for the host: lost pixels, then words.
 #pragma once
 
 #include "lib/vulkan/buffer.h"
@@ -30,7 +30,7 @@ public:
     vulkan::BufferRange pixels() const { return {found_.handle(), findings_bytes, room()}; }
     vulkan::BufferRange findings() const { return {found_.handle(), 0, findings_bytes}; }
 
-    // Record commands before the kernel, and after it. bytes: of pixels.
+    // clear() goes before the kernel, hand_over() after it. bytes: of pixels.
     void clear(const vk::raii::CommandBuffer &commands) const { found_.clear(commands, 0, findings_bytes); }
     void hand_over(const vk::raii::CommandBuffer &commands, std::uint64_t bytes) const {
         host_.copy(commands, found_, vk::BufferCopy{.size = findings_bytes + bytes});

@@ -118,11 +118,11 @@ constexpr std::array<Matrix, sequence_dimensions> sobol_matrices = [] {
     return matrices;
 }();
 
-// Combining a bit's direction numbers for all dimensions is faster than making coordinates singly.
+// Faster than making coordinates singly.
 using Row = std::array<std::uint32_t, sequence_dimensions>;
 using Rows = std::array<Row, 32>;
 
-// With motion, the third number is the time and takes the fifth dimension, which lowers the error
+// With motion, the time is the third number and takes the fifth dimension, which lowers the error
 // (tests/bench/NOTEBOOK.md).
 constexpr std::uint32_t dimension_of(std::uint32_t number, bool motion) {
     constexpr std::uint32_t order[] = {0, 1, 4, 2, 3};

@@ -1,4 +1,4 @@
-// Exact points of quasi-random sequences, for shaders/sampler.glsl. Renderer makes a table per slice.
+// Exact points of quasi-random sequences, for shaders/sampler.glsl.
 #pragma once
 
 #include "shaders/gpu_layout.h"
@@ -17,7 +17,7 @@ inline constexpr std::uint32_t sequence_dimensions = 64;
 // A multiple of 2^-32. dimension < sequence_dimensions.
 std::uint32_t sobol(std::uint32_t index, std::uint32_t dimension);
 
-// The base is the dimension-th prime (Halton 1960). Rounded down to a multiple of 2^-32. index < 2^35.
+// By Halton (1960), in the dimension-th prime base, rounded down to a multiple of 2^-32. index < 2^35.
 std::uint32_t radical_inverse(std::uint64_t index, std::uint32_t dimension);
 
 // A row's blocks in the point table (row_blocks() in gpu_layout.h), of up to four dimensions each.
@@ -37,7 +37,7 @@ struct PointLayout {
     }
 };
 
-// Each binary digit is flipped by a hash of the seed and the digits before it (Owen 1995).
+// Flips each binary digit by a hash of the seed and the digits before it (Owen 1995).
 std::uint32_t owen_scrambled(std::uint32_t coordinate, std::uint32_t seed);
 
 // Multiples of 2^-32; 0 beyond the block's dimensions.

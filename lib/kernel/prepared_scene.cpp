@@ -29,7 +29,7 @@ double film_unit(const std::vector<Material> &materials) {
         return 1.0;
     int exponent = 0; // brightest = fraction * 2^exponent, fraction in [1/2, 1)
     std::frexp(brightest, &exponent);
-    // The kernel multiplies by 1 / unit, which must be a normal float32.
+    // The kernel needs 1 / unit as a normal float32.
     return std::ldexp(1.0, std::clamp(exponent - 8, -120, 120));
 }
 

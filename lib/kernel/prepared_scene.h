@@ -1,4 +1,4 @@
-// A scene with everything that does not depend on the camera. Made by pt_set_scene; held by Renderer.
+// A scene with everything that does not depend on the camera.
 #pragma once
 
 #include "lib/base/work_progress.h"
@@ -29,8 +29,8 @@ struct PreparedScene {
     // Makes no tree.
     explicit PreparedScene(Scene of);
 
-    // Makes a tree if at least tree_from spheres are visible; default: where faster. Keeps the tree shape of `before`
-    // (may be NULL) if it fits. The caller's memory is not read afterwards.
+    // Makes a tree from tree_from visible spheres on; default: where faster. Keeps the tree shape of `before` (may be
+    // NULL) if it fits. The caller's memory is not read afterwards.
     PreparedScene(CheckedScene checked, std::optional<std::uint32_t> tree_from, const PreparedScene *before,
                   WorkProgress &progress);
 

@@ -14,11 +14,10 @@ namespace pt {
 
 namespace {
 
-// Spheres are nearer, since coordinates are at most 1e18. From starts beyond, squares of distances would overflow
-// float32.
+// Spheres are nearer, since coordinates are at most 1e18. Farther starts would overflow squared distances in float32.
 constexpr double farthest_start = 6e18;
 
-// Below this a direction's rounding error of 2^-24 exceeds 1/1024 of a pixel.
+// Below this the 2^-24 error of directions exceeds 1/1024 of a pixel.
 constexpr double narrow_pixel = 0x1p-14; // side of a pixel at distance 1
 
 // The pyramid of rays through the lens's center, and the cone around it.
@@ -53,8 +52,8 @@ double angle_from_middle(const glm::dvec3 &point, const View &view) {
     return std::atan2(glm::length(point - along * view.forward), along);
 }
 
-// The cone's direction nearest to the center meets the ball first. b - sqrt(r^2 - d^2 sin^2(angle)), b = d cos(angle),
-// is written as (d^2 - r^2) / (b + sqrt(...)), which does not cancel for small far balls.
+// The cone's direction nearest to the center meets the ball first. b - sqrt(r^2 - d^2 sin^2(angle)) with b = d
+// cos(angle) is written as (d^2 - r^2) / (b + sqrt(...)), which does not cancel for small far balls.
 double depth_of_ball(const glm::dvec3 &centre, double radius, const View &view) {
     const double distance = glm::length(centre);
     const double power = (distance - radius) * (distance + radius); // of the camera with respect to the ball
@@ -104,7 +103,7 @@ struct ParallelView {
         radius(std::hypot(glm::length(half_right), glm::length(half_up))) {}
 };
 
-// depth = -height / (normal . forward), least at a corner. It is 0 if rays start on both sides.
+// depth = -height / (normal . forward), least at a corner; 0 if rays start on both sides.
 double nearest_depth(const CurvedPlane &plane, const ParallelView &view) {
     const double across =
         std::abs(glm::dot(plane.normal, view.half_right)) + std::abs(glm::dot(plane.normal, view.half_up));
@@ -114,9 +113,9 @@ double nearest_depth(const CurvedPlane &plane, const ParallelView &view) {
     return slope > 0.0 ? (plane.offset - across) / slope : out_of_view;
 }
 
-// The cylinder's line nearest to the center meets the ball first. a - sqrt(r^2 - c^2), with the center's depth a and
-// distance c from the line, is written as (a^2 + c^2 - r^2) / (a + sqrt(r^2 - c^2)), which does not cancel for small
-// far balls.
+// The cylinder's line nearest to the center meets the ball first. a - sqrt(r^2 - c^2) with the center's depth a and
+// distance c from the line is written as (a^2 + c^2 - r^2) / (a + sqrt(r^2 - c^2)), which does not cancel for small far
+// balls.
 double depth_of_ball(const glm::dvec3 &centre, double radius, const ParallelView &view) {
     const double depth = glm::dot(centre, view.forward);
     const double across = glm::length(centre - depth * view.forward);
@@ -160,7 +159,7 @@ double depth_of_region(const MovingBall &ball, const AnyView &view) {
     return ball.way == glm::dvec3(0.0) ? depth : std::max(depth, depth_on_way(ball, view));
 }
 
-// From inside, rays meet the far wall. margin: distance kept from the surface, as a share of the radius.
+// From inside, rays meet the far wall. margin: distance kept from the surface, over the radius.
 template <typename AnyView>
 double depth_of_sphere(const MovingBall &sphere, const AnyView &view, double margin = 0.0) {
     const double inner = sphere.radius * (1.0 - margin) - view.aside;
@@ -186,7 +185,7 @@ double first_depth(const Scene &scene, const SphereTree *tree, const Camera &cam
     return depth;
 }
 
-// The squared distances of a wider view would overflow float32.
+// Squared distances of a wider view would overflow float32.
 void require_held_view(const Camera &camera, const RenderSettings &settings) {
     const double width = camera.vertical_extent * settings.width / settings.height;
     if (width > max_length)
@@ -227,8 +226,8 @@ Camera starting_ahead(const Scene &scene, const SphereTree *tree, const Camera &
     const double depth = first_depth(scene, tree, camera, view);
     if (depth > farthest_start)
         return ahead;
-    // Ahead of the first surface by the view's width, so that rounding puts no start behind it, and by the lens's
-    // radius. A lens's rays converge towards the plane in focus.
+    // Ahead of the first surface by the lens's radius and the view's width, so that rounding puts no start behind it. A
+    // lens's rays converge towards the plane in focus.
     const double tangent = std::tan(view.half_angle);
     ahead.start_distance = std::max((1.0 - tangent) * depth - camera.lens_radius, 0.0);
     if (camera.has_lens()) {

@@ -1,4 +1,4 @@
-// The pipelines of shaders/resolve.comp, which makes images of films. Owned by RenderDevice.
+// The pipelines of shaders/resolve.comp, which makes images of films.
 #pragma once
 
 #include "lib/film/film_header.h"
@@ -42,7 +42,7 @@ struct ResolvedPiece {
     std::uint32_t row_words; // from row to row
 };
 
-// Records the dispatches, with barriers before and after. sets: by strip of the film.
+// Includes barriers before and after. sets: by strip of the film.
 void resolve(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline, const DeviceFilm &film,
              std::span<const vulkan::DescriptorSet> sets, const ImageQuery &query, const ResolvedPiece &piece);
 

@@ -98,7 +98,7 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
     const auto may_hold_paths = [&](const SeenSphere &sphere) {
         return sphere.hidden ? !lies_apart(sphere) : is_at_camera(sphere);
     };
-    // The camera looks through hidden surfaces; paths may be on their other side.
+    // Paths may be on the far side of hidden surfaces.
     const auto is_passed = [&](const SeenSphere &sphere) {
         return sphere.hidden && (may_hold_origin(sphere) || !lies_apart(sphere));
     };
@@ -134,8 +134,8 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
     features[gpu::ID_PLANES_BLOCK] = features[gpu::ID_CURVATURE] || planes_divide || planes_are_passed ||
                                      std::ranges::any_of(lamps, is_behind_a_plane) ||
                                      (tree_lamps > 0 && !is_in_region(distinct.seen.planes, tree->bounds(), camera));
-    // Among flat planes that do not nearly coincide, vertices tell the sides faster. The camera cannot tell them if
-    // rays start on both sides of a surface, or pass it.
+    // Among flat planes that do not nearly coincide, vertices tell the sides faster. Sides are unknown if rays start on
+    // both sides of a surface, or pass it.
     const bool starts_divided = distinct.seen.any_surface(divides) || (tree && tree->divides_start(camera));
     const bool some_are_passed = planes_are_passed || std::ranges::any_of(distinct.seen.spheres, is_passed);
     features[gpu::ID_KNOWN_SIDES] =
@@ -182,7 +182,7 @@ std::uint32_t branch_count(const Features &features) {
 
 namespace {
 
-// Where the first vertex samples every lamp: lamps beyond the number of branches.
+// Lamps beyond the branches, if the first vertex samples every lamp.
 std::uint32_t further_lamps(const Features &features, std::uint32_t branches) {
     const std::uint32_t lamps = features[gpu::ID_LAMP_COUNT] > gpu::EVERY_LAMP_LIMIT ? 0 : features[gpu::ID_LAMP_COUNT];
     return lamps - std::min(lamps, branches);

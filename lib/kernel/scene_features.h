@@ -1,4 +1,4 @@
-// The kernel's features that a scene needs. TracePipelines specialises pathtrace.comp with them.
+// The kernel's features that a scene needs.
 #pragma once
 
 #include "lib/kernel/kernel_surfaces.h"

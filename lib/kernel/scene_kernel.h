@@ -1,4 +1,4 @@
-// Another kernel that reads the scene and is specialised to it. Owned by FirstHits and Coverage.
+// A further kernel that reads the scene and is specialised to it.
 #pragma once
 
 #include "lib/kernel/gpu_scene.h"
@@ -32,7 +32,7 @@ public:
     SceneKernel(vulkan::Device &device, std::span<const std::uint32_t> code, std::vector<vulkan::Binding> bindings,
                 std::uint32_t push_constant_bytes);
 
-    // Specialises the kernel. constants: by constant_id. Throws PT_ERROR_SHADER if the driver refuses it.
+    // constants: by constant_id. Throws PT_ERROR_SHADER if the driver refuses the kernel.
     void fit(std::span<const std::uint32_t> constants);
 
     // ranges: for the bindings after the scene's.
@@ -52,7 +52,7 @@ private:
     std::optional<vulkan::ComputePipeline> pipeline_;
 };
 
-// Rays that amount to these ray-surface tests; at least one.
+// Rays that amount to these tests; at least one.
 double rays_for(double tests, const GpuScene &scene);
 
 // Throws PT_ERROR_INTERNAL unless 0.

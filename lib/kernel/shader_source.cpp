@@ -80,7 +80,7 @@ KernelCode code_of(std::vector<std::vector<std::uint32_t>> words) {
 
 } // namespace
 
-// Unpacked on first use, and kept for all contexts.
+// Unpacked on first use, for all contexts.
 KernelCode embedded_code() {
     static const KernelCode code = code_of({pathtrace_spirv(), fold_spirv(), add_spirv(), resolve_spirv(),
                                             estimate_spirv(), accuracy_spirv(), first_hit_spirv(), coverage_spirv()});

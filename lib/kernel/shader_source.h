@@ -1,4 +1,4 @@
-// The kernels' SPIR-V, embedded in the library or compiled from GLSL files. Owned by Renderer.
+// The kernels' SPIR-V, embedded in the library or compiled from GLSL files.
 #pragma once
 
 #include <cstdint>
@@ -30,13 +30,13 @@ std::string digest_of(const KernelCode &code);
 
 class ShaderSource {
 public:
-    // directory: of the GLSL files, one .comp per member of KernelCode; empty: the embedded code.
+    // directory: has a .comp file per member of KernelCode; empty: the embedded code.
     explicit ShaderSource(std::string directory) : directory_(std::move(directory)) {}
 
     bool is_embedded() const { return directory_.empty(); }
 
-    // Compiles the present files. Throws PT_ERROR_SHADER with the compiler's log, PT_ERROR_UNSUPPORTED if the
-    // compiler's module cannot be loaded.
+    // Compiles the files as they are now. Throws PT_ERROR_SHADER with the compiler's log, PT_ERROR_UNSUPPORTED without
+    // the compiler's module.
     KernelCode read() const;
 
 private:

@@ -65,7 +65,7 @@ struct Fact {
     std::uint32_t place = 0;
     std::uint32_t taken = 0; // the only branch of a block with a constant condition, else 0
     bool is_reached = false; // a block by branches, a function by calls
-    bool is_merge = false;   // a kept instruction names the block as a merge block
+    bool is_merge = false;   // a kept instruction merges there
     bool is_there = false;
 };
 
@@ -211,7 +211,7 @@ private:
         });
     }
 
-    // Calls use(instruction, block) for every kept instruction; block is 0 outside functions.
+    // Calls use(instruction, block); block is 0 outside functions.
     template <typename Use>
     void for_each_kept(Use &&use) {
         bool keeps_function = true;

@@ -1,4 +1,4 @@
-// Makes pipelines of specialised code, for kernels that trace rays.
+// Makes pipelines of specialised code.
 #pragma once
 
 #include "lib/kernel/point_sequence.h"

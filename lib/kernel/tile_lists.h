@@ -1,4 +1,4 @@
-// Lists of tiles for dispatches: each tile's first pixel in the film. Owned by Kernel.
+// Lists of tiles for dispatches: each tile's first pixel in the film.
 #pragma once
 
 #include "lib/film/tile_grid.h"

@@ -1,4 +1,4 @@
-// Samples of some tiles of a film, for one submission.
+// Samples of some tiles, for one submission.
 #pragma once
 
 #include "lib/film/sample_set.h"
@@ -10,7 +10,7 @@ namespace pt {
 
 struct TileSlice {
     std::span<const std::uint32_t> tiles; // ascending
-    SampleRange before;                   // hull of the samples that the tiles have; may be empty
+    SampleRange before;                   // hull of the tiles' samples; may be empty
     SampleRange samples;
     bool takes; // false: only makes room for samples of another device
 

@@ -70,7 +70,7 @@ const vulkan::ComputePipeline *TracePipelines::find(const std::vector<std::uint3
     return &found->pipeline;
 }
 
-// The own kernel's time counts once another scene comes.
+// Reports the last own kernel's time once another scene comes.
 void TracePipelines::note_own(const std::vector<std::uint32_t> &constants, double seconds) {
     if (!own_)
         return;

@@ -1,4 +1,4 @@
-// The specialised pipelines of pathtrace.comp, and fold.comp's. Owned by RenderDevice.
+// The specialised pipelines of pathtrace.comp, and fold.comp's.
 #pragma once
 
 #include "lib/kernel/own_kernel_clock.h"
@@ -18,7 +18,7 @@
 
 namespace pt {
 
-// All pipelines have the same bindings, so one descriptor set serves all.
+// All bindings are equal, so one descriptor set serves all.
 class TracePipelines {
 public:
     // For scenes that alternate. Work under way uses at most the last two.
@@ -31,15 +31,14 @@ public:
 
     // Returns the kernel for scenes with these features or, where faster, one for this scene alone; both compute the
     // same bits. The first scene gets its own at once, since some kernel must be built; others wait
-    // (own_kernel_clock.h). words: the scene buffer. seconds: time for which the scene has been rendered. Valid until
-    // the next call.
+    // (own_kernel_clock.h). words: the scene buffer. seconds: for which the scene has been rendered. Valid until the
+    // next call.
     const vulkan::ComputePipeline &trace(const Features &features, std::span<const glm::vec4> words, double seconds);
 
     // When scenes get kernels of their own. at_once: for callers that prepare ahead. never: for polls.
     enum class OwnKernels { when_they_pay, at_once, never };
     void build_own(OwnKernels when) { own_kernels_ = when; }
 
-    // Adds one part of the film to the other.
     const vulkan::ComputePipeline &fold();
 
 private:

@@ -31,13 +31,13 @@ constexpr std::uint32_t busy_gpu_invocations = 1U << 18;
 constexpr std::chrono::seconds gpu_patience{10};
 constexpr std::chrono::nanoseconds wait_step = std::chrono::milliseconds{100};
 
-// Longer code must be fetched.
+// Longer code stalls on instruction fetches.
 constexpr std::uint32_t gpu_unrolled = 16;
 
 // Empirical.
 constexpr std::uint32_t gpu_walk_trips = 8;
 
-// Many times what falling asleep and waking take.
+// Many times the cost of sleeping and waking.
 constexpr std::chrono::microseconds gpu_polling{300};
 
 // The version stands in text only: "Mesa 22.3.6 (LLVM 15.0.6)".

@@ -39,7 +39,7 @@ struct DevicePolicy {
     std::chrono::nanoseconds polling{0};
     // Ray-surface tests, achieved by every such device. Sizes the first slice.
     double tests_per_second = 2.5e8;
-    // Loops over up to this many surfaces are unrolled. Default: for CPUs, where longer ones lose against a tree.
+    // Loops over up to this many surfaces are unrolled. The default is for CPUs, where a tree beats longer loops.
     std::uint32_t unrolled = 112;
     // Samples per pixel from which tiles may differ (lib/film/adaptive_rule.h); four times as many for paths of two
     // vertices. Earlier checks cost a GPU more than they save. 0, or a power of two >= 16.
