@@ -1,4 +1,4 @@
-// File descriptors, beyond std::filesystem. Reasons of failures are in errno.
+// File descriptors, beyond std::filesystem. errno has the reason of a failure.
 #pragma once
 
 #include <cstddef>
@@ -49,8 +49,8 @@ int create_file(const std::filesystem::path &path);  // for writing; EEXIST if i
 std::ptrdiff_t read_some(int descriptor, std::span<char> bytes);
 std::ptrdiff_t write_some(int descriptor, std::span<const std::byte> bytes);
 
-// Protects a new file from remove_abandoned() of other processes. False if it was removed in between. True on file
-// systems without locks, where nothing is ever removed.
+// Protects a new file from remove_abandoned() of other processes. False if it was removed in between. True without
+// locks in the file system, where nothing is ever removed.
 bool lock_created(int descriptor);
 
 // Removes a file unless a process has locked it.

@@ -34,7 +34,7 @@ public:
 
     std::string all();
 
-    // Reading ends after the block with a NUL byte, since the file is then no text.
+    // A file with a NUL byte is no text, and is read only up to that block.
     std::string text();
 
 private:

@@ -15,11 +15,11 @@ namespace {
 constexpr double default_vertical_fov = std::numbers::pi / 4.0;
 
 // Least sine s of the angle between up and the view. With u = 2^-53, forward errs by 2 u, up by u, their cross product
-// by 2 u: unit vectors by 5 u / s. Rounding to float32, 2^-24, hides that if s >= 5 * 2^-29.
+// by 2 u: unit vectors by 5 u / s, which float32's 2^-24 hides if s >= 5 * 2^-29.
 constexpr double min_sine = 0x1p-26;
 
-// height / (2 tan(fov / 2)), the image plane's distance in pixels, must be at most 1e18, so tan(fov / 2) >= 2^31 / 1e18
-// = 2.1e-9. Towards pi the largest double gives more than 1e-16.
+// The image plane's distance in pixels, height / (2 tan(fov / 2)), must be at most 1e18, so tan(fov / 2) >= 2^31 / 1e18
+// = 2.1e-9. Near pi, doubles give at least 1e-16.
 constexpr double min_vertical_fov = 1e-8;
 
 const char *fov_rule(double value) {
@@ -78,7 +78,7 @@ void check_fields(const pt_camera &camera) {
     violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
 }
 
-// Rounds to 40 bits, because systems' tangents differ in the last bits, but their films are to be merged.
+// Rounds to 40 bits: systems' tangents differ in the last bits, but their films must match.
 double tangent(double angle) {
     int exponent = 0;
     const double mantissa = std::frexp(std::tan(angle), &exponent);
@@ -98,8 +98,7 @@ Camera validated_camera(const pt_camera &source) {
     subject.require(target != position, "target", target, "must differ from position");
     violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
 
-    // Requires focus >= radius, so that the blur of a far point, radius / focus times the image plane's distance, is a
-    // length too.
+    // With focus >= radius the blur of a far point, radius / focus times the image plane's distance, is a length too.
     const double focus = camera.focus > 0.0 ? camera.focus : glm::distance(target, position);
     subject.require(camera.aperture <= 2.0 * focus, "aperture", camera.aperture,
                     "must be at most twice the focus (" + number_text(focus) + ")");

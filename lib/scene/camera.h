@@ -22,12 +22,12 @@ struct Camera {
     double start_distance = 0.0;  // from pt_camera.position (ray_start.h)
     double start_radius = 0.0;    // of the disc around position where rays start; 0: a point
     double lens_radius = 0.0;     // 0: a pinhole, or parallel rays
-    double focus = 0.0;           // distance of the plane in focus along forward; 0 without a lens
+    double focus = 0.0;           // along forward; 0 without a lens
 
     bool is_orthographic() const { return vertical_extent > 0.0; }
     bool has_lens() const { return lens_radius > 0.0; }
 
-    // Radius of the disc that the rays through an image point fill at a depth from the lens.
+    // Radius of the disc that an image point's rays fill at a depth.
     double spread(double depth) const { return has_lens() ? lens_radius * std::abs(1.0 - depth / focus) : 0.0; }
 };
 

@@ -33,8 +33,8 @@ const char *color_rule(double value) {
     return value <= 1e18 ? nullptr : "must be <= 1e18";
 }
 
-// exp(-n a^2 / 2) falls to 1 / e at the angle a = sqrt(2 / n) from the mirror direction. There the error d = 2^-23 of
-// float32 unit vectors changes the exponent by n a d = sqrt(2 n) d: 0.5% of the lobe for n = 1e9.
+// exp(-n a^2 / 2) falls to 1 / e at an angle a = sqrt(2 / n). There float32 unit vectors, d = 2^-23, change the
+// exponent by n a d = sqrt(2 n) d: 0.5% of the lobe for n = 1e9.
 const char *glossiness_rule(double value) {
     if (!std::isfinite(value))
         return "must be finite";
@@ -43,7 +43,7 @@ const char *glossiness_rule(double value) {
     return value <= 1e9 ? nullptr : "must be <= 1e9";
 }
 
-// The square of the given length need not be a double.
+// The square of the given length may overflow.
 Plane normalized(const pt_plane &plane) {
     const auto [normal, exponent] = scaled(vector(plane.normal));
     const double length = glm::length(normal);

@@ -1,4 +1,4 @@
-// Reads elements of a pt_column, with one decision on the type per call.
+// Reads elements of a pt_column, deciding on the type once per call.
 #pragma once
 
 #include "lib/scene/srgb.h"

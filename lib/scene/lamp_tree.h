@@ -1,5 +1,4 @@
-// The shape and order of the tree by which kernels choose among many lamps. gpu_layout.h describes its nodes;
-// lib/kernel/lamp_tree_words.h writes them.
+// The shape and order of the tree by which kernels choose among many lamps. gpu_layout.h describes its nodes.
 #pragma once
 
 #include "lib/scene/scene.h"
@@ -38,8 +37,8 @@ private:
     std::uint32_t top_groups_;
 };
 
-// Emitting spheres by slot, placed as at time 1/2. Leaving out spheres that the camera does not see as lamps keeps the
-// order.
+// Emitting spheres in the order of slots, by their places at time 1/2. Leaving out spheres that the camera does not see
+// as lamps keeps the order.
 std::vector<std::uint32_t> order_in_lamp_tree(const Scene &scene);
 
 } // namespace pt

@@ -57,8 +57,8 @@ inline MovingBall seen_ball(const MovingBall &ball, const Camera &camera) {
 // Share of the radius within which float32 may put a point on the wrong side.
 inline constexpr double side_margin = 0x1p-16;
 
-// Balls that differ by more than this share of their radii are different at any distance. A distance d is known to
-// 2^-22 d, which reaches the share at 2^20 radii; there a center's rounding is visible anyway.
+// Balls that differ by more than this share of their radii are different. A distance d is known to 2^-22 d, which is
+// the share at 2^20 radii; there a center's rounding is visible anyway.
 inline constexpr double two_spheres = 0.25;
 
 // Adds a margin for float32's rounding.
@@ -66,7 +66,7 @@ inline double with_margin(double length) {
     return length * (1.0 + side_margin);
 }
 
-// Least distance from the origin to a point that moves along a straight line.
+// Least distance from the origin.
 inline double least_distance(const glm::dvec3 &open, const glm::dvec3 &way) {
     const double length = glm::dot(way, way);
     const double nearest = length > 0.0 ? std::clamp(-glm::dot(open, way) / length, 0.0, 1.0) : 0.0;
@@ -87,7 +87,7 @@ inline bool nearly_coincide(const MovingBall &ball, const MovingBall &other) {
     return apart + std::abs(ball.radius - other.radius) < two_spheres * std::min(ball.radius, other.radius);
 }
 
-// A ball at rest that contains a capsule. A ball is returned as it is.
+// A ball at rest that contains a capsule.
 inline MovingBall ball_about(const MovingBall &ball) {
     if (ball.kind == Kind::ball)
         return ball;
@@ -95,8 +95,8 @@ inline MovingBall ball_about(const MovingBall &ball) {
     return {ball.open + half, glm::dvec3(0.0), ball.radius + glm::length(half)};
 }
 
-// Whether a ball never meets a surface while the shutter is open, and does not contain it. Their relative motion is
-// straight, so the greatest distance is at an end.
+// Whether a ball never meets a surface while the shutter is open, and does not contain it. Relative motion is straight,
+// so the greatest distance is at an end.
 inline bool lies_apart(const MovingBall &ball, const MovingBall &surface) {
     const MovingBall about = ball_about(surface);
     const glm::dvec3 from = ball.open - about.open;

@@ -87,7 +87,7 @@ void add(Digest &digest, const Material &material) {
         digest.add(std::uint64_t{PT_MATERIAL_HIDDEN_FROM_CAMERA});
 }
 
-// Materials are numbered as they occur, each new one followed by its values.
+// Numbers materials as they occur, each new one followed by its values.
 std::string digest_of(const Scene &scene) {
     Digest digest;
     std::map<MaterialKey, std::uint64_t> numbers;

@@ -10,7 +10,7 @@ namespace pt {
 
 namespace {
 
-// Radius over distance from which a sphere is nearly flat. Below, center and radius cost a hit at most 5 of 24 bits.
+// Radius over distance of a nearly flat sphere. Below, center and radius cost a hit at most 5 of 24 bits.
 constexpr double nearly_flat = 32.0;
 
 // The ratio for lamps. As planes, lamps are found by directions alone, which adds noise. At this ratio the surface is
@@ -95,9 +95,9 @@ void require_held_motions(const SeenScene &seen, const Scene &scene, const Camer
                                    ") must move less than a 32nd of it while the shutter is open"});
 }
 
-// Squared distances of the center from the disc's points lie between a^2 + max(c - radius, 0)^2 and a^2 + (c +
-// radius)^2, with a from the disc's plane and c from its axis. Half a way widens a moving ball. Float32 tells sides up
-// to a share of the ball's size or, for a huge ball, its distance.
+// With the center at a from the disc's plane and c from its axis, squared distances from the disc's points are a^2 +
+// max(c - radius, 0)^2 to a^2 + (c + radius)^2. A moving ball is wider by half its way. Float32 tells sides up to a
+// share of the ball's size or, for a huge ball, its distance.
 bool divides_start(const MovingBall &ball, const Camera &camera, double slack) {
     if (camera.start_radius == 0.0 || !may_hold_origin(ball, camera.start_radius + slack))
         return false;

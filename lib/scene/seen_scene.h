@@ -17,7 +17,7 @@ struct SeenSphere : MovingBall {
     std::uint32_t index;    // into Scene::spheres
     bool emits;
     bool hidden;
-    bool is_flat; // held as a plane with a curvature, because it is so large
+    bool is_flat; // held as a plane with a curvature
 
     SeenSphere(const Sphere &sphere, const Material &of_sphere, const Camera &camera, std::uint32_t of_index = 0);
 
@@ -29,7 +29,7 @@ struct SeenSphere : MovingBall {
 // dot(normal, y) + curvature / 2 * dot(y, y) = 0 as the shutter opens.
 struct CurvedPlane {
     glm::dvec3 normal; // unit vector at the point nearest to the camera; outward for a sphere
-    double offset;     // signed distance of the camera, positive on the normal's side
+    double offset;     // of the camera, positive on the normal's side
     double curvature;  // 1 / radius; 0 for a plane
     glm::dvec3 way;    // while the shutter is open
     std::uint32_t material;
@@ -41,7 +41,7 @@ struct CurvedPlane {
 CurvedPlane curved_plane(const Plane &plane, const Material &of_plane, const Camera &camera, std::uint32_t index = 0);
 
 // sphere.is_flat must hold. By center and radius in float32 its surface would be off by 2^-24 of the radius, this way
-// only by 2^-24 of the scene's size.
+// by 2^-24 of the scene's size.
 CurvedPlane curved_plane(const SeenSphere &sphere);
 
 // Keeps the scene's order.
@@ -61,8 +61,7 @@ SeenScene seen_scene(const Scene &scene, const Camera &camera);
 // camera: where rays start (lib/kernel/ray_start.h).
 void require_held_motions(const SeenScene &seen, const Scene &scene, const Camera &camera);
 
-// Whether parallel rays may start on both sides of a surface, or so close that float32 cannot tell. slack: additional
-// distance.
+// Whether parallel rays may start on both sides of a surface, or float32 cannot tell. slack: additional distance.
 bool divides_start(const MovingBall &ball, const Camera &camera, double slack = 0.0);
 bool divides_start(const CurvedPlane &flat, const Camera &camera);
 

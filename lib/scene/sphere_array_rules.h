@@ -13,11 +13,10 @@
 
 namespace pt {
 
-// Limit for all arrays together, for which indices and memory are designed.
+// For all arrays together; indices and memory are designed for it.
 constexpr std::uint64_t max_sphere_count = std::uint64_t{1} << 26;
 
-// Copies as structs of this library's version, if their number is possible. Throws PT_ERROR_INVALID_ARGUMENT or
-// PT_ERROR_UNSUPPORTED for a bad struct_size.
+// Throws PT_ERROR_INVALID_ARGUMENT or PT_ERROR_UNSUPPORTED for a bad struct_size.
 std::vector<pt_sphere_array> copied_sphere_arrays(const pt_scene &scene, Violations &violations);
 
 // Upper bound of the elements to be checked.

@@ -1,4 +1,4 @@
-// The spheres of pt_set_scene, structs or columns, in the caller's memory.
+// The spheres of pt_set_scene in the caller's memory.
 #pragma once
 
 #include "lib/base/work_progress.h"
@@ -85,7 +85,7 @@ private:
         }
     }
 
-    // Requests all memory before using the first, since it may be anywhere.
+    // Requests all memory before using the first.
     void read(std::span<const std::uint32_t> indices, std::span<Sphere> spheres) const;
     void read_colors(std::span<const std::uint32_t> indices, std::span<glm::vec3> colors) const;
 

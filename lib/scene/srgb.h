@@ -1,4 +1,4 @@
-// Decodes sRGB bytes (IEC 61966-2-1). The table is computed at compile time, so a scene's bits do not depend on a maths
+// Decodes sRGB bytes (IEC 61966-2-1), by a table made at compile time, so that a scene's bits do not depend on a maths
 // library.
 #pragma once
 

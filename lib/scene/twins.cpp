@@ -9,8 +9,8 @@ namespace pt {
 
 namespace {
 
-// Largest difference of twins relative to the radius: 64 roundings, since a distance along a ray is off by a dozen, and
-// paths see surfaces from farther than the camera.
+// Largest difference of twins relative to the radius: 64 roundings. A distance along a ray is off by a dozen, and paths
+// see surfaces from farther than the camera.
 constexpr double same_size = 0x1p-18;
 // Relative to the distance: four times the spacing of numbers that hold the center.
 constexpr double same_place = 0x1p-21;
@@ -19,15 +19,15 @@ constexpr double same_place = 0x1p-21;
 // than a pixel.
 constexpr double two_planes = 0x1p-8;
 
-// Incommensurable components tell spheres on a lattice apart: 1, sqrt(2), sqrt(3) over sqrt(6).
+// Incommensurable, for spheres on a lattice: 1, sqrt(2), sqrt(3) over sqrt(6).
 constexpr glm::dvec3 generic_direction(0.40824829046386307, 0.5773502691896258, 0.7071067811865476);
 
 double tolerance(const SeenSphere &sphere) {
     return std::min(same_size * sphere.radius + same_place * sphere.distance, two_spheres * sphere.radius);
 }
 
-// Planes equal to same_size in normal, offset and curvature have centers and radii equal to three times that, if the
-// offset is small against the radius.
+// Planes equal to same_size have centers and radii equal to three times that, if the offset is small against the
+// radius.
 double reach(const SeenSphere &sphere) {
     return sphere.is_flat ? 4.0 * same_size * sphere.radius : tolerance(sphere);
 }

@@ -100,7 +100,7 @@ BinCut best_cut(const Part &part, const Bins &bins) {
 
 } // namespace
 
-// Without branches, since every other one would be mispredicted.
+// Without branches, since half would be mispredicted.
 Halves binned_halves(const Part &part) {
     const Bins bins(part);
     const BinCut cut = best_cut(part, bins);
@@ -116,7 +116,7 @@ Halves binned_halves(const Part &part) {
     return {{first, centres_of(first), cut.first_surface}, {second, centres_of(second), cut.second_surface}};
 }
 
-// Sorts by counting, without branches, most of which would be mispredicted.
+// Sorts by counting, without branches, which would be mispredicted.
 Halves swept_halves(const Part &part) {
     const std::size_t count = part.items.size();
     std::array<TreeItem, most_swept> best_items{};

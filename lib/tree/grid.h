@@ -13,14 +13,14 @@
 namespace pt {
 
 struct Grid {
-    // Largest coordinate of a box, in steps. The camera may be twice as far away without overflow of differences.
+    // Largest coordinate, in steps. The camera may be twice as far away without overflow of differences.
     static constexpr double reach = gpu::TREE_REACH;
 
     glm::dvec3 middle; // in the scene's units
     double step;       // a power of two, in the scene's units
     double steps_per_unit;
 
-    // The finest grid that reaches this distance from its middle along each axis.
+    // The finest grid that reaches this far along each axis.
     Grid(const glm::dvec3 &middle_of, double distance) :
         middle(middle_of),
         step(step_for(distance)),

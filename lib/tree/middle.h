@@ -10,7 +10,7 @@
 
 namespace pt {
 
-// Medians of the coordinates of about a thousand of the points center_of(0), ..., center_of(count - 1).
+// Medians of the coordinates of about a thousand of the points center_of(i).
 template <typename CenterOf>
 glm::dvec3 middle_of(std::uint32_t count, CenterOf center_of) {
     constexpr std::uint32_t enough = 1000;

@@ -53,7 +53,7 @@ struct Box {
     }
 };
 
-// Nearly as good as all spheres for dividing a part (tests/bench/NOTEBOOK.md).
+// Nearly as good as all spheres (tests/bench/NOTEBOOK.md).
 inline constexpr std::size_t sample_size = 4096;
 
 inline constexpr std::size_t sampled_from = 4 * sample_size;
@@ -92,7 +92,7 @@ inline Box balls_of(Items items) {
     return box;
 }
 
-// If it is large, its boxes are a sample's.
+// A large part has a sample's boxes.
 struct Part {
     Items items;
     Box centres;          // a point only if all are there

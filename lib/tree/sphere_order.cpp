@@ -115,8 +115,8 @@ Part *next_of(std::span<Part> parts, std::uint32_t depth) {
     return next;
 }
 
-// Divides a node's parts until there are enough children. Twins have equal centers, so cuts separate them only among
-// few spheres or at one point, and halving may; twins are removed before these.
+// Divides a node's parts until there are enough children. Cuts separate twins only among few spheres or at one point,
+// halving perhaps; twins are removed before these.
 Children children_of(Part node, const Making &making, std::uint32_t depth) {
     Children children;
     if (node.items.size() <= tree_width || node.centres.is_point() || depth == free_depth)

@@ -20,7 +20,7 @@ struct TreeItem {
 
 inline constexpr std::uint32_t tree_width = gpu::TREE_WIDTH; // most children of a node
 
-// Child nodes come first and are consecutive; child spheres have consecutive places.
+// Child nodes come first and are consecutive; so are places of child spheres.
 struct TreeLinks {
     std::uint32_t first_child;
     std::uint32_t first_place;
@@ -31,7 +31,7 @@ struct TreeLinks {
 struct TreeShape {
     std::vector<TreeLinks> nodes;       // the root first, each before its children
     std::vector<std::uint32_t> spheres; // by place
-    std::uint32_t depth;                // nodes on the longest way down, including the root
+    std::uint32_t depth;                // nodes on the longest way down, with the root
 };
 
 // Everything that tells spheres apart: place and, if rays may pass them, look. Spheres with equal bits are twins and

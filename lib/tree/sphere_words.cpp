@@ -14,7 +14,7 @@ std::uint32_t radius_bits(const Sphere &sphere) {
     return ((bits + half - opacity) & ~gpu::TREE_OPACITY_STEPS) + opacity;
 }
 
-// For int-sized numbers, since std::ceil is a function call for old processors.
+// For int-sized numbers: std::ceil is a function call for old processors.
 int ceiling(double number) {
     const auto whole = static_cast<int>(number);
     return whole + (whole < number ? 1 : 0);

@@ -16,14 +16,14 @@ namespace {
 // grow by 2^-19 of its reach, and rays test all spheres closer together.
 constexpr std::size_t most_outlying = 50;
 
-// Nearer spheres stay in the tree and cost up to four of its 29 bits, which leaves more than float32 has.
+// Nearer spheres cost the tree up to four of its 29 bits, which leaves more than float32 has.
 constexpr double much_farther = 16.0;
 
 // A few capsules outside, such as a cell's twelve edges, leave a tree of balls alone, where walks are faster.
 constexpr std::size_t few_others = 16;
 
-// The few spheres that would make a tree's grid coarse: huge or distant ones. They reach 16 times as far from the
-// scene's middle as all others. Ascending indices.
+// The few spheres that would make a tree's grid coarse: they reach 16 times as far from the scene's middle as all
+// others. Ascending indices.
 std::vector<std::uint32_t> outlying_spheres(const SphereSource &spheres, WorkProgress &progress) {
     const std::size_t few = std::min(most_outlying, spheres.size() / 2);
     const glm::dvec3 middle =

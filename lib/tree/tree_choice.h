@@ -12,13 +12,13 @@ namespace pt {
 // From this many spheres on a tree pays, on lavapipe because longer loops are not unrolled (DevicePolicy::unrolled).
 inline constexpr std::uint32_t default_tree_from = 113;
 
-// With capsules: testing each takes several times as long, and lavapipe compiles long lists for seconds.
+// With capsules, which take several times as long each, and seconds for lavapipe to compile.
 inline constexpr std::uint32_t tree_of_others_from = 24;
 
 std::uint32_t tree_pays_from(const SphereSource &spheres);
 
-// Spheres better tested one by one: huge and distant ones, which would make the tree's grid coarse, and few capsules.
-// Ascending indices; each sphere is a unit of work.
+// Huge and distant spheres, which would make the tree's grid coarse, and few capsules. Ascending indices; each sphere
+// is a unit of work.
 std::vector<std::uint32_t> spheres_beside_tree(const SphereSource &spheres, WorkProgress &progress);
 
 } // namespace pt

@@ -20,7 +20,7 @@ using Usage = vk::BufferUsageFlagBits;
 constexpr vk::MemoryPropertyFlags host_visible = Property::eHostVisible | Property::eHostCoherent;
 constexpr vk::MemoryPropertyFlags host_readable = host_visible | Property::eHostCached;
 
-// Copying this much takes far longer than a submission.
+// Takes far longer to copy than a submission.
 constexpr std::uint64_t max_staging_bytes = 16U << 20;
 
 // Mapped if its memory has the properties mapped_if.
@@ -91,7 +91,7 @@ struct Buffer::State {
     State(const State &) = delete;
     State &operator=(const State &) = delete;
 
-    // Calls function(staging, first, length) for pieces that fit the staging buffer.
+    // Calls function(staging, first, length) for pieces.
     template <typename Function>
     void staged(std::uint64_t size, Function &&function) {
         const std::uint64_t piece = staging_bytes();

@@ -45,7 +45,7 @@ public:
     void download(std::span<std::byte> data, std::uint64_t offset);
     void download(std::span<const BufferPiece> pieces);
 
-    // Begins at NULL if the host cannot access the buffer.
+    // At NULL if the host cannot access the buffer.
     std::span<std::byte> host_memory() const;
 
     // Records a write of up to max_recorded_bytes at the beginning.

@@ -23,8 +23,7 @@ vk::raii::DescriptorSetLayout create_set_layout(const Device &device, std::span<
         {.bindingCount = static_cast<std::uint32_t>(described.size()), .pBindings = described.data()});
 }
 
-// Drivers silently accept kernels with bindings outside their layout, which edited kernels may have
-// (pt_create_info.shader_dir).
+// Drivers accept bindings outside the layout, which edited kernels may have (pt_create_info.shader_dir).
 void require_bindings(std::span<const std::uint32_t> spirv, std::span<const Binding> bindings) {
     spirv::for_each_instruction(spirv, spirv::header_words, [&](spirv::Words instruction, std::size_t) {
         if (spirv::opcode_of(instruction) != spirv::OpDecorate)

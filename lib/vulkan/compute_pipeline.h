@@ -46,7 +46,7 @@ struct Binding {
 
 class ComputePipeline {
 public:
-    // constants[i] has specialization constant id i. Throws PT_ERROR_SHADER if the driver refuses the kernel.
+    // constants[i]: specialization constant id i. Throws PT_ERROR_SHADER if the driver refuses the kernel.
     ComputePipeline(Device &device, std::span<const std::uint32_t> spirv, std::span<const Binding> bindings,
                     std::uint32_t push_constant_bytes, std::span<const std::uint32_t> constants);
 

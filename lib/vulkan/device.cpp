@@ -79,7 +79,7 @@ constexpr vk::AccessFlags device_writes = Access::eShaderWrite | Access::eTransf
 constexpr vk::AccessFlags device_accesses =
     device_writes | Access::eShaderRead | Access::eUniformRead | Access::eTransferRead;
 
-// Makes earlier writes of the device visible to later accesses.
+// Makes earlier writes of the device visible.
 void write_barrier(const vk::raii::CommandBuffer &commands, vk::PipelineStageFlags stages, vk::AccessFlags accesses) {
     const vk::MemoryBarrier barrier{.srcAccessMask = device_writes, .dstAccessMask = accesses};
     commands.pipelineBarrier(device_stages, stages, {}, barrier, {}, {});

@@ -32,12 +32,12 @@ struct Limits {
 struct DevicePolicy {
     std::chrono::nanoseconds patience; // longer submissions mean a lost device
     bool share_memory;                 // the host accesses buffers in place where their memory is fast for both
-    bool scene_in_constants;           // compiling the scene in is faster than a buffer
+    bool scene_in_constants;           // faster compiled in than in a buffer
     std::uint32_t invocations;         // enough to keep it busy; 0: any number
-    std::uint32_t queue_depth;         // submissions to keep running; 2 where the device would idle between them
+    std::uint32_t queue_depth;         // submissions to keep running; 2 if the device would idle between them
     // Before sleeping.
     std::chrono::nanoseconds polling{0};
-    // Ray-surface tests, achieved by every such device. Sizes the first slice.
+    // Ray-surface tests that every such device achieves. Sizes the first slice.
     double tests_per_second = 2.5e8;
     // Loops over up to this many surfaces are unrolled. The default is for CPUs, where a tree beats longer loops.
     std::uint32_t unrolled = 112;
@@ -47,7 +47,7 @@ struct DevicePolicy {
     std::uint32_t walk_trips = 0; // ID_WALK_TRIPS, in scenes with a tree
     // Comparisons of integers (shaders/maths.glsl) and uniform buffers are then faster.
     bool compiles_for_cpu = false;
-    bool resolve_on_device = false; // the device makes images and error estimates faster than the host
+    bool resolve_on_device = false; // images and error estimates are faster there than on the host
 };
 
 DevicePolicy default_policy(const pt_device_info &info);
@@ -83,7 +83,7 @@ public:
 
     bool lost() const { return lost_; }
 
-    // Whether submissions are running that were given up or abandoned. Nothing they use may be destroyed.
+    // Whether work that was given up or abandoned is running. Nothing that it uses may be destroyed.
     bool hangs() const;
 
     // Keeps the device and everything on it from being destroyed.
@@ -124,7 +124,7 @@ public:
     bool is_borrowed() const { return !device_.is_owned; }
     PipelineCache &pipeline_cache() { return pipeline_cache_; }
 
-    // Key of kept kernels: 32 hexadecimal digits for device model, driver and code.
+    // 32 hexadecimal digits for device model, driver and code.
     std::string kernel_key(const std::string &code_digest) const;
 
     const vk::PhysicalDeviceMemoryProperties &memory_properties() const { return memory_properties_; }

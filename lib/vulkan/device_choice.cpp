@@ -171,7 +171,7 @@ std::vector<std::string> listed(const std::string &wanted) {
     return items;
 }
 
-// A chosen device with the same index, or the same UUID if two drivers list one GPU.
+// Two drivers may list one GPU, with the same UUID.
 std::optional<std::size_t> same_device_among(std::span<const pt_device_info> devices,
                                              std::span<const std::size_t> chosen, std::size_t other) {
     const std::string uuid = uuid_digits(devices[other]);

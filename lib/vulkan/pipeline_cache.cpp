@@ -20,7 +20,7 @@ constexpr std::uint64_t most_bytes = std::uint64_t{1} << 28;
 
 constexpr std::string_view magic = "ptkernel";
 
-// Precedes a driver's bytes. Drivers trust these, so they must see no others.
+// Drivers trust their bytes, so they must see no others.
 struct KernelSeal {
     char magic[8];
     char key[32];
@@ -38,7 +38,7 @@ KernelSeal kernel_seal(const std::string &key, std::span<const std::byte> data) 
     return seal;
 }
 
-// The bytes after the seal; empty unless they were sealed under this key.
+// The bytes after the seal; empty unless sealed under this key.
 std::span<const std::byte> unsealed_kernels(const std::string &key, std::span<const std::byte> bytes) {
     if (bytes.size() < sizeof(KernelSeal))
         return {};

@@ -85,8 +85,8 @@ bool may_write(const fs::path &path) {
     return access(path.c_str(), W_OK) == 0;
 }
 
-// Follows the kernel's rule for protected symbolic links (proc_sys_fs(5)): in a folder like /tmp, only links of the
-// user and of the folder's owner are safe.
+// The kernel's rule for protected symbolic links (proc_sys_fs(5)): in a folder like /tmp, only links of the user and of
+// the folder's owner are safe.
 bool may_follow(const fs::path &link) {
     constexpr mode_t open_to_all = S_ISVTX | S_IWOTH;
     struct stat of_link {};

@@ -19,7 +19,7 @@ void set_environment(const char *name, const char *value) {
     setenv(name, value, 1);
 }
 
-// By the XDG Base Directory Specification, which ignores relative paths.
+// XDG Base Directory Specification: relative paths are ignored.
 fs::path cache_folder() {
     const auto folder = [](const char *name) {
         const char *variable = std::getenv(name);

@@ -40,7 +40,7 @@ void handle(int signal, void (*handler)(int)) {
 void prepare_streams() {
     for (const int stream : {standard_input, standard_output, standard_error}) {
         if (fcntl(stream, F_GETFD) == -1 && errno == EBADF) {
-            // open() takes the lowest free number, which is this stream's. The stream still fails with EBADF.
+            // open() takes the lowest free number, this stream's. The stream still fails with EBADF.
             static_cast<void>(open("/dev/null", stream == standard_input ? O_WRONLY : O_RDONLY));
         }
     }
