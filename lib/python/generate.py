@@ -58,7 +58,6 @@ def python_type(declared, known):
 
 
 def members_of(body):
-    """Members are declared one per line."""
     for declaration in filter(None, (" ".join(part.split()) for part in body.split(";"))):
         kind, name, array = re.fullmatch(r"(.*?)(\w+)((?:\[\d+\])*)", declaration).groups()
         yield name, kind.strip() + array
@@ -94,7 +93,6 @@ def first_words(comment):
 
 
 def enumerators_of(headers):
-    """Name, number and words of each enumerator."""
     for text in headers:
         for body in re.findall(r"\benum \{(.*?)\n\};", text, re.DOTALL):
             for before, name, number, after in re.findall(

@@ -48,7 +48,6 @@ __version__: str  # the library's
 
 
 def version() -> str:
-    """The library's version: "0.3.0"."""
     return version_text(library())
 
 

@@ -60,8 +60,6 @@ class CallbackGuard:
 
 
 class _Hook:
-    """Replaces sys.unraisablehook during calls."""
-
     def __init__(self, before: Callable[[Any], object]) -> None:
         self.before = before
 

@@ -45,7 +45,7 @@ class Camera:
         elif self.vertical_fov is not None:
             raise ValueError(f"camera.vertical_fov = {self.vertical_fov}: must be None with a vertical_extent, which is "
                              "of an orthographic projection")
-        elif self.vertical_extent == 0.0:  # the library's default: perspective
+        elif self.vertical_extent == 0.0:
             raise ValueError("camera.vertical_extent = 0: must be > 0")
         for name in ("position", "target", "up"):
             object.__setattr__(self, name, vector(name, getattr(self, name)))
@@ -91,7 +91,6 @@ class Camera:
                        aperture=self.aperture * scale, focus=self.focus * scale)
 
     def _section(self) -> dict[str, Any]:
-        """A scene file's section."""
         section: dict[str, Any] = {"position": list(self.position), "look_at": list(self.target), "up": list(self.up)}
         shutter = {} if tuple(self.shutter) == (0.0, 1.0) else {"shutter": list(self.shutter)}
         if self.vertical_fov is None:
@@ -166,5 +165,4 @@ class RenderSettings:
             row_count=self.row_count)
 
     def shape(self) -> tuple[int, int]:
-        """Rows and columns of images read back."""
         return self.row_count or self.height - self.first_row, self.width

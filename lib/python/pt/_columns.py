@@ -18,7 +18,6 @@ TYPES: Final = {np.dtype(np.float32): ColumnType.FLOAT32, np.dtype(np.float64): 
 
 
 def _readable(array: Array) -> bool:
-    """Whether a pt_column can describe it: components side by side, spheres ascending."""
     if array.ndim == 2 and array.strides[1] != array.itemsize:
         return False
     sphere_bytes = array.itemsize * (array.shape[1] if array.ndim == 2 else 1)
@@ -62,7 +61,6 @@ def check_finite(name: str, values: npt.ArrayLike, *, positive: bool = False) ->
 
 
 def color_column(name: str, values: npt.ArrayLike, count: int) -> Array:
-    """A column of floats (linear) or uint8 (sRGB)."""
     array = np.asarray(values)
     if array.dtype == np.uint8:
         return _laid_out(name, array, 3, count)

@@ -21,7 +21,6 @@ CODE_OF_RESULT = {Result.ERROR_INVALID_ARGUMENT: USAGE, Result.ERROR_INCOMPATIBL
 
 
 def at_least(least: float, kind: type) -> Callable[[str], Any]:
-    """An argparse type: numbers of this kind, from least on."""
     def read(text: str) -> Any:
         try:
             value = kind(text)

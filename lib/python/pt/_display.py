@@ -38,7 +38,6 @@ def to_srgb8(radiance: npt.NDArray[Any], exposure: float) -> npt.NDArray[np.uint
 
 
 def signal(light: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-    """The sRGB signal of linear light, clamped to [0, 1]."""
     light = np.clip(light, 0.0, 1.0)
     return np.where(light <= 0.0031308, 12.92 * light, 1.055 * light**(1 / 2.4) - 0.055)
 
@@ -48,7 +47,6 @@ def linear(signal: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
 
 
 def quantised(signal: npt.NDArray[np.float64], dtype: Any) -> npt.NDArray[Any]:
-    """The signal as integers; 1 is the type's largest."""
     numbers: npt.NDArray[Any] = np.floor(np.iinfo(dtype).max * signal + 0.5).astype(dtype)
     return numbers
 
@@ -60,7 +58,7 @@ def encode_png(pixels: npt.NDArray[Any]) -> bytes:
     big_endian = np.ascontiguousarray(pixels, pixels.dtype.newbyteorder(">"))
     unfiltered = np.zeros((height, 1), np.uint8)  # each row begins with its filter: none
     rows = np.hstack([unfiltered, big_endian.view(np.uint8).reshape(height, -1)])
-    kind = {3: 2, 4: 6}[channels]  # RGB or RGBA; zlib, no interlacing
+    kind = {3: 2, 4: 6}[channels]
     header = struct.pack(">IIBBBBB", width, height, 8 * pixels.itemsize, kind, 0, 0, 0)
     return (b"\x89PNG\r\n\x1a\n" + _chunk(b"IHDR", header) + _chunk(b"sRGB", b"\0") +
             _chunk(b"IDAT", zlib.compress(rows.tobytes())) + _chunk(b"IEND", b""))

@@ -13,7 +13,7 @@ import numpy.typing as npt
 Array = npt.NDArray[Any]
 Doubles = npt.NDArray[np.float64]
 
-ROWS_AT_ONCE: Final = 1 << 15  # their numbers fit into a core's cache
+ROWS_AT_ONCE: Final = 1 << 15
 
 
 def chunks(count: int) -> Iterator[slice]:
@@ -77,14 +77,11 @@ SIDES: Final = np.vstack([np.eye(3), -np.eye(3)])  # right, up, forward, and the
 
 @dataclass(frozen=True)
 class Extents:
-    """Coordinates along right, up and forward."""
-
     low: Doubles
     high: Doubles
 
     @staticmethod
     def of(reaches: Doubles) -> Extents:
-        """reaches: in the directions of SIDES."""
         return Extents(-reaches[3:], reaches[:3])
 
     @property

@@ -61,7 +61,6 @@ class Image:
 
     @property
     def picture_size(self) -> tuple[int, int]:
-        """Width and height in pixels."""
         return self.shape[1], self.shape[0]
 
     def __repr__(self) -> str:

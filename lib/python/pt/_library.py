@@ -16,7 +16,7 @@ from pt._errors import ERROR_OF_RESULT, BrokenRule, Error
 
 VERSION: Final = "0.3"
 SONAME: Final = {"win32": "pt.dll", "darwin": f"libpt.{VERSION}.dylib"}.get(sys.platform, f"libpt.so.{VERSION}")
-BROKEN_RULES_KEPT: Final = 8  # the library's limit
+BROKEN_RULES_KEPT: Final = 8
 
 # Must list every function: without types, ctypes truncates pointers to 32 bits. All but NOT_RESULTS return a pt_result.
 PARAMETERS: Final[dict[str, list[Any]]] = {
@@ -93,7 +93,6 @@ def version_text(loaded: ctypes.CDLL) -> str:
 
 @functools.lru_cache(maxsize=1)
 def library() -> ctypes.CDLL:
-    """This process's library, loaded on first use."""
     return load_library(library_path())
 
 

@@ -32,8 +32,6 @@ TYPES: Final = {ColumnType.FLOAT32: np.float32, ColumnType.FLOAT64: np.float64, 
 
 @dataclass(frozen=True)
 class ReadScene:
-    """A scene file's contents. files: of columns."""
-
     scene: Scene
     camera: Camera
     settings: RenderSettings
@@ -67,7 +65,7 @@ class Program:
                 self._errors.close()
                 raise NoDeviceError(f"the program pt is not found (PT_PROGRAM names it): {error}") from error
             line = self._line()
-        finally:  # pt has read it
+        finally:
             shutil.rmtree(self._folder, ignore_errors=True)
         self.facts: dict[str, Any] = json.loads(line)
 
@@ -80,7 +78,6 @@ class Program:
         return self._bytes(size)
 
     def scene(self) -> ReadScene:
-        """Reads without opening a device."""
         self._ask(struct.pack("=3I", 0, 0, 0))
         read = json.loads(self._line())
         materials = [Material(**each) for each in read["materials"]]
@@ -111,7 +108,7 @@ class Program:
         with contextlib.suppress(OSError):  # unless Windows keeps a process's working folder
             os.rmdir(self._folder)
         for stream in (self._process.stdin, self._process.stdout, self._errors):
-            with contextlib.suppress(OSError):  # about unwritten data
+            with contextlib.suppress(OSError):
                 if stream:
                     stream.close()
 

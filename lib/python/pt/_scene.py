@@ -42,7 +42,6 @@ class Material:
         object.__setattr__(self, "glossiness", float(self.glossiness))
 
     def _section(self) -> dict[str, Any]:
-        """A scene file's section without defaults; a grey is one number."""
         section: dict[str, Any] = {}
         for name in ("diffuse", "specular", "emission", "glossiness", "hidden_from_camera"):
             value = getattr(self, name)
@@ -207,6 +206,5 @@ class SceneStruct:
 
 
 def _pointer(struct: Any, elements: list[Any]) -> Any:
-    """An array of structs, or None if it is empty."""
     return (struct * len(elements))(*elements) if elements else None
 

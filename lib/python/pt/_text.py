@@ -17,7 +17,6 @@ def printable(text: str) -> str:
 
 
 def tell(program: str, message: str, stream: TextIO | None = None) -> None:
-    """Prints lines that begin with the program's name, by default on standard error."""
     for line in message.rstrip("\n").split("\n"):
         print(f"{program}: {printable(line)}" if program else printable(line), file=stream or sys.stderr)
 

@@ -23,6 +23,5 @@ def vector(name: str, value: Vector) -> Triple:
 
 
 def color(name: str, value: Color) -> Triple:
-    """Red, green and blue; a single number is a grey."""
     numbers = np.asarray(value, np.float64)
     return vector(name, np.broadcast_to(numbers, 3) if numbers.ndim == 0 else numbers)

@@ -9,7 +9,6 @@ MAGIC = bytes.fromhex("28b52ffd")
 
 
 def module() -> Any:
-    """A module with compress and decompress, or None."""
     for name in ("compression.zstd", "zstandard"):
         try:
             return importlib.import_module(name)

@@ -72,7 +72,7 @@ def write_pictures(film: Film, arguments: argparse.Namespace, facts: dict[str, A
         path = os.path.join(folder, "sum.ptfilm")
         write_film(film, path)
         done = subprocess.run([program(), "merge", path, "-q", *options])
-        if done.returncode:  # pt has printed the reason
+        if done.returncode:
             if not (arguments.film or arguments.checkpoint):
                 kept = tempfile.mkstemp(prefix="pt-farm-", suffix=".ptfilm")[1]
                 shutil.copyfile(path, kept)

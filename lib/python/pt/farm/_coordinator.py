@@ -29,9 +29,9 @@ SLOTS = 2  # parts per worker: one renders while another travels or waits
 
 # Tiles that keep a device busy. CPU: 4 for each of 16 cores. GPU: 262,144 pixels, the largest GPUs' invocations.
 LEAST_TILES = {True: 64, False: 4096}
-LEAD = 0.05  # seconds for travel and merging
+LEAD = 0.05
 LATE = 3.0  # times the expected seconds, after which a part is late
-LOOK_SHARE = 0.05  # of the time, for the error shown
+LOOK_SHARE = 0.05
 
 
 class _Opened(NamedTuple):
@@ -50,13 +50,13 @@ class Coordinator:
         self._name = name_of(data)
         self._shape = grid_shape(job.settings.width, job.settings.height)
         self._pixels = np.outer(*(np.minimum(TILE_SIDE, side - TILE_SIDE * np.arange(count)) for side, count in
-                                  zip((job.settings.height, job.settings.width), self._shape)))  # of each tile
+                                  zip((job.settings.height, job.settings.width), self._shape)))
         self._final = final
         self._events: queue.Queue[tuple[Any, ...]] = queue.Queue(MOST_FETCHED)
         self._closed = False
-        self._waiting: deque[tuple[int | None, Part]] = deque()  # with its number if given out before
+        self._waiting: deque[tuple[int | None, Part]] = deque()
         self._open: set[int] = set()  # numbers of parts given out but not merged
-        self._tries: dict[int, list[str]] = {}  # by part: addresses of workers that failed
+        self._tries: dict[int, list[str]] = {}
         self._next_number = 0
         self._progress = Progress()
         self._sum = Sum(read_film(options.checkpoint) if options.checkpoint else None, job.settings.width,
@@ -67,10 +67,10 @@ class Coordinator:
         self._checkpoint_error = ""
         self._look_end = self._look_cost = 0.0
         self._goals: Goals = np.zeros(self._shape, np.uint32)
-        self._has_only = self._sum.film is None  # without samples beyond the earlier goals
+        self._has_only = self._sum.film is None
         self._cells: Cells | None = None  # of the film when _cells_at parts were merged
         self._cells_at = 0
-        self._asked_at = -1  # parts merged when it last asked for more
+        self._asked_at = -1
         self._ask_end = self._ask_cost = 0.0
         self._stopped = False
 
@@ -109,7 +109,7 @@ class Coordinator:
 
     def _want(self) -> None:
         wanted = np.maximum(self._goals, self._final).astype(np.float64)
-        for samples, tiles in self._cells or ():  # a checkpoint's film may have more
+        for samples, tiles in self._cells or ():
             wanted.ravel()[tiles] = np.maximum(wanted.ravel()[tiles], sum(map(len, samples)))
         self._progress.samples_wanted = float((wanted * self._pixels).sum() / self._pixels.sum())
 
@@ -154,7 +154,6 @@ class Coordinator:
         return error
 
     def _glance(self) -> None:
-        """Computes the error for progress within LOOK_SHARE of the time."""
         if now() - self._look_end > self._look_cost / LOOK_SHARE:
             self.look()
 
@@ -170,7 +169,7 @@ class Coordinator:
         if not self._progress.ended_by:
             self._sum.merge()
             self._keep()
-        with contextlib.suppress(Exception):  # the scheduler may have gone
+        with contextlib.suppress(Exception):
             for member in self._crew:
                 for each in member.tries.values():
                     each.future.cancel()
@@ -199,7 +198,6 @@ class Coordinator:
                         self._progress.repeated += 1
 
     def _under_way(self, number: int) -> int:
-        """Tries of a part that are running or waiting."""
         waiting = sum(each == number for each, _ in self._waiting)
         return waiting + sum(each.number == number for member in self._crew for each in member.tries.values())
 

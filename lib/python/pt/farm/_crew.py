@@ -12,7 +12,7 @@ from pt.farm._task import Outcome, codecs, introduce
 from pt.farm._workers import Done, Member, Try, addresses, now, submit
 
 MOST_FAILURES = 3  # in a row, after which a worker gets no more parts
-LOOK_SECONDS = 0.25  # between queries of the scheduler
+LOOK_SECONDS = 0.25
 
 
 class Crew:
@@ -76,7 +76,7 @@ class Crew:
         """Accepts a worker after its introduction. identity: of its film."""
         member.introduction = None
         if outcome is None:
-            member.is_banned = True  # it has died; the next look will remove it
+            member.is_banned = True
         elif identity is None:
             self.blame(member, outcome, most=1)
         else:

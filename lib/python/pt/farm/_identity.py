@@ -13,14 +13,13 @@ CHECKSUM_BYTES = 8
 
 @dataclass(frozen=True)
 class Identity:
-    lines: tuple[tuple[str, str], ...]  # name and value
+    lines: tuple[tuple[str, str], ...]
 
     @property
     def models(self) -> frozenset[str]:
         return frozenset(dict(self.lines)[LAST].split(" and "))
 
     def differences(self, other: Identity, but: tuple[str, ...] = ()) -> list[str]:
-        """Names of different lines."""
         mine, its = dict(self.lines), dict(other.lines)
         return [name for name in {**mine, **its} if mine.get(name) != its.get(name) and name not in but]
 

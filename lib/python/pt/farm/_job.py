@@ -62,7 +62,6 @@ def unpacked(data: bytes) -> AnyJob:
 
 
 def name_of(data: bytes) -> str:
-    """The digest that identifies a packed job."""
     return hashlib.sha256(data).hexdigest()[:32]
 
 
@@ -75,7 +74,7 @@ def read_job(scene: str, options: list[str], device: str | None) -> FileJob:
         text = file.read()
     files: dict[str, bytes] = {}
 
-    @functools.cache  # scenes repeat few strings often
+    @functools.cache
     def shipped(name: str) -> str:
         path = place.parent / name
         if not os.path.isfile(path):
@@ -88,7 +87,7 @@ def read_job(scene: str, options: list[str], device: str | None) -> FileJob:
     def literal(found: re.Match[bytes]) -> bytes:
         try:
             name = json.loads(found.group())
-        except ValueError:  # pt will report it
+        except ValueError:
             return found.group()
         new = shipped(name)
         return found.group() if new == name else json.dumps(new).encode()

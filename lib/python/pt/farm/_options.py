@@ -53,10 +53,10 @@ class Progress:
     workers: int = 0
     parts: int = 0  # merged
     issued: int = 0
-    repeated: int = 0  # extra tries of late parts
-    dropped: int = 0  # duplicates that came second
-    failed: int = 0  # tries, repeated elsewhere
-    lost: int = 0  # tries whose worker died
+    repeated: int = 0
+    dropped: int = 0
+    failed: int = 0
+    lost: int = 0
     forgotten: int = 0  # samples of tiles that the coordinator lost track of, and rendered again
     part_bytes: int = 0  # received
     messages: list[str] = field(default_factory=list)  # of workers

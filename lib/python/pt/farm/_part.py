@@ -24,7 +24,6 @@ class Part:
 
     @property
     def work(self) -> int:
-        """Samples times tiles."""
         return (self.end - self.first) * len(self.tiles)
 
     def split(self, work: int, least_tiles: int) -> tuple[Part, list[Part]]:
@@ -64,7 +63,7 @@ def grid_shape(width: int, height: int) -> tuple[int, int]:
     return -(-height // TILE_SIDE), -(-width // TILE_SIDE)
 
 
-Cells = list[tuple[tuple[range, ...], Indices]]  # ranges of samples, and the tiles that have them
+Cells = list[tuple[tuple[range, ...], Indices]]
 
 
 def cells_of(film: Film | None, shape: tuple[int, int]) -> Cells:
@@ -94,7 +93,6 @@ def missing_parts(cells: Cells, first_sample: int, goals: Goals) -> list[Part]:
 
 
 def has_only(cells: Cells, first_sample: int, goals: Goals) -> bool:
-    """Whether a film has exactly these samples."""
     for samples, tiles in cells:
         present = sum(map(len, samples))
         if (samples and samples != (range(first_sample, first_sample + present),)

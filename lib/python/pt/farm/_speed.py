@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 FIRST_GUESS = 2000.0  # samples of tiles per second: a slow core
-LEAST_SECONDS = 0.1  # of the shortest part
-REMEMBERED = 5.0  # seconds of earlier parts that count
+LEAST_SECONDS = 0.1
+REMEMBERED = 5.0
 BUSY_SHARE = 0.5  # of the coordinator's time, for adding films
 
 

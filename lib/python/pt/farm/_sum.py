@@ -60,7 +60,7 @@ class Sum:
         start, sums = now(), deque(self._parts)
         self._freed += self._bytes
         self._parts, self._bytes = [], 0
-        while len(sums) > 1:  # roughly the two smallest
+        while len(sums) > 1:
             film = sums.popleft()
             film += sums.popleft()
             sums.append(film)

@@ -24,14 +24,12 @@ PERMANENT = (InvalidSceneError, InvalidArgumentError, IncompatibleError)
 
 @dataclass(frozen=True)
 class Outcome:
-    """A task's film, packed, or its error."""
-
     data: bytes = b""
     seconds: float = 0.0
     is_cpu: bool = False
     error: str = ""
     may_help_elsewhere: bool = True
-    result: int = Result.OK  # the library's, for the error
+    result: int = Result.OK
 
 
 def fault_of(value: object, seconds: float) -> str:
@@ -42,7 +40,7 @@ def fault_of(value: object, seconds: float) -> str:
                        ("may_help_elsewhere", bool), ("result", int)):
         if not isinstance(getattr(value, name, None), kind):
             return f"{name} of type {type(getattr(value, name, None)).__name__}"
-    if not 0.0 <= value.seconds <= CLOCKS * seconds:  # NaN fails, too
+    if not 0.0 <= value.seconds <= CLOCKS * seconds:
         return f"seconds = {value.seconds}, which must be from 0 to the {seconds:.3g} since it was asked"
     return "" if value.result in set(Result) else f"result = {value.result}"
 
@@ -106,7 +104,6 @@ def render_part(name: str, part: Part, codecs: frozenset[str]) -> Outcome:
 
 
 def codecs() -> frozenset[str]:
-    """This machine's packers, besides zlib."""
     return frozenset({"zstd"} if _zstd.module() else ())
 
 

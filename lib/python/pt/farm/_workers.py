@@ -25,8 +25,6 @@ Done = Callable[[Any, "Outcome | None"], None]  # future, and its outcome; None:
 
 @dataclass
 class Try:
-    """A part given to a worker."""
-
     number: int  # the part's; duplicates share it
     part: Part
     future: Any
@@ -38,18 +36,17 @@ class Try:
 class Member:
     address: str
     joined: float
-    identity: Identity | None = None  # once it is ready
+    identity: Identity | None = None
     is_cpu: bool = False
     speed: Speed = field(default_factory=Speed)
-    tries: dict[Any, Try] = field(default_factory=dict)  # by the future's key
+    tries: dict[Any, Try] = field(default_factory=dict)
     introduction: Any = None
-    failures: int = 0  # in a row
+    failures: int = 0
     is_late: bool = False  # gets nothing until it returns something
     is_banned: bool = False
 
     @property
     def busy_until(self) -> float:
-        """Expected end of its work."""
         return max((each.issued + each.expected for each in self.tries.values()), default=0.0)
 
     @property
@@ -103,7 +100,7 @@ def _fetched(client: Any, future: Any, seconds: float) -> Outcome | None:
     except (Exception, asyncio.CancelledError) as error:
         if type(error).__name__ == "KilledWorker":
             return None
-        reason = f"{type(error).__name__}: {error}"  # raised by the task, or on the way here
+        reason = f"{type(error).__name__}: {error}"
     return Outcome(error=reason, result=Result.ERROR_INTERNAL)
 
 

@@ -83,7 +83,6 @@ def _of_model(source: Frames, number: int) -> int:
 
 
 def _index(source: Frames, frame: int) -> int:
-    """Counts a file's frames only for a negative number."""
     if frame >= 0 and source.has(frame):
         return frame
     count = source.count()

@@ -108,7 +108,6 @@ def _automatic(particles: Particles, notes: list[str]) -> Bonds:
 
 
 def _are_among(pairs: Array, others: Array) -> Array:
-    """Which pairs are among others, in either order."""
     count = max(int(each.max(initial=0)) for each in (pairs, others)) + 1
     first, second = (np.sort(each, axis=1) @ (count, 1) for each in (pairs, others))
     result: Array = np.isin(first, second)
@@ -157,7 +156,6 @@ def meeting_in_sight(halves: Rods, balls: Array) -> Rods:
 
 
 def ball_radii(radii: Array, model: str, stick: float, is_given: bool) -> Array:
-    """Sticks end in balls of their own radius."""
     if model == "sticks":
         return np.array([stick])
     result: Array = radii * radii.dtype.type(BALL_SHARE) if model == "ball-and-stick" and not is_given else radii

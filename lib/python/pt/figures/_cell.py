@@ -20,8 +20,8 @@ class Cell:
 
     origin    shape (3,): where the edges begin
     vectors   shape (3, 3): a row for each edge; zeros if it does not exist
-    periodic  shape (3,): whether the cell repeats along each existing edge is_crystal_of_macromolecule  whether it is a
-    protein's or a nucleic acid's crystal cell
+    periodic  shape (3,): whether the cell repeats along each existing edge
+    is_crystal_of_macromolecule   whether it is a protein's or a nucleic acid's crystal cell
     """
 
     origin: Array
@@ -70,6 +70,5 @@ class Cell:
         return inverse
 
     def turns(self, positions: Array) -> Array:
-        """By how many periodic edges positions have left the cell, shape (n, 3)."""
         turns: Array = np.floor((positions - self.origin) @ self.inverse) * self.periodic
         return turns

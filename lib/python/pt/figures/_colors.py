@@ -23,7 +23,7 @@ from pt.figures._radii import column
 Bytes: TypeAlias = npt.NDArray[np.uint8]
 RGB: TypeAlias = tuple[int, ...]
 
-PLAIN: Final = "#96aabe"  # a light bluish grey
+PLAIN: Final = "#96aabe"
 # Okabe and Ito 2008, "Color Universal Design". Our order: the first two differ most in lightness too.
 PALETTE: Final = ((0, 114, 178), (230, 159, 0), (0, 158, 115), (213, 94, 0), (86, 180, 233), (204, 121, 167),
                   (240, 228, 66))
@@ -60,14 +60,13 @@ Legend: TypeAlias = "ColorBar | Swatches | None"
 
 
 def srgb(name: str, color: Any) -> RGB:
-    """A color from "#rrggbb", a matplotlib name, or three numbers from 0 to 1."""
     if isinstance(color, str) and len(color) == 7 and color[0] == "#":
         try:
             red, green, blue = bytes.fromhex(color[1:])
             return red, green, blue
         except ValueError:
             pass
-    named = module("matplotlib.colors", f"{name} = {color!r}")  # slow to import
+    named = module("matplotlib.colors", f"{name} = {color!r}")
     try:
         red, green, blue = (math.floor(255 * float(each) + 0.5) for each in named.to_rgb(color))
     except ValueError:
@@ -101,7 +100,6 @@ def colors_of(particles: Particles, given: Options, notes: list[str]) -> tuple[B
 
 
 def _named(particles: Particles, color: str, given: Options, notes: list[str]) -> tuple[Bytes, Legend]:
-    """Colors by a word: a column, the magnitude of a vector, three columns of red, green and blue, or a color."""
     title = given.title or color
     if color in ("type", "element") and color not in particles.columns:
         return _of_types(particles, given, {})
@@ -178,7 +176,6 @@ def _of_types(particles: Particles, given: Options, own: Mapping[str, str]) -> t
 
 
 def _found_in(particles: Particles, word: str) -> str:
-    """Names the columns that have a word, for a message."""
     found = [name for name, values in particles.columns.items() if values.dtype.kind in "US" and (values.astype(str) == word).any()]
     return f"; it is in the column {' and '.join(found)}: --color {found[0]} (color={found[0]!r}) colors by it" if found else ""
 

@@ -145,7 +145,6 @@ class Shown:
 
 
 def staged(given: argparse.Namespace, options: Options) -> Any:
-    """Yields the number of each picture (None if it is the only one) and its contents."""
     if given.frames:
         first, last = given.frames
         return zip(range(first, last + 1), frames(lambda: read_frames(given.data, first, last, **options.reading), options,

@@ -65,7 +65,7 @@ _NUMBERS: Final = {symbol.lower(): number for symbol, number in NUMBERS.items()}
 _ATOM_NAMES: Final = frozenset("CB CG CZ CM HA HB HT HW OW OT OXT NZ NH".split())
 _IONS: Final = {"NA": 11, "CL": 17, "MG": 12, "ZN": 30, "FE": 26, "MN": 25, "BR": 35, "LI": 3, "SE": 34, "SOD": 11,
                 "CLA": 17, "POT": 19, "CAL": 20}
-_MOST_LETTERS: Final = 3  # of an atom's name
+_MOST_LETTERS: Final = 3
 _UNITED: Final = (13.019, 14.027, 15.035, 16.043)  # CH to CH4 of united atoms
 
 
@@ -142,5 +142,4 @@ def elements_of_masses(masses: Array) -> npt.NDArray[np.uint8]:
 
 
 def listed(names: list[str], most: int = 8) -> str:
-    """Names for a message; only the first ones if there are many."""
     return ", ".join(names[:most]) + (f" and {len(names) - most} more" if len(names) > most else "")

@@ -6,7 +6,6 @@ import importlib
 from types import ModuleType
 from typing import Final
 
-# The package's extra that installs each optional module.
 EXTRAS: Final = {"matplotlib": "figure", "PIL": "figure", "pandas": "figure", "zstandard": "figure-atoms",
                  "gemmi": "figure-atoms", "chemfiles": "figure-atoms", "gsd": "figure-atoms", "trimesh": "figure-points",
                  "pyvista": "figure-points", "laspy": "figure-points"}
@@ -23,6 +22,6 @@ def module(name: str, purpose: str) -> ModuleType:
     except ImportError as error:
         package = name.partition(".")[0]
         if (error.name or name).partition(".")[0] != package:
-            raise  # the module exists, but something that it needs does not
+            raise
         way = f"'pt[{EXTRAS[package]}]', or {package} alone" if package in EXTRAS else package
         raise DataError(f"{purpose} needs the module {package}: pip install {way}") from None

@@ -38,9 +38,9 @@ from pt.figures._stage import EDGES, SURROUND_BRIGHTNESS
 from pt.figures._trails import trails_of
 from pt.figures._where import holds
 
-LEAST_LENGTH: Final = 1e-18  # the least that the library accepts
-INK: Final = "#222222"  # of words on a bright background
-LEAST_WIDTH: Final = 16  # pixels beside a color bar
+LEAST_LENGTH: Final = 1e-18
+INK: Final = "#222222"
+LEAST_WIDTH: Final = 16
 LEGENDS: Final = ("svg", "pdf", "png")
 
 
@@ -81,7 +81,6 @@ class Drawn:
 
     @property
     def all_radii(self) -> Array:
-        """Radii of balls, then of rods."""
         if not self.rods:
             return self.radii
         return np.concatenate([self.radii, *(np.full(len(each.atoms), each.radius) for each in self.rods)])
@@ -130,7 +129,6 @@ def prepare(particles: Particles, options: Options, scale: float | None = None, 
 
 
 def _shown(particles: Particles, options: Options, radii: Array, notes: list[str]) -> Array | None:
-    """None: all are drawn."""
     conditions = [options.where] if isinstance(options.where, str) else options.where
     shown: Array | None = np.logical_and.reduce([holds(particles, each) for each in conditions]) if conditions else None
     if shown is not None and not shown.any():
@@ -148,7 +146,6 @@ def _shown(particles: Particles, options: Options, radii: Array, notes: list[str
 
 
 def _check(name: str, radii: Array, shown: Array | None) -> None:
-    """Refuses bad radii of particles that are shown, naming the first."""
     bad = ~(np.isfinite(radii) & (radii > 0.0))
     if shown is not None:
         bad = bad & shown
@@ -160,7 +157,6 @@ def _check(name: str, radii: Array, shown: Array | None) -> None:
 
 def _in_range(positions: Array, radii: Array, cell: Cell | None, scale: float | None
               ) -> tuple[Array, Array, Cell | None, float]:
-    """Units suit the library's range of lengths."""
     if scale is None:
         largest = max(float(radii.max()), 0.0 if cell is None else float(np.abs(cell_corners(cell)).max()),
                       *(float(np.abs(positions[rows]).max()) for rows in chunks(len(positions))))
@@ -213,7 +209,7 @@ class Staged:
         stage, drawn = self.layout.stage, self.drawn
         material = self.options.material or stage.material
         colors: Array | None = drawn.colors
-        if drawn.colors.ndim == 1:  # one for all: a part of the material
+        if drawn.colors.ndim == 1:
             material = replace(material, diffuse=linear(drawn.colors / 255.0) * np.array(material.diffuse))
             colors = None
         arrays = [SphereArray(drawn.centers, drawn.radii, material, color=colors, opacity=drawn.opacities)]
@@ -275,7 +271,6 @@ class Figure(Image):
 
     @property
     def picture_size(self) -> tuple[int, int]:
-        """Width and height of the picture in pixels, with the color bar."""
         height, width = self.shape[:2]
         options = self._staged.options
         if not options.colorbar or self.legend is None:
@@ -305,7 +300,6 @@ class Figure(Image):
         return quantised(pixels, dtype)
 
     def _strip(self, height: int, background: Doubles | None, ink: str) -> Doubles:
-        """The legend on the background, for the right of the picture."""
         width = self.picture_size[0] - self.shape[1]
         words = raster(self.legend, height, ink)[:height, :width]
         strip = np.zeros((height, width, 4))
@@ -362,7 +356,6 @@ def _background(background: Any) -> tuple[Doubles | None, str]:
 
 
 def _strip_width(words: Doubles, height: int) -> int:
-    """Columns of pixels that the legend takes at the right of the picture."""
     return words.shape[1] + 2 * max(8, round(0.025 * height))
 
 
@@ -370,7 +363,6 @@ P = ParamSpec("P")
 
 
 def _with_keywords(make: Callable[P, Options]) -> Callable[Concatenate[Any, P], Figure]:
-    """Makes a function of data and options into one of data and keywords."""
     def figure(data: Any, /, *args: P.args, **keywords: P.kwargs) -> Figure:
         options = make(*args, **keywords)
         staged = Staged.of(load(data, frame=options.frame, model_number=options.model_number, **options.reading), options)

@@ -25,7 +25,6 @@ def encode_jpeg(pixels: npt.NDArray[np.uint8]) -> bytes:
 
 
 def write_scene(path: Path, scene: Scene, camera: Camera, size: tuple[int, int], options: Options) -> None:
-    """A scene file of the program pt, and beside it NPY files of its particles' columns."""
     format_of(path, ("json",))
     place = pathlib.Path(path)
     items: list[dict[str, Any]] = []
@@ -36,7 +35,7 @@ def write_scene(path: Path, scene: Scene, camera: Camera, size: tuple[int, int],
         for name in ("center", "end", "radius", "color", "opacity"):
             column = getattr(array, name)
             if column is not None and name in ("radius", "opacity") and not column.strides[0]:
-                item[name] = float(column[0])  # the same for all
+                item[name] = float(column[0])
             elif column is not None:
                 file = place.with_name(f"{place.stem}-{kind}{name}.npy")
                 item[name] = file.name

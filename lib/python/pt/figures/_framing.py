@@ -59,7 +59,6 @@ def drawn_cell(particles: Particles, box: str, positions: Array, radii: Array, n
 
 
 def _count_outside(cell: Cell, positions: Array) -> int:
-    """How many particles are outside of a cell along its periodic edges."""
     count = 0
     for rows in chunks(len(positions)):
         outside = np.abs((positions[rows] - cell.origin) @ cell.inverse - 0.5) > 0.5 + WALL
@@ -68,7 +67,6 @@ def _count_outside(cell: Cell, positions: Array) -> int:
 
 
 def _hides(cell: Cell, positions: Array, radii: Array) -> bool:
-    """Whether a picture with the cell would show little of the particles, or of both."""
     corners, middle = cell_corners(cell), middle_of(positions)
     reach, half = float(reaches_of(positions, radii).max()), 0.5 * float(np.ptp(corners, axis=0).max())
     whole = float(np.abs(corners - middle).max())

@@ -50,7 +50,6 @@ class View:
 
     @staticmethod
     def through(camera: Camera, up: Direction, size: tuple[int, int], scale: float) -> View:
-        """Through a given camera, in the units of the data."""
         right, above, back = camera.axes()
         return View(Compass.of(up_vector(up)), np.array([right, above, -back]), size, "",
                     camera=camera._scaled(scale))
@@ -75,7 +74,6 @@ class View:
         return View(compass, axes, size, projection, spin)
 
     def turned(self, angle: float) -> View:
-        """The view of a turntable's camera turned by an angle in radians."""
         assert self.spin is not None
         return replace(self, axes=self.axes @ _rotation(self.spin.axis, angle).T)
 
@@ -121,7 +119,7 @@ class Layout:
         elif view.projection == "orthographic":
             aspect = view.size[0] / view.size[1]
             height = float(max(extents.size[1], extents.size[0] / aspect)) / (1.0 - 2.0 * MARGIN)
-            distance = float(extents.size[2]) + height  # before all balls
+            distance = float(extents.size[2]) + height
             position = center - distance * forward
             camera = Camera(position, position + distance * forward, axes[1], vertical_extent=height)
         else:

@@ -17,12 +17,10 @@ POINTS_PER_INCH: Final = 72.0
 
 
 def _matplotlib(part: str = "") -> Any:
-    """Imported on first need, because that is slow."""
     return module(f"matplotlib.{part}".rstrip("."), "a legend")
 
 
 def _plain(text: str) -> str:
-    """Text that matplotlib does not take for TeX."""
     return text.replace("$", r"\$")
 
 
@@ -53,7 +51,7 @@ def _draw_swatches(sheet: Any, swatches: Swatches, height: float, font: float, i
     line = _matplotlib("lines").Line2D
     dots = [line([], [], linestyle="none", marker="o", markersize=0.9 * font, markerfacecolor=color / 255.0,
                  markeredgecolor=ink, markeredgewidth=font / 20.0) for color in swatches.colors]
-    rows = max(int(1.45 * height * POINTS_PER_INCH / (1.6 * font)) - 2, 1)  # in nearly all of the picture's height
+    rows = max(int(1.45 * height * POINTS_PER_INCH / (1.6 * font)) - 2, 1)
     sheet.legend(dots, [_plain(name) for name in swatches.names], title=swatches.title, loc="center left",
                  bbox_to_anchor=(0.0, 0.5), ncols=math.ceil(len(dots) / rows), frameon=False, handletextpad=0.2,
                  borderpad=0.0, borderaxespad=0.0, alignment="left")

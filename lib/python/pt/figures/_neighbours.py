@@ -49,7 +49,6 @@ def pairs_within(positions: Array, cutoff: float, cell: Cell | None, radii: Arra
         if cell is None:
             found.append((one, other, squares))
         else:
-            # An image is met from both sides.
             inner, outer = np.minimum(one, other), np.maximum(one, other)
             steps = shifts[outer] - shifts[inner]
             once = _is_first(inner, sources[outer], steps) | (outer < count)
@@ -64,7 +63,7 @@ def pairs_within(positions: Array, cutoff: float, cell: Cell | None, radii: Arra
 
 def _is_first(first: Array, second: Array, steps: Array) -> Array:
     """Whether a pair is to be taken in this order; in the other one its steps are the opposite."""
-    ahead = np.sign(steps) @ (9, 3, 1)  # the sign of the first step that is not 0
+    ahead = np.sign(steps) @ (9, 3, 1)
     result: Array = (first < second) | ((first == second) & (ahead > 0))
     return result
 
@@ -101,7 +100,7 @@ def _candidates(places: Array, cutoff: float) -> Iterator[tuple[Array, Array]]:
     keys = (cells[:, 0] * columns + cells[:, 1]) * layers + cells[:, 2]
     order = np.argsort(keys, kind="stable")
     ordered = keys[order]
-    different, starts = np.unique(ordered, return_index=True)  # cells that are not empty
+    different, starts = np.unique(ordered, return_index=True)
     sizes = np.diff(starts, append=len(ordered))
     cell_of = np.repeat(np.arange(len(different)), sizes)
 
@@ -109,7 +108,7 @@ def _candidates(places: Array, cutoff: float) -> Iterator[tuple[Array, Array]]:
         edges = np.append(starts, len(ordered))
         return edges[np.searchsorted(different, least, "left")], edges[np.searchsorted(different, most, "right")]
 
-    reaches = [(np.arange(1, len(ordered) + 1), bounds(different, different + 1)[1][cell_of])]  # the rest of this row
+    reaches = [(np.arange(1, len(ordered) + 1), bounds(different, different + 1)[1][cell_of])]
     for row, column in AHEAD:
         middle = different + (row * columns + column) * layers
         begin, end = bounds(middle - 1, middle + 1)

@@ -27,7 +27,7 @@ Columns: TypeAlias = "Mapping[str, str] | str | None"
 
 VIEWS: Final = ("three-quarter", "front", "back", "left", "right", "top", "bottom")
 SAMPLES: Final = 128
-MOST_SAMPLES: Final = 65536  # with a target error
+MOST_SAMPLES: Final = 65536
 
 
 def _option(group: str, default: Any, metavar: str, words: str, **more: Any) -> Any:
@@ -160,7 +160,6 @@ class Options:
 
     @property
     def reading(self) -> dict[str, Any]:
-        """The options for load() and frames(), except which frames."""
         return {name: getattr(self, name) for name in ("columns", "format", "topology", "atom_style", "drop_nonfinite")}
 
     @property
@@ -177,12 +176,10 @@ class Options:
 
     @property
     def most_samples(self) -> int:
-        """The most samples that a pixel gets."""
         return self.samples or (SAMPLES if self.error is None else MOST_SAMPLES)
 
 
 def described() -> str:
-    """For a docstring."""
     return "\n".join(_paragraph(each) for each in fields(Options))
 
 

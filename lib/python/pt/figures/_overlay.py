@@ -17,7 +17,7 @@ from pt._fit import Array, Doubles
 
 PER_SIDE: Final = 4  # rays along each side of a pixel
 MOST_PER_SIDE: Final = 32  # then random shares are within 0.016, a standard deviation
-MOST_RAYS: Final = 2**32 - 1  # the most pixels of the library's images
+MOST_RAYS: Final = 2**32 - 1
 BAND_ROWS: Final = 32  # so few that their hits take less device memory than the picture
 LEAST_STEP: Final = 0.1  # depth behind an outline, relative to the radius: less has no outline
 LEAST_RADIUS: Final = 2.5  # of a ball with an outline, in line widths: smaller ones would be all outline
@@ -25,8 +25,6 @@ LEAST_RADIUS: Final = 2.5  # of a ball with an outline, in line widths: smaller 
 
 @dataclass(frozen=True)
 class Shares:
-    """Shares of each pixel, shape (height, width), from 0 to 1."""
-
     shapes: Doubles
     outlines: Doubles
 
@@ -78,7 +76,7 @@ def read_shares(context: Context, camera: Camera, settings: RenderSettings, over
 
 def _share(hits: Array, per_side: int) -> Doubles:
     counts: Any = hits.view(np.uint8)
-    rows: Any = sum(counts[i::per_side] for i in range(per_side))  # NumPy is slow along short axes
+    rows: Any = sum(counts[i::per_side] for i in range(per_side))
     rows = rows.astype(np.uint16)
     cells: Doubles = sum(rows[:, i::per_side] for i in range(per_side)) / per_side**2
     return cells

@@ -28,7 +28,6 @@ STEPS: Final = np.indices((3, 3, 3)).reshape(3, 1, 27) - 1
 
 
 def column(particles: Particles, name: str) -> Array:
-    """A column by name; "radius", "type" and "element" also by meaning."""
     known = {"radius": particles.radii, "type": particles.types, "element": particles.elements}
     values = known.get(name) if name not in particles.columns else None
     if values is None:
@@ -147,7 +146,6 @@ def _seen(typical: float, positions: Array, notes: list[str]) -> float:
 
 
 def _of_elements(particles: Particles, numbers: npt.NDArray[np.uint8], kind: str, notes: list[str]) -> Array:
-    """Unknown elements have the mean of the known ones."""
     table = (elements.COVALENT_RADII if kind == "covalent" else elements.VAN_DER_WAALS_RADII).astype(np.float32)
     there = np.flatnonzero(np.bincount(numbers, minlength=len(table)))
     known = there[table[there] > 0]
@@ -200,7 +198,7 @@ def _neighbour_distances(positions: Array) -> tuple[Array, Array]:
     places = positions[::-(-count // PROBES)].astype(np.float64)
     side = float(np.prod(extent[broad]) * IN_CELL / count) ** (1.0 / int(broad.sum()))
     if count <= 27 * IN_CELL:
-        side = 2.0 * float(extent.max())  # then all are neighbours
+        side = 2.0 * float(extent.max())
     sample = positions[::max(count // 50_000, 1)]
     for _ in range(8):  # clusters need smaller cells, since their box is nearly empty
         _, begin, end = _near(sample, places, low, side)
@@ -242,7 +240,6 @@ def _near(positions: Array, places: Doubles, low: Doubles, side: float) -> tuple
 
 
 def _cells(positions: Array, low: Doubles, side: float) -> Array:
-    """Shape (3, n)."""
     cells: Array = np.floor((coordinates(positions) - low[:, None]) / side).astype(np.int64)
     return cells
 

@@ -36,12 +36,11 @@ _ONE_LETTER: Final = frozenset("HCNOPSFBID")
 _POLYMERS: Final = frozenset("HCNOPSD")
 _AUTODOCK: Final = {"A": 6, "OA": 8, "NA": 7, "SA": 16, "HD": 1, "HS": 1, "NS": 7, "OS": 8, "G": 6, "GA": 6, "J": 6, "Q": 6,
                     "Z": 6, "CG0": 6, "CG1": 6, "G0": VIRTUAL, "G1": VIRTUAL, "W": VIRTUAL}
-_SITE: Final = re.compile(r"(M|MW|EP|EPW|EP\d|LP[A-Z]?|L\d?|OM|MP|IW|XX|DUM|VS|VW)\d*")  # in a water
+_SITE: Final = re.compile(r"(M|MW|EP|EPW|EP\d|LP[A-Z]?|L\d?|OM|MP|IW|XX|DUM|VS|VW)\d*")
 _ANYWHERE: Final = re.compile(r"(MW|EPW?|LP[A-Z]?|DUM|DU)\d*")
 
 
 def element_of(name: str, residue: str) -> int:
-    """An atomic number, 0 if unknown, or VIRTUAL."""
     letters = re.sub(r"[^A-Za-z]", "", name)
     capitals, kind = letters.upper(), re.sub(r"[-+\d]", "", residue).upper()
     if not letters:
@@ -111,7 +110,6 @@ def elements_by_residue(names: Array, residues: Array, wanted: Array | None = No
     elements[slice(None) if wanted is None else wanted] = numbers[codes.reshape(-1)]
     notes = []
     if len(numbers) and (numbers != VIRTUAL).any():
-        # Names easily taken for others.
         odd = [f"{value.removesuffix(' of ')} is {SYMBOLS[number]}"
                for value, (name, *_), number in zip(values.tolist(), split, numbers.tolist())
                if 0 < number < VIRTUAL and len(name) > 1 and name[:2].upper() in _NUMBERS]

@@ -37,7 +37,6 @@ class Rods:
     starts: Doubles | None = None
 
     def among(self, shown: Array) -> Rods:
-        """Keeps rods of shown particles, with the new indices."""
         kept = shown[self.atoms] & shown[self.others]
         index = np.cumsum(shown) - 1
         return replace(self, atoms=index[self.atoms[kept]], others=index[self.others[kept]], ways=self.ways[kept],
@@ -49,7 +48,6 @@ class Rods:
 
 
 def vectors_of(particles: Particles, given: Vectors, scale: float | None, radii: Array) -> tuple[Rods, float]:
-    """Vectors, and their scale: 0 if it is not given and all are 0."""
     if isinstance(given, str):
         names = components(particles, given)
         if len(names) != 3:

@@ -33,7 +33,6 @@ def frames(read: Callable[[], Iterator[Particles]], options: Options, trails: in
 
 
 def _common(trajectory: Iterator[Particles], options: Options) -> tuple[Options, View, Doubles, float]:
-    """The options shared by all frames, their view, reaches and scale."""
     view: View | None = None
     reaches: Doubles | None = None
     scale: float | None = None

@@ -9,12 +9,11 @@ import numpy as np
 from pt._fit import Array, Doubles, chunks, coordinates
 
 FEW: Final = 0.005  # share of the farthest balls that do not count; of fewer balls, one
-LEAST_COUNT: Final = 5  # from which on one does not count
-SAMPLE: Final = 100_000  # particles that decide the middle
+LEAST_COUNT: Final = 5
+SAMPLE: Final = 100_000
 
 
 def middle_of(positions: Array) -> Doubles:
-    """The median along each axis."""
     middle: Doubles = np.median(positions[::max(len(positions) // SAMPLE, 1)], axis=0).astype(np.float64)
     return middle
 
@@ -29,7 +28,6 @@ def reaches_of(positions: Array, radii: Array) -> Doubles:
 
 
 def usual_reach(reaches: Doubles) -> float:
-    """How far all but the few farthest balls reach."""
     count = len(reaches)
     last = count - 1 - (max(int(FEW * count), 1) if count >= LEAST_COUNT else 0)
     return float(np.partition(reaches, last)[last])

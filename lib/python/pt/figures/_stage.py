@@ -17,14 +17,14 @@ KEY_HALF_ANGLE: Final = math.radians(14.0)  # shadows as soft as of a window see
 KEY_AZIMUTH: Final = math.radians(-35.0)  # chosen by eye: shapes show best, and shadows fall where there is room
 KEY_ELEVATION: Final = math.radians(40.0)
 FLOOR: Final = Material(diffuse=0.8)
-EDGES: Final = Material(diffuse=0.09)  # of the cell
+EDGES: Final = Material(diffuse=0.09)
 FLOOR_GAP: Final = 1e-4  # relative to the radius: touching the floor, roundings would decide which is in front
 
 
 @dataclass(frozen=True)
 class Stage:
-    """lamps the surround, an evenly shining sphere around everything, and the key, a large lamp far behind the camera's
-    left shoulder
+    """lamps      the surround, an evenly shining sphere around everything, and the key, a large lamp far behind the
+               camera's left shoulder
     floor      white, below everything
     material   of the particles; their colors multiply its diffuse
     """

@@ -33,7 +33,6 @@ def known_residues(particles: Particles) -> Array:
 
 
 def free_ions(particles: Particles) -> Array:
-    """Ions without bonds, shape (n,)."""
     residues = residues_of(particles)
     result: Array = _of_names(particles, is_free_ion) & (np.bincount(residues)[residues] == 1)
     return result
@@ -46,7 +45,6 @@ def _of_names(particles: Particles, rule: Callable[[str], bool]) -> Array:
 
 
 def residues_of(particles: Particles) -> Array:
-    """The number of each particle's residue, in the order of the particles."""
     changes = np.zeros(len(particles), bool)
     for key in ("resname", "resid", "chain", "icode"):
         if key in particles.columns:

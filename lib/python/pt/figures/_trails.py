@@ -38,7 +38,6 @@ def trails_of(particles: Particles, past: Sequence[Particles], radii: Array) -> 
 
 
 def _rows(particles: Particles, frame: Particles) -> Array:
-    """The row of each particle in another frame, by its id if there are ids; -1: none."""
     if "id" not in particles.columns or "id" not in frame.columns:
         if len(particles) != len(frame):
             raise DataError(f"trails: {frame.name}: of {len(frame):,} particles and, later, {len(particles):,}, there must "

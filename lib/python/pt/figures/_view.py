@@ -27,7 +27,6 @@ def unit(vector: Doubles) -> Doubles:
 
 
 def three_numbers(name: str, value: Direction, rule: str) -> Doubles:
-    """A unit vector from three numbers, or from the text "1,-2,0.5"."""
     try:
         numbers = np.array(value.split(",") if isinstance(value, str) else value, np.float64)
     except ValueError:
@@ -38,7 +37,6 @@ def three_numbers(name: str, value: Direction, rule: str) -> Doubles:
 
 
 def up_vector(up: Direction) -> Doubles:
-    """The up vector from "z", "-y" or three numbers."""
     if isinstance(up, str) and up.lstrip("-") in ("x", "y", "z") and len(up) < 3:
         axis = np.zeros(3)
         axis["xyz".index(up[-1])] = -1.0 if up[0] == "-" else 1.0

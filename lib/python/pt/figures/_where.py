@@ -18,7 +18,6 @@ CONDITION: Final = re.compile(r"\s*([^<>=!]+?)\s*(<=|>=|==|!=|<|>)\s*([^<>=!\s]+
 
 
 def holds(particles: Particles, condition: str) -> npt.NDArray[np.bool_]:
-    """Whether a condition such as "z < 5" or "element != H" holds, for each particle."""
     found = CONDITION.fullmatch(condition)
     if found is None:
         raise ValueError(f"where = {condition!r}: must be a column, one of {', '.join(COMPARISONS)}, and a number or, "

@@ -40,7 +40,6 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def scene_file(found: TachyonScene) -> dict[str, Any]:
-    """The sections of a scene file, ready for JSON."""
     materials: dict[str, Material] = {f"texture {index}": each for index, each in enumerate(found.scene.materials)}
     names = {each: name for name, each in materials.items()}
     spheres: list[dict[str, Any]] = []

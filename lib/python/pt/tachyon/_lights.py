@@ -14,7 +14,7 @@ FloatArray = npt.NDArray[np.float64]
 
 DEFAULT_RADIUS = 1 / 50  # of a light without a radius, relative to its distance
 LEAST_RADIUS = 1e-6  # relative to the extent: a smaller lamp counts as on a surface
-SUN_DISTANCE = 100.0  # relative to the extent of the scene
+SUN_DISTANCE = 100.0
 LEAST_SHARE = 1 / 3  # of lights before a bright background, so that shapes keep a lit side; by taste
 
 
@@ -43,7 +43,6 @@ class Surroundings:
     target: FloatArray  # (3,)
 
     def clearance(self, point: FloatArray) -> float:
-        """The distance from the point to the nearest surface."""
         ways = self.ends - self.centers
         squares = np.maximum((ways * ways).sum(axis=1), np.finfo(np.float64).tiny)
         shares = np.clip(((point - self.centers) * ways).sum(axis=1) / squares, 0.0, 1.0)

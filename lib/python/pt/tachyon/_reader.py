@@ -82,19 +82,19 @@ class _Reader:
     def __init__(self, words: Words, leaves_out_others: bool) -> None:
         self.words = words
         self.leaves_out_others = leaves_out_others
-        self.left_out: dict[str, str] = {}  # by keyword, each once
+        self.left_out: dict[str, str] = {}
         self.others: Counter[str] = Counter()
         self.textures = Textures(words, self.left_out)
         self.background: Triple = (0.0, 0.0, 0.0)
         self.spheres: list[tuple[float, float, float, float]] = []
         self.sphere_materials: list[int] = []
-        self.capsules: list[tuple[float, ...]] = []  # both ends and the radius
+        self.capsules: list[tuple[float, ...]] = []
         self.capsule_materials: list[int] = []
         self.planes: list[Plane] = []
         self.lights: list[Light] = []
         self.camera: dict[str, Triple] = {}
         self.vertical_fov: float | None = None
-        self.vertical_extent: float | None = None  # of parallel rays
+        self.vertical_extent: float | None = None
 
     def read(self) -> TachyonScene:
         self.words.expect("BEGIN_SCENE", "RESOLUTION")
@@ -152,7 +152,7 @@ class _Reader:
         elif keyword == "LIGHT":
             self.lights.append(self.light())
         elif keyword == "DIRECTIONAL_LIGHT":
-            place, (x, y, z) = words.place(), words.direction("DIRECTION")  # in which the light travels
+            place, (x, y, z) = words.place(), words.direction("DIRECTION")
             words.expect("COLOR")
             self.lights.append(Light(place, words.color("COLOR"), (-x, -y, -z), is_directional=True))
         elif keyword == "CAMERA":
@@ -161,7 +161,7 @@ class _Reader:
             self.background = words.color("BACKGROUND")
         elif keyword == "FOG":
             self.fog()
-        elif keyword == "SHADER_MODE":  # light is found otherwise here
+        elif keyword == "SHADER_MODE":
             while (word := words.keyword("END_SHADER_MODE")) != "END_SHADER_MODE":
                 if word == "AMBIENT_OCCLUSION":
                     self.left_out[word] = f"{words.place()}: {word}: its light from all sides is left out"
@@ -254,7 +254,7 @@ class _Reader:
         middle."""
         left, right, bottom, top = (self.words.number("FRUSTUM") for _ in range(4))
         height, width = top - bottom, right - left
-        tolerance = 1e-4 * height  # the digits of files
+        tolerance = 1e-4 * height
         if not (height > 0.0 and abs(width - self.aspect * height) <= self.aspect * tolerance and
                 abs(left + right) <= tolerance and abs(bottom + top) <= tolerance):
             self.words.refuse("FRUSTUM: must be even about the middle, and of square pixels")

@@ -33,7 +33,6 @@ class Textures:
         self._named[name] = self._find(self._words.word("the name of a texture"))
 
     def reference(self) -> int:
-        """Reads a shape's material, TEXTURE with a definition or a name, and returns its index."""
         name = self._words.word("a texture")
         return self._body() if name.upper() == "TEXTURE" else self._find(name)
 

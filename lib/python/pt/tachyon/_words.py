@@ -18,9 +18,9 @@ class Words:
         self._lines: Iterator[str] = iter(lines)
         self._name = name
         self._row: list[str] = []
-        self._next = 0  # place in the row
+        self._next = 0
         self._row_line = 0
-        self._line = 1  # of the last word that was taken
+        self._line = 1
 
     @property
     def line(self) -> int:
@@ -81,7 +81,6 @@ class Words:
         return value
 
     def named(self, keyword: str, *, least: float = -math.inf, positive: bool = False) -> float:
-        """The keyword, and the number behind it."""
         self.expect(keyword)
         return self.number(keyword, least=least, positive=positive)
 
@@ -92,7 +91,6 @@ class Words:
         return int(value)
 
     def vector(self, keyword: str) -> Triple:
-        """The keyword, and a point or direction behind it."""
         self.expect(keyword)
         return self.point(keyword)
 

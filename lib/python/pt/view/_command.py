@@ -99,7 +99,6 @@ def open_browser(address: str) -> IO[str]:
 
 
 def widen_vectors() -> None:
-    """As cli/base/environment.cpp does: the program's bits and speed."""
     try:
         flags = pathlib.Path("/proc/cpuinfo").read_text()
     except OSError:

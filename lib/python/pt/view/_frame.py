@@ -60,7 +60,6 @@ def name_of(member: Any) -> str:
     return name
 
 
-# The page's menus.
 CHOICES: Final = {"layer": list(LAYERS), **{name: [name_of(each) for each in kinds] for name, kinds in METHODS.items()}}
 
 

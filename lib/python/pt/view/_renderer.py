@@ -22,7 +22,7 @@ from pt.view._source import Shown, Source
 MOVING_SECONDS: Final = 0.03  # for a sample of each pixel, while the camera moves
 STILL_SECONDS: Final = 0.25  # after the last move
 PUBLISHED_SHARE: Final = 0.03  # of the time
-LOOK_SECONDS: Final = 0.5  # from one look at the files to the next
+LOOK_SECONDS: Final = 0.5
 SHADERS: Final = (".comp", ".glsl", ".h")
 
 
@@ -43,7 +43,7 @@ class Renderer:
         self._playing, self._moving, self._layer = True, False, "mean"
         self._seconds = self._rate = self._next_publish = self._next_look = self._still = 0.0
         self._scale, self._count, self._shape, self._cost = 1, 0, (0, 0), math.inf
-        self._revision = 0  # counts changes of files
+        self._revision = 0
         self._condition = threading.Condition()
         self._changes: dict[str, Any] = {}
         self._is_watched = self._is_closed = False
@@ -65,7 +65,6 @@ class Renderer:
             self._condition.notify()
 
     def watch(self, is_watched: bool) -> None:
-        """Whether anybody sees the frames."""
         with self._condition:
             self._is_watched = is_watched
             self._condition.notify()
@@ -137,7 +136,6 @@ class Renderer:
             self._publish()
 
     def _take(self, changes: dict[str, Any]) -> bool:
-        """Takes over changes; returns whether the picture begins anew."""
         self._playing = changes.get("playing", self._playing)
         self._layer = changes.get("layer", self._layer)
         width, height = changes.get("size", (self._settings.width, self._settings.height))
@@ -179,7 +177,7 @@ class Renderer:
             self._rate = pixels / (now - begin)
         if self._count and (now >= self._next_publish or self._count >= self._most):
             self._publish()
-            self._cost = min(time.monotonic() - now, self._cost)  # the first frame may have waited for kernels
+            self._cost = min(time.monotonic() - now, self._cost)
             pause = min(max(self._cost / PUBLISHED_SHARE, min(self._seconds / 10, 2.0)), self._seconds)
             pause = 0.0 if self._moving else max(pause, 0.1)
             self._next_publish = time.monotonic() + pause
@@ -187,7 +185,6 @@ class Renderer:
     # Files.
 
     def _look(self) -> dict[pathlib.Path, tuple[int, int]]:
-        """Size and time of each file."""
         files = [*self._shown.files, *(self._shader_dir.glob("*") if self._shader_dir else ())]
         found = {}
         for path in files:
@@ -285,7 +282,6 @@ class Renderer:
         return depth if math.isfinite(depth) else None
 
     def _remember(self, estimate: ErrorEstimate) -> None:
-        """Adds a point to the curve; a long curve keeps every other one."""
         if math.isfinite(estimate.relative_rmse_high):
             self._history.append([self._seconds, estimate.relative_rmse, estimate.relative_rmse_low,
                                   estimate.relative_rmse_high])

@@ -26,7 +26,7 @@ PAGE: Final = {path.name: path.read_bytes() for path in pathlib.Path(__file__).w
                if path.suffix in (".html", ".css", ".js")}
 TYPES: Final = {".html": "text/html", ".css": "text/css", ".js": "text/javascript"}
 MOST_SOCKETS: Final = 16
-MOST_BYTES: Final = 2**20  # of a message: the text of a file
+MOST_BYTES: Final = 2**20
 MOST_PIXELS: Final = 2**24
 IDLE_SECONDS: Final = 10.0  # without a page until the view counts as unwatched
 NAMES: Final = r"(?:127\.0\.0\.1|localhost|\[::1\])(?::\d{1,5})?"  # of a host; at the other end of a tunnel the port differs
@@ -118,7 +118,6 @@ class Server:
         return web.Response(body=PAGE[name], content_type=TYPES[pathlib.PurePath(name).suffix], charset="utf-8")
 
     async def _exr(self, _: web.Request) -> web.StreamResponse:
-        """The mean radiance of the frame that was published last."""
         assert self.show
         if not self.show.frame.values:
             raise web.HTTPNotFound
@@ -177,10 +176,9 @@ class Server:
                 pixels = frame.pixels
                 await connection.send_bytes(frame.message(is_new))
         except ConnectionError:
-            pass  # the page is closed
+            pass
 
     async def _answer(self, connection: web.WebSocketResponse, text: str, wanted: asyncio.Event) -> None:
-        """Does what a message asks for, or reports its fault."""
         assert self.show
         try:
             message = json.loads(text)
@@ -216,7 +214,6 @@ class Server:
 
 
 async def _add_headers(_: web.Request, response: web.StreamResponse) -> None:
-    """Adds headers to every answer, also to refusals."""
     response.headers.update(HEADERS)
 
 

@@ -51,8 +51,6 @@ class Source(Protocol):
 
 
 class SceneSource:
-    """A scene file, which the program pt reads."""
-
     def __init__(self, path: pathlib.Path) -> None:
         self.path = path.resolve()
 
@@ -75,7 +73,6 @@ class SceneSource:
         return str(error).replace(f"{self.path.parent}/", "")
 
     def saved(self, camera: Camera) -> tuple[str, bytes]:
-        """The text of the file with another section for the camera."""
         with open(self.path, encoding="utf-8", opener=regular) as file:
             text = file.read()
         comments = r"//[^\n]*|/\*.*?\*/"
@@ -90,8 +87,6 @@ class SceneSource:
 
 
 class FigureSource:
-    """Particles, as pt figure shows them."""
-
     def __init__(self, path: pathlib.Path, options: Options) -> None:
         self.path, self.options = path.resolve(), options
         self.staged: Staged | None = None
@@ -120,7 +115,6 @@ class FigureSource:
 
 
 def source_of(path: pathlib.Path, options: Options) -> Source | Film:
-    """Reads .json as a scene, .ptfilm as a film, anything else as particles."""
     if path.suffix == ".ptfilm":
         return Film.load(path)
     return SceneSource(path) if path.suffix == ".json" else FigureSource(path, options)

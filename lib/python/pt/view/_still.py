@@ -10,8 +10,6 @@ from pt.view._frame import LAYERS, OF_SAMPLES, Frame, facts_of, name_of
 
 
 class Still:
-    """Renderer's counterpart for a film."""
-
     def __init__(self, film: Film, name: str, published: Callable[[Frame], None]) -> None:
         self._published = published
         self._values = tuple(film.readback(quantity) for quantity in list(LAYERS.values())[:OF_SAMPLES])

@@ -5,7 +5,6 @@ const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 const unit = a => a.map(value => value / Math.hypot(...a));
 
-// Unit vectors to the right, up and forward in the picture.
 function axes(camera) {
   const forward = unit(add(camera.look_at, camera.position, -1));
   const right = unit(cross(forward, camera.up));
@@ -25,8 +24,8 @@ export function turnsAbout(camera, depth) {
 export function orbit(camera, toRight, upwards) {
   const up = unit(camera.up);
   const back = add(camera.position, camera.look_at, -1), distance = Math.hypot(...back);
-  const level = unit(cross(up, back)); // to the right
-  const ahead = cross(level, up); // from the camera's axis, level
+  const level = unit(cross(up, back));
+  const ahead = cross(level, up);
   const height = Math.asin(Math.min(Math.max(dot(back, up) / distance, -1), 1));
   const limit = Math.PI / 2 - 0.01;
   const angle = Math.min(Math.max(height + upwards, -limit), limit);

@@ -8,7 +8,6 @@ const keywords = new Set(("attribute break buffer case const continue default di
   "precision restrict return shared struct switch uniform while true false").split(" "));
 const types = /^(void|bool|int|uint|float|double|[biud]?vec[234]|mat[234](x[234])?)$/;
 
-// By words; comments may span lines.
 const language = StreamLanguage.define({
   startState: () => ({inComment: false}),
   token(stream, state) {
@@ -64,7 +63,7 @@ export class Editor {
     this.saved = "";
     this.view = new EditorView({parent: $("text"), state: this.stateOf("")});
     $("file").replaceChildren(...names.map(name => new Option(name)));
-    const last = decodeURIComponent(location.hash.slice(1)); // before the page was loaded again
+    const last = decodeURIComponent(location.hash.slice(1));
     $("file").value = [last, "phong.glsl", names[0]].find(name => this.has(name));
     $("file").addEventListener("change", () => this.choose($("file").value));
     $("keep").addEventListener("click", () => this.keep());

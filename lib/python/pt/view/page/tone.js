@@ -78,7 +78,6 @@ export function toBytes(radiance, {exposure, curve, gamma}) {
   return bytes;
 }
 
-// As automatic_exposure() of pt.
 export function automaticExposure(radiance) {
   const means = [];
   for (let i = 0; i < radiance.length; i += 3) {

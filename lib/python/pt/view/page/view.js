@@ -5,11 +5,11 @@ import {automaticExposure, curves, layerBytes, toBytes} from "./tone.js";
 const $ = id => document.getElementById(id);
 
 let socket, editor;
-let state = {};   // as sent with the last frame
+let state = {};
 let pixels;       // Float32Array of RGB, of the layer
 let display;      // exposure (a number), automatic, curve, gamma (0: the sRGB curve)
 let camera;       // at the server, or on its way there
-let pointer;      // the pixel under it
+let pointer;
 let asks = false; // an answer about a pixel is outstanding
 
 function send(message) {
@@ -93,7 +93,6 @@ function tell() {
   chart();
 }
 
-// Not while it is being typed.
 function show(input, value) {
   if (document.activeElement !== input)
     input.value = value;
@@ -103,7 +102,6 @@ const rounded = value => Array.isArray(value) ? value.map(rounded) : typeof valu
 const line = section => `"camera": ${JSON.stringify(Object.fromEntries(Object.entries(section).map(
   ([name, value]) => [name, rounded(value)])))}`;
 
-// Error against seconds, both logarithmic, with its bounds as a band.
 function chart() {
   const points = state.history.filter(point => point[0] > 0 && point[1] > 0);
   const box = {left: 48, right: 252, top: 8, bottom: 100};
@@ -246,7 +244,6 @@ function watchKeys() {
 const play = () => send({playing: !state.playing});
 const back = () => move(state.first_camera);
 
-// Fills the menus from the first frame.
 function begin() {
   document.title = $("name").textContent = state.name;
   const {exposure, tonemap, gamma} = state.display;
