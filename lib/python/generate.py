@@ -1,8 +1,8 @@
 """Generates from the headers: structs and enumerations in Python (pt/_structs.py, pt/_enums.py), the kernels' numbers
 (shaders/enumerations.h), and the program's names of values (cli/base/enumerations.h).
 
-python3 lib/python/generate.py [HEADERS [ROOT]]; by default this tree's. The files are committed: the package is
-installed without headers and build."""
+python3 lib/python/generate.py [HEADERS [ROOT]]; the package is installed without headers, so the files are committed.
+"""
 
 import pathlib
 import re
@@ -30,7 +30,7 @@ ENUMERATIONS = (
                                  "first four."),
 )
 
-# Enumerations with names in the program (its table, and the separator of words), and the kernels' ones.
+# Enumerations with names in the program (its table, and the separator of words).
 OF_PROGRAM = {"PT_SAMPLER_": ("samplers", "-"), "PT_SAMPLING_": ("samplings", "-"), "PT_ESTIMATOR_": ("estimators", "-"),
               "PT_PROJECTION_": ("projections", "-"), "PT_FEATURE_": ("features", "_"),
               "PT_UNCERTAIN_": ("uncertainties", "_")}
@@ -46,7 +46,7 @@ def without_comments(text):
 
 
 def python_type(declared, known):
-    """The ctypes type of a declared C type. known: the structs so far; pointers to others are handles."""
+    """known: the structs so far; pointers to others are handles."""
     kind, bracket, count = declared.removeprefix("const ").partition("[")
     if bracket:
         return f"{NUMBERS[kind.strip()]} * {count[:-1]}"
@@ -88,7 +88,7 @@ def structs_text(headers):
 
 
 def first_words(comment):
-    """The comment up to the first break in its sentence."""
+    """The comment up to the first break."""
     return re.split(r"[:;.](?:\s|$)", " ".join(comment.replace("*", " ").split()))[0]
 
 
@@ -137,7 +137,7 @@ def program_text(headers):
 
 
 def files_of(headers):
-    """path -> text of each file; headers: text by name."""
+    """path -> text; headers: text by name."""
     ordered = [headers["pt.h"], *(text for name, text in sorted(headers.items()) if name not in ("pt.h", "vulkan.h"))]
     return {"lib/python/pt/_structs.py": structs_text(ordered), "lib/python/pt/_enums.py": enums_text(ordered),
             "shaders/enumerations.h": kernel_text(ordered), "cli/base/enumerations.h": program_text(ordered)}

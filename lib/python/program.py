@@ -1,6 +1,6 @@
 #!python
-"""A wheel's command pt: becomes the package's program without importing the package and NumPy. Finds pt-figure and
-others beside itself, even outside the PATH."""
+"""A wheel's command pt: becomes the package's program without importing NumPy. Finds pt-figure and others beside
+itself."""
 import importlib.util
 import os
 import sys

@@ -1,10 +1,8 @@
-"""A notebook's cells as a script: a box of particles, from a simulation's arrays to pictures and a film.
+"""A notebook's cells as a script: from a simulation's arrays to pictures and a film.
 
-    python3 particles.py [COUNT [WIDTH]]
+    python3 particles.py [COUNT [WIDTH]]"""
 
-Pictures and films go into the working folder."""
-
-# %% A simulation's particles: one record each, half of them warm.
+# %% A simulation's particles, half of them warm.
 
 import pickle
 import sys
@@ -49,7 +47,7 @@ lit = context.render(scene, camera, pt.RenderSettings(*SIZE), samples=256, targe
 lit.save("lamp.png")
 print(f"\n{lit}")
 
-# %% Half of the samples here and half elsewhere: films add up, bit by bit.
+# %% Half of the samples here and half elsewhere: films add up.
 
 halves = []
 for first in 0, 8:

@@ -9,7 +9,7 @@ A Context takes a Scene, a Camera and RenderSettings, accumulates samples and re
 World: right-handed, lengths in scene units, angles in radians, time in [0, 1]. Color is linear RGB radiance, unclamped.
 Row 0 of an image is the top row.
 
-The library is the file that PT_LIBRARY names, else the one installed with the package, else the system's libpt.so.0.3.
+Library: PT_LIBRARY, else the one installed with the package, else the system's libpt.so.0.3.
 """
 
 import importlib
@@ -31,7 +31,7 @@ from pt._library import library, version_text
 from pt._scene import Material, Plane, Scene, Sphere, SphereArray
 from pt._stats import DeviceInfo, ErrorEstimate, Stats, devices
 
-if TYPE_CHECKING:  # imported by __getattr__ on first use, because figures import slowly
+if TYPE_CHECKING:  # imported on first use, because figures import slowly
     from pt._render import render
     from pt.figures import Figure, figure
 

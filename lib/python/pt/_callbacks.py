@@ -1,8 +1,8 @@
 """Python callbacks of the library, and their exceptions.
 
-Signal handlers run between instructions of Python code, so during a call in the library's callbacks. Ctrl-C raises
-KeyboardInterrupt there, often before any `try`, and ctypes passes exceptions to sys.unraisablehook, not through C. A
-CallbackGuard takes them there; the library stops at its next callback, and the call raises the exception.
+Signal handlers run in Python code, so during a call in the library's callbacks, often before any `try`. ctypes passes
+their exceptions to sys.unraisablehook, not through C. A CallbackGuard takes them there; the library stops at its next
+callback, and the call raises the exception.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ Log = Callable[[LogLevel, str], object]
 
 
 class CallbackGuard:
-    """Encloses one call of the library by `with`; afterwards raises the caught exception."""
+    """Encloses one call of the library by `with`, then raises the caught exception."""
 
     def __init__(self) -> None:
         self.error: BaseException | None = None
@@ -54,8 +54,7 @@ class CallbackGuard:
         return structs.pt_progress_fn(report)
 
     def takes(self, function: object, words: str | None) -> bool:
-        """Whether a function that raised belongs to this call. Python 3.13 identifies it only by a text with its
-        address."""
+        """Whether a function that raised belongs to this call. Python 3.13 gives only a text with its address."""
         return any(own is function or (words is not None and repr(own) in words) for own in self._functions)
 
 

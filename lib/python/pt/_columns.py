@@ -25,7 +25,7 @@ def _readable(array: Array) -> bool:
 
 
 def _laid_out(name: str, array: Array, components: int, count: int | None) -> Array:
-    """Shape (count, 3) for three components, (count,) for one; one value for all has stride 0."""
+    """Shape (count, 3) or (count,); one value for all has stride 0."""
     single = (3,) if components == 3 else ()
     if array.shape == single and count is not None:
         return np.broadcast_to(array, (count, *single))
@@ -39,7 +39,7 @@ def _laid_out(name: str, array: Array, components: int, count: int | None) -> Ar
 
 
 def real_column(name: str, values: npt.ArrayLike, components: int, count: int | None) -> Array:
-    """Keeps float32 and float64 of native byte order; copies small floats to float32, other numbers to float64."""
+    """Keeps native float32 and float64; copies small floats to float32, others to float64."""
     array = np.asarray(values)
     if array.dtype.kind not in "fiu":
         raise TypeError(f"{name}.dtype = {array.dtype}: must be of real numbers")

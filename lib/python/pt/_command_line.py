@@ -34,8 +34,7 @@ def at_least(least: float, kind: type) -> Callable[[str], Any]:
 
 
 def misnamed(files: Sequence[tuple[str, Sequence[str]]], source: str) -> tuple[str, int] | None:
-    """Why names of output files are wrong, and the exit code; None if they are good. formats: empty for any. source:
-    the input file."""
+    """Why names of output files are wrong, and the exit code, or None. formats: empty for any."""
     for name, formats in files:
         place = pathlib.Path(name)
         try:
@@ -52,7 +51,7 @@ def misnamed(files: Sequence[tuple[str, Sequence[str]]], source: str) -> tuple[s
 
 
 def numbered(pattern: str, number: int | None) -> str:
-    """Replaces the name's last # signs by the number, if given, like pt render --frames."""
+    """Replaces the name's last # signs by the number, if given."""
     if number is None:
         return pattern
     return re.sub(r"#+(?=[^#]*$)", lambda place: str(number).zfill(len(place.group())), pattern)

@@ -35,11 +35,10 @@ FIRST_SAMPLES: Final = 16  # per image, before the first check of a target error
 def denoise(first: npt.ArrayLike, second: npt.ArrayLike, albedo: npt.ArrayLike, normal: npt.ArrayLike, *,
             library_path: str | os.PathLike[str] | None = None, any_device: bool = False
             ) -> tuple[Pixels, ErrorEstimate]:
-    """A picture without noise, and its error. The result lies between the mean of both and the filtered image, where
-    its error is least.
+    """A picture without noise, and its error. Each pixel lies between the mean of both and the filtered image.
 
     first, second   radiance, shape (height, width, 3): two images that differ in RenderSettings.seed only. Dependent
-                    images, such as parts of one sequence, make the stated error too small
+                    images make the stated error too small
     albedo, normal  Quantity.ALBEDO and NORMAL, of the same shape
     library_path    of Open Image Denoise 2; None: the module pyoidn's, else the system's
     any_device      its own choice of device or OIDN_DEFAULT_DEVICE's, instead of the CPU
@@ -73,8 +72,8 @@ def find_library() -> str | None:
 
 def render_denoised(context: Context, settings: RenderSettings, samples: int, target_error: float,
                     progress: Progress | None) -> Image:
-    """Takes half of the samples with each of two seeds; the context has a scene and a camera. A target error is checked
-    after 16 samples of each, and whenever there are half as many again."""
+    """Takes half of the samples with each of two seeds. A target error is checked after 16 samples of each, and
+    whenever there are half as many again."""
     most = max(samples // 2, 1)
     halves = [settings, replace(settings, seed=settings.seed ^ OTHER_SEED)]
     films: list[Film | None] = [None, None]

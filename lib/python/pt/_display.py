@@ -16,8 +16,8 @@ MOST_STOPS = 64.0
 
 def automatic_exposure(radiance: npt.NDArray[Any]) -> float:
     """The stops that bring the average to middle grey, in hundredths: Reinhard, Stark, Shirley, Ferwerda 2002,
-    "Photographic Tone Reproduction for Digital Images", eqs. 1 and 2, for the mean of the channels. Pixels darker than
-    1/128 of the level have less weight. The level is the mean after clipping values to the mean three times."""
+    "Photographic Tone Reproduction for Digital Images", eqs. 1 and 2, for the mean of the channels. Pixels below 1/128
+    of the level have less weight. The level is the mean after three times clipping values to the mean."""
     means = radiance.astype(np.float64).mean(axis=2)
     means = means[means > 0]
     if not means.size:
@@ -52,8 +52,8 @@ def quantised(signal: npt.NDArray[np.float64], dtype: Any) -> npt.NDArray[Any]:
 
 
 def encode_png(pixels: npt.NDArray[Any]) -> bytes:
-    """An sRGB PNG from pixels of shape (height, width, 3), or 4 with alpha, uint8 or uint16 (W3C, "Portable Network
-    Graphics (PNG) Specification", 2003)."""
+    """Pixels of shape (height, width, 3), or 4 with alpha, uint8 or uint16 (W3C, "Portable Network Graphics (PNG)
+    Specification", 2003)."""
     height, width, channels = pixels.shape
     big_endian = np.ascontiguousarray(pixels, pixels.dtype.newbyteorder(">"))
     unfiltered = np.zeros((height, 1), np.uint8)  # each row begins with its filter: none

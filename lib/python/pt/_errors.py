@@ -29,8 +29,8 @@ class BrokenRule:
 
 
 class Error(Exception):
-    """A failed call, with the library's message. It has changed nothing, except that a lost device stays lost and
-    accumulate may have taken some of its samples."""
+    """A failed call. It has changed nothing, but a lost device stays lost, and accumulate may keep some of its samples.
+    """
 
     result: Result
     broken_rules: tuple[BrokenRule, ...]
@@ -54,7 +54,7 @@ class InvalidSceneError(Error, ValueError):
 
 
 class InvalidStateError(Error, RuntimeError):
-    """Something has to be set or to end first, or another call is running."""
+    """Something has to be set or to end first."""
 
     result = Result.ERROR_INVALID_STATE
 
@@ -76,13 +76,13 @@ class OutOfHostMemoryError(Error, MemoryError):
 
 
 class OutOfDeviceMemoryError(Error, MemoryError):
-    """The device has too little memory left, for instance for this image."""
+    """The device has too little memory left."""
 
     result = Result.ERROR_OUT_OF_DEVICE_MEMORY
 
 
 class DeviceLostError(Error, RuntimeError):
-    """The device or its driver gave up; the context can only be closed."""
+    """The device gave up; the context can only be closed."""
 
     result = Result.ERROR_DEVICE_LOST
 

@@ -16,7 +16,7 @@ PICTURES: Final = ("exr", "png", "jpg", "jpeg")  # endings of the commands' outp
 
 
 def format_of(path: Path, formats: Sequence[str]) -> str:
-    """The lower-case ending of a name without its dot. ValueError: not one of the formats."""
+    """The lower-case ending without its dot. ValueError: none of the formats."""
     ending = pathlib.Path(path).suffix.lower().removeprefix(".")
     if ending not in formats:
         *others, last = (f".{each}" for each in formats)
@@ -25,8 +25,7 @@ def format_of(path: Path, formats: Sequence[str]) -> str:
 
 
 def regular(path: Path, flags: int) -> int:
-    """For open(opener=). A named pipe could wait for its writer for ever, and a device have no end. OSError: not a
-    regular file."""
+    """For open(opener=): a named pipe or a device could have no end. OSError: not a regular file."""
     descriptor = os.open(path, flags | getattr(os, "O_NONBLOCK", 0))
     if stat.S_ISREG(os.fstat(descriptor).st_mode):
         return descriptor
@@ -35,7 +34,7 @@ def regular(path: Path, flags: int) -> int:
 
 
 def write_atomically(path: Path, write: Callable[[BinaryIO], object]) -> None:
-    """Writes to another name in the same folder, then renames; the old file stays until then."""
+    """Writes to another name in the same folder, then renames."""
     place = pathlib.Path(path)
     beside = place.with_name(f".{place.name}.{uuid.uuid4().hex}")
     try:

@@ -21,7 +21,7 @@ def chunks(count: int) -> Iterator[slice]:
 
 
 def coordinates(rows: Array) -> Doubles:
-    """A chunk of rows in shape (3, n): NumPy is slow along an axis of length three."""
+    """Shape (3, n): NumPy is slow along an axis of length three."""
     return rows.T.astype(np.float64, order="C")
 
 
@@ -64,7 +64,7 @@ def reach(centers: Array, radii: Array, axes: Doubles, directions: Doubles, spin
 
 
 def _dot(direction: Doubles, places: Any) -> Doubles:
-    """A dot product that skips components of 0, in a fixed order, so that it rounds alike everywhere."""
+    """Skips components of 0, in a fixed order, so that it rounds alike everywhere."""
     terms = [factor * place for factor, place in zip(direction, places, strict=True) if factor != 0.0]
     total: Doubles = terms[0]
     for term in terms[1:]:
@@ -95,7 +95,7 @@ class Extents:
 
 def pyramid(tangents: tuple[float, float]) -> Doubles:
     """Outward unit normals of a perspective's bounding planes, in the view's axes: left, right, bottom, top. tangents:
-    of half the horizontal and half the vertical angle."""
+    of half angles, horizontal and vertical."""
     across, upwards = (1.0 / math.hypot(1.0, tangent) for tangent in tangents)
     sines = tangents[0] * across, tangents[1] * upwards
     return np.array([(-across, 0.0, -sines[0]), (across, 0.0, -sines[0]),
@@ -107,8 +107,8 @@ def apex(reaches: Doubles, axes: Doubles, normals: Doubles) -> Doubles:
 
     A ball is in view if dot(n, p) >= dot(n, c) + r for the pinhole p and each outward normal n; all are if dot(n, p) >=
     s, the reach. For half the horizontal angle a the normals are -+cos(a) right - sin(a) forward. Their sum:
-    dot(forward, p) <= -(s_left + s_right) / (2 sin a), and the same vertically; their difference: dot(right, p) =
-    (s_right - s_left) / (2 cos a).
+    dot(forward, p) <= -(s_left + s_right) / (2 sin a); their difference: dot(right, p) = (s_right - s_left) / (2 cos
+    a).
     """
     right, above, forward = axes
     low, high = -reaches[0::2], -reaches[1::2]

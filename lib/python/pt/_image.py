@@ -13,12 +13,12 @@ from pt._stats import ErrorEstimate, Stats
 
 
 class Image:
-    """Linear radiance, shape (height, width, 3), float32, row 0 at the top. NumPy accepts the image as an array.
+    """Linear radiance, shape (height, width, 3), float32, row 0 at the top; converts to a NumPy array.
 
     radiance         the mean of the samples, linear RGB, unclamped, >= 0
     standard_error   of each number; a mere hint in a single pixel, infinite with up to 8 samples
     sample_count     shape (height, width), uint32
-    error_estimate   how good the whole image is
+    error_estimate   of the whole image
     stats            counts and costs
     exposure         stops for the picture of _repr_png_ and save; None: automatic
     raw              a denoised image's mean of the samples, which standard_error belongs to; else None
@@ -41,7 +41,7 @@ class Image:
 
     @property
     def error(self) -> float:
-        """Relative root mean square error: 0.01 is 1%. Infinite with fewer than 16 samples."""
+        """Relative root mean square error: 0.01 is 1%. Infinite below 16 samples."""
         return self.error_estimate.relative_rmse
 
     @property

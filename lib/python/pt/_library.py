@@ -18,7 +18,7 @@ VERSION: Final = "0.3"
 SONAME: Final = {"win32": "pt.dll", "darwin": f"libpt.{VERSION}.dylib"}.get(sys.platform, f"libpt.so.{VERSION}")
 BROKEN_RULES_KEPT: Final = 8
 
-# Must list every function: without types, ctypes truncates pointers to 32 bits. All but NOT_RESULTS return a pt_result.
+# Must list every function: without types, ctypes truncates pointers to 32 bits.
 PARAMETERS: Final[dict[str, list[Any]]] = {
     "pt_version": [],
     "pt_result_name": [c_int32],
@@ -70,8 +70,8 @@ def library_path() -> str:
 
 
 def load_library(path: str) -> ctypes.CDLL:
-    """Loads a libpt; its functions run without the interpreter's lock. ImportError: missing, or of a version with other
-    structs. Functions that an older build lacks raise AttributeError when called."""
+    """Loads a libpt; its functions release the interpreter's lock. ImportError: missing, or other structs. Functions
+    that an older build lacks raise AttributeError when called."""
     try:
         loaded = ctypes.CDLL(path)
         for name, parameters in PARAMETERS.items():
@@ -117,8 +117,8 @@ def _broken_rules(loaded: ctypes.CDLL, context: c_void_p | None) -> tuple[Broken
 
 
 def checked(loaded: ctypes.CDLL, result: int, context: c_void_p | None = None) -> Result:
-    """Returns a good result; otherwise raises the error with the library's message. The message lasts until the next
-    call on the context, or of this thread without one."""
+    """Returns a good result; otherwise raises the error. The message lasts until the next call on the context, or of
+    this thread without one."""
     if result >= 0:
         return Result(result)
     message = _text(loaded.pt_last_error(context))

@@ -41,10 +41,9 @@ class ReadScene:
 class Program:
     """Reads and renders a scene by `pt render --parts` (cli/render/render_command.h).
 
-    arguments   of `pt render`
     files       initial ones, by names relative to its working folder
     facts       pt's statement about the job, made before it opens a device
-    is_cpu      whether the device is a CPU; known after the first film
+    is_cpu      known after the first film
 
     Error: pt refuses the scene, or is not installed. OSError: a file cannot be read."""
 
@@ -152,7 +151,7 @@ def _sized(columns: dict[str, list[int]]) -> dict[str, tuple[int, int, int]]:
 
 
 def program() -> str:
-    """This machine's program pt, which an installed package includes."""
+    """PT_PROGRAM, else the installed package's, else the PATH's."""
     packaged = pathlib.Path(__file__).with_name("bin") / "pt"
     named = os.environ.get("PT_PROGRAM") or (str(packaged) if packaged.exists() else "pt")
     return os.path.abspath(named) if os.sep in named else named

@@ -35,9 +35,9 @@ def stats_of(struct: structs.pt_stats) -> Stats:
 
 @dataclass(frozen=True)
 class ErrorEstimate:
-    """An image's error, estimated without a reference: the root mean square of x - r over pixels and channels, for the
-    image x and its limit r, and of (x - r) / sqrt(r^2 + 0.01), each with bounds of 95% confidence. With fewer than 16
-    samples the lower bounds are 0, the other values infinite.
+    """Estimated without a reference: the root mean square of x - r over pixels and channels, for the image x and its
+    limit r, and of (x - r) / sqrt(r^2 + 0.01), with bounds of 95% confidence. With fewer than 16 samples the lower
+    bounds are 0, the other values infinite.
     """
 
     rmse: float  # in units of radiance

@@ -12,7 +12,7 @@ CONTROL: Final = re.compile("[\0-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2
 
 
 def printable(text: str) -> str:
-    """The text with control characters as <U+001B>, as the library and the program pt print them."""
+    """Control characters become <U+001B>, as in the library."""
     return CONTROL.sub(lambda found: f"<U+{ord(found[0]):04X}>", text)
 
 
@@ -22,7 +22,7 @@ def tell(program: str, message: str, stream: TextIO | None = None) -> None:
 
 
 def c_string(text: str | os.PathLike[str] | None) -> bytes | None:
-    """Bytes for the library. ValueError: a NUL byte, which the library would take for the end."""
+    """ValueError: a NUL byte, which would end the library's string."""
     if text is None:
         return None
     data = os.fsencode(text)

@@ -18,8 +18,8 @@ def module() -> Any:
 
 
 def packer(size: int) -> Any:
-    """An object with compress(piece) and flush() for a frame that states its contents' size, as film readers need; None
-    without a module."""
+    """compress(piece) and flush() for a frame that states its contents' size, as film readers need; None without a
+    module."""
     found = module()
     if found is None:
         return None

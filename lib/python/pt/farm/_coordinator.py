@@ -27,7 +27,7 @@ from pt.farm._workers import MOST_FETCHED, Member, Try, now, submit
 TICK = 0.25  # seconds between checks for late parts and progress
 SLOTS = 2  # parts per worker: one renders while another travels or waits
 
-# Tiles that keep a device busy. CPU: 4 for each of 16 cores. GPU: 262,144 pixels, the largest GPUs' invocations.
+# Tiles that keep a device busy. CPU: 4 for each of 16 cores. GPU: 262,144 pixels.
 LEAST_TILES = {True: 64, False: 4096}
 LEAD = 0.05
 LATE = 3.0  # times the expected seconds, after which a part is late
@@ -77,8 +77,8 @@ class Coordinator:
     # ---- the picture ----
 
     def run(self, goals: Goals, more: Callable[[], Goals | None] = lambda: None) -> bool:
-        """Works until each tile has its samples; False if progress() stopped it. more: called once all parts are given
-        out and some are back; returns further goals of tiles without running parts."""
+        """Works until each tile has its samples; False if progress() stopped it. more: further goals of tiles without
+        running parts, asked for once all parts are given out and some are back."""
         first_sample, has_worked = self._job.settings.first_sample, False
         self._goals = goals
         while not self._stopped:  # the film decides completeness, not the list of parts
@@ -115,7 +115,7 @@ class Coordinator:
 
     def _seconds_to_ask(self) -> float:
         """Seconds until it should ask for more work: shortly before a worker runs out, because later more tiles can be
-        decided together. Needs a new part each time, and takes at most half of the time."""
+        decided together; at most half of the time."""
         if self._waiting or not self._open or not self._has_only or self._progress.parts == self._asked_at:
             return float("inf")
         idle = min((member.busy_until for member in self._crew if member.can_take(SLOTS)), default=float("inf"))
@@ -133,7 +133,7 @@ class Coordinator:
         self._ask_cost = self._ask_end - start
 
     def _forgot(self, missing: list[Part]) -> None:
-        """Counts parts that are missing without a failed try: the list of parts was wrong."""
+        """Counts parts that are missing without a failed try."""
         work = sum(part.work for part in missing)
         if work:
             self._progress.forgotten += work
@@ -164,7 +164,7 @@ class Coordinator:
         return Result(self.film, self._progress)
 
     def close(self) -> None:
-        """Keeps what came back, with any end of the rendering, and cancels the rest."""
+        """Keeps what came back and cancels the rest."""
         self._closed = True
         if not self._progress.ended_by:
             self._sum.merge()
@@ -217,7 +217,7 @@ class Coordinator:
             self._waiting.appendleft((each.number, each.part))
 
     def _may_try(self, member: Member, number: int) -> bool:
-        """Whether a worker may have a part: neither twice nor, while there are others, after failing at it."""
+        """Neither twice nor, while there are others, after failing at it."""
         if any(each.number == number for each in member.tries.values()):
             return False
         tried = self._tries.get(number, [])
@@ -259,11 +259,11 @@ class Coordinator:
     # ---- what comes back ----
 
     def _met(self, future: Any, outcome: _task.Outcome | None) -> None:
-        """Receives a worker's answer to its introduction. Called by threads."""
+        """Receives a worker's introduction. Called by threads."""
         self._tell_of(future, *self._opened(_task.first_part(self._job), outcome, None))
 
     def _tell_of(self, *event: Any) -> None:
-        """Queues an event; waits while the queue is full, to bound the films in memory."""
+        """Waits while the queue is full, to bound the films in memory."""
         while not self._closed:
             with contextlib.suppress(queue.Full):
                 self._events.put(event, timeout=TICK)
@@ -271,7 +271,7 @@ class Coordinator:
 
     def _opened(self, part: Part, outcome: _task.Outcome | None, identity: Identity | None
                 ) -> tuple[_task.Outcome | None, _Opened | None]:
-        """Opens an outcome's film. Called by threads, which unpack in parallel. identity: required of the film."""
+        """Opens an outcome's film. Called by threads. identity: required of the film."""
         if outcome is None or outcome.error:
             return outcome, None
         try:
@@ -309,7 +309,7 @@ class Coordinator:
             return
         member = self._crew.of_part(future)
         if member is None:
-            return  # its worker was presumed dead, and the part given out again
+            return  # its worker was presumed dead
         each = member.tries.pop(future.key)
         if outcome is None:
             self._lose(member.address, each)

@@ -39,8 +39,7 @@ class Crew:
         return any(member.identity for member in self)
 
     def look(self) -> list[tuple[str, Try]]:
-        """Notes arrivals and departures. Returns tries of departed workers with their addresses. FarmError: nobody can
-        work."""
+        """Notes arrivals and departures. Returns departed workers' tries and addresses. FarmError: nobody can work."""
         if now() - self._looked < LOOK_SECONDS:
             return []
         try:

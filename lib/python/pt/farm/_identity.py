@@ -1,5 +1,5 @@
 """A film's identity: the lines of its header from `scene` to `device` (lib/film/FORMAT.md). Films of one identity add
-up, so unfit workers are recognised before they work."""
+up."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def identity_of(data: bytes) -> Identity:
 
 
 def with_models(data: bytes, models: frozenset[str]) -> bytes:
-    """A film's bytes with these models as its devices, so that mixed films add up. ImportError: xxhash is missing."""
+    """Writes these models as devices, so that mixed films add up. ImportError: xxhash is missing."""
     xxhash = importlib.import_module("xxhash")
     header = _header(data)
     start = header.index(b"\n" + LAST.encode() + b" ") + 1

@@ -22,7 +22,7 @@ from pt._scene import Scene
 
 @dataclass(frozen=True)
 class Job:
-    """A picture of Python objects and arrays, rendered by the library on each worker.
+    """A picture of Python objects, rendered by the library on each worker.
 
     settings   for all rows; first_sample is the first sample taken
     device     each worker's, as for pt.Context; None: PT_DEVICE in its environment, else its best
@@ -66,8 +66,8 @@ def name_of(data: bytes) -> str:
 
 
 def read_job(scene: str, options: list[str], device: str | None) -> FileJob:
-    """A job from a scene file (- for standard input) and options of `pt render`, with all files named by strings in the
-    scene and values of --set; those outside the scene's folder get other names. OSError: a file cannot be read.
+    """Packs all files named by strings in the scene (- for standard input) and in --set; those outside the scene's
+    folder get other names. OSError: a file cannot be read.
     """
     place = pathlib.Path("stdin.json" if scene == "-" else scene)
     with sys.stdin.buffer if scene == "-" else open(place, "rb", opener=regular) as file:

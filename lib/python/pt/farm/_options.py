@@ -10,8 +10,8 @@ from pt._files import Path
 
 
 class FarmError(RuntimeError):
-    """The picture cannot be made; the message has the workers' reports. The checkpoint has the returned films. result:
-    the library's, or ERROR_INTERNAL."""
+    """The picture cannot be made; the message has the workers' reports, the checkpoint the returned films. result: the
+    library's, or ERROR_INTERNAL."""
 
     def __init__(self, message: str, result: int = enums.Result.ERROR_INTERNAL) -> None:
         super().__init__(message)
@@ -20,16 +20,16 @@ class FarmError(RuntimeError):
 
 @dataclass(frozen=True)
 class Options:
-    """How a farm works; changes the picture only if devices are mixed.
+    """Only `mixed` can change the picture.
 
     part_seconds       duration of a part
-    patience           seconds beyond the expected time after which another worker gets the part too
+    patience           seconds beyond the expected time until another worker gets the part too
     most_tries         failures or lost workers per part, in all
     checkpoint         name of a file, resumed if it exists; None: none
     checkpoint_every   seconds
     wait_for_workers   seconds without a ready worker until an error
     mixed              workers with other devices and drivers may join: the picture equals one machine's
-                       statistically, not bitwise, and its film names all devices. Needs the module xxhash
+                       statistically, not bitwise. Needs the module xxhash
     """
 
     part_seconds: float = 5.0
@@ -46,8 +46,8 @@ class Progress:
     """Counts so far. issued: parts merged, dropped, failed, lost and running."""
 
     seconds: float = 0.0
-    samples: float = 0.0  # mean over all pixels at the last check of the film
-    samples_wanted: float = 0.0  # the final mean; with a target error, as far as decided
+    samples: float = 0.0  # mean over all pixels
+    samples_wanted: float = 0.0  # the final mean, as far as decided
     error: float = float("inf")  # relative; error_high: upper bound, with 95% confidence
     error_high: float = float("inf")
     workers: int = 0
@@ -57,7 +57,7 @@ class Progress:
     dropped: int = 0
     failed: int = 0
     lost: int = 0
-    forgotten: int = 0  # samples of tiles that the coordinator lost track of, and rendered again
+    forgotten: int = 0  # samples of tiles lost track of, and rendered again
     part_bytes: int = 0  # received
     messages: list[str] = field(default_factory=list)  # of workers
     last_result: int = enums.Result.OK  # the library's, for the last error
@@ -79,5 +79,5 @@ class Result:
 
     @property
     def devices(self) -> tuple[str, ...]:
-        """Models and drivers that took the samples. With several, the bits differ from one machine's."""
+        """Models and drivers. With several, the bits differ from one machine's."""
         return tuple(self.film.info.device.split(" and "))

@@ -27,8 +27,8 @@ class Part:
         return (self.end - self.first) * len(self.tiles)
 
     def split(self, work: int, least_tiles: int) -> tuple[Part, list[Part]]:
-        """A part of about that work, and the rest. Prefers fewer tiles, which make up a film's size, to fewer samples,
-        but keeps least_tiles, which keep a device busy."""
+        """A part of about that work, and the rest. Prefers fewer tiles, which make up a film's size, but keeps
+        least_tiles."""
         samples = self.end - self.first
         if self.work <= work:
             return self, []
@@ -81,8 +81,7 @@ def cells_of(film: Film | None, shape: tuple[int, int]) -> Cells:
 
 
 def missing_parts(cells: Cells, first_sample: int, goals: Goals) -> list[Part]:
-    """The parts missing until each tile has its samples from first_sample on. Only the film decides, so checkpoints
-    resume."""
+    """The parts missing until each tile has its samples. Only the film decides, so checkpoints resume."""
     wanted: dict[tuple[int, int], list[Indices]] = {}
     for samples, tiles in cells:
         tile_goals = goals.ravel()[tiles]
@@ -102,7 +101,7 @@ def has_only(cells: Cells, first_sample: int, goals: Goals) -> bool:
 
 
 def further_parts(before: Goals, after: Goals, first_sample: int) -> list[Part]:
-    """The parts between two numbers of samples per tile, both counted from first_sample."""
+    """The parts between two numbers of samples per tile."""
     tiles = np.flatnonzero(after.ravel() > before.ravel()).astype(np.uint32)
     wanted: dict[tuple[int, int], list[Indices]] = {}
     steps = np.stack([before.ravel()[tiles], after.ravel()[tiles]])

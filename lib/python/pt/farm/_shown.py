@@ -15,8 +15,7 @@ SHOWN_EVERY = 1.0  # seconds
 
 
 class Signals:
-    """SIGINT, SIGTERM and SIGHUP end a rendering with the samples so far; a second one, or one outside a rendering,
-    ends the process at once."""
+    """SIGINT, SIGTERM and SIGHUP end a rendering with the samples so far; a second one ends the process at once."""
 
     def __init__(self) -> None:
         self.number = 0

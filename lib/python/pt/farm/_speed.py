@@ -16,7 +16,7 @@ class Speed:
         self._work = self._seconds = 0.0
 
     def measure(self, work: int, seconds: float) -> None:
-        """Weights the last parts by seconds, because short parts are mostly overhead."""
+        """Weights by seconds, because short parts are mostly overhead."""
         kept = min(REMEMBERED / self._seconds, 1.0) if self._seconds else 0.0
         self._work = kept * self._work + work
         self._seconds = kept * self._seconds + max(seconds, 1e-6)
@@ -26,8 +26,8 @@ class Speed:
         return work / self.value
 
     def share(self, part_seconds: float, least_seconds: float, remaining: int, all_speeds: float) -> int:
-        """The work of a worker's next part: part_seconds; towards the end half of the work after which all would end
-        together (guided self-scheduling: Polychronopoulos and Kuck 1987), but at least least_seconds."""
+        """A part's work: part_seconds; towards the end half of the work after which all would end together (guided
+        self-scheduling: Polychronopoulos and Kuck 1987)."""
         together = 0.5 * remaining / all_speeds
         return max(int(self.value * max(min(part_seconds, together), least_seconds)), 1)
 

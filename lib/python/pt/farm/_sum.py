@@ -16,14 +16,13 @@ from pt.farm._identity import Identity, identity_of, with_models
 from pt.farm._workers import now
 
 PIXEL_BYTES = 112
-# Adding a part also costs time for the film's tiles, so parts are first added to each other, up to this share of a
-# film.
+# Parts are first added to each other, up to this share of a film, because a film's tiles cost time.
 BATCH_SHARE = 1 / 32
 SHOW_SHARE = 0.02  # of the time, for early additions that keep the picture recent
 
 
 class Sum:
-    """mixed: films of other devices are added too, and the sum names them."""
+    """mixed: films of other devices are added too."""
 
     def __init__(self, kept: Film | None, width: int, height: int, *, mixed: bool = False) -> None:
         self.film = kept
@@ -54,7 +53,7 @@ class Sum:
         return self._bytes >= self._most_bytes or now() - self._merged > self._cost / SHOW_SHARE
 
     def merge(self) -> None:
-        """Adds waiting parts to each other first, because sums of few tiles are cheap."""
+        """Adds parts to each other first, because sums of few tiles are cheap."""
         if not self._parts:
             return
         start, sums = now(), deque(self._parts)
@@ -77,7 +76,7 @@ class Sum:
 
 
 def _give_back() -> None:
-    """Returns freed memory to the system: glibc keeps some per thread, together more than a film."""
+    """Returns freed memory: glibc keeps some per thread, together more than a film."""
     with contextlib.suppress(AttributeError, OSError):  # not glibc
         ctypes.CDLL(None).malloc_trim(0)
 

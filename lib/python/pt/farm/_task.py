@@ -33,7 +33,7 @@ class Outcome:
 
 
 def fault_of(value: object, seconds: float) -> str:
-    """The fault of a task's value, because a worker may send anything; "" if none. seconds: since it was given out."""
+    """"" if none; a worker may send anything. seconds: since it was given out."""
     if not isinstance(value, Outcome):
         return f"a value of type {type(value).__name__}"
     for name, kind in (("data", bytes), ("seconds", float), ("is_cpu", bool), ("error", str),
@@ -70,7 +70,7 @@ def _failed(error: Exception) -> Outcome:
 
 
 def introduce(data: bytes, codecs: frozenset[str]) -> Outcome:
-    """Prepares a worker for a packed job, replacing the last one. Returns its first part's film."""
+    """Prepares a worker for a packed job. Returns its first part's film."""
     global _ready
     with _lock:
         try:

@@ -65,7 +65,7 @@ def addresses(client: Any) -> set[str]:
 
 
 def submit(client: Any, address: str, done: Done, function: Callable[..., Any], *arguments: Any) -> Any:
-    """Runs a function on one worker and fetches the result directly from it. Threads call done."""
+    """Runs a function on one worker and fetches the result from it. Threads call done."""
     start = now()
     future = client.submit(function, *arguments, workers=[address], allow_other_workers=False, pure=False, retries=0)
 
@@ -82,7 +82,7 @@ def submit(client: Any, address: str, done: Done, function: Callable[..., Any], 
 
 
 async def _gathered(client: Any, future: Any) -> object:
-    """Dask fetches five at a time, so a few stopped workers would block all others."""
+    """Dask fetches five at a time, so a few stopped workers would block all."""
     results = await asyncio.wait_for(client.gather([future], direct=True, asynchronous=True), FETCH_SECONDS)
     return results[0]
 

@@ -20,8 +20,8 @@ LEAST_SHARE = 1 / 3  # of lights before a bright background, so that shapes keep
 
 @dataclass(frozen=True)
 class Light:
-    """A light gives a white matt surface that faces it at the distance d the radiance color / (a + b d + c d^2), where
-    (a, b, c) is the attenuation."""
+    """Gives a facing white matt surface at the distance d the radiance color / (a + b d + c d^2); attenuation: (a, b,
+    c)."""
 
     file_place: str
     color: Triple
@@ -61,8 +61,8 @@ class Surroundings:
 
 def view_target(centers: FloatArray, radii: FloatArray, planes: list[Plane], position: Triple,
                 direction: Triple) -> FloatArray:
-    """A target for a camera that has only a direction: the point ahead nearest to the middle of the box around all
-    spheres; without spheres ahead, the hit on the nearest plane; otherwise the point at the distance 1."""
+    """The point ahead nearest to the middle of the box around all spheres; without spheres ahead, the hit on the
+    nearest plane; otherwise the point at the distance 1."""
     start = np.array(position)
     way = np.array(direction) / np.linalg.norm(direction)
     distance = 0.0
@@ -79,7 +79,7 @@ def view_target(centers: FloatArray, radii: FloatArray, planes: list[Plane], pos
 
 
 def dimmed(lights: list[Light], background: Triple) -> list[Light]:
-    """Dims the lights by the background's light, which Tachyon's background does not give."""
+    """Dims the lights by the background's light, which Tachyon's does not give."""
     together = max(map(sum, zip(*(light.color for light in lights))), default=0.0)
     share = max(1.0 - max(background) / together, LEAST_SHARE) if together else 1.0
     return [replace(light, color=(share * light.color[0], share * light.color[1], share * light.color[2]))
@@ -87,12 +87,12 @@ def dimmed(lights: list[Light], background: Triple) -> list[Light]:
 
 
 def lamps_of(lights: list[Light], around: Surroundings) -> tuple[list[Sphere], list[str]]:
-    """A ball for each light, and warnings about lights without a ball.
+    """A ball for each light, and warnings about lights without one.
 
-    A ball of radius r and radiance L gives a white surface that faces it at the distance d the radiance L (r / d)^2. L
-    gives the light's radiance at the camera's target. A light without a radius gets 1/50 of its distance as its radius,
-    and is hidden from the camera. A lamp's radius is at most half of its distance from the nearest surface and, if the
-    camera sees it, from the camera. Directional lights are put at a hundred times the extent of the scene.
+    A ball of radius r and radiance L gives a facing white surface at the distance d the radiance L (r / d)^2, the
+    light's at the camera's target. A light without a radius gets 1/50 of its distance, and is hidden from the camera. A
+    radius is at most half of the distance from the nearest surface and, if seen, from the camera. Directional lights
+    are a hundred extents away.
     """
     extent = around.extent(lights)
     lamps: list[Sphere] = []

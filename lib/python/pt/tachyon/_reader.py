@@ -1,4 +1,4 @@
-"""Tachyon's sections: camera, lights, shapes that can be rendered, background. Others can be left out, counted."""
+"""Tachyon's sections: camera, lights, shapes, background. Others can be left out, counted."""
 
 from __future__ import annotations
 
@@ -32,11 +32,11 @@ SKY_RADIUS = 1e6  # relative to the extent: a floor ends less than a pixel below
 
 @dataclass
 class TachyonScene:
-    """The contents of a file, with a lamp for each light and a ball around everything as the background.
+    """A file's contents, with a lamp for each light and a ball around everything as the background.
 
     scene      its spheres are one SphereArray, its cylinders another, each in the order of the file
     camera     with a target along Tachyon's viewing direction
-    settings   the file's resolution; other settings have their defaults
+    settings   the file's resolution, and defaults
     notes      what was left out, each with its line
     """
 
@@ -49,23 +49,21 @@ class TachyonScene:
 def read(path: str | os.PathLike[str], *, leave_out_others: bool = False) -> TachyonScene:
     """Reads a scene file of Tachyon. Lengths stay as they are; the rest becomes:
 
-    colors                     linear, unchanged; Tachyon shows them with the exposure 0 and the gamma 1, which
-                               pt-tachyon writes into the scene file
+    colors                     linear, unchanged; Tachyon shows them with the exposure 0 and the gamma 1
     axes, left-handed          z has the other sign
-    ZOOM                       half of the height has the tangent 0.5 / ZOOM; with ORTHOGRAPHIC the vertical_extent is
-                               1 / ZOOM
+    ZOOM                       half of the height has the tangent 0.5 / ZOOM; ORTHOGRAPHIC: vertical_extent 1 / ZOOM
     DIFFUSE, SPECULAR > 0      diffuse, and a mirror: specular with the glossiness 1e6
     PHONG p, PHONG_SIZE n,     glossiness n, specular 2 p / (n + 2), so that the highlight is as bright
       without SPECULAR
     FCYLINDER, POLYCYLINDER    capsules, whose ends are round; VMD's flat caps (RING) are inside
-    BACKGROUND                 a ball around everything that shines in this color and lights the scene; none if black.
-                               Lights are dimmed by as much, but not below a third
+    BACKGROUND                 a ball that shines in this color and lights the scene; none if black. Lights are
+                               dimmed by as much, but not below a third
     a light, which has no      a lamp that gives the camera's target the same light; visible with a radius RAD, hidden
       size                     from the camera without, and then a 50th of its distance in radius
     FOG                        left out, with a note
 
-    leave_out_others   leaves out everything except these shapes, planes, lights and the camera, and counts it in the
-                       notes, instead of refusing the file
+    leave_out_others   leaves out everything except these shapes, planes, lights and the camera, instead of refusing the
+                       file; `notes` count it
 
     ValueError: the file has anything else; the message names the line. OSError: it cannot be read.
     """
@@ -250,8 +248,7 @@ class _Reader:
             self.vertical_fov = 2.0 * math.atan(0.5 * height)
 
     def frustum_height(self) -> float:
-        """The height of the picture from its edges in the plane at the distance 1, which must be symmetric about the
-        middle."""
+        """From the picture's edges in the plane at the distance 1, symmetric about the middle."""
         left, right, bottom, top = (self.words.number("FRUSTUM") for _ in range(4))
         height, width = top - bottom, right - left
         tolerance = 1e-4 * height

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pt._scene import Material
 from pt.tachyon._words import Words
 
-MIRROR_GLOSSINESS = 1e6  # Tachyon's mirrors are perfect; a lobe of this exponent is narrower than most pixels
+MIRROR_GLOSSINESS = 1e6  # Tachyon's mirrors are perfect; this lobe is narrower than most pixels
 # The arguments of TEXFUNC's patterns 0 to 10: whether a file's name, and which vectors.
 PLACE = ("CENTER", "ROTATE", "SCALE")
 PATTERNS: tuple[tuple[bool, tuple[str, ...]], ...] = (
@@ -14,7 +14,7 @@ PATTERNS: tuple[tuple[bool, tuple[str, ...]], ...] = (
 
 
 class Textures:
-    """Finds the index of a material by the name that a file gives it, or by its properties."""
+    """Finds materials by a file's names, or by their properties."""
 
     def __init__(self, words: Words, left_out: dict[str, str]) -> None:
         self._words = words
@@ -67,7 +67,7 @@ class Textures:
         self._skip_pattern()
         if mirror > 0.0:
             specular, exponent = (mirror, mirror, mirror), MIRROR_GLOSSINESS
-        else:  # the lobe's peak is (n + 2) / 2 times its weight; Tachyon's is the highlight itself
+        else:  # the lobe's peak is (n + 2) / 2 times its weight; Tachyon's is the highlight
             weight = 2.0 * highlight / (exponent + 2.0)
             red, green, blue = color if is_metal else (1.0, 1.0, 1.0)
             specular = (weight * red, weight * green, weight * blue)

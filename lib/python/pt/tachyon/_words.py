@@ -10,8 +10,7 @@ from pt._vectors import Triple
 
 
 class Words:
-    """Reads word by word. Keywords may be in upper or lower case; # begins a comment. Every method raises ValueError
-    with file and line. lines: taken one by one, so a large file is never held whole.
+    """Reads words of lines taken one by one. Keywords in any case; # begins a comment. ValueErrors name file and line.
     """
 
     def __init__(self, lines: Iterable[str], name: str) -> None:

@@ -54,7 +54,7 @@ def parser() -> argparse.ArgumentParser:
 
 
 def kernels() -> pathlib.Path | None:
-    """The folder of the library's GLSL kernels: with the package, installed, or in the clone."""
+    """The folder of GLSL kernels: with the package, installed, or in the clone."""
     here = pathlib.Path(__file__).resolve()
     places = (here.parents[1] / "shaders", pathlib.Path(library_path()).resolve().parents[1] / "share/pt/shaders",
               here.parents[4] / "shaders")
@@ -62,7 +62,7 @@ def kernels() -> pathlib.Path | None:
 
 
 def is_of_another(path: pathlib.Path) -> bool:
-    """Whether a folder, or the link that leads to it, belongs to another user, who may exchange its contents."""
+    """Whether a folder, or the link to it, belongs to another user, who may exchange its contents."""
     return hasattr(os, "geteuid") and any(status.st_uid != os.geteuid() for status in (path.lstat(), path.stat()))
 
 
@@ -88,8 +88,7 @@ def user_cache() -> pathlib.Path:
 
 
 def open_browser(address: str) -> IO[str]:
-    """Opens a file that only the user can read, since all users see a process's arguments. The file stays for a while.
-    """
+    """Opens a file that only the user can read, since all users see a process's arguments."""
     user_cache().mkdir(parents=True, exist_ok=True)
     file = tempfile.NamedTemporaryFile("w", suffix=".html", dir=user_cache())
     file.write(f'<meta http-equiv="refresh" content="0; url={address}">')

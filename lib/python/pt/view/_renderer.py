@@ -27,8 +27,7 @@ SHADERS: Final = (".comp", ".glsl", ".h")
 
 
 class Renderer:
-    """source        the picture
-    shader_dir    kernels that are compiled instead of the library's
+    """shader_dir    kernels that are compiled instead of the library's
     published     called with each frame, on the thread that renders
     """
 
@@ -76,7 +75,7 @@ class Renderer:
         self._thread.join()
 
     def saved(self) -> tuple[str, bytes] | None:
-        """Name and contents of the scene with the present camera; None: there is no scene."""
+        """Name and contents of the scene with the present camera, if there is a scene."""
         return self._source.saved(self._camera)
 
     # Everything below runs on the thread.
@@ -147,7 +146,7 @@ class Renderer:
         return restarts
 
     def _restart(self, context: Context) -> None:
-        """Takes over camera and settings. While the camera moves, pixels are as large as the device needs."""
+        """While the camera moves, pixels are as large as the device needs."""
         pixels = self._settings.width * self._settings.height
         self._scale = 1
         if self._moving and self._rate:

@@ -1,4 +1,4 @@
-"""The server of the page. It listens on 127.0.0.1 alone; anybody with the token in its address may see and steer."""
+"""The page's server. It listens on 127.0.0.1 alone; anybody with the token in its address may see and steer."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ class Server:
     """A thread that serves from construction until close().
 
     show    the picture; set before the first request
-    files   those that may be read and written in the page, by the names that it shows
+    files   those that may be read and written in the page, by name
     """
 
     def __init__(self, files: Callable[[], dict[str, pathlib.Path]], port: int = 0) -> None:
@@ -102,8 +102,7 @@ class Server:
     @web.middleware
     async def _checked(self, request: web.Request, handler: Callable[[web.Request], Awaitable[web.StreamResponse]]
                        ) -> web.StreamResponse:
-        """Refuses requests without the token, and other sites' pages, which reach this server by another name or state
-        their origin."""
+        """Refuses requests without the token, and other sites' pages, which use another name or state their origin."""
         host, origin = request.headers.get("Host", ""), request.headers.get("Origin")
         if not re.fullmatch(NAMES, host) or origin not in (None, f"http://{host}"):
             raise web.HTTPForbidden(text="pt view: this host or origin is refused\n")
@@ -162,7 +161,7 @@ class Server:
         self._news = asyncio.Event()
 
     async def _send(self, connection: web.WebSocketResponse, wanted: asyncio.Event) -> None:
-        """Sends the newest frame whenever the page wants one, so that a slow line gets fewer frames and not late ones."""
+        """Sends the newest frame whenever the page wants one, so a slow line gets fewer frames, not late ones."""
         assert self.show
         number, pixels = 0, None
         try:

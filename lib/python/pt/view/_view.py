@@ -25,8 +25,8 @@ class View:
     port         0: a free one
     options      of pt.figure, for particles
 
-    It listens on 127.0.0.1 alone; anybody with `address` may see and steer it. A notebook shows it, if its server runs
-    on the machine of the browser or the port is forwarded. Error, ValueError, OSError: it cannot be shown.
+    It listens on 127.0.0.1 alone; anybody with `address` may see and steer it. A notebook shows it if the browser
+    reaches that port. Error, ValueError, OSError: it cannot be shown.
     """
 
     def __init__(self, what: Path | Film, *, size: tuple[int, int] | None = None, samples: int = 65536,

@@ -11,7 +11,7 @@ function axes(camera) {
   return [right, cross(right, forward), forward];
 }
 
-// The same picture with look_at, the center of turns, at this depth. A lens without a focus of its own stays focused.
+// look_at, the center of turns, moves to this depth. A lens without a focus of its own stays focused.
 export function turnsAbout(camera, depth) {
   const forward = axes(camera)[2];
   const moved = {...camera, look_at: add(camera.position, forward, depth)};

@@ -164,7 +164,7 @@ function move(next) {
   $("camera").value = line(camera);
 }
 
-// Turns about the middle of the picture, which stays the center while the camera moves.
+// Turns about the middle of the picture, fixed while the camera moves.
 function pivoted() {
   return state.pivot && camera === state.camera && !state.moving ? turnsAbout(camera, state.pivot) : camera;
 }
