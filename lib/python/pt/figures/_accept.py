@@ -31,13 +31,13 @@ def load(data: Any, *, frame: int | None = None, model_number: int | None = None
                     group of atoms of MDAnalysis; a data collection of OVITO; or Particles
     frame           from 0, or from -1 backwards, without empty frames; None: the last one, for MDAnalysis the current
                     one, and the first of several models
-    model_number    of PDB and mmCIF, the number that the file gives to a model
+    model_number    of PDB and mmCIF, the file's number
     columns         names to use: {"x": "lon", "y": "lat"} or "x=lon,y=lat", for
                     x, y, z, radius, diameter, element, type, red, green, blue
     format          of a file, instead of the detected one
     topology        file of atoms for a trajectory (XTC, TRR, DCD, ...)
-    atom_style      of LAMMPS data files that do not state it, and whose columns leave more than one
-    drop_nonfinite  leaves out particles whose position or radius is not finite; otherwise they are an error
+    atom_style      of LAMMPS data files that do not state it, if columns leave more than one
+    drop_nonfinite  leaves out particles whose position or radius is not finite, instead of refusing them
 
     Arrays of float32 and float64 are read in place. Raises DataError.
     """
@@ -60,7 +60,7 @@ def load(data: Any, *, frame: int | None = None, model_number: int | None = None
 def frames(data: Any, first: int = 0, last: int = -1, *, columns: Columns = None, format: str | None = None,
            topology: str | None = None, atom_style: str | None = None, drop_nonfinite: bool = False
            ) -> Iterator[Particles]:
-    """Frames from the first to the last, inclusive; a file is read once, frame after frame."""
+    """Frames from first to last, inclusive; a file is read once."""
     if isinstance(data, Particles):
         yield data
         return

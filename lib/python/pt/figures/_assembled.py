@@ -19,7 +19,7 @@ Array = npt.NDArray[Any]
 
 NEGLIGIBLE: Final = 1e-12  # relative to the largest coordinate: 1e-5 of float32's resolution
 MANY_COLUMNS: Final = 1000
-MOST_COMPARED: Final = 2_000_000  # particles that are compared to find coinciding ones
+MOST_COMPARED: Final = 2_000_000
 MOST_SORTED: Final = 100_000
 _ODD: Final = np.uint64(0x9E3779B97F4A7C15)  # 2^64 over the golden ratio: Knuth's multiplicative hash
 _COLORS: Final = (("red", "green", "blue", "alpha"), ("r", "g", "b", "a"),
@@ -53,7 +53,7 @@ def assembled(name: str, given: Table, mapping: Mapping[str, str], drop_nonfinit
 
 def _positions(name: str, parts: dict[str, Array], table: Array | None, chosen: dict[str, str], cell: Cell | None,
                notes: list[str]) -> Array:
-    """Positions of shape (n, 3); the columns that hold them become views of it."""
+    """The columns that hold positions become views of the result, shape (n, 3)."""
     axes, scaled = coordinate_names(list(parts)) if table is None else (list("xyz")[:table.shape[1]], False)
     if any(axis in chosen for axis in "xyz"):
         axes, scaled = [chosen.get(axis, axis) for axis in "xyz" if axis in chosen or axis in axes], False
@@ -89,7 +89,7 @@ def _positions(name: str, parts: dict[str, Array], table: Array | None, chosen: 
 
 
 def _common_table(columns: list[Array]) -> Array | None:
-    """The array that has exactly these columns, in order; None if there is none."""
+    """The array of exactly these columns, in order, or None."""
     table, count = columns[0].base, len(columns[0])
     if not isinstance(table, np.ndarray) or table.ndim != 2 or len(table) < count or table.shape[1] != len(columns):
         return None
@@ -99,7 +99,7 @@ def _common_table(columns: list[Array]) -> Array | None:
 
 
 def _flushed(positions: Array) -> Array:
-    """Replaces numbers such as 3e-19 that rounding leaves by 0: negligible beside the largest coordinate."""
+    """Numbers such as 3e-19 that rounding leaves become 0."""
     least, largest = np.inf, 0.0
     for rows in chunks(len(positions)):
         sizes = np.abs(positions[rows])
@@ -107,11 +107,10 @@ def _flushed(positions: Array) -> Array:
         least = min(least, float(sizes.min(where=sizes > 0, initial=np.inf)))
     if least >= NEGLIGIBLE * largest:
         return positions
-    return np.where(np.abs(positions) < NEGLIGIBLE * largest, 0, positions)  # a copy: the array may be the user's own
+    return np.where(np.abs(positions) < NEGLIGIBLE * largest, 0, positions)
 
 
 def _finite(particles: Particles, drop: bool) -> Particles:
-    """Refuses rows that cannot be drawn, naming the first; or, if drop, leaves them out."""
     good = np.isfinite(particles.positions[:, 0])
     for column in (*particles.positions.T[1:], *(() if particles.radii is None else (particles.radii,))):
         good &= np.isfinite(column)
@@ -134,8 +133,8 @@ def _finite(particles: Particles, drop: bool) -> Particles:
 
 
 def _note_coinciding(particles: Particles) -> None:
-    """Notes how many particles coincide with another. Compares projections in which different places do not coincide;
-    of many particles, only projections whose hash begins with zeros."""
+    """Notes coinciding particles. Compares projections in which different places differ; of many particles, only those
+    whose hash begins with zeros."""
     count, bits = len(particles), (len(particles) // MOST_SORTED).bit_length()
     if count > MOST_COMPARED:
         return
@@ -184,8 +183,7 @@ def _with_extent(particles: Particles) -> Particles:
 
 
 def _put_labels(particles: Particles, chosen: dict[str, str]) -> None:
-    """Fills in elements or, failing that, types. A column of types has elements if its words are mostly known symbols.
-    """
+    """Fills in elements or, failing that, types. Types are elements if mostly known symbols."""
     columns = particles.columns
     element, kind = (chosen.get(role) or first_of(columns, names) for role, names in
                      (("element", ELEMENTS), ("type", TYPES)))
@@ -202,12 +200,11 @@ def _put_labels(particles: Particles, chosen: dict[str, str]) -> None:
 
 
 def _are_numbers(labels: Array) -> bool:
-    """Whether labels are numbers of types, also as words."""
     return labels.dtype.kind not in "US" or all(str(label).isdecimal() for label in np.unique(labels))
 
 
 def _colors(columns: Mapping[str, Array], chosen: dict[str, str], is_text: bool, notes: list[str]) -> Array | None:
-    """Their type decides the scale; for other integers and for numbers from text, the largest number does."""
+    """Numbers' type decides the scale; the largest number does for other integers and text."""
     choices = (tuple(chosen.get(key, key) for key in _COLORS[0]), *_COLORS)
     found = next((names for names in ([first_of(columns, (name,)) for name in choice] for choice in choices)
                   if None not in names[:3]), None)

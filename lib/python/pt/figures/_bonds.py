@@ -1,4 +1,4 @@
-"""Bonds between particles: by covalent radii, by a cutoff or given; each is drawn as two halves."""
+"""Bonds by covalent radii, by a cutoff or given; each is drawn as two halves."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from pt.figures._particles import Bonds, Particles
 from pt.figures._rods import Rods
 from pt.figures._templates import agreeing, free_ions, known_residues
 
-# O'Boyle et al. 2011, "Open Babel: An open chemical toolbox", Journal of Cheminformatics 3:33, and its documentation:
-# atoms are bonded if their distance is at most the sum of their covalent radii and this tolerance, and more than the
-# least distance (alternative places of one atom). In angstroms.
+# O'Boyle et al. 2011, "Open Babel: An open chemical toolbox", Journal of Cheminformatics 3:33: atoms are bonded within
+# the sum of their covalent radii and this tolerance, but beyond the least distance (alternative places of one atom).
+# Angstroms.
 TOLERANCE: Final = 0.45
 LEAST_DISTANCE: Final = 0.4
 BALL_SHARE: Final = 0.5  # of a ball with a stick, relative to a ball alone; by taste
@@ -76,7 +76,7 @@ def _of_pairs(particles: Particles, pairs: Array) -> Bonds:
 
 
 def _with_images(particles: Particles, bonds: Bonds) -> Bonds:
-    """To the nearest image of a periodic cell, valid below half of the cell's thickness."""
+    """Leads each bond to the nearest image, valid below half of the cell's thickness."""
     if particles.cell is None or bonds.images is not None:
         return bonds
     first, second = bonds.pairs.T
@@ -86,7 +86,7 @@ def _with_images(particles: Particles, bonds: Bonds) -> Bonds:
 
 
 def _automatic(particles: Particles, notes: list[str]) -> Bonds:
-    """The data's bonds; if incomplete, also those by names of residues and by distance."""
+    """The data's bonds; if incomplete, also by names of residues and by distance."""
     given = particles.bonds
     if given is not None and given.is_complete:
         notes.append(f"bonds are the {len(given.pairs):,} of the data")

@@ -48,8 +48,8 @@ class Cell:
     @staticmethod
     def of_lengths(lengths: npt.ArrayLike, angles: npt.ArrayLike, periodic: npt.ArrayLike = True,
                    is_crystal_of_macromolecule: bool = False) -> Cell | None:
-        """A cell with its first edge along x and its second in the plane of x and y. angles: degrees, between edges 2
-        and 3, 1 and 3, 1 and 2. None as from of()."""
+        """The first edge lies along x, the second in the plane of x and y. angles: degrees, between edges 2 and 3, 1
+        and 3, 1 and 2. None as from of()."""
         a, b, c = np.array(lengths, np.float64)
         alpha, beta, gamma = np.cos(np.radians(np.array(angles, np.float64)))
         sine = np.sqrt(1 - gamma**2)
@@ -65,7 +65,7 @@ class Cell:
 
     @functools.cached_property
     def inverse(self) -> Array:
-        """Shape (3, 3): (positions - origin) @ inverse are shares of the edges, 0 for an edge that does not exist."""
+        """(positions - origin) @ inverse are shares of the edges, 0 for a missing edge."""
         inverse: Array = np.linalg.pinv(self.vectors)
         return inverse
 

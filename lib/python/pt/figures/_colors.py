@@ -28,15 +28,15 @@ PLAIN: Final = "#96aabe"
 PALETTE: Final = ((0, 114, 178), (230, 159, 0), (0, 158, 115), (213, 94, 0), (86, 180, 233), (204, 121, 167),
                   (240, 228, 66))
 MOST_CATEGORIES: Final = 1000
-SKEW: Final = 4.0  # whole range over the 1% to 99% range; uniform: 1, a million normal numbers: 2, exponential: 3
+SKEW: Final = 4.0  # whole range over the 1% to 99% range; uniform: 1, normal: 2, exponential: 3
 
 
 @dataclass(frozen=True)
 class ColorBar:
     """Colors for numbers, by matplotlib.
 
-    low, high   numbers of the first and the last color; the norm is wider if they are equal
-    no_value    color for NaN, if there are any
+    low, high   of the first and the last color; the norm is wider if they are equal
+    no_value    color for NaN, if any
     """
 
     title: str
@@ -119,7 +119,7 @@ def _named(particles: Particles, color: str, given: Options, notes: list[str]) -
 
 
 def components(particles: Particles, name: str) -> list[str]:
-    """A vector's columns: the names in "vx,vy,vz", or the columns that "velocity" and "v" stand for."""
+    """Columns "vx,vy,vz", or those for "velocity" and "v"."""
     ways = [[f"{name}[{k}]" for k in range(3)], [f"{name}{axis}" for axis in "xyz"], [f"{name}_{axis}" for axis in "xyz"]]
     found = [way for way in ways if all(each in particles.columns for each in way)]
     return found[0] if found else name.split(",")
@@ -182,7 +182,7 @@ def _found_in(particles: Particles, word: str) -> str:
 
 def _of_categories(title: str, names: list[str], codes: Array, given: Options, known: Mapping[str, RGB], numbered: bool
                    ) -> tuple[Bytes, Legend]:
-    """numbered: the names are numbers, mostly from 1; then the number decides the color, so that files agree."""
+    """numbered: the names are numbers, which decide the color, so that files agree."""
     order = names if isinstance(given.categories, bool) else list(given.categories)
     if missing := [name for name in names if name not in order]:
         raise ValueError(f"categories: {missing[0]!r} is in the data, and not among {', '.join(order[:20])}")
@@ -246,7 +246,7 @@ def _of_numbers(values: Array, title: str, given: Options, notes: list[str]) -> 
 
 
 def _range(values: Array, given: Options, title: str, notes: list[str]) -> tuple[float, float]:
-    """The range of all finite numbers; if a few are far from all others, the range of 1% to 99% of them."""
+    """All finite numbers' range, or 1% to 99% of them if a few are far from all others."""
     least, largest = math.inf, -math.inf
     floor = 0.0 if given.scale == "log" else -math.inf
     for rows in chunks(len(values)):

@@ -19,7 +19,7 @@ _STEMS: Final = ("", "pos", "position", "positions", "point", "points", "coord",
                  "center", "centre", "centroid", "location", "loc", "xyz")
 _LAMMPS: Final = ("u", "s", "su")  # after the letter: unwrapped, fractions of the cell, both
 _SCALED: Final = _LAMMPS[1:]
-_TABLES: Final = (*_STEMS[1:], "vertices", "r", "x", "arr0")  # of two or three columns
+_TABLES: Final = (*_STEMS[1:], "vertices", "r", "x", "arr0")
 ELEMENTS: Final = ("element", "elements", "species", "symbol", "symbols", "elem", "numbers", "atomic_number",
                     "atomic_numbers")
 TYPES: Final = ("type", "types", "particle_type", "atom_type", "label", "name", "names")
@@ -27,7 +27,7 @@ LABELS: Final = frozenset(ELEMENTS + TYPES)
 
 
 def split_columns(name: str, columns: Mapping[str, npt.ArrayLike]) -> tuple[dict[str, Array], Array | None]:
-    """Splits columns into ones of one dimension; also returns the table of positions, if there is one, unchanged."""
+    """Columns of one dimension, and the unchanged table of positions, if there is one."""
     arrays = {key: _without_objects(np.asarray(values)) for key, values in columns.items()}
     count = next((array.shape[:1] for array in arrays.values()), ())
     for key, array in arrays.items():
@@ -49,7 +49,6 @@ def split_columns(name: str, columns: Mapping[str, npt.ArrayLike]) -> tuple[dict
 
 
 def _without_objects(array: Array) -> Array:
-    """Objects, as pandas keeps them, become numbers or, failing that, words."""
     if array.dtype != object:
         return array
     try:
@@ -65,7 +64,7 @@ def plain_name(name: str) -> str:
 
 
 def column_name(columns: Mapping[str, Array], name: str, data: str) -> str:
-    """The name of a column by name in any case, or by number from 1 if columns have no names."""
+    """The column's name from a name in any case, or from a number from 1 without names."""
     if name in columns:
         return name
     similar = [each for each in columns if each.lower() == name.lower()]
@@ -77,7 +76,6 @@ def column_name(columns: Mapping[str, Array], name: str, data: str) -> str:
 
 
 def first_of(columns: Mapping[str, Array], names: tuple[str, ...]) -> str | None:
-    """The first of these names in the columns; an exact match comes before another case."""
     folded: dict[str, str] = {}
     for each in columns:
         folded.setdefault(each.lower(), each)
@@ -86,8 +84,8 @@ def first_of(columns: Mapping[str, Array], names: tuple[str, ...]) -> str | None
 
 
 def coordinate_names(names: list[str]) -> tuple[list[str], bool]:
-    """Which columns are positions (two, three or none), and whether they are fractions of the cell. Exact names come
-    first, so that beside x, y and z a column Z is the atomic number."""
+    """Columns of positions (two, three or none), and whether they are fractions of the cell. Beside x, y and z a column
+    Z is the atomic number."""
     if all(axis in names for axis in "xyz"):
         return ["x", "y", "z"], False
     by_plain: dict[str, str] = {}

@@ -97,7 +97,7 @@ def joined(words: list[str]) -> list[str]:
 
 
 def check(given: argparse.Namespace) -> None:
-    """Checks names and contradictory options before minutes are spent."""
+    """Checks options before minutes are spent."""
     series = given.turntable or given.frames
     pictures = [path for path in given.output if path != "-"]
     files = [(path, PICTURES) for path in pictures] + [
@@ -128,7 +128,7 @@ def check(given: argparse.Namespace) -> None:
 
 
 class Shown:
-    """Progress on standard error: a line for people, or JSON objects, one a line."""
+    """Progress on standard error: a line for people, or JSON objects."""
 
     def __init__(self, style: str) -> None:
         self.style = ("line" if sys.stderr.isatty() else "none") if style == "auto" else style

@@ -18,10 +18,9 @@ def compose(radiance: npt.NDArray[np.float32], stage: Any, shares: Shares, expos
 
     stage   radiance of the scene without its particles: a number if all pixels are alike, otherwise an image
 
-    The change of the scene by particles and shadows is applied to the background (Debevec 1998, "Rendering Synthetic
-    Objects into Real Scenes", section 5). Over white a pixel with the particles' share a is T(radiance) + (1 - a) (1 -
-    T(stage)), where T applies the exposure: a floor is white where nothing darkens it, has no horizon, and its shadows
-    fade with distance. Alpha is the smallest that gives this light over white.
+    The particles' change of the scene is applied to the background (Debevec 1998, "Rendering Synthetic Objects into
+    Real Scenes", section 5). Over white a pixel with the particles' share a is T(radiance) + (1 - a) (1 - T(stage)), T:
+    the exposure. So a floor is white and has no horizon. Alpha is the smallest that gives this light over white.
     """
     behind = np.clip(stage * 2.0**exposure, 0.0, 1.0)
     share = shares.shapes[:, :, None]

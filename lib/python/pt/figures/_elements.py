@@ -60,8 +60,7 @@ COLORS: Final = np.frombuffer(bytes.fromhex(
 NUMBERS: Final = {symbol: number for number, symbol in enumerate(SYMBOLS) if number} | {"D": 1, "T": 1}
 _NUMBERS: Final = {symbol.lower(): number for symbol, number in NUMBERS.items()}
 
-# Atom names of the Protein Data Bank and of water models that are not elements: beside one of them, CA is a carbon and
-# HG a hydrogen.
+# Atom names of the Protein Data Bank and of water models, not elements: beside them CA is a carbon, HG a hydrogen.
 _ATOM_NAMES: Final = frozenset("CB CG CZ CM HA HB HT HW OW OT OXT NZ NH".split())
 _IONS: Final = {"NA": 11, "CL": 17, "MG": 12, "ZN": 30, "FE": 26, "MN": 25, "BR": 35, "LI": 3, "SE": 34, "SOD": 11,
                 "CLA": 17, "POT": 19, "CAL": 20}
@@ -70,11 +69,11 @@ _UNITED: Final = (13.019, 14.027, 15.035, 16.043)  # CH to CH4 of united atoms
 
 
 def distinct(labels: Array) -> tuple[Array, Array]:
-    """Labels in order of appearance, and for each particle the index of its label."""
+    """Labels in order of appearance, and each particle's index of its label."""
     codes = np.full(len(labels), -1, np.int32)
     values: list[Any] = []
     while (first := int(np.argmin(codes))) < len(labels) and codes[first] < 0:
-        if len(values) == 64:  # comparing with each label is faster than sorting only for a few
+        if len(values) == 64:  # comparing with a few labels is faster than sorting
             unique, indices = np.unique(labels, return_inverse=True)
             return unique, indices.astype(np.int32).reshape(-1)
         codes[labels == labels[first]] = len(values)
@@ -83,7 +82,7 @@ def distinct(labels: Array) -> tuple[Array, Array]:
 
 
 def categories(labels: Array) -> tuple[list[str], Array]:
-    """Labels in ascending order, as text, and for each particle the index of its label."""
+    """Labels in ascending order, as text, and each particle's index of its label."""
     values, codes = distinct(labels)
     order = np.argsort(values)
     names = [f"{value:.9g}" if labels.dtype.kind == "f" else str(value) for value in values[order]]
@@ -108,8 +107,7 @@ def _number(label: str, is_atom_name: bool) -> int:
 def elements_of(labels: Array) -> tuple[Array | None, list[str]]:
     """Atomic numbers, shape (n,), uint8, 0 for labels that are not elements; None if none is. And notes for the user.
 
-    labels  shape (n,): symbols in any case, also with digits or charges; D and T; atom names as in PDB files; or atomic
-            numbers
+    labels  shape (n,): symbols in any case, also with digits or charges; D and T; PDB atom names; or atomic numbers
     """
     values, codes = distinct(labels)
     names = [str(value) for value in values]
@@ -130,8 +128,7 @@ def elements_of(labels: Array) -> tuple[Array | None, list[str]]:
 
 
 def elements_of_masses(masses: Array) -> npt.NDArray[np.uint8]:
-    """Atomic numbers of masses in daltons, 0 for no element; all 0 if most are 1, as in other units. United atoms of
-    carbon and hydrogen are carbon."""
+    """Atomic numbers of masses in daltons, 0: no element; all 0 if most masses are 1. United atoms are carbon."""
     away = np.abs(masses[:, None] - MASSES)
     away[:, 0] = np.inf
     nearest = away.argmin(axis=1)

@@ -12,11 +12,11 @@ EXTRAS: Final = {"matplotlib": "figure", "PIL": "figure", "pandas": "figure", "z
 
 
 class DataError(ValueError):
-    """Data that cannot be drawn. The message names the file, the line or byte, and what was expected."""
+    """Data that cannot be drawn; names the file, the line or byte, and the expectation."""
 
 
 def module(name: str, purpose: str) -> ModuleType:
-    """Imports an optional module on first need: most import slowly and have no types."""
+    """Imports an optional module on first need: most import slowly."""
     try:
         return importlib.import_module(name)
     except ImportError as error:

@@ -89,7 +89,7 @@ class Drawn:
 def prepare(particles: Particles, options: Options, scale: float | None = None, past: Sequence[Particles] = ()) -> Drawn:
     """Makes particles into balls. Radii, ranges of colors and categories come from all particles, shown or not.
 
-    past   earlier frames, through which trails lead
+    past   earlier frames for trails
     """
     notes = list(particles.notes)
     if not len(particles.positions):
@@ -253,13 +253,12 @@ class Staged:
 
 
 class Figure(Image):
-    """A rendered figure: an Image whose picture has background, lines and color bar, and whose numbers are the radiance
-    without them.
+    """An Image whose picture has background, lines and color bar; its numbers are the radiance without them.
 
     scene      as rendered, with camera and settings
     legend     meaning of the colors, or None
     notes      sentences on choices made by the data, and on what is not shown
-    error      of the radiance, stated by the renderer, as for any Image
+    error      of the radiance, as for any Image
     """
 
     def __init__(self, image: Image, staged: Staged, stage: Any, shares: Shares) -> None:
@@ -278,8 +277,8 @@ class Figure(Image):
         return options.size or (width + _strip_width(raster(self.legend, height, INK), height), height)
 
     def to_srgb8(self, exposure: float | None = None) -> npt.NDArray[np.uint8]:
-        """The picture as bytes of sRGB, shape (height, width, 3), or 4 channels with a transparent background.
-        exposure: in stops, of the balls; None: the figure's, and if that is None too, automatic."""
+        """Bytes of sRGB, shape (height, width, 3), or 4 channels with a transparent background. exposure: in stops, of
+        the balls; None: the figure's, or automatic."""
         pixels: npt.NDArray[np.uint8] = self.picture(np.uint8, exposure)
         return pixels
 
@@ -312,7 +311,7 @@ class Figure(Image):
         return result
 
     def encode(self, format: str, *, exposure: float | None = None, bits: int = 8) -> bytes:
-        """The picture as a file's bytes: png, jpg, exr (linear radiance). bits: 8 or 16, for png."""
+        """A file's bytes: png, jpg, exr (linear radiance). bits: 8 or 16, for png."""
         if format == "exr":
             return encode_exr(self.radiance)
         if format in ("jpg", "jpeg"):
@@ -338,8 +337,8 @@ class Figure(Image):
         self._staged.save_legend(path)
 
     def save_scene(self, path: Path) -> None:
-        """Writes a scene file for `pt render`, and beside it NPY files of the particles, without the background,
-        outlines, color bar or seed."""
+        """Writes a scene file for `pt render` with NPY files of the particles, without background, outlines, color bar
+        or seed."""
         self._staged.save_scene(path)
 
     def _repr_png_(self) -> bytes:

@@ -15,7 +15,7 @@ from pt.figures._spread import middle_of, reaches_of, usual_reach
 
 FAR: Final = 4.0  # times as far from the middle as all others
 BEYOND: Final = 1.25  # times as far as these: is left out
-LARGE: Final = 10.0  # times as far as all particles: a cell that leaves them little of the picture; by taste
+LARGE: Final = 10.0  # times as far as all particles: too large a cell; by taste
 OUTSIDE: Final = 0.1  # share of the particles that may be outside of the cell unmentioned
 WALL: Final = 0.01  # of the cell's edges: how far outside does not count
 LEAST_COVER: Final = 0.1  # of the picture, by balls that are narrower than a pixel
@@ -23,8 +23,8 @@ WIDTH: Final = 8.0  # pixels, of balls that are well seen; by taste
 
 
 def far_away(positions: Array, radii: Array, notes: list[str]) -> Array | None:
-    """The few balls so far away that a picture of all would hardly show the others; None: none. A ball as large as all
-    others together is never one."""
+    """Balls so far away that a picture of all would hardly show the others; None: none. A ball as large as all others
+    together is never one."""
     reaches = reaches_of(positions, radii)
     usual = usual_reach(reaches)
     usual = max(usual, float(reaches.max(where=radii > usual, initial=0.0)))
@@ -39,8 +39,7 @@ def far_away(positions: Array, radii: Array, notes: list[str]) -> Array | None:
 
 
 def drawn_cell(particles: Particles, box: str, positions: Array, radii: Array, notes: list[str]) -> Cell | None:
-    """The cell if it is drawn: by default, unless it is a protein's crystal cell, or most particles are outside of it or small
-    beside it.
+    """Drawn by default, unless it is a protein's crystal cell, or most particles are outside of it or small beside it.
 
     positions, radii   of the particles that are drawn
     """
@@ -74,7 +73,7 @@ def _hides(cell: Cell, positions: Array, radii: Array) -> bool:
 
 
 def narrow_note(radii: Array, pixels: float, size: tuple[int, int], scale: float) -> str | None:
-    """A note if balls are narrower than a pixel and together cover little of the picture; else None.
+    """A note if balls are narrower than a pixel and together cover little of the picture.
 
     radii    in scene units
     pixels   per scene unit

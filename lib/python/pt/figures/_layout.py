@@ -23,8 +23,7 @@ MOST_ASPECT: Final = 2.0
 
 @dataclass(frozen=True)
 class Balls:
-    """The contents of the picture. centers: shape (n, 3). radii: shape (n,). points: shape (k, 3), such as a cell's
-    corners."""
+    """The contents of the picture. centers: shape (n, 3). radii: shape (n,). points: shape (k, 3)."""
 
     centers: Array
     radii: Array
@@ -39,7 +38,7 @@ class Balls:
 
 @dataclass(frozen=True)
 class View:
-    """A figure's direction and picture size; of the balls it needs reaches only."""
+    """A figure's direction and picture size."""
 
     compass: Compass
     axes: Doubles
@@ -57,7 +56,7 @@ class View:
     @staticmethod
     def of(balls: Balls, view: Direction, up: Direction, projection: str, size: tuple[int, int] | None,
            turns: bool = False) -> View:
-        """The view that fits the balls. turns: everything that a turntable shows must be in view."""
+        """Fits the balls. turns: everything that a turntable shows must be in view."""
         compass = Compass.of(up_vector(up))
         height = 0.0
         if view == "three-quarter":
@@ -83,13 +82,13 @@ class View:
         return vertical * (self.size[0] / self.size[1]), vertical
 
     def reaches(self, balls: Balls) -> Doubles:
-        """How far balls reach in the directions that a Layout needs; for several frames, take the maximum."""
+        """Reaches in the directions that a Layout needs; for several frames, take the maximum."""
         down = -(self.axes @ self.compass.up)
         return balls.reach(self.axes, np.vstack([SIDES, down[None], pyramid(self.tangents)]), self.spin)
 
 
 def _shape(extents: Doubles) -> tuple[int, int]:
-    """A size with the extents' proportions, but never a ribbon: PIXELS in all, sides multiples of 8."""
+    """The extents' proportions, but never a ribbon: PIXELS in all, sides multiples of 8."""
     aspect = min(max(float(extents[0] / extents[1]), 1.0 / MOST_ASPECT), MOST_ASPECT)
     sides = [8 * math.floor(side / 8.0 + 0.5) for side in (math.sqrt(PIXELS * aspect), math.sqrt(PIXELS / aspect))]
     return sides[0], sides[1]

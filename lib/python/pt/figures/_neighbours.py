@@ -34,8 +34,7 @@ class Pairs(NamedTuple):
 
 
 def pairs_within(positions: Array, cutoff: float, cell: Cell | None, radii: Array | None = None, slack: float = 0.0) -> Pairs:
-    """All pairs no farther apart than the cutoff and, if there are radii, than their sum and the slack. ValueError: too
-    many."""
+    """Pairs no farther apart than the cutoff and, with radii, than their sum and the slack. ValueError: too many."""
     positions = positions.astype(np.float64)
     sources, shifts = _images(positions, cell, cutoff)
     places = positions[sources] if cell is None else positions[sources] + shifts @ cell.vectors
@@ -62,15 +61,15 @@ def pairs_within(positions: Array, cutoff: float, cell: Cell | None, radii: Arra
 
 
 def _is_first(first: Array, second: Array, steps: Array) -> Array:
-    """Whether a pair is to be taken in this order; in the other one its steps are the opposite."""
+    """Exactly one of a pair and its reverse, with opposite steps, is first."""
     ahead = np.sign(steps) @ (9, 3, 1)
     result: Array = (first < second) | ((first == second) & (ahead > 0))
     return result
 
 
 def _images(positions: Array, cell: Cell | None, cutoff: float) -> tuple[Array, Array]:
-    """The particles brought into the cell, then their images within the cutoff of it: indices of the particles, and by
-    how many edges each has been moved."""
+    """Particles in the cell, then their images within the cutoff of it: their indices, and by how many edges each has
+    moved."""
     sources = np.arange(len(positions))
     if cell is None:
         return sources, np.zeros((len(positions), 3))

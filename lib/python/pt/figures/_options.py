@@ -1,5 +1,4 @@
-"""The options of a figure: one description for the keywords of pt.figure(), the options of pt-figure, help() and
---help, and their checks."""
+"""A figure's options: one description for keywords, command line, help, and checks."""
 
 from __future__ import annotations
 
@@ -31,8 +30,8 @@ MOST_SAMPLES: Final = 65536
 
 
 def _option(group: str, default: Any, metavar: str, words: str, **more: Any) -> Any:
-    """more: choices; rule, the condition on its value and the words for it; flag, its name on the command line; read,
-    which makes its value from text there."""
+    """more: choices; rule, the condition on its value and its words; flag, its name on the command line; read, which
+    makes its value from text."""
     return field(default=default, metadata={"group": group, "metavar": metavar, "words": words, **more})
 
 

@@ -1,5 +1,5 @@
-"""Outlines over a rendered figure, and each pixel's share of shapes. Both follow from first hits of 16 rays a pixel, or
-more where rays pass balls at random."""
+"""Outlines over a rendered figure, and each pixel's share of shapes, from 16 rays a pixel, or more where rays pass
+balls at random."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from pt._enums import Format, Quantity
 from pt._fit import Array, Doubles
 
 PER_SIDE: Final = 4  # rays along each side of a pixel
-MOST_PER_SIDE: Final = 32  # then random shares are within 0.016, a standard deviation
+MOST_PER_SIDE: Final = 32  # random shares then have a standard deviation of 0.016
 MOST_RAYS: Final = 2**32 - 1
 BAND_ROWS: Final = 32  # so few that their hits take less device memory than the picture
-LEAST_STEP: Final = 0.1  # depth behind an outline, relative to the radius: less has no outline
-LEAST_RADIUS: Final = 2.5  # of a ball with an outline, in line widths: smaller ones would be all outline
+LEAST_STEP: Final = 0.1  # depth behind an outline, relative to the radius
+LEAST_RADIUS: Final = 2.5  # of a ball with an outline, in line widths
 
 
 @dataclass(frozen=True)
@@ -100,8 +100,7 @@ def pixels_per_length(camera: Camera, height: int, depths: Any) -> Any:
 
 
 def _outlines(index: Array, depths: Array, overlaid: Overlaid, pixels: Any, width: float) -> Array:
-    """Balls have outlines in front of anything but a ball, and of balls that are farther by more than a tenth of the
-    radius."""
+    """Balls have outlines before other shapes, and before balls farther by a tenth of the radius."""
     has_outline, is_shape = index < len(overlaid.radii), index < overlaid.count
     radii = overlaid.radii[np.where(has_outline, index, 0) if overlaid.radii.strides[0] else np.zeros_like(index)]
     large = has_outline & (radii * pixels >= LEAST_RADIUS * width)

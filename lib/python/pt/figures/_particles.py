@@ -21,11 +21,11 @@ Array = npt.NDArray[Any]
 
 @dataclass(frozen=True)
 class Bonds:
-    """Bonds that the data give, each of them once.
+    """Bonds that the data give, each once.
 
     pairs        shape (k, 2): indices of the particles
     images       shape (k, 3): moves the second particle by images @ cell.vectors; None: to its nearest image
-    is_complete  whether there are no other bonds
+    is_complete  whether there are no others
     """
 
     pairs: Array
@@ -34,14 +34,13 @@ class Bonds:
 
     @staticmethod
     def of(pairs: npt.ArrayLike, images: Array | None = None, is_complete: bool = True) -> Bonds:
-        """Drops bonds of particles to themselves, and duplicates."""
         rows = np.array(pairs, np.intp).reshape(-1, 2)
         if images is None:
             rows = np.unique(np.sort(rows[rows[:, 0] != rows[:, 1]], axis=1), axis=0)
         return Bonds(rows, images, is_complete)
 
     def among(self, rows: Array, count: int) -> Bonds:
-        """The bonds between selected particles, by their new indices. count: of all. rows: the old indices, in the new
+        """Bonds between selected particles, by their new indices. count: of all. rows: the old indices, in the new
         order."""
         new = np.full(count, -1, np.intp)
         new[rows] = np.arange(len(rows))
@@ -55,13 +54,13 @@ class Particles:
     """n particles, n >= 1.
 
     positions  shape (n, 3), float32 or float64, finite
-    columns    every column of the data under its own name, shape (n,), numbers or str; coordinates are views
+    columns    all columns of the data by name, shape (n,), numbers or str; coordinates are views
     elements   shape (n,), uint8: atomic numbers, 0: unknown; None: the data have no elements
     types      shape (n,), int or str: labels that are not elements
     radii      shape (n,): a column "radius", or half a column "diameter"
     colors     shape (n, 3) or (n, 4): sRGB, floats from 0 to 1, uint8 or uint16
     bonds      the data's; None: unknown
-    name       name of the data, for messages
+    name       of the data, for messages
     notes      warnings for the user
     """
 
@@ -80,7 +79,6 @@ class Particles:
         return len(self.positions)
 
     def column(self, name: str) -> Array:
-        """By name, or by the only one that differs in case."""
         return self.columns[column_name(self.columns, name, self.name)]
 
     def select(self, mask: Array) -> Particles:
@@ -93,7 +91,6 @@ class Particles:
         return self._moved(self.positions[mask], mask, bonds=bonds, **chosen)
 
     def wrapped(self) -> Particles:
-        """The particles moved into the cell along its periodic edges."""
         if self.cell is None:
             raise DataError(f"wrap: {self.name} has no cell")
         cell, bonds, positions = self.cell, self.bonds, self.positions.copy()
@@ -106,7 +103,7 @@ class Particles:
         return self._moved(positions, slice(None), bonds=bonds)
 
     def _moved(self, positions: Array, rows: Any, **changed: Any) -> Particles:
-        """Other positions, and these rows of the other columns. Columns of coordinates stay views of positions."""
+        """Columns of coordinates stay views of positions."""
         axes = {self.positions[:, axis].ctypes.data: axis for axis in range(3)}
         columns = {}
         for name, values in self.columns.items():
@@ -120,11 +117,11 @@ class Table:
     """The contents of a file or an object, before columns have meanings.
 
     columns   arrays of one or two dimensions; positions may also be one column of two or three components
-    is_text   whether numbers come from text, so that their type does not tell the scale of colors
+    is_text   numbers come from text, so their type does not tell the scale of colors
     elements  atomic numbers, 0: unknown; None: columns may have them
     types     labels that are not elements, though they may look so
     rows      indices of the file's atoms that the table has; None: all
-    sites     how many atoms the file has, drawn or not
+    sites     number of the file's atoms
     """
 
     columns: Mapping[str, npt.ArrayLike]

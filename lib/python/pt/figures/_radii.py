@@ -22,8 +22,8 @@ MOST_PAIRS: Final = 4_000_000
 TABLE_BITS: Final = 20
 COVER: Final = 0.01  # share of the picture that balls of unknown radii cover at least; by taste
 THIN: Final = 0.001  # their least radius, as a share of the picture: one pixel
-SLACK: Final = 0.225  # half of the most by which bonded atoms exceed their covalent radii, in angstroms
-MOST_FACTOR: Final = 3.0  # of covalent radii: some balls of dilute gases have to stay apart; by taste
+SLACK: Final = 0.225  # half of the most by which bonds exceed covalent radii, in angstroms
+MOST_FACTOR: Final = 3.0  # of covalent radii: dilute gases have to stay apart; by taste
 STEPS: Final = np.indices((3, 3, 3)).reshape(3, 1, 27) - 1
 
 
@@ -120,15 +120,15 @@ def _automatic(particles: Particles, notes: list[str]) -> Array:
 
 
 def covalent_factor(particles: Particles) -> float | None:
-    """The factor of covalent radii if no radii are known: 1 if neighbours are bonded, more if they are farther apart,
-    as in noble gases and C-alphas of proteins. None: distances are not in angstroms, or there are no elements."""
+    """The factor of covalent radii if no radii are known: 1 for bonded neighbours, more for noble gases and C-alphas.
+    None: distances are not in angstroms, or there are no elements."""
     if particles.elements is None:
         return None
     radii = elements.COVALENT_RADII[np.unique(particles.elements)]
     radii = radii[radii > 0]
     typical = typical_radius(particles.positions)
-    # Neighbours are two covalent radii apart in a bond, three times that in a solid without bonds, 16 times in a gas at
-    # 0 degrees Celsius and 1 bar: other distances are not in angstroms.
+    # Neighbours are two covalent radii apart in a bond, three times that in other solids, 16 times in a gas at 0
+    # degrees Celsius and 1 bar.
     if not len(radii) or not 0.7 * radii.min() <= typical <= 30.0 * radii.max():
         return None
     largest = float(radii.max())
@@ -136,7 +136,7 @@ def covalent_factor(particles: Particles) -> float | None:
 
 
 def _seen(typical: float, positions: Array, notes: list[str]) -> float:
-    """The typical radius, unless it is small beside all of the picture: pairs far apart, and lines of many particles."""
+    """The typical radius, unless it is small beside the picture."""
     span = 2.0 * usual_reach(reaches_of(positions, np.zeros(1)))
     if math.pi * len(positions) * typical * typical >= COVER * span * span:
         return typical
@@ -172,24 +172,22 @@ def _of_types(particles: Particles, radii: Mapping[str, float]) -> Array:
 
 def typical_radius(positions: Array) -> float:
     """Half of the distance between most nearest neighbours, so that most balls just touch; for random points, half of
-    the median distance to the fourth neighbour, of fewer than twelve to a nearer one. Coinciding neighbours do not
-    count."""
+    the median distance to the fourth neighbour. Coinciding neighbours do not count."""
     first, fourth = _neighbour_distances(positions)
     if not len(first):
         return 1.0
     median = float(np.median(first))
     # Among random points, a twentieth have their nearest neighbour within 0.27 of the median distance on a surface, and
-    # within 0.42 in space (the square and cube root of -log(0.95) / -log(0.5) = 0.051 / 0.69). No atoms are within half
-    # of the median.
+    # within 0.42 in space (square and cube root of log(0.95) / log(0.5)). No atoms are within half of the median.
     if len(fourth) and float(np.quantile(first, 0.05)) < 0.5 * median:
         median = float(np.median(fourth))
     return 0.5 * median
 
 
 def _neighbour_distances(positions: Array) -> tuple[Array, Array]:
-    """Distances of a sample to the nearest and the fourth neighbour, if these are in adjacent cells of a grid."""
+    """Distances of a sample to the nearest and the fourth neighbour, within adjacent cells of a grid."""
     count = len(positions)
-    fourth = min(4, max(count // 3, 1)) - 1  # one far particle of a few must not be everybody's fourth neighbour
+    fourth = min(4, max(count // 3, 1)) - 1  # one far particle must not be everybody's fourth neighbour
     low, high = (np.array([end(column) for column in positions.T], np.float64) for end in (np.min, np.max))
     extent = high - low
     broad = extent > 1e-6 * extent.max()
@@ -222,8 +220,8 @@ def _neighbour_distances(positions: Array) -> tuple[Array, Array]:
 
 
 def _near(positions: Array, places: Doubles, low: Doubles, side: float) -> tuple[Doubles, Array, Array]:
-    """The positions in and around the cells of some places, ordered by cell; and where each of a place's 27 cells
-    begins and ends in that order."""
+    """Positions in and around some places' cells, ordered by cell; and where each of a place's 27 cells begins and
+    ends."""
     keys = _keys(_cells(places, low, side)[:, :, None] + STEPS)
     wanted = np.zeros(1 << TABLE_BITS, bool)
     wanted[keys] = True
@@ -245,8 +243,8 @@ def _cells(positions: Array, low: Doubles, side: float) -> Array:
 
 
 def _keys(cells: Array) -> Array:
-    """Hashes: Teschner et al. 2003, "Optimized Spatial Hashing for Collision Detection of Deformable Objects".
-    Collisions cost time but change nothing, since distances decide."""
+    """Teschner et al. 2003, "Optimized Spatial Hashing for Collision Detection of Deformable Objects". Collisions
+    change nothing, since distances decide."""
     hashed = cells[0] * 73856093 ^ cells[1] * 19349663 ^ cells[2] * 83492791
     keys: Array = (hashed ^ hashed >> TABLE_BITS) & (1 << TABLE_BITS) - 1
     return keys

@@ -65,12 +65,12 @@ def element_of(name: str, residue: str) -> int:
 
 
 def is_free_ion(residue: str) -> bool:
-    """Whether a residue is an unbonded ion: an alkali or alkaline earth metal, or a halide."""
+    """Alkali or alkaline earth metals, and halides."""
     return _IONS.get(re.sub(r"[-+\d]", "", residue).upper(), 0) in _ALKALI_AND_HALIDES or residue in _CHARGED
 
 
 def is_polymer(residue: str) -> bool:
-    """Whether a residue is of a protein or nucleic acid; N and C before a name mark the ends of chains (AMBER)."""
+    """A protein's or nucleic acid's residue; N and C before a name mark the ends of chains (AMBER)."""
     return residue in AMINO_ACIDS or residue in NUCLEOTIDES or (
         len(residue) == 4 and residue[0] in "NC" and residue[1:] in AMINO_ACIDS)
 
@@ -100,7 +100,7 @@ class Guess:
 
 
 def elements_by_residue(names: Array, residues: Array, wanted: Array | None = None) -> Guess:
-    """Elements of atoms whose file has none. wanted: a mask; others are 0, and are not mentioned."""
+    """wanted: a mask; others are 0, and are not mentioned."""
     pairs = np.char.add(np.char.add(names, " of "), residues)
     chosen = pairs if wanted is None else pairs[wanted]
     values, codes = np.unique(chosen, return_inverse=True)

@@ -1,4 +1,4 @@
-"""Capsules of a figure: halves of bonds and vectors, which begin in particles, and the edges of the cell."""
+"""Capsules: halves of bonds and vectors, which begin in particles, and the cell's edges."""
 
 from __future__ import annotations
 
@@ -26,7 +26,6 @@ class Rods:
     atoms    shape (k,): indices of these particles
     others   shape (k,): particles that must be shown, too
     ways     shape (k, 3): from one end to the other
-    radius   for all
     starts   shape (k, 3): from the particle's center to the first end; None: 0
     """
 

@@ -20,7 +20,7 @@ from pt.figures._radii import covalent_factor
 
 
 def frames(read: Callable[[], Iterator[Particles]], options: Options, trails: int = 0) -> Iterator[Staged]:
-    """Stages each frame. Reads all frames twice, first to find what fits all of them.
+    """Stages each frame. Reads all frames twice, first to find what fits all.
 
     trails   through how many earlier frames a picture's trails lead
     """
@@ -68,8 +68,8 @@ def _rule(particles: Particles, drawn: Drawn, options: Options) -> Radius:
 
 
 def turntable(particles: Particles, count: int, options: Options) -> Iterator[Staged]:
-    """Stages a full turn about the vertical axis, starting at the view, counterclockwise as seen from above. Lamps move
-    with the camera."""
+    """Stages a full turn from the view about the vertical axis, counterclockwise from above. Lamps move with the
+    camera."""
     drawn = prepare(particles, options)
     view = view_of(drawn, options, turns=True)
     for k in range(count):

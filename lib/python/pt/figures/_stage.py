@@ -9,22 +9,20 @@ from typing import Final
 from pt._fit import Doubles
 from pt._scene import Material, Plane, Sphere
 
-# A surface that faces the key lamp and sees all of the surround has a radiance equal to its albedo, so lit sides have
-# the colors of the legend.
+# A surface that faces the key lamp and sees all of the surround has its albedo as radiance, the legend's color.
 SURROUND_BRIGHTNESS: Final = 0.4375  # has few bits, so that means of it are exact
 KEY_BRIGHTNESS: Final = 0.75
 KEY_HALF_ANGLE: Final = math.radians(14.0)  # shadows as soft as of a window seen from twice its width
-KEY_AZIMUTH: Final = math.radians(-35.0)  # chosen by eye: shapes show best, and shadows fall where there is room
+KEY_AZIMUTH: Final = math.radians(-35.0)  # chosen by eye
 KEY_ELEVATION: Final = math.radians(40.0)
 FLOOR: Final = Material(diffuse=0.8)
 EDGES: Final = Material(diffuse=0.09)
-FLOOR_GAP: Final = 1e-4  # relative to the radius: touching the floor, roundings would decide which is in front
+FLOOR_GAP: Final = 1e-4  # relative to the radius: roundings would decide which is in front
 
 
 @dataclass(frozen=True)
 class Stage:
-    """lamps      the surround, an evenly shining sphere around everything, and the key, a large lamp far behind the
-               camera's left shoulder
+    """lamps      the surround, an evenly shining sphere, and the key, a large lamp behind the camera's left shoulder
     floor      white, below everything
     material   of the particles; their colors multiply its diffuse
     """
@@ -41,8 +39,8 @@ def material_of(style: str) -> Material:
 
 
 def make_stage(style: str, axes: Doubles, distance: float, center: Doubles, radius: float, floor: Plane | None) -> Stage:
-    """axes: right, up and forward of the view. distance: from the camera to the middle of the data. center, radius: of
-    a ball around everything."""
+    """axes: right, up and forward. distance: from the camera to the middle. center, radius: of a ball around
+    everything."""
     material = material_of(style)
     # The lamp is farther than the camera, and nearly as strong at the far end of the data.
     far = max(20.0 * radius, 4.0 * distance)
@@ -53,8 +51,7 @@ def make_stage(style: str, axes: Doubles, distance: float, center: Doubles, radi
     level = math.cos(KEY_ELEVATION)
     direction = (level * math.sin(KEY_AZIMUTH) * axes[0] - level * math.cos(KEY_AZIMUTH) * axes[2] +
                  math.sin(KEY_ELEVATION) * axes[1])
-    # A lamp of radiance L and half angle a gives a facing surface the irradiance pi L sin^2(a); a white one has 1 / pi
-    # of that as its radiance (Lambert).
+    # A lamp of radiance L and half angle a gives a facing white surface the radiance L sin^2(a) (Lambert).
     sine = math.sin(KEY_HALF_ANGLE)
     key = Sphere(center + far * direction, far * sine, Material(emission=KEY_BRIGHTNESS / (sine * sine)))
     return Stage((surround, key), floor, material)

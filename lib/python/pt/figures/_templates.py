@@ -1,4 +1,4 @@
-"""Which atoms of proteins, nucleic acids and water are bonded, by their names."""
+"""Bonds of proteins, nucleic acids and water by their atoms' names."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from pt.figures._residues import WATERS, is_free_ion, is_polymer
 
 Array = npt.NDArray[Any]
 
-# Of heavy atoms within a residue. Names of one residue that are no pair here are not bonded.
+# Pairs of heavy atoms within a residue. Other names of one residue are not bonded.
 _WITHIN: Final = (
     "N-CA CA-C C-O C-OXT C-OT1 C-OT2 C-OC1 C-OC2 C-CH3 N-CH3 CA-CB CB-CG CB-CG1 CB-CG2 CB-OG CB-OG1 CB-SG CG-CD CG-CD1 CG-CD2 "
     "CG1-CD1 CG1-CD CG-OD1 CG-OD2 CG-ND1 CG-ND2 CG-SD CG-SE CD-N CD-NE CD-CE CD-OE1 CD-OE2 CD-NE2 CD1-CE1 CD1-NE1 CD2-CE2 "
@@ -28,7 +28,7 @@ _HYDROGEN: Final = 1
 
 
 def known_residues(particles: Particles) -> Array:
-    """Particles of residues whose bonds are known by name, shape (n,)."""
+    """Particles of residues with bonds known by name, shape (n,)."""
     return _of_names(particles, lambda name: name.upper() in WATERS or is_polymer(name.upper()))
 
 

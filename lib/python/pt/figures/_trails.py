@@ -16,8 +16,7 @@ WIDTH: Final = 0.2  # radius of trails, in median radii of particles; by taste
 
 
 def trails_of(particles: Particles, past: Sequence[Particles], radii: Array) -> Rods:
-    """past: earlier frames, the latest first. A step of more than half of a periodic cell counts as one through its
-    walls, and is left out."""
+    """past: the latest first. Steps of more than half of a periodic cell are left out: they cross its walls."""
     positions = particles.positions.astype(np.float64)
     newer, known = positions, np.ones(len(positions), bool)
     atoms, starts, ways = [], [], []

@@ -11,8 +11,8 @@ import numpy as np
 from pt._fit import Doubles
 from pt.figures._options import VIEWS, Direction
 
-# The three-quarter view, by taste: neither an edge of a box nor its diagonal lies along the line of sight. Flat data
-# would hide themselves, so they are seen from higher up.
+# The three-quarter view, by taste: no edge of a box nor its diagonal lies along the line of sight. Flat data are seen
+# from higher up.
 AZIMUTH: Final = 30.0
 ELEVATION_OF_BODIES: Final = 22.0
 ELEVATION_OF_DISCS: Final = 50.0
@@ -46,8 +46,8 @@ def up_vector(up: Direction) -> Doubles:
 
 @dataclass(frozen=True)
 class Compass:
-    """The data's directions for the views "right" and "front". Right is x, or y if up is nearest to x. Front is right x
-    up: -y if z is up, z if y is up, as in simulations and for molecules."""
+    """Right is x, or y if up is nearest to x. Front is right x up: -y if z is up, z if y is up, as in simulations and
+    for molecules."""
 
     right: Doubles
     front: Doubles
@@ -70,7 +70,7 @@ def relative_height(extents: Doubles) -> float:
 
 
 def toward_camera(view: Direction, compass: Compass, height: float) -> Doubles:
-    """The direction from the data to the camera. height: relative_height, which the three-quarter view depends on."""
+    """The direction from the data to the camera. height: relative_height, for the three-quarter view."""
     if view == "three-quarter":
         if height == 0.0:
             return compass.up
@@ -88,8 +88,7 @@ def toward_camera(view: Direction, compass: Compass, height: float) -> Doubles:
 
 
 def view_axes(toward: Doubles, compass: Compass) -> Doubles:
-    """Right, up and forward of the picture, in rows: right x up = -forward. Views along up take right from the compass.
-    """
+    """Right, up and forward in rows: right x up = -forward. Views along up take right from the compass."""
     forward = -toward
     across = np.cross(forward, compass.up)
     right = compass.right if np.linalg.norm(across) < 1e-6 else unit(across)
