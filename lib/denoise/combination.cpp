@@ -15,7 +15,6 @@ namespace {
 constexpr double few_tiles = 8.0;  // fewer make an estimate uncertain, like as few pixels in error_estimate.cpp
 constexpr double normal_90 = 1.28; // 90% of a normal distribution lie below this many standard deviations
 
-// Weighted squares of errors, summed by tile.
 struct Squares {
     explicit Squares(const Halves &halves) :
         noise(halves),
@@ -41,7 +40,6 @@ struct Squares {
     Tiles second_moves;
 };
 
-// Expected squares of errors.
 Tiles by_tile(Squares squares, const Tiles &value_counts) {
     Tiles products = squares.first_moves; // of sums
     for (std::size_t tile = 0; tile < products.numbers.size(); ++tile)

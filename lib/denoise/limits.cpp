@@ -14,7 +14,6 @@ float spread_at(const Halves &halves, std::size_t index) {
     return 0.5F * std::abs(halves.first[index] - halves.second[index]);
 }
 
-// Range of the halves' values around one.
 struct Support {
     float lowest;
     float highest;

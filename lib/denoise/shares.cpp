@@ -10,7 +10,6 @@ namespace pt {
 
 namespace {
 
-// A pixel's evidence, summed over channels.
 enum Sum : std::size_t { gain, noise_square, free_products, limit_products, products, sum_count };
 
 using Sums = std::array<double, sum_count>;

@@ -18,7 +18,7 @@ namespace pt {
 // A part's words, plane by plane (gpu_layout.h).
 template <typename Word>
 struct PartWords {
-    Word *first;        // of the first pixel
+    Word *first;
     std::size_t stride; // between planes
 };
 
@@ -54,7 +54,7 @@ public:
 
     void add(const PixelSums &other) noexcept;
 
-    // Adds consecutive pixels' part in `from` to a part of pixels from to_first on.
+    // Adds one part of consecutive pixels in `from` to a part of the pixels from to_first on.
     void add_part(std::uint32_t to_part, std::size_t to_first, const PixelSums &from, std::uint32_t from_part,
                   std::size_t first, std::size_t count) noexcept;
 

@@ -21,7 +21,7 @@ double nearly(WideSum number) {
     return static_cast<double>(static_cast<std::uint64_t>(number >> 64)) * 0x1p64 + lower;
 }
 
-// The float nearest to a product, unless some double within a relative 2^-50 rounds to another float (Ziv 1991, Fast
+// The float nearest to a product; nothing if a double within a relative 2^-50 rounds to another float (Ziv 1991, Fast
 // evaluation of elementary mathematical functions with correctly rounded last bit).
 std::optional<float> rounded_product(WideSum number, double factor) {
     constexpr std::uint64_t tie = std::uint64_t{1} << 28; // half of the 29 bits that a float lacks

@@ -62,9 +62,9 @@ struct TileErrors {
     ErrorSquares relative_square;       // (x - r)^2 / (r^2 + 0.01), without values met once
     ErrorSquares met_once;              // as in PixelErrors
     ErrorSquares as_lamps;              // as in PixelErrors: about 1 each
-    double met_again = 0.0;             // values
-    double unseen = 0.0;                // as in PixelErrors
-    std::uint64_t rejected = 0;         // samples left out
+    double met_again = 0.0;
+    double unseen = 0.0;        // as in PixelErrors
+    std::uint64_t rejected = 0; // samples left out
 
     // Sum of all relative squares, as far as a tile alone tells.
     double own_square() const { return relative_square.sum + as_lamps.sum + unseen; }
@@ -85,7 +85,7 @@ public:
     void forget() noexcept { tiles_.clear(); }
 
 private:
-    TileSamples samples_; // of the last look
+    TileSamples samples_;
     std::vector<TileErrors> tiles_;
 };
 

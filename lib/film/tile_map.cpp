@@ -66,7 +66,6 @@ std::vector<TileMap::Piece> cut_rows(const std::vector<TileMap::Span> &spans, co
     return pieces;
 }
 
-// Whether both rows of pieces have the same columns and tiles.
 bool continue_below(std::span<const TileMap::Piece> pieces, std::span<const TileMap::Piece> below) {
     return std::ranges::equal(pieces, below, [](const TileMap::Piece &a, const TileMap::Piece &b) {
         return a.pixels.x == b.pixels.x && a.tile == b.tile;
@@ -167,8 +166,8 @@ std::vector<FilmTile> canonical_tiles(const std::vector<FilmTile> &tiles) {
     const std::vector<std::size_t> firsts = first_equals(tiles);
     std::vector<FilmTile> all;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::size_t, std::size_t>>
-        above;                // run -> samples, tile
-    std::uint32_t bottom = 0; // of the band above
+        above; // run -> samples, tile
+    std::uint32_t bottom = 0;
     for (const TileMap map(tiles); const TileMap::Band &band : map.bands()) {
         std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::size_t, std::size_t>> here;
         for (const auto &[first, end, samples] : runs_of(band, firsts)) {

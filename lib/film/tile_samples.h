@@ -18,7 +18,6 @@ public:
 
     const TileGrid &grid() const { return grid_; }
 
-    // Whether all tiles have the same samples.
     bool even() const { return set_of_.empty(); }
     const SampleSet &of(std::size_t tile) const { return even() ? sets_.front() : sets_[set_of_[tile]]; }
 

@@ -65,7 +65,7 @@ public:
         }
     }
 
-    // Called after includeLocal has found nothing, then gives the reason; and for #include <name>. An empty name means
+    // Called for #include <name>, and after includeLocal has found nothing; then gives the reason. An empty name means
     // no file.
     IncludeResult *includeSystem(const char * /*name*/, const char * /*file*/, std::size_t /*depth*/) override {
         const std::string reason = std::exchange(reason_, "");

@@ -19,7 +19,7 @@ namespace pt {
 namespace {
 
 constexpr double full_turn = 2.0 * std::numbers::pi;
-constexpr double float_pi = 3.14159274101257324; // PI of shaders/maths.glsl
+constexpr double float_pi = 3.14159274101257324;
 
 // Folds exactly to a quarter turn, so that zeros are exact.
 double sine_of_turn(double u) {

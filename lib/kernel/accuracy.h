@@ -12,7 +12,6 @@
 
 namespace pt {
 
-// A function in shaders/accuracy.comp.
 struct ElementaryFunction {
     const char *name;
     double (*exact)(double);
@@ -36,7 +35,6 @@ double error_in_ulp(float value, double exact);
 std::vector<float> evaluate(vulkan::Device &device, std::span<const std::uint32_t> spirv,
                             std::span<const float> arguments);
 
-// Finds the largest error.
 pt_function_accuracy compare(const ElementaryFunction &function, std::span<const float> arguments,
                              std::span<const float> values);
 

@@ -42,7 +42,7 @@ private:
     struct Look {
         const Features &features;
         const CoverageQuery &query;
-        double rays; // per submission
+        double rays;
         vulkan::DescriptorSet set;
     };
 

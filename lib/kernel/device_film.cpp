@@ -172,7 +172,6 @@ void require_all(const PixelSums &sums, std::uint32_t first_pixel, const TileSam
                                     });
 }
 
-// others: reused memory.
 void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, std::uint32_t first_pixel,
                 PixelSums &sums, PixelSums &others) {
     films.front()->read(first_pixel, sums);

@@ -48,7 +48,6 @@ public:
 
     void clear(const vk::raii::CommandBuffer &commands) const;
 
-    // Whether strips are whole rows of tiles.
     bool has_whole_tiles() const;
 
     // Records a copy: planes without gaps, part after part.

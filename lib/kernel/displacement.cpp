@@ -43,7 +43,7 @@ Losses losses_of(const SphereTree *tree, const MovingBall &surface) {
     return losses_of(tree, surface.kind == Kind::capsule ? glm::length(surface.way) : 0.0, surface.radius);
 }
 
-// The side of a pixel at the depth of what it shows.
+// A pixel's side at the depth of the surface.
 class PixelSides {
 public:
     PixelSides(const Camera &camera, const RenderSettings &settings) :

@@ -22,7 +22,6 @@ struct RelativeUnits {
     float scale;   // errors are below 2^FILM_MAX_EXPONENT; scaled, over the offset, below 2^60
     double factor; // corrects squares for the limited offset
 
-    // Converts the kernel's squares.
     double undone() const { return 1.0 / (static_cast<double>(scale) * static_cast<double>(scale) * factor); }
 
     // An offset far above the film's values makes up the whole denominator, so limiting it scales all squares equally.

@@ -47,8 +47,8 @@ private:
     vulkan::Device &device_;
     const vulkan::ComputePipeline &estimate_;
     DeviceFilm &film_;
-    vulkan::Buffer errors_;      // of a strip, by workgroup
-    vulkan::Buffer tile_counts_; // by tile of the film
+    vulkan::Buffer errors_;
+    vulkan::Buffer tile_counts_;
     vulkan::Buffer tile_squares_;
     std::vector<vulkan::DescriptorSet> sets_;
 };

@@ -39,8 +39,8 @@ private:
     };
 
     struct Added {
-        PixelRange pixels;                           // of the films
-        std::span<const vulkan::DescriptorSet> sets; // by strip of the sum
+        PixelRange pixels;
+        std::span<const vulkan::DescriptorSet> sets;
     };
 
     void add_own(const vk::raii::CommandBuffer &commands, std::uint32_t first_pixel, const PixelRange &wanted) const;

@@ -44,7 +44,6 @@ public:
             write_emission(emission_word(surface), material);
     }
 
-    // index: of a surface or table material.
     void reflection(std::uint32_t index, const Material &material) {
         // Includes the constant factors of f.
         const double lobe = (material.glossiness + 2.0) / (2.0 * std::numbers::pi);
@@ -178,7 +177,7 @@ gpu::FrameConstants frame_constants(const Camera &camera, const RenderSettings &
     return constants;
 }
 
-// In the caller's scene planes follow all spheres.
+// Planes follow all spheres in the caller's scene.
 std::vector<std::uint32_t> objects_of(const KernelSurfaces &surfaces, const PreparedScene &scene) {
     const Scene &held = scene.scene;
     const std::size_t sphere_count = scene.tree ? scene.tree->scene_sphere_count() : held.spheres.size();

@@ -17,7 +17,7 @@ struct GpuScene {
     Features features;
     // The scene buffer. Positions are relative to the camera, subtracted in double. Motion covers the shutter's time.
     std::vector<glm::vec4> words;
-    gpu::FrameConstants frame;              // the constant part
+    gpu::FrameConstants frame;
     std::shared_ptr<const SphereTree> tree; // may be NULL
     double start_distance;                  // of the coordinates' origin from the pinhole, along the view
     std::vector<std::uint32_t> objects;     // of the surfaces outside the tree, in the caller's scene

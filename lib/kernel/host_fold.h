@@ -12,7 +12,6 @@ namespace pt {
 
 class HostFold {
 public:
-    // Folds the other part into this one.
     HostFold(DeviceFilm &film, std::uint32_t into) : film_(film), into_(into) {}
 
     // Undoes the fold, unless keep() was called.

@@ -43,7 +43,7 @@ private:
         std::uint64_t pixels_of(std::uint64_t piece) const { return std::min(most, total - piece * most); }
 
         std::uint64_t total;
-        std::uint64_t most; // pixels of a piece
+        std::uint64_t most;
         std::uint64_t bytes_of_pixel;
     };
 

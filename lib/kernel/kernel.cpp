@@ -40,7 +40,6 @@ std::uint32_t samples_of_dispatch(const vulkan::Device &device, const Features &
     return static_cast<std::uint32_t>(std::min<std::uint64_t>({budget / trips, rows, gpu::FILM_MAX_GATHERED}));
 }
 
-// Joins adjacent tiles, then adjacent rows.
 std::vector<PixelRange> pixels_of_tiles(const TileGrid &grid, std::span<const std::uint32_t> tiles) {
     std::vector<PixelRange> ranges;
     const auto add = [&](const PixelRange &next) {

@@ -45,10 +45,8 @@ public:
     // Some drivers compile only at the first dispatch. No work may be under way.
     void dispatch_nothing();
 
-    // Per pixel and submission.
     std::uint32_t max_samples() const { return max_dispatch_samples_ * (max_tables - 1); }
 
-    // Records commands after the samples.
     using Behind = std::function<void(const vk::raii::CommandBuffer &)>;
 
     // At most queue_depth slices of the device may be under way.
@@ -90,7 +88,7 @@ private:
     PointLayout layout_;
     std::uint64_t seed_;
     gpu::FrameConstants frame_;
-    std::uint32_t table_bytes_;          // of points, per dispatch
+    std::uint32_t table_bytes_;
     std::uint32_t max_dispatch_samples_; // per pixel
     bool overlap_;                       // dispatches may add at the same time
     vulkan::Buffer scene_;
@@ -98,9 +96,9 @@ private:
     vulkan::Buffer points_; // used in turn by the slices under way
     TileLists tile_lists_;
     std::vector<vulkan::DescriptorSet> sets_;
-    std::uint32_t next_table_ = 0; // in points_
-    bool scene_is_old_ = true;     // the buffer lacks the scene
-    double seconds_ = 0.0;         // of all slices of the scene
+    std::uint32_t next_table_ = 0;
+    bool scene_is_old_ = true; // the buffer lacks the scene
+    double seconds_ = 0.0;     // of all slices of the scene
 };
 
 } // namespace pt

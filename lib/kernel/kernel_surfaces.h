@@ -11,7 +11,6 @@
 
 namespace pt {
 
-// Surfaces outside the tree that the camera does not see.
 struct HiddenCounts {
     std::uint32_t lamps;
     std::uint32_t skies;

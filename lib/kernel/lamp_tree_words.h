@@ -18,7 +18,7 @@ std::uint64_t lamp_tree_words(std::uint32_t lamp_count, bool motion);
 
 struct TreeLamp {
     SeenSphere sphere;
-    double radiance;    // mean of R, G, B
+    double radiance;
     std::uint32_t lamp; // index in the kernel
 };
 

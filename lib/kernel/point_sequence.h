@@ -29,7 +29,6 @@ struct PointLayout {
     std::uint32_t block_count() const { return static_cast<std::uint32_t>(block_dimensions.size()); }
     std::uint32_t row_blocks() const { return gpu::row_blocks(block_count(), shared_blocks, branches); }
 
-    // Whether the first block includes the time.
     bool has_time() const { return block_dimensions.front() == gpu::camera_dimensions(1); }
 
     std::uint32_t dimensions_of(std::uint32_t blocks) const {

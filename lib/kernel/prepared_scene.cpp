@@ -79,7 +79,6 @@ std::vector<std::uint32_t> left_out_of(const CheckedScene &checked, const std::v
     return left_out;
 }
 
-// Keeps the previous tree's shape if it fits.
 std::shared_ptr<const SphereTree> tree_over(const SphereSource &spheres, const std::vector<std::uint32_t> &left_out,
                                             const std::vector<TreeMaterial> &materials, const SphereTree *before,
                                             WorkProgress &progress) {

@@ -34,7 +34,6 @@ struct PreparedScene {
     PreparedScene(CheckedScene checked, std::optional<std::uint32_t> tree_from, const PreparedScene *before,
                   WorkProgress &progress);
 
-    // All emitting spheres, including the tree's.
     std::vector<Sphere> lamps() const;
 
     // Digest of scene and tree, computed on first use.

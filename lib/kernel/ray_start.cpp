@@ -135,7 +135,6 @@ double most_across(const glm::dvec3 &centre, const ParallelView &view) {
     return glm::length(centre - glm::dot(centre, view.forward) * view.forward) + view.radius;
 }
 
-// Whether all rays start inside.
 bool starts_within(const glm::dvec3 &centre, double radius, const ParallelView &view) {
     return std::hypot(glm::dot(centre, view.forward), most_across(centre, view)) < radius;
 }
@@ -254,7 +253,7 @@ gpu::CameraView camera_view(const Camera &camera, const RenderSettings &settings
     if (camera.is_orthographic()) {
         view.start_scale = static_cast<float>(camera.vertical_extent / settings.height);
     } else {
-        const double image_distance = settings.height / (2.0 * camera.tan_half_fov); // in pixels
+        const double image_distance = settings.height / (2.0 * camera.tan_half_fov);
         view.forward = camera.forward * image_distance;
         if (camera.has_lens()) {
             view.lens_radius = static_cast<float>(camera.spread(camera.start_distance));

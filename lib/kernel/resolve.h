@@ -39,7 +39,7 @@ private:
 struct ResolvedPiece {
     Rectangle pixels;
     std::uint32_t first_word;
-    std::uint32_t row_words; // from row to row
+    std::uint32_t row_words;
 };
 
 // Includes barriers before and after. sets: by strip of the film.

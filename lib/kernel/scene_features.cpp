@@ -225,7 +225,7 @@ std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Fe
     auto constants = features.constants;
     constants[gpu::ID_TABLE_BLOCKS] = layout.block_count();
     constants[gpu::ID_BRANCH_COUNT] = layout.branches;
-    constants[gpu::ID_UNROLLED] = gpu::CONSTANT_SCENE_WORDS; // upper bound
+    constants[gpu::ID_UNROLLED] = gpu::CONSTANT_SCENE_WORDS;
     return constants;
 }
 

@@ -28,7 +28,6 @@ struct Features {
 
     // The scene then has material words for each surface.
     bool scene_in_uniform() const { return constants[gpu::ID_SCENE_SOURCE] == gpu::SCENE_IN_UNIFORM; }
-    // Whether the scene buffer has a motion block.
     bool has_ways() const { return constants[gpu::ID_MOTION] > 0 || constants[gpu::ID_KINDS] > gpu::KIND_BALL; }
     std::uint32_t surface_count() const { return constants[gpu::ID_SPHERE_COUNT] + constants[gpu::ID_PLANE_COUNT]; }
     std::uint32_t emitting_spheres() const { return constants[gpu::ID_LAMP_COUNT] + constants[gpu::ID_SKY_COUNT]; }

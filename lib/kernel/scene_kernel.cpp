@@ -37,7 +37,6 @@ SceneKernel::SceneKernel(vulkan::Device &device, std::span<const std::uint32_t> 
     bindings_(std::move(bindings)),
     push_constant_bytes_(push_constant_bytes) {}
 
-// A new camera or moved surfaces change only words.
 void SceneKernel::fit(std::span<const std::uint32_t> constants) {
     if (pipeline_ && std::ranges::equal(constants_, constants))
         return;

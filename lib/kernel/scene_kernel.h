@@ -20,7 +20,6 @@ std::vector<vulkan::Binding> with_scene_bindings(std::initializer_list<vulkan::B
 std::vector<vulkan::BufferRange> scene_ranges(const GpuScene &scene, const vulkan::Buffer &words,
                                               const vulkan::Buffer *tree);
 
-// ranges: from scene_ranges().
 struct BoundScene {
     const GpuScene &scene;
     std::vector<vulkan::BufferRange> ranges;

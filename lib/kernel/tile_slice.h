@@ -16,7 +16,6 @@ struct TileSlice {
 
     std::uint64_t split() const { return split_of(hull_of(before, samples)); }
 
-    // Whether the tiles' parts are folded first.
     bool moves_split() const { return !before.empty() && split_of(before) != split(); }
 };
 

@@ -44,7 +44,6 @@ TracePipelines::TracePipelines(vulkan::Device &device, KernelCode code) :
     code_(std::move(code)),
     kernel_key_(device.kernel_key(digest_of(code_))) {}
 
-// Evicts the least recently used kernel.
 const vulkan::ComputePipeline &TracePipelines::build(std::vector<std::uint32_t> constants) {
     using Clock = std::chrono::steady_clock;
     const Clock::time_point start = Clock::now();

@@ -47,7 +47,6 @@ private:
         vulkan::ComputePipeline pipeline;
     };
 
-    // The last kernel built for one scene.
     struct OwnKernel {
         std::vector<std::uint32_t> constants;
         double last_seconds; // of the scene

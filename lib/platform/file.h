@@ -62,7 +62,7 @@ bool rename_written(int descriptor, const std::filesystem::path &from, const std
 // Empty unless it is a regular file.
 std::optional<std::uint64_t> regular_size(int descriptor);
 
-// Changes whenever the file is written or replaced; empty if there is none.
+// Changes whenever the file is written or replaced; empty without a file.
 std::optional<std::string> file_state(const std::filesystem::path &path);
 
 bool may_write(const std::filesystem::path &path);

@@ -23,7 +23,7 @@ void set_environment(const char *name, const char *value);
 // May not exist; empty if unknown.
 std::filesystem::path cache_folder();
 
-// Looks in the absolute folders of PATH, so that nothing in the current folder is run. Empty if there is none.
+// Looks in the absolute folders of PATH, so that nothing in the current folder is run. Empty if not found.
 std::filesystem::path find_program(const std::string &name);
 
 // Replaces this process by another program, with the arguments after the first two. Returns an exit code, or -1 and

@@ -11,7 +11,7 @@ void prepare_streams();
 
 bool is_terminal(int stream);
 
-// Of the terminal on stderr; 0 if unknown.
+// Columns of the terminal on stderr; 0 if unknown.
 std::size_t terminal_columns();
 
 // POSIX numbers, on every system.

@@ -54,7 +54,6 @@ bool Accumulation::run(Clock::time_point until) {
     return !is_under_way();
 }
 
-// Starts as many slices as there is room for.
 void Accumulation::deal() {
     if (cancellation_.is_asked())
         stop();

@@ -16,7 +16,6 @@ std::string printable(std::string text) {
     return text;
 }
 
-// Each model once.
 std::string text_of(const std::vector<pt_device_info> &devices) {
     std::set<std::string> models;
     for (const pt_device_info &device : devices)

@@ -85,7 +85,6 @@ std::optional<std::span<std::byte>> FilmView::map(const ImageQuery &query) {
     return home().image_reader().map(query);
 }
 
-// Reads only the image's rows.
 void FilmView::read_on_host(const Image &image, const ImageQuery &query, const TileSamples &samples) const {
     ImageRows rows(image);
     const std::uint32_t width = home().film().width();
@@ -102,7 +101,7 @@ bool FilmView::reads_on_device() const {
     return home().device().policy().resolve_on_device && home().film().has_whole_tiles();
 }
 
-// Tiles come in the same order and sums on one device or several.
+// Order and sums of tiles do not depend on the number of devices.
 void FilmView::estimate(ErrorEstimator &estimator, const ErrorQuery &query, bool is_recorded) {
     const auto add = [&](const TileErrors &tiles) { estimator.add(tiles); };
     if (!reads_on_device())

@@ -75,7 +75,7 @@ private:
     void read_on_host(const Image &image, const ImageQuery &query, const TileSamples &samples) const;
 
     const RenderDevices &devices_;
-    FilmErrors errors_;   // if computed on the host
+    FilmErrors errors_;
     std::list<Sum> sums_; // by the sizes of bands, at most two
 };
 

@@ -22,7 +22,6 @@ Rectangle rectangle_of(const Source &source, std::uint32_t width, std::uint32_t 
     return {source.x, source.y, source.width, source.height};
 }
 
-// name: of the columns or rows.
 bool check_extent(const Subject &image, const char *name, std::uint32_t extent, const Member &begin,
                   std::uint32_t first, std::uint32_t limit) {
     image.require(extent >= 1, name, extent, "must be >= 1, but where x, y, width and height are all 0");

@@ -47,7 +47,6 @@ class ImageRows {
 public:
     explicit ImageRows(const Image &image);
 
-    // Takes the next pixels, in the image's format, or as R, G and B.
     void put(std::span<const std::byte> pixels);
     void put(std::span<const float> values);
 

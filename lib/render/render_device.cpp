@@ -145,7 +145,7 @@ void RenderDevice::plant(const std::shared_ptr<const SphereTree> &tree) {
 
 void RenderDevice::prepare_ahead(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings) {
     prepare(scene, settings);
-    pipelines_->build_own(TracePipelines::OwnKernels::at_once); // until the next prepare()
+    pipelines_->build_own(TracePipelines::OwnKernels::at_once);
     kernel_->build(*pipelines_);
     kernel_->dispatch_nothing();
     if (device_.policy().resolve_on_device) {

@@ -136,7 +136,7 @@ private:
     std::optional<ImageReader> image_reader_; // of the film; made on first use
     std::optional<BufferWriter> buffer_writer_;
     std::optional<ErrorReader> error_reader_;
-    std::shared_ptr<const SphereTree> tree_; // in the buffer
+    std::shared_ptr<const SphereTree> tree_;
     std::optional<vulkan::Buffer> tree_buffer_;
     std::optional<FirstHits> first_hits_;
     std::optional<Coverage> coverage_;

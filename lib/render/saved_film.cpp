@@ -32,7 +32,6 @@ SampleSet united(const SampleSet &present, const SampleSet &added) {
     return all;
 }
 
-// Whole rows handled at a time.
 std::uint32_t rows_of_piece(std::uint32_t width) {
     return std::max(piece_pixels / width, 1U);
 }

@@ -52,7 +52,6 @@ bool TileTasks::ends_all(std::size_t tile_count) const {
     return tasks_.size() == 1 && ends_samples(tile_count) && tasks_.back().chunk.end == tasks_.back().samples.end;
 }
 
-// Moves on to the next tiles, or the next samples of all.
 void TileTasks::leave_behind(std::size_t tile_count) noexcept {
     Task &task = tasks_.back();
     task.next_tile += tile_count;

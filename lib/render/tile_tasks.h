@@ -48,11 +48,11 @@ public:
 private:
     // Tiles with equal samples, which take the same ones.
     struct Task {
-        std::uint32_t set;    // index of their samples in TileSamples
-        std::uint64_t wanted; // at the end
-        SampleRange before;   // hull of the samples that they have
-        SampleRange samples;  // to be taken
-        SampleRange chunk{};  // part of `samples` that tiles take now
+        std::uint32_t set; // index of their samples in TileSamples
+        std::uint64_t wanted;
+        SampleRange before; // hull of the samples that they have
+        SampleRange samples;
+        SampleRange chunk{}; // part of `samples` that tiles take now
         std::vector<std::uint32_t> found{};
         std::span<const std::uint32_t> tiles{}; // ascending: these, or all
         std::size_t next_tile = 0;              // takes the chunk next

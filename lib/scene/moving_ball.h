@@ -66,7 +66,7 @@ inline double with_margin(double length) {
     return length * (1.0 + side_margin);
 }
 
-// Least distance from the origin.
+// Least distance of a moving point from the origin.
 inline double least_distance(const glm::dvec3 &open, const glm::dvec3 &way) {
     const double length = glm::dot(way, way);
     const double nearest = length > 0.0 ? std::clamp(-glm::dot(open, way) / length, 0.0, 1.0) : 0.0;

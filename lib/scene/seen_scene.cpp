@@ -95,7 +95,7 @@ void require_held_motions(const SeenScene &seen, const Scene &scene, const Camer
                                    ") must move less than a 32nd of it while the shutter is open"});
 }
 
-// With the center at a from the disc's plane and c from its axis, squared distances from the disc's points are a^2 +
+// Let the center be at a from the disc's plane and c from its axis. Squared distances from the disc's points are a^2 +
 // max(c - radius, 0)^2 to a^2 + (c + radius)^2. A moving ball is wider by half its way. Float32 tells sides up to a
 // share of the ball's size or, for a huge ball, its distance.
 bool divides_start(const MovingBall &ball, const Camera &camera, double slack) {

@@ -29,7 +29,7 @@ struct SeenSphere : MovingBall {
 // dot(normal, y) + curvature / 2 * dot(y, y) = 0 as the shutter opens.
 struct CurvedPlane {
     glm::dvec3 normal; // unit vector at the point nearest to the camera; outward for a sphere
-    double offset;     // of the camera, positive on the normal's side
+    double offset;     // signed distance of the camera, positive on the normal's side
     double curvature;  // 1 / radius; 0 for a plane
     glm::dvec3 way;    // while the shutter is open
     std::uint32_t material;

@@ -178,7 +178,6 @@ std::uint32_t component_bytes(std::uint32_t type) {
     return type == PT_TYPE_SRGB8 ? 1 : sizeof(float);
 }
 
-// "center.data"
 std::string member(const ColumnKind &kind, const char *name) {
     return std::string(kind.name) + '.' + name;
 }

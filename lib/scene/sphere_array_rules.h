@@ -13,13 +13,12 @@
 
 namespace pt {
 
-// For all arrays together; indices and memory are designed for it.
+// Limit for all arrays together, for which indices and memory are designed.
 constexpr std::uint64_t max_sphere_count = std::uint64_t{1} << 26;
 
 // Throws PT_ERROR_INVALID_ARGUMENT or PT_ERROR_UNSUPPORTED for a bad struct_size.
 std::vector<pt_sphere_array> copied_sphere_arrays(const pt_scene &scene, Violations &violations);
 
-// Upper bound of the elements to be checked.
 double elements_of(std::span<const pt_sphere_array> arrays);
 
 // A unit of work per element. If an array's columns cannot be read, its elements are not checked.

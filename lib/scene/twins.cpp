@@ -96,7 +96,6 @@ private:
     std::vector<Point> points_;
 };
 
-// Removes twins of earlier elements that are not themselves twins.
 template <typename Element>
 void merge_twins(std::vector<Element> &elements) {
     const Line line(elements);

@@ -29,7 +29,6 @@ public:
         return std::min(static_cast<int>((item.centre_radius[axis_] - low_) * scale_), count_ - 1);
     }
 
-    // bin: not the first.
     bool is_before(const TreeItem &item, int bin) const {
         return (item.centre_radius[axis_] - low_) * scale_ < static_cast<float>(bin);
     }
@@ -62,7 +61,7 @@ struct BinContents {
 };
 
 BinCut best_cut(const BinContents &contents, const Bins &bins) {
-    std::array<float, most_bins> surfaces_from{}; // of the balls from each bin on
+    std::array<float, most_bins> surfaces_from{};
     Box after;
     for (int bin = bins.count() - 1; bin > 0; --bin) {
         after.add(contents.balls[static_cast<std::size_t>(bin)]);

@@ -95,8 +95,8 @@ inline Box balls_of(Items items) {
 // A large part has a sample's boxes.
 struct Part {
     Items items;
-    Box centres;          // a point only if all are there
-    float surface = 0.0F; // of the box around the spheres
+    Box centres; // a point only if all are there
+    float surface = 0.0F;
     bool has_no_twins = false;
 };
 

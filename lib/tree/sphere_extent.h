@@ -13,7 +13,7 @@
 namespace pt {
 
 struct TreeMaterial {
-    std::uint32_t index; // in the table of used ones
+    std::uint32_t index;
     bool emits;
 };
 

@@ -40,7 +40,6 @@ struct Making {
     WorkProgress &progress;
 };
 
-// Whether any two may be twins.
 bool have_equals(Items items) {
     for (std::size_t i = 0; i < items.size(); ++i)
         for (std::size_t other = 0; other < i; ++other)
@@ -106,7 +105,6 @@ bool goes_before(const Part &part, const Part &other, std::uint32_t depth) {
     return depth < free_depth ? part.surface > other.surface : part.items.size() > other.items.size();
 }
 
-// NULL if none can be divided.
 Part *next_of(std::span<Part> parts, std::uint32_t depth) {
     Part *next = nullptr;
     for (Part &part : parts)

@@ -23,7 +23,6 @@ constexpr vk::MemoryPropertyFlags host_readable = host_visible | Property::eHost
 // Takes far longer to copy than a submission.
 constexpr std::uint64_t max_staging_bytes = 16U << 20;
 
-// Mapped if its memory has the properties mapped_if.
 struct Allocation {
     Allocation(const Device &device, std::uint64_t bytes, vk::BufferUsageFlags usage,
                std::span<const vk::MemoryPropertyFlags> wanted_best_first,

@@ -34,7 +34,6 @@ constexpr std::chrono::nanoseconds wait_step = std::chrono::milliseconds{100};
 // Longer code stalls on instruction fetches.
 constexpr std::uint32_t gpu_unrolled = 16;
 
-// Empirical.
 constexpr std::uint32_t gpu_walk_trips = 8;
 
 // Many times the cost of sleeping and waking.
@@ -79,7 +78,6 @@ constexpr vk::AccessFlags device_writes = Access::eShaderWrite | Access::eTransf
 constexpr vk::AccessFlags device_accesses =
     device_writes | Access::eShaderRead | Access::eUniformRead | Access::eTransferRead;
 
-// Makes earlier writes of the device visible.
 void write_barrier(const vk::raii::CommandBuffer &commands, vk::PipelineStageFlags stages, vk::AccessFlags accesses) {
     const vk::MemoryBarrier barrier{.srcAccessMask = device_writes, .dstAccessMask = accesses};
     commands.pipelineBarrier(device_stages, stages, {}, barrier, {}, {});
@@ -183,7 +181,6 @@ bool Device::is_at_rest() const {
     return std::ranges::all_of(submissions_, [&](const Submission &submission) { return ended(submission); });
 }
 
-// Also true after loss of the device.
 bool Device::ended(const Submission &submission) const {
     try {
         return !submission.pending || submission.end || submission.fence.getStatus() == vk::Result::eSuccess;

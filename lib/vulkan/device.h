@@ -147,7 +147,6 @@ private:
         Clock::time_point latest;
     };
 
-    // Commands that are running, or free for reuse.
     struct Submission {
         vk::raii::CommandBuffer commands;
         vk::raii::Fence fence;

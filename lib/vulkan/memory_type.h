@@ -34,7 +34,7 @@ auto allocate_where_there_is_room(std::span<const std::uint32_t> types, Allocate
         try {
             return allocate(type);
         } catch (const vk::OutOfDeviceMemoryError &) {
-            continue; // the next type may be in another heap
+            continue;
         }
     }
     return allocate(types.back());

@@ -24,8 +24,8 @@ constexpr std::string_view magic = "ptkernel";
 struct KernelSeal {
     char magic[8];
     char key[32];
-    std::uint64_t size_bytes; // of the rest
-    std::uint64_t checksum;   // of the rest
+    std::uint64_t size_bytes;
+    std::uint64_t checksum;
 };
 
 // key: 32 characters.
