@@ -88,7 +88,6 @@ def structs_text(headers):
 
 
 def first_words(comment):
-    """The comment up to the first break."""
     return re.split(r"[:;.](?:\s|$)", " ".join(comment.replace("*", " ").split()))[0]
 
 

@@ -20,7 +20,7 @@ particles["position"] = random.uniform((-2, 0, -1), (2, 1, 1), (COUNT, 3))
 particles["radius"] = 0.6 / np.cbrt(COUNT) * random.uniform(0.5, 1.0, COUNT)
 particles["color"] = np.where(particles["position"][:, :1] > 0, (230, 110, 40), (60, 120, 210))
 
-# %% One call. A notebook shows the image that a cell ends with.
+# %% A notebook shows the image that a cell ends with.
 
 image = pt.render(particles["position"], particles["radius"], particles["color"], size=SIZE, samples=32, up="y",
                   floor=True)
@@ -31,7 +31,7 @@ print(image)
 
 print(f"mean radiance {image.radiance.mean():.3f}, brightest {image.radiance.max():.3f}, error {image.error:.1%}")
 
-# %% Another light and camera. Sampled until the error is 5%, with progress.
+# %% Another light and camera, until the error is 5%.
 
 spheres = pt.SphereArray(particles["position"], particles["radius"],
                          pt.Material(diffuse=0.6, specular=0.3, glossiness=50), color=particles["color"])
@@ -61,7 +61,7 @@ context.accumulate(16)
 assert np.array_equal(whole.image(), context.image())
 print(whole)
 
-# %% Moving particles: the same context and arrays, a picture for each step.
+# %% Moving particles: the same context and arrays.
 
 for step in range(3):
     particles["position"][:, 1] *= 0.8

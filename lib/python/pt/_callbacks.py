@@ -89,8 +89,6 @@ def _remove(guard: CallbackGuard) -> None:
 
 
 def log_function(current_log: Callable[[], Log | None]) -> Callable[[object, int, bytes], None]:
-    """A pt_log_fn."""
-
     def write(_: object, level: int, line: bytes) -> None:
         log = current_log()
         if log is not None:

@@ -21,11 +21,11 @@ class Camera:
     """A pinhole; with an aperture a thin lens; with a vertical_extent parallel rays. Lengths are in scene units.
 
     position          of the pinhole; parallel rays start on the plane through it across the view
-    target            the point in the middle of the image; must differ from position
+    target            the middle of the image; must differ from position
     up                not parallel to the viewing direction
     vertical_fov      full angle, radians, in [1e-8, pi); default pi / 4. None with parallel rays
-    shutter           light is gathered evenly between these times, 0 <= open <= close <= 1
-    vertical_extent   full height of the view of parallel rays, in [1e-18, 1e18]; None: perspective
+    shutter           0 <= open <= close <= 1; light is gathered evenly in between
+    vertical_extent   full height of parallel rays, in [1e-18, 1e18]; None: perspective
     aperture          diameter of the lens, at most twice the focus; 0: a pinhole
     focus             depth of the plane in focus; 0: the distance of target
     """
@@ -56,9 +56,9 @@ class Camera:
                margin: float = 1.05) -> Camera:
         """The nearest camera that sees all spheres.
 
-        center      shape (n, 3), n >= 1, scene units
+        center      shape (n, 3), n >= 1
         radius      shape (n,), or one number for all
-        direction   from the spheres to the camera, any length but 0
+        direction   from the spheres to the camera, not 0
         aspect      width / height of the image
         margin      width of the view over the tightest one
         """

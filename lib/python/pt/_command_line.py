@@ -12,7 +12,6 @@ from typing import Any
 from pt._enums import Result
 from pt._files import format_of
 
-# pt's exit codes.
 INTERNAL, USAGE, SCENE, NO_DEVICE, LOST, FILES, TARGET_MISSED, SIGNAL = 1, 2, 3, 4, 5, 6, 7, 128
 CODE_OF_RESULT = {Result.ERROR_INVALID_ARGUMENT: USAGE, Result.ERROR_INCOMPATIBLE: USAGE,
                   Result.ERROR_INVALID_SCENE: SCENE, Result.ERROR_UNSUPPORTED: NO_DEVICE,

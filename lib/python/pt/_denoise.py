@@ -61,7 +61,6 @@ def denoise(first: npt.ArrayLike, second: npt.ArrayLike, albedo: npt.ArrayLike, 
 
 
 def find_library() -> str | None:
-    """The library in the module pyoidn, without importing it."""
     spec = importlib.util.find_spec("pyoidn")
     for folder in spec.submodule_search_locations or () if spec else ():
         path = pathlib.Path(folder, "oidn", "lib", "libOpenImageDenoise.so.2")

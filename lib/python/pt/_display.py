@@ -56,7 +56,7 @@ def encode_png(pixels: npt.NDArray[Any]) -> bytes:
     Specification", 2003)."""
     height, width, channels = pixels.shape
     big_endian = np.ascontiguousarray(pixels, pixels.dtype.newbyteorder(">"))
-    unfiltered = np.zeros((height, 1), np.uint8)  # each row begins with its filter: none
+    unfiltered = np.zeros((height, 1), np.uint8)
     rows = np.hstack([unfiltered, big_endian.view(np.uint8).reshape(height, -1)])
     kind = {3: 2, 4: 6}[channels]
     header = struct.pack(">IIBBBBB", width, height, 8 * pixels.itemsize, kind, 0, 0, 0)

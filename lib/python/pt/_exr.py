@@ -9,7 +9,7 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
-EXR_ROWS: Final = 16  # per block packed by zip
+EXR_ROWS: Final = 16
 
 
 def encode_exr(radiance: npt.NDArray[np.float32]) -> bytes:

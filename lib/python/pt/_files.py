@@ -12,7 +12,7 @@ from typing import BinaryIO, Final, TypeAlias
 
 Path: TypeAlias = "str | os.PathLike[str]"
 
-PICTURES: Final = ("exr", "png", "jpg", "jpeg")  # endings of the commands' outputs
+PICTURES: Final = ("exr", "png", "jpg", "jpeg")
 
 
 def format_of(path: Path, formats: Sequence[str]) -> str:

@@ -40,7 +40,7 @@ def reach(centers: Array, radii: Array, axes: Doubles, directions: Doubles, spin
     radii        shape (n,)
     axes         shape (3, 3): unit vectors in rows
     directions   shape (k, 3): unit vectors in the coordinates of the axes
-    spin         if given, for the bodies that the turning balls sweep
+    spin         for the bodies that the turning balls sweep
     """
     farthest = np.full(len(directions), -np.inf)
     world = directions @ axes

@@ -145,7 +145,6 @@ class Program:
 
 
 def _sized(columns: dict[str, list[int]]) -> dict[str, tuple[int, int, int]]:
-    """Adds the number of spheres, the longest column's rows, to each column."""
     count = max(rows for _, rows in columns.values())
     return {name: (kind, rows, count) for name, (kind, rows) in columns.items()}
 

@@ -19,9 +19,8 @@ from pt._vectors import Color, Vector, color, vector
 
 @dataclass(frozen=True)
 class Material:
-    """How a surface reflects and emits: the physically-normalised Phong model of pt/pt.h.
-
-    Colors are linear R, G, B, each in [0, 1e18]; a single number is a grey.
+    """The physically-normalised Phong model of pt/pt.h. Colors are linear R, G, B, each in [0, 1e18], or one number for
+    a grey.
 
     diffuse      share of the light that is reflected diffusely
     specular     weight of the lobe about the mirror direction
@@ -59,12 +58,12 @@ MaterialOrIndex: TypeAlias = "Material | int"
 
 @dataclass(frozen=True)
 class Sphere:
-    """A ball: visible, lit and emitting on both sides.
+    """A ball: visible, lit and emitting on both sides. Lengths are in scene units.
 
-    center     at time 0, scene units
-    radius     > 0, scene units
+    center     at time 0
+    radius     > 0
     material   a Material, or its index in Scene.materials
-    motion     displacement from time 0 to time 1, scene units
+    motion     displacement from time 0 to time 1
     """
 
     center: Vector
@@ -83,7 +82,6 @@ class Plane:
     """The points x with dot(normal, x) + offset = 0: visible, lit and emitting on both sides.
 
     normal     any length except 0; normal and offset are divided by it
-    offset     minus the distance from the origin along the normal, times the normal's length
     material   a Material, or its index in Scene.materials
     """
 
@@ -100,21 +98,18 @@ class SphereArray:
     """Many spheres, read from NumPy arrays in place whenever the scene is set; later changes of the arrays do not
     count. Lengths are in scene units.
 
-    center     shape (n, 3): x, y, z at time 0
+    center     shape (n, 3), at time 0
     radius     shape (n,), or one number for all; > 0
     material   a Material or an index in Scene.materials for all, or indices of shape (n,)
     motion     shape (n, 3) or (3,): displacement from time 0 to time 1; none by default
-    color      shape (n, 3) or (3,), multiplies the material's diffuse: linear floats in [0, 1], or sRGB in uint8; 1 by
+    color      shape (n, 3) or (3,), times the material's diffuse: linear floats in [0, 1], or sRGB in uint8; 1 by
                default
-    end        shape (n, 3) or (3,): a second center; each sphere is swept to it as a capsule, which neither emits nor
-               moves
+    end        shape (n, 3) or (3,): the other center of a capsule, which neither emits nor moves
     opacity    shape (n,), or one number for all, in [0, 1]: the share of rays that meet it, at random; 1 by default
 
-    Arrays of float32, float64, uint32 (indices) and uint8 (colors) in native byte order are read in place if their rows
-    are contiguous and ascend, at any distance: slices a[::2], columns a[:, :3], fields of structured arrays. Others are
-    copied once, here; `copied` names those columns.
-
-    ValueError: shapes do not fit. TypeError: not numbers, or colors of integers that are not uint8.
+    Native float32, float64, uint32 (indices) and uint8 (colors) are read in place if rows are contiguous and ascend, at
+    any distance: slices a[::2], columns a[:, :3], fields of structured arrays. Others are copied once, here; `copied`
+    names them. ValueError: shapes do not fit. TypeError: not numbers, or colors of integers that are not uint8.
     """
 
     def __init__(self, center: npt.ArrayLike, radius: npt.ArrayLike, material: MaterialOrIndex | npt.ArrayLike, *,
@@ -147,9 +142,7 @@ class SphereArray:
 
 @dataclass
 class Scene:
-    """The visible world.
-
-    materials       referred to by indices; materials of spheres and planes are added, each once
+    """materials       by index; materials of spheres and planes are added, each once
     sphere_arrays   more spheres, for instance one SphereArray for each species
     """
 

@@ -81,7 +81,6 @@ def write_pictures(film: Film, arguments: argparse.Namespace, facts: dict[str, A
 
 
 def described(job: FileJob, frame: int | None) -> tuple[FileJob, dict[str, Any]]:
-    """Error: pt refuses the scene."""
     job = job if frame is None else replace(job, arguments=(*job.arguments, "--frames", str(frame)))
     reader = Program(job.arguments, job.files, device_of(job))
     reader.close()
@@ -99,7 +98,7 @@ def render_pictures(arguments: argparse.Namespace, others: list[str], signals: S
                       checkpoint=arguments.checkpoint, checkpoint_every=arguments.checkpoint_every,
                       wait_for_workers=arguments.wait)
     for frame in frames[:1]:
-        described(scene, frame)  # refuses before workers start
+        described(scene, frame)
     with cluster(arguments) as client:
         for frame in frames:
             job, facts = described(scene, frame)

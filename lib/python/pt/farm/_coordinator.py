@@ -36,7 +36,7 @@ LOOK_SHARE = 0.05
 
 class _Opened(NamedTuple):
     film: Film
-    size: int  # bytes
+    size: int
     identity: Identity
 
 
@@ -55,7 +55,7 @@ class Coordinator:
         self._events: queue.Queue[tuple[Any, ...]] = queue.Queue(MOST_FETCHED)
         self._closed = False
         self._waiting: deque[tuple[int | None, Part]] = deque()
-        self._open: set[int] = set()  # numbers of parts given out but not merged
+        self._open: set[int] = set()
         self._tries: dict[int, list[str]] = {}
         self._next_number = 0
         self._progress = Progress()
@@ -74,7 +74,6 @@ class Coordinator:
         self._ask_end = self._ask_cost = 0.0
         self._stopped = False
 
-    # ---- the picture ----
 
     def run(self, goals: Goals, more: Callable[[], Goals | None] = lambda: None) -> bool:
         """Works until each tile has its samples; False if progress() stopped it. more: further goals of tiles without
@@ -133,7 +132,6 @@ class Coordinator:
         self._ask_cost = self._ask_end - start
 
     def _forgot(self, missing: list[Part]) -> None:
-        """Counts parts that are missing without a failed try."""
         work = sum(part.work for part in missing)
         if work:
             self._progress.forgotten += work
@@ -164,7 +162,6 @@ class Coordinator:
         return Result(self.film, self._progress)
 
     def close(self) -> None:
-        """Keeps what came back and cancels the rest."""
         self._closed = True
         if not self._progress.ended_by:
             self._sum.merge()
@@ -186,7 +183,6 @@ class Coordinator:
                 self._progress.messages.append(f"the checkpoint could not be written, and it goes on without: {error}")
             self._checkpoint_error = str(error)
 
-    # ---- parts ----
 
     def _look_for_late(self) -> None:
         for member in self._crew:
@@ -256,7 +252,6 @@ class Coordinator:
         member.tries[future.key] = Try(number, part, future, now(), member.speed.seconds(before + part.work))
         self._progress.issued += 1
 
-    # ---- what comes back ----
 
     def _met(self, future: Any, outcome: _task.Outcome | None) -> None:
         """Receives a worker's introduction. Called by threads."""

@@ -72,7 +72,6 @@ class Crew:
         return next((member for member in self if future.key in member.tries), None)
 
     def meet(self, member: Member, outcome: Outcome | None, identity: Identity | None) -> None:
-        """Accepts a worker after its introduction. identity: of its film."""
         member.introduction = None
         if outcome is None:
             member.is_banned = True

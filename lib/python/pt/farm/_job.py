@@ -39,7 +39,7 @@ class FileJob:
     """A picture of a scene file, read and rendered by the program pt on each worker.
 
     arguments   of `pt render`, the scene first
-    files       the scene and the files that it names, by names relative to the worker's folder
+    files       the scene and its files, by names relative to the worker's folder
     settings    size and first sample
     """
 

@@ -59,7 +59,6 @@ def _tiles_of(tile: FilmTile, indices: Indices) -> Indices:
 
 
 def grid_shape(width: int, height: int) -> tuple[int, int]:
-    """Rows and columns of tiles."""
     return -(-height // TILE_SIDE), -(-width // TILE_SIDE)
 
 
@@ -101,7 +100,6 @@ def has_only(cells: Cells, first_sample: int, goals: Goals) -> bool:
 
 
 def further_parts(before: Goals, after: Goals, first_sample: int) -> list[Part]:
-    """The parts between two numbers of samples per tile."""
     tiles = np.flatnonzero(after.ravel() > before.ravel()).astype(np.uint32)
     wanted: dict[tuple[int, int], list[Indices]] = {}
     steps = np.stack([before.ravel()[tiles], after.ravel()[tiles]])
@@ -116,7 +114,6 @@ def _joined(wanted: dict[tuple[int, int], list[Indices]]) -> list[Part]:
 
 
 def _gaps(samples: tuple[range, ...], first: int, end: int) -> Iterator[tuple[int, int]]:
-    """The ranges of [first, end) outside samples."""
     for present in samples:
         if present.start > first:
             yield first, min(present.start, end)

@@ -33,5 +33,4 @@ class Speed:
 
 
 def least_seconds(workers: int, adding_seconds: float) -> float:
-    """The shortest parts with which the coordinator keeps up."""
     return max(workers * adding_seconds / BUSY_SHARE, LEAST_SECONDS)

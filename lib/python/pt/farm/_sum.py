@@ -33,10 +33,9 @@ class Sum:
         self._bytes = self._freed = 0
         self._most_bytes = int(BATCH_SHARE * PIXEL_BYTES * width * height)
         self._merged, self._cost = now(), 0.0
-        self.seconds = 0.0  # of merging
+        self.seconds = 0.0
 
     def add(self, part: Film, size: int, models: frozenset[str]) -> None:
-        """size: bytes. models: the part's device."""
         if self._mixed and not models <= self._models:
             self.merge()
             self._models |= models
@@ -82,7 +81,6 @@ def _give_back() -> None:
 
 
 def write_film(film: Film, path: Path) -> None:
-    """Packs by zstd, like the program, if a module is installed."""
     packer = _zstd.packer(film.size)
     if packer is None:
         film.save(path)

@@ -33,7 +33,7 @@ class Outcome:
 
 
 def fault_of(value: object, seconds: float) -> str:
-    """"" if none; a worker may send anything. seconds: since it was given out."""
+    """Empty if the value has no fault; a worker may send anything. seconds: since it was given out."""
     if not isinstance(value, Outcome):
         return f"a value of type {type(value).__name__}"
     for name, kind in (("data", bytes), ("seconds", float), ("is_cpu", bool), ("error", str),
@@ -70,7 +70,6 @@ def _failed(error: Exception) -> Outcome:
 
 
 def introduce(data: bytes, codecs: frozenset[str]) -> Outcome:
-    """Prepares a worker for a packed job. Returns its first part's film."""
     global _ready
     with _lock:
         try:
@@ -86,7 +85,6 @@ def introduce(data: bytes, codecs: frozenset[str]) -> Outcome:
 
 
 def render_part(name: str, part: Part, codecs: frozenset[str]) -> Outcome:
-    """The film of a part of the named job. codecs: the coordinator's."""
     with _lock:
         try:
             if _ready is None or _ready.name != name:

@@ -29,7 +29,7 @@ class Try:
     part: Part
     future: Any
     issued: float
-    expected: float  # seconds, including the worker's earlier tries
+    expected: float
 
 
 @dataclass

@@ -53,7 +53,6 @@ def assembled(name: str, given: Table, mapping: Mapping[str, str], drop_nonfinit
 
 def _positions(name: str, parts: dict[str, Array], table: Array | None, chosen: dict[str, str], cell: Cell | None,
                notes: list[str]) -> Array:
-    """The columns that hold positions become views of the result, shape (n, 3)."""
     axes, scaled = coordinate_names(list(parts)) if table is None else (list("xyz")[:table.shape[1]], False)
     if any(axis in chosen for axis in "xyz"):
         axes, scaled = [chosen.get(axis, axis) for axis in "xyz" if axis in chosen or axis in axes], False
@@ -89,7 +88,6 @@ def _positions(name: str, parts: dict[str, Array], table: Array | None, chosen: 
 
 
 def _common_table(columns: list[Array]) -> Array | None:
-    """The array of exactly these columns, in order, or None."""
     table, count = columns[0].base, len(columns[0])
     if not isinstance(table, np.ndarray) or table.ndim != 2 or len(table) < count or table.shape[1] != len(columns):
         return None
@@ -227,7 +225,6 @@ def _colors(columns: Mapping[str, Array], chosen: dict[str, str], is_text: bool,
     if kinds in ({"u1"}, {"u2"}) or (kinds == {"f"} and not is_text):
         return colors
     largest = float(np.nanmax(colors[:, :3], initial=0))
-    # Tolerates rounding: a component of 1.0000001 does not mean bytes.
     scale = 1.0 if largest <= 1.5 else 255.0 if largest <= 258 else 65535.0
     notes.append(f"colors {', '.join(names)} are taken to go from 0 to {scale:g}: the largest is {largest:g}")
     return np.clip(colors / scale, 0, 1)

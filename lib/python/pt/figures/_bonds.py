@@ -21,7 +21,7 @@ from pt.figures._templates import agreeing, free_ions, known_residues
 TOLERANCE: Final = 0.45
 LEAST_DISTANCE: Final = 0.4
 BALL_SHARE: Final = 0.5  # of a ball with a stick, relative to a ball alone; by taste
-STICK_SHARES: Final = {"space-filling": 0.07, "ball-and-stick": 0.07, "sticks": 0.14}  # of the median bond; by taste
+STICK_SHARES: Final = {"space-filling": 0.07, "ball-and-stick": 0.07, "sticks": 0.14}
 
 
 def bonds_of(particles: Particles, options: Options, radii: Array, notes: list[str]) -> Rods:
@@ -86,7 +86,6 @@ def _with_images(particles: Particles, bonds: Bonds) -> Bonds:
 
 
 def _automatic(particles: Particles, notes: list[str]) -> Bonds:
-    """The data's bonds; if incomplete, also by names of residues and by distance."""
     given = particles.bonds
     if given is not None and given.is_complete:
         notes.append(f"bonds are the {len(given.pairs):,} of the data")

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 Array = npt.NDArray[Any]
 
-FLAT: Final = 1e-10  # relative to the product of the lengths: less volume counts as none
+FLAT: Final = 1e-10
 
 
 @dataclass(frozen=True)

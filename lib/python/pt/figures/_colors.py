@@ -159,7 +159,6 @@ def _of_values(values: Array, title: str, given: Options, notes: list[str]) -> t
 
 
 def _of_types(particles: Particles, given: Options, own: Mapping[str, str]) -> tuple[Bytes, Legend]:
-    """Elements have their own colors, other types the palette's."""
     known: dict[str, RGB] = {}
     kind, labels = ("type", column(particles, "type")) if particles.elements is None else ("element", particles.elements)
     names, codes = categories(labels)
@@ -197,7 +196,6 @@ def _of_categories(title: str, names: list[str], codes: Array, given: Options, k
 
 
 def distinct_colors(count: int) -> list[RGB]:
-    """Distinct colors: the palette, then hues by the golden ratio, in rings of lightness."""
     colors: list[RGB] = list(PALETTE)
     k = 0
     while len(colors) < count:

@@ -17,7 +17,7 @@ Array = npt.NDArray[Any]
 # Names of columns of positions, best first: a letter with a stem before or after it, or a stem with a number.
 _STEMS: Final = ("", "pos", "position", "positions", "point", "points", "coord", "coords", "coordinate", "coordinates",
                  "center", "centre", "centroid", "location", "loc", "xyz")
-_LAMMPS: Final = ("u", "s", "su")  # after the letter: unwrapped, fractions of the cell, both
+_LAMMPS: Final = ("u", "s", "su")
 _SCALED: Final = _LAMMPS[1:]
 _TABLES: Final = (*_STEMS[1:], "vertices", "r", "x", "arr0")
 ELEMENTS: Final = ("element", "elements", "species", "symbol", "symbols", "elem", "numbers", "atomic_number",

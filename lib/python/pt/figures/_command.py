@@ -128,8 +128,6 @@ def check(given: argparse.Namespace) -> None:
 
 
 class Shown:
-    """Progress on standard error: a line for people, or JSON objects."""
-
     def __init__(self, style: str) -> None:
         self.style = ("line" if sys.stderr.isatty() else "none") if style == "auto" else style
         self.next = 0.0

@@ -10,7 +10,7 @@ import numpy.typing as npt
 from pt._fit import Doubles
 from pt.figures._overlay import Shares
 
-OUTLINE_LIGHT: Final = 0.01  # nearly black
+OUTLINE_LIGHT: Final = 0.01
 
 
 def compose(radiance: npt.NDArray[np.float32], stage: Any, shares: Shares, exposure: float) -> tuple[Doubles, Doubles]:
@@ -34,6 +34,5 @@ def compose(radiance: npt.NDArray[np.float32], stage: Any, shares: Shares, expos
 
 
 def lay_over(light: Doubles, alpha: Doubles, background: Doubles) -> Doubles:
-    """The picture over a background in linear light, shape (3,)."""
     result: Doubles = light + (1.0 - alpha[:, :, None]) * background
     return result

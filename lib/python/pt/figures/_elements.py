@@ -105,9 +105,9 @@ def _number(label: str, is_atom_name: bool) -> int:
 
 
 def elements_of(labels: Array) -> tuple[Array | None, list[str]]:
-    """Atomic numbers, shape (n,), uint8, 0 for labels that are not elements; None if none is. And notes for the user.
+    """Atomic numbers, shape (n,), uint8, 0: no element; None if none is. And notes for the user.
 
-    labels  shape (n,): symbols in any case, also with digits or charges; D and T; PDB atom names; or atomic numbers
+    labels  shape (n,): symbols in any case, also with digits or charges; PDB atom names; or atomic numbers
     """
     values, codes = distinct(labels)
     names = [str(value) for value in values]

@@ -16,7 +16,6 @@ class DataError(ValueError):
 
 
 def module(name: str, purpose: str) -> ModuleType:
-    """Imports an optional module on first need: most import slowly."""
     try:
         return importlib.import_module(name)
     except ImportError as error:

@@ -182,8 +182,6 @@ def view_of(drawn: Drawn, options: Options, turns: bool = False) -> View:
 
 @dataclass(frozen=True)
 class Staged:
-    """Everything about a figure except its samples."""
-
     drawn: Drawn
     layout: Layout
     options: Options
@@ -199,7 +197,6 @@ class Staged:
 
     @functools.cached_property
     def notes(self) -> list[str]:
-        """Choices made by the data, and what is not shown."""
         pixels = pixels_per_length(self.layout.camera, self.layout.size[1], self.layout.distance)
         narrow = narrow_note(self.drawn.radii, pixels, self.layout.size, self.drawn.scale)
         return [*self.drawn.notes, *([narrow] if narrow else [])]
@@ -283,7 +280,6 @@ class Figure(Image):
         return pixels
 
     def picture(self, dtype: Any = np.uint8, exposure: float | None = None) -> npt.NDArray[Any]:
-        """The picture of to_srgb8, as uint8 or uint16."""
         exposure = self.exposure if exposure is None else exposure
         exposure = automatic_exposure(self.radiance) if exposure is None else exposure
         options = self._staged.options
@@ -346,7 +342,6 @@ class Figure(Image):
 
 
 def _background(background: Any) -> tuple[Doubles | None, str]:
-    """The background in linear light, None if transparent, and the color of text on it."""
     if isinstance(background, str) and background == "transparent":
         return None, INK
     color = (255, 255, 255) if isinstance(background, str) and background == "white" else srgb("background", background)

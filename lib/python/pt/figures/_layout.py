@@ -38,8 +38,6 @@ class Balls:
 
 @dataclass(frozen=True)
 class View:
-    """A figure's direction and picture size."""
-
     compass: Compass
     axes: Doubles
     size: tuple[int, int]
@@ -123,7 +121,7 @@ class Layout:
             camera = Camera(position, position + distance * forward, axes[1], vertical_extent=height)
         else:
             position = apex(reaches[7:11], axes, pyramid(view.tangents))
-            if view.spin is not None:  # a turntable's camera sees the same from all sides
+            if view.spin is not None:
                 position = position - ((position - view.spin.through) @ axes[0]) * axes[0]
             distance = float(forward @ (center - position))
             camera = Camera(position, position + distance * forward, axes[1], vertical_fov=VERTICAL_FOV)
@@ -138,7 +136,7 @@ class Layout:
 
 def _rotation(axis: Doubles, angle: float) -> Doubles:
     """Rodrigues: cos 1 + sin [axis]x + (1 - cos) axis axis^T."""
-    crossed = np.cross(axis, np.eye(3)).T  # crossed @ v = axis x v
+    crossed = np.cross(axis, np.eye(3)).T
     result: Doubles = (math.cos(angle) * np.eye(3) + math.sin(angle) * crossed +
                        (1.0 - math.cos(angle)) * np.outer(axis, axis))
     return result

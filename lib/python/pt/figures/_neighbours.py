@@ -13,14 +13,14 @@ from pt.figures._cell import Cell
 Array = npt.NDArray[Any]
 
 MOST_COMPARED: Final = 400_000_000  # pairs: about a minute
-MOST_FOUND: Final = 20_000_000  # of these: 2 GB
+MOST_FOUND: Final = 20_000_000
 COMPARED_AT_ONCE: Final = 1 << 21
 SLACK: Final = 1.0 + 2.0**-30  # so that roundings put no neighbour two cells away
 AHEAD: Final = ((0, 1), (1, -1), (1, 0), (1, 1))  # of the rows of a grid next to one, for which each pair is met once
 
 
 class Pairs(NamedTuple):
-    """Pairs of different particles or images, each of them once.
+    """Pairs of different particles or images, each once.
 
     first, second  shape (k,): indices
     images         shape (k, 3), int: edges by which the second particle is moved
@@ -76,7 +76,7 @@ def _images(positions: Array, cell: Cell | None, cutoff: float) -> tuple[Array, 
     turns = cell.turns(positions)
     shares: Array = (positions - cell.origin) @ cell.inverse - turns
     shifts = -turns
-    margins = cutoff * np.linalg.norm(cell.inverse, axis=0) * cell.periodic  # the cell's thicknesses are 1 / norm
+    margins = cutoff * np.linalg.norm(cell.inverse, axis=0) * cell.periodic
     _check_count(len(positions) * float(np.prod(1.0 + 2.0 * margins)), cutoff)
     for axis in np.flatnonzero(cell.periodic):
         reach = int(np.ceil(margins[axis]))

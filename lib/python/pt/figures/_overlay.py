@@ -15,12 +15,12 @@ from pt._context import Context
 from pt._enums import Format, Quantity
 from pt._fit import Array, Doubles
 
-PER_SIDE: Final = 4  # rays along each side of a pixel
+PER_SIDE: Final = 4
 MOST_PER_SIDE: Final = 32  # random shares then have a standard deviation of 0.016
 MOST_RAYS: Final = 2**32 - 1
 BAND_ROWS: Final = 32  # so few that their hits take less device memory than the picture
 LEAST_STEP: Final = 0.1  # depth behind an outline, relative to the radius
-LEAST_RADIUS: Final = 2.5  # of a ball with an outline, in line widths
+LEAST_RADIUS: Final = 2.5
 
 
 @dataclass(frozen=True)
@@ -92,7 +92,6 @@ def _first_hits(context: Context, settings: RenderSettings, top: int, bottom: in
 
 
 def pixels_per_length(camera: Camera, height: int, depths: Any) -> Any:
-    """Pixels per length across the view, at these depths."""
     if camera.vertical_extent is not None:
         return height / camera.vertical_extent
     assert camera.vertical_fov is not None

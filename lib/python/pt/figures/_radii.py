@@ -17,7 +17,7 @@ from pt.figures._particles import Particles
 from pt.figures._spread import reaches_of, usual_reach
 
 PROBES: Final = 1000
-IN_CELL: Final = 8  # particles in a cell, if they fill their box evenly
+IN_CELL: Final = 8
 MOST_PAIRS: Final = 4_000_000
 TABLE_BITS: Final = 20
 COVER: Final = 0.01  # share of the picture that balls of unknown radii cover at least; by taste
@@ -136,7 +136,6 @@ def covalent_factor(particles: Particles) -> float | None:
 
 
 def _seen(typical: float, positions: Array, notes: list[str]) -> float:
-    """The typical radius, unless it is small beside the picture."""
     span = 2.0 * usual_reach(reaches_of(positions, np.zeros(1)))
     if math.pi * len(positions) * typical * typical >= COVER * span * span:
         return typical

@@ -16,7 +16,7 @@ from pt.figures._particles import Particles
 from pt.figures._radii import column
 
 LONGEST: Final = 4.0  # of the vectors, in median radii of particles; by taste
-WIDTH: Final = 0.3  # radius of vectors, in the same
+WIDTH: Final = 0.3
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ from pt._scene import Material, Plane, Sphere
 SURROUND_BRIGHTNESS: Final = 0.4375  # has few bits, so that means of it are exact
 KEY_BRIGHTNESS: Final = 0.75
 KEY_HALF_ANGLE: Final = math.radians(14.0)  # shadows as soft as of a window seen from twice its width
-KEY_AZIMUTH: Final = math.radians(-35.0)  # chosen by eye
+KEY_AZIMUTH: Final = math.radians(-35.0)
 KEY_ELEVATION: Final = math.radians(40.0)
 FLOOR: Final = Material(diffuse=0.8)
 EDGES: Final = Material(diffuse=0.09)
@@ -33,7 +33,6 @@ class Stage:
 
 
 def material_of(style: str) -> Material:
-    """A white ball reflects no more than it receives."""
     specular = 0.12 if style == "glossy" else 0.0
     return Material(diffuse=1.0 - specular, specular=specular, glossiness=60.0 if specular else 0.0)
 

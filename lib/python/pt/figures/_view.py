@@ -16,7 +16,7 @@ from pt.figures._options import VIEWS, Direction
 AZIMUTH: Final = 30.0
 ELEVATION_OF_BODIES: Final = 22.0
 ELEVATION_OF_DISCS: Final = 50.0
-BODY: Final = 0.5  # relative height from which on data are not flat
+BODY: Final = 0.5
 
 
 def unit(vector: Doubles) -> Doubles:

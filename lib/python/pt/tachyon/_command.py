@@ -52,7 +52,6 @@ def scene_file(found: TachyonScene) -> dict[str, Any]:
         materials[name] = sphere.material
         spheres.append({"center": sphere.center, "radius": sphere.radius, "material": name})
     return {"camera": found.camera._section(),
-            # Tachyon clamps colors and writes them without encoding.
             "film": {"width": found.settings.width, "height": found.settings.height, "exposure": 0, "gamma": 1},
             "materials": {name: each._section() for name, each in materials.items()},
             "spheres": spheres, "capsules": capsules,

@@ -33,14 +33,12 @@ class Light:
 
 @dataclass(frozen=True)
 class Surroundings:
-    """The scene's surfaces and camera, which limit the size of lamps."""
-
-    centers: FloatArray  # (n, 3)
+    centers: FloatArray
     ends: FloatArray  # (n, 3): of capsules; of spheres, their centers
-    radii: FloatArray  # (n,)
+    radii: FloatArray
     planes: list[Plane]
     camera: FloatArray  # position, (3,)
-    target: FloatArray  # (3,)
+    target: FloatArray
 
     def clearance(self, point: FloatArray) -> float:
         ways = self.ends - self.centers

@@ -134,7 +134,7 @@ class _Reader:
             self.sphere_materials.append(self.textures.reference())
         elif keyword == "FCYLINDER":
             self.chain([words.vector("BASE"), words.vector("APEX")])
-        elif keyword == "POLYCYLINDER":  # Tachyon, too, draws balls at all points
+        elif keyword == "POLYCYLINDER":
             words.expect("POINTS")
             self.chain([words.point("POINTS") for _ in range(words.size("POINTS"))])
         elif keyword == "RING":
@@ -232,7 +232,7 @@ class _Reader:
                 self.left_out[projection] = f"{words.place()}: {projection}: depth of field is left out"
         elif projection not in ("PERSPECTIVE", "ORTHOGRAPHIC"):
             words.refuse(f'PROJECTION "{projection}": must be PERSPECTIVE, PERSPECTIVE_DOF or ORTHOGRAPHIC')
-        height = 1.0 / words.named("ZOOM", positive=True)  # of the picture, in a plane at the distance 1
+        height = 1.0 / words.named("ZOOM", positive=True)
         if words.named("ASPECTRATIO") != 1.0:
             words.refuse("ASPECTRATIO: must be 1, pixels are square")
         words.named("ANTIALIASING")

@@ -14,8 +14,6 @@ PATTERNS: tuple[tuple[bool, tuple[str, ...]], ...] = (
 
 
 class Textures:
-    """Finds materials by a file's names, or by their properties."""
-
     def __init__(self, words: Words, left_out: dict[str, str]) -> None:
         self._words = words
         self._left_out = left_out

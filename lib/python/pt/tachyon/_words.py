@@ -104,5 +104,4 @@ class Words:
         return value
 
     def color(self, keyword: str) -> Triple:
-        """Red, green and blue behind a keyword that has been taken."""
         return self.number(keyword, least=0.0), self.number(keyword, least=0.0), self.number(keyword, least=0.0)

@@ -54,7 +54,6 @@ def parser() -> argparse.ArgumentParser:
 
 
 def kernels() -> pathlib.Path | None:
-    """The folder of GLSL kernels: with the package, installed, or in the clone."""
     here = pathlib.Path(__file__).resolve()
     places = (here.parents[1] / "shaders", pathlib.Path(library_path()).resolve().parents[1] / "share/pt/shaders",
               here.parents[4] / "shaders")

@@ -64,7 +64,6 @@ CHOICES: Final = {"layer": list(LAYERS), **{name: [name_of(each) for each in kin
 
 
 def faults_of(text: str) -> list[dict[str, Any]]:
-    """Messages, with names and lines of files where known."""
     faults = []
     for line in text.splitlines():
         if found := re.match(r"(?:ERROR: |WARNING: )?([^\s:][^:]*):(\d+):(?:\d+:)? *(.*)", line):

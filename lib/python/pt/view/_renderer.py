@@ -20,8 +20,8 @@ from pt.view._frame import LAYERS, OF_SAMPLES, Frame, facts_of, faults_of, name_
 from pt.view._source import Shown, Source
 
 MOVING_SECONDS: Final = 0.03  # for a sample of each pixel, while the camera moves
-STILL_SECONDS: Final = 0.25  # after the last move
-PUBLISHED_SHARE: Final = 0.03  # of the time
+STILL_SECONDS: Final = 0.25
+PUBLISHED_SHARE: Final = 0.03
 LOOK_SECONDS: Final = 0.5
 SHADERS: Final = (".comp", ".glsl", ".h")
 
@@ -160,7 +160,6 @@ class Renderer:
         self._guides.clear()
 
     def _accumulate(self, context: Context) -> None:
-        """Takes samples until the next frame is due, or something changes."""
         begin = time.monotonic()
         pixels = math.prod(self._shape)
         due = max(self._next_publish - begin, 0.0)
@@ -170,7 +169,7 @@ class Renderer:
         self._seconds += now - begin
         taken = context.stats().sample_count - self._count
         self._count += taken
-        if result == Result.OK and self._count > taken:  # the first one may have waited for its kernel
+        if result == Result.OK and self._count > taken:
             self._rate = count * pixels / (now - begin)
         elif not self._rate:
             self._rate = pixels / (now - begin)
@@ -181,7 +180,6 @@ class Renderer:
             pause = 0.0 if self._moving else max(pause, 0.1)
             self._next_publish = time.monotonic() + pause
 
-    # Files.
 
     def _look(self) -> dict[pathlib.Path, tuple[int, int]]:
         files = [*self._shown.files, *(self._shader_dir.glob("*") if self._shader_dir else ())]
@@ -195,7 +193,6 @@ class Renderer:
         return found
 
     def _read_again(self) -> bool:
-        """Reads changed files; returns whether the picture begins anew."""
         signatures = self._look()
         changed = {path for path, facts in signatures.items() if self._signatures.get(path) != facts}
         self._signatures = signatures
@@ -232,7 +229,6 @@ class Renderer:
         self._shown = shown
         self._signatures = self._look()
 
-    # Frames.
 
     def _publish(self, with_picture: bool = True) -> None:
         pixels, values = self.frame.pixels, self.frame.values
@@ -272,7 +268,6 @@ class Renderer:
         return self._guides[self._layer]
 
     def _pivot(self, context: Context) -> float | None:
-        """The depth of the middle pixel, about which the camera turns."""
         if "pivot" not in self._guides:
             rows, columns = self._shape
             middle: Rectangle = (columns // 2, rows // 2, 1, 1)

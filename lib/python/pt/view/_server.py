@@ -217,7 +217,6 @@ async def _add_headers(_: web.Request, response: web.StreamResponse) -> None:
 
 
 def _log() -> logging.Logger:
-    """Logs faults of this server. Requests that are no HTTP are answered, and not worth a line."""
     log = logging.Logger("pt.view", logging.ERROR)
     log.addHandler(logging.StreamHandler())
     log.addFilter(lambda record: not (record.exc_info and isinstance(record.exc_info[1], http_exceptions.HttpProcessingError)))

@@ -103,7 +103,6 @@ class FigureSource:
         return str(error)
 
     def saved(self, camera: Camera) -> tuple[str, bytes]:
-        """The scene with its NPY files, in a ZIP."""
         assert self.staged
         packed = io.BytesIO()
         with tempfile.TemporaryDirectory() as folder, zipfile.ZipFile(packed, "w") as archive:

@@ -34,7 +34,6 @@ export function orbit(camera, toRight, upwards) {
   return {...camera, position: add(camera.look_at, offset, distance)};
 }
 
-// By shares of the picture's height, at the depth of look_at.
 export function pan(camera, toRight, upwards) {
   const [right, above] = axes(camera);
   const distance = Math.hypot(...add(camera.look_at, camera.position, -1));

@@ -117,7 +117,6 @@ function toGreys(values, isNearBright) {
 
 const plain = {exposure: 0, curve: "none", gamma: 1};
 
-// The bytes of a layer, and the exposure with which they were made.
 export function layerBytes(layer, pixels, display) {
   switch (layer) {
   case "depth":

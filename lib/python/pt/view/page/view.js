@@ -10,14 +10,12 @@ let pixels;       // Float32Array of RGB, of the layer
 let display;      // exposure (a number), automatic, curve, gamma (0: the sRGB curve)
 let camera;       // at the server, or on its way there
 let pointer;
-let asks = false; // an answer about a pixel is outstanding
+let asks = false;
 
 function send(message) {
   if (socket.readyState === WebSocket.OPEN)
     socket.send(JSON.stringify(message));
 }
-
-// Frames.
 
 function receive(buffer) {
   const length = new DataView(buffer).getUint32(0, true);
@@ -126,8 +124,6 @@ function chart() {
     text(time(first), box.left, box.bottom + 14, "start") + text(time(last), box.right, box.bottom + 14, "end");
 }
 
-// Pixels.
-
 function askPixel() {
   if (pointer && !asks && pixels) {
     asks = true;
@@ -151,8 +147,6 @@ function tellPixel(pixel) {
                              ...parts.filter(Boolean).map(text => Object.assign(document.createElement("span"), {textContent: text})));
   $("pixel").dataset.value = JSON.stringify(pixel);
 }
-
-// The camera.
 
 let drag;        // pointers that are down, by their ids
 let settled = 0; // when the server's camera counts again: frames of older cameras may be on their way
@@ -302,8 +296,6 @@ function choice(parent, text, act) {
   const button = Object.assign(document.createElement("button"), {textContent: text, onclick: act});
   parent.append(button);
 }
-
-// Files.
 
 async function edit(names) {
   if (!names.length || editor)
