@@ -1,7 +1,7 @@
 // A stand-in for libpt without a device that fails on demand. Environment: FAKE_PT_FAIL=function:result fails the
 // function; name:1 makes the device's name invalid UTF-8, name:2 puts an escape into it. FAKE_PT_MESSAGE: the message
-// of failures. FAKE_PT_SAMPLE_MS: the least duration of a sample. FAKE_PT_SIGNAL=number:submission sends a signal in
-// that submission, from 1, four per sample; FAKE_PT_SCENE_SIGNAL=number during pt_set_scene. FAKE_PT_LOG=function logs
+// of failures. FAKE_PT_SAMPLE_MS: the least duration of a sample. FAKE_PT_SIGNAL=number:submission sends a signal as
+// that submission starts, from 1, four per sample; FAKE_PT_SCENE_SIGNAL=number during pt_set_scene. FAKE_PT_LOG=function logs
 // a line. FAKE_PT_ALLOCATION=number fails the program's allocation.
 #include <pt/accuracy.h>
 #include <pt/devices.h>
@@ -208,8 +208,8 @@ pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *info) {
     for (std::uint64_t done = 1; done <= submissions; ++done) {
         if (fake_error(context->sample_count) <= info->target_error)
             return PT_TARGET_REACHED;
-        std::this_thread::sleep_for(pause);
         raise_wanted_signal();
+        std::this_thread::sleep_for(pause);
         context->sample_count = before + static_cast<std::uint32_t>(done / submissions_per_sample);
         if (info->progress != nullptr &&
             info->progress(info->progress_user, static_cast<double>(done) / static_cast<double>(submissions)) != 0)

@@ -68,12 +68,17 @@ class ExitCodes(CommandLineTest):
         self.assertEqual(self.files(), ["a.png", "c.ptfilm"])
 
     def test_another_signal_later_ends_it_at_once(self):
-        process = self.start("render", COURSEWORK, "-o", "a.png", "--spp", "2", "--size", "2x2", "--progress", "json",
-                             FAKE_PT_SAMPLE_MS=3_600_000)
-        while process.poll() is None:
+        """The program stops itself in a sample of an hour, so that signals come during it."""
+        process = self.start("render", COURSEWORK, "-o", "a.png", "--spp", "2", "--size", "2x2",
+                             FAKE_PT_SAMPLE_MS=3_600_000, FAKE_PT_SIGNAL=f"{int(signal.SIGSTOP)}:1")
+        state = os.waitid(os.P_PID, process.pid, os.WSTOPPED | os.WEXITED | os.WNOWAIT)
+        self.assertEqual((state.si_code, state.si_status), (os.CLD_STOPPED, signal.SIGSTOP))
+        process.send_signal(signal.SIGCONT)
+        for _ in range(PATIENCE):
             process.send_signal(signal.SIGINT)
             try:
-                process.wait(timeout=0.2)
+                process.wait(timeout=1)
+                break
             except subprocess.TimeoutExpired:
                 pass
         self.assertEqual(process.returncode, -signal.SIGINT)
