@@ -1,4 +1,4 @@
-"""Files of particles: finds out the format of a file and its reader."""
+"""Files of particles: formats and their readers."""
 
 from __future__ import annotations
 
@@ -115,7 +115,7 @@ def _trajectory(path: str, format: str, topology: str | None) -> Frames:
 
 
 def _format_of(lines: Lines) -> str:
-    """The format, by the first bytes, then by the name, then by what the first lines look like."""
+    """Decides by the first bytes, then by the name, then by the first lines."""
     start = lines.peek(4096)
     for magic, format in _FIRST_BYTES:
         if start.startswith(magic):
@@ -137,7 +137,7 @@ def _format_of(lines: Lines) -> str:
 
 
 def _of_content(start: bytes, lines: Lines) -> str | None:
-    """The format of text whose first lines give it away, whatever its name."""
+    """Text whose first lines show its format under any name."""
     if LAMMPS_DATA.search(start) and _BOX.search(start):
         return "lammps-data"
     is_record = re.match(rb"(HEADER|TITLE |REMARK|CRYST1|MODEL |ATOM  |HETATM)", start)
@@ -150,13 +150,13 @@ def _of_content(start: bytes, lines: Lines) -> str | None:
 
 
 def _is_poscar(rows: list[bytes]) -> bool:
-    """Whether rows are a factor, three vectors, and then symbols or counts of atoms."""
+    """Rows of a factor, three vectors, and then symbols or counts of atoms."""
     words = [row.decode("utf-8", "replace").split() for row in rows]
     return ([len(row) for row in words[:4]] == [1, 3, 3, 3] and all(is_number(word) for row in words[:4] for word in row)
             and bool(words[4:] and words[4]) and all(re.fullmatch(r"[A-Z][a-z]?\S*|\d+", word) for word in words[4]))
 
 
 def _is_table(start: bytes) -> bool:
-    """Whether these bytes are text whose lines all have equally many words."""
+    """Text of equally many words a line."""
     rows = [line.replace(b",", b" ").split() for line in start.split(b"\n")[:-1] if line[:1] != b"#"]
     return len(rows) > 1 and b"\0" not in start and len({len(row) for row in rows[1:]}) == 1

@@ -1,4 +1,4 @@
-"""Atoms of files that name them: columns under one set of names, elements by the rules of the field."""
+"""Atoms of files that name them: columns under one set of names, elements by the field's rules."""
 
 from __future__ import annotations
 
@@ -21,9 +21,8 @@ def atoms_table(positions: Array, columns: dict[str, Array], elements: Array | N
                 bonds: Bonds | None = None, notes: list[str] | None = None, kept: Array | None = None) -> Table:
     """A table of atoms without virtual sites.
 
-    columns   "name" and "resname", if the file has them, are those of atoms and residues
-    elements  atomic numbers of the file, VIRTUAL for sites that are no atoms, 0 where the file is silent: names then say it.
-              None: it is always silent
+    columns   "name" (of atoms) and "resname" (of residues), if the file has them
+    elements  the file's atomic numbers, VIRTUAL for sites that are no atoms, 0: decided by names. None: all by names
     kept      a mask of the atoms that are drawn; None: all
     """
     notes = notes or []

@@ -17,10 +17,10 @@ from pt.figures.readers._lines import Lines
 from pt.figures.readers._other import tried
 from pt.figures.readers._structures import frames_of
 
-SHARED: Final = 0.4  # angstroms: sites that are nearer share one place
+SHARED: Final = 0.4  # angstroms: nearer sites share one place
 
 WHOLE: Final = 0.99  # occupancy
-ROUNDED: Final = 1e-4  # share of an edge: coordinates this little below 0 stay there
+ROUNDED: Final = 1e-4  # of an edge: coordinates this little below 0 stay there
 
 
 def read_cif(lines: Lines) -> Listed:
@@ -38,7 +38,7 @@ def read_cif(lines: Lines) -> Listed:
     for block in blocks:
         for tag in ("_symmetry_Int_Tables_number", "_space_group_IT_number"):
             if value := block.find_value(tag):
-                block.set_pair(tag, gemmi.cif.as_string(value) or "?")  # gemmi reads none in quotation marks
+                block.set_pair(tag, gemmi.cif.as_string(value) or "?")  # gemmi reads no quoted value
 
     def read(index: int) -> Table:
         structure = tried(lines.name, "gemmi", lambda: gemmi.make_small_structure_from_block(blocks[index]))
@@ -82,7 +82,7 @@ def _set_symmetry(structure: Any, notes: list[str]) -> None:
 
 
 def _choose_sites(structure: Any, notes: list[str]) -> None:
-    """Keeps the sites that have positions and, of alternative groups of sites, the one of highest occupancy."""
+    """Keeps sites with positions and, of alternative groups, the one of highest occupancy."""
     sites = [site for site in structure.sites if np.isfinite(site.fract.tolist()).all()]
     if len(sites) < len(structure.sites):
         notes.append(f"{len(structure.sites) - len(sites):,} sites without a position are left out")
@@ -101,7 +101,7 @@ def _choose_sites(structure: Any, notes: list[str]) -> None:
 
 
 def _foremost(shares: Any, occupancy: Any, cell: Cell) -> Any:
-    """The sites, each of the highest occupancy within the distance SHARED, in their order."""
+    """Keeps sites of the highest occupancy within the distance SHARED, in their order."""
     first, second = pairs_within(shares @ cell.vectors, SHARED, cell)[:2]
     order = np.argsort(-occupancy, kind="stable")
     rank = np.empty(len(order), np.intp)

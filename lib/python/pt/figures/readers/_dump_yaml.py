@@ -1,4 +1,4 @@
-"""LAMMPS' dumps of the style yaml, of which only what LAMMPS writes is read."""
+"""LAMMPS' dumps of the style yaml, as LAMMPS writes them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Frames of a file, read in their order, so that each is searched for only once."""
+"""Frames of a file, each searched for only once."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from pt.figures.readers._lines import Lines
 
 
 class Frames(Protocol):
-    """The frames of a file or an object. Only those that have particles count.
+    """The frames that have particles.
 
-    current  the frame that is meant if none is asked for: the current one of an object that moves through its frames,
-             or the first of several models; None: the last one
-    models   the numbers of the frames that are models of one structure; None: frames are no models
+    current  the default: the current one of an object that moves through its frames, or the first of several models;
+             None: the last one
+    models   the numbers of models of one structure; None: frames are no models
     """
 
     name: str
@@ -25,7 +25,7 @@ class Frames(Protocol):
     def count(self) -> int: ...
 
     def has(self, index: int) -> bool:
-        """Whether there is a frame with this index, >= 0: a file need not be read to its end for that."""
+        """index: >= 0. A file need not be read to its end."""
 
     def read(self, index: int) -> Table:
         """Reads a frame, 0 <= index < count()."""
@@ -54,9 +54,9 @@ def one_frame(name: str, read: Callable[[], Table]) -> Listed:
 
 
 class TextFrames:
-    """Formats whose frames have a head that says how many lines follow.
+    """Formats whose frames have a header with the number of lines that follow.
 
-    lines_after  lines that end a frame, after those of its particles
+    lines_after  lines that end a frame, after its particles
     """
 
     lines_after = 0
@@ -67,17 +67,16 @@ class TextFrames:
     def __init__(self, lines: Lines) -> None:
         self.lines = lines
         self.name = lines.name
-        self.notes: list[str] = []  # on the file, for each frame
-        self._empty = 0  # frames without particles that were passed
-        self._places = [lines.place()]  # of the known frames, and of what follows them
+        self.notes: list[str] = []
+        self._empty = 0  # passed frames without particles
+        self._places = [lines.place()]  # of the known frames, and of the end of the last one
         self._is_whole = False
 
     def head(self) -> int | None:
-        """Reads the head of the next frame: how many particles it has; None at the end of the file."""
+        """Reads the next frame's header: its number of particles; None at the end of the file."""
         raise NotImplementedError
 
     def body(self, count: int) -> Table:
-        """Reads the rows that follow the head."""
         raise NotImplementedError
 
     def count(self) -> int:
@@ -91,7 +90,6 @@ class TextFrames:
         return len(self._places) > index + 1
 
     def _pass(self) -> bool:
-        """Finds the end of the next frame that has particles."""
         if self._is_whole:
             return False
         index = len(self._places) - 1
@@ -100,7 +98,7 @@ class TextFrames:
             count = self._next()
         except DataError:
             if index:
-                self.read(index - 1)  # an error there names the line more precisely: one too many
+                self.read(index - 1)  # this names an error's line more precisely
             raise
         if count is None:
             self._is_whole = True
@@ -114,7 +112,7 @@ class TextFrames:
         return True
 
     def _next(self) -> int | None:
-        """Reads heads up to that of a frame with particles."""
+        """Reads headers up to a frame with particles."""
         while (count := self.head()) == 0:
             self._empty += 1
             self.lines.skip(self.lines_after)

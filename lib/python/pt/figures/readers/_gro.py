@@ -68,7 +68,7 @@ class Gro(TextFrames):
                 columns[name] = words.astype(np.int64 if name == "resid" else np.float64)
             except ValueError:
                 if name not in "xyz":
-                    continue  # velocities that are not whole, numbers of residues that are none
+                    continue  # velocities that are not whole, and residues without numbers
                 texts = [word.decode("utf-8", "replace").strip() for word in words]
                 row = next(row for row, text in enumerate(texts) if not text or not is_number(text))
                 raise DataError(f"{self.lines.name}:{first + row}: {name} = {texts[row]!r}: must be a number of {width} "

@@ -26,7 +26,7 @@ def _table(file: Any, index: int, frame: Any) -> Table:
     kinds = np.array(particles.types or ["A"], str)[np.asarray(particles.typeid)]
     columns["type"] = kinds
     for name in ("diameter", "charge", "mass", "body", "velocity"):
-        # Where the file has none, the package fills in HOOMD's defaults.
+        # The package fills in HOOMD's defaults.
         if any(file.file.chunk_exists(frame=each, name=f"particles/{name}") for each in {0, index}):
             columns[name] = np.asarray(getattr(particles, name))
     names = set(particles.types)

@@ -19,7 +19,7 @@ HEAD_ENDS = "the file ends within the head of a frame: it was cut short"
 
 
 class LammpsDump(TextFrames):
-    marks: re.Pattern[bytes] | None = None  # in rows, no parts of values
+    marks: re.Pattern[bytes] | None = None  # parts of rows that belong to no value
 
     def __init__(self, lines: Lines) -> None:
         super().__init__(lines)
@@ -93,7 +93,7 @@ class LammpsDump(TextFrames):
 
 
 def cell_within(bounds: npt.ArrayLike, tilts: npt.ArrayLike, periodic: list[bool]) -> Cell | None:
-    """The cell of these tilts (xy, xz, yz) in a box of these bounds (docs.lammps.org/Howto_triclinic.html)."""
+    """The cell of tilts xy, xz, yz in a box (docs.lammps.org/Howto_triclinic.html)."""
     low, high = np.array(bounds, np.float64).T
     xy, xz, yz = np.array(tilts, np.float64)
     low -= min(0, xy, xz, xy + xz), min(0, yz), 0

@@ -41,11 +41,11 @@ _SHAPES: Final = ("shapex", "shapey", "shapez")
 _COMMENT: Final = re.compile(rb"#[^\n]*")
 _BLANK: Final = re.compile(rb"[ \t\r]*(#[^\n]*)?\n")
 _MOST_BLANK: Final = 4096  # bytes of a line without values
-_PEEKED: Final = 1 << 14  # bytes from which the style is taken
+_PEEKED: Final = 1 << 14
 
 
 class LammpsData:
-    """What one file says, section by section."""
+    """Reads a file section by section."""
 
     def __init__(self, lines: Lines, style: str | None) -> None:
         if style is not None and style not in STYLES:
@@ -70,7 +70,7 @@ class LammpsData:
             if text[:1].isupper() and _SECTION.fullmatch(text):
                 self._section(text, hint.strip())
             elif self.columns:
-                continue  # rows of sections that are not read
+                continue  # rows of other sections
             elif found := _BOUNDS.fullmatch(text):
                 self.box[found[2]] = self._numbers(found[1], 2 if "lo" in found[2] else 3)
             elif found := _HEADER.fullmatch(text):
@@ -94,7 +94,6 @@ class LammpsData:
             self.shapes = self._rows("ellipsoids", ["id", *_SHAPES])
 
     def _few_rows(self, counted: str, what: str, with_comments: bool = False) -> list[list[str]]:
-        """The words of the lines that are not blank."""
         rows: list[list[str]] = []
         count = self.counts.get(counted, 0)
         while len(rows) < count:
@@ -107,7 +106,7 @@ class LammpsData:
         return rows
 
     def _rows(self, what: str, names: list[str], least: int | None = None) -> dict[str, Array]:
-        """Rows of numbers, except types, which may have labels, and columns after the least ones."""
+        """Numbers, except types, which may have labels, and columns after the least ones."""
         least = least or len(names)
         rows = Rows(self.lines, Layout(names, [name for name in names[:least] if name != "type"], least=least, is_table=True,
                                        rows=what))
@@ -137,7 +136,7 @@ class LammpsData:
         self.columns = self._rows("atoms", names, least)
 
     def _style(self, some: list[list[str]], hint: str) -> str:
-        """The atom style that was asked for, of the hint after "Atoms", or of the columns of some rows."""
+        """The style given, of the hint after "Atoms", or of some rows' columns."""
         hint = hint.split()[0] if hint else ""
         if self.style is None and hint in STYLES:
             self.style = hint
@@ -178,7 +177,7 @@ class LammpsData:
         return atoms_table(positions, columns, elements, self.cell(), self._pairs(columns["id"]), self.notes)
 
     def _elements(self, columns: dict[str, Array]) -> Array | None:
-        """Elements by the masses of types; types get their labels."""
+        """Elements by types' masses; types get their labels."""
         types, codes = np.unique(columns["type"], return_inverse=True)
         kinds = types.astype(str).tolist()
         names = [self.names.get(kind, "") or kind for kind in kinds]
@@ -210,7 +209,7 @@ class LammpsData:
             columns[name][chosen] = self.shapes[name]
 
     def _atoms_of(self, section: str, numbers: Array, ids: Array) -> Array:
-        """The indices of the atoms with these numbers."""
+        """The indices of atoms by their numbers."""
         order = np.argsort(ids, kind="stable")
         found: Array = order[np.searchsorted(ids, numbers, sorter=order).clip(max=len(ids) - 1)]
         wrong = ids[found] != numbers

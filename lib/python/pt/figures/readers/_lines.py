@@ -20,8 +20,8 @@ from pt.figures._errors import DataError, module
 
 STANDARD_INPUT: Final = "-"
 PACKED_ENDINGS: Final = (".gz", ".zst", ".xz", ".bz2")
-BLOCK_BYTES: Final = 1 << 20  # of text that are parsed at a time
-LONGEST_LINE: Final = 1 << 24  # bytes; longer ones are no text, or a packed file that unpacks to anything
+BLOCK_BYTES: Final = 1 << 20
+LONGEST_LINE: Final = 1 << 24  # bytes; longer ones are no text
 
 
 def _open_zstd(file: IO[bytes]) -> Any:
@@ -35,7 +35,7 @@ _UNPACK: Final[dict[bytes, Callable[[IO[bytes]], Any]]] = {
 
 
 class Lines:
-    """A file, unpacked, with the number of the line that was read last."""
+    """A file, unpacked. number: of the line read last."""
 
     def __init__(self, path: str) -> None:
         self.path = path
@@ -45,7 +45,7 @@ class Lines:
         except OSError as error:
             raise DataError(f"{self.name}: {error.strerror}") from None
         self.is_file = self._raw.seekable() and path != STANDARD_INPUT
-        if not self.is_file:  # a pipe, but frames may have to be read twice
+        if not self.is_file:  # pipes' frames may have to be read twice
             pipe, self._raw = self._raw, tempfile.TemporaryFile()
             shutil.copyfileobj(pipe, self._raw)
             if path != STANDARD_INPUT:
@@ -60,10 +60,10 @@ class Lines:
         self.is_packed = unpack is not None
         self._file = self._raw if unpack is None else unpack(self._raw)
         self._buffer = b""
-        self._next = 0  # place within the buffer
+        self._next = 0  # in the buffer
         self._passed = 0  # bytes before it
         self.number = 0
-        self.is_ended = True  # whether the last line ended with a newline
+        self.is_ended = True  # the last line ended with a newline
         start = self.peek(3)
         if start[:2] in (b"\xff\xfe", b"\xfe\xff"):
             raise DataError(f"{self.name}: is UTF-16: save it as UTF-8")
@@ -72,7 +72,7 @@ class Lines:
     def close(self) -> None:
         self._raw.close()
 
-    def __del__(self) -> None:  # Frames keep the file open for as long as they live
+    def __del__(self) -> None:  # frames keep the file open
         if hasattr(self, "_raw") and self._raw is not sys.stdin.buffer:
             self.close()
 
@@ -96,7 +96,6 @@ class Lines:
 
     @property
     def byte(self) -> int:
-        """The position of the next byte, from 0."""
         return self._passed + self._next
 
     def peek(self, size: int) -> bytes:
@@ -105,16 +104,16 @@ class Lines:
         return self._buffer[self._next:self._next + size]
 
     def take(self, size: int) -> bytes:
-        """So many bytes, or as many as are left."""
+        """Up to `size` bytes."""
         taken = bytearray(self._buffer[self._next:self._next + size])
         self._next += len(taken)
         while len(taken) < size and (more := self._read(min(size - len(taken), BLOCK_BYTES))):
             taken += more
             self._passed += len(more)
-        return bytes(taken) if size < BLOCK_BYTES else cast(bytes, taken)  # a bytearray is as good, and not copied
+        return bytes(taken) if size < BLOCK_BYTES else cast(bytes, taken)  # a bytearray is not copied
 
     def line(self) -> str | None:
-        """The next line without its end; None at the end of the file."""
+        """Without its end; None at the end of the file."""
         while (end := self._buffer.find(b"\n", self._next)) < 0 and self._fill():
             self._check_length()
         if self._next == len(self._buffer):
@@ -130,14 +129,13 @@ class Lines:
             raise DataError(f"{self.name}:{self.number + 1}: the line is longer than {LONGEST_LINE:,} bytes: this is no text")
 
     def text(self) -> bytes:
-        """All lines that are left."""
         blocks = []
         while (block := self.block())[1]:
             blocks.append(block[0])
         return b"".join(blocks)
 
     def block(self, most: int = sys.maxsize) -> tuple[bytes, int]:
-        """The next whole lines, at most so many and at most a block, and their number; 0 at the end."""
+        """Whole lines, up to `most` and up to a block, and their number; 0 at the end."""
         if len(self._buffer) - self._next < BLOCK_BYTES:
             self._fill()
         while (end := self._buffer.rfind(b"\n", self._next) + 1) == 0 and self._fill():
@@ -151,7 +149,7 @@ class Lines:
         return data, count
 
     def skip(self, count: int) -> int:
-        """Skips so many lines, or as many as are left; returns how many."""
+        """Skips up to `count` lines; returns their number."""
         passed = 0
         while passed < count and (lines := self.block(count - passed)[1]):
             passed += lines
@@ -161,7 +159,7 @@ class Lines:
         return self.byte, self.number
 
     def go_to(self, place: tuple[int, int]) -> None:
-        """Goes back to an earlier place; a packed file is unpacked again from its start."""
+        """A packed file is unpacked again from its start."""
         byte, number = place
         if byte != self.byte:
             if self.is_packed:
@@ -175,7 +173,7 @@ class Lines:
         self.number = number
 
     def mapped(self, dtype: npt.DTypeLike, count: int) -> npt.NDArray[Any]:
-        """So many records from here on, or as many as are left; in place if the file is not packed."""
+        """Up to `count` records; in place if the file is not packed."""
         size = np.dtype(dtype).itemsize
         if self.is_file and not self.is_packed:
             count = min(count, (Path(self.path).stat().st_size - self.byte) // size)
@@ -187,17 +185,16 @@ class Lines:
         return np.frombuffer(data, dtype, len(data) // size)
 
     def refuse(self, what: str) -> DataError:
-        """An error at the line that was read last."""
         return DataError(f"{self.name}:{self.number}: {what}")
 
 
 def _after_lines(data: bytes, start: int, end: int, most: int) -> tuple[int, int]:
-    """The end of so many lines, but at most this end; and how many lines end before that."""
+    """The end of up to `most` lines before `end`, and their number."""
     count = 0
     while count < most and start < end:
-        stop = min(end, start + 64 * (most - count))  # so that short frames search little
+        stop = min(end, start + 64 * (most - count))
         is_end = np.frombuffer(data, np.uint8, stop - start, start) == 10
-        found = int(np.count_nonzero(is_end))  # several times as fast as bytes.count where lines are short
+        found = int(np.count_nonzero(is_end))  # faster than bytes.count on short lines
         if count + found >= most:
             return start + int(np.flatnonzero(is_end)[most - count - 1]) + 1, most
         count, start = count + found, stop
@@ -205,6 +202,6 @@ def _after_lines(data: bytes, start: int, end: int, most: int) -> tuple[int, int
 
 
 def ending(path: str) -> str:
-    """The ending of a file's name in lower case, without a packer's, such as .gz."""
+    """In lower case, without a packer's, such as .gz."""
     name = Path(path.lower())
     return Path(name.stem).suffix if name.suffix in PACKED_ENDINGS else name.suffix

@@ -1,4 +1,4 @@
-"""Objects of other packages, recognised by their type's name, so that no package is imported for that."""
+"""Objects of other packages, recognised by their type's name without importing the package."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from pt.figures._particles import Bonds, Table
 from pt.figures.readers._atoms import atoms_table
 from pt.figures.readers._frames import Frames, Listed
 
-# Columns, and the attributes of MDAnalysis that have them.
+# Columns, and MDAnalysis' attributes.
 _ATTRIBUTES: Final = {"element": "elements", "name": "names", "type": "types", "radius": "radii", "mass": "masses",
                       "charge": "charges", "resid": "resids", "resname": "resnames", "chain": "segids"}
 
@@ -23,7 +23,7 @@ def of_ase(atoms: Any) -> Table:
 
 
 def of_mdanalysis(group: Any, name: str) -> Frames:
-    """Frames of a universe or a group of atoms; lengths are in angstroms."""
+    """A universe or a group of atoms; lengths are in angstroms."""
     atoms = group.atoms
     trajectory = group.universe.trajectory
 
@@ -36,13 +36,13 @@ def of_mdanalysis(group: Any, name: str) -> Frames:
         values, codes = np.unique(symbols, return_inverse=True)
         elements = np.array([NUMBERS.get(value.capitalize(), 0) for value in values.tolist()], np.uint8)[codes.reshape(-1)]
         cell = None if step.dimensions is None else Cell.of(step.triclinic_dimensions)
-        return atoms_table(atoms.positions, columns, elements, cell, _bonds_of(group))  # positions are a copy
+        return atoms_table(atoms.positions, columns, elements, cell, _bonds_of(group))
 
     return Listed(name, len(trajectory), read, trajectory.frame)
 
 
 def _bonds_of(group: Any) -> Bonds | None:
-    """The bonds among the atoms of a universe or a group of MDAnalysis; None if it has no topology of bonds."""
+    """None without a topology of bonds."""
     everything = getattr(group.universe, "bonds", None)
     if everything is None:
         return None
@@ -61,6 +61,6 @@ def of_ovito(data: Any) -> Table:
             columns["type"] = np.array([named.get(value, f"type {value}") for value in values.tolist()])[codes]
     cell = None
     if data.cell is not None:
-        matrix = np.asarray(data.cell[...])  # columns are the edges and the origin
+        matrix = np.asarray(data.cell[...])
         cell = Cell.of(matrix[:, :3].T, matrix[:, 3], data.cell.pbc)
     return Table(columns, cell)

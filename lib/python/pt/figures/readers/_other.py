@@ -66,13 +66,13 @@ def _points(positions: Any, columns: dict[str, Any], faces: int) -> Table:
 
 
 def tried(path: str, package: str, read: Callable[[], Any]) -> Any:
-    """What a package reads, without its warnings, and with its errors as ours."""
+    """Suppresses a package's warnings, and turns its errors into ours."""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             return read()
     except (DataError, KeyboardInterrupt, SystemExit, MemoryError):
         raise
-    except BaseException as error:  # each package has exceptions of its own; those of chemfiles are no Exception
+    except BaseException as error:  # each package has its own exceptions; chemfiles' are no Exception
         words = " ".join(str(error).split()) or type(error).__name__
         raise DataError(f"{path}: {package} cannot read it: {words}") from error

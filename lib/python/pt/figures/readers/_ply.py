@@ -1,4 +1,4 @@
-"""Points in PLY files (Stanford): a head, then records, binary or as text."""
+"""Points in PLY files (Stanford): a header, then records, binary or as text."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ def _ply_head(lines: Lines) -> tuple[str, list[_Element]]:
 
 
 def text_columns(lines: Lines, kinds: Mapping[str, str], count: int, notes: list[str]) -> dict[str, Array]:
-    """Numbers get the types in the head, which tell the scale of colors."""
+    """Numbers get the header's types, which tell the scale of colors."""
     rows = Rows(lines, Layout(list(kinds), list(kinds)))
     rows.read(count)
     notes += rows.notes

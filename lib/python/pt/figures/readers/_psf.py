@@ -1,4 +1,4 @@
-"""PSF of CHARMM, NAMD and X-PLOR: what the atoms of a trajectory are, without positions."""
+"""PSF of CHARMM, NAMD and X-PLOR: a trajectory's atoms, without positions."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from pt.figures.readers._atoms import atoms_table
 from pt.figures.readers._lines import Lines
 
 _LEAST: Final = 8  # fields of an atom
-_MASSLESS: Final = 0.5  # daltons: Drude particles, lone pairs and masses that stand for no atom are lighter
+_MASSLESS: Final = 0.5  # daltons: Drude particles and lone pairs are lighter
 
 
 def read_psf(lines: Lines) -> Table:

@@ -1,5 +1,4 @@
-"""Rows of text as columns. pandas reads them if there are many; few rows, and blocks with a wrong row, are read one by
-one."""
+"""Rows of text as columns. pandas reads many; few, and blocks with a wrong row, are read one by one."""
 
 from __future__ import annotations
 
@@ -19,8 +18,8 @@ from pt.figures.readers._lines import Lines
 
 Array = npt.NDArray[Any]
 
-_TABLE: Final = ""  # the key of three columns of positions, which are kept as one table
-FEW_BYTES: Final = 1 << 16  # so few are read without importing pandas
+_TABLE: Final = ""  # the key of three columns of positions, kept as one table
+FEW_BYTES: Final = 1 << 16  # fewer are read without importing pandas
 MISSING: Final = ("", "nan", "NaN", "NAN", "-nan", "NA", "N/A", "n/a", "null", "None", "-")
 _WHOLE: Final = re.compile(r"[+-]?\d+")
 _EXPONENT: Final = re.compile(r"([\d.])(?:[dD]|\*\^)([+-]?\d)")
@@ -28,15 +27,14 @@ _EXPONENT: Final = re.compile(r"([\d.])(?:[dD]|\*\^)([+-]?\d)")
 
 @dataclass
 class Layout:
-    """What a row must have.
+    """The rules of a row.
 
-    names      of the columns
-    positions  names of the columns that must be numbers, whatever the first row has
+    positions  columns that must be numbers
     separator  "" for blanks
     decimal    the decimal mark
-    least      least number of fields in a row; fields that are not there count as missing, further ones are ignored
-    is_table   whether the number of rows is unknown: blank lines and lines that begin with # are then skipped, and
-               columns of numbers, except positions, may have words too
+    least      least number of fields in a row; others are optional, further ones are ignored
+    is_table   the number of rows is unknown: blank lines and lines that begin with # are skipped, and columns of
+               numbers, except positions, may have words too
     rows       the rows' name, for messages
     """
 
@@ -50,8 +48,8 @@ class Layout:
 
 
 def number(text: str, decimal: str = ".") -> float:
-    """A number from text, also with exponents of Fortran (1.5D+02) and Mathematica (1.5*^2); NaN for a missing value.
-    Raises ValueError."""
+    """Also reads exponents of Fortran (1.5D+02) and Mathematica (1.5*^2); NaN for a missing value. Raises ValueError.
+    """
     if text in MISSING:
         return np.nan
     if "_" in text:
@@ -68,7 +66,7 @@ def is_number(text: str, decimal: str = ".") -> bool:
 
 
 def are_numbers(words: Iterable[str]) -> bool:
-    """Whether all words are numbers, none of them missing."""
+    """Missing values are no numbers."""
     return all(word not in MISSING and is_number(word) for word in words)
 
 
@@ -77,7 +75,7 @@ def is_comment(line: str) -> bool:
 
 
 def fields_of(line: str, separator: str) -> list[str]:
-    """The fields of a line. Raises csv.Error for a quoted field that does not end."""
+    """csv.Error: a quoted field does not end."""
     if not separator:
         return [word.strip('"') for word in line.split()]
     if '"' not in line:
@@ -86,8 +84,6 @@ def fields_of(line: str, separator: str) -> list[str]:
 
 
 class Rows:
-    """Collects the columns of blocks of rows."""
-
     def __init__(self, lines: Lines, layout: Layout) -> None:
         self.lines = lines
         self.layout = layout
@@ -97,7 +93,7 @@ class Rows:
         self._are_words: list[bool] = []
 
     def read(self, count: int | None = None, marks: re.Pattern[bytes] | None = None) -> None:
-        """Reads rows to the end of the file, or count rows: fewer are an error. Matches of marks count as blanks."""
+        """Reads count rows (fewer are an error), or all. Matches of marks count as blanks."""
         lines = self.lines
         while count is None or self.count < count:
             first = lines.number + 1
@@ -111,7 +107,7 @@ class Rows:
                 self.notes.append("the last line does not end with a newline: its last number may be cut")
 
     def add(self, data: bytes, height: int, first: int) -> None:
-        """Adds the rows of a block. first: the number of its first line."""
+        """first: the number of the block's first line."""
         if not self._are_words:
             self._find_words(data)
         columns = self._by_pandas(data, height) if len(data) > FEW_BYTES else None
@@ -125,7 +121,7 @@ class Rows:
         self.count += len(columns[0])
 
     def _put(self, key: str, piece: Array) -> None:
-        """Appends to a column. Arrays double when they grow; the system does not allocate what is never written."""
+        """Arrays double when they grow; the system allocates only what is written."""
         have, end = self._columns.get(key, piece[:0]), self.count + len(piece)
         kind = np.result_type(have, piece)
         if end > len(have) or kind != have.dtype:
@@ -135,14 +131,14 @@ class Rows:
         have[self.count:end] = piece
 
     def columns(self) -> dict[str, Array]:
-        """The columns by name; three columns of positions are views of one table."""
+        """Three columns of positions are views of one table."""
         result = {name: np.empty(0) for name in self.layout.names}
         for key, values in self._columns.items():
             result.update(zip(self.layout.positions, values[:self.count].T) if key == _TABLE else ((key, values[:self.count]),))
         return result
 
     def _find_words(self, data: bytes) -> None:
-        """Finds the columns of words: those whose first field is one, except positions."""
+        """Columns are words if their first field is one, except positions."""
         layout = self.layout
         lines = (line.decode("utf-8", "replace") for line in io.BytesIO(data))
         first = next((line for line in lines if line.strip() and not (layout.is_table and is_comment(line))), "")
@@ -155,8 +151,7 @@ class Rows:
         return name not in self.layout.positions and (self.layout.is_table or name.lower() in LABELS)
 
     def _by_pandas(self, data: bytes, height: int) -> list[Array] | None:
-        """The columns of a block; None if it needs a closer look, because pandas takes short rows for missing values
-        and names no lines."""
+        """None if the block needs a closer look: pandas takes short rows for missing values and names no lines."""
         layout = self.layout
         try:
             pandas = module("pandas", "fast reading of large text")
@@ -175,7 +170,7 @@ class Rows:
                 na_values={i: list(MISSING) for i in range(width) if not self._are_words[i]}, low_memory=False,
                 encoding_errors="replace", engine="c",
                 **({"float_precision": "round_trip"} if pandas.__version__ < "3" else {}))  # the default from 3 on
-        except (ValueError, OverflowError):  # its parsing errors are ValueErrors too
+        except (ValueError, OverflowError):
             return None
         may_skip = layout.is_table and b'"' not in data  # blank lines
         if frame.shape[1] != width or len(frame) > height or (len(frame) < height and not may_skip):
@@ -194,7 +189,7 @@ class Rows:
         return columns if self._has_all_fields(last == "" if last.dtype.kind == "U" else np.isnan(last), data, height) else None
 
     def _has_all_fields(self, is_missing: Array, data: bytes, height: int) -> bool:
-        """Whether all rows whose last value is missing have a field for it."""
+        """Whether all rows with a missing last value have a field for it."""
         rows = np.flatnonzero(is_missing)
         if not len(rows) or len(self.layout.names) == 1:
             return True
@@ -253,6 +248,5 @@ class Rows:
 
 
 def shown(line: str, most: int = 60) -> str:
-    """A line for a message."""
     line = line.strip()
     return repr(line if len(line) <= most else line[:most] + "...")

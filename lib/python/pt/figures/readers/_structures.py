@@ -28,8 +28,7 @@ _DEUTERIUM: Final = 119  # in gemmi
 
 
 def read_pdb(lines: Lines, is_pdbqt: bool = False) -> Listed:
-    """The models of a PDB file, each of which gemmi reads on its own: their cells may differ, and numbers be given
-    twice."""
+    """gemmi reads each model on its own: their cells may differ, and their numbers repeat."""
     gemmi = module("gemmi", f"{lines.name}: PDB")
     rows = lines.text().replace(b"\r", b"").split(b"\n")
     others, models = _split(rows, _with_autodock_element if is_pdbqt else _with_element)
@@ -44,7 +43,7 @@ def read_pdb(lines: Lines, is_pdbqt: bool = False) -> Listed:
 
 
 def _split(lines: list[bytes], completed: Callable[[bytes], bytes]) -> tuple[list[bytes], list[tuple[int, list[bytes]]]]:
-    """The lines that are of all models; and for each model that has atoms its number and its own lines."""
+    """The lines common to all models; and each model's number and lines."""
     others: list[bytes] = []
     models: list[tuple[int, list[bytes]]] = []
     number, cell, atoms = 1, b"", []
@@ -76,7 +75,7 @@ def _split(lines: list[bytes], completed: Callable[[bytes], bytes]) -> tuple[lis
 
 
 def _in_columns(line: bytes) -> bytes:
-    """A line of CRYST1 whose numbers are in their columns."""
+    """A CRYST1 line with its numbers in their columns."""
     try:
         a, b, c, alpha, beta, gamma = map(float, line[6:].split()[:6])
         return f"CRYST1{a:9.3f}{b:9.3f}{c:9.3f}{alpha:7.2f}{beta:7.2f}{gamma:7.2f}".encode() + line.rstrip()[54:]
@@ -85,21 +84,19 @@ def _in_columns(line: bytes) -> bytes:
 
 
 def _with_element(line: bytes) -> bytes:
-    """A line with X in columns 77 and 78 if there is no element, which gemmi then does not guess, and without what is no
-    charge in the next two."""
+    """Puts X into columns 77 and 78 without an element, so gemmi does not guess, and removes wrong charges."""
     end = _ELEMENT_AND_CHARGE.match(line[76:80].ljust(2))
     return line[:76].ljust(76) + (b" X" if end is None else end[0])
 
 
 def _with_autodock_element(line: bytes) -> bytes:
-    """The type of AutoDock, which ends the line, as an element."""
+    """AutoDock's type, which ends the line, becomes the element."""
     number = autodock_element(line.split()[-1].decode("utf-8", "replace"))
     symbol = SYMBOLS[number] if 0 < number < VIRTUAL else "X"
     return line[:76].ljust(76) + f"{symbol:>2}".encode()
 
 
 def frames_of(name: str, structure: Any) -> Listed:
-    """The models of a structure of gemmi."""
     gemmi = module("gemmi", name)
     ends = np.cumsum([model.count_atom_sites() for model in structure])
     if not len(ends) or not ends[-1]:
@@ -141,7 +138,7 @@ def _words(letters: Array) -> Array:
 
 
 def _likeliest(columns: dict[str, Array]) -> Array:
-    """Which atoms belong to the alternative of their residue that has the highest mean occupancy."""
+    """Atoms of the alternative with the highest mean occupancy of their residue."""
     kept = np.ones(len(columns["altloc"]), bool)
     alternatives: dict[tuple[Any, ...], dict[str, list[int]]] = {}
     for row in np.flatnonzero(columns["altloc"] != ""):
@@ -173,7 +170,7 @@ def _bonds(structure: Any, columns: dict[str, Array], notes: list[str]) -> Bonds
 
 
 def _connections(structure: Any, columns: dict[str, Array]) -> Iterator[tuple[int, int]]:
-    """Bonds of struct_conn, or LINK and SSBOND, within the asymmetric unit. Hydrogen bonds are none."""
+    """struct_conn, or LINK and SSBOND, within the asymmetric unit; no hydrogen bonds."""
     gemmi = module("gemmi", structure.name)
     wanted = [each for each in structure.connections
               if each.type != gemmi.ConnectionType.Hydrog and each.asu != gemmi.Asu.Different]
@@ -189,7 +186,7 @@ def _connections(structure: Any, columns: dict[str, Array]) -> Iterator[tuple[in
 
 
 def _conect(structure: Any, serials: Array, notes: list[str]) -> Iterator[tuple[int, int]]:
-    """Bonds of CONECT, without those of numbers that two atoms have."""
+    """CONECT, without numbers that two atoms have."""
     table = structure.conect_map
     if not table:
         return

@@ -19,7 +19,7 @@ _MOST_BYTE: Final = 255
 
 
 def read_table(lines: Lines, mapping: Mapping[str, str]) -> Table:
-    """Reads a table. mapping: names of the position columns, if they are unusual."""
+    """mapping: unusual names of the position columns."""
     comment = ""
     start = lines.place()
     while (line := lines.line()) is not None and (not line.strip() or is_comment(line)):
@@ -44,7 +44,7 @@ def read_table(lines: Lines, mapping: Mapping[str, str]) -> Table:
 
 
 def _layout(line: str, comment: str, lines: Lines) -> tuple[Layout, bool]:
-    """The layout that the first line which is not a comment suggests, and whether that line has names."""
+    """The first line that is not a comment decides the layout; also whether it has names."""
     separator = next((each for each in _SEPARATORS if each in line), "")
     has_comma = separator != "," and re.search(r"\d,\d", line + lines.peek(1000).decode("utf-8", "replace")) is not None
     decimal = "," if has_comma else "."
@@ -68,14 +68,14 @@ def _layout(line: str, comment: str, lines: Lines) -> tuple[Layout, bool]:
 
 
 def _default_names(first: list[str], decimal: str) -> list[str]:
-    """Names for columns without any: x, y, z, and then their numbers; a first column of words is the species."""
+    """x, y, z, and then numbers; a first column of words is the species."""
     is_labelled = len(first) > 3 and not is_number(first[0], decimal)
     names = (["species"] if is_labelled else []) + ["x", "y", "z"]
     return (names + [str(i) for i in range(len(names) + 1, len(first) + 1)])[:len(first)]
 
 
 def _with_colors(columns: dict[str, npt.NDArray[Any]], notes: list[str]) -> dict[str, npt.NDArray[Any]]:
-    """Whole numbers from 0 to 255 in the last three columns, as scanners write them, are colors."""
+    """Whole numbers from 0 to 255 in the last three columns are colors, as scanners write them."""
     names = list(columns)[-3:]
     last = [columns[name] for name in names]
     if len(columns) < 6 or any(column.dtype.kind != "i" for column in last):

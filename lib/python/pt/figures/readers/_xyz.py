@@ -50,7 +50,7 @@ class Xyz(TextFrames):
         return Table(rows.columns(), cell, rows.notes, is_text=True)
 
     def _names(self) -> tuple[list[str], int | None]:
-        """Names of the columns, and the least number of fields in a row if more may follow."""
+        """Names, and the least number of fields in a row if more may follow."""
         properties = self._pairs.get("properties")
         if properties is None:
             first = self.lines.peek(1 << 16).split(b"\n", 1)[0].decode("utf-8", "replace").split()
@@ -87,7 +87,7 @@ class Xyz(TextFrames):
 
 
 def _is_row(line: str) -> bool:
-    """Whether a line looks like one of a particle: a label or an atomic number, and a position."""
+    """A label or an atomic number, and a position."""
     words = line.split()
     is_labelled = words[0].isdecimal() or not is_number(words[0])
     return len(words) >= _LEAST and is_labelled and all(map(is_number, words[1:_LEAST]))
