@@ -6,7 +6,7 @@ import random
 SEED = 5
 LOW, HIGH = (-8, 0.8, -16), (8, 6, -2)  # of the cloud
 BRIGHTNESSES = 41
-POWER = 60  # emission of a single lamp of radius 0.3 that gives as much light
+POWER = 60  # emission of a lamp of radius 0.3 with the light of the whole cloud
 MATT, DARK = {"diffuse": [0.7, 0.6, 0.5]}, {"diffuse": [0.4, 0.5, 0.6]}
 
 

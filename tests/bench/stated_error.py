@@ -92,7 +92,7 @@ def read(scene):
 
 
 def short(values):
-    """Floats >= 0 in 16 bits, with an exponent of 8: 2^-9 of each is lost at most."""
+    """Floats >= 0 in 16 bits, 8 of them for the exponent: loses at most 2^-9 of each."""
     return ((numpy.asarray(values, numpy.float32).view(numpy.uint32) + (1 << 14)) >> 15).astype(numpy.uint16)
 
 

@@ -160,7 +160,7 @@ TEST(Denoise, StatesRareLightThatItsFilterTakesAway) {
     }
 }
 
-// Nor with little noise, when shifting or darkening does more harm than good.
+// With little noise, shifting or darkening does more harm than good.
 TEST(Denoise, IsNoWorseThanTheRawImage) {
     for (const char *wish : {"identity", "", "shift", "darken"})
         for (const double deviation : {much_noise, 0.2, 0.02}) {
@@ -286,9 +286,9 @@ TEST(Denoise, DoesNotSpreadALamp) {
     EXPECT_LT(denoising.error.relative_rmse, 0.02);
 }
 
-// One pixel of each tile differs by as much in both halves of a checkerboard of mean 1. The filter blurs it, so little
-// of it is used. Where one half is dark, light may reach into the pixel by any share, and the square counts ln(1 / 0.1)
-// times.
+// One pixel of each tile differs by the same amount in both halves of a checkerboard of mean 1. The filter blurs it, so
+// little of it is used. Where one half is dark, light may reach into the pixel by any share, and the square counts ln(1
+// / 0.1) times.
 TEST(Denoise, KnowsLittleOfEdgesThatOneHalfDidNotMeet) {
     const auto relative_square = [](float lesser) {
         Pixels halves[2] = {Pixels(value_count), Pixels(value_count)};

@@ -170,7 +170,7 @@ TEST_F(BorrowedDeviceTest, ADeviceThatHangsKeepsWhatItsWorkUses) {
         EXPECT_EQ(loss.code(), PT_ERROR_DEVICE_LOST);
         EXPECT_TRUE(device.hangs());
     }
-    gate.reset(); // this device does end it
+    gate.reset(); // unlike a hung device, this one ends the work
     for (const std::string &line : messages_.take())
         ADD_FAILURE() << "destroyed too early: " << line;
     caller_.reset();

@@ -1,4 +1,4 @@
-// Rays against one sphere, huge or from a few ulp away, against long double.
+// Rays against a huge sphere, and from a few ulp off a sphere, compared with long double.
 #include "intersection.spv.h"
 #include "lib/kernel/gpu_scene.h"
 #include "tests/device/probe.h"

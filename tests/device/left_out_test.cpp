@@ -38,8 +38,8 @@ std::size_t differing_values(const Image &a, const Image &b) {
     return count;
 }
 
-// Rounding decides rays within 2^-20 of the scene from rims and contacts: half a sample of 3072 for 20 rays and 9
-// surfaces each. More than 6 samples of 3 values: probability 1e-6.
+// Rounding decides rays within 2^-20 of the scene's size from rims and contacts: on average half a sample in 3072 of
+// 20 rays and 9 surfaces each. More than 6 samples of 3 values: probability 1e-6.
 constexpr std::size_t decided_by_rounding = 18;
 
 InvarianceScene room() {

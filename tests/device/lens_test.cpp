@@ -58,7 +58,7 @@ TEST_F(Lens, ShowsWhatAPathTracerInDoubleDoes) {
     }
 }
 
-// The disc exceeds the picture, so brightness goes with its inverse square radius. Negative controls: a lens 3% wider
+// The disc exceeds the picture, so brightness is proportional to 1 / radius^2. Negative controls: a lens 3% wider
 // (6% less light), a focus 3% farther (9%).
 TEST_F(Lens, IsAsWideAndFocusedAsStated) {
     Given given;

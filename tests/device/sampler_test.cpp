@@ -72,7 +72,7 @@ TEST_P(Sampler, IsRandomBeyondTheTable) {
     EXPECT_EQ(take(GetParam(), request) == take(PT_SAMPLER_RANDOM, request), GetParam() == PT_SAMPLER_RANDOM);
 }
 
-// Without a table too, also where B i + b passes 2^32.
+// Holds without a table, and where B i + b passes 2^32.
 TEST(SamplerRandom, BranchesAreSamplesOfTheirOwn) {
     constexpr std::uint32_t branches = 4;
     Request request;

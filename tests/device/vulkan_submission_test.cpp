@@ -65,7 +65,7 @@ TEST_F(VulkanTest, ADeviceThatDoesNotEndASubmissionIsLostForGood) {
         EXPECT_EQ(error.code(), PT_ERROR_DEVICE_LOST);
         EXPECT_STREQ(error.what(), loss.what());
     }
-    gate.open(); // this device does end it
+    gate.open(); // unlike a hung device, this one ends the work
 }
 
 // Beyond the budget a driver may end loops without an error.

@@ -92,7 +92,7 @@ class Cells(unittest.TestCase):
             np.testing.assert_array_equal(np.sort(cell_corners(cell), axis=0), np.sort(expected, axis=0))
             begins, ends = cell_edges(cell)
             self.assertEqual(len(begins), {1: 1, 2: 4, 3: 12}[len(kept)])
-            for edge in kept:  # each as often as it is parallel to others
+            for edge in kept:
                 self.assertEqual(int((np.abs(ends - begins - rows[edge]) < 1e-12).all(axis=1).sum()), 2 ** (len(kept) - 1))
 
     def test_which_cells_are_drawn(self):

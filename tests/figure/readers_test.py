@@ -27,7 +27,7 @@ HEAD = "ITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS "
 ATOMS = "ITEM: ATOMS id xs ys zs\n1 0.5 0.25 0.125\n"
 
 DAMAGES = 200  # of each kind and file
-DAMAGED = {  # and whether a row says where it ends
+DAMAGED = {  # whether a row shows its own end
     "cloud.csv": False, "cloud.csv.gz": True, "cloud.tsv": False, "cloud.xyz": True, "cloud.extxyz": True, "rows.npy": True,
     "records.npy": True, "stored.npz": True, "deflated.npz": True, "little.ply": True, "lists.ply": True,
     "text.ply": True, "text_lists.ply": True, "melt_plain.dump": True, "tilted.dump": True}

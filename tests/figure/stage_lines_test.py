@@ -116,9 +116,8 @@ class Lines(unittest.TestCase):
         np.testing.assert_allclose(edges.radius, 0.5 * 8 / 64)
 
     def test_outlines_go_round_the_balls(self):
-        """A ball before nothing and before others has outlines. There are none inside of a ball, along edges of the
-        cell before it, and
-        away from balls."""
+        """Balls have outlines before the background and before other balls; none inside, along edges of the cell before
+        them, and elsewhere."""
         for projection in ("perspective", "orthographic"):
             size = (96, 72)
             staged = staged_of(projection, size, outlines=True)

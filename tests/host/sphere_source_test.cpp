@@ -1,4 +1,4 @@
-// Spheres of structs and columns in order.
+// The order of spheres from structs and columns.
 #include "lib/scene/scene.h"
 #include "lib/scene/sphere_source.h"
 #include "tests/host/particles.h"

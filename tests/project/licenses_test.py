@@ -65,7 +65,7 @@ class Licenses(unittest.TestCase):
         found = included() | linked(rules) | copied()
         self.assertGreaterEqual(len(found), 15)
         self.assertEqual(sorted(found - set(parts())), [])
-        # Every row is in use, but for wheels and libraries that other versions of a package link.
+        # All rows are in use, except for wheels and for libraries of other versions of a package.
         names = {parts()[each] for each in found}
         self.assertEqual(names ^ set(parts().values()), set())
 

@@ -54,7 +54,7 @@ class InvalidSceneError(Error, ValueError):
 
 
 class InvalidStateError(Error, RuntimeError):
-    """Something has to be set or to end first."""
+    """A setting is missing, or another call is running."""
 
     result = Result.ERROR_INVALID_STATE
 

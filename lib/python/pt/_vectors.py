@@ -1,4 +1,4 @@
-"""Positions and colors of single things."""
+"""Vectors and colors from numbers."""
 
 from __future__ import annotations
 

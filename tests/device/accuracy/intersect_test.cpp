@@ -64,7 +64,7 @@ std::vector<Item> items() {
     return items;
 }
 
-// met: 0, 1, or -1 where float32 cannot.
+// met: 0, 1, or -1 where float32 cannot decide.
 struct Exact {
     int met;
     Real distance;

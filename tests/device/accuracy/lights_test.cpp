@@ -13,7 +13,7 @@ namespace accuracy::lights {
 
 namespace {
 
-constexpr std::uint32_t lamp_count = 512; // fill a probe's scene
+constexpr std::uint32_t lamp_count = 512; // fills a probe's scene
 
 struct Lamp {
     glm::vec3 center;

@@ -181,7 +181,7 @@ def _with_extent(particles: Particles) -> Particles:
 
 
 def _put_labels(particles: Particles, chosen: dict[str, str]) -> None:
-    """Fills in elements or, failing that, types. Types are elements if mostly known symbols."""
+    """Fills in elements or, failing that, types. Types whose words are mostly known symbols are elements."""
     columns = particles.columns
     element, kind = (chosen.get(role) or first_of(columns, names) for role, names in
                      (("element", ELEMENTS), ("type", TYPES)))

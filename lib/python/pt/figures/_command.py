@@ -97,7 +97,7 @@ def joined(words: list[str]) -> list[str]:
 
 
 def check(given: argparse.Namespace) -> None:
-    """Checks options before minutes are spent."""
+    """Checks options before a long rendering starts."""
     series = given.turntable or given.frames
     pictures = [path for path in given.output if path != "-"]
     files = [(path, PICTURES) for path in pictures] + [

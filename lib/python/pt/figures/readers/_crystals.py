@@ -1,4 +1,4 @@
-"""CIF: crystals and, where it is mmCIF, macromolecules, by gemmi."""
+"""CIF by gemmi: crystals, and macromolecules in mmCIF."""
 
 from __future__ import annotations
 
@@ -82,7 +82,7 @@ def _set_symmetry(structure: Any, notes: list[str]) -> None:
 
 
 def _choose_sites(structure: Any, notes: list[str]) -> None:
-    """Keeps sites with positions and, of alternative groups, the one of highest occupancy."""
+    """Keeps sites with positions, and the alternative group of highest occupancy."""
     sites = [site for site in structure.sites if np.isfinite(site.fract.tolist()).all()]
     if len(sites) < len(structure.sites):
         notes.append(f"{len(structure.sites) - len(sites):,} sites without a position are left out")

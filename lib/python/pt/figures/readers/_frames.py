@@ -98,7 +98,7 @@ class TextFrames:
             count = self._next()
         except DataError:
             if index:
-                self.read(index - 1)  # this names an error's line more precisely
+                self.read(index - 1)  # names an error's line more precisely
             raise
         if count is None:
             self._is_whole = True

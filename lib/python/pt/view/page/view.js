@@ -276,7 +276,7 @@ function begin() {
   $("back").addEventListener("click", back);
   $("copy").addEventListener("click", () => {
     $("camera").select();
-    document.execCommand("copy"); // the other way needs a secure context
+    document.execCommand("copy"); // navigator.clipboard needs a secure context
   });
   $("png").addEventListener("click", () => $("picture").toBlob(blob => {
     const link = Object.assign(document.createElement("a"), {href: URL.createObjectURL(blob), download: "picture.png"});
