@@ -22,8 +22,8 @@ from pt.figures._command import add_option, joined, typed
 from pt.figures._options import Options, two
 
 EPILOG = """\
-The page is served on 127.0.0.1 alone, to whoever knows the address. From another machine: ssh -L PORT:127.0.0.1:PORT HOST,
-with the port of the address. Ctrl-C ends it; nothing is written but what the page is told to save.
+The page is served on 127.0.0.1 alone; anybody with its address may see and steer it. From another machine:
+ssh -L PORT:127.0.0.1:PORT HOST, with the port of the address. Ctrl-C ends it; only the page's save buttons write files.
 """
 VECTOR_BITS = "LP_NATIVE_VECTOR_WIDTH"
 
