@@ -17,7 +17,7 @@
 // r) + (q - w) (A - r). Where the filter is right, D(B) and D(A) stand for r, and the faults are v w + (p - v) (q - w).
 // Where it is wrong, and limits mend it, p - v is -v: both products are equal, and there are no faults. So the faults
 // of a tile are the difference between the sums of both products. They are at least (sum p) (sum q) over the number of
-// values (Cauchy's inequality); light that few samples meet mostly has products below 0.
+// values (Cauchy's inequality); products of light that few samples meet are mostly below 0.
 #pragma once
 
 #include "lib/film/error_estimate.h"

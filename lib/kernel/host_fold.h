@@ -20,7 +20,8 @@ public:
     HostFold &operator=(const HostFold &) = delete;
 
     // Call once, with the film in host memory and no submission under way. The next submission overwrites the other
-    // part, except rare words (film.glsl), which it assumes to be 0. If one is not, returns false and folds nothing.
+    // part, except rare words (film.glsl), which it assumes to be 0. If one is nonzero, returns false and folds
+    // nothing.
     bool fold(std::vector<PixelRange> pixels);
 
     // Call after submission.

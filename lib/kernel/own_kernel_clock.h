@@ -13,10 +13,10 @@ public:
     static constexpr double seconds_to_pay = 1.0;
     static constexpr double longest_wait = 32.0;
 
-    // seconds: for which the scene has been rendered.
+    // seconds: spent on the scene so far.
     bool is_time(double seconds) const { return seconds > wait_; }
 
-    // seconds: for which the last own kernel was used.
+    // seconds: spent with the last own kernel.
     void left_after(double seconds) {
         wait_ = seconds < seconds_to_pay ? std::min(2.0 * wait_, longest_wait) : seconds_to_pay;
     }

@@ -31,8 +31,7 @@ public:
 
     // Returns the kernel for scenes with these features or, where faster, one for this scene alone; both compute the
     // same bits. The first scene gets its own at once, since some kernel must be built; others wait
-    // (own_kernel_clock.h). words: the scene buffer. seconds: for which the scene has been rendered. Valid until the
-    // next call.
+    // (own_kernel_clock.h). words: the scene buffer. seconds: spent on the scene so far. Valid until the next call.
     const vulkan::ComputePipeline &trace(const Features &features, std::span<const glm::vec4> words, double seconds);
 
     // When scenes get kernels of their own. at_once: for callers that prepare ahead. never: for polls.
