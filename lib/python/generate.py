@@ -136,7 +136,6 @@ def program_text(headers):
 
 
 def files_of(headers):
-    """path -> text; headers: text by name."""
     ordered = [headers["pt.h"], *(text for name, text in sorted(headers.items()) if name not in ("pt.h", "vulkan.h"))]
     return {"lib/python/pt/_structs.py": structs_text(ordered), "lib/python/pt/_enums.py": enums_text(ordered),
             "shaders/enumerations.h": kernel_text(ordered), "cli/base/enumerations.h": program_text(ordered)}

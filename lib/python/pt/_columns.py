@@ -70,7 +70,6 @@ def color_column(name: str, values: npt.ArrayLike, count: int) -> Array:
 
 
 def index_column(name: str, values: npt.ArrayLike, count: int) -> Array:
-    """A column of uint32; other integers are copied."""
     array = np.asarray(values)
     if array.dtype.kind not in "iu":
         raise TypeError(f"{name}.dtype = {array.dtype}: must be of integers")

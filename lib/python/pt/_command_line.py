@@ -50,7 +50,6 @@ def misnamed(files: Sequence[tuple[str, Sequence[str]]], source: str) -> tuple[s
 
 
 def numbered(pattern: str, number: int | None) -> str:
-    """Replaces the name's last # signs by the number, if given."""
     if number is None:
         return pattern
     return re.sub(r"#+(?=[^#]*$)", lambda place: str(number).zfill(len(place.group())), pattern)

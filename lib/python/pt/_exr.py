@@ -30,7 +30,7 @@ def encode_exr(radiance: npt.NDArray[np.float32]) -> bytes:
         planes = np.ascontiguousarray(radiance[row:row + EXR_ROWS, :, ::-1].transpose(0, 2, 1), "<f4")
         data = planes.view(np.uint8).ravel()
         halves = np.concatenate([data[0::2], data[1::2]]).astype(np.int16)
-        halves[1:] = halves[1:] - halves[:-1] + 128  # differences, as the decoder expects
+        halves[1:] = halves[1:] - halves[:-1] + 128
         packed = zlib.compress((halves & 255).astype(np.uint8).tobytes(), 4)
         packed = packed if len(packed) < len(data) else data.tobytes()  # the decoder recognises this by the size
         blocks.append(struct.pack("<2i", row, len(packed)) + packed)

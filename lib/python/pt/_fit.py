@@ -27,8 +27,6 @@ def coordinates(rows: Array) -> Doubles:
 
 @dataclass(frozen=True)
 class Spin:
-    """A full turn about an axis (a unit vector) through a point."""
-
     axis: Doubles
     through: Doubles
 

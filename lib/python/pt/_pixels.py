@@ -19,7 +19,6 @@ LAYOUTS: Final[dict[Format, tuple[int, np.dtype[Any]]]] = {
 
 
 def new_pixels(shape: tuple[int, int], rectangle: Rectangle | None, format: Format) -> npt.NDArray[Any]:
-    """A new array for an image of this shape (rows, columns), or for the rectangle."""
     channels, dtype = LAYOUTS[Format(format)]
     rows, columns = shape if rectangle is None else (rectangle[3], rectangle[2])
     if rows < 0 or columns < 0:

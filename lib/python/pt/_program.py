@@ -69,7 +69,6 @@ class Program:
         self.facts: dict[str, Any] = json.loads(line)
 
     def film(self, first: int, end: int, tiles: npt.ArrayLike) -> bytes:
-        """The film of samples first to end - 1 of these tiles."""
         indices = np.ascontiguousarray(tiles, np.uint32)
         self._ask(struct.pack("=3I", first, end, len(indices)) + indices.tobytes())
         kind, size = map(int, self._line().split())
@@ -104,7 +103,7 @@ class Program:
     def close(self) -> None:
         self._process.kill()
         self._process.wait()
-        with contextlib.suppress(OSError):  # unless Windows keeps a process's working folder
+        with contextlib.suppress(OSError):
             os.rmdir(self._folder)
         for stream in (self._process.stdin, self._process.stdout, self._errors):
             with contextlib.suppress(OSError):

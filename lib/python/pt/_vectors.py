@@ -14,7 +14,6 @@ Color: TypeAlias = "float | Sequence[float] | npt.NDArray[Any]"
 
 
 def vector(name: str, value: Vector) -> Triple:
-    """ValueError: not three numbers."""
     numbers = np.asarray(value, np.float64)
     if numbers.shape != (3,):
         raise ValueError(f"{name} = {value!r}: must be three numbers")

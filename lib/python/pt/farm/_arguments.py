@@ -52,7 +52,6 @@ def parser() -> argparse.ArgumentParser:
 
 
 def frames_of(arguments: argparse.Namespace) -> list[int | None]:
-    """[None] for a single picture."""
     if arguments.frames is None:
         return [None]
     found = re.fullmatch(r"(\d+)(?:-(\d+))?", arguments.frames, re.ASCII)

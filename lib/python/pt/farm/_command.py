@@ -35,7 +35,7 @@ from pt.farm._sum import write_film
 def cluster(arguments: argparse.Namespace) -> Iterator[Any]:
     logging.getLogger("distributed").setLevel(logging.ERROR)
     try:
-        dask: Any = importlib.import_module("distributed")  # untyped; the import is slow
+        dask: Any = importlib.import_module("distributed")
     except ImportError as error:
         refuse(f"needs Dask: pip install './lib/python[farm]' ({error})", INTERNAL)
     if arguments.scheduler:

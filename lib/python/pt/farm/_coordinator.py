@@ -24,7 +24,7 @@ from pt.farm._speed import least_seconds
 from pt.farm._sum import Sum, read_film, write_film
 from pt.farm._workers import MOST_FETCHED, Member, Try, now, submit
 
-TICK = 0.25  # seconds between checks for late parts and progress
+TICK = 0.25
 SLOTS = 2  # parts per worker: one renders while another travels or waits
 
 # Tiles that keep a device busy. CPU: 4 for each of 16 cores. GPU: 262,144 pixels.
@@ -68,7 +68,7 @@ class Coordinator:
         self._look_end = self._look_cost = 0.0
         self._goals: Goals = np.zeros(self._shape, np.uint32)
         self._has_only = self._sum.film is None
-        self._cells: Cells | None = None  # of the film when _cells_at parts were merged
+        self._cells: Cells | None = None
         self._cells_at = 0
         self._asked_at = -1
         self._ask_end = self._ask_cost = 0.0
@@ -304,7 +304,7 @@ class Coordinator:
             return
         member = self._crew.of_part(future)
         if member is None:
-            return  # its worker was presumed dead
+            return
         each = member.tries.pop(future.key)
         if outcome is None:
             self._lose(member.address, each)

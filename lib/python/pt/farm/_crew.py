@@ -11,7 +11,7 @@ from pt.farm._options import FarmError, Progress
 from pt.farm._task import Outcome, codecs, introduce
 from pt.farm._workers import Done, Member, Try, addresses, now, submit
 
-MOST_FAILURES = 3  # in a row, after which a worker gets no more parts
+MOST_FAILURES = 3
 LOOK_SECONDS = 0.25
 
 

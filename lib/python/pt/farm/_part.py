@@ -66,7 +66,6 @@ Cells = list[tuple[tuple[range, ...], Indices]]
 
 
 def cells_of(film: Film | None, shape: tuple[int, int]) -> Cells:
-    """Tiles that the film lacks have no samples."""
     found: dict[tuple[range, ...], list[Indices]] = {}
     seen = np.zeros(shape, bool)
     indices = np.arange(seen.size, dtype=np.uint32).reshape(shape)

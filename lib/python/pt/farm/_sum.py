@@ -22,8 +22,6 @@ SHOW_SHARE = 0.02  # of the time, for early additions that keep the picture rece
 
 
 class Sum:
-    """mixed: films of other devices are added too."""
-
     def __init__(self, kept: Film | None, width: int, height: int, *, mixed: bool = False) -> None:
         self.film = kept
         self.identity: Identity | None = None if kept is None else identity_of(kept.to_bytes())
@@ -94,7 +92,6 @@ def write_film(film: Film, path: Path) -> None:
 
 
 def read_film(path: Path) -> Film | None:
-    """None without a file."""
     if not pathlib.Path(path).exists():
         return None
     try:

@@ -16,7 +16,7 @@ from pt.farm._speed import Speed
 from pt.farm._task import Outcome, fault_of
 
 FETCH_SECONDS = 60.0  # for a film, up to 35 MB at 1920x1080
-MOST_FETCHED = 16  # results travelling or waiting, to bound memory
+MOST_FETCHED = 16
 
 _fetching = threading.BoundedSemaphore(MOST_FETCHED)
 
@@ -25,7 +25,7 @@ Done = Callable[[Any, "Outcome | None"], None]  # future, and its outcome; None:
 
 @dataclass
 class Try:
-    number: int  # the part's; duplicates share it
+    number: int
     part: Part
     future: Any
     issued: float

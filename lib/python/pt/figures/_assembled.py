@@ -17,7 +17,7 @@ from pt.figures._particles import Particles, Table
 
 Array = npt.NDArray[Any]
 
-NEGLIGIBLE: Final = 1e-12  # relative to the largest coordinate: 1e-5 of float32's resolution
+NEGLIGIBLE: Final = 1e-12
 MANY_COLUMNS: Final = 1000
 MOST_COMPARED: Final = 2_000_000
 MOST_SORTED: Final = 100_000

@@ -25,7 +25,6 @@ STICK_SHARES: Final = {"space-filling": 0.07, "ball-and-stick": 0.07, "sticks": 
 
 
 def bonds_of(particles: Particles, options: Options, radii: Array, notes: list[str]) -> Rods:
-    """radii: of the particles, if no bonds were wanted."""
     rule = _rule(options.bond_rule)
     if isinstance(rule, np.ndarray):
         found = _of_pairs(particles, rule)
@@ -51,7 +50,6 @@ def bonds_of(particles: Particles, options: Options, radii: Array, notes: list[s
 
 
 def _rule(bonds: Any) -> float | None | Array:
-    """A cutoff, pairs, or None: from the data, residues and covalent radii."""
     if bonds is True or isinstance(bonds, str) and bonds == "auto":
         return None
     try:

@@ -119,7 +119,6 @@ def _named(particles: Particles, color: str, given: Options, notes: list[str]) -
 
 
 def components(particles: Particles, name: str) -> list[str]:
-    """Columns "vx,vy,vz", or those for "velocity" and "v"."""
     ways = [[f"{name}[{k}]" for k in range(3)], [f"{name}{axis}" for axis in "xyz"], [f"{name}_{axis}" for axis in "xyz"]]
     found = [way for way in ways if all(each in particles.columns for each in way)]
     return found[0] if found else name.split(",")
@@ -181,7 +180,6 @@ def _found_in(particles: Particles, word: str) -> str:
 
 def _of_categories(title: str, names: list[str], codes: Array, given: Options, known: Mapping[str, RGB], numbered: bool
                    ) -> tuple[Bytes, Legend]:
-    """numbered: the names are numbers, which decide the color, so that files agree."""
     order = names if isinstance(given.categories, bool) else list(given.categories)
     if missing := [name for name in names if name not in order]:
         raise ValueError(f"categories: {missing[0]!r} is in the data, and not among {', '.join(order[:20])}")

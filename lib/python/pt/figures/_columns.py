@@ -27,7 +27,6 @@ LABELS: Final = frozenset(ELEMENTS + TYPES)
 
 
 def split_columns(name: str, columns: Mapping[str, npt.ArrayLike]) -> tuple[dict[str, Array], Array | None]:
-    """Columns of one dimension, and the unchanged table of positions, if there is one."""
     arrays = {key: _without_objects(np.asarray(values)) for key, values in columns.items()}
     count = next((array.shape[:1] for array in arrays.values()), ())
     for key, array in arrays.items():

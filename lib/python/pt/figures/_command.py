@@ -160,7 +160,7 @@ def draw(given: argparse.Namespace, options: Options) -> int:
     for number, each in staged(given, options):
         if not given.quiet:
             for note in each.notes:
-                if (words := re.sub(r"\d", "", note)) not in told:  # once for all numbers
+                if (words := re.sub(r"\d", "", note)) not in told:
                     tell("pt-figure", note)
                     told.add(words)
         if given.legend and not number:

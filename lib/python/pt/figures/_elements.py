@@ -65,7 +65,7 @@ _ATOM_NAMES: Final = frozenset("CB CG CZ CM HA HB HT HW OW OT OXT NZ NH".split()
 _IONS: Final = {"NA": 11, "CL": 17, "MG": 12, "ZN": 30, "FE": 26, "MN": 25, "BR": 35, "LI": 3, "SE": 34, "SOD": 11,
                 "CLA": 17, "POT": 19, "CAL": 20}
 _MOST_LETTERS: Final = 3
-_UNITED: Final = (13.019, 14.027, 15.035, 16.043)  # CH to CH4 of united atoms
+_UNITED: Final = (13.019, 14.027, 15.035, 16.043)
 
 
 def distinct(labels: Array) -> tuple[Array, Array]:

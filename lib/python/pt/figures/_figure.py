@@ -169,7 +169,6 @@ def _in_range(positions: Array, radii: Array, cell: Cell | None, scale: float | 
 
 
 def view_of(drawn: Drawn, options: Options, turns: bool = False) -> View:
-    """turns: as in View.of."""
     size = options.size
     if size is not None and options.colorbar and drawn.legend is not None:
         size = size[0] - _strip_width(raster(drawn.legend, size[1], INK), size[1]), size[1]

@@ -14,10 +14,10 @@ from pt.figures._rods import cell_corners
 from pt.figures._spread import middle_of, reaches_of, usual_reach
 
 FAR: Final = 4.0
-BEYOND: Final = 1.25  # times as far as these: is left out
+BEYOND: Final = 1.25
 LARGE: Final = 10.0  # times as far as all particles: too large a cell; by taste
-OUTSIDE: Final = 0.1  # share of the particles that may be outside of the cell unmentioned
-WALL: Final = 0.01  # of the cell's edges: how far outside does not count
+OUTSIDE: Final = 0.1
+WALL: Final = 0.01
 LEAST_COVER: Final = 0.1
 WIDTH: Final = 8.0
 

@@ -80,7 +80,6 @@ class View:
         return vertical * (self.size[0] / self.size[1]), vertical
 
     def reaches(self, balls: Balls) -> Doubles:
-        """The balls' reaches in the directions that a Layout needs; for several frames, take the maximum."""
         down = -(self.axes @ self.compass.up)
         return balls.reach(self.axes, np.vstack([SIDES, down[None], pyramid(self.tangents)]), self.spin)
 

@@ -58,7 +58,6 @@ def _draw_swatches(sheet: Any, swatches: Swatches, height: float, font: float, i
 
 
 def save(legend: Legend, file: Any, format: str) -> None:
-    """Equal legends give equal bytes. format: svg, pdf, png."""
     dates = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
     with _matplotlib().rc_context({"svg.hashsalt": "pt"}):
         draw(legend, 2.4, 10.0, "#222222").savefig(file, format=format, dpi=200, bbox_inches="tight", pad_inches=0.08,

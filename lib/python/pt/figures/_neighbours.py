@@ -91,7 +91,6 @@ def _images(positions: Array, cell: Cell | None, cutoff: float) -> tuple[Array, 
 
 
 def _candidates(places: Array, cutoff: float) -> Iterator[tuple[Array, Array]]:
-    """Pairs in the same or adjacent cells of a grid whose sides are the cutoff."""
     low = places.min(axis=0)
     side = max(cutoff * SLACK, float((places.max(axis=0) - low).max()) * 2.0**-20)  # so that keys fit into 64 bits
     cells = np.floor((places - low) / side).astype(np.int64) + 1

@@ -19,7 +19,7 @@ PER_SIDE: Final = 4
 MOST_PER_SIDE: Final = 32  # random shares then have a standard deviation of 0.016
 MOST_RAYS: Final = 2**32 - 1
 BAND_ROWS: Final = 32  # so few that their hits take less device memory than the picture
-LEAST_STEP: Final = 0.1  # depth behind an outline, relative to the radius
+LEAST_STEP: Final = 0.1
 LEAST_RADIUS: Final = 2.5
 
 

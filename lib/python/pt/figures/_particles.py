@@ -103,7 +103,6 @@ class Particles:
         return self._moved(positions, slice(None), bonds=bonds)
 
     def _moved(self, positions: Array, rows: Any, **changed: Any) -> Particles:
-        """Columns of coordinates stay views of positions."""
         axes = {self.positions[:, axis].ctypes.data: axis for axis in range(3)}
         columns = {}
         for name, values in self.columns.items():

@@ -186,7 +186,7 @@ def typical_radius(positions: Array) -> float:
 def _neighbour_distances(positions: Array) -> tuple[Array, Array]:
     """Distances of a sample to the nearest and the fourth neighbour, within adjacent cells of a grid."""
     count = len(positions)
-    fourth = min(4, max(count // 3, 1)) - 1  # one far particle must not be everybody's fourth neighbour
+    fourth = min(4, max(count // 3, 1)) - 1
     low, high = (np.array([end(column) for column in positions.T], np.float64) for end in (np.min, np.max))
     extent = high - low
     broad = extent > 1e-6 * extent.max()

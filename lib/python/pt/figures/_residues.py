@@ -13,7 +13,7 @@ from pt.figures._elements import NUMBERS, SYMBOLS, listed
 
 Array = npt.NDArray[Any]
 
-VIRTUAL: Final = 255  # instead of an atomic number: a site that is no atom
+VIRTUAL: Final = 255
 
 AMINO_ACIDS: Final = frozenset(
     "ALA ARG ASN ASP CYS GLN GLU GLY HIS ILE LEU LYS MET PHE PRO SER THR TRP TYR VAL MSE SEC ASX GLX ACE NME NMA NH2 "
@@ -65,7 +65,6 @@ def element_of(name: str, residue: str) -> int:
 
 
 def is_free_ion(residue: str) -> bool:
-    """Alkali or alkaline earth metals, and halides."""
     return _IONS.get(re.sub(r"[-+\d]", "", residue).upper(), 0) in _ALKALI_AND_HALIDES or residue in _CHARGED
 
 
@@ -76,7 +75,6 @@ def is_polymer(residue: str) -> bool:
 
 
 def autodock_element(kind: str) -> int:
-    """AutoDock's type, the last column of pdbqt files."""
     return _AUTODOCK.get(kind.upper(), _NUMBERS.get(kind.upper(), 0))
 
 

@@ -58,7 +58,6 @@ def _common(trajectory: Iterator[Particles], options: Options) -> tuple[Options,
 
 
 def _rule(particles: Particles, drawn: Drawn, options: Options) -> Radius:
-    """The first frame's rule for radii, so that later frames' distances change nothing."""
     if options.radius is not None or particles.radii is not None:
         return options.radius
     factor = covalent_factor(particles)

@@ -8,7 +8,7 @@ import numpy as np
 
 from pt._fit import Array, Doubles, chunks, coordinates
 
-FEW: Final = 0.005  # share of the farthest balls that do not count; of fewer balls, one
+FEW: Final = 0.005
 LEAST_COUNT: Final = 5
 SAMPLE: Final = 100_000
 

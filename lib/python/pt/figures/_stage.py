@@ -12,7 +12,7 @@ from pt._scene import Material, Plane, Sphere
 # A surface that faces the key lamp and sees all of the surround has its albedo as radiance, the legend's color.
 SURROUND_BRIGHTNESS: Final = 0.4375  # has few bits, so that means of it are exact
 KEY_BRIGHTNESS: Final = 0.75
-KEY_HALF_ANGLE: Final = math.radians(14.0)  # shadows as soft as of a window seen from twice its width
+KEY_HALF_ANGLE: Final = math.radians(14.0)
 KEY_AZIMUTH: Final = math.radians(-35.0)
 KEY_ELEVATION: Final = math.radians(40.0)
 FLOOR: Final = Material(diffuse=0.8)

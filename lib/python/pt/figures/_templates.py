@@ -28,7 +28,6 @@ _HYDROGEN: Final = 1
 
 
 def known_residues(particles: Particles) -> Array:
-    """Particles of residues with bonds known by name, shape (n,)."""
     return _of_names(particles, lambda name: name.upper() in WATERS or is_polymer(name.upper()))
 
 
@@ -75,5 +74,5 @@ def agreeing(particles: Particles, first: Array, second: Array, squares: Array) 
     order = np.lexsort((squares[chosen], own))
     nearest = np.ones(len(order), bool)
     nearest[1:] = own[order[1:]] != own[order[:-1]]
-    kept[chosen[order[nearest]]] = True  # a hydrogen has one bond
+    kept[chosen[order[nearest]]] = True
     return kept

@@ -248,7 +248,6 @@ class _Reader:
             self.vertical_fov = 2.0 * math.atan(0.5 * height)
 
     def frustum_height(self) -> float:
-        """From the picture's edges in the plane at the distance 1, symmetric about the middle."""
         left, right, bottom, top = (self.words.number("FRUSTUM") for _ in range(4))
         height, width = top - bottom, right - left
         tolerance = 1e-4 * height

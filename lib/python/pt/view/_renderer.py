@@ -105,7 +105,6 @@ class Renderer:
         return wanted and self._count < self._most and "rendering" not in self._faults
 
     def _drop(self, error: Error) -> None:
-        """The device is lost: the next change makes a new context."""
         if self._context:
             self._context.close()
         self._context = None

@@ -72,7 +72,6 @@ class Server:
         self._is_ready.wait()
 
     def published(self, _: Frame) -> None:
-        """Announces a new frame; any thread."""
         if self._thread.is_alive():
             self._loop.call_soon_threadsafe(self._announce)
 
@@ -205,7 +204,6 @@ class Server:
             await connection.send_json({"refused": f"{type(error).__name__}: {error}"})
 
     def _file(self, name: Any) -> pathlib.Path:
-        """Only listed names, so that none leads elsewhere."""
         files = self._files()
         if not isinstance(name, str) or name not in files:
             raise ValueError("no such file is open to the page")

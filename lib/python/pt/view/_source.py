@@ -64,7 +64,6 @@ class SceneSource:
         return Shown(read.scene, read.camera, read.settings, display, [self.path, *map(pathlib.Path, read.files)])
 
     def explained(self, error: Exception) -> str:
-        """Repeats the library's refusal by the program, which knows the line."""
         try:
             if not str(error).startswith(str(self.path)):
                 Program([str(self.path)]).film(0, 1, [0])

@@ -73,7 +73,6 @@ _TEXTS: Final = ("table", "lammps-data", *FORMATS)
 
 def open_frames(path: str, format: str | None, mapping: Mapping[str, str], topology: str | None = None,
                 atom_style: str | None = None) -> Frames:
-    """The frames of a file. mapping, topology, atom_style: as in load."""
     lines = Lines(path)
     format = format or _format_of(lines)
     if format in TRAJECTORIES:
@@ -125,7 +124,7 @@ def _format_of(lines: Lines) -> str:
     name = ending(lines.path)
     first = start.split(b"\n", 1)[0].decode("utf-8", "replace").strip()
     if name in (".xyz", ".extxyz") and not first.isdecimal():
-        return "table"  # points, without a line with their number
+        return "table"
     known = _ENDINGS.get(name, "table")
     if known == "table" and (content := _of_content(start, lines)):
         return content
@@ -137,7 +136,6 @@ def _format_of(lines: Lines) -> str:
 
 
 def _of_content(start: bytes, lines: Lines) -> str | None:
-    """Text whose first lines show its format under any name."""
     if LAMMPS_DATA.search(start) and _BOX.search(start):
         return "lammps-data"
     is_record = re.match(rb"(HEADER|TITLE |REMARK|CRYST1|MODEL |ATOM  |HETATM)", start)
@@ -157,6 +155,5 @@ def _is_poscar(rows: list[bytes]) -> bool:
 
 
 def _is_table(start: bytes) -> bool:
-    """Text of equally many words a line."""
     rows = [line.replace(b",", b" ").split() for line in start.split(b"\n")[:-1] if line[:1] != b"#"]
     return len(rows) > 1 and b"\0" not in start and len({len(row) for row in rows[1:]}) == 1

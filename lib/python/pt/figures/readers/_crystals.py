@@ -101,7 +101,6 @@ def _choose_sites(structure: Any, notes: list[str]) -> None:
 
 
 def _foremost(shares: Any, occupancy: Any, cell: Cell) -> Any:
-    """Keeps sites of the highest occupancy within the distance SHARED, in their order."""
     first, second = pairs_within(shares @ cell.vectors, SHARED, cell)[:2]
     order = np.argsort(-occupancy, kind="stable")
     rank = np.empty(len(order), np.intp)

@@ -32,8 +32,6 @@ class Frames(Protocol):
 
 
 class Listed:
-    """Frames that are all in memory, or can be read by number."""
-
     def __init__(self, name: str, count: int, read: Callable[[int], Table], current: int | None = None,
                  models: list[int] | None = None) -> None:
         self.name = name
@@ -68,7 +66,7 @@ class TextFrames:
         self.lines = lines
         self.name = lines.name
         self.notes: list[str] = []
-        self._empty = 0  # passed frames without particles
+        self._empty = 0
         self._places = [lines.place()]  # of the known frames, and of the end of the last one
         self._is_whole = False
 
@@ -112,7 +110,6 @@ class TextFrames:
         return True
 
     def _next(self) -> int | None:
-        """Reads headers up to a frame with particles."""
         while (count := self.head()) == 0:
             self._empty += 1
             self.lines.skip(self.lines_after)

@@ -17,7 +17,7 @@ from pt.figures.readers._rows import are_numbers, is_number, shown
 ANGSTROMS: Final = 10.0  # in a nanometre
 _NAMES: Final = {"resid": slice(0, 5), "resname": slice(5, 10), "name": slice(10, 15)}
 _START: Final = 20  # of the positions
-_BOX: Final = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 0), (1, 2), (2, 0), (2, 1))  # places of its numbers
+_BOX: Final = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 0), (1, 2), (2, 0), (2, 1))
 
 
 class Gro(TextFrames):

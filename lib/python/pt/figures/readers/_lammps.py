@@ -33,7 +33,7 @@ class LammpsDump(TextFrames):
         is_first = True
         while (line := lines.line()) is not None:
             if is_first and not line.strip():
-                continue  # at the end of a file
+                continue
             is_first = False
             if not line.startswith("ITEM: "):
                 raise lines.refuse(f"{shown(line)}: must begin with ITEM:, which a new frame does: are there more lines "

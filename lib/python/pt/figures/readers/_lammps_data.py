@@ -40,13 +40,11 @@ _IMAGES: Final = ("ix", "iy", "iz")
 _SHAPES: Final = ("shapex", "shapey", "shapez")
 _COMMENT: Final = re.compile(rb"#[^\n]*")
 _BLANK: Final = re.compile(rb"[ \t\r]*(#[^\n]*)?\n")
-_MOST_BLANK: Final = 4096  # bytes of a line without values
+_MOST_BLANK: Final = 4096
 _PEEKED: Final = 1 << 14
 
 
 class LammpsData:
-    """Reads a file section by section."""
-
     def __init__(self, lines: Lines, style: str | None) -> None:
         if style is not None and style not in STYLES:
             raise DataError(f"atom_style = {style!r}: must be one of {listed(sorted(STYLES), 40)}")
@@ -209,7 +207,6 @@ class LammpsData:
             columns[name][chosen] = self.shapes[name]
 
     def _atoms_of(self, section: str, numbers: Array, ids: Array) -> Array:
-        """The indices of atoms by their numbers."""
         order = np.argsort(ids, kind="stable")
         found: Array = order[np.searchsorted(ids, numbers, sorter=order).clip(max=len(ids) - 1)]
         wrong = ids[found] != numbers

@@ -63,7 +63,7 @@ class Lines:
         self._next = 0  # in the buffer
         self._passed = 0  # bytes before it
         self.number = 0
-        self.is_ended = True  # the last line ended with a newline
+        self.is_ended = True
         start = self.peek(3)
         if start[:2] in (b"\xff\xfe", b"\xfe\xff"):
             raise DataError(f"{self.name}: is UTF-16: save it as UTF-8")
@@ -87,7 +87,6 @@ class Lines:
                             "short") from None
 
     def _fill(self) -> bool:
-        """Reads more into the buffer; False at the end."""
         more = self._read(BLOCK_BYTES)
         self._buffer = self._buffer[self._next:] + more
         self._passed += self._next
@@ -110,7 +109,7 @@ class Lines:
         while len(taken) < size and (more := self._read(min(size - len(taken), BLOCK_BYTES))):
             taken += more
             self._passed += len(more)
-        return bytes(taken) if size < BLOCK_BYTES else cast(bytes, taken)  # a bytearray is not copied
+        return bytes(taken) if size < BLOCK_BYTES else cast(bytes, taken)
 
     def line(self) -> str | None:
         """Without its end; None at the end of the file."""

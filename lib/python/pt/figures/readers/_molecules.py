@@ -59,7 +59,6 @@ def _cell(frame: Any) -> Cell | None:
 
 
 def read_trajectory(path: str, format: str, topology: Callable[[], Table]) -> Frames:
-    """topology: the trajectory's atoms."""
     chemfiles = module("chemfiles", f"{path}: {format}")
     file = tried(path, "chemfiles", lambda: chemfiles.Trajectory(path, "r", TRAJECTORIES[format]))
     atoms = topology()

@@ -25,7 +25,6 @@ _CELLS: Final = ("cell", "box", "lattice")
 
 
 def read_npy(lines: Lines) -> Frames:
-    """Read in place if the file is not packed."""
     return frames_of_array(lines.name, _array(lines))
 
 

@@ -85,7 +85,6 @@ def text_columns(lines: Lines, kinds: Mapping[str, str], count: int, notes: list
 
 
 def binary_columns(lines: Lines, kinds: Mapping[str, str], count: int, _: list[str]) -> dict[str, Array]:
-    """Records of equal length, read in place."""
     kind = np.dtype(list(kinds.items()))
     if not kind.itemsize:
         return {}

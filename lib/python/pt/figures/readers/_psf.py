@@ -13,7 +13,7 @@ from pt.figures._residues import VIRTUAL
 from pt.figures.readers._atoms import atoms_table
 from pt.figures.readers._lines import Lines
 
-_LEAST: Final = 8  # fields of an atom
+_LEAST: Final = 8
 _MASSLESS: Final = 0.5  # daltons: Drude particles and lone pairs are lighter
 
 

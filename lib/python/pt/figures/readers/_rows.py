@@ -19,7 +19,7 @@ from pt.figures.readers._lines import Lines
 Array = npt.NDArray[Any]
 
 _TABLE: Final = ""  # the key of three columns of positions, kept as one table
-FEW_BYTES: Final = 1 << 16  # fewer are read without importing pandas
+FEW_BYTES: Final = 1 << 16
 MISSING: Final = ("", "nan", "NaN", "NAN", "-nan", "NA", "N/A", "n/a", "null", "None", "-")
 _WHOLE: Final = re.compile(r"[+-]?\d+")
 _EXPONENT: Final = re.compile(r"([\d.])(?:[dD]|\*\^)([+-]?\d)")
@@ -107,7 +107,6 @@ class Rows:
                 self.notes.append("the last line does not end with a newline: its last number may be cut")
 
     def add(self, data: bytes, height: int, first: int) -> None:
-        """first: the number of the block's first line."""
         if not self._are_words:
             self._find_words(data)
         columns = self._by_pandas(data, height) if len(data) > FEW_BYTES else None

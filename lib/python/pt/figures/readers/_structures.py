@@ -47,7 +47,7 @@ def _split(lines: list[bytes], completed: Callable[[bytes], bytes]) -> tuple[lis
     others: list[bytes] = []
     models: list[tuple[int, list[bytes]]] = []
     number, cell, atoms = 1, b"", []
-    whole: set[bytes] = set()  # ends of lines that need no completion
+    whole: set[bytes] = set()
     for line in (*lines, b"END"):
         kind = line[:6]
         if kind in _ATOMS:
@@ -75,7 +75,6 @@ def _split(lines: list[bytes], completed: Callable[[bytes], bytes]) -> tuple[lis
 
 
 def _in_columns(line: bytes) -> bytes:
-    """A CRYST1 line with its numbers in their columns."""
     try:
         a, b, c, alpha, beta, gamma = map(float, line[6:].split()[:6])
         return f"CRYST1{a:9.3f}{b:9.3f}{c:9.3f}{alpha:7.2f}{beta:7.2f}{gamma:7.2f}".encode() + line.rstrip()[54:]

@@ -19,7 +19,6 @@ _MOST_BYTE: Final = 255
 
 
 def read_table(lines: Lines, mapping: Mapping[str, str]) -> Table:
-    """mapping: unusual names of the position columns."""
     comment = ""
     start = lines.place()
     while (line := lines.line()) is not None and (not line.strip() or is_comment(line)):

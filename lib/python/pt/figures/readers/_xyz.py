@@ -16,7 +16,7 @@ from pt.figures.readers._rows import Layout, Rows, are_numbers, is_number, numbe
 
 _PAIR: Final = re.compile(r"""([^\s="]+)\s*=\s*(?:"([^"]*)"|'([^']*)'|\{([^}]*)\}|(\[[^"'=]*\])(?=\s|$)|(\S*))""")
 _MOST_COLUMNS: Final = 65536
-_LEAST: Final = 4  # fields of a plain row: a label and a position
+_LEAST: Final = 4
 
 
 class Xyz(TextFrames):
@@ -87,7 +87,6 @@ class Xyz(TextFrames):
 
 
 def _is_row(line: str) -> bool:
-    """A label or an atomic number, and a position."""
     words = line.split()
     is_labelled = words[0].isdecimal() or not is_number(words[0])
     return len(words) >= _LEAST and is_labelled and all(map(is_number, words[1:_LEAST]))

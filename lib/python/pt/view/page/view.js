@@ -148,7 +148,7 @@ function tellPixel(pixel) {
   $("pixel").dataset.value = JSON.stringify(pixel);
 }
 
-let drag;        // pointers that are down, by their ids
+let drag;
 let settled = 0; // when the server's camera counts again: frames of older cameras may be on their way
 
 function move(next) {
