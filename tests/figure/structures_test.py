@@ -7,13 +7,14 @@ import pathlib
 import sys
 import tempfile
 import unittest
+import unittest.mock
 import warnings
 
 import numpy as np
 from pt.figures import load
 from pt.figures._elements import SYMBOLS
 from pt.figures._errors import DataError
-from structures_cases import CASES, REFUSED, gro, lammps
+from structures_cases import CASES, MMCIF, REFUSED, gro, lammps
 
 DAMAGES = 6  # of each file
 LETTERS = b" \n0123456789.-+eEdX\"'\t\xff\0"
@@ -77,6 +78,18 @@ class Small(InAFolder):
             with self.subTest(message), self.assertRaises(DataError) as raised:
                 self.read(name, text)
             self.assertEqual(str(raised.exception).replace(f"{self.folder}/", "")[:len(message)], message)
+
+    def test_chains_of_mmcif_in_parts_and_of_long_names(self):
+        for part, chain in ((5000, "Q"), (1, "Q"), (1, "'a long name'")):
+            text = MMCIF.replace(" Q ", f" {chain} ")
+            with unittest.mock.patch("pt.figures.readers._structures.PART", part):
+                found = self.read("a.mmcif", text)
+            self.check(found, "C S S", bonds=[[1, 2]])
+            self.assertEqual(found.columns["chain"].tolist(), 2 * [chain.strip("'")] + ["R"])
+        long = MMCIF.replace("ALA A 1", "ALA ABCDEFGHIJ 1")
+        self.check(self.read("a.mmcif", long), "C S S", bonds=[[1, 2]])
+        with self.assertRaisesRegex(DataError, "a.mmcif: gemmi cannot read it: .* residue names: ABCDEFGHIJ"):
+            self.read("a.mmcif", MMCIF.replace(" ALA ", " ABCDEFGHIJ "))
 
     def test_options_of_reading(self):
         models = dict((case[0], case[1]) for case in CASES)["a.mmcif"]

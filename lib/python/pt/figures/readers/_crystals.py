@@ -15,7 +15,7 @@ from pt.figures.readers._atoms import atoms_table
 from pt.figures.readers._frames import Listed
 from pt.figures.readers._lines import Lines
 from pt.figures.readers._other import tried
-from pt.figures.readers._structures import frames_of
+from pt.figures.readers._structures import divide_chains, frames_of
 
 SHARED: Final = 0.4  # angstroms: nearer sites share one place
 
@@ -29,6 +29,7 @@ def read_cif(lines: Lines) -> Listed:
     document = tried(lines.name, "gemmi", lambda: gemmi.cif.read_string(text))
     for block in document:
         if block.find_loop("_atom_site.Cartn_x") or block.find_value("_atom_site.Cartn_x"):
+            divide_chains(block)
             return frames_of(lines.name, tried(lines.name, "gemmi", lambda: gemmi.make_structure_from_block(block)))
     blocks = [block for block in document if block.find_values("_atom_site_fract_x")]
     if not blocks:

@@ -25,6 +25,8 @@ _ATOMS: Final = frozenset((b"ATOM  ", b"HETATM"))
 _OTHERS: Final = frozenset((b"HEADER", b"EXPDTA", b"SSBOND", b"LINK  ", b"CONECT"))
 _ELEMENT_AND_CHARGE: Final = re.compile(rb"( [A-Za-z]|[A-Za-z][A-Za-z]|[A-Za-z] )( *|[1-9][+-])")
 _DEUTERIUM: Final = 119  # in gemmi
+PART: Final = 5000  # atoms
+_OTHER_PART: Final = "\x7f"  # ends the names of every other part of a chain
 
 
 def read_pdb(lines: Lines, is_pdbqt: bool = False) -> Listed:
@@ -100,20 +102,54 @@ def frames_of(name: str, structure: Any) -> Listed:
     ends = np.cumsum([model.count_atom_sites() for model in structure])
     if not len(ends) or not ends[-1]:
         raise DataError(f"{name}: has no atoms")
-    flat = gemmi.FlatStructure(structure)
+    chains = _named_by_number(structure)
+    flat = tried(name, "gemmi", lambda: _flat(structure))
     kept = [index for index, model in enumerate(structure) if model.count_atom_sites()]
 
     def read(index: int) -> Table:
         model = kept[index]
-        return _table(structure, flat, slice(int(ends[model - 1]) if model else 0, int(ends[model])))
+        return _table(structure, flat, chains, slice(int(ends[model - 1]) if model else 0, int(ends[model])))
 
     numbers = [getattr(structure[index], "num", index + 1) for index in kept]
     return Listed(name, len(kept), read, current=0, models=numbers)
 
 
-def _table(structure: Any, flat: Any, rows: slice) -> Table:
+def divide_chains(block: Any) -> None:
+    """Gives long chains of mmCIF parts of other names: for each residue, gemmi searches all earlier ones of its chain."""
+    gemmi = module("gemmi", block.name)
+    chains = block.find_values("_atom_site.auth_asym_id") or block.find_values("_atom_site.label_asym_id")
+    names: dict[str, str] = {}
+    for start in range(PART, len(chains), 2 * PART):
+        for row in range(start, min(start + PART, len(chains))):
+            word = chains[row]
+            if word not in names:
+                names[word] = gemmi.cif.quote(gemmi.cif.as_string(word) + _OTHER_PART)
+            chains[row] = names[word]
+
+
+def _named_by_number(structure: Any) -> Array:
+    """The chain of each atom. Chains get short names, which a FlatStructure needs."""
+    chains = [chain for model in structure for chain in model]
+    names = [chain.name.removesuffix(_OTHER_PART) for chain in chains]
+    for number, chain in enumerate(chains):
+        chain.name = str(number)
+    each: Array = np.repeat(np.array(names, str), [chain.count_atom_sites() for chain in chains])
+    return each
+
+
+def _flat(structure: Any) -> Any:
+    gemmi = module("gemmi", structure.name)
+    try:
+        return gemmi.FlatStructure(structure)
+    except RuntimeError:
+        for residue in (residue for model in structure for chain in model for residue in chain):
+            residue.subchain = ""  # a long name, which no figure shows
+        return gemmi.FlatStructure(structure)
+
+
+def _table(structure: Any, flat: Any, chains: Array, rows: slice) -> Table:
     columns = {"name": _words(flat.atom_names[rows]), "resname": _words(flat.residue_names[rows]), "resid": flat.resnums[rows],
-               "icode": _words(flat.icodes[rows, None]), "chain": _words(flat.chain_ids[rows]),
+               "icode": _words(flat.icodes[rows, None]), "chain": chains[rows],
                "altloc": _words(flat.altlocs[rows, None]), "occupancy": flat.occ[rows], "b_factor": flat.b_iso[rows],
                "charge": flat.charge[rows], "id": flat.serials[rows]}
     elements, positions = np.where(flat.elements[rows] == _DEUTERIUM, 1, flat.elements[rows]), flat.pos[rows]
