@@ -196,6 +196,12 @@ class Radii(unittest.TestCase):
                 staged = list(frames(lambda: iter([particles, particles]), options))
                 np.testing.assert_allclose(staged[1].drawn.radii, share * radius, rtol=1e-6)
 
+    def test_few_atoms_far_apart_cover_a_hundredth_of_the_picture(self):
+        positions = np.array([[0.0, 0, 0], [4, 0, 0], [100, 0, 0], [104, 0, 0]])  # radii of 2 would touch
+        radii = prepare(Particles(positions, elements=np.full(4, 18, np.uint8)), Options()).radii
+        span = 2 * usual_reach(reaches_of(positions, np.zeros(1)))
+        self.assertAlmostEqual(4 * np.pi * float(radii.max())**2 / span**2, 0.01)
+
     def test_one_atom_alone_has_its_covalent_radius(self):
         self.assertAlmostEqual(float(prepare(Particles(np.zeros((1, 3)), elements=np.ones(1, np.uint8)), Options()).radii[0]), 0.31)
 

@@ -107,7 +107,7 @@ class Categories(unittest.TestCase):
         self.assertEqual(colored(None, types)[0].tolist(), [[0, 114, 178], [0, 158, 115], [0, 114, 178]])
         oxygen = tuple(elements.COLORS[8].tolist())
         water = Particles(POSITIONS[:3], elements=np.array([8, 1, 0], np.uint8))
-        self.assertEqual([tuple(each) for each in colored(None, water)[0].tolist()[:2]], [oxygen, (255, 255, 255)])
+        self.assertEqual([tuple(each) for each in colored(None, water)[0].tolist()[:2]], [oxygen, (230, 230, 230)])
         self.assertEqual(colored({"O": "#0a0b0c"}, water)[0][0].tolist(), [10, 11, 12])
         self.assertEqual(colored("O=#0a0b0c,H=#010203", water)[0][:2].tolist(), [[10, 11, 12], [1, 2, 3]])
         self.assertIsInstance(colored("id", Particles(POSITIONS[:3], {"id": np.array([5, 7, 5])}), categories=True)[1],

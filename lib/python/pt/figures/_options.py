@@ -74,7 +74,7 @@ class Options:
         None, "COLUMN|COLOR|...", "a column of numbers or words; \"|velocity|\" or \"|vx,vy,vz|\", a magnitude; "
         "\"red,green,blue\", columns of sRGB; a color for all, \"#ff8000\" or \"orange\"; of types, \"O=red,H=#ffffff\", in "
         "Python {\"O\": \"red\"} too, and arrays of shape (n,), or (n, 3) of sRGB, floats from 0 to 1 or uint8. By default of "
-        "elements those of Jmol, of types a palette, those of the data, else grey")
+        "elements those of Jmol, but hydrogen light grey, of types a palette, those of the data, else grey")
     colormap: Any = _particles(None, "MAP", "of matplotlib, in Python as an object too; _r reverses it. By default viridis, and "
                                "coolwarm on a symmetric scale")
     range: tuple[float, float] | None = _particles(

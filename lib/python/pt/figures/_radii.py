@@ -132,11 +132,18 @@ def covalent_factor(particles: Particles) -> float | None:
     if not len(radii) or not 0.7 * radii.min() <= typical <= 30.0 * radii.max():
         return None
     largest = float(radii.max())
-    return 1.0 if typical <= largest + SLACK or len(particles) == 1 else min(typical / largest, MOST_FACTOR)
+    if typical <= largest + SLACK or len(particles) == 1:
+        return 1.0
+    area = math.pi * float(np.square(elements.COVALENT_RADII[particles.elements], dtype=np.float64).sum())
+    return min(max(typical / largest, _span(particles.positions) * math.sqrt(COVER / area)), MOST_FACTOR)
+
+
+def _span(positions: Array) -> float:
+    return 2.0 * usual_reach(reaches_of(positions, np.zeros(1)))
 
 
 def _seen(typical: float, positions: Array, notes: list[str]) -> float:
-    span = 2.0 * usual_reach(reaches_of(positions, np.zeros(1)))
+    span = _span(positions)
     if math.pi * len(positions) * typical * typical >= COVER * span * span:
         return typical
     radius = max(span * math.sqrt(COVER / (math.pi * len(positions))), THIN * span, typical)
