@@ -246,6 +246,21 @@ class Users(unittest.TestCase):
                 load(DATA / "trials/posx.csv", columns=columns)
 
 
+    def test_columns_that_are_radii_or_may_be(self):
+        places = {"x": [0.0, 1.0], "y": [0.0, 0.0], "z": [0.0, 0.0]}
+        for name, expected in (("Radius [nm]", [1, 2]), ("DIAMETER (m)", [0.5, 1]), ("radii", [1, 2])):
+            self.assertEqual(load({**places, name: [1.0, 2.0]}).radii.tolist(), expected)
+        self.assertEqual(load({**places, "Radius": [3, 4], "radius": [1, 2]}).radii.tolist(), [1, 2])
+        found = load({**places, "R (m)": [1.0, 2.0]})
+        self.assertIsNone(found.radii)
+        self.assertEqual(found.notes, ['column R (m) is not taken for the radius: --columns "radius=R (m)" '
+                                       '(columns="radius=R (m)") takes it'])
+        self.assertEqual(load({**places, "R (m)": [1.0, 2.0]}, columns="radius=R (m)").radii.tolist(), [1, 2])
+        self.assertEqual(load({**places, "r": [1, 2], "g": [1, 2], "b": [1, 2]}).notes, ["colors r, g, b are taken to go from 0 to 255: the largest is 2"])
+        with self.assertRaisesRegex(DataError, "column name has words, 'a': a radius must be a number"):
+            load({**places, "name": ["a", "b"]}, columns="radius=name")
+
+
 class Coinciding(unittest.TestCase):
     def test_particles_in_one_place_are_counted(self):
         apart = np.random.default_rng(4).normal(size=(210_000, 3)).astype(np.float32)

@@ -150,11 +150,19 @@ def _note_coinciding(particles: Particles) -> None:
 
 def _put_radii(particles: Particles, chosen: dict[str, str]) -> None:
     columns = particles.columns
+    numbers = [key for key in columns if columns[key].dtype.kind in "fiu"]
+    by_plain = {plain_name(key): key for key in reversed(numbers)} | {key: key for key in numbers}
     for name, factor in (("radius", 1.0), ("radii", 1.0), ("diameter", 0.5), ("diameters", 0.5)):
-        source = chosen.get(name) or first_of(columns, (name,))
-        if source is not None and columns[source].dtype.kind in "fiu":
-            particles.radii = columns[source] if factor == 1 else columns[source] * factor
-            break
+        source = chosen.get(name) or by_plain.get(name)
+        if source is None:
+            continue
+        if source not in numbers:
+            raise DataError(f"{particles.name}: column {source} has words, {str(columns[source][0])!r}: a {name} must be a number")
+        particles.radii = columns[source] if factor == 1 else columns[source] * factor
+        break
+    if particles.radii is None and particles.colors is None and (source := by_plain.get("r")):
+        particles.notes.append(f'column {source} is not taken for the radius: --columns "radius={source}" '
+                               f'(columns="radius={source}") takes it')
     names = next((names for names in _SHAPES if all(name in columns for name in names)), None)
     if names is None or chosen.keys() & {"radius", "diameter"}:
         return

@@ -80,7 +80,8 @@ def text_columns(lines: Lines, kinds: Mapping[str, str], count: int, notes: list
         kind = np.dtype(kinds[name])
         if kind.kind in "iu" and len(values) and not np.iinfo(kind).min <= values.min() <= values.max() <= np.iinfo(kind).max:
             raise lines.refuse(f"{name} goes from {values.min():g} to {values.max():g}: its type is {kind}")
-        columns[name] = values.astype(kind)
+        with np.errstate(over="ignore"):
+            columns[name] = values.astype(kind)
     return columns
 
 
