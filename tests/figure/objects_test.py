@@ -215,10 +215,12 @@ class Files(unittest.TestCase):
         self.assertEqual(self.read("a.pdb", text.encode()).elements.tolist(), [row[-1] for row in rows])
 
     def test_a_package_that_is_not_there_or_cannot_read(self):
+        unknown = "neither its name nor its first lines say the format; trying others"
         for name, package, extra in (("a.traj", "ase", ""), ("a.las", "laspy", "-points"), ("a.vtk", "pyvista", "-points"),
                                      ("a.stl", "trimesh", "-points"), ("a.tpr", "MDAnalysis", "")):
             way = f"'pt.figure{extra}" if extra else package
-            with self.assertRaisesRegex(DataError, f"{name}: this format needs the module {package}: pip install {way}"):
+            what = unknown if package == "ase" else "this format"
+            with self.assertRaisesRegex(DataError, f"{name}: {what} needs the module {package}: pip install {way}"):
                 self.read(name, b"data", **{package: None, f"{package}.io": None})
 
             def read(*_, **__):
@@ -226,6 +228,13 @@ class Files(unittest.TestCase):
             with self.assertRaisesRegex(DataError, f"{name}: .* cannot read it: 'no such thing'"):
                 module = types.SimpleNamespace(read=read, load=read, Universe=read, io=None)
                 self.read(name, b"data", **{package: module, f"{package}.io": module})
+
+    def test_chemfiles_where_it_has_no_wheel(self):
+        for system, machine, way in (("linux", "aarch64", "CMAKE_POLICY_VERSION_MINIMUM=3.5 pip install chemfiles, which"),
+                                     ("linux", "x86_64", "pip install 'pt"), ("darwin", "arm64", "pip install 'pt")):
+            with (unittest.mock.patch("sys.platform", system), unittest.mock.patch("platform.machine", return_value=machine),
+                  self.assertRaisesRegex(DataError, f"a.sdf: sdf needs the module chemfiles: {way}")):
+                self.read("a.sdf", b"data", chemfiles=None)
 
     def test_standard_input(self):
         """Our own readers only, also packed."""

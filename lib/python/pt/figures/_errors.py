@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import importlib
+import platform
+import sys
 from types import ModuleType
 from typing import Final
 
@@ -22,5 +24,7 @@ def module(name: str, purpose: str) -> ModuleType:
         package = name.partition(".")[0]
         if (error.name or name).partition(".")[0] != package:
             raise
-        way = f"'pt[{EXTRAS[package]}]', or {package} alone" if package in EXTRAS else package
-        raise DataError(f"{purpose} needs the module {package}: pip install {way}") from None
+        way = f"pip install 'pt[{EXTRAS[package]}]', or {package} alone" if package in EXTRAS else f"pip install {package}"
+        if package == "chemfiles" and sys.platform == "linux" and platform.machine() != "x86_64":  # there is no wheel
+            way = "CMAKE_POLICY_VERSION_MINIMUM=3.5 pip install chemfiles, which compiles it by your C++ compiler"
+        raise DataError(f"{purpose} needs the module {package}: {way}") from None

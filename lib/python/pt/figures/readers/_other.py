@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 
@@ -13,8 +13,11 @@ from pt.figures._particles import Table
 from pt.figures.readers._frames import Frames, Listed, one_frame
 from pt.figures.readers._objects import of_ase, of_mdanalysis
 
-def read_ase(path: str, asked: str = "ASE") -> Frames:
-    read = module("ase.io", f"{path}: this format").read
+_UNKNOWN: Final = "neither its name nor its first lines say the format"
+
+
+def read_ase(path: str, asked: str = "ASE", purpose: str = "this format") -> Frames:
+    read = module("ase.io", f"{path}: {purpose}").read
     images = tried(path, asked, lambda: read(path, index=":"))
     if not images:
         raise DataError(f"{path}: {asked} finds no atoms in it")
@@ -22,7 +25,7 @@ def read_ase(path: str, asked: str = "ASE") -> Frames:
 
 
 def read_unknown(path: str) -> Frames:
-    return read_ase(path, "neither its name nor its first lines say the format, and ASE")
+    return read_ase(path, f"{_UNKNOWN}, and ASE", f"{_UNKNOWN}; trying others")
 
 
 def read_mdanalysis(path: str, *trajectory: str) -> Frames:
