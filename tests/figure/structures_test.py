@@ -4,6 +4,7 @@ Argument: the folder of the files that users' reports were modelled on."""
 import gzip
 import importlib.util
 import pathlib
+import struct
 import sys
 import tempfile
 import unittest
@@ -11,7 +12,7 @@ import unittest.mock
 import warnings
 
 import numpy as np
-from pt.figures import load
+from pt.figures import frames, load
 from pt.figures._elements import SYMBOLS
 from pt.figures._errors import DataError
 from structures_cases import CASES, MMCIF, REFUSED, gro, lammps
@@ -197,6 +198,23 @@ class Binary(InAFolder):
         topology.write_text(gro(("SOL", "OW", 0)))
         with self.assertRaisesRegex(DataError, "has 4 atoms, and the topology 1: they must be of one system"):
             load(path, topology=str(topology))
+
+
+    def test_dcd_without_a_cell(self):
+        """By hand: records between their lengths, and cells as of MDAnalysis."""
+        def record(data):
+            return struct.pack("<i", len(data)) + data + struct.pack("<i", len(data))
+        path, topology = self.folder / "a.dcd", self.folder / "a.gro"
+        topology.write_text(gro(("SOL", "OW", 0), ("SOL", "HW1", 0.1), ("SOL", "HW2", 0.2)))
+        places = np.arange(18, dtype="<f4").reshape(2, 3, 3)  # frames, axes, atoms
+        control = struct.pack("<20i", 2, 0, 1, *7 * [0], 1, *8 * [0], 24)
+        steps = b"".join(record(struct.pack("<6d", 0, 1, 0, 1, 1, 0)) + b"".join(record(row.tobytes()) for row in frame) for frame in places)
+        path.write_bytes(record(b"CORD" + control) + record(struct.pack("<i", 1) + bytes(80)) + record(struct.pack("<i", 3)) + steps)
+        for frame in (0, 1):
+            found = load(path, topology=str(topology), frame=frame)
+            np.testing.assert_array_equal(found.positions, places[frame].T)
+            self.assertIsNone(found.cell)
+        self.assertEqual(len(list(frames(path, topology=str(topology)))), 2)
 
 
 class Reported(InAFolder):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import re
 from collections.abc import Callable
 from typing import Any, Final
@@ -15,6 +16,7 @@ from pt.figures._errors import DataError, module
 from pt.figures._particles import Bonds, Table
 from pt.figures._residues import VIRTUAL
 from pt.figures.readers._atoms import atoms_table
+from pt.figures.readers._dcd import frames_without_cell
 from pt.figures.readers._frames import Frames, Listed
 from pt.figures.readers._lines import Lines
 from pt.figures.readers._other import tried
@@ -59,20 +61,38 @@ def _cell(frame: Any) -> Cell | None:
 
 
 def read_trajectory(path: str, format: str, topology: Callable[[], Table]) -> Frames:
-    chemfiles = module("chemfiles", f"{path}: {format}")
-    file = tried(path, "chemfiles", lambda: chemfiles.Trajectory(path, "r", TRAJECTORIES[format]))
+    """topology: what its atoms are."""
+    count, step = _steps(path, format)
     atoms = topology()
     positions = next(iter(atoms.columns.values()))
     sites = atoms.sites or len(np.asarray(positions))
     columns = {key: values for key, values in atoms.columns.items() if key not in ("positions", "vx", "vy", "vz")}
 
     def read(index: int) -> Table:
-        frame = tried(path, "chemfiles", lambda: file.read_step(index))
-        places: npt.NDArray[Any] = np.array(frame.positions)
+        places, cell = step(index)
         if len(places) != sites:
             raise DataError(f"{path}: has {len(places):,} atoms, and the topology {sites:,}: they must be of one system")
         chosen = places if atoms.rows is None else places[atoms.rows]
-        return Table({"positions": chosen, **columns}, _cell(frame), list(atoms.notes), elements=atoms.elements,
-                     types=atoms.types, bonds=atoms.bonds)
+        return Table({"positions": chosen, **columns}, cell, list(atoms.notes), elements=atoms.elements, types=atoms.types,
+                     bonds=atoms.bonds)
 
-    return Listed(path, file.nsteps, read)
+    return Listed(path, count, read)
+
+
+def _steps(path: str, format: str) -> tuple[int, Callable[[int], tuple[npt.NDArray[Any], Cell | None]]]:
+    """The number of steps, and a function that reads one: positions and cell."""
+    records = frames_without_cell(path) if format == "dcd" else None
+    if records is not None:
+        return len(records), functools.partial(_without_cell, records)
+    chemfiles = module("chemfiles", f"{path}: {format}")
+    file = tried(path, "chemfiles", lambda: chemfiles.Trajectory(path, "r", TRAJECTORIES[format]))
+
+    def read(index: int) -> tuple[npt.NDArray[Any], Cell | None]:
+        frame = tried(path, "chemfiles", lambda: file.read_step(index))
+        return np.array(frame.positions), _cell(frame)
+
+    return file.nsteps, read
+
+
+def _without_cell(records: npt.NDArray[Any], index: int) -> tuple[npt.NDArray[Any], None]:
+    return np.stack([records[index][axis] for axis in "xyz"], axis=1), None
