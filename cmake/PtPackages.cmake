@@ -78,7 +78,6 @@ libraries by CMake and pkg-config."
 set(CPACK_DEBIAN_PT_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_PT_DEVELOPMENT_PACKAGE_DEPENDS "${pt_runtime_package} ${same_version}, libvulkan-dev")
 set(CPACK_DEBIAN_PT_DEVELOPMENT_PACKAGE_RECOMMENDS g++) # the C++ runtime, for programs with the static library
-set(CPACK_DEBIAN_PT_DEVELOPMENT_PACKAGE_CONFLICTS libpt-dev) # PTLib's, up to Debian 10
 
 set(CPACK_DEBIAN_PT_PROGRAM_DESCRIPTION
     "${pt_story}
@@ -88,6 +87,7 @@ PNG and, with pt-image-formats, to EXR and JPEG."
 set(CPACK_DEBIAN_PT_PROGRAM_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PT_PROGRAM_PACKAGE_DEPENDS "${pt_runtime_package} ${same_version}")
 set(CPACK_DEBIAN_PT_PROGRAM_PACKAGE_RECOMMENDS "${pt_image_formats_package} ${same_version}")
+set(CPACK_DEBIAN_PT_PROGRAM_PACKAGE_CONFLICTS tcllib) # it has another /usr/bin/pt
 
 set(CPACK_DEBIAN_PT_IMAGE_FORMATS_DESCRIPTION
     "${pt_story}

@@ -44,11 +44,15 @@ debian() {
 archive "pt-$version.tar.gz"
 sha256=$(sum sha256sum)
 sha512=$(sum sha512sum)
-mkdir -p "$folder/conda" "$folder/vcpkg"
+rm -rf "$folder/conda" "$folder/vcpkg"
+mkdir -p "$folder/conda" "$folder/vcpkg/pt"
 fill conda/recipe.yaml conda/recipe.yaml
 for file in vcpkg.json portfile.cmake usage; do
-    fill "vcpkg/$file" "vcpkg/$file"
+    fill "vcpkg/$file" "vcpkg/pt/$file"
 done
+cp -R cmake/packages/vcpkg/test "$folder/vcpkg/vcpkg-ci-pt"
+cp -R tests/consumers/package_c "$folder/vcpkg/vcpkg-ci-pt/project"
+cp -R tests/consumers/c99 "$folder/vcpkg/vcpkg-ci-pt"
 if command -v dpkg-source > /dev/null; then
     debian
 fi

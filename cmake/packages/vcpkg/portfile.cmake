@@ -5,6 +5,8 @@ vcpkg_download_distfile(
   SHA512 @sha512@
 )
 vcpkg_extract_source_archive(SOURCE_PATH ARCHIVE "${archive}")
+vcpkg_add_to_path("${CURRENT_HOST_INSTALLED_DIR}/tools/glslang")
+vcpkg_add_to_path("${CURRENT_HOST_INSTALLED_DIR}/tools/spirv-tools")
 vcpkg_cmake_configure(
   SOURCE_PATH "${SOURCE_PATH}"
   OPTIONS
@@ -13,8 +15,6 @@ vcpkg_cmake_configure(
     -DPT_BUILD_EXAMPLES=OFF
     -DPT_UNITY=ON
     -DCMAKE_DISABLE_FIND_PACKAGE_glslang=ON # no module that compiles kernels
-    "-DPT_GLSLANG=${CURRENT_HOST_INSTALLED_DIR}/tools/glslang/glslang"
-    "-DPT_SPIRV_VAL=${CURRENT_HOST_INSTALLED_DIR}/tools/spirv-tools/spirv-val"
 )
 vcpkg_cmake_install()
 vcpkg_cmake_config_fixup(CONFIG_PATH lib/cmake/pt)
