@@ -190,6 +190,7 @@ pt_result ImageRender::take(std::uint32_t length, double done) {
     auto info = sized<pt_accumulate_info>();
     info.sample_count = length;
     info.target_error = stopping_.rules().target_error;
+    info.sample_limit = has_target() ? round_.end : 0;
     info.sampling = task_.options.sampling;
     info.progress = &call_listener;
     info.progress_user = &goes_on;

@@ -80,7 +80,8 @@ pt_accumulate_info validated_accumulate(const pt_accumulate_info *info, bool may
                     "must be a PT_SAMPLING_* of pt.h");
     subject.require(accumulate.sampling != PT_SAMPLING_ADAPTIVE || accumulate.target_error > 0.0, "sampling",
                     accumulate.sampling, "needs a target_error > 0, which ends it");
-    subject.require(accumulate.reserved == 0, "reserved", accumulate.reserved, "must be 0");
+    subject.require(accumulate.sample_limit == 0 || accumulate.target_error > 0.0, "sample_limit",
+                    accumulate.sample_limit, "must be 0 without a target_error");
     subject.require(accumulate.reserved2 == 0, "reserved2", accumulate.reserved2, "must be 0");
     subject.require((accumulate.tile_samples == nullptr) == (accumulate.tile_count == 0), "tile_count",
                     accumulate.tile_count, "must be 0 where tile_samples is NULL, and only there");
@@ -309,7 +310,7 @@ pt_result pt_readback_to_buffer(pt_context *context, const pt_buffer_image *imag
 }
 
 pt_result pt_save_film(pt_context *context, void *data, uint64_t *size_bytes) {
-    return pt::guard_context(context, [&](const pt::Renderer &renderer) {
+    return pt::guard_context(context, [&](pt::Renderer &renderer) {
         pt::require_not_null(size_bytes, "size_bytes");
         const pt::FilmHeader header = renderer.film_header();
         const std::uint64_t needed = pt::FilmLayout(header).size_bytes();

@@ -120,7 +120,7 @@ pt_film_info info_of(const Film &film) {
             .estimator = facts.estimator,
             .sampler = facts.sampler,
             .tile_count = static_cast<std::uint32_t>(film.header().tiles.size()),
-            .reserved = 0,
+            .lamp_sample_count = film.samples_for_lamps(),
             .device = facts.device.c_str()};
 }
 

@@ -110,7 +110,7 @@ bool are_worth_telling_apart(std::span<const double> gains) {
 }
 
 std::vector<std::uint32_t> wanting_tiles(const TileSamples &samples, std::span<const double> gains,
-                                         const AdaptiveRound &round) {
+                                         std::span<const std::uint64_t> lamps, const AdaptiveRound &round) {
     std::vector<std::uint32_t> tiles;
     if (round.number == AdaptiveRound::none)
         return tiles;
@@ -119,9 +119,14 @@ std::vector<std::uint32_t> wanting_tiles(const TileSamples &samples, std::span<c
         is_below_floor.push_back(set.count() < round.floor ? 1 : 0);
     const double bound = bound_of(round.number);
     for (std::uint32_t tile = 0; tile < gains.size(); ++tile)
-        if (gains[tile] > bound || is_below_floor[samples.set_of(tile)] != 0)
+        if (gains[tile] > bound || is_below_floor[samples.set_of(tile)] != 0 || samples.of(tile).count() < lamps[tile])
             tiles.push_back(tile);
     return tiles;
+}
+
+AdaptiveRound round_of_lamps(std::span<const double> gains) {
+    const double most = std::ranges::max(gains);
+    return {most > 0.0 ? last_content_round(most) : 0, 0};
 }
 
 // The round in which the target is expected to be reached: rounds in between would take looks, and put samples no
@@ -162,15 +167,6 @@ namespace {
 // the others up to 5 times.
 constexpr double near_target = 1.2;
 
-// Tiles that were interrupted on their way to a level, or have not begun.
-std::vector<std::uint32_t> unfinished_tiles(const TileSamples &samples) {
-    std::vector<std::uint32_t> tiles;
-    for (std::uint32_t tile = 0; tile < samples.grid().count(); ++tile)
-        if (!is_level(samples.of(tile).count()))
-            tiles.push_back(tile);
-    return tiles;
-}
-
 // The error of the image as far as each tile knows its own part; tiles that know nothing do not count.
 double error_of(const TileSamples &samples, std::span<const double> squares) {
     double sum = 0.0;
@@ -179,9 +175,19 @@ double error_of(const TileSamples &samples, std::span<const double> squares) {
     return std::sqrt(sum / (3.0 * samples.grid().width * samples.grid().height));
 }
 
+// The tiles of which something holds, by their numbers and their samples of a pixel.
+template <typename Holds>
+std::vector<std::uint32_t> tiles_where(const TileSamples &samples, const Holds &holds) {
+    std::vector<std::uint32_t> tiles;
+    for (std::uint32_t tile = 0; tile < samples.grid().count(); ++tile)
+        if (holds(tile, samples.of(tile).count()))
+            tiles.push_back(tile);
+    return tiles;
+}
+
 } // namespace
 
-// Tiles that were interrupted on their way to a level are completed first, as far as the limit allows.
+// Tiles that were interrupted on their way to a level are completed first, as far as the call allows.
 std::optional<TileStep> AdaptivePlan::next(const TileSamples &samples, AdaptiveRound &round) const {
     if (round.number == AdaptiveRound::none && samples.most() <= next_check(samples.least()))
         return next_together(samples, round);
@@ -194,45 +200,65 @@ std::optional<TileStep> AdaptivePlan::next(const TileSamples &samples, AdaptiveR
 // it pays to tell tiles apart. Some tiles may be on the way from one of these counts to the next.
 std::optional<TileStep> AdaptivePlan::next_together(const TileSamples &samples, AdaptiveRound &round) const {
     const std::uint64_t count = samples.least();
-    if (samples.even() && is_level(count) && are_worth_telling_apart(tile_gains(samples, squares_())))
+    if (samples.even() && is_level(count) && are_worth_telling_apart(tile_gains(samples, film_.squares())))
         return next_apart(samples, round);
-    if (samples.even() && is_check(count) && error_().relative_rmse.high <= target_error_)
-        return std::nullopt;
-    TileStep step;
-    const std::uint64_t goal = std::min(next_check(count), most_);
-    for (std::uint32_t tile = 0; tile < samples.grid().count(); ++tile)
-        if (samples.of(tile).count() < goal)
-            step.tiles.push_back(tile);
-    step.goal = [goal](std::uint32_t) { return goal; };
-    return step;
+    if (samples.even() && is_check(count) && film_.error().relative_rmse.high <= target_error_)
+        return next_on_target(samples, round);
+    const std::uint64_t goal = std::min(next_check(count), counts_.most);
+    return TileStep{tiles_where(samples, [=](std::uint32_t, std::uint64_t has) { return has < goal; }),
+                    [goal](std::uint32_t) { return goal; }};
 }
 
-// If the limit on samples holds a tile back, at a level or on its way to one, the round stays, and the other tiles come
-// to rest in it.
+// A tile that the call holds back, at a level or on its way to one, keeps the round under way. A tile that has all that
+// it may ever have does not: then those with the fewest take more.
 std::optional<TileStep> AdaptivePlan::next_apart(const TileSamples &samples, AdaptiveRound &round) const {
-    const std::vector<double> squares = squares_();
+    const std::vector<double> squares = film_.squares();
     const std::vector<double> gains = tile_gains(samples, squares);
-    std::vector<std::uint32_t> tiles = wanting_tiles(samples, gains, round);
-    if (tiles.empty() && unfinished_tiles(samples).empty()) {
-        const double of_tiles = error_of(samples, squares);
-        double error = of_tiles;
-        bool sees_too_little = false;
-        if (of_tiles <= near_target * target_error_) {
-            const ErrorEstimate of_image = error_();
-            if (of_image.relative_rmse.high <= target_error_)
-                return std::nullopt;
-            sees_too_little = (of_image.uncertain & PT_UNCERTAIN_UNSEEN) != 0;
-            error = sees_too_little ? of_tiles : of_image.relative_rmse.high;
-        }
-        round = round_after(round, samples, squares, gains, squared(error / target_error_), sees_too_little);
-        tiles = wanting_tiles(samples, gains, round);
+    const std::vector<std::uint64_t> lamps = film_.samples_for_lamps();
+    std::vector<std::uint32_t> tiles = wanting_tiles(samples, gains, lamps, round);
+    const auto may_ever_take = [&](std::uint32_t tile) { return samples.of(tile).count() < counts_.limit; };
+    if (std::ranges::any_of(tiles, may_ever_take) || !unfinished_tiles(samples).empty())
+        return to_next_level(samples, std::move(tiles));
+    const double of_tiles = error_of(samples, squares);
+    double error = of_tiles;
+    bool sees_too_little = false;
+    if (of_tiles <= near_target * target_error_ || !tiles.empty()) {
+        const ErrorEstimate of_image = film_.error();
+        if (of_image.relative_rmse.high <= target_error_)
+            return next_on_target(samples, round);
+        sees_too_little = (of_image.uncertain & PT_UNCERTAIN_UNSEEN) != 0;
+        error = sees_too_little ? of_tiles : of_image.relative_rmse.high;
     }
+    if (tiles.empty()) {
+        round = round_after(round, samples, squares, gains, squared(error / target_error_), sees_too_little);
+        tiles = wanting_tiles(samples, gains, lamps, round);
+    }
+    if (std::ranges::none_of(tiles, may_ever_take))
+        tiles = tiles_where(samples, [&](std::uint32_t, std::uint64_t has) { return has == samples.least(); });
     return to_next_level(samples, std::move(tiles));
 }
 
+// The end, unless lamps in view are still to be met. In a round tiles with such lamps want samples.
+std::optional<TileStep> AdaptivePlan::next_on_target(const TileSamples &samples, AdaptiveRound &round) const {
+    const std::vector<std::uint64_t> lamps = film_.samples_for_lamps();
+    std::vector<std::uint32_t> tiles =
+        tiles_where(samples, [&](std::uint32_t tile, std::uint64_t has) { return has < lamps[tile]; });
+    if (tiles.empty())
+        return std::nullopt;
+    if (round.number == AdaptiveRound::none)
+        round = round_of_lamps(tile_gains(samples, film_.squares()));
+    return to_next_level(samples, std::move(tiles));
+}
+
+// Tiles that were interrupted on their way to a level, or have not begun.
+std::vector<std::uint32_t> AdaptivePlan::unfinished_tiles(const TileSamples &samples) const {
+    return tiles_where(samples,
+                       [this](std::uint32_t, std::uint64_t has) { return !is_level(has) && has < counts_.limit; });
+}
+
 TileStep AdaptivePlan::to_next_level(const TileSamples &samples, std::vector<std::uint32_t> tiles) const {
-    std::erase_if(tiles, [&](std::uint32_t tile) { return samples.of(tile).count() >= most_; });
-    return {std::move(tiles), [&samples, most = most_](std::uint32_t tile) {
+    std::erase_if(tiles, [&](std::uint32_t tile) { return samples.of(tile).count() >= counts_.most; });
+    return {std::move(tiles), [&samples, most = counts_.most](std::uint32_t tile) {
                 return std::min(next_level(samples.of(tile).count()), most);
             }};
 }

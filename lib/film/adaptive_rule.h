@@ -31,9 +31,13 @@ std::vector<double> tile_gains(const TileSamples &samples, std::span<const doubl
 // Whether tiles of a film with the same samples everywhere differ so much that it pays to tell them apart.
 bool are_worth_telling_apart(std::span<const double> gains);
 
-// The tiles that are to double their samples in this round. All tiles are at a level.
+// The tiles that are to double their samples in this round. All tiles are at a level. lamps: for each tile, with how
+// many samples lamps in view are met that are smaller than a pixel.
 std::vector<std::uint32_t> wanting_tiles(const TileSamples &samples, std::span<const double> gains,
-                                         const AdaptiveRound &round);
+                                         std::span<const std::uint64_t> lamps, const AdaptiveRound &round);
+
+// The first round of a film that needs samples for lamps alone.
+AdaptiveRound round_of_lamps(std::span<const double> gains);
 
 // The next round, once no tile wants more samples in this one; in the next some tile does. excess: the square of (error
 // of the image / target), > 1; infinite if the error is unknown. sees_too_little: much of the error is light that no
@@ -48,35 +52,44 @@ struct TileStep {
     std::function<std::uint64_t(std::uint32_t)> goal;
 };
 
-// The rule from look to look. However often it is interrupted, and by whatever limits of samples, a film comes to the
-// same samples in the same tiles: as long as tiles are together they are looked at when all have the same; later a
-// tile's decision depends on its own sums and the round alone, and a round ends when every tile has come to rest in it.
+// Looks at a film as it is at that moment, which takes time.
+struct FilmLooks {
+    std::function<ErrorEstimate()> error;
+    std::function<std::vector<double>()> squares; // of tiles: their own_square() of tile_errors.h
+
+    std::function<std::vector<std::uint64_t>()> samples_for_lamps; // of tiles, as in wanting_tiles()
+};
+
+// The most samples of any pixel.
+struct MostSamples {
+    std::uint64_t most;  // now
+    std::uint64_t limit; // ever: not less
+};
+
+// The rule from look to look. However often it is interrupted, and whatever it may take now, a film comes to the same
+// samples in the same tiles: as long as tiles are together they are looked at when all have the same; later a tile's
+// decision depends on its own sums and the round alone, and a round ends when every tile has come to rest in it.
 class AdaptivePlan {
 public:
-    using LookAtImage = std::function<ErrorEstimate()>;
-    using LookAtTiles = std::function<std::vector<double>()>; // their own_square() of tile_errors.h
-
-    // most: the largest number of samples for any pixel. error and squares look at the samples as they are at that
-    // moment, which takes time.
-    AdaptivePlan(double target_error, std::uint64_t most, LookAtImage error, LookAtTiles squares) :
+    AdaptivePlan(double target_error, const MostSamples &counts, FilmLooks film) :
         target_error_(target_error),
-        most_(most),
-        error_(std::move(error)),
-        squares_(std::move(squares)) {}
+        counts_(counts),
+        film_(std::move(film)) {}
 
-    // Nothing if the film has the target error; no tiles if none may take more. The goals refer to these samples, which
-    // must outlive them. Moves on to the next round where one is over.
+    // Nothing if the film has the target error and has met the lamps in view; no tiles if none may take more. The goals
+    // refer to these samples, which must outlive them. Moves on to the next round where one is over.
     std::optional<TileStep> next(const TileSamples &samples, AdaptiveRound &round) const;
 
 private:
     std::optional<TileStep> next_together(const TileSamples &samples, AdaptiveRound &round) const;
     std::optional<TileStep> next_apart(const TileSamples &samples, AdaptiveRound &round) const;
+    std::optional<TileStep> next_on_target(const TileSamples &samples, AdaptiveRound &round) const;
+    std::vector<std::uint32_t> unfinished_tiles(const TileSamples &samples) const;
     TileStep to_next_level(const TileSamples &samples, std::vector<std::uint32_t> tiles) const;
 
     double target_error_;
-    std::uint64_t most_;
-    LookAtImage error_;
-    LookAtTiles squares_;
+    MostSamples counts_;
+    FilmLooks film_;
 };
 
 } // namespace pt

@@ -12,20 +12,15 @@ namespace pt {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-// An estimate from fewer pixels is uncertain: its root is typically off by 1 / (2 sqrt(8)) = 18% or more.
-constexpr double few_pixels = 8.0;
+constexpr double channels = 3.0;
 
 // It is uncertain as well if light that no sample has met is expected to add more than this share to the square, a
-// fortieth of the root. Calibrated.
-constexpr double much_unseen = 0.05;
+// thirteenth of the root. Calibrated.
+constexpr double much_unseen = 0.15;
 
-// Squares scatter: the root of a sum that rests on n pixels is by a share of about 1 / (2 sqrt(n)) too small as often
-// as too large, or by more than that if it is the brightest that are missing. A little more than one such share is
-// added, because a stated error that is too small does more harm: calibrated.
-double share_added(double pixel_count) {
-    return 0.6 / std::sqrt(pixel_count);
-}
+// It is uncertain if it may be that many times as large, in squares, since light is as rare as values met once allow.
+// Calibrated.
+constexpr double much_more = 2.0;
 
 // Plain Halton points are the same in every pixel, so the errors of neighbours are not independent and scatter more.
 // Calibrated.
@@ -56,23 +51,21 @@ void add_squares(ErrorSquares &to, const ErrorSquares &other, double factor = 1.
 
 // Suppose that the samples of a pixel are expected to meet some kind of light w times. With q = e^(-w / 2), neither
 // half of the samples meets it in a share q^2 of the pixels, one half in 2 q (1 - q), and both in (1 - q)^2. So w is 2
-// ln(1 + 2 b), with b the number of pixels where both have met it over that where one has. Half a pixel more of either
-// keeps a few pixels from saying much. A pixel of the mean T that was met once is then expected to have the limit w T,
-// by which its error is 1 / w times what it is by T. So lamps smaller than a pixel, which are met again as often as
-// once, are told from rare bright samples, which are hardly ever met twice.
+// ln(1 + 2 b), with b the number of pixels where both have met it over that where one has. A pixel of the mean T that
+// was met once is then expected to have the limit w T, by which its error is 1 / w times what it is by T. So lamps
+// smaller than a pixel, which are met again as often as once, are told from rare bright samples, which are hardly ever
+// met twice.
 double square_by_meetings(double met_once, double met_again) {
-    const double meetings = 2.0 * std::log1p(2.0 * (met_again + 0.5) / (met_once + 1.0));
+    const double meetings = 2.0 * std::log1p(2.0 * met_again / (met_once + 1.0));
     return std::max(1.0, 1.0 / squared(meetings));
 }
 
-// Values met once count by what is known without them, or by how many were met again if that gives less. Where lamps
-// are found by chance there are rare samples of all kinds, and how often the less rare ones were met again tells
-// nothing about the others.
-ErrorSquares relative_squares(const TileErrors &all, bool finds_lamps_by_chance) {
-    constexpr double channels = 3.0;
-    const double factor = square_by_meetings(all.as_lamps.sum / channels, all.met_again / channels);
+// The relative squares, if both parts of the film met so many pixels. Values met once count by what is known without
+// them, or by how many were met again if that gives less.
+ErrorSquares relative_squares(const TileErrors &all, double met_again) {
+    const double factor = square_by_meetings(all.as_lamps.sum / channels, met_again);
     ErrorSquares squares = all.relative_square;
-    if (!finds_lamps_by_chance && all.met_once.sum > factor * all.as_lamps.sum)
+    if (all.met_once.sum > factor * all.as_lamps.sum)
         add_squares(squares, all.as_lamps, factor);
     else
         add_squares(squares, all.met_once);
@@ -80,6 +73,20 @@ ErrorSquares relative_squares(const TileErrors &all, bool finds_lamps_by_chance)
 }
 
 } // namespace
+
+// Squares scatter: the root of a sum that rests on n pixels is by a share of about 1 / (2 sqrt(n)) too small as often
+// as too large, or by more than that if it is the brightest that are missing. A little more than one such share is
+// added, because a stated error that is too small does more harm, and of few pixels still more: calibrated.
+double share_added(double pixel_count) {
+    return 0.6 / std::sqrt(pixel_count) + 1.2 / pixel_count;
+}
+
+// The logarithm of a root of n equal normal squares has a standard deviation of 1 / sqrt(2 n); n such squares count as
+// n / 3 pixels, as the fourth power of a normal number is 3 on the average. The picture's own errors scatter as those
+// that its parts show, so together it is 1 / sqrt(3 n) for n pixels.
+double spread_of_pixels(double pixel_count) {
+    return std::exp(normal_95 / std::sqrt(3.0 * pixel_count));
+}
 
 ErrorEstimate unknown_error() {
     return {{infinity, 0.0, infinity}, {infinity, 0.0, infinity}, 0};
@@ -114,8 +121,8 @@ bool is_check(std::uint64_t sample_count) {
 double exaggeration(std::uint32_t sampler) {
     // If the mean square error falls as N^-p, the expectation of a quarter of the squared difference of the two runs
     // of N / 2 points that make up one of N is 2^p - 1 of it: exact for p = 1, the slowest that is usual, and too
-    // much by 3 for p = 2.
-    return sampler == PT_SAMPLER_RANDOM ? 1.0 : std::sqrt(3.0);
+    // much by 7 for p = 3, as fast as scrambled nets come to (Owen 1997).
+    return sampler == PT_SAMPLER_RANDOM ? 1.0 : std::sqrt(7.0);
 }
 
 bool finds_lamps_by_chance(std::uint32_t estimator, std::uint32_t max_path_length) {
@@ -150,18 +157,26 @@ Interval ErrorEstimator::root_mean(const ErrorSquares &squares, double other_squ
     const double estimate = std::sqrt((squares.sum + other_squares) / all_.value_count) *
                             (1.0 + share_added(pixel_count(squares))) * margin(conditions_.sampler);
     const double relative_deviation = squares.sum > 0.0 ? std::sqrt(std::max(variance, 0.0)) / squares.sum : 0.0;
-    const double spread = std::sqrt(1.0 + normal_95 * relative_deviation) * (uncertain ? uncertain_factor : 1.0);
+    const double of_tiles = std::sqrt(1.0 + normal_95 * relative_deviation);
+    const double spread =
+        std::max(of_tiles, spread_of_pixels(pixel_count(squares))) * (uncertain ? uncertain_factor : 1.0);
     const double margin_within_bounds = uncertain ? 1.0 : std::min(margin_of_sequence(conditions_.sampler), spread);
     return {estimate * margin_within_bounds, estimate / (spread * exaggeration(conditions_.sampler)),
             estimate * spread};
 }
 
+// How many pixels were met again is known to within their square root; none may mean that light is far rarer. Where
+// lamps are found by chance there are rare samples of all kinds, and the less rare ones tell nothing about the others.
 ErrorEstimate ErrorEstimator::result() const {
-    const ErrorSquares relative = relative_squares(all_, conditions_.finds_lamps_by_chance);
+    const double again = all_.met_again / channels;
+    const bool by_chance = conditions_.finds_lamps_by_chance;
+    const ErrorSquares relative = relative_squares(all_, by_chance ? 0.0 : again + 0.5);
+    const ErrorSquares most =
+        relative_squares(all_, by_chance ? 0.0 : std::max(again - normal_95 * std::sqrt(again), 0.0));
     std::uint32_t uncertain = 0;
     if (pixel_count(all_.square) < few_pixels)
         uncertain |= PT_UNCERTAIN_RMSE;
-    if (pixel_count(relative) < few_pixels)
+    if (pixel_count(relative) < few_pixels || most.sum > much_more * relative.sum)
         uncertain |= PT_UNCERTAIN_RELATIVE_RMSE;
     if (all_.unseen > much_unseen * (relative.sum + all_.unseen))
         uncertain |= PT_UNCERTAIN_UNSEEN;
@@ -169,8 +184,11 @@ ErrorEstimate ErrorEstimator::result() const {
         uncertain |= PT_UNCERTAIN_UNMET;
     constexpr std::uint32_t rmse_bits = PT_UNCERTAIN_RMSE | PT_UNCERTAIN_UNMET;
     constexpr std::uint32_t relative_bits = PT_UNCERTAIN_RELATIVE_RMSE | PT_UNCERTAIN_UNSEEN | PT_UNCERTAIN_UNMET;
-    return {root_mean(all_.square, 0.0, (uncertain & rmse_bits) != 0),
-            root_mean(relative, all_.unseen, (uncertain & relative_bits) != 0), uncertain};
+    ErrorEstimate error{root_mean(all_.square, 0.0, (uncertain & rmse_bits) != 0),
+                        root_mean(relative, all_.unseen, (uncertain & relative_bits) != 0), uncertain};
+    if (most.sum > relative.sum)
+        error.relative_rmse.high *= std::sqrt((most.sum + all_.unseen) / (relative.sum + all_.unseen));
+    return error;
 }
 
 } // namespace pt

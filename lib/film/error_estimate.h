@@ -29,6 +29,14 @@ inline constexpr std::uint32_t min_estimate_samples = 16;
 // For the normal distribution, 95% lie within this many standard deviations.
 inline constexpr double normal_95 = 1.96;
 
+// An estimate from fewer pixels is uncertain. Calibrated.
+inline constexpr double few_pixels = 6.0;
+
+// Of an estimate whose squares behave as those of so many pixels with equal errors: the share of the root that is added
+// to it, and the factor from it to its bounds.
+double share_added(double pixel_count);
+double spread_of_pixels(double pixel_count);
+
 // How far the bounds are from an estimate that is uncertain, beyond what the spread over tiles says: calibrated.
 inline constexpr double uncertain_factor = 2.0;
 

@@ -40,7 +40,7 @@ Film::Film(std::span<const std::byte> bytes) {
     bounds_ = bounds_of(tiles);
     if (bounds_.right() > facts_.width || bounds_.bottom() > facts_.height)
         throw Error(PT_ERROR_INCOMPATIBLE, "film: its tiles reach beyond the image");
-    header_ = {reader.header().identity, canonical_tiles(tiles), reader.header().round};
+    header_ = {reader.header().identity, canonical_tiles(tiles), reader.header().round, reader.header().lamps};
     for (std::size_t i = 0; i < tiles.size(); ++i) {
         const auto [x, y, width, height] = tiles[i].pixels;
         const std::uint32_t row_count = std::max(most_tile_pixels / width, 1U);
@@ -138,7 +138,10 @@ void Film::add(Film other) {
     std::vector<Tile> added = outside(own, other.tiles_);
     for (const Tile &tile : added)
         sum.push_back({tile.pixels, tile.samples});
-    FilmHeader header{header_.identity, canonical_tiles(sum), later_of(header_.round, other.header_.round)};
+    std::vector<LampSquare> lamps = header_.lamps;
+    lamps.insert(lamps.end(), other.header_.lamps.begin(), other.header_.lamps.end());
+    FilmHeader header{header_.identity, canonical_tiles(sum), later_of(header_.round, other.header_.round),
+                      united(std::move(lamps))};
     const Rectangle bounds = bounds_of(header.tiles);
     tiles_.reserve(tiles_.size() + added.size());
     // Nothing below can fail.
@@ -263,15 +266,33 @@ TileSamples Film::samples_by_tile() const {
     return std::move(*samples);
 }
 
+std::vector<double> Film::own_squares(const TileSamples &samples) const {
+    std::vector<double> squares;
+    for (const TileErrors &tile : look_at(samples, errors_))
+        squares.push_back(tile.own_square());
+    return squares;
+}
+
+std::vector<std::uint64_t> Film::samples_for_lamps(const TileGrid &grid) const {
+    std::vector<std::uint64_t> needed(grid.count());
+    for (const LampSquare &lamps : header_.lamps)
+        if (lamps.x >= bounds_.x && lamps.x < bounds_.right() && lamps.y >= bounds_.y && lamps.y < bounds_.bottom())
+            needed[grid.tile_at(lamps.x - bounds_.x, lamps.y - bounds_.y)] = lamps.samples;
+    return needed;
+}
+
 std::optional<TileStep> Film::plan(const TileSamples &samples, double target_error, std::uint64_t most) {
-    const auto error_of_image = [&] { return error(samples, errors_); };
-    const auto squares_of_tiles = [&] {
-        std::vector<double> squares;
-        for (const TileErrors &tile : look_at(samples, errors_))
-            squares.push_back(tile.own_square());
-        return squares;
-    };
-    return AdaptivePlan(target_error, most, error_of_image, squares_of_tiles).next(samples, header_.round);
+    const AdaptivePlan plan(target_error, {most, most},
+                            {[&] { return error(samples, errors_); }, [&] { return own_squares(samples); },
+                             [&] { return samples_for_lamps(samples.grid()); }});
+    return plan.next(samples, header_.round);
+}
+
+std::uint32_t Film::samples_for_lamps() const {
+    std::uint32_t most = 0;
+    for (const LampSquare &lamps : header_.lamps)
+        most = std::max(most, lamps.samples);
+    return most;
 }
 
 std::uint64_t Film::rejected_samples() const {

@@ -62,6 +62,9 @@ public:
     // The samples by tile of a grid over the bounds. Throws PT_ERROR_INCOMPATIBLE if the film's tiles cut the grid's.
     TileSamples samples_by_tile() const;
 
+    // How many samples of a pixel meet all lamps in view that are smaller than one; 0: there are none.
+    std::uint32_t samples_for_lamps() const;
+
     // What the tiles are to take next (adaptive_rule.h). Moves on to the next round where one is over.
     std::optional<TileStep> plan(const TileSamples &samples, double target_error, std::uint64_t most);
 
@@ -76,6 +79,8 @@ private:
     };
 
     ErrorEstimate error(const TileSamples &samples, FilmErrors &errors) const;
+    std::vector<double> own_squares(const TileSamples &samples) const;
+    std::vector<std::uint64_t> samples_for_lamps(const TileGrid &grid) const;
     std::span<const TileErrors> look_at(const TileSamples &samples, FilmErrors &errors) const;
     double unit() const { return std::ldexp(1.0, facts_.unit_exponent); }
     void read_rows_from(std::uint32_t first_row, PixelSums &sums) const; // fills sums with rows of the bounds

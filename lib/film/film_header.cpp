@@ -7,6 +7,8 @@
 #include <array>
 #include <charconv>
 #include <optional>
+#include <tuple>
+#include <utility>
 
 namespace pt {
 
@@ -19,6 +21,7 @@ static_assert(3 * gpu::FILM_SUM_WORDS == gpu::FILM_ACCEPTED && gpu::FILM_REJECTE
 constexpr std::string_view tile_name = "tile";
 constexpr std::string_view samples_name = "samples";
 constexpr std::string_view round_name = "round";
+constexpr std::string_view lamps_name = "lamps";
 
 // Far more rounds than double-precision errors can take.
 constexpr std::uint64_t max_round = 10'000;
@@ -96,6 +99,16 @@ void read_round(std::string_view value, FilmHeader &header) {
     header.round = {negative ? -number : number, (*round)[1]};
 }
 
+// text_of() compares the order.
+void read_lamps(std::string_view value, FilmHeader &header) {
+    const auto lamps = numbers<3>(value);
+    if (!lamps || std::ranges::any_of(*lamps, [](std::uint64_t number) { return number > UINT32_MAX; }) ||
+        (*lamps)[0] % lamp_square != 0 || (*lamps)[1] % lamp_square != 0 || (*lamps)[2] == 0)
+        refuse("lamps are not two multiples of " + std::to_string(lamp_square) + " and a number of samples");
+    header.lamps.push_back({static_cast<std::uint32_t>((*lamps)[0]), static_cast<std::uint32_t>((*lamps)[1]),
+                            static_cast<std::uint32_t>((*lamps)[2])});
+}
+
 // Checks each tile, and all together: they are pixels of one image.
 void require_counts(const std::vector<FilmTile> &tiles) {
     std::uint64_t pixels = 0;
@@ -112,6 +125,16 @@ void require_counts(const std::vector<FilmTile> &tiles) {
 
 } // namespace
 
+std::vector<LampSquare> united(std::vector<LampSquare> lamps) {
+    const auto place = [](const LampSquare &square) { return std::pair(square.y, square.x); };
+    std::ranges::sort(lamps, [&](const LampSquare &a, const LampSquare &b) {
+        return std::tuple(place(a), b.samples) < std::tuple(place(b), a.samples);
+    });
+    const auto [first, last] = std::ranges::unique(lamps, {}, place);
+    lamps.erase(first, last);
+    return lamps;
+}
+
 std::string text_of(const FilmHeader &header) {
     std::string text = std::string(first_line_start).append(version) + '\n';
     text.append(planes_line) += '\n';
@@ -120,6 +143,9 @@ std::string text_of(const FilmHeader &header) {
     if (header.round.number != AdaptiveRound::none)
         text += std::string(round_name) + ' ' + std::to_string(header.round.number) + ' ' +
                 std::to_string(header.round.floor) + '\n';
+    for (const LampSquare &lamps : header.lamps)
+        text += std::string(lamps_name) + ' ' + std::to_string(lamps.x) + ' ' + std::to_string(lamps.y) + ' ' +
+                std::to_string(lamps.samples) + '\n';
     for (const FilmTile &tile : header.tiles) {
         text.append(tile_name);
         for (const std::uint32_t side : {tile.pixels.x, tile.pixels.y, tile.pixels.width, tile.pixels.height})
@@ -152,13 +178,15 @@ FilmHeader parsed_film_header(std::string_view text) {
             read_samples(value, header);
         else if (name == round_name)
             read_round(value, header);
+        else if (name == lamps_name)
+            read_lamps(value, header);
         else if (header.identity.size() < max_facts)
             header.identity.push_back({std::string(name), std::string(value)});
         else
             refuse("its header has more than " + std::to_string(max_facts) + " lines of other names");
     }
     require_counts(header.tiles);
-    if (text_of(header) != text)
+    if (header.lamps != united(header.lamps) || text_of(header) != text)
         refuse("its header is not written as the format asks");
     return header;
 }

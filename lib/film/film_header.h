@@ -69,10 +69,26 @@ inline AdaptiveRound later_of(const AdaptiveRound &a, const AdaptiveRound &b) {
     return {std::max(a.number, b.number), std::max(a.floor, b.floor)};
 }
 
+// Lamps in view, smaller than a pixel, in a square of the image of lamp_square pixels a side: its corner, multiples of
+// that from the image's, and how many samples of a pixel are needed to meet the least of them.
+struct LampSquare {
+    std::uint32_t x;
+    std::uint32_t y;
+    std::uint32_t samples;
+
+    bool operator==(const LampSquare &) const = default;
+};
+
+inline constexpr std::uint32_t lamp_square = 8;
+
+// In the order of rows, each square once, with the most samples needed.
+std::vector<LampSquare> united(std::vector<LampSquare> lamps);
+
 struct FilmHeader {
     FilmIdentity identity;
     std::vector<FilmTile> tiles; // their sums follow in this order
     AdaptiveRound round{};       // the one under way to a target error, if any
+    std::vector<LampSquare> lamps{};
 
     bool operator==(const FilmHeader &) const = default;
 };

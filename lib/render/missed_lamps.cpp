@@ -66,16 +66,22 @@ bool may_miss_lamps(const PreparedScene &scene, const Camera &camera, const Rend
     return static_cast<double>(samples) * share < enough_meetings;
 }
 
-void take_in_unmet_lamps(ErrorEstimate &error, const UnmetSquares &unmet) {
-    const auto exceeds = [](double root, Interval &interval) {
-        if (root <= interval.estimate)
+void take_in_unmet_lamps(ErrorEstimate &error, const UnmetSquares &unmet, double value_count) {
+    const auto raise = [&](const ExpectedSquares &squares, Interval &interval) {
+        if (squares.sum == 0.0)
             return false;
-        interval.estimate = root;
-        interval.high = std::max(interval.high, uncertain_factor * root);
-        return true;
+        const double meetings = squares.meetings();
+        const double root = std::sqrt(squares.sum / value_count) * (1.0 + share_added(meetings));
+        const bool is_uncertain = meetings < few_pixels && uncertain_factor * root > interval.estimate;
+        if (root > interval.estimate) {
+            interval.estimate = root;
+            interval.high =
+                std::max(interval.high, root * spread_of_pixels(meetings) * (is_uncertain ? uncertain_factor : 1.0));
+        }
+        return is_uncertain;
     };
-    const bool exceeds_rmse = exceeds(std::sqrt(unmet.square), error.rmse);
-    if (exceeds(std::sqrt(unmet.relative_square), error.relative_rmse) || exceeds_rmse)
+    const bool is_rmse_uncertain = raise(unmet.square, error.rmse);
+    if (raise(unmet.relative_square, error.relative_rmse) || is_rmse_uncertain)
         error.uncertain |= PT_UNCERTAIN_UNMET;
 }
 

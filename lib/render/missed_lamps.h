@@ -20,8 +20,8 @@ double smallest_lamp_share(std::span<const Sphere> lamps, std::span<const Materi
 bool may_miss_lamps(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings,
                     std::uint64_t samples);
 
-// Raises the stated error to at least what is expected of lamps in view that samples have hardly met, given as means
-// over the values of the image. If that is more than the samples show, the error is uncertain.
-void take_in_unmet_lamps(ErrorEstimate &error, const UnmetSquares &unmet);
+// Raises the stated error of so many values to at least what is expected of lamps in view for which there are too few
+// samples. If it rests on few meetings, and is more than half of what the samples show, the error is uncertain.
+void take_in_unmet_lamps(ErrorEstimate &error, const UnmetSquares &unmet, double value_count);
 
 } // namespace pt

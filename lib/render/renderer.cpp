@@ -82,7 +82,6 @@ void Renderer::discard_samples() noexcept {
     samples_.clear();
     view_.forget_samples();
     forget_error();
-    small_lamps_.reset();
 }
 
 void Renderer::set_scene(CheckedScene scene, WorkProgress &progress) {
@@ -91,6 +90,7 @@ void Renderer::set_scene(CheckedScene scene, WorkProgress &progress) {
     progress.finish();
     discard_samples();
     gpu_scene_.reset();
+    small_lamps_.reset();
     scene_ = std::move(prepared);
 }
 
@@ -98,6 +98,7 @@ void Renderer::set_camera(const Camera &camera) {
     require_alive();
     discard_samples();
     gpu_scene_.reset();
+    small_lamps_.reset();
     camera_ = camera;
 }
 
@@ -116,6 +117,8 @@ void Renderer::set_render(const RenderSettings &settings) {
     }
     discard_samples();
     gpu_scene_.reset();
+    if (!same_size || settings.height != settings_->height || settings.first_row != settings_->first_row)
+        small_lamps_.reset();
     settings_ = settings;
     samples_ = std::move(none);
 }

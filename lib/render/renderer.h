@@ -5,6 +5,7 @@
 #include "lib/base/error.h"
 #include "lib/base/log.h"
 #include "lib/base/work_progress.h"
+#include "lib/film/adaptive_rule.h"
 #include "lib/film/error_estimate.h"
 #include "lib/film/film_header.h"
 #include "lib/film/tile_samples.h"
@@ -116,7 +117,7 @@ public:
     std::span<std::byte> map(const ImageLayout &layout);
 
     // The film of the samples so far.
-    FilmHeader film_header() const;
+    FilmHeader film_header();
     void save_film(const FilmHeader &header, std::span<std::byte> bytes) const; // of the size of its FilmLayout
     void add_film(std::span<const std::byte> bytes);
 
@@ -125,8 +126,8 @@ public:
     // About what is seen (displacement.h); NULL if there is none. Stays until the next call.
     const BrokenRule *warning();
 
-    // The error of the image, including lamps in view that no sample has met. Those are stated but do not end a
-    // rendering, because films that are added elsewhere do not know about lamps.
+    // The error of the image, including what lamps in view add that samples have hardly met. On the way to a target
+    // error these must be met first, so it does not matter there, and films that are added elsewhere need not know it.
     ErrorEstimate error_with_lamps();
 
     // Accuracy of the first device's elementary functions. Leaves the samples alone.
@@ -135,8 +136,8 @@ public:
 private:
     // A call that takes samples.
     struct Job {
-        double target_error;              // relative; 0: none
-        std::uint64_t most;               // samples that a pixel is to have
+        double target_error; // relative; 0: none
+        MostSamples counts;
         std::uint64_t together_to;        // until all tiles have as many, they take the same ones
         bool is_together;                 // while that lasts
         std::vector<std::uint64_t> goals; // or what each tile is to have, without a look at any error
@@ -162,6 +163,8 @@ private:
     void look(std::span<double> by_tile, bool is_recorded);
     const std::vector<double> &tile_squares();
     bool is_on_target(double target_error);
+    const std::vector<LampPiece> &small_lamps();
+    std::vector<std::uint64_t> samples_for_lamps();
     std::uint64_t adaptive_from() const;
     void require_tiles(const pt_accumulate_info &wanted) const;
     void begin(const pt_accumulate_info &wanted, bool is_polled);

@@ -97,16 +97,30 @@ ErrorEstimate Renderer::error_with_lamps() {
     ErrorEstimate known = error();
     if (samples_.least() < min_estimate_samples)
         return known;
+    const bool is_random = settings_->sampler == PT_SAMPLER_RANDOM;
+    const UnmetSquares sums = unmet_squares(small_lamps(), relative_offset, is_random, [this](const LampPiece &piece) {
+        return samples_.of(samples_.grid().tile_at(piece.x, piece.y)).count();
+    });
+    take_in_unmet_lamps(known, sums, 3.0 * settings_->width * settings_->row_count);
+    return known;
+}
+
+const std::vector<LampPiece> &Renderer::small_lamps() {
     if (!small_lamps_)
         small_lamps_ = small_lamps_in_view(*scene_, ray_start(), settings_->width, settings_->height,
                                            settings_->first_row, settings_->row_count);
-    const bool is_random = settings_->sampler == PT_SAMPLER_RANDOM;
-    const UnmetSquares sums = unmet_squares(*small_lamps_, relative_offset, is_random, [this](const LampPiece &piece) {
-        return samples_.of(samples_.grid().tile_at(piece.x, piece.y)).count();
-    });
-    const double values = 3.0 * settings_->width * settings_->row_count;
-    take_in_unmet_lamps(known, {sums.square / values, sums.relative_square / values});
-    return known;
+    return *small_lamps_;
+}
+
+// By tile.
+std::vector<std::uint64_t> Renderer::samples_for_lamps() {
+    const TileGrid &grid = samples_.grid();
+    std::vector<std::uint64_t> needed(grid.count());
+    for (const LampPiece &piece : small_lamps()) {
+        std::uint64_t &of_tile = needed[grid.tile_at(piece.x, piece.y)];
+        of_tile = std::max(of_tile, samples_to_meet(piece, relative_offset, settings_->sampler == PT_SAMPLER_RANDOM));
+    }
+    return needed;
 }
 
 const std::vector<double> &Renderer::tile_squares() {
@@ -119,7 +133,9 @@ const std::vector<double> &Renderer::tile_squares() {
 }
 
 bool Renderer::is_on_target(double target_error) {
-    return target_error > 0.0 && is_check(samples_.of(0).count()) && error().relative_rmse.high <= target_error;
+    const std::uint64_t count = samples_.of(0).count();
+    return target_error > 0.0 && is_check(count) && error().relative_rmse.high <= target_error &&
+           std::ranges::all_of(samples_for_lamps(), [=](std::uint64_t needed) { return needed <= count; });
 }
 
 ImageQuery Renderer::query(const ImageLayout &layout) const {
@@ -183,10 +199,16 @@ Rectangle Renderer::pixels() const {
     return {0, settings_->first_row, settings_->width, settings_->row_count};
 }
 
-FilmHeader Renderer::film_header() const {
+FilmHeader Renderer::film_header() {
     require_settings();
     require_samples();
-    return {identity(), film_tiles(samples_, pixels()), round_};
+    std::vector<LampSquare> lamps;
+    for (const LampPiece &piece : small_lamps())
+        if (const auto needed = samples_to_meet(piece, relative_offset, settings_->sampler == PT_SAMPLER_RANDOM))
+            lamps.push_back({piece.x / lamp_square * lamp_square,
+                             (piece.y + settings_->first_row) / lamp_square * lamp_square,
+                             static_cast<std::uint32_t>(needed)});
+    return {identity(), film_tiles(samples_, pixels()), round_, united(std::move(lamps))};
 }
 
 void Renderer::save_film(const FilmHeader &header, std::span<std::byte> bytes) const {

@@ -88,7 +88,7 @@ void Renderer::make_job(const pt_accumulate_info &wanted, bool is_polled) {
             goals.push_back(samples_.of(tile).count() + (of_tiles != nullptr ? of_tiles[tile] : wanted.sample_count));
     // NOLINTNEXTLINE(modernize-make-unique): an aggregate, which cannot be moved
     job_.reset(new Job{wanted.target_error,
-                       most,
+                       {most, std::max<std::uint64_t>(most, wanted.sample_limit)},
                        together_to,
                        is_together,
                        std::move(goals),
@@ -157,7 +157,7 @@ pt_result Renderer::advance(Accumulation::Clock::time_point until) {
         if (!accumulation.run(until))
             return PT_PENDING;
         take_over(accumulation.samples());
-        const bool is_complete = job_->is_together && samples_.least() == job_->most;
+        const bool is_complete = job_->is_together && samples_.least() == job_->counts.most;
         if (accumulation.stopped() && !is_complete)
             return PT_CANCELLED;
     }
@@ -168,7 +168,7 @@ std::optional<pt_result> Renderer::next_step() {
     const auto unless_done = [](bool goes_on) { return goes_on ? std::nullopt : std::optional<pt_result>(PT_OK); };
     if (job_->is_together && samples_.of(0).count() < job_->together_to)
         return next_step_together();
-    if (job_->is_together && job_->together_to == job_->most)
+    if (job_->is_together && job_->together_to == job_->counts.most)
         return PT_OK;
     job_->is_together = false;
     if (!job_->goals.empty())
@@ -177,7 +177,8 @@ std::optional<pt_result> Renderer::next_step() {
     if (samples_.even() && samples_.of(0).count() < adaptive_from())
         return PT_OK;
     const AdaptivePlan plan(
-        job_->target_error, job_->most, [&] { return error(); }, [&] { return tile_squares(); });
+        job_->target_error, job_->counts,
+        {[&] { return error(); }, [&] { return tile_squares(); }, [&] { return samples_for_lamps(); }});
     const std::optional<TileStep> step = plan.next(samples_, round_);
     if (!step)
         return PT_TARGET_REACHED;

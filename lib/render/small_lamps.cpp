@@ -1,10 +1,10 @@
 #include "lib/render/small_lamps.h"
 
-#include "lib/film/error_estimate.h"
 #include "lib/scene/seen_scene.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 
@@ -12,19 +12,17 @@ namespace pt {
 
 namespace {
 
-// Expected meetings with the samples of a pixel: a standard error from 8 of them is off by a third. Calibrated.
-constexpr double enough_meetings = 8.0;
-
-constexpr double largest_size = enough_meetings / min_estimate_samples; // pixels
+// Larger shares of a pixel are met often enough by 16 samples, the fewest with which an error is stated. Calibrated.
+constexpr double largest_share = 0.5;
 
 // A lamp's disc on the image, in pixels from its top left corner.
 struct Disc {
     double x;
     double y;
-    double radius; // of where it is seen
-    double size;   // of the lamp: less than the disc if the camera spreads it
-    glm::dvec3 emission;
+    double radius; // where it is seen
+    double size;   // the lamp's area: less than the disc's if the lens spreads it
 
+    double area() const { return std::numbers::pi * radius * radius; }
     bool meets(std::uint32_t width, std::uint32_t height) const {
         return x + radius > 0.0 && x - radius < width && y + radius > 0.0 && y - radius < height;
     }
@@ -57,66 +55,128 @@ double way_to(const Plane &plane, const Camera &camera, const glm::dvec3 &direct
     return ahead(-height / glm::dot(plane.normal, direction));
 }
 
-// The distance to the first surface that the camera sees. start: the camera or, for parallel rays, where this ray
-// begins.
-double way_to_first(const PreparedScene &prepared, const Camera &start, const glm::dvec3 &direction) {
+// The share of camera rays along a unit vector that passes all surfaces nearer than a distance. start: the camera or,
+// for parallel rays, where this ray begins.
+double transmittance(const PreparedScene &prepared, const Camera &start, const glm::dvec3 &direction, double distance) {
     const Scene &scene = prepared.scene;
-    double first = never;
+    double share = 1.0;
+    const auto pass = [&](const MovingBall &ball, std::int16_t opacity) {
+        if (way_to(ball, direction) < distance)
+            share *= passing_share(opacity);
+    };
     for (const Plane &plane : scene.planes)
-        if (!scene.materials[plane.material].hidden)
-            first = std::min(first, way_to(plane, start, direction));
+        if (!scene.materials[plane.material].hidden && way_to(plane, start, direction) < distance)
+            return 0.0;
     for (const Sphere &sphere : scene.spheres)
         if (const Material &material = scene.materials[sphere.material]; !material.hidden)
-            first = std::min(first, way_to(SeenSphere(sphere, material, start), direction));
-    if (!prepared.tree)
-        return first;
-    const auto to_ball = [&](const MovingBall &ball) { return way_to(ball, direction); };
-    const auto to_region = [&](const MovingBall &region) {
-        return glm::length(region.open) > region.radius ? to_ball(region) : 0.0;
+            pass(SeenSphere(sphere, material, start), sphere.opacity);
+    const auto may_block = [&](const MovingBall &region) {
+        return share > 0.0 && (glm::length(region.open) <= region.radius || way_to(region, direction) < distance);
     };
-    return std::min(first, prepared.tree->least(start, to_region, to_ball).number);
+    if (prepared.tree)
+        prepared.tree->visit(start, may_block, pass);
+    return share;
 }
 
-bool is_hidden(const SeenSphere &lamp, const PreparedScene &scene, const Camera &camera) {
+// The share of camera rays to the center of a lamp that reach it. center: relative to the camera.
+double visible_share(const PreparedScene &scene, const Camera &camera, const glm::dvec3 &center, double radius) {
     Camera start = camera;
     if (camera.is_orthographic())
-        start.position += lamp.open - glm::dot(lamp.open, camera.forward) * camera.forward;
-    const glm::dvec3 way = lamp.open + camera.position - start.position;
-    return way_to_first(scene, start, glm::normalize(way)) < glm::length(way) - 2.0 * lamp.radius;
+        start.position += center - glm::dot(center, camera.forward) * camera.forward;
+    const glm::dvec3 way = center + camera.position - start.position;
+    return transmittance(scene, start, glm::normalize(way), glm::length(way) - 2.0 * radius);
+}
+
+// The rows of an image that a camera sees.
+struct Window {
+    std::uint32_t width;
+    std::uint32_t height; // of the whole image
+    std::uint32_t first_row;
+    std::uint32_t row_count;
+};
+
+// center: relative to the camera, ahead of it. Each point of the lamp may be spread over a disc; the variances of both
+// add up to that of a disc with the root of the sum of their squares as its radius.
+Disc disc_of(const glm::dvec3 &center, double radius, const Camera &camera, const Window &window) {
+    const double depth = glm::dot(center, camera.forward);
+    const double half_height = camera.is_orthographic() ? 0.5 * camera.vertical_extent : depth * camera.tan_half_fov;
+    const double scale = 0.5 * window.height / half_height;
+    const double seen_radius = scale * radius;
+    return {0.5 * window.width + scale * glm::dot(center, camera.right),
+            0.5 * window.height - scale * glm::dot(center, camera.up) - window.first_row,
+            std::hypot(seen_radius, scale * camera.spread(depth)), std::numbers::pi * seen_radius * seen_radius};
 }
 
 // Adds the pixels of a disc, in squares of so many that no disc has many: it is cut into thin lines, and each line is
-// divided among the squares that it crosses.
-void add_pieces(std::vector<LampPiece> &pieces, Disc disc, std::uint32_t width, std::uint32_t row_count) {
+// divided among the squares that it crosses. piece: with the share of the disc's samples that meet the lamp.
+void add_pieces(std::vector<LampPiece> &pieces, std::size_t first, Disc disc, int lines, const LampPiece &of_disc,
+                const Window &window) {
     constexpr double few = 4.0; // squares along a radius
-    constexpr int lines = 256;
     const double side = std::max(std::ceil(disc.radius / few), 1.0);
-    const double share = disc.size / (std::numbers::pi * disc.radius * disc.radius);
-    disc = {disc.x / side, disc.y / side, disc.radius / side, disc.size, disc.emission};
-    const double columns = std::ceil(width / side);
-    const double rows = std::ceil(row_count / side);
+    disc = {disc.x / side, disc.y / side, disc.radius / side, disc.size};
+    const double columns = std::ceil(window.width / side);
+    const double rows = std::ceil(window.row_count / side);
     const auto middle = [side](double square, std::uint32_t end) {
         return std::min(static_cast<std::uint32_t>((square + 0.5) * side), end - 1);
     };
-    const std::size_t first = pieces.size();
+    const double pixels = side * side * of_disc.pixels;
     for (int i = 0; i < lines; ++i) {
         const double across = (2.0 * i + 1.0) / lines - 1.0;
         const double half = disc.radius * std::sqrt((1.0 - across) * (1.0 + across));
         const double row = std::floor(disc.y + disc.radius * across);
         if (row < 0.0 || row >= rows)
             continue;
-        const std::uint32_t y = middle(row, row_count);
+        const std::uint32_t y = middle(row, window.row_count);
         const auto begin = static_cast<std::uint32_t>(std::clamp(std::floor(disc.x - half), 0.0, columns));
         const auto end = static_cast<std::uint32_t>(std::clamp(std::ceil(disc.x + half), 0.0, columns));
         for (std::uint32_t column = begin; column < end; ++column) {
-            const std::uint32_t x = middle(column, width);
+            const std::uint32_t x = middle(column, window.width);
             const double length = std::min(disc.x + half, column + 1.0) - std::max(disc.x - half, 1.0 * column);
-            const auto is_there = [x, y](const LampPiece &piece) { return piece.x == x && piece.y == y; };
+            const auto is_there = [=](const LampPiece &piece) {
+                return piece.x == x && piece.y == y && piece.pixels == pixels;
+            };
             auto piece = std::find_if(pieces.begin() + static_cast<std::ptrdiff_t>(first), pieces.end(), is_there);
             if (piece == pieces.end())
-                piece = pieces.insert(piece, {x, y, 0.0, disc.size, disc.emission, side * side});
-            piece->share += share * (length * 2.0 * disc.radius / lines);
+                piece =
+                    pieces.insert(piece, {x, y, 0.0, of_disc.lamp_share, of_disc.emission, pixels, of_disc.is_spread});
+            piece->share += of_disc.share * (length * 2.0 * disc.radius / lines);
+            piece->lamp_share = std::max(piece->lamp_share, of_disc.lamp_share);
         }
+    }
+}
+
+// A moving lamp is seen at several moments of the shutter. Those that follow each other by more than a pixel stand for
+// the pixels in between, too, each of which the lamp crosses in so much less time.
+void add_lamp(std::vector<LampPiece> &pieces, const PreparedScene &scene, const Camera &camera, const Window &window,
+              const SeenSphere &lamp, const glm::dvec3 &emission) {
+    constexpr double most_moments = 64.0;
+    constexpr int all_lines = 256;
+    constexpr int least_lines = 16; // of a disc
+    const auto is_ahead = [&](const glm::dvec3 &center) { return glm::dot(center, camera.forward) > lamp.radius; };
+    const auto seen = [&](const glm::dvec3 &center) { return disc_of(center, lamp.radius, camera, window); };
+    if (!is_ahead(lamp.open) || !is_ahead(lamp.close()))
+        return;
+    const double path = std::hypot(seen(lamp.close()).x - seen(lamp.open).x, seen(lamp.close()).y - seen(lamp.open).y);
+    const double moments = std::clamp(std::ceil(path), 1.0, most_moments);
+    const double apart = std::max(path / moments, 1.0);
+    const bool is_veiled = scene.tree && scene.tree->has_opacities();
+    const std::size_t first = pieces.size();
+    for (double moment = 0.5; moment < moments; moment += 1.0) {
+        const glm::dvec3 center = lamp.open + moment / moments * lamp.way;
+        const Disc disc = seen(center);
+        if (!disc.meets(window.width, window.row_count))
+            continue;
+        const double bare_share = disc.size / std::max(disc.area() + 2.0 * disc.radius * path, 1.0);
+        if (bare_share >= largest_share && !is_veiled)
+            continue;
+        const double light = visible_share(scene, camera, center, lamp.radius);
+        const double lamp_share = light * bare_share;
+        if (light == 0.0 || lamp_share >= largest_share)
+            continue;
+        const bool is_spread = disc.area() > 1.5 * disc.size || path > disc.radius;
+        add_pieces(pieces, first, disc, std::max(static_cast<int>(all_lines / moments), least_lines),
+                   {0, 0, light * disc.size / disc.area() / (moments * apart), lamp_share, emission, apart, is_spread},
+                   window);
     }
 }
 
@@ -128,42 +188,73 @@ std::vector<LampPiece> small_lamps_in_view(const PreparedScene &scene, const Cam
     for (const Sphere &sphere : scene.lamps()) {
         const Material &material = scene.scene.materials[sphere.material];
         const SeenSphere seen(sphere, material, camera);
-        const double depth = glm::dot(seen.open, camera.forward);
-        if (material.hidden || depth <= seen.radius || seen.way != glm::dvec3(0.0))
-            continue;
-        const double half_height =
-            camera.is_orthographic() ? 0.5 * camera.vertical_extent : depth * camera.tan_half_fov;
-        const double scale = 0.5 * height / half_height;
-        // Each point of the lamp may be spread over a disc; the variances of both add up to that of a disc with the
-        // root of the sum of their squares as its radius.
-        const double radius = scale * seen.radius;
-        const double spread = scale * camera.spread(depth);
-        const Disc disc{0.5 * width + scale * glm::dot(seen.open, camera.right),
-                        0.5 * height - scale * glm::dot(seen.open, camera.up) - first_row, std::hypot(radius, spread),
-                        std::numbers::pi * radius * radius, material.emission};
-        if (disc.size < largest_size && disc.meets(width, row_count) && !is_hidden(seen, scene, camera))
-            add_pieces(pieces, disc, width, row_count);
+        if (!material.hidden)
+            add_lamp(pieces, scene, camera, {width, height, first_row, row_count}, seen, material.emission);
     }
     return pieces;
 }
 
+double LampPiece::enough_samples(bool is_random) const {
+    return (is_random || is_spread ? 8.0 : 3.0) / lamp_share;
+}
+
+std::uint64_t samples_to_meet(const LampPiece &piece, double offset, bool is_random) {
+    constexpr double negligible = 0.01;
+    const double brightest = piece.share * std::max({piece.emission.r, piece.emission.g, piece.emission.b});
+    if (brightest * brightest < negligible * (brightest * brightest + offset))
+        return 0;
+    return static_cast<std::uint64_t>(std::clamp(std::ceil(piece.enough_samples(is_random)), 1.0, 4294967295.0));
+}
+
+namespace {
+
+// What is expected of a piece.
+struct UnmetPiece {
+    double meetings; // in all of its pixels
+    double square;
+    double relative_square;
+    double lack; // the squares, if no sample meets it
+    double relative_lack;
+};
+
+UnmetPiece unmet_piece(const LampPiece &piece, double count, double offset, bool is_random) {
+    const double meetings = count * piece.share;
+    const double random_variance = meetings * (1.0 - piece.share);
+    const double variance =
+        is_random || piece.is_spread ? random_variance : std::min(random_variance, 0.6 * std::sqrt(meetings));
+    const glm::dvec3 limits = piece.share * piece.emission;
+    const glm::dvec3 lacks = limits * limits;
+    const glm::dvec3 expected = variance / (meetings * meetings) * lacks;
+    const auto sum = [&](const glm::dvec3 &values) { return piece.pixels * (values.r + values.g + values.b); };
+    return {piece.pixels * meetings, sum(expected), sum(expected / (lacks + offset)), sum(lacks),
+            sum(lacks / (lacks + offset))};
+}
+
+void add(ExpectedSquares &to, double square, double meetings) {
+    to.sum += square;
+    to.variance += square * square / meetings;
+}
+
+} // namespace
+
+// The number of samples that meet a piece has a Poisson distribution. Of the pieces that would err most if they were
+// met, those that altogether are hardly met once are taken as missed: they are so in most pictures.
 UnmetSquares unmet_squares(const std::vector<LampPiece> &pieces, double offset, bool is_random,
                            const std::function<std::uint64_t(const LampPiece &)> &samples) {
-    UnmetSquares all{0.0, 0.0};
-    for (const LampPiece &piece : pieces) {
-        const auto count = static_cast<double>(samples(piece));
-        if (count * piece.lamp_size >= enough_meetings)
-            continue;
-        const double meetings = count * piece.share;
-        const double random_variance = meetings * (1.0 - piece.share);
-        const double variance = is_random ? random_variance : std::min(random_variance, 0.6 * std::sqrt(meetings));
-        for (int channel = 0; channel < 3; ++channel) {
-            const double emission = piece.emission[channel];
-            const double square = piece.pixels * emission * emission * variance / (count * count);
-            const double limit = piece.share * emission;
-            all.square += square;
-            all.relative_square += square / (limit * limit + offset);
-        }
+    std::vector<UnmetPiece> unmet;
+    for (const LampPiece &piece : pieces)
+        if (const std::uint64_t count = samples(piece); samples_to_meet(piece, offset, is_random) > count)
+            unmet.push_back(unmet_piece(piece, static_cast<double>(count), offset, is_random));
+    std::ranges::sort(unmet, std::greater(),
+                      [](const UnmetPiece &piece) { return piece.relative_square / piece.meetings; });
+    UnmetSquares all;
+    double meetings = 0.0;
+    for (const UnmetPiece &piece : unmet) {
+        meetings += piece.meetings;
+        const bool is_met = meetings >= 1.0;
+        const double rests_on = is_met ? piece.meetings : 1.0;
+        add(all.square, is_met ? piece.square : piece.lack, rests_on);
+        add(all.relative_square, is_met ? piece.relative_square : piece.relative_lack, rests_on);
     }
     return all;
 }

@@ -37,6 +37,11 @@ inline constexpr std::int16_t no_opacity = -1;
 inline constexpr auto opaque = static_cast<std::int16_t>(gpu::TREE_OPACITY_STEPS);
 inline constexpr double least_opaque = 1.0 - 0.5 / gpu::TREE_OPACITY_STEPS; // rounds to opaque
 
+// The share of rays that pass a sphere.
+inline double passing_share(std::int16_t opacity) {
+    return opacity == no_opacity ? 0.0 : 1.0 - static_cast<double>(opacity) / gpu::TREE_OPACITY_STEPS;
+}
+
 struct Sphere {
     glm::dvec3 center;
     double radius;

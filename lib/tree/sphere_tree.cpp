@@ -287,6 +287,13 @@ bool SphereTree::divides_start(const Camera &camera) const {
     });
 }
 
+// A ball about a box, relative to the camera.
+MovingBall SphereTree::region_of(const GridBox &box, const Camera &camera) const {
+    const glm::dvec3 low = grid_.point(box.low) - camera.position;
+    const glm::dvec3 high = grid_.point(box.high) - camera.position;
+    return {0.5 * (low + high), glm::dvec3(0.0), 0.5 * glm::length(high - low)};
+}
+
 // Enters the node with the least bound first, and none whose bound exceeds the least number so far.
 SphereTree::Least SphereTree::least(const Camera &camera, const std::function<double(const MovingBall &)> &of_region,
                                     const std::function<double(const MovingBall &)> &of_sphere) const {
@@ -299,11 +306,7 @@ SphereTree::Least SphereTree::least(const Camera &camera, const std::function<do
         entries.pop();
         for (std::uint32_t child = 0; child < node.child_count(); ++child) {
             if (child < node.inner_count()) {
-                const GridBox box = node.box(child);
-                const glm::dvec3 low = grid_.point(box.low) - camera.position;
-                const glm::dvec3 high = grid_.point(box.high) - camera.position;
-                const MovingBall about{0.5 * (low + high), glm::dvec3(0.0), 0.5 * glm::length(high - low)};
-                if (const double bound = of_region(about); bound < least.number)
+                if (const double bound = of_region(region_of(node.box(child), camera)); bound < least.number)
                     entries.emplace(bound, node.first_child() + child);
             } else {
                 const std::uint32_t place = node.first_place() + child - node.inner_count();
@@ -329,6 +332,24 @@ SphereTree::Farthest SphereTree::farthest() const {
         }
     }
     return farthest;
+}
+
+void SphereTree::visit(const Camera &camera, const std::function<bool(const MovingBall &)> &enters,
+                       const std::function<void(const MovingBall &, std::int16_t opacity)> &receive) const {
+    std::vector<std::uint32_t> nodes{0};
+    while (!nodes.empty()) {
+        const TreeNodeView node = node_of(words_, nodes.back());
+        nodes.pop_back();
+        for (std::uint32_t child = 0; child < node.child_count(); ++child) {
+            if (child < node.inner_count()) {
+                if (enters(region_of(node.box(child), camera)))
+                    nodes.push_back(node.first_child() + child);
+            } else {
+                const SphereWords words = words_of(node.first_place() + child - node.inner_count());
+                receive(seen_ball(words.surface(grid_), camera), has_opacities_ ? words.opacity() : no_opacity);
+            }
+        }
+    }
 }
 
 bool SphereTree::finds_close_lamps(WorkProgress &progress) const {

@@ -96,6 +96,10 @@ public:
     };
     Farthest farthest() const;
 
+    // Hands out the spheres in all regions that are entered, as a camera sees them, with their opacities.
+    void visit(const Camera &camera, const std::function<bool(const MovingBall &)> &enters,
+               const std::function<void(const MovingBall &, std::int16_t opacity)> &receive) const;
+
     // The box of all spheres at any time.
     PointBox bounds() const { return {grid_.point(box_.low), grid_.point(box_.high)}; }
 
@@ -123,6 +127,7 @@ private:
     bool has_ways() const { return moves_ || kinds_.have_ways(); }
     SphereWords words_of(std::uint32_t place) const;
     MovingBall surface_of(std::uint32_t place) const { return words_of(place).surface(grid_); }
+    MovingBall region_of(const GridBox &box, const Camera &camera) const;
     bool is_far(const Camera &camera) const;
     bool finds_close_lamps(WorkProgress &progress) const;
     template <typename Property>

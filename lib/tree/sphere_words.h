@@ -24,6 +24,9 @@ struct SphereWords {
     // From time 0 to 1, or from end to end.
     MovingBall surface(const Grid &grid) const;
 
+    // In steps; only of a tree that has opacities.
+    std::int16_t opacity() const { return static_cast<std::int16_t>(place.w & gpu::TREE_OPACITY_STEPS); }
+
     // The box of all that the surface takes up. The margin of the kernel covers what rounding adds.
     GridBox box(const Grid &grid) const;
 

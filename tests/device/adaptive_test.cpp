@@ -50,12 +50,14 @@ protected:
 
     static void begin(pt_context *on) { set_coursework(on, render_of(uneven_width, uneven_height, 2)); }
 
-    static pt_result take(pt_context *on, uint32_t samples, double target_error, uint32_t sampling = PT_SAMPLING_BEST) {
+    static pt_result take(pt_context *on, uint32_t samples, double target_error, uint32_t sampling = PT_SAMPLING_BEST,
+                          uint32_t limit = 0) {
         pt_accumulate_info info{};
         info.struct_size = sizeof info;
         info.sample_count = samples;
         info.target_error = target_error;
         info.sampling = sampling;
+        info.sample_limit = limit;
         return pt_accumulate(on, &info);
     }
 
@@ -144,6 +146,7 @@ TEST_F(AdaptiveTest, SplitsAndResumesChangeNoBit) {
                 info.struct_size = sizeof info;
                 info.sample_count = static_cast<uint32_t>(generator() % 60);
                 info.target_error = uneven_target;
+                info.sample_limit = no_limit;
                 info.progress = generator() % 2 == 0 ? &Stopper::progress : nullptr;
                 info.progress_user = &stopper;
                 result = pt_accumulate(on, &info);
@@ -187,10 +190,10 @@ TEST_F(AdaptiveTest, UnevenFilmsTakeEvenSamplesAndAddUp) {
 TEST_F(AdaptiveTest, TheMostSamplesAreThoseOfAPixel) {
     const Bytes expected = film_on_target(context());
     begin(context());
-    EXPECT_EQ(take(context(), 50, uneven_target), PT_OK);
+    EXPECT_EQ(take(context(), 50, uneven_target, PT_SAMPLING_BEST, no_limit), PT_OK);
     EXPECT_EQ(stats_of(context()).max_sample_count, 50U);
     const Bytes held_up = film_of(context());
-    EXPECT_EQ(take(context(), 0, uneven_target), PT_OK);
+    EXPECT_EQ(take(context(), 0, uneven_target, PT_SAMPLING_BEST, no_limit), PT_OK);
     EXPECT_EQ(film_of(context()), held_up);
     EXPECT_EQ(take(context(), no_limit, uneven_target), PT_TARGET_REACHED);
     EXPECT_EQ(film_of(context()), expected);
@@ -199,11 +202,22 @@ TEST_F(AdaptiveTest, TheMostSamplesAreThoseOfAPixel) {
     EXPECT_EQ(film_of(context()), expected);
 }
 
+TEST_F(AdaptiveTest, WithoutTheTargetAllPixelsTakeTheLimit) {
+    begin(context());
+    ASSERT_EQ(take(context(), 50, 1e-4), PT_OK);
+    const pt_stats stats = stats_of(context());
+    EXPECT_EQ(stats.sample_count, 50U);
+    EXPECT_EQ(stats.max_sample_count, 50U);
+}
+
 TEST_F(AdaptiveTest, NeedsATarget) {
     begin(context());
     EXPECT_EQ(take(context(), 1, 0.0, PT_SAMPLING_ADAPTIVE), PT_ERROR_INVALID_ARGUMENT);
     EXPECT_NE(std::string(pt_last_error(context())).find("sampling"), std::string::npos) << pt_last_error(context());
     EXPECT_EQ(take(context(), 1, 0.1, PT_SAMPLING_ADAPTIVE + 1), PT_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(take(context(), 1, 0.0, PT_SAMPLING_BEST, 2), PT_ERROR_INVALID_ARGUMENT);
+    EXPECT_NE(std::string(pt_last_error(context())).find("sample_limit"), std::string::npos)
+        << pt_last_error(context());
 }
 
 } // namespace

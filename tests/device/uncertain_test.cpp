@@ -3,10 +3,14 @@
 #include "tests/support/context_fixture.h"
 #include "tests/support/scene_of.h"
 
+#include <pt/film.h>
+
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 namespace uncertain {
 
@@ -68,11 +72,13 @@ TEST_F(UncertainTest, WhileALobeIsHardlyMetByChance) {
     }
 }
 
-// 16 samples hit a 20th of a pixel .8 times, 256 samples 13 times. Beside the view it does not count.
+// A lamp covering a 20th of a pixel in view is hit .8 times by 16 samples, 13 times by 256. Beside the view it does not
+// count.
+const double lamp_of_a_20th = 10.0 * 2.0 * std::tan(0.5) / height * std::sqrt(0.05 / 3.14159); // at distance 10
+
 TEST_F(UncertainTest, WhileSamplesHardlyMeetALampInView) {
-    const double pixel = 2.0 * std::tan(0.5) / height; // at distance 1
     for (const bool in_view : {true, false}) {
-        set_up(10.0 * pixel * std::sqrt(0.05 / 3.14159), PT_ESTIMATOR_MIS, 2, {in_view ? 0.0 : 6.0, -10.0, 0.0}, 20.0);
+        set_up(lamp_of_a_20th, PT_ESTIMATOR_MIS, 2, {in_view ? 0.0 : 6.0, -10.0, 0.0}, 20.0);
         EXPECT_EQ(after(16) & unmet, in_view ? unmet : 0U);
         EXPECT_EQ(after(240) & unmet, 0U);
     }
@@ -86,6 +92,38 @@ TEST_F(UncertainTest, NothingIsKnownOfAPictureThatIsBlackByChance) {
     set_up(0.01, PT_ESTIMATOR_MIS);
     EXPECT_EQ(after(16) & unmet, 0U);
     EXPECT_TRUE(std::isfinite(error().relative_rmse_high));
+}
+
+// All else is black, so any target seems reached at once.
+TEST_F(UncertainTest, NoTargetIsReachedBeforeALampInViewIsMet) {
+    for (const uint32_t sampling : {PT_SAMPLING_UNIFORM, PT_SAMPLING_ADAPTIVE}) {
+        set_up(lamp_of_a_20th, PT_ESTIMATOR_MIS, 1, {0.0, -10.0, 0.0}, 20.0);
+        pt_accumulate_info info{};
+        info.struct_size = sizeof info;
+        info.sample_count = 32;
+        info.target_error = 10.0;
+        info.sampling = sampling;
+        EXPECT_EQ(pt_accumulate(context(), &info), PT_OK);
+        EXPECT_EQ(stats_of(context()).max_sample_count, 32U);
+        const std::vector<char> film = film_of(context());
+        info.sample_count = 1000;
+        EXPECT_EQ(pt_accumulate(context(), &info), PT_TARGET_REACHED);
+        EXPECT_GE(stats_of(context()).max_sample_count, 60U);
+        const std::vector<float> image = values_of(context(), std::size_t{width} * height);
+        EXPECT_GT(*std::ranges::max_element(image), 0.0F);
+
+        pt_film *opened = nullptr;
+        ASSERT_EQ(pt_open_film(film.data(), film.size(), &opened), PT_OK) << pt_last_error(nullptr);
+        pt_film_info film_info{};
+        film_info.struct_size = sizeof film_info;
+        EXPECT_EQ(pt_get_film_info(opened, &film_info), PT_OK);
+        EXPECT_EQ(film_info.lamp_sample_count, 60U);
+        std::array<uint32_t, 16> goals{};
+        uint32_t count = goals.size();
+        EXPECT_EQ(pt_plan_film(opened, info.target_error, 1000, goals.data(), &count), PT_PENDING);
+        EXPECT_EQ(std::ranges::max(goals), 64U);
+        pt_close_film(opened);
+    }
 }
 
 } // namespace

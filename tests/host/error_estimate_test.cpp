@@ -33,7 +33,7 @@ pt::ErrorEstimate estimate(std::uint32_t width, const std::vector<float> &radian
 
 // The margin for squares as concentrated as this many equal pixels (error_estimate.cpp).
 double raised(double root, double pixel_count) {
-    return root * (1.0 + 0.6 / std::sqrt(pixel_count));
+    return root * (1.0 + 0.6 / std::sqrt(pixel_count) + 1.2 / pixel_count);
 }
 
 // 3^2 and 4^2 in two of six values: like 25^2 / (9^2 + 16^2) equal ones.
@@ -47,11 +47,11 @@ TEST(ErrorEstimate, IsTheRootOfTheMeanOfSquares) {
 TEST(ErrorEstimate, IsUncertainIfItComesFromFewPixels) {
     std::vector<float> errors(3 * 32 * 32, 0.0F);
     const std::vector<float> radiance(errors.size(), 1.0F);
-    for (int pixel = 0; pixel < 7; ++pixel)
-        errors[3 * 50 * static_cast<std::size_t>(pixel)] = 0.1F;
+    for (std::size_t pixel = 0; pixel < 5; ++pixel)
+        errors[3 * 50 * pixel] = 0.1F;
     const pt::ErrorEstimate few = estimate(32, radiance, errors);
     EXPECT_EQ(few.uncertain, unsigned{PT_UNCERTAIN_RMSE} | unsigned{PT_UNCERTAIN_RELATIVE_RMSE});
-    errors[3 * 50 * 7] = errors[3 * 50 * 8] = 0.1F;
+    errors[3 * 50 * 5] = errors[3 * 50 * 6] = 0.1F;
     EXPECT_EQ(estimate(32, radiance, errors).uncertain, 0U);
 }
 
@@ -97,6 +97,32 @@ TEST(ErrorEstimate, TellsLampsFromRareSamples) {
     EXPECT_GT(expected(40, 0), 300.0);
 }
 
+// 40 hits that 0 or 20 others do not repeat. 20 stand for 20 - 1.96 sqrt(20) at the least; 0 for light of any rarity,
+// so each may count by the black around it.
+TEST(ErrorEstimate, IsBoundedByTheRarestLightThatMeetingsAllow) {
+    const double least = 20.0 - 1.96 * std::sqrt(20.0);
+    const auto square = [](double met_again) {
+        return std::max(1.0, std::pow(2.0 * std::log(1.0 + 2.0 * met_again / 41.0), -2.0));
+    };
+    for (const auto &[again, ratio] : {std::pair{0, 1e6 / square(0.5)}, {20, square(least) / square(20.5)}}) {
+        std::vector<float> radiance(3 * 64 * 64, 0.0F);
+        std::vector<float> errors(radiance.size(), 0.0F);
+        for (std::size_t i = 0; i < 40U + static_cast<std::size_t>(again); ++i)
+            for (std::size_t channel = 0; channel < 3; ++channel) {
+                const std::size_t pixel = i % 8 * 8 + 4 + (i / 8 * 8 + 4) * 64;
+                radiance[3 * pixel + channel] = 100.0F;
+                errors[3 * pixel + channel] = i < 40 ? 100.0F : 0.0F;
+            }
+        const pt::ErrorEstimate found = estimate(64, radiance, errors);
+        const double without = found.rmse.high / found.rmse.estimate;
+        const bool is_uncertain = again == 0;
+        EXPECT_EQ(found.uncertain, is_uncertain ? unsigned{PT_UNCERTAIN_RELATIVE_RMSE} : 0U);
+        EXPECT_NEAR(found.relative_rmse.high / found.relative_rmse.estimate,
+                    without * (is_uncertain ? 2.0 : 1.0) * std::sqrt(ratio), 2e-3 * without * std::sqrt(ratio));
+    }
+}
+
+// With lamps found by chance, pixels hit once count by their surroundings, here 0.
 TEST(ErrorEstimate, OfLampsFoundByChanceAsksNotWhatWasMetAgain) {
     std::vector<float> radiance(3 * 32 * 32, 0.0F);
     std::vector<float> errors(radiance.size(), 0.0F);
@@ -183,16 +209,25 @@ TEST(ErrorEstimate, BoundsComeFromTheSpreadOverTiles) {
     const pt::Interval of_nets = estimate(16, radiance, errors, PT_SAMPLER_SOBOL).rmse;
     EXPECT_DOUBLE_EQ(of_nets.estimate, 1.145 * found.estimate);
     EXPECT_EQ(of_nets.high, found.high);
-    EXPECT_DOUBLE_EQ(of_nets.low, found.low / std::sqrt(3.0));
+    EXPECT_DOUBLE_EQ(of_nets.low, found.low / std::sqrt(7.0));
     const std::vector<float> alike(errors.size(), 1.0F);
     const pt::Interval without_spread = estimate(16, radiance, alike, PT_SAMPLER_SOBOL).rmse;
     EXPECT_EQ(without_spread.estimate, without_spread.high) << "within the bounds";
 }
 
+// 1.96 / sqrt(3 n) as a logarithm, for 8 of 64 tiles with one pixel each.
+TEST(ErrorEstimate, BoundsOfFewPixelsAreWide) {
+    std::vector<float> errors(3 * 64 * 64, 0.0F);
+    for (std::size_t row = 0; row < 64; row += 8)
+        errors[3 * 64 * row] = 1.0F;
+    const pt::Interval found = estimate(64, std::vector<float>(errors.size(), 1.0F), errors).rmse;
+    EXPECT_DOUBLE_EQ(found.high, found.estimate * std::exp(1.96 / std::sqrt(24.0)));
+}
+
 TEST(Exaggeration, IsThatOfNetsForSequencesOnly) {
     EXPECT_EQ(pt::exaggeration(PT_SAMPLER_RANDOM), 1.0);
     for (const std::uint32_t sampler : {PT_SAMPLER_HALTON, PT_SAMPLER_HALTON_CP, PT_SAMPLER_SOBOL})
-        EXPECT_EQ(pt::exaggeration(sampler), std::sqrt(3.0));
+        EXPECT_EQ(pt::exaggeration(sampler), std::sqrt(7.0));
 }
 
 TEST(Checks, AreAtQuartersOfPowersOfTwo) {

@@ -96,6 +96,22 @@ TEST(Film, SumsHaveTheBytesOfTheirSamplesInAnyOrder) {
     }
 }
 
+TEST(Film, KnowsTheSamplesForLampsOfAllThatWereAdded) {
+    Samples first;
+    Samples second;
+    give(first, grid(image_width, image_height).front(), {0});
+    give(second, grid(image_width, image_height).front(), {1});
+    const auto film_with = [](const Samples &samples, const std::vector<pt::LampSquare> &lamps) {
+        return pt::Film(film_maker::film_of(film_maker::identity(image_width, image_height),
+                                            film_maker::tiles_of(samples), samples, lamps));
+    };
+    pt::Film sum = film_with(first, {{8, 0, 30}, {0, 8, 20}});
+    sum.add(film_with(second, {{0, 0, 5}, {8, 0, 40}}));
+    EXPECT_EQ(sum.header().lamps, (std::vector<pt::LampSquare>{{0, 0, 5}, {8, 0, 40}, {0, 8, 20}}));
+    EXPECT_EQ(sum.samples_for_lamps(), 40U);
+    EXPECT_EQ(pt::Film(bytes_of(sum)).header().lamps, sum.header().lamps);
+}
+
 TEST(Film, KnowsItsSamplesBySquaresThatNoTileCuts) {
     Samples samples;
     std::uint32_t count = 0;

@@ -7,6 +7,7 @@
 #include "tests/support/scene_of.h"
 
 #include <gtest/gtest.h>
+#include <pt/stats.h>
 
 #include <algorithm>
 #include <cmath>
@@ -73,7 +74,7 @@ TEST(SmallLamps, AreSpreadOverPixels) {
             const auto middle = pieces_of({sphere_at(0.5, 0.5, 100, radius, lamp)}, {}, seen_by, has_tree);
             ASSERT_EQ(middle.size(), 1U);
             EXPECT_NEAR(share_of(middle, 200, 99), size, thin);
-            EXPECT_DOUBLE_EQ(middle[0].lamp_size, size);
+            EXPECT_DOUBLE_EQ(middle[0].lamp_share, size);
             EXPECT_EQ(middle[0].emission, glm::dvec3(1, 2, 40));
             const auto corner = pieces_of({sphere_at(0, 0, 100, radius, lamp)}, {}, seen_by, has_tree);
             ASSERT_EQ(corner.size(), 4U);
@@ -106,7 +107,8 @@ TEST(SmallLamps, AreSpreadByALens) {
     double seen = 0.0;
     double largest = 0.0;
     for (const pt::LampPiece &piece : pieces_of(lamps, {}, lens)) {
-        EXPECT_DOUBLE_EQ(piece.lamp_size, size);
+        EXPECT_DOUBLE_EQ(piece.lamp_share, size / spread);
+        EXPECT_TRUE(piece.is_spread);
         seen += piece.pixels * piece.share;
         largest = std::max(largest, piece.share);
     }
@@ -137,11 +139,48 @@ TEST(SmallLamps, AreThoseThatTheCameraSees) {
     EXPECT_EQ(count_of({seen, sphere_at(0, 0, 0, 500, dark)}), alone) << "in a ball about both";
     const pt_plane wall{{0.0, 0.0, 1.0}, 47.0, dark, 0}; // at depth 50
     EXPECT_EQ(count_of({seen}, {wall}), 0U) << "behind a plane";
-    pt_sphere moving = seen;
-    moving.motion[0] = 1.0;
+}
+
+// A pixel that the lamp crosses sees its area for the time that it takes to the next pixel.
+TEST(SmallLamps, AreSpreadByTheirMotion) {
     pt::Camera open = camera;
     open.shutter_close = 1.0;
-    EXPECT_TRUE(pieces_of({moving}, {}, open).empty());
+    for (const double way : {20.0, 300.0}) { // at every pixel, and at fewer moments
+        pt_sphere moving = sphere_at(-0.5 * way, 0.5, 100, radius, lamp);
+        moving.motion[0] = way;
+        double seen = 0.0;
+        double largest = 0.0;
+        for (const pt::LampPiece &piece : pieces_of({moving}, {}, open)) {
+            EXPECT_TRUE(piece.is_spread);
+            seen += piece.pixels * piece.share;
+            largest = std::max(largest, piece.share);
+        }
+        EXPECT_NEAR(seen, size, 0.01 * size) << way; // of fewer lines
+        EXPECT_NEAR(largest, size / way, 0.01 * size / way) << way;
+    }
+}
+
+// Each veil lets 1 - opacity through, whether it is about the lamp or before it; so does one about a large lamp.
+TEST(SmallLamps, ShineThroughVeils) {
+    const double center[] = {1.0, 2.0, -97.0, 1.0, 2.0, -60.0, 31.0, 2.0, -60.0};
+    const double radii[] = {10.0, 5.0, 5.0};
+    const float opacities[] = {0.2F, 0.6F, 1.0F}; // 51 and 153 of 255
+    const std::vector<pt_sphere_array> veils{{sizeof(pt_sphere_array),
+                                              3,
+                                              {center, sizeof(double[3]), PT_TYPE_FLOAT64},
+                                              {radii, sizeof(double), PT_TYPE_FLOAT64},
+                                              {},
+                                              {},
+                                              {},
+                                              {},
+                                              {opacities, sizeof(float), PT_TYPE_FLOAT32}}};
+    const auto small = pieces_of({sphere_at(0.5, 0.5, 100, radius, lamp)}, {}, camera, true, veils);
+    ASSERT_EQ(small.size(), 1U);
+    EXPECT_NEAR(small[0].share, 0.8 * 0.4 * size, thin);
+    EXPECT_NEAR(small[0].lamp_share, 0.8 * 0.4 * size, 1e-7); // of float radii
+    const auto large = pieces_of({sphere_at(0.5, 0.5, 100, 2.0, lamp)}, {}, camera, true, veils);
+    EXPECT_NEAR(share_of(large, 200, 99), 0.8 * 0.4, 0.01);
+    EXPECT_TRUE(pieces_of({sphere_at(50.5, 0.5, 100, radius, lamp)}, {}, camera, true, veils).empty()) << "opaque";
 }
 
 TEST(SmallLamps, AreSeenFromWithinACapsule) {
@@ -171,12 +210,42 @@ TEST(SmallLamps, AddWhatSamplesShouldHaveMet) {
     };
     const double variance = 0.125 * 0.875;
     const pt::UnmetSquares found = with(16, 16); // of the second lamp 8 hits were expected
-    EXPECT_DOUBLE_EQ(found.square, variance * (64.0 + 256.0) / 16.0);
-    EXPECT_DOUBLE_EQ(found.relative_square, variance * (64.0 / 1.01 + 256.0 / 4.01) / 16.0);
-    EXPECT_EQ(with(32, 16).square, 0.0);
-    EXPECT_DOUBLE_EQ(with(32, 8).square, 3.0 * 16.0 * 0.25 * 0.75 / 8.0);
-    EXPECT_DOUBLE_EQ(with(32, 4, false).square, 3.0 * 16.0 * 0.6 / 16.0) << "at the edge of a disc of one cell";
-    EXPECT_DOUBLE_EQ(with(32, 1, false).square, with(32, 1).square) << "in a part of a cell";
+    EXPECT_DOUBLE_EQ(found.square.sum, variance * (64.0 + 256.0) / 16.0);
+    EXPECT_DOUBLE_EQ(found.square.meetings(), 16.0 * 0.125);
+    EXPECT_DOUBLE_EQ(found.relative_square.sum, variance * (64.0 / 1.01 + 256.0 / 4.01) / 16.0);
+    EXPECT_EQ(with(32, 16).square.sum, 0.0);
+    EXPECT_DOUBLE_EQ(with(32, 8).square.sum, 3.0 * 16.0 * 0.25 * 0.75 / 8.0);
+    EXPECT_DOUBLE_EQ(with(32, 4, false).square.sum, 3.0 * 16.0 * 0.6 / 16.0) << "at the edge of a disc of one cell";
+    EXPECT_DOUBLE_EQ(with(32, 1, false).square.sum, with(32, 1).square.sum) << "in a part of a cell";
+}
+
+TEST(SmallLamps, CountAgainstATargetIfTheirLackShows) {
+    const pt::LampPiece bright{0, 0, 1e-3, 2e-3, glm::dvec3(0, 0, 11)};
+    EXPECT_EQ(pt::samples_to_meet(bright, 0.01, true), 4000U);
+    EXPECT_EQ(pt::samples_to_meet(bright, 0.01, false), 1500U);
+    pt::LampPiece spread = bright;
+    spread.is_spread = true;
+    EXPECT_EQ(pt::samples_to_meet(spread, 0.01, false), 4000U);
+    const pt::LampPiece dim{0, 0, 1e-3, 2e-3, glm::dvec3(0, 0, 10)}; // .01^2 / (.01^2 + .01) is below a hundredth
+    EXPECT_EQ(pt::samples_to_meet(dim, 0.01, true), 0U);
+}
+
+// 8 and 2 meetings; the samples show less, or more.
+TEST(SmallLamps, RaiseTheErrorAndLeaveItUncertainIfTheyAreHardlyMet) {
+    for (const double meetings : {8.0, 2.0})
+        for (const double shown : {0.1, 9.0}) {
+            pt::ErrorEstimate error{{shown, shown, shown}, {shown, shown, shown}, 0};
+            const pt::ExpectedSquares squares{12.0, 144.0 / meetings};
+            pt::take_in_unmet_lamps(error, {squares, squares}, 3.0);
+            const double root = 2.0 * (1.0 + 0.6 / std::sqrt(meetings) + 1.2 / meetings);
+            const bool is_raised = shown < root;
+            const bool is_uncertain = is_raised && meetings < 6.0;
+            EXPECT_DOUBLE_EQ(error.relative_rmse.estimate, is_raised ? root : shown);
+            EXPECT_DOUBLE_EQ(error.rmse.high,
+                             is_raised ? root * std::exp(1.96 / std::sqrt(3.0 * meetings)) * (is_uncertain ? 2.0 : 1.0)
+                                       : shown);
+            EXPECT_EQ(error.uncertain, is_uncertain ? unsigned{PT_UNCERTAIN_UNMET} : 0U);
+        }
 }
 
 // Variance of the number of points in a disc of a few cells, with one random point per cell.
@@ -199,7 +268,7 @@ TEST(SmallLamps, PointsOneToACellMeetADiscAsOftenAsStated) {
             sum += (met - area) * (met - area);
         }
         const std::vector<pt::LampPiece> pieces{{0, 0, area / 64.0, area / 64.0 / 8.0, glm::dvec3(64.0, 0.0, 0.0)}};
-        EXPECT_NEAR(pt::unmet_squares(pieces, 0.01, false, [](const auto &) { return 64; }).square, sum / trials,
+        EXPECT_NEAR(pt::unmet_squares(pieces, 0.01, false, [](const auto &) { return 64; }).square.sum, sum / trials,
                     0.15 * sum / trials)
             << area;
     }

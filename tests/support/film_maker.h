@@ -82,10 +82,10 @@ inline void set_pixel(pt::PixelSums &sums, std::size_t at, const Pixel &pixel, c
     }
 }
 
-// Pixels of a tile must have the same samples.
-inline Bytes film_of(const pt::FilmIdentity &identity, const std::vector<pt::Rectangle> &tiles,
-                     const Samples &samples) {
-    pt::FilmHeader header{identity, {}};
+// All pixels of a tile must have the same samples.
+inline Bytes film_of(const pt::FilmIdentity &identity, const std::vector<pt::Rectangle> &tiles, const Samples &samples,
+                     const std::vector<pt::LampSquare> &lamps = {}) {
+    pt::FilmHeader header{identity, {}, {}, lamps};
     for (const pt::Rectangle &tile : tiles)
         header.tiles.push_back({tile, set_of(samples.at({tile.y, tile.x}))});
     Bytes bytes(pt::FilmLayout(header).size_bytes());

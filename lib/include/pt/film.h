@@ -62,7 +62,9 @@ typedef struct pt_film_info {
     uint32_t estimator;       /**< PT_ESTIMATOR_*, never BEST */
     uint32_t sampler;         /**< PT_SAMPLER_*, never BEST */
     uint32_t tile_count;      /**< rectangles of pixels with the same samples; 1 if all pixels have the same */
-    uint32_t reserved;        /**< 0 */
+    /** samples of a pixel that are expected to meet all lamps in view smaller than a pixel; 0: there are none. With
+     * fewer, no target error is reached */
+    uint32_t lamp_sample_count;
     /** models and drivers of the devices that took the samples; ASCII, owned by the film */
     const char *device;
 } pt_film_info;
@@ -170,9 +172,9 @@ PT_API pt_result pt_get_film_error_estimate(const pt_film *film, pt_error_estima
  * there.
  *
  * PT_PENDING: some tiles are to take more. PT_TARGET_REACHED: the film has the target error. PT_OK: it has not, and no
- * tile may take more. The same samples give the same answers, whoever took them and in whatever parts. A context on a
- * CPU with the same limit comes to the same film; on a GPU, tiles begin to differ at a later number of samples, and
- * rounding differs.
+ * tile that needs more may take more. The same samples give the same answers, whoever took them and in whatever parts.
+ * A context on a CPU with the same limit comes to the same film; on a GPU, tiles begin to differ at a later number of
+ * samples, and rounding differs.
  *
  * One thread at a time per film. PT_ERROR_INVALID_ARGUMENT: a rule is broken. PT_ERROR_INCOMPATIBLE: the tiles of the
  * film cannot be made of such squares. */

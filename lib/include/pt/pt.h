@@ -304,14 +304,19 @@ typedef struct pt_accumulate_info {
      * all pixels takes several submissions, with those that complete it. */
     pt_progress_fn progress;
     void *progress_user; /**< handed to progress; the library does not look at it */
-    /** 0: none. Otherwise no more samples are added once pt_error_estimate.relative_rmse_high is at or below it: the
-     * call then returns PT_TARGET_REACHED, or PT_OK if sample_count runs out first. The error is checked only when all
-     * pixels have as many samples as pt_next_check says or, where tiles differ (PT_SAMPLING_ADAPTIVE), when no tile
-     * wants more at the present bound. So where a sequence ends, and with which samples in which pixels, does not
-     * depend on how it is split over calls, devices, or films that are saved and added again. Finite, >= 0. */
+    /** 0: none. Otherwise no more samples are added once pt_error_estimate.relative_rmse_high is at or below it and
+     * pixels with lamps smaller than a pixel have samples enough to meet them: the call then returns PT_TARGET_REACHED.
+     * It returns PT_OK if sample_count runs out first, or the pixels that need more have sample_limit samples. The
+     * error is checked only when all pixels have as many samples as pt_next_check says or, where tiles differ
+     * (PT_SAMPLING_ADAPTIVE), when no tile wants more at the present bound. So where a sequence ends, and with which
+     * samples in which pixels, does not depend on how it is split over calls with the same sample_limit, devices, or
+     * films that are saved and added again. Finite, >= 0. */
     double target_error;
     uint32_t sampling; /**< PT_SAMPLING_*: where samples go */
-    uint32_t reserved; /**< 0 */
+    /** With a target error: the most samples that a pixel is to have after this call and later ones. Where pixels that
+     * need more have so many already, the others take more, until all have them. 0, or fewer than this call may come
+     * to: as many as that. */
+    uint32_t sample_limit;
     /** NULL: all pixels get the same, or as the target error decides. Otherwise each tile takes this many samples,
      * from 0 to sample_count: the first ones from pt_render.first_sample on that it lacks. target_error must be 0.
      * Tiles are squares of 8 x 8 pixels, row by row from the top left of the rendered rows, smaller at the right and

@@ -44,13 +44,16 @@ typedef struct pt_stats {
  * factor of two, except that small lamps in view only raise the error and its upper bound. More samples make an error
  * certain. */
 enum {
-    PT_UNCERTAIN_RMSE = 1,          /**< rmse comes from fewer than 8 pixels: rare bright samples, or a small lamp */
-    PT_UNCERTAIN_RELATIVE_RMSE = 2, /**< relative_rmse comes from fewer than 8 pixels */
-    /** More than a twentieth of the square of relative_rmse is expected from dark pixels beside very bright ones, as
+    PT_UNCERTAIN_RMSE = 1, /**< rmse comes from fewer than 6 pixels: rare bright samples, or a small lamp */
+    /** relative_rmse comes from fewer than 6 pixels, or light that single samples have met may be so rare that its
+     * square is twice as large */
+    PT_UNCERTAIN_RELATIVE_RMSE = 2,
+    /** More than 15% of the square of relative_rmse are expected from dark pixels beside very bright ones, as
      * light that no sample has met. */
     PT_UNCERTAIN_UNSEEN = 4,
-    /** Either lamps in view, smaller than half a pixel, which a pixel's samples are expected to meet fewer than 8
-     * times: by their sizes, they add more than the samples show. Or lamps that are found by chance (uniform, cosine,
+    /** Either lamps in view that less than half of a pixel's samples meet, since they are small, move, are out of focus
+     * or shine through translucent spheres: by their sizes they add more than the samples show, and fewer than 6
+     * samples are expected to have met them. Or lamps that are found by chance (uniform, cosine,
      * bsdf), or lobes (uniform, cosine): one that matters was met fewer than a thousand times in all pixels. */
     PT_UNCERTAIN_UNMET = 8
 };
@@ -59,7 +62,7 @@ enum {
  *
  * rmse is the root of the mean of (x - r)^2 over pixels and channels, for the image x and its limit r; relative_rmse is
  * the same for (x - r)^2 / (r^2 + 0.01). Bounds have 95% confidence. Of light that no sample has met yet, only that of
- * small lamps in view is included; a target error leaves that out. Nothing is known with fewer than 16 samples, or if
+ * small lamps in view is included. Nothing is known with fewer than 16 samples, or if
  * more than one sample in 2^20 was left out, since these may have carried as much light as all others: then the lower
  * bounds are 0, the other values INFINITY. */
 typedef struct pt_error_estimate {

@@ -145,13 +145,14 @@ class Context:
         InvalidStateError: scene, camera or settings are not set."""
         self._call("pt_prepare")
 
-    def accumulate(self, sample_count: int, *, target_error: float = 0.0, sampling: Sampling = Sampling.BEST,
-                   progress: Progress | None = None) -> Result:
+    def accumulate(self, sample_count: int, *, target_error: float = 0.0, sample_limit: int = 0,
+                   sampling: Sampling = Sampling.BEST, progress: Progress | None = None) -> Result:
         """Adds samples to every pixel.
 
         sample_count   >= 1; with a target error the most to add
         target_error   0: none. Otherwise sampling ends once ErrorEstimate.relative_rmse_high is at or below it, with
                        Result.TARGET_REACHED; 0.01 is 1%
+        sample_limit   with a target error, the most samples of a pixel in this call and those that follow; 0: of this call
         sampling       where samples go; by default adaptive with a target error, else uniform
         progress       called after each submission, about every twentieth of a second; True ends the call with
                        Result.CANCELLED and the whole samples taken so far
@@ -159,8 +160,8 @@ class Context:
         if not 0 <= sample_count <= MOST_SAMPLES:
             raise ValueError(f"sample_count = {sample_count}: must be in [1, {MOST_SAMPLES}]")
         guard = self._guard()
-        info = structs.pt_accumulate_info(sample_count=sample_count, target_error=target_error, sampling=sampling,
-                                          progress=guard.progress(progress))
+        info = structs.pt_accumulate_info(sample_count=sample_count, target_error=target_error,
+                                          sample_limit=sample_limit, sampling=sampling, progress=guard.progress(progress))
         return self._call("pt_accumulate", info, guard=guard)
 
     def accumulate_tiles(self, samples: npt.ArrayLike, *, progress: Progress | None = None) -> Result:

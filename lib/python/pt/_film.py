@@ -40,6 +40,7 @@ class FilmInfo:
     seed: int
     estimator: Estimator
     sampler: Sampler
+    lamp_sample_count: int  # samples of a pixel that meet all lamps in view smaller than a pixel; 0: there are none
     device: str  # models and drivers of the devices that took the samples
 
 

@@ -65,8 +65,9 @@ class pt_render(Sized):
 
 class pt_accumulate_info(Sized):
     _fields_ = [("struct_size", c_uint32), ("sample_count", c_uint32), ("progress", pt_progress_fn),
-                ("progress_user", c_void_p), ("target_error", c_double), ("sampling", c_uint32), ("reserved", c_uint32),
-                ("tile_samples", POINTER(c_uint32)), ("tile_count", c_uint32), ("reserved2", c_uint32)]
+                ("progress_user", c_void_p), ("target_error", c_double), ("sampling", c_uint32),
+                ("sample_limit", c_uint32), ("tile_samples", POINTER(c_uint32)), ("tile_count", c_uint32),
+                ("reserved2", c_uint32)]
 
 
 class pt_image(Sized):
@@ -105,8 +106,8 @@ class pt_broken_rule(Sized):
 class pt_film_info(Sized):
     _fields_ = [("struct_size", c_uint32), ("width", c_uint32), ("height", c_uint32), ("x", c_uint32), ("y", c_uint32),
                 ("columns", c_uint32), ("rows", c_uint32), ("max_path_length", c_uint32), ("seed", c_uint64),
-                ("estimator", c_uint32), ("sampler", c_uint32), ("tile_count", c_uint32), ("reserved", c_uint32),
-                ("device", c_char_p)]
+                ("estimator", c_uint32), ("sampler", c_uint32), ("tile_count", c_uint32),
+                ("lamp_sample_count", c_uint32), ("device", c_char_p)]
 
 
 class pt_film_tile(Sized):

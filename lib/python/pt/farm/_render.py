@@ -80,7 +80,7 @@ def _to_error(coordinator: Coordinator, job: AnyJob, samples: int, target_error:
         if sampling == Sampling.UNIFORM:
             error = coordinator.look()
             count = int(goals.max())
-            if error.relative_rmse_high <= target_error:
+            if error.relative_rmse_high <= target_error and count >= coordinator.film.info.lamp_sample_count:
                 return coordinator.finish("error")
             if count >= samples:
                 return coordinator.finish("limit")
