@@ -15,12 +15,12 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double channels = 3.0;
 
 // It is uncertain as well if light that no sample has met is expected to add more than this share to the square, a
-// thirteenth of the root. Calibrated.
-constexpr double much_unseen = 0.15;
+// tenth of the root. Calibrated.
+constexpr double much_unseen = 0.2;
 
 // It is uncertain if it may be that many times as large, in squares, since light is as rare as values met once allow.
 // Calibrated.
-constexpr double much_more = 2.0;
+constexpr double much_more = 3.0;
 
 // Plain Halton points are the same in every pixel, so the errors of neighbours are not independent and scatter more.
 // Calibrated.

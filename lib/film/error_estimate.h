@@ -30,7 +30,7 @@ inline constexpr std::uint32_t min_estimate_samples = 16;
 inline constexpr double normal_95 = 1.96;
 
 // An estimate from fewer pixels is uncertain. Calibrated.
-inline constexpr double few_pixels = 6.0;
+inline constexpr double few_pixels = 4.0;
 
 // Of an estimate whose squares behave as those of so many pixels with equal errors: the share of the root that is added
 // to it, and the factor from it to its bounds.

@@ -11,9 +11,10 @@ PAGES += [*(ROOT / "tests").glob("*/**/*.md"), *(ROOT / "lib").glob("*/*.md")]
 CURRENT = [page for page in PAGES if page.name not in ("CHANGELOG.md", "NOTEBOOK.md")]  # they cover the past, too
 CODE = re.compile(r"\.(h|c|cpp|glsl|comp|py|json|csv|cmake|sh)$|^CMakeLists\.txt$")
 
-MOST_WORDS = {"README.md": 1260, "CONTRIBUTING.md": 1350, "cli/README.md": 5350, "shaders/README.md": 7190,
+# Limits of words: of a page, and of all pages but the changes.
+MOST_WORDS = {"README.md": 1260, "CONTRIBUTING.md": 1350, "cli/README.md": 5350, "shaders/README.md": 7330,
               "tests/bench/README.md": 1550}
-MOST_WORDS_IN_ALL = 25_970
+MOST_WORDS_IN_ALL = 26_150
 
 # A file and its text, with groups in the same order.
 NUMBERS = (
@@ -27,7 +28,7 @@ NUMBERS = (
     (r"with (\d+) bits of fraction", "shaders/gpu_layout.h", r"FILM_FRACTION_BITS = (\d+);"),
     (r"sequences have (\d+) dimensions", "lib/kernel/point_sequence.h", r"sequence_dimensions = (\d+);"),
     (r"\\max\(q, ([\d.]+)\)", "shaders/phong.glsl", r"LAST_SPECULAR_PROBABILITY = ([\d.]+);"),
-    (r"fewer than (\d+) pixels", "lib/film/error_estimate.cpp", r"few_pixels = (\d+)\.0;"),
+    (r"fewer than (\d+) pixels", "lib/film/error_estimate.h", r"few_pixels = (\d+)\.0;"),
     (r"[Ff]rom (\d+) samples on", "lib/film/error_estimate.h", r"min_estimate_samples = (\d+);"),
     (r"up to 2\^(\d+) spheres", "lib/scene/sphere_array_rules.h", r"max_sphere_count = std::uint64_t\{1\} << (\d+);"),
     (r"`libpt\.so\.(\d+)\.(\d+)`", "CMakeLists.txt", r"VERSION (\d+)\.(\d+)\.\d+"),

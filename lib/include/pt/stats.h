@@ -44,15 +44,15 @@ typedef struct pt_stats {
  * factor of two, except that small lamps in view only raise the error and its upper bound. More samples make an error
  * certain. */
 enum {
-    PT_UNCERTAIN_RMSE = 1, /**< rmse comes from fewer than 6 pixels: rare bright samples, or a small lamp */
-    /** relative_rmse comes from fewer than 6 pixels, or light that single samples have met may be so rare that its
-     * square is twice as large */
+    PT_UNCERTAIN_RMSE = 1, /**< rmse comes from fewer than 4 pixels: rare bright samples, or a small lamp */
+    /** relative_rmse comes from fewer than 4 pixels, or light that single samples have met may be so rare that its
+     * square is three times as large */
     PT_UNCERTAIN_RELATIVE_RMSE = 2,
-    /** More than 15% of the square of relative_rmse are expected from dark pixels beside very bright ones, as
+    /** More than a fifth of the square of relative_rmse are expected from dark pixels beside very bright ones, as
      * light that no sample has met. */
     PT_UNCERTAIN_UNSEEN = 4,
     /** Either lamps in view that less than half of a pixel's samples meet, since they are small, move, are out of focus
-     * or shine through translucent spheres: by their sizes they add more than the samples show, and fewer than 6
+     * or shine through translucent spheres: by their sizes they add more than the samples show, and fewer than 4
      * samples are expected to have met them. Or lamps that are found by chance (uniform, cosine,
      * bsdf), or lobes (uniform, cosine): one that matters was met fewer than a thousand times in all pixels. */
     PT_UNCERTAIN_UNMET = 8

@@ -123,7 +123,7 @@ class Feature(enum.IntFlag):
 class Uncertain(enum.IntFlag):
     """Why an error that is stated may be far off. Its bounds are then wider by a further factor of two."""
 
-    RMSE = 1  # rmse comes from fewer than 6 pixels
+    RMSE = 1  # rmse comes from fewer than 4 pixels
     RELATIVE_RMSE = 2
     UNSEEN = 4
     UNMET = 8
