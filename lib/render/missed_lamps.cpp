@@ -66,13 +66,16 @@ bool may_miss_lamps(const PreparedScene &scene, const Camera &camera, const Rend
     return static_cast<double>(samples) * share < enough_meetings;
 }
 
+// Fewer say too little about a lamp. Calibrated.
+constexpr double few_meetings = 6.0;
+
 void take_in_unmet_lamps(ErrorEstimate &error, const UnmetSquares &unmet, double value_count) {
     const auto raise = [&](const ExpectedSquares &squares, Interval &interval) {
         if (squares.sum == 0.0)
             return false;
         const double meetings = squares.meetings();
         const double root = std::sqrt(squares.sum / value_count) * (1.0 + share_added(meetings));
-        const bool is_uncertain = meetings < few_pixels && uncertain_factor * root > interval.estimate;
+        const bool is_uncertain = meetings < few_meetings && uncertain_factor * root > interval.estimate;
         if (root > interval.estimate) {
             interval.estimate = root;
             interval.high =

@@ -47,11 +47,11 @@ TEST(ErrorEstimate, IsTheRootOfTheMeanOfSquares) {
 TEST(ErrorEstimate, IsUncertainIfItComesFromFewPixels) {
     std::vector<float> errors(3 * 32 * 32, 0.0F);
     const std::vector<float> radiance(errors.size(), 1.0F);
-    for (std::size_t pixel = 0; pixel < 5; ++pixel)
+    for (std::size_t pixel = 0; pixel < 3; ++pixel)
         errors[3 * 50 * pixel] = 0.1F;
     const pt::ErrorEstimate few = estimate(32, radiance, errors);
     EXPECT_EQ(few.uncertain, unsigned{PT_UNCERTAIN_RMSE} | unsigned{PT_UNCERTAIN_RELATIVE_RMSE});
-    errors[3 * 50 * 5] = errors[3 * 50 * 6] = 0.1F;
+    errors[3 * 50 * 3] = errors[3 * 50 * 4] = 0.1F;
     EXPECT_EQ(estimate(32, radiance, errors).uncertain, 0U);
 }
 

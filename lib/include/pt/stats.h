@@ -52,7 +52,7 @@ enum {
      * light that no sample has met. */
     PT_UNCERTAIN_UNSEEN = 4,
     /** Either lamps in view that less than half of a pixel's samples meet, since they are small, move, are out of focus
-     * or shine through translucent spheres: by their sizes they add more than the samples show, and fewer than 4
+     * or shine through translucent spheres: by their sizes they add more than the samples show, and fewer than 6
      * samples are expected to have met them. Or lamps that are found by chance (uniform, cosine,
      * bsdf), or lobes (uniform, cosine): one that matters was met fewer than a thousand times in all pixels. */
     PT_UNCERTAIN_UNMET = 8
