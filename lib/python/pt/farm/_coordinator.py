@@ -213,7 +213,7 @@ class Coordinator:
             self._waiting.appendleft((each.number, each.part))
 
     def _may_try(self, member: Member, number: int) -> bool:
-        """Neither twice nor, while there are others, after failing at it."""
+        """No worker gets a part twice at once; one that failed gets it again only if all others failed too."""
         if any(each.number == number for each in member.tries.values()):
             return False
         tried = self._tries.get(number, [])

@@ -73,7 +73,7 @@ def distinct(labels: Array) -> tuple[Array, Array]:
     codes = np.full(len(labels), -1, np.int32)
     values: list[Any] = []
     while (first := int(np.argmin(codes))) < len(labels) and codes[first] < 0:
-        if len(values) == 64:  # comparing with a few labels is faster than sorting
+        if len(values) == 64:  # comparing is faster than sorting up to here
             unique, indices = np.unique(labels, return_inverse=True)
             return unique, indices.astype(np.int32).reshape(-1)
         codes[labels == labels[first]] = len(values)

@@ -24,7 +24,7 @@ WIDTH: Final = 8.0
 
 def far_away(positions: Array, radii: Array, notes: list[str]) -> Array | None:
     """Balls so far away that a picture of all would hardly show the others; None: none. A ball as large as all others
-    together is never one."""
+    together is never far away."""
     reaches = reaches_of(positions, radii)
     usual = usual_reach(reaches)
     usual = max(usual, float(reaches.max(where=radii > usual, initial=0.0)))

@@ -163,7 +163,7 @@ class Options:
 
     @property
     def bond_rule(self) -> Bonds:
-        """None: no bonds are drawn. A model of sticks has some."""
+        """None: no bonds are drawn. Models of sticks always have bonds."""
         given = not (self.bonds is None or self.bonds is False)
         return self.bonds if given else "auto" if self.drawn_model != "space-filling" else None
 

@@ -112,7 +112,7 @@ class Lines:
         return bytes(taken) if size < BLOCK_BYTES else cast(bytes, taken)
 
     def line(self) -> str | None:
-        """Without its end; None at the end of the file."""
+        """The next line without its end; None at the end of the file."""
         while (end := self._buffer.find(b"\n", self._next)) < 0 and self._fill():
             self._check_length()
         if self._next == len(self._buffer):
@@ -134,7 +134,7 @@ class Lines:
         return b"".join(blocks)
 
     def block(self, most: int = sys.maxsize) -> tuple[bytes, int]:
-        """Whole lines, up to `most` and up to a block, and their number; 0 at the end."""
+        """Up to `most` whole lines, at most a block of them, and their number; 0 at the end."""
         if len(self._buffer) - self._next < BLOCK_BYTES:
             self._fill()
         while (end := self._buffer.rfind(b"\n", self._next) + 1) == 0 and self._fill():
@@ -201,6 +201,6 @@ def _after_lines(data: bytes, start: int, end: int, most: int) -> tuple[int, int
 
 
 def ending(path: str) -> str:
-    """In lower case, without a packer's, such as .gz."""
+    """The lower-case ending before a packer's, such as .gz."""
     name = Path(path.lower())
     return Path(name.stem).suffix if name.suffix in PACKED_ENDINGS else name.suffix
