@@ -40,7 +40,7 @@ struct Refusal {
 };
 thread_local Refusal refusal;
 
-// Runs a call that is allowed at any time. A refused call touches nothing of the context.
+// For calls allowed at any time. A refused call touches nothing of the context.
 template <typename Call>
 pt_result guard_any_time(pt_context *context, Call &&call) noexcept {
     if (!context)
@@ -57,7 +57,7 @@ pt_result guard_any_time(pt_context *context, Call &&call) noexcept {
     return result;
 }
 
-// Runs a call that is refused while samples are running (pt/async.h).
+// For calls refused while samples are running (pt/async.h).
 template <typename Call>
 pt_result guard_context(pt_context *context, Call &&call) noexcept {
     return guard_any_time(context, [&](Renderer &renderer) {
@@ -100,7 +100,7 @@ pt_accumulate_info validated_accumulate(const pt_accumulate_info *info, bool may
 }
 
 // A context in use cannot be freed, so pt_destroy only logs; once, because the log function may call it. Silent in a
-// forked child, which may hold the context unintentionally, and where a vanished thread may have held the log's lock.
+// forked child, where a vanished thread may hold the log's lock.
 void refuse_to_destroy(pt_context &context, const char *reason) noexcept {
     const bool told = refusal.context == &context || context.in_use.not_of_this_process();
     refusal = {&context, reason};
@@ -110,7 +110,7 @@ void refuse_to_destroy(pt_context &context, const char *reason) noexcept {
         });
 }
 
-// Calls read() with the error of pt_last_error; or with NULL and a fixed message if this thread was refused or may not
+// Calls read() with the error of pt_last_error, or with NULL and a fixed message if this thread was refused or may not
 // see it.
 template <typename Read>
 auto read_last_error(const pt_context *context, Read &&read) noexcept {
@@ -302,7 +302,7 @@ pt_result pt_map_image(pt_context *context, const pt_image *image, void **data, 
 pt_result pt_readback_to_buffer(pt_context *context, const pt_buffer_image *image) {
     return pt::guard_context(context, [&](pt::Renderer &renderer) {
         const pt_buffer_image target = pt::copy_in(image, "image");
-        // The same; without a lent device no field matters.
+        // Without a lent device no field matters.
         const bool sized = renderer.is_on_lent_device() && renderer.width() > 0;
         renderer.readback(sized ? pt::validated_image(target, renderer.width(), renderer.row_count())
                                 : pt::BufferImage{});

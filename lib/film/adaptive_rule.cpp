@@ -10,11 +10,10 @@ namespace pt {
 
 namespace {
 
-constexpr std::uint64_t first_level = 16; // of fewer samples the difference of the film's parts says too little
+constexpr std::uint64_t first_level = 16; // fewer say too little about the error
 
-// Every tile takes at least half of the mean number of samples: light that a tile has not met yet can be found only by
-// more samples. In scenes where tiles differ 2 to 3 times in what they need, this costs a fiftieth of what telling
-// tiles apart gains.
+// Every tile takes at least half of the mean number of samples, since only more samples find light that a tile has not
+// met.
 constexpr std::uint64_t floor_share = 2;
 
 constexpr double root_of_half = 0.70710678118654752440;
@@ -36,7 +35,7 @@ std::int32_t last_content_round(double gain) {
     return -2 * exponent + (fraction <= 0.5 ? 2 : fraction <= root_of_half ? 1 : 0);
 }
 
-// The squares of tiles, grouped by the last round that asks nothing of them.
+// Sums of tiles' squares, by the last round that asks nothing of them.
 using SquaresByRound = std::map<std::int32_t, double>;
 
 SquaresByRound by_content_round(std::span<const double> gains, std::span<const double> squares) {
@@ -46,19 +45,18 @@ SquaresByRound by_content_round(std::span<const double> gains, std::span<const d
         if (!(gains[tile] > 0.0))
             continue;
         const std::int32_t round = last_content_round(gains[tile]);
-        if (last == sums.end() || last->first != round) // neighbours are alike
+        if (last == sums.end() || last->first != round) // neighbors are alike
             last = sums.try_emplace(round, 0.0).first;
         last->second += squares[tile];
     }
     return sums;
 }
 
-// The sum that is expected in a round. With stratified samples squares fall about as N^-1.5: as a tile's samples
-// double, its square falls by 2^1.5, and what it gains, which is its square by its samples, by 2^2.5. That takes five
-// rounds.
+// The sum expected in a round. With stratified samples squares fall about as N^-1.5: doubling a tile's samples divides
+// its square by 2^1.5 and its gain by 2^2.5, which takes five rounds.
 double expected_sum(const SquaresByRound &squares, std::int32_t round) {
-    constexpr std::int32_t rounds = 5; // of a doubling
-    constexpr std::int32_t halves = 3; // of the power of 2 by which a doubling lessens a square
+    constexpr std::int32_t rounds = 5; // per doubling
+    constexpr std::int32_t halves = 3; // a doubling divides a square by 2^(halves / 2)
     double sum = 0.0;
     for (const auto &[content, square] : squares)
         sum += square * power_of_halves(halves * std::max((round - content + rounds - 1) / rounds, 0));
@@ -75,10 +73,10 @@ bool is_level(std::uint64_t sample_count) {
     return sample_count >= first_level && std::has_single_bit(sample_count);
 }
 
-// The expected gain per sample: half of the square over the number of samples, without that constant half. Row by row,
-// because a division for each tile would take longer than all the rest.
+// Half of the square over the number of samples, without the constant half. Loops by rows, since a division per tile
+// would take longer than the rest.
 std::vector<double> tile_gains(const TileSamples &samples, std::span<const double> squares) {
-    std::vector<double> shares; // of the sets
+    std::vector<double> shares; // by set
     for (const SampleSet &set : samples.sets())
         shares.push_back(1.0 / static_cast<double>(std::max<std::uint64_t>(set.count(), 1)));
     const TileGrid &grid = samples.grid();
@@ -95,9 +93,8 @@ std::vector<double> tile_gains(const TileSamples &samples, std::span<const doubl
     return gains;
 }
 
-// If tiles have the variances v, samples in proportion to root(v) reach the same error with mean(root v)^2 / mean(v)
-// times the samples of an even film. Up to an eighth of that is lost again: counts are powers of two, v is off by a
-// fifth, and looks take time.
+// Tiles with the variances v reach the same error with mean(sqrt v)^2 / mean(v) times the samples of an even film, if
+// these are in proportion to sqrt(v). Up to an eighth of that is lost again.
 bool are_worth_telling_apart(std::span<const double> gains) {
     constexpr double least_ratio = 1.2;
     double sum = 0.0;
@@ -129,10 +126,8 @@ AdaptiveRound round_of_lamps(std::span<const double> gains) {
     return {most > 0.0 ? last_content_round(most) : 0, 0};
 }
 
-// The round in which the target is expected to be reached: rounds in between would take looks, and put samples no
-// better. (Measured on the coursework scene, two vertices, against half of the rounds at a time: 0.89 to 0.91 of the
-// time for the same error, 0.98 of that until the target is reached. With squares expected to fall as 1 / N the film
-// went 13% further than asked.)
+// Goes to the round in which the target is expected to be reached. Rounds in between would take looks, and place
+// samples no better.
 AdaptiveRound round_after(const AdaptiveRound &round, const TileSamples &samples, std::span<const double> squares,
                           std::span<const double> gains, double excess, bool sees_too_little) {
     const std::uint64_t pixels = std::uint64_t{samples.grid().width} * samples.grid().height;
@@ -147,7 +142,7 @@ AdaptiveRound round_after(const AdaptiveRound &round, const TileSamples &samples
         return next;
     }
     const std::int32_t content = std::max(round.number, by_round.begin()->first);
-    if (sees_too_little && excess <= 1.0) { // which another bound does not change
+    if (sees_too_little && excess <= 1.0) { // another bound would not change that
         next.number = content;
         return next;
     }
@@ -162,12 +157,10 @@ AdaptiveRound round_after(const AdaptiveRound &round, const TileSamples &samples
 
 namespace {
 
-// Until the error that tiles know by themselves is within this factor of the target, the image's own error is not
-// looked at. That one knows more and has bounds; in most scenes of cli/scenes it was 0.93 to 1.12 times as large, in
-// the others up to 5 times.
+// The image's own error is looked at once the tiles' own errors come this near to the target.
 constexpr double near_target = 1.2;
 
-// The error of the image as far as each tile knows its own part; tiles that know nothing do not count.
+// The image's error by the tiles that know their own.
 double error_of(const TileSamples &samples, std::span<const double> squares) {
     double sum = 0.0;
     for (const double square : squares)
@@ -175,7 +168,7 @@ double error_of(const TileSamples &samples, std::span<const double> squares) {
     return std::sqrt(sum / (3.0 * samples.grid().width * samples.grid().height));
 }
 
-// The tiles of which something holds, by their numbers and their samples of a pixel.
+// Calls holds(tile, samples of a pixel).
 template <typename Holds>
 std::vector<std::uint32_t> tiles_where(const TileSamples &samples, const Holds &holds) {
     std::vector<std::uint32_t> tiles;
@@ -187,7 +180,7 @@ std::vector<std::uint32_t> tiles_where(const TileSamples &samples, const Holds &
 
 } // namespace
 
-// Tiles that were interrupted on their way to a level are completed first, as far as the call allows.
+// Tiles interrupted on their way to a level go first, so far as the call allows.
 std::optional<TileStep> AdaptivePlan::next(const TileSamples &samples, AdaptiveRound &round) const {
     if (round.number == AdaptiveRound::none && samples.most() <= next_check(samples.least()))
         return next_together(samples, round);
@@ -196,8 +189,8 @@ std::optional<TileStep> AdaptivePlan::next(const TileSamples &samples, AdaptiveR
     return next_apart(samples, round);
 }
 
-// While all tiles are treated alike, the error is checked as for even samples, and before that, at each level, whether
-// it pays to tell tiles apart. Some tiles may be on the way from one of these counts to the next.
+// While all tiles are alike, checks the error as for even samples and, at each level before, whether treating tiles
+// differently pays. Some tiles may be between two of these counts.
 std::optional<TileStep> AdaptivePlan::next_together(const TileSamples &samples, AdaptiveRound &round) const {
     const std::uint64_t count = samples.least();
     if (samples.even() && is_level(count) && are_worth_telling_apart(tile_gains(samples, film_.squares())))
@@ -209,8 +202,8 @@ std::optional<TileStep> AdaptivePlan::next_together(const TileSamples &samples, 
                     [goal](std::uint32_t) { return goal; }};
 }
 
-// A tile that the call holds back, at a level or on its way to one, keeps the round under way. A tile that has all that
-// it may ever have does not: then those with the fewest take more.
+// Tiles that the call holds back keep the round under way. Tiles at their limit do not: then those with the fewest
+// samples take more.
 std::optional<TileStep> AdaptivePlan::next_apart(const TileSamples &samples, AdaptiveRound &round) const {
     const std::vector<double> squares = film_.squares();
     const std::vector<double> gains = tile_gains(samples, squares);
@@ -238,7 +231,7 @@ std::optional<TileStep> AdaptivePlan::next_apart(const TileSamples &samples, Ada
     return to_next_level(samples, std::move(tiles));
 }
 
-// The end, unless lamps in view are still to be met. In a round tiles with such lamps want samples.
+// Ends, unless lamps in view are still to be met. Tiles with such lamps want samples in every round.
 std::optional<TileStep> AdaptivePlan::next_on_target(const TileSamples &samples, AdaptiveRound &round) const {
     const std::vector<std::uint64_t> lamps = film_.samples_for_lamps();
     std::vector<std::uint32_t> tiles =
@@ -250,7 +243,7 @@ std::optional<TileStep> AdaptivePlan::next_on_target(const TileSamples &samples,
     return to_next_level(samples, std::move(tiles));
 }
 
-// Tiles that were interrupted on their way to a level, or have not begun.
+// Tiles interrupted on their way to a level, or without samples.
 std::vector<std::uint32_t> AdaptivePlan::unfinished_tiles(const TileSamples &samples) const {
     return tiles_where(samples,
                        [this](std::uint32_t, std::uint64_t has) { return !is_level(has) && has < counts_.limit; });

@@ -14,29 +14,26 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double channels = 3.0;
 
-// It is uncertain as well if light that no sample has met is expected to add more than this share to the square, a
-// tenth of the root. Calibrated.
+// Uncertain if unmet light is expected to add more than this share to the square, a tenth of the root. Calibrated.
 constexpr double much_unseen = 0.2;
 
-// It is uncertain if it may be that many times as large, in squares, since light is as rare as values met once allow.
+// Uncertain if the square may be this many times as large, since light may be as rare as values met once allow.
 // Calibrated.
 constexpr double much_more = 3.0;
 
-// Plain Halton points are the same in every pixel, so the errors of neighbours are not independent and scatter more.
-// Calibrated.
+// Plain Halton points are the same in every pixel, so errors of neighbors are dependent and scatter more. Calibrated.
 double margin(std::uint32_t sampler) {
     return sampler == PT_SAMPLER_HALTON ? 1.2 : 1.0;
 }
 
-// Numbers of quasi-random points at which the error falls by a tenth or more too slowly, compared with N^-1/2, are not
-// rare, and the parts of a film show too little of that (exaggeration()). So this much more is stated, but never beyond
-// the bounds; for uncertain errors the bounds are wide enough anyway. Calibrated.
+// Quasi-random errors often fall a tenth too slowly, compared with N^-1/2, and the film's parts show too little of that
+// (exaggeration()). So stated errors are this much larger, within the bounds; bounds of uncertain errors are wide
+// enough anyway. Calibrated.
 double margin_of_sequence(std::uint32_t sampler) {
     return sampler == PT_SAMPLER_RANDOM ? 1.0 : 1.145;
 }
 
-// How many pixels with equal errors would make a sum equally uncertain: each of n such squares is a share 1 / n of the
-// sum, and the squares of these shares add up to 1 / n.
+// Number of pixels with equal errors that would make a sum equally uncertain.
 double pixel_count(const ErrorSquares &squares) {
     return squares.sum > 0.0 ? squared(squares.sum) / squares.of_pixels : infinity;
 }
@@ -49,19 +46,18 @@ void add_squares(ErrorSquares &to, const ErrorSquares &other, double factor = 1.
     to.times_tile_sizes += factor * other.times_tile_sizes;
 }
 
-// Suppose that the samples of a pixel are expected to meet some kind of light w times. With q = e^(-w / 2), neither
-// half of the samples meets it in a share q^2 of the pixels, one half in 2 q (1 - q), and both in (1 - q)^2. So w is 2
-// ln(1 + 2 b), with b the number of pixels where both have met it over that where one has. A pixel of the mean T that
-// was met once is then expected to have the limit w T, by which its error is 1 / w times what it is by T. So lamps
-// smaller than a pixel, which are met again as often as once, are told from rare bright samples, which are hardly ever
-// met twice.
+// Let a pixel's samples be expected to meet some light w times. With q = e^(-w / 2), neither half of the samples meets
+// it in a share q^2 of the pixels, one half in 2 q (1 - q), and both in (1 - q)^2. So w = 2 ln(1 + 2 b), for b the
+// pixels met by both halves over those met by one. A pixel of mean T that was met once has the expected limit w T, so
+// its error is 1 / w times its error by T. Lamps smaller than a pixel are met again as often as once; rare bright
+// samples hardly ever are.
 double square_by_meetings(double met_once, double met_again) {
     const double meetings = 2.0 * std::log1p(2.0 * met_again / (met_once + 1.0));
     return std::max(1.0, 1.0 / squared(meetings));
 }
 
-// The relative squares, if both parts of the film met so many pixels. Values met once count by what is known without
-// them, or by how many were met again if that gives less.
+// met_again: pixels that both parts of the film met. Values met once count by their limits without them or, if that is
+// less, by the number met again.
 ErrorSquares relative_squares(const TileErrors &all, double met_again) {
     const double factor = square_by_meetings(all.as_lamps.sum / channels, met_again);
     ErrorSquares squares = all.relative_square;
@@ -74,16 +70,14 @@ ErrorSquares relative_squares(const TileErrors &all, double met_again) {
 
 } // namespace
 
-// Squares scatter: the root of a sum that rests on n pixels is by a share of about 1 / (2 sqrt(n)) too small as often
-// as too large, or by more than that if it is the brightest that are missing. A little more than one such share is
-// added, because a stated error that is too small does more harm, and of few pixels still more: calibrated.
+// The root of a sum over n pixels deviates by about 1 / (2 sqrt(n)), and more if the brightest are missing. A little
+// more than that is added, since understated errors do more harm. Calibrated.
 double share_added(double pixel_count) {
     return 0.6 / std::sqrt(pixel_count) + 1.2 / pixel_count;
 }
 
-// The logarithm of a root of n equal normal squares has a standard deviation of 1 / sqrt(2 n); n such squares count as
-// n / 3 pixels, as the fourth power of a normal number is 3 on the average. The picture's own errors scatter as those
-// that its parts show, so together it is 1 / sqrt(3 n) for n pixels.
+// The logarithm of the root of m equal normal squares deviates by 1 / sqrt(2 m), and m = 3 n squares count as n pixels,
+// since E x^4 = 3. The picture's own errors scatter as much, so together they deviate by 1 / sqrt(3 n).
 double spread_of_pixels(double pixel_count) {
     return std::exp(normal_95 / std::sqrt(3.0 * pixel_count));
 }
@@ -119,9 +113,9 @@ bool is_check(std::uint64_t sample_count) {
 }
 
 double exaggeration(std::uint32_t sampler) {
-    // If the mean square error falls as N^-p, the expectation of a quarter of the squared difference of the two runs
-    // of N / 2 points that make up one of N is 2^p - 1 of it: exact for p = 1, the slowest that is usual, and too
-    // much by 7 for p = 3, as fast as scrambled nets come to (Owen 1997).
+    // If the mean square error falls as N^-p, a quarter of the squared difference of two runs of N / 2 points is
+    // expected to be 2^p - 1 times as large: exact for p = 1, the slowest usual, 7 times too much for p = 3, the
+    // fastest of scrambled nets (Owen 1997).
     return sampler == PT_SAMPLER_RANDOM ? 1.0 : std::sqrt(7.0);
 }
 
@@ -142,9 +136,8 @@ void ErrorEstimator::add(const TileErrors &tiles) {
     all_.rejected += tiles.rejected;
 }
 
-// Tiles are independent of each other: the variance of the sum S over n values is estimated by the sum of the squares
-// of their deviations from the mean, s - c S / n for a tile with c values. That their expectations differ too only adds
-// to it.
+// Tiles are independent. The variance of the sum S over n values is estimated by the sum of (s - c S / n)^2 over tiles
+// with sum s and c values. Different expectations of tiles only add to it.
 Interval ErrorEstimator::root_mean(const ErrorSquares &squares, double other_squares, bool uncertain) const {
     const bool shows_nothing = squares.sum + other_squares == 0.0;
     if (!std::isfinite(squares.sum) || (shows_nothing && uncertain))
@@ -165,8 +158,8 @@ Interval ErrorEstimator::root_mean(const ErrorSquares &squares, double other_squ
             estimate * spread};
 }
 
-// How many pixels were met again is known to within their square root; none may mean that light is far rarer. Where
-// lamps are found by chance there are rare samples of all kinds, and the less rare ones tell nothing about the others.
+// The number of pixels met again is known to within its square root; none may mean that light is far rarer. Where lamps
+// are found by chance, less rare samples say nothing about rarer ones.
 ErrorEstimate ErrorEstimator::result() const {
     const double again = all_.met_again / channels;
     const bool by_chance = conditions_.finds_lamps_by_chance;

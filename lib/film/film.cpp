@@ -14,7 +14,7 @@ namespace pt {
 
 namespace {
 
-// Largest tile in memory, 7 MB, unless a row is longer: so little is held twice while another film's tiles cut it.
+// 7 MB, unless a row is longer: little is held twice while another film's tiles cut a tile.
 constexpr std::uint32_t most_tile_pixels = 1U << 16;
 
 std::string where(const Rectangle &pixels) {
@@ -61,7 +61,7 @@ std::vector<FilmTile> Film::list() const {
     return tiles;
 }
 
-// Throws PT_ERROR_INCOMPATIBLE if a pixel has a sample both here and in others. map: of others.
+// Throws PT_ERROR_INCOMPATIBLE if a pixel has a sample in both. map: of others.
 void Film::require_disjoint(const std::vector<FilmTile> &others, const TileMap &map) const {
     for (const Tile &own : tiles_)
         for (const TileMap::Piece &piece : map.cut(own.pixels))
@@ -69,8 +69,7 @@ void Film::require_disjoint(const std::vector<FilmTile> &others, const TileMap &
                 require_apart(others[*piece.tile].samples, own.samples, where(piece.pixels));
 }
 
-// Cuts tile by tile, so that only one is held twice. Each tile then lies within one tile of the map, or outside all of
-// them.
+// Cuts tile by tile, so that only one is held twice. Each tile then lies within a tile of the map, or outside all.
 void Film::cut_along(const TileMap &map) {
     const std::size_t count = tiles_.size();
     for (std::size_t i = 0; i < count; ++i) {
@@ -86,7 +85,7 @@ void Film::cut_along(const TileMap &map) {
     }
 }
 
-// The parts of tiles outside all tiles of the map.
+// Parts of tiles outside the map.
 std::vector<Film::Tile> Film::outside(const TileMap &map, std::vector<Tile> tiles) {
     std::vector<Tile> found;
     for (Tile &tile : tiles)
@@ -100,8 +99,8 @@ std::vector<Film::Tile> Film::outside(const TileMap &map, std::vector<Tile> tile
     return found;
 }
 
-// Adds the pixels that another tile shares with this one. samples: of both. If a film moves to another split, all its
-// samples are on one side of it.
+// Adds the pixels that another tile shares with this one. samples: of both. A film that moves to another split has all
+// samples on one side of it.
 void Film::add_to(Tile &tile, const Tile &other, SampleSet samples) noexcept {
     const std::uint64_t split = split_of(samples.hull());
     const std::uint64_t others_split = split_of(other.samples.hull());
@@ -129,7 +128,7 @@ void Film::add(Film other) {
     cut_along(theirs);
     std::vector<FilmTile> sum = list();
     const TileMap own(sum);
-    std::vector<std::pair<std::size_t, std::size_t>> meetings; // an own tile, and the other's with its pixels
+    std::vector<std::pair<std::size_t, std::size_t>> meetings; // own tile, other tile with its pixels
     for (std::size_t i = 0; i < tiles_.size(); ++i)
         if (const TileMap::Span *const span = theirs.find(tiles_[i].pixels.x, tiles_[i].pixels.y)) {
             meetings.emplace_back(i, span->tile);
@@ -172,7 +171,7 @@ void Film::stream(const FilmStream::Receive &receive) const {
     stream.end();
 }
 
-// Streams a plane of a tile, row by row. Each piece is in one tile in memory.
+// Each piece is in one tile in memory.
 void Film::stream_plane(const std::vector<TileMap::Piece> &pieces, std::uint32_t part, std::size_t plane,
                         FilmStream &stream) const {
     for (auto first = pieces.begin(); first != pieces.end();) {
@@ -235,8 +234,7 @@ void Film::read_rows_from(std::uint32_t first_row, PixelSums &sums) const {
         sums.copy(rows, tile.sums, tile.pixels);
 }
 
-// As in a context with these samples. If no context can have such tiles, all pixels count as if they had the fewest
-// samples, and every tile as changed.
+// If no context can have such tiles, all pixels count with the fewest samples, and every tile as changed.
 ErrorEstimate Film::error() const {
     if (const std::optional<TileSamples> samples = tile_samples(header_.tiles, bounds_))
         return error(*samples, errors_);

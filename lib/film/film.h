@@ -1,5 +1,4 @@
-// A film on the host: its header, and its tiles' exact sums. Opened from bytes, added to, read as an image and written
-// again, without a device. Behind pt_film.
+// A film on the host: its header, and its tiles' exact sums. It needs no device. Behind pt_film.
 #pragma once
 
 #include "lib/film/adaptive_rule.h"
@@ -33,39 +32,39 @@ public:
     // The smallest rectangle of the image with all of the film's pixels.
     const Rectangle &bounds() const { return bounds_; }
 
-    // Adds another film in place, with little more memory. Throws PT_ERROR_INCOMPATIBLE if it is of another picture or
-    // a pixel has the same sample in both. After an exception nothing has changed.
+    // Adds another film in place, with little more memory. Throws PT_ERROR_INCOMPATIBLE for another picture, or if a
+    // pixel has a sample in both. After an exception nothing has changed.
     void add(Film other);
 
     // bytes: of the size of header()'s layout.
     void write(std::span<std::byte> bytes) const;
 
-    // Hands out the same bytes piece by piece.
+    // Hands out the same bytes in pieces.
     void stream(const FilmStream::Receive &receive) const;
 
-    // The fewest of any pixel within the bounds; 0 if one has none.
+    // Fewest of any pixel within the bounds, perhaps 0.
     std::uint64_t sample_count() const;
     std::uint64_t max_sample_count() const;
     std::uint64_t total_samples() const; // summed over pixels
 
-    // Calls receive(x, y, values) for the film's pixels in a rectangle of the image: runs within rows, in order.
-    // quantity: as for PixelSums::values().
+    // Calls receive(x, y, values) for runs of pixels within rows, in order. pixels: of the image. quantity: as for
+    // PixelSums::values().
     using ReceiveRow = std::function<void(std::uint32_t x, std::uint32_t y, const std::vector<float> &values)>;
     void read(const Rectangle &pixels, std::uint32_t quantity, const ReceiveRow &receive) const;
 
-    // The error of the image within the bounds.
+    // Within the bounds.
     ErrorEstimate error() const;
 
     // Summed over pixels.
     std::uint64_t rejected_samples() const;
 
-    // The samples by tile of a grid over the bounds. Throws PT_ERROR_INCOMPATIBLE if the film's tiles cut the grid's.
+    // By tile of a grid over the bounds. Throws PT_ERROR_INCOMPATIBLE if the film's tiles cut the grid's.
     TileSamples samples_by_tile() const;
 
-    // How many samples of a pixel meet all lamps in view that are smaller than one; 0: there are none.
+    // Samples of a pixel that meet all lamps in view smaller than a pixel; 0: no such lamps.
     std::uint32_t samples_for_lamps() const;
 
-    // What the tiles are to take next (adaptive_rule.h). Moves on to the next round where one is over.
+    // The next samples of tiles (adaptive_rule.h). Begins the next round when one is over.
     std::optional<TileStep> plan(const TileSamples &samples, double target_error, std::uint64_t most);
 
     // Tiles of the grid over the bounds.

@@ -26,14 +26,14 @@ constexpr std::string_view lamps_name = "lamps";
 // Far more rounds than double-precision errors can take.
 constexpr std::uint64_t max_round = 10'000;
 
-// Several times the present number. Limits memory, as short lines would take many times their length.
+// Several times the present number. Limits memory, since short lines take many times their length.
 constexpr std::size_t max_facts = 100;
 
 [[noreturn]] void refuse(const std::string &message) {
     throw Error(PT_ERROR_INCOMPATIBLE, "film: " + message);
 }
 
-// Removes a text's first line and returns it.
+// Removes and returns the first line.
 std::string_view take_line(std::string_view &text) {
     const std::size_t end = text.find('\n');
     if (end == std::string_view::npos)
@@ -45,7 +45,7 @@ std::string_view take_line(std::string_view &text) {
     return line;
 }
 
-// Numbers separated by blanks; nothing if there are more, fewer, or anything else.
+// Numbers separated by blanks; nothing for other text.
 template <std::size_t Count>
 std::optional<std::array<std::uint64_t, Count>> numbers(std::string_view text) {
     std::array<std::uint64_t, Count> values{};
@@ -109,7 +109,7 @@ void read_lamps(std::string_view value, FilmHeader &header) {
                             static_cast<std::uint32_t>((*lamps)[2])});
 }
 
-// Checks each tile, and all together: they are pixels of one image.
+// All tiles are pixels of one image.
 void require_counts(const std::vector<FilmTile> &tiles) {
     std::uint64_t pixels = 0;
     for (const FilmTile &tile : tiles) {

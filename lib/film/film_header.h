@@ -1,5 +1,4 @@
-// A film's header: its picture, and the samples of its pixels. Text, a line per fact (FORMAT.md). Written and read by
-// film_bytes.
+// A film's header: its picture, and the samples of its pixels. Text, a line per fact (FORMAT.md).
 #pragma once
 
 #include "lib/film/sample_set.h"
@@ -14,7 +13,7 @@
 
 namespace pt {
 
-// All that decides the samples' bits, as names and values. Films can be added only if these are equal.
+// Facts decide the samples' bits. Films can be added only if all are equal.
 struct FilmFact {
     std::string name;
     std::string value;
@@ -58,19 +57,19 @@ struct FilmTile {
 struct AdaptiveRound {
     static constexpr std::int32_t none = std::numeric_limits<std::int32_t>::min();
 
-    std::int32_t number = none; // the bound is 2^(-number / 2), of squared relative error per sample and pixel
+    std::int32_t number = none; // bound: 2^(-number / 2), of squared relative error per sample and pixel
     std::uint64_t floor = 0;    // samples that every pixel is to have
 
     bool operator==(const AdaptiveRound &) const = default;
 };
 
-// Of two films that are added.
+// The round of two films' sum.
 inline AdaptiveRound later_of(const AdaptiveRound &a, const AdaptiveRound &b) {
     return {std::max(a.number, b.number), std::max(a.floor, b.floor)};
 }
 
-// Lamps in view, smaller than a pixel, in a square of the image of lamp_square pixels a side: its corner, multiples of
-// that from the image's, and how many samples of a pixel are needed to meet the least of them.
+// Lamps smaller than a pixel in a square of the image, lamp_square pixels a side: its corner, a multiple of that, and
+// the samples of a pixel needed to meet the least lamp.
 struct LampSquare {
     std::uint32_t x;
     std::uint32_t y;
@@ -81,13 +80,13 @@ struct LampSquare {
 
 inline constexpr std::uint32_t lamp_square = 8;
 
-// In the order of rows, each square once, with the most samples needed.
+// Ordered by rows, each square once, with the most samples needed.
 std::vector<LampSquare> united(std::vector<LampSquare> lamps);
 
 struct FilmHeader {
     FilmIdentity identity;
     std::vector<FilmTile> tiles; // their sums follow in this order
-    AdaptiveRound round{};       // the one under way to a target error, if any
+    AdaptiveRound round{};       // towards a target error, if any
     std::vector<LampSquare> lamps{};
 
     bool operator==(const FilmHeader &) const = default;
@@ -96,7 +95,7 @@ struct FilmHeader {
 // Ends with an empty line.
 std::string text_of(const FilmHeader &header);
 
-// The inverse of text_of. Throws PT_ERROR_INCOMPATIBLE for any other text or version.
+// Inverse of text_of(). Throws PT_ERROR_INCOMPATIBLE for any other text or version.
 FilmHeader parsed_film_header(std::string_view text);
 
 } // namespace pt

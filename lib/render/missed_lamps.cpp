@@ -13,9 +13,8 @@ namespace pt {
 
 namespace {
 
-// Roughly the share of directions that the narrowest lobe covers, for estimators that find lobes by chance: of n + 1
-// uniform directions over a hemisphere, one lies within the half-width of a lobe of glossiness n around the mirror
-// direction.
+// Roughly the share of directions in the narrowest lobe, for estimators that find lobes by chance. One of n + 1 uniform
+// directions lies within the half-width of a lobe of glossiness n.
 double smallest_lobe_share(const PreparedScene &scene, std::uint32_t estimator) {
     double share = 1.0;
     if (estimator == PT_ESTIMATOR_UNIFORM || estimator == PT_ESTIMATOR_COSINE)
@@ -25,8 +24,7 @@ double smallest_lobe_share(const PreparedScene &scene, std::uint32_t estimator) 
     return share;
 }
 
-// Of all directions, those of the cone around a sphere: (1 - cos a) / 2, as sin^2 a / (2 (1 + cos a)), by which small
-// ones lose no digits.
+// The share of directions towards a sphere: (1 - cos a) / 2 = sin^2 a / (2 (1 + cos a)), which does not cancel.
 double share_of(const SeenSphere &sphere) {
     const double sine = sphere.radius / sphere.distance;
     const double cosine = std::sqrt((1.0 - sine) * (1.0 + sine));
@@ -36,8 +34,8 @@ double share_of(const SeenSphere &sphere) {
 } // namespace
 
 double smallest_lamp_share(std::span<const Sphere> lamps, std::span<const Material> materials, const Camera &camera) {
-    constexpr double least_light = 0.01;           // the share of that of all lamps below which a lamp is not missed
-    std::vector<std::pair<double, double>> shares; // with the light of each
+    constexpr double least_light = 0.01;           // of all lamps' light; darker lamps are not missed
+    std::vector<std::pair<double, double>> shares; // with each lamp's light
     double all_light = 0.0;
     for (const Sphere &lamp : lamps) {
         const Material &material = materials[lamp.material];

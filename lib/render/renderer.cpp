@@ -1,5 +1,4 @@
-// A renderer's state: devices, scene, camera, settings, kernels; see renderer.h. renderer_samples.cpp takes samples,
-// renderer_output.cpp reads them.
+// A renderer's state. renderer_samples.cpp takes samples, renderer_output.cpp reads them.
 #include "lib/render/renderer.h"
 
 #include "lib/base/error.h"

@@ -1,5 +1,4 @@
-// From settings to exact sums: specialises kernels, dispatches slices, reads back. One per pt_context, called by
-// api.cpp.
+// From settings to exact sums: specialises kernels, dispatches slices, reads back. One per pt_context.
 #pragma once
 
 #include "lib/base/error.h"
@@ -47,15 +46,14 @@ struct CreateSettings {
     std::string shader_directory; // empty: the library's kernels
     Log log;
     std::uint32_t submit_milliseconds = 50;
-    std::optional<vulkan::CallerVulkan> vulkan; // empty: the library makes its own device; else without validation
+    std::optional<vulkan::CallerVulkan> vulkan; // empty: the library's own device; else without validation
     vulkan::KernelStore kernel_store;
-    std::uint32_t devices_of_each = 1;          // render devices per named one, so that tests can share work on one
-    bool like_gpus = false;                     // treats CPUs like GPUs, for tests without a GPU
+    std::uint32_t devices_of_each = 1;          // render devices per named one, so that tests can share work
+    bool like_gpus = false;                     // treats CPUs like GPUs, for tests
     std::optional<std::uint32_t> tree_from{};   // for tests of trees over few spheres
     std::optional<std::uint32_t> adaptive_from; // for tests of few samples
 };
 
-// All Vulkan devices of this machine.
 std::vector<pt_device_info> list_devices();
 
 // Methods throw pt::Error. A failed method has changed nothing, except that a lost device stays lost, and that methods
@@ -68,7 +66,7 @@ public:
     const Log &log() const { return instance_.log(); }
     const pt_device_info &device() const { return devices_.front()->device().info(); }
 
-    // Size of the rendered image: all columns, and the rows in the settings.
+    // Size of the rendered image: all columns, the settings' rows.
     std::uint32_t width() const { return settings_ ? settings_->width : 0; }
     std::uint32_t row_count() const { return settings_ ? settings_->row_count : 0; }
 
@@ -79,7 +77,7 @@ public:
     void set_camera(const Camera &camera);
     void set_render(const RenderSettings &settings);
 
-    // Compiles the kernels again; discards the samples if any has changed.
+    // Discards the samples if a kernel has changed.
     void reload_shaders();
 
     // On all devices, or on none if a driver refuses.
@@ -91,7 +89,7 @@ public:
     // Returns PT_OK, PT_CANCELLED or PT_TARGET_REACHED.
     pt_result accumulate(const pt_accumulate_info &wanted);
 
-    // The same without waiting: PT_PENDING if samples are under way, or PT_TARGET_REACHED.
+    // Does not wait: PT_PENDING if samples are under way, or PT_TARGET_REACHED.
     pt_result start(const pt_accumulate_info &wanted);
 
     struct Advance {
@@ -99,12 +97,11 @@ public:
         double fraction;  // done share of the samples
     };
 
-    // Takes in finished samples and deals out the next, for at most this long. If it throws, no samples are under way
-    // any more.
+    // Takes in finished samples and deals out the next, for at most this long. If it throws, no samples are under way.
     Advance poll(std::uint64_t nanoseconds);
 
-    // Begins no more samples; poll() returns when the present ones have ended. False if nothing is under way. Any
-    // thread.
+    // Begins no more samples; poll() returns when the present ones have ended. False if nothing is under way.
+    // Thread-safe.
     bool cancel() noexcept { return cancellation_.ask(); }
     static constexpr const char *nothing_under_way = "no samples are under way: call pt_start first";
 
@@ -113,24 +110,23 @@ public:
     void readback(const Image &image);
     void readback(const BufferImage &image);
 
-    // An image without gaps, in memory valid until the next call, set_render() or reload_shaders().
+    // Without gaps, in memory valid until the next call, set_render() or reload_shaders().
     std::span<std::byte> map(const ImageLayout &layout);
 
-    // The film of the samples so far.
     FilmHeader film_header();
-    void save_film(const FilmHeader &header, std::span<std::byte> bytes) const; // of the size of its FilmLayout
+    void save_film(const FilmHeader &header, std::span<std::byte> bytes) const; // of FilmLayout's size
     void add_film(std::span<const std::byte> bytes);
 
     pt_stats stats();
 
-    // About what is seen (displacement.h); NULL if there is none. Stays until the next call.
+    // About the visible scene (displacement.h); may be NULL. Valid until the next call.
     const BrokenRule *warning();
 
-    // The error of the image, including what lamps in view add that samples have hardly met. On the way to a target
-    // error these must be met first, so it does not matter there, and films that are added elsewhere need not know it.
+    // Includes lamps in view that samples have hardly met. On the way to a target error these must be met first, so
+    // films added elsewhere need not know them.
     ErrorEstimate error_with_lamps();
 
-    // Accuracy of the first device's elementary functions. Leaves the samples alone.
+    // Accuracy of the first device's elementary functions.
     std::vector<pt_function_accuracy> accuracy();
 
 private:
@@ -138,9 +134,9 @@ private:
     struct Job {
         double target_error; // relative; 0: none
         MostSamples counts;
-        std::uint64_t together_to;        // until all tiles have as many, they take the same ones
+        std::uint64_t together_to;        // until all tiles have as many, they take the same samples
         bool is_together;                 // while that lasts
-        std::vector<std::uint64_t> goals; // or what each tile is to have, without a look at any error
+        std::vector<std::uint64_t> goals; // or wanted samples by tile, without looks at errors
         Accumulation accumulation;
     };
 
@@ -191,10 +187,10 @@ private:
     TileSamples samples_;                               // in the films
     AdaptiveRound round_;                               // reached by the samples
     std::optional<ErrorEstimate> error_;                // of the samples; computed on demand
-    std::optional<std::uint64_t> rejected_samples_;     // likewise
-    std::vector<double> tile_squares_;                  // likewise; empty until then
-    std::vector<std::byte> mapped_image_;               // as far as the host makes images that are mapped
-    std::optional<std::vector<LampPiece>> small_lamps_; // of the scene, camera and settings, once they are asked for
+    std::optional<std::uint64_t> rejected_samples_;     // of the samples; computed on demand
+    std::vector<double> tile_squares_;                  // of the samples; empty until asked for
+    std::vector<std::byte> mapped_image_;               // for mapped images that the host makes
+    std::optional<std::vector<LampPiece>> small_lamps_; // of scene, camera and settings; computed on demand
     std::optional<BrokenRule> warning_;
     DeviceWork work_;
     Cancellation cancellation_; // of job_, present or about to begin

@@ -1,4 +1,3 @@
-// A renderer's output: errors, images, films, statistics; see renderer.h.
 #include "lib/base/error.h"
 #include "lib/film/film_bytes.h"
 #include "lib/film/film_facts.h"
@@ -40,8 +39,7 @@ void read_first_hits(const Image &image, const RenderSettings &settings, const s
     });
 }
 
-// Both numbers are below 2^32, so the double quotient, rounded to float, is correctly rounded, except within 2^-53 of
-// the middle of two floats.
+// Quotients of numbers below 2^32 are correctly rounded, except within 2^-53 of the middle of two floats.
 void read_coverage(const Image &image, const TileSamples &samples, const RenderSettings &settings,
                    const std::shared_ptr<const GpuScene> &scene, RenderDevice &device) {
     const Rectangle &pixels = image.layout.pixels;
@@ -63,7 +61,7 @@ void read_coverage(const Image &image, const TileSamples &samples, const RenderS
 
 } // namespace
 
-// Parallel rays may start far away, so lamps' sizes are judged from where the kernel's coordinates begin.
+// Parallel rays may start far away, so lamps' sizes are judged from the origin of the kernel's coordinates.
 Camera Renderer::ray_start() {
     Camera start = *camera_;
     if (start.is_orthographic())
@@ -79,7 +77,7 @@ const ErrorEstimate &Renderer::error() {
     return *error_;
 }
 
-// by_tile: as in ErrorQuery. is_recorded: as FilmView has it.
+// by_tile: as in ErrorQuery. is_recorded: as in FilmView.
 void Renderer::look(std::span<double> by_tile, bool is_recorded) {
     const KernelsKept kept(devices_);
     const std::uint64_t samples = samples_.total();
@@ -158,7 +156,7 @@ void Renderer::readback(const Image &image) {
         view_.read(image, query(image.layout), samples_);
 }
 
-// If no device makes the image in memory that the host can read, the host makes it.
+// The host makes the image if no device makes it in memory that the host can read.
 std::span<std::byte> Renderer::map(const ImageLayout &layout) {
     require_settings();
     if (layout.quantity <= PT_QUANTITY_SAMPLE_COUNT) {

@@ -1,4 +1,3 @@
-// Takes samples: a given number, or up to a target error; see renderer.h.
 #include "lib/base/error.h"
 #include "lib/film/adaptive_rule.h"
 #include "lib/kernel/gpu_scene.h"
@@ -64,7 +63,7 @@ void Renderer::begin(const pt_accumulate_info &wanted, bool is_polled) {
     }
 }
 
-// is_polled: builds all kernels now; otherwise they are built on demand.
+// is_polled: builds all kernels now, not on demand.
 void Renderer::make_job(const pt_accumulate_info &wanted, bool is_polled) {
     require_settings();
     require_tiles(wanted);
@@ -106,7 +105,7 @@ void Renderer::end_job() noexcept {
     cancellation_.end();
 }
 
-// With short paths a look costs the time of more samples, so tiles are treated differently later.
+// A look costs the time of more samples with short paths, so tiles differ later.
 std::uint64_t Renderer::adaptive_from() const {
     const std::uint64_t samples = devices_.front()->device().policy().adaptive_from;
     return settings_->max_path_length > 2 ? samples : 4 * samples;
@@ -163,7 +162,7 @@ pt_result Renderer::advance(Accumulation::Clock::time_point until) {
     }
 }
 
-// Returns nothing if a step has begun, otherwise the result.
+// Nothing if a step has begun, otherwise the result.
 std::optional<pt_result> Renderer::next_step() {
     const auto unless_done = [](bool goes_on) { return goes_on ? std::nullopt : std::optional<pt_result>(PT_OK); };
     if (job_->is_together && samples_.of(0).count() < job_->together_to)
@@ -185,7 +184,7 @@ std::optional<pt_result> Renderer::next_step() {
     return unless_done(job_->accumulation.set_goal(step->tiles, step->goal));
 }
 
-// Goes from one sample count with an error check to the next.
+// Goes from one error check to the next.
 std::optional<pt_result> Renderer::next_step_together() {
     const std::uint64_t count = samples_.of(0).count();
     if (is_on_target(job_->target_error))
@@ -208,7 +207,7 @@ void Renderer::forget_error() noexcept {
     rejected_samples_.reset();
 }
 
-// Completes begun samples, so that the films hold whole ones. If that fails too, the films are void.
+// Completes begun samples. If that fails too, the films are void.
 void Renderer::give_up() noexcept {
     try {
         if (job_->accumulation.complete())

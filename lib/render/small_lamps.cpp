@@ -12,15 +12,15 @@ namespace pt {
 
 namespace {
 
-// Larger shares of a pixel are met often enough by 16 samples, the fewest with which an error is stated. Calibrated.
+// Sixteen samples, the fewest with a stated error, meet larger shares of a pixel often enough. Calibrated.
 constexpr double largest_share = 0.5;
 
 // A lamp's disc on the image, in pixels from its top left corner.
 struct Disc {
     double x;
     double y;
-    double radius; // where it is seen
-    double size;   // the lamp's area: less than the disc's if the lens spreads it
+    double radius; // as seen
+    double size;   // the lamp's area, less than the disc's if a lens spreads it
 
     double area() const { return std::numbers::pi * radius * radius; }
     bool meets(std::uint32_t width, std::uint32_t height) const {
@@ -36,9 +36,9 @@ double ahead(double way) {
     return never;
 }
 
-// The distance from the origin, along a unit vector, at which a ray enters a ball, or leaves it if it begins inside;
-// infinity if it misses. Of one that moves or is swept it is the first place, which hides no more than all of it does
-// unless the ray begins inside.
+// Distance from the origin along a unit vector at which a ray enters a ball, or leaves it if it begins inside; infinite
+// for a miss. Only the first position of a moving ball or capsule is used. It never hides more than the whole path
+// does.
 double way_to(const MovingBall &ball, const glm::dvec3 &direction) {
     const double along = glm::dot(ball.open, direction);
     const double beside = glm::length(ball.open - along * direction);
@@ -55,8 +55,8 @@ double way_to(const Plane &plane, const Camera &camera, const glm::dvec3 &direct
     return ahead(-height / glm::dot(plane.normal, direction));
 }
 
-// The share of camera rays along a unit vector that passes all surfaces nearer than a distance. start: the camera or,
-// for parallel rays, where this ray begins.
+// The share of camera rays along a unit vector that pass all nearer surfaces. start: the camera or, with parallel rays,
+// where this ray begins.
 double transmittance(const PreparedScene &prepared, const Camera &start, const glm::dvec3 &direction, double distance) {
     const Scene &scene = prepared.scene;
     double share = 1.0;
@@ -78,7 +78,7 @@ double transmittance(const PreparedScene &prepared, const Camera &start, const g
     return share;
 }
 
-// The share of camera rays to the center of a lamp that reach it. center: relative to the camera.
+// The share of camera rays to a lamp's center that reach it. center: relative to the camera.
 double visible_share(const PreparedScene &scene, const Camera &camera, const glm::dvec3 &center, double radius) {
     Camera start = camera;
     if (camera.is_orthographic())
@@ -87,7 +87,7 @@ double visible_share(const PreparedScene &scene, const Camera &camera, const glm
     return transmittance(scene, start, glm::normalize(way), glm::length(way) - 2.0 * radius);
 }
 
-// The rows of an image that a camera sees.
+// The visible rows of an image.
 struct Window {
     std::uint32_t width;
     std::uint32_t height; // of the whole image
@@ -95,8 +95,8 @@ struct Window {
     std::uint32_t row_count;
 };
 
-// center: relative to the camera, ahead of it. Each point of the lamp may be spread over a disc; the variances of both
-// add up to that of a disc with the root of the sum of their squares as its radius.
+// center: relative to the camera, ahead of it. A lens spreads each point over a disc. Variances add up, so radii add up
+// as squares.
 Disc disc_of(const glm::dvec3 &center, double radius, const Camera &camera, const Window &window) {
     const double depth = glm::dot(center, camera.forward);
     const double half_height = camera.is_orthographic() ? 0.5 * camera.vertical_extent : depth * camera.tan_half_fov;
@@ -107,8 +107,8 @@ Disc disc_of(const glm::dvec3 &center, double radius, const Camera &camera, cons
             std::hypot(seen_radius, scale * camera.spread(depth)), std::numbers::pi * seen_radius * seen_radius};
 }
 
-// Adds the pixels of a disc, in squares of so many that no disc has many: it is cut into thin lines, and each line is
-// divided among the squares that it crosses. piece: with the share of the disc's samples that meet the lamp.
+// Adds the pixels of a disc, in squares large enough that no disc has many. Thin lines of the disc are divided among
+// the squares that they cross. of_disc: with the share of the disc's samples that meet the lamp.
 void add_pieces(std::vector<LampPiece> &pieces, std::size_t first, Disc disc, int lines, const LampPiece &of_disc,
                 const Window &window) {
     constexpr double few = 4.0; // squares along a radius
@@ -145,8 +145,8 @@ void add_pieces(std::vector<LampPiece> &pieces, std::size_t first, Disc disc, in
     }
 }
 
-// A moving lamp is seen at several moments of the shutter. Those that follow each other by more than a pixel stand for
-// the pixels in between, too, each of which the lamp crosses in so much less time.
+// A moving lamp is seen at several moments of the shutter. Moments more than a pixel apart also stand for the pixels in
+// between, each crossed in less time.
 void add_lamp(std::vector<LampPiece> &pieces, const PreparedScene &scene, const Camera &camera, const Window &window,
               const SeenSphere &lamp, const glm::dvec3 &emission) {
     constexpr double most_moments = 64.0;
@@ -208,7 +208,7 @@ std::uint64_t samples_to_meet(const LampPiece &piece, double offset, bool is_ran
 
 namespace {
 
-// What is expected of a piece.
+// Expectations for a piece.
 struct UnmetPiece {
     double meetings; // in all of its pixels
     double square;
@@ -237,8 +237,8 @@ void add(ExpectedSquares &to, double square, double meetings) {
 
 } // namespace
 
-// The number of samples that meet a piece has a Poisson distribution. Of the pieces that would err most if they were
-// met, those that altogether are hardly met once are taken as missed: they are so in most pictures.
+// The number of samples that meet a piece has a Poisson distribution. The pieces that would err most if met, and
+// together are hardly met once, count as missed, as they are in most pictures.
 UnmetSquares unmet_squares(const std::vector<LampPiece> &pieces, double offset, bool is_random,
                            const std::function<std::uint64_t(const LampPiece &)> &samples) {
     std::vector<UnmetPiece> unmet;

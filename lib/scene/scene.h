@@ -32,7 +32,7 @@ inline bool is_glossy(const Material &material) {
     return material.specular != glm::vec3(0.0F);
 }
 
-// Opacities are in steps of 1 / TREE_OPACITY_STEPS; no_opacity in scenes where all spheres are opaque.
+// Opacities are in steps of 1 / TREE_OPACITY_STEPS; no_opacity if all spheres of the scene are opaque.
 inline constexpr std::int16_t no_opacity = -1;
 inline constexpr auto opaque = static_cast<std::int16_t>(gpu::TREE_OPACITY_STEPS);
 inline constexpr double least_opaque = 1.0 - 0.5 / gpu::TREE_OPACITY_STEPS; // rounds to opaque
@@ -45,7 +45,7 @@ inline double passing_share(std::int16_t opacity) {
 struct Sphere {
     glm::dvec3 center;
     double radius;
-    glm::dvec3 motion;      // for capsules the vector from one end to the other
+    glm::dvec3 motion;      // for capsules from one end to the other
     std::uint32_t material; // index into Scene::materials
     Kind kind = Kind::ball;
     std::int16_t opacity = no_opacity; // in steps
@@ -59,23 +59,23 @@ struct Sphere {
 struct Plane {
     glm::dvec3 normal; // unit vector
     double offset;
-    std::uint32_t material; // index into Scene::materials
+    std::uint32_t material;
 };
 
 struct Scene {
     std::vector<Material> materials; // the caller's, then materials of spheres with their own colors
     std::vector<Sphere> spheres;     // pt_scene.spheres, then the arrays
     std::vector<Plane> planes;
-    std::vector<std::uint32_t> array_starts = {}; // of each of pt_scene.sphere_arrays
+    std::vector<std::uint32_t> array_starts = {}; // of pt_scene.sphere_arrays
     std::vector<std::uint32_t> indices = {};      // in the caller's scene, if these are not all of its spheres
 };
 
 struct CheckedScene;
 
-// Takes over all spheres, or the ones with these ascending indices if only is not NULL.
+// Takes over all spheres or, unless NULL, the ones with the ascending indices in `only`.
 Scene owned_scene(CheckedScene checked, const std::vector<std::uint32_t> *only = nullptr);
 
-// A sphere's place in the caller's scene, for a BrokenRule.
+// A sphere in the caller's scene, for a BrokenRule.
 struct SpherePlace {
     const char *subject;
     std::int64_t index;
@@ -84,12 +84,11 @@ struct SpherePlace {
 
 SpherePlace place_of_sphere(const Scene &scene, std::size_t position);
 
-// The same for its index among all spheres of the caller's.
+// index: among all of the caller's spheres.
 SpherePlace place_of_index(const Scene &scene, std::size_t index);
 
-// A digest like Digest::text, of the surfaces in their order and the material of each, by which films tell whether they
-// show the same scene. It does not matter whether spheres came as structs or by columns, which unused materials there
-// are, or in which order and how often materials are listed.
+// Digest::text of the surfaces in their order and of their materials, by which films tell scenes apart. It does not
+// depend on structs or columns, unused materials, or the order and repetition of materials.
 std::string digest_of(const Scene &scene);
 
 void add(Digest &digest, const Material &material);

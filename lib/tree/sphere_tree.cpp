@@ -1,4 +1,3 @@
-// Builds and writes the tree; see sphere_tree.h.
 #include "lib/tree/sphere_tree.h"
 
 #include "lib/scene/seen_scene.h"
@@ -20,10 +19,10 @@ namespace pt {
 
 namespace {
 
-constexpr std::uint32_t nowhere = ~std::uint32_t{0}; // no place
+constexpr std::uint32_t nowhere = ~std::uint32_t{0};
 
-// A new tree is made once the cost with the old shape differs by this factor, up or down (down: more than places has
-// changed). Rays are then about an eighth slower; a new tree takes twice the time of a kept shape.
+// A new tree is made if the old shape's cost differs by this factor, up or down. Rays are then about an eighth slower;
+// a new tree takes twice the time of a kept shape.
 constexpr double most_growth = 1.25;
 
 // Shares of the remaining work, for a million spheres.
@@ -120,7 +119,7 @@ SphereTree::SphereTree(const SphereExtent &extent, const SphereSource &spheres,
     lamp_materials_.reserve(extent.lamp_count);
 }
 
-// Allocates all blocks. The lamps' block starts empty and grows in place.
+// The lamps' block starts empty and grows in place.
 void SphereTree::make_room(std::size_t node_count, WorkProgress &progress) {
     sphere_count_ = static_cast<std::uint32_t>(spheres_->size());
     const std::uint32_t quarter = (sphere_count_ + 3) / 4;
@@ -184,8 +183,8 @@ void SphereTree::write_nodes(WorkProgress &progress) {
     cost_ /= box_.surface();
 }
 
-// Writes a node after its children, whose boxes make up its own, and adds up the cost. Recurses as deep as the tree.
-// Children go from the last to the first, in the order of nodes and places.
+// Writes a node after its children, whose boxes make up its own, and adds up the cost. Children go from last to first,
+// in the order of nodes and places.
 GridBox SphereTree::write_node(std::uint32_t node, WorkProgress &progress) {
     const TreeLinks links = TreeNodeView(words_of_node(node)).links();
     TreeNode written(links);
@@ -199,7 +198,7 @@ GridBox SphereTree::write_node(std::uint32_t node, WorkProgress &progress) {
     return written.box();
 }
 
-// Whether two spheres are equal in all that the tree holds, except motion.
+// Whether two spheres are equal except in motion.
 bool SphereTree::has_alike(WorkProgress &progress) const {
     progress.enter(share_of_alike, static_cast<double>(sphere_count_));
     return has_equal_words(std::span(words_).subspan(first_sphere_, sphere_count_), progress);
@@ -287,14 +286,14 @@ bool SphereTree::divides_start(const Camera &camera) const {
     });
 }
 
-// A ball about a box, relative to the camera.
+// A ball around a box, relative to the camera.
 MovingBall SphereTree::region_of(const GridBox &box, const Camera &camera) const {
     const glm::dvec3 low = grid_.point(box.low) - camera.position;
     const glm::dvec3 high = grid_.point(box.high) - camera.position;
     return {0.5 * (low + high), glm::dvec3(0.0), 0.5 * glm::length(high - low)};
 }
 
-// Enters the node with the least bound first, and none whose bound exceeds the least number so far.
+// Enters the node with the least bound first, and none with a bound above the least number so far.
 SphereTree::Least SphereTree::least(const Camera &camera, const std::function<double(const MovingBall &)> &of_region,
                                     const std::function<double(const MovingBall &)> &of_sphere) const {
     using Entry = std::pair<double, std::uint32_t>; // bound and node
@@ -353,7 +352,7 @@ void SphereTree::visit(const Camera &camera, const std::function<bool(const Movi
 }
 
 bool SphereTree::finds_close_lamps(WorkProgress &progress) const {
-    constexpr std::size_t as_many_spheres = 16; // spheres that take the time of a lamp, approximately
+    constexpr std::size_t as_many_spheres = 16; // spheres that take about the time of a lamp
     progress.enter(share_of_close_lamps, static_cast<double>(lamp_materials_.size()));
     for (std::uint32_t lamp = 0; lamp < lamp_materials_.size(); ++lamp) {
         progress.add(1.0, as_many_spheres);
@@ -370,8 +369,8 @@ bool SphereTree::finds_close_lamps(WorkProgress &progress) const {
     return false;
 }
 
-// A camera within twice the grid's reach is a grid point with exact differences. Otherwise the grid's middle stands for
-// it, and rounding is small against the distance.
+// A camera within twice the grid's reach is a grid point with exact differences. Farther away the grid's middle stands
+// for it, since rounding is small against the distance.
 gpu::TreeFrame SphereTree::frame(const Camera &camera) const {
     gpu::TreeFrame frame{};
     frame.camera = is_far(camera) ? glm::ivec3(0) : grid_.place(camera.position);

@@ -1,8 +1,8 @@
-// The tree of spheres as the kernel reads it, for scenes with too many to test each. Independent of the camera. Made by
-// PreparedScene, shared by all devices.
+// The tree of spheres as the kernel reads it, for scenes with too many to test each. Independent of the camera; shared
+// by all devices.
 //
-// Its shape changes nothing visible. So spheres that have moved a little can keep an earlier tree's shape, which takes
-// a fraction of the time.
+// The shape changes nothing visible, so spheres that have moved a little can keep an earlier tree's, which takes a
+// fraction of the time.
 #pragma once
 
 #include "lib/base/digest.h"
@@ -32,8 +32,8 @@ public:
     SphereTree(const SphereSource &spheres, std::span<const std::uint32_t> left_out,
                std::span<const TreeMaterial> materials, WorkProgress &progress);
 
-    // Reuses another tree's shape: each sphere gets the place of its index there. Nothing if a new tree is needed,
-    // because it would be much better, other spheres are left out, or one of the trees has twins, which share a place.
+    // Reuses another tree's shape: each sphere gets the place of its index there. Nothing if a new tree would be much
+    // better, other spheres are left out, or a tree has twins, which share a place.
     static std::optional<SphereTree> with_shape_of(const SphereTree &other, const SphereSource &spheres,
                                                    std::span<const std::uint32_t> left_out,
                                                    std::span<const TreeMaterial> materials, WorkProgress &progress);
@@ -45,13 +45,12 @@ public:
     std::span<const glm::uvec4> node_words() const { return std::span(words_).first(first_sphere_); }
     std::span<const glm::uvec4> sphere_words() const { return std::span(words_).subspan(first_sphere_); }
 
-    // For a camera.
     gpu::TreeFrame frame(const Camera &camera) const;
 
-    // Adds the grid and each sphere's words, in the scene's order, independent of places.
+    // Adds the grid and each sphere's words, in the scene's order.
     void add_to(Digest &digest) const;
 
-    // Approximate number of nodes that a ray through the tree meets: the sum of their surface areas over the root's.
+    // Expected nodes that a ray through the tree meets: their summed surface over the root's.
     double cost() const { return cost_; }
 
     // Spheres without twins, nodes, and nodes on the longest way down.
@@ -62,12 +61,12 @@ public:
     Kinds kinds() const { return kinds_; }
     bool has_opacities() const { return has_opacities_; }
 
-    // Per place the sphere's index in the scene, and the scene's number of spheres.
+    // spheres(): scene indices by place.
     std::span<const std::uint32_t> spheres() const { return *spheres_; }
     std::uint32_t scene_sphere_count() const { return scene_sphere_count_; }
     bool has_colors() const { return has_colors_; }
 
-    // By lamp number. Lamps are numbered in the scene's order.
+    // By lamp number, in the scene's order.
     const std::vector<std::uint32_t> &lamp_materials() const { return lamp_materials_; }
 
     // A lamp's sphere as the kernel holds it.
@@ -79,42 +78,42 @@ public:
     // Whether parallel rays may start on both sides of a sphere (seen_scene.h).
     bool divides_start(const Camera &camera) const;
 
-    // The sphere with the least number as a camera sees it. of_region: a lower bound for everything in a ball.
+    // The sphere with the least of_sphere(). of_region: a lower bound for everything in a ball.
     struct Least {
         double number;
-        std::uint32_t sphere; // its index in the scene
+        std::uint32_t sphere; // scene index
         MovingBall surface;   // relative to the camera
     };
     Least least(const Camera &camera, const std::function<double(const MovingBall &)> &of_region,
                 const std::function<double(const MovingBall &)> &of_sphere) const;
 
-    // The sphere that reaches farthest from the middle of most, and so makes the grid coarse.
+    // The sphere that reaches farthest from the middle of most, which makes the grid coarse.
     struct Farthest {
-        std::uint32_t sphere; // its index in the scene
+        std::uint32_t sphere; // scene index
         MovingBall surface;
-        double distance; // from the middle to its centre
+        double distance; // from the middle to its center
     };
     Farthest farthest() const;
 
-    // Hands out the spheres in all regions that are entered, as a camera sees them, with their opacities.
+    // Hands out the spheres, with opacities, in all regions that `enters` accepts, as a camera sees them.
     void visit(const Camera &camera, const std::function<bool(const MovingBall &)> &enters,
                const std::function<void(const MovingBall &, std::int16_t opacity)> &receive) const;
 
-    // The box of all spheres at any time.
+    // At any time.
     PointBox bounds() const { return {grid_.point(box_.low), grid_.point(box_.high)}; }
 
     // Whether a lamp and another sphere nearly coincide (twins.h).
     bool has_close_lamps() const { return close_lamps_; }
 
 private:
-    // An emitting sphere; indices are the scene's.
+    // Indices are the scene's.
     struct FoundLamp {
         std::uint32_t sphere;
         std::uint32_t place;
         std::uint32_t material;
     };
 
-    // Without shape and words yet.
+    // Without shape and words.
     SphereTree(const SphereExtent &extent, const SphereSource &spheres, std::span<const std::uint32_t> left_out);
 
     void make_room(std::size_t node_count, WorkProgress &progress);

@@ -13,7 +13,7 @@
 namespace pt {
 
 struct SphereWords {
-    glm::uvec4 place; // center on the grid; the radius's bits
+    glm::uvec4 place; // center on the grid; bits of the radius
     glm::uvec4 way{0};
 
     SphereWords(const glm::uvec4 &place_of, const glm::uvec4 &way_of) : place(place_of), way(way_of) {}
@@ -24,10 +24,10 @@ struct SphereWords {
     // From time 0 to 1, or from end to end.
     MovingBall surface(const Grid &grid) const;
 
-    // In steps; only of a tree that has opacities.
+    // In steps; only if the tree has opacities.
     std::int16_t opacity() const { return static_cast<std::int16_t>(place.w & gpu::TREE_OPACITY_STEPS); }
 
-    // The box of all that the surface takes up. The margin of the kernel covers what rounding adds.
+    // Box of the whole surface. The kernel's margin covers rounding.
     GridBox box(const Grid &grid) const;
 
     // Center and radius, in grid steps, of the ball around the surface. Equal for twins.
