@@ -229,6 +229,13 @@ class Files(unittest.TestCase):
                 module = types.SimpleNamespace(read=read, load=read, Universe=read, io=None)
                 self.read(name, b"data", **{package: module, f"{package}.io": module})
 
+    def test_cells_of_dl_poly_have_their_middle_at_the_origin(self):
+        for kind, origin in (("dlp4", -0.5 * EDGES.sum(axis=0)), ("dlp-history", -0.5 * EDGES.sum(axis=0)), ("castep-cell", np.zeros(3))):
+            formats = types.SimpleNamespace(filetype=lambda path, kind=kind: kind)
+            ase_io = types.SimpleNamespace(read=lambda path, index: [ase_atoms(PLACES)], formats=formats)
+            found = self.read("CONFIG", b"made up", **{"ase.io": ase_io, "ase.io.formats": formats})
+            np.testing.assert_array_equal(found.cell.origin, origin)
+
     def test_chemfiles_where_it_has_no_wheel(self):
         for system, machine, way in (("linux", "aarch64", "CMAKE_POLICY_VERSION_MINIMUM=3.5 pip install chemfiles, which"),
                                      ("linux", "x86_64", "pip install 'pt"), ("darwin", "arm64", "pip install 'pt")):

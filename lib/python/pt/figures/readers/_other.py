@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import warnings
 from collections.abc import Callable
 from typing import Any, Final
@@ -13,6 +14,7 @@ from pt.figures._particles import Table
 from pt.figures.readers._frames import Frames, Listed, one_frame
 from pt.figures.readers._objects import of_ase, of_mdanalysis
 
+_CENTRED: Final = ("dlp4", "dlp-history")  # ASE's names of DL_POLY's formats, whose cells have their middle at 0
 _UNKNOWN: Final = "neither its name nor its first lines say the format"
 
 
@@ -21,7 +23,15 @@ def read_ase(path: str, asked: str = "ASE", purpose: str = "this format") -> Fra
     images = tried(path, asked, lambda: read(path, index=":"))
     if not images:
         raise DataError(f"{path}: {asked} finds no atoms in it")
-    return Listed(path, len(images), lambda index: of_ase(images[index]))
+    kind = tried(path, asked, lambda: module("ase.io.formats", path).filetype(path))
+
+    def read_image(index: int) -> Table:
+        table = of_ase(images[index])
+        if kind in _CENTRED and table.cell is not None:
+            table.cell = dataclasses.replace(table.cell, origin=-0.5 * table.cell.vectors.sum(axis=0))
+        return table
+
+    return Listed(path, len(images), read_image)
 
 
 def read_unknown(path: str) -> Frames:
