@@ -24,7 +24,7 @@ exec unshare --mount sh -eu -s "$project" "$tree" <<'END'
 mkdir -p "$2/project" "$2/build"
 mount --bind -o ro "$1" "$2/project"
 mount -t proc proc "$2/proc"
-chroot "$2" sh -eu -c '
+chroot "$2" env -i PATH=/usr/bin:/bin LANG=C.UTF-8 sh -eu -c '
     for compilers in "gcc g++" "clang-19 clang++-19"; do
         build=/build/${compilers% *}
         cmake -S /project -B "$build" -G Ninja -DCMAKE_C_COMPILER="${compilers% *}" -DCMAKE_CXX_COMPILER="${compilers#* }" \
