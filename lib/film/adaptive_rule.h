@@ -1,7 +1,7 @@
 // Decides which tiles of a film take more samples. A tile has 16, 32, 64, ... samples per pixel. It doubles them while
 // the expected gain per added sample exceeds a bound, which falls from round to round until the image's error is small
-// enough. So samples are in proportion to sqrt(v), for mean squares v after equal times; equal errors everywhere would
-// take as many as an even film.
+// enough. A tile's samples are then in proportion to the root of its error square after equal times. Equal errors
+// everywhere would take as many samples as an even film.
 //
 // A round leaves each tile at the first level whose gain is at most the bound, however it got there.
 #pragma once

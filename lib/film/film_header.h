@@ -68,8 +68,8 @@ inline AdaptiveRound later_of(const AdaptiveRound &a, const AdaptiveRound &b) {
     return {std::max(a.number, b.number), std::max(a.floor, b.floor)};
 }
 
-// Lamps smaller than a pixel in a square of the image, lamp_square pixels a side: its corner, a multiple of that, and
-// the samples of a pixel needed to meet the least lamp.
+// The lamps smaller than a pixel in a square of the image, lamp_square pixels a side. x, y: its corner, multiples of
+// lamp_square. samples: of a pixel, enough to meet the least lamp.
 struct LampSquare {
     std::uint32_t x;
     std::uint32_t y;

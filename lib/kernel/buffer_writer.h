@@ -33,7 +33,7 @@ public:
     BufferWriter(const BufferWriter &) = delete;
     BufferWriter &operator=(const BufferWriter &) = delete;
 
-    // Waits for the device, or with a semaphore to signal leaves that to the next call. Throws PT_ERROR_INTERNAL if a
+    // Waits for the device; with a semaphore to signal, the next call waits instead. Throws PT_ERROR_INTERNAL if a
     // driver lost work; nothing has been written if an earlier call's was lost.
     void write(const ImageQuery &query, const BufferTarget &target);
 

@@ -118,7 +118,7 @@ constexpr std::array<Matrix, sequence_dimensions> sobol_matrices = [] {
     return matrices;
 }();
 
-// Faster than making coordinates singly.
+// One bit's numbers in all dimensions, which are faster to combine than single coordinates.
 using Row = std::array<std::uint32_t, sequence_dimensions>;
 using Rows = std::array<Row, 32>;
 

@@ -72,7 +72,8 @@ std::uint32_t rounded_up(std::uint32_t levels) {
     return (levels + step - 1) / step * step;
 }
 
-// Sum and choice over all lamps; or the tree's top, then down to the chosen lamp and to one met by a direction.
+// Without a tree: the sum and the choice over all lamps. With one: its top, then the ways down to the chosen lamp and
+// to one that a direction meets.
 std::uint64_t lamp_trips(const Features &features) {
     return features[gpu::ID_LAMP_TREE_LEVELS] ? gpu::LAMP_TREE_TOP_GROUPS + 2 * features[gpu::ID_LAMP_TREE_LEVELS]
                                               : 2 * std::uint64_t{features[gpu::ID_LAMP_COUNT]};

@@ -26,7 +26,7 @@ struct Features {
     std::uint32_t &operator[](std::uint32_t id) { return constants[id]; }
     std::uint32_t operator[](std::uint32_t id) const { return constants[id]; }
 
-    // The scene then has material words for each surface.
+    // If true, each surface has its own material words.
     bool scene_in_uniform() const { return constants[gpu::ID_SCENE_SOURCE] == gpu::SCENE_IN_UNIFORM; }
     bool has_ways() const { return constants[gpu::ID_MOTION] > 0 || constants[gpu::ID_KINDS] > gpu::KIND_BALL; }
     std::uint32_t surface_count() const { return constants[gpu::ID_SPHERE_COUNT] + constants[gpu::ID_PLANE_COUNT]; }

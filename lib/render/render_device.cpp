@@ -102,7 +102,7 @@ void RenderDevice::save_kernels() noexcept {
         device_.pipeline_cache().save(device_.log());
 }
 
-// Keeps the schedule with the kernel, as samples cost about the same. For another kernel it starts from the device's
+// A kept kernel keeps its schedule, since samples cost about the same. For another kernel it starts from the device's
 // known rate.
 void RenderDevice::prepare(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings) {
     pipelines_->build_own(TracePipelines::OwnKernels::when_they_pay);
