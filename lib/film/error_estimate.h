@@ -44,7 +44,7 @@ ErrorEstimate unknown_error();
 
 pt_error_estimate stated(const ErrorEstimate &error);
 
-// Whether rejected samples leave the error unknown. A sample is rejected if it may carry more than 2^20 times the
+// Whether rejected samples leave the error unknown. A rejected sample may have carried more than 2^20 times the
 // brightest emission (gpu_layout.h, FILM_MAX_EXPONENT), so one in 2^20 may outweigh all light in the picture.
 bool hides_error(std::uint64_t rejected_samples, std::uint64_t samples);
 
