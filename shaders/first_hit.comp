@@ -24,8 +24,12 @@ vec3 lattice_point(uint ray)
     return (vec3(point) + 0.5) / float(FILTER_RAYS);
 }
 
-// Like dimensions.glsl's; the golden ratio spreads neighboring pixels' numbers.
-uint opacity_number(uint pixel_index, uint ray) { return (pixel_index + 1u) * 0x9e3779b9u + bitfieldReverse(ray); }
+// As in dimensions.glsl, but pixels share one lattice, whose numbers the golden ratio (0x9e3779b9 / 2^32) spreads over
+// neighbors: callers take means over pixels. The last bits are equal because opacity_generator() depends on them.
+uint opacity_number(uint pixel_index, uint ray)
+{
+    return ((pixel_index + 1u) * 0x9e3779b9u + bitfieldReverse(ray)) & ~0xfffu;
+}
 
 // Depth along the view. Rays start at the pinhole, or on a plane across the view.
 float depth_of(CameraRay ray, Hit hit)
