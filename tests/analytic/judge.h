@@ -21,10 +21,10 @@ struct Exact {
 // Up to 50 operations of 2^-24 = 6e-8.
 inline constexpr double rounding = 3e-6;
 
-// Relative bound on a mean's error by Bernstein's inequality (Boucheron, Lugosi and Massart, Concentration
-// Inequalities, 2013, section 2.8), valid for few and skewed samples of variance s^2, deviations up to m: P(|error| >
-// t) <= 2 exp(-n t^2 / (2 s^2 + 2 m t / 3)), solved for t. Samples that are nonzero with probability p: s^2 = (1 - p) /
-// p, deviations s^2 up and 1 down. m = s^2 + 6 s holds up to p = 0.97.
+// Bernstein's inequality (Boucheron, Lugosi and Massart, Concentration Inequalities, 2013, section 2.8) bounds the
+// relative error of a mean of few skewed samples of variance s^2, deviations up to m: P(|error| > t) <= 2 exp(-n t^2 /
+// (2 s^2 + 2 m t / 3)), solved for t. Samples that are nonzero with probability p: s^2 = (1 - p) / p, deviations s^2 up
+// and 1 down. m = s^2 + 6 s holds up to p = 0.97.
 inline double noise_bound(double relative_std, std::uint32_t sample_count,
                           double false_alarm = false_alarm_per_judgement) {
     const double n = sample_count;

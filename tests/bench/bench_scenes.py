@@ -43,7 +43,7 @@ def load_scene(name):
 
 
 def digest(scene):
-    """Digest of all that affects the light, to notice a reference of another scene."""
+    """To notice a reference of another scene."""
     text = json.dumps({key: value for key, value in scene.items() if key != "film"}, sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 

@@ -1,4 +1,4 @@
-"""Random scenes of 25 kinds, as scene files have them, for measurements on scenes that nobody chose.
+"""Random scenes of 25 kinds, for measurements on scenes that nobody chose.
 
     python3 tests/bench/random_scenes.py FOLDER [--first-seed N]   # writes a hundred scene files
 
@@ -16,7 +16,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "render"))
 import calibration_scenes as fixed  # noqa: E402
 from calibration_scenes import ball, lamp  # noqa: E402
 
-KINDS = {}  # functions of a random.Random, by the name of the kind
+KINDS = {}
 
 
 def kind(function):
@@ -30,7 +30,6 @@ def scene(name, seed):
 
 
 def hundred(first_seed):
-    """Yields names and scenes, four of each kind."""
     for seed in range(first_seed, first_seed + 100 // len(KINDS)):
         for name in KINDS:
             yield f"{name}-{seed}", scene(name, seed)

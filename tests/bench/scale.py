@@ -2,11 +2,10 @@
 
     DRJIT_LIBLLVM_PATH=libLLVM.so.19.1 python3 tests/bench/scale.py --library old=OLD/libpt.so \\
         --library pt=build/lib/libpt.so --mitsuba mitsuba/bin/python --counts 10,1e3,1e5
-    python3 tests/bench/scale.py --library pt=build/lib/libpt.so --cloud lamps --counts 1,10,100,1e3,1e4
 
-Lamps have eight balls below them; their brightness spans four powers of ten. "dark-lamps" has balls in their places:
-the difference is the cost of choosing lamps. Mitsuba: see benchmark.py. Every round measures all in turn; figures are
-medians.
+--cloud lamps: lamps, whose brightness spans four powers of ten, with eight balls below each. dark-lamps: balls in their
+places; the difference is the cost of choosing lamps. Mitsuba: see benchmark.py. Every round measures all in turn;
+figures are medians.
 
 scene           seconds of pt_set_scene; of building Mitsuba's scene
 bytes           device memory per sphere: pt_stats.device_bytes with and without the cloud

@@ -3,9 +3,9 @@
     PT_LIBRARY=build/lib/libpt.so PT_PROGRAM=build/bin/pt python3 tests/bench/stated_error.py SET ... [--jobs N]
 
 A SET is `own` (cli/scenes and tests/render/calibration_scenes.py), `random:SEED` (the hundred of random_scenes.py), or
-a folder of scene files. A picture's own error is the root of the mean, over pixels and channels, of its squared error
-relative to an image of many samples; the rms is over seeds. A picture counts if the reference's own error is at most a
-fifth of its own. --keep writes the estimator's input for some seeds as NumPy's .npz, to try other estimators.
+a folder of scene files. Errors are relative root mean squares over pixels and channels, from an image of many samples
+whose own error is at most a fifth; rms: over seeds. --keep writes the estimator's input for some seeds as NumPy's .npz,
+to try other estimators.
 """
 
 import argparse

@@ -1,8 +1,8 @@
 // A stand-in for libpt without a device that fails on demand. Environment: FAKE_PT_FAIL=function:result fails the
 // function; name:1 makes the device's name invalid UTF-8, name:2 puts an escape into it. FAKE_PT_MESSAGE: the message
-// of failures. FAKE_PT_SAMPLE_MS: the least duration of a sample. FAKE_PT_SIGNAL=number:submission sends a signal as
-// that submission starts (counted from 1, four per sample); FAKE_PT_SCENE_SIGNAL=number during pt_set_scene.
-// FAKE_PT_LOG=function logs a line. FAKE_PT_ALLOCATION=number fails the program's allocation.
+// of failures. FAKE_PT_SAMPLE_MS: the least duration of a sample. FAKE_PT_SIGNAL=number:n sends a signal at the start
+// of the n-th submission (four per sample); FAKE_PT_SCENE_SIGNAL=number during pt_set_scene. FAKE_PT_LOG=function logs
+// a line. FAKE_PT_ALLOCATION=number fails the program's allocation.
 #include <pt/accuracy.h>
 #include <pt/devices.h>
 #include <pt/errors.h>

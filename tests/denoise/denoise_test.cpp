@@ -139,9 +139,9 @@ TEST(Denoise, StatesTheSquareOfItsError) {
     }
 }
 
-// One value in 300 of a half is brighter by 60, cut by the filter to 4: it loses 0.2 everywhere. Both halves meet such
-// light in 92,160 / 300^2, about one, of a picture's values, so products of single values would show the loss in every
-// second picture, far too large. Each picture has to state it.
+// One value in 300 of a half is brighter by 60, which the filter cuts to 4: a loss of 0.2 everywhere. Both halves have
+// such light in 92,160 / 300^2 = 1 of a picture's values, so products of single values would state it in every second
+// picture only, and far too large.
 TEST(Denoise, StatesRareLightThatItsFilterTakesAway) {
     constexpr double probability = 1.0 / 300;
     constexpr double light = 60.0;
@@ -170,10 +170,9 @@ TEST(Denoise, IsNoWorseThanTheRawImage) {
         }
 }
 
-// A ramp that rises in the upper half and falls in the lower, so a filter that shifts it by a pixel keeps the mean.
-// Noise of opposite signs in the two halves is a checkerboard, so their mean is the ramp, and the rest of the shift
-// shows the choice: nearly all of it at the left, where noise is large, little at the right, without a step. A linear
-// ramp over a tile of 8 pixels has steps of an 8th.
+// A ramp up in the upper half, down in the lower: a filter that shifts it by a pixel keeps the mean. The halves' noise
+// is opposite, so their mean is the ramp, and the rest of the shift shows the choice: nearly all of it at the left,
+// where noise is large, little at the right, without a step. A linear ramp over a tile of 8 pixels has steps of an 8th.
 TEST(Denoise, HasNoSeams) {
     constexpr float slope = 0.02F;
     constexpr std::size_t noisy_width = 100; // ends within a tile
@@ -268,8 +267,8 @@ TEST(Denoise, IsNotPersuadedByOnePixel) {
         ASSERT_EQ(denoising.denoised[i], 0.5F * (halves[0][i] + halves[1][i])) << i;
 }
 
-// The filter spreads a lamp over two pixels to each side, where relative errors would be a million times the raw
-// image's. They would seem small with the filter's values as limits.
+// The filter spreads a lamp by two pixels, where relative errors would be a million times the raw image's, but seem
+// small with the filter's values as limits.
 TEST(Denoise, DoesNotSpreadALamp) {
     constexpr std::size_t first = 64;
     constexpr std::size_t end = 68;

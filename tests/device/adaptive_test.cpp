@@ -1,4 +1,4 @@
-// Adaptive films: each tile has the bits of an even film with its sample count, and nothing but samples changes counts.
+// Adaptive films: each tile has the bits of an even film with its sample count.
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
@@ -124,7 +124,7 @@ TEST_F(AdaptiveTest, TakesFewerSamples) {
     EXPECT_LT(adaptive, 0.9 * uniform.mean_sample_count);
 }
 
-// Random lengths, cancellations, and films continued elsewhere. PT_TEST_SPLITS=200 sets the number.
+// PT_TEST_SPLITS=200 splits more often.
 TEST_F(AdaptiveTest, SplitsAndResumesChangeNoBit) {
     const char *const wanted = std::getenv("PT_TEST_SPLITS");
     const int splits = wanted ? std::atoi(wanted) : 3;

@@ -64,8 +64,6 @@ pt_sphere ball(double x, double y, double z, double radius, std::uint32_t materi
     return {{x, y, z}, radius, {0, 0, 0}, material, 0};
 }
 
-// ---- Light that is 1 everywhere
-
 // Every surface emits 1, so a vertex that reflects half has exactly 1.5.
 constexpr std::uint32_t shining = 0;
 
@@ -175,8 +173,6 @@ TEST_F(HiddenFromCamera, LampsInClosedScenesAreCountedOnce) {
         EXPECT_GT(std::abs(deviation(mean, 1.545)), bound) << mean.mean << " +- " << mean.standard_error;
     }
 }
-
-// ---- Light that does not arrive
 
 constexpr std::uint32_t white = 0;
 constexpr std::uint32_t lamp = 1;

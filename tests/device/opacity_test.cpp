@@ -79,8 +79,7 @@ Given cloud(std::uint32_t count) {
     return given;
 }
 
-// 98,304 rays: five standard errors (at most .008) are exceeded once in 1.7 million times. Negative control: opacities
-// larger by 3%.
+// Five standard errors of 98,304 rays are at most .008. Negative control: opacities larger by 3%.
 TEST_F(Opacity, IsTheShareOfRaysThatMeet) {
     const auto passed = [&](float first, float second) {
         const std::vector<Given::Capsule> row{ball_at({0, 0, 2}, 1.0, first), ball_at({0, 0, -2}, 1.0, second)};
@@ -163,8 +162,8 @@ TEST_F(Opacity, OfColorsAndMotionsIsIndependent) {
     EXPECT_NEAR(passed({still, still}), 0.5, 0.008) << "duplicates";
 }
 
-// The sampler's points put a pixel's 256 rays into 256 equal parts, so the share is off by 2 rays at most. Negative
-// control: random numbers, off by five times as much somewhere.
+// A pixel's 256 points fall into 256 equal parts: the share is off by 2 rays at most. Negative control: random numbers,
+// off by five times as much.
 TEST_F(Opacity, OfOneSurfaceIsEvenlySpread) {
     Given given = under_sky({ball_at({0, 0, 1}, 1.0, 0.4F)});
     std::ranges::fill(given.materials[2].emission, 1.0F);
@@ -179,10 +178,10 @@ TEST_F(Opacity, OfOneSurfaceIsEvenlySpread) {
     EXPECT_GT(largest_error(PT_SAMPLER_RANDOM), 10.0 / 256.0);
 }
 
-// The variance of the product of two decisions over lattices of N = 2^m points (i / N, r i / N), shifted at random,
-// with r at random among the odd numbers. A frequency 2^v times an odd number vanishes unless the other is one too, and
-// then in all but 2^(v + 1) of N lattices. The frequencies that are multiples of 2^v have the variance t (1 - t) / 4^v
-// of a decision, with t the fraction of 2^v a.
+// Variance of the product of two decisions over lattices (i / N, r i / N) of N = 2^m points, shifted at random, with
+// random odd r. A frequency 2^v times an odd number vanishes unless the other is one too, and then in all but 2^(v + 1)
+// of N lattices. The frequencies that are multiples of 2^v have the variance t (1 - t) / 4^v of a decision, with t the
+// fraction of 2^v times the opacity.
 double variance_of_two(double opacity, std::uint32_t count) {
     const auto of_multiples = [&](double step) {
         const double fraction = step * opacity - std::floor(step * opacity);
@@ -196,8 +195,8 @@ double variance_of_two(double opacity, std::uint32_t count) {
     return sum / count;
 }
 
-// The mean square over 6,144 pixels differs from its expectation by less than five of its standard errors; no stated
-// error is a tenth too small. Negative control: with one lattice for all pixels most counts fail both.
+// The mean square over 6,144 pixels is within five standard errors of its expectation, and no stated error is a tenth
+// too small. Negative control: one lattice for all pixels.
 TEST_F(Opacity, OfTwoSurfacesHasALatticeInEachPixel) {
     Given given = under_sky({ball_at({0, 0, 2}, 1.0, 0.4F), ball_at({0, 0, -2}, 1.0, 0.4F)});
     std::ranges::fill(given.materials[2].emission, 1.0F);

@@ -51,8 +51,6 @@ protected:
     }
 };
 
-// ---- A lamp, a floor and a room
-
 enum Named { lamp, floor_plane, oblique_plane, room };
 
 InvarianceScene scene_of_named(std::initializer_list<Named> surfaces) {

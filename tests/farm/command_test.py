@@ -1,4 +1,4 @@
-"""pt-farm. Argument: the program pt, whose pictures must be equal. Skipped without distributed."""
+"""pt-farm. Argument: the program pt, whose pictures must be equal."""
 
 import contextlib
 import io

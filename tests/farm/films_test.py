@@ -1,4 +1,4 @@
-"""pt.farm: with any faults the film has the bytes of a Context of this process. Skipped without distributed."""
+"""pt.farm: with any faults the film has the bytes of a Context of this process."""
 
 import dataclasses
 import os

@@ -91,8 +91,6 @@ def residues(*atoms, **more):
 
 
 class Residues(unittest.TestCase):
-    """Names of atoms in known residues decide which near pairs are bonded."""
-
     def pairs(self, particles, notes=None):
         found = bonds_of(particles, Options(bonds=True), np.ones(1), [] if notes is None else notes)
         half = len(found.atoms) // 2

@@ -1,4 +1,4 @@
-"""Legends and color bars, as files and in the picture. Skipped without matplotlib."""
+"""Legends and color bars, as files and in the picture."""
 
 import io
 import sys

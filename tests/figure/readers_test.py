@@ -305,8 +305,7 @@ class Messages(InAFolder):
 
 
 class Damaged(InAFolder):
-    """Files that are cut short or have a wrong byte: refused with a message that names the file, or read as they are.
-    """
+    """Files cut short or with a wrong byte: read as they are, or refused with a message that names the file."""
 
     def particles(self, name, data):
         try:

@@ -1,4 +1,4 @@
-"""Small files of all formats of atoms, by hand, with what they hold, and files that are refused with their messages."""
+"""Small files of all formats of atoms, by hand, with what they hold or the messages that refuse them."""
 
 import gzip
 

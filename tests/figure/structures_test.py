@@ -1,5 +1,5 @@
-"""Files of atoms: which atoms, elements, bonds and cells there are in small files of all formats.
-Argument: the folder of the files that users' reports were modelled on."""
+"""Small files of all formats: atoms, elements, bonds and cells. Argument: the folder of files modelled on users'
+reports."""
 
 import gzip
 import importlib.util
@@ -131,7 +131,7 @@ class Large(InAFolder):
 
 
 class Damaged(InAFolder):
-    """Files with wrong or missing bytes or lines are read as they are, or refused with a message that names the file."""
+    """Damaged files are read as they are, or refused with a message that names the file."""
 
     def test_damages(self):
         generator = np.random.default_rng(1)

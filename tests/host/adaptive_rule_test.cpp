@@ -135,7 +135,7 @@ TEST(AdaptiveRule, DoesNotOvershootTheTarget) {
     }
 }
 
-// No sample may have hit their light.
+// All samples may have missed their light.
 TEST(AdaptiveRule, BlackTilesGetHalfOfTheMean) {
     std::vector<double> variances(model_grid.count(), 0.0);
     std::fill_n(variances.begin(), variances.size() / 2, 1.0);
@@ -239,7 +239,6 @@ public:
         return film.squares;
     }
 
-    // A few tiles have lamps smaller than a pixel.
     std::vector<std::uint64_t> samples_for_lamps() const {
         std::vector<std::uint64_t> needed(plan_grid.count());
         for (std::size_t tile = seed_ % 5; tile < needed.size(); tile += 11)
@@ -259,7 +258,7 @@ private:
     std::vector<double> variances_;
 };
 
-// Takes samples until the target or the most. stop_after: tiles; the last one gets at most half of its step.
+// stop_after: tiles; the last one gets at most half of its step.
 void sample_plan(ModelFilm &film, const ModelErrors &errors, const pt::MostSamples &counts, std::uint64_t stop_after) {
     const AdaptivePlan plan(goal_error, counts,
                             {[&] { return errors.error_of(film); }, [&] { return errors.squares_of(film); },

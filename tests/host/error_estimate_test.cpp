@@ -97,8 +97,8 @@ TEST(ErrorEstimate, TellsLampsFromRareSamples) {
     EXPECT_GT(expected(40, 0), 300.0);
 }
 
-// 40 hits that 0 or 20 others do not repeat. 20 stand for 20 - 1.96 sqrt(20) at the least; 0 for light of any rarity,
-// so each may count by the black around it.
+// 40 pixels were hit once, 0 or 20 others again. 20 mean 20 - 1.96 sqrt(20) at least; 0 allow light of any rarity, so
+// each may count by the black around it.
 TEST(ErrorEstimate, IsBoundedByTheRarestLightThatMeetingsAllow) {
     const double least = 20.0 - 1.96 * std::sqrt(20.0);
     const auto square = [](double met_again) {
@@ -139,7 +139,7 @@ TEST(ErrorEstimate, OfLampsFoundByChanceAsksNotWhatWasMetAgain) {
     }
 }
 
-// Its neighbours may have unseen light.
+// Pixels beside a bright column may have unseen light.
 TEST(ErrorEstimate, CountsLightThatMayBeUnseen) {
     std::vector<float> radiance(3 * 32 * 32, 0.0F);
     std::vector<float> errors(radiance.size(), 0.0F);

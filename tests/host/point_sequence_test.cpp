@@ -45,7 +45,6 @@ struct ExactInverse {
     std::uint64_t floor_of_2_to_32; // of 2^32 times the value, exactly
 };
 
-// Exact rational arithmetic, indices up to 2^32 - 1.
 std::vector<ExactInverse> exact_inverses() {
     std::ifstream file(PT_TEST_DATA_DIR "/radical_inverse.csv");
     std::vector<ExactInverse> table;

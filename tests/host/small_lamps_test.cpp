@@ -160,7 +160,7 @@ TEST(SmallLamps, AreSpreadByTheirMotion) {
     }
 }
 
-// Each veil lets 1 - opacity through, whether it is about the lamp or before it; so does one about a large lamp.
+// A veil lets 1 - opacity through, about a lamp or before it, small or large.
 TEST(SmallLamps, ShineThroughVeils) {
     const double center[] = {1.0, 2.0, -97.0, 1.0, 2.0, -60.0, 31.0, 2.0, -60.0};
     const double radii[] = {10.0, 5.0, 5.0};

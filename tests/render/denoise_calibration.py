@@ -1,10 +1,10 @@
 """Prints whether denoised images are worse than raw ones, and how good their stated error is.
 
-    python3 tests/render/denoise_calibration.py [--own] [--hundred SEED] [--files SCENE ...] [--images FOLDER] [--worst N]
+    python3 tests/render/denoise_calibration.py [--own] [--images FOLDER] ...
 
-Scenes: cli/scenes and calibration_scenes.py (--own), a hundred of tests/bench/random_scenes.py, and scene files.
-PT_LIBRARY and PT_PROGRAM name library and program; needs NumPy and Open Image Denoise (pip install pyoidn, or
-LD_LIBRARY_PATH). --images keeps renderings in the folder and uses them again; --render renders only.
+--own: cli/scenes and calibration_scenes.py; --hundred SEED: scenes of tests/bench/random_scenes.py. PT_LIBRARY and
+PT_PROGRAM name library and program; needs NumPy and Open Image Denoise (pip install pyoidn, or LD_LIBRARY_PATH).
+--images keeps renderings in the folder and uses them again; --render renders only.
 
 An image has two halves of samples. Errors are differences to an image of many samples. A denoised image is worse if its
 error exceeds the raw image's by more than 2%. Light: the difference of the two images' means over the raw one's

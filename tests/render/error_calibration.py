@@ -1,11 +1,10 @@
 """Prints the tables of shaders/README.md: stated / true error of images.
 
-    python3 tests/render/error_calibration.py [--before OLD.so] [--methods ESTIMATOR/SAMPLER ...] [--scenes NAME ...]
-                                              [--sizes WIDTHxHEIGHT ...] [--jobs N]
+    python3 tests/render/error_calibration.py [--before OLD.so] ...
 
-PT_LIBRARY names the library; --before another one to compare with. Scenes come from cli/scenes and
-calibration_scenes.py. The true error is the root mean squared relative error over 24 seeds (96 for at most 8192 pixels)
-against an image of many samples of another seed. Stated errors come from the first six seeds.
+PT_LIBRARY names the library. Scenes come from cli/scenes and calibration_scenes.py. The true error is the root mean
+squared relative error over 24 seeds (96 for at most 8192 pixels) against an image of many samples of another seed.
+Stated errors come from the first six seeds.
 """
 
 import argparse

@@ -41,9 +41,8 @@ struct Judgement {
     bool accepts(double ratio) const { return ratio >= low && ratio <= high; }
 };
 
-// shaders/README.md, section 11, has a calibration. Random samples: the brightest few hundred of tens of thousands
-// weigh most, so both errors scatter. Sequences: errors are up to sqrt(3) larger (error_estimate.cpp: mean squares by
-// up to 2^p - 1, 1 <= p <= 2), and more by denominators.
+// Calibration: shaders/README.md, section 11. The brightest few hundred random samples weigh most, so both errors
+// scatter. Sequences: errors are up to sqrt(3) larger (error_estimate.cpp), and more by denominators.
 constexpr Judgement of_random{0.9, 1.2};
 constexpr Judgement of_sequence{0.8, 2.0};
 
@@ -122,8 +121,8 @@ TEST_F(StatedError, IsThatByTheReference) {
     }
 }
 
-// A hundred lamps of a 70th of a pixel: 64 samples hit one about once, and often twice, unlike fireflies, for which the
-// stated error would be ten times too large.
+// 64 samples hit a lamp of a 70th of a pixel about once, often twice. If these were fireflies, the stated error would
+// be ten times too large.
 TEST_F(StatedError, OfLampsBelowAPixelIsThatByManySamples) {
     constexpr uint32_t width = 64;
     constexpr uint32_t height = 32;

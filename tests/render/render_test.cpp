@@ -100,8 +100,8 @@ Agreement agreement(const std::vector<Image> &batches, const Image &reference, d
     return result;
 }
 
-// With k = 15 degrees of freedom t^2 has mean k / (k - 2) = 1.154, deviation 1.84, over 512 blocks 0.081. 0.5 above the
-// mean allows for sums that are not quite normal, and detects a bias of one standard error per block.
+// With k = 15 degrees of freedom t^2 has mean k / (k - 2) = 1.154, deviation 1.84, over 512 blocks 0.081. 0.5 more
+// allows for sums that are not quite normal, and detects a bias of one standard error per block.
 constexpr double expected_mean_square_t = 15.0 / 13.0;
 constexpr double mean_square_t_bound = expected_mean_square_t + 0.5;
 // P(|t| > 8.5) = 4e-7 with 15 degrees of freedom, 2e-4 over 512 blocks.

@@ -45,7 +45,6 @@ protected:
 
     virtual Context create_fixtures_context() { return create_context(); }
 
-    // The layer reports leaks on destruction.
     void TearDown() override {
         context_.reset();
         for (const std::string &line : complaints_)

@@ -1,5 +1,5 @@
 """Renders scene files with libpt (PT_LIBRARY, or the system's) without the package's objects, so that several libraries
-can be loaded and measured."""
+can be measured."""
 
 import array
 import ctypes

@@ -34,7 +34,7 @@ struct Progress {
     }
 };
 
-// Ready for samples, in short submissions.
+// In short submissions.
 pt_context *ready_context(uint64_t seed) {
     pt_create_info create{};
     create.struct_size = sizeof create;

@@ -30,7 +30,7 @@ MOST_SAMPLES = 2**32 - 1
 
 
 class Context:
-    """One renderer on one or several devices: set a scene, a camera and settings, accumulate samples, read the image.
+    """One renderer: set a scene, a camera and settings, accumulate samples, read the image.
 
     device                None: the best one. Otherwise an index into devices(), "gpu", "cpu", a UUID, or part of a
                           name. "all" devices of the best kind, or several separated by commas, share the samples
@@ -38,21 +38,21 @@ class Context:
     validation            the Khronos validation layer reports to log; UnsupportedError without it
     scene_kernels         False: no kernels with a scene's numbers as constants, for scenes that change every frame
     submit_milliseconds   intended length of a submission, in [1, 1000]; decides how soon calls can be stopped
-    shader_dir            a folder of GLSL files to compile in place of the library's kernels, as pt/shaders.h says;
+    shader_dir            a folder of GLSL files to compile in place of the library's kernels (pt/shaders.h);
                           ShaderError if one does not compile
 
-    Use it by `with`, or close() it; otherwise the garbage collector, or the end of the program, closes it.
+    Use it by `with`, or close() it; otherwise the garbage collector closes it.
 
-    Threads: contexts are independent, and calls release the interpreter's lock. A context takes one call at a time;
-    another, from another thread or a callback, raises InvalidStateError. After os.fork() a child cannot use its
-    parent's contexts (InvalidStateError): start workers by multiprocessing.get_context("spawn").
+    Threads: contexts are independent, and calls release the interpreter's lock. A context takes one call at a time,
+    also in callbacks (InvalidStateError). After os.fork() a child cannot use its parent's contexts: start workers by
+    multiprocessing.get_context("spawn").
 
-    Callbacks run on the calling thread. An exception in a callback, or in a signal handler such as Ctrl-C's, stops the
-    call at its next callback, and the call raises it; the context stays usable. Progress functions get the share of the
-    call that is done, in [0, 1], and stop it by returning True.
+    Callbacks run on the calling thread. An exception in a callback or a signal handler stops the call at its next
+    callback, and the call raises it; the context stays usable. Progress functions get the share done, in [0, 1], and
+    stop the call by returning True.
 
-    Errors are subclasses of Error. A failed call has changed nothing, except that a lost device stays lost and
-    accumulate may have taken some of its samples.
+    A failed call raises an Error and has changed nothing, but a lost device stays lost, and accumulate may keep some of
+    its samples.
     """
 
     def __init__(self, device: str | None = None, *, log: Log | None = None, validation: bool = False,
@@ -86,7 +86,7 @@ class Context:
         guard.raise_caught()
 
     def close(self) -> None:
-        """Frees everything; a second call does nothing. InvalidStateError: another call is running."""
+        """A second call does nothing. InvalidStateError: another call is running."""
         if self._handle is None:
             return
         if self._in_call:
@@ -106,27 +106,27 @@ class Context:
 
     @property
     def device(self) -> DeviceInfo:
-        """The context's device; of several, the first."""
+        """The first of several."""
         info = structs.pt_device_info()
         self._call("pt_get_context_device", info)
         return device_of(info)
 
     def set_scene(self, scene: Scene, progress: Progress | None = None) -> Result:
-        """Sets a scene and discards the samples so far. Ten million spheres take some seconds.
+        """Discards the samples so far. Ten million spheres take some seconds.
 
-        Result.CANCELLED: progress returned True, and everything is as before. After an exception that follows
-        progress(1) the new scene may be set all the same. InvalidSceneError: broken rules, such as "spheres[3].radius =
-        -1: must be > 0"; the message has a line for each."""
+        Result.CANCELLED: progress returned True, and everything is as before. An exception after progress(1) may come
+        too late for that. InvalidSceneError: the message has a line for each broken rule, such as "spheres[3].radius =
+        -1: must be > 0"."""
         guard = self._guard()
         scene_struct = SceneStruct(scene, guard, progress)
         return self._call("pt_set_scene", scene_struct.struct, guard=guard)
 
     def set_camera(self, camera: Camera) -> None:
-        """Sets a camera and discards the samples so far. InvalidArgumentError: a rule is broken."""
+        """Discards the samples so far. InvalidArgumentError: a rule is broken."""
         self._call("pt_set_camera", camera._struct())
 
     def set_render(self, settings: RenderSettings) -> None:
-        """Sets render settings and discards the samples so far. Takes 112 bytes a pixel of device memory.
+        """Discards the samples so far. Takes 112 bytes a pixel of device memory.
 
         InvalidArgumentError: a rule is broken. UnsupportedError, OutOfDeviceMemoryError: render fewer rows at a time.
         """
@@ -134,15 +134,14 @@ class Context:
         self._shape = settings.shape()
 
     def reload_shaders(self) -> None:
-        """Compiles the files of shader_dir again. If the kernels differ, the samples so far are discarded.
+        """Compiles the files of shader_dir again. Different kernels discard the samples so far.
 
         ShaderError: a file does not compile; kernels and samples are as before. InvalidStateError: no shader_dir."""
         self._call("pt_reload_shaders")
 
     def prepare(self) -> None:
-        """Builds the kernels of accumulate in advance. Cannot be interrupted.
-
-        InvalidStateError: scene, camera or settings are not set."""
+        """Builds the kernels of accumulate in advance, without interruption. InvalidStateError: scene, camera or
+        settings are not set."""
         self._call("pt_prepare")
 
     def accumulate(self, sample_count: int, *, target_error: float = 0.0, sample_limit: int = 0,
@@ -152,7 +151,7 @@ class Context:
         sample_count   >= 1; with a target error the most to add
         target_error   0: none. Otherwise sampling ends once ErrorEstimate.relative_rmse_high is at or below it, with
                        Result.TARGET_REACHED; 0.01 is 1%
-        sample_limit   with a target error, the most samples of a pixel in this call and those that follow; 0: of this call
+        sample_limit   with a target error, a pixel's most samples in this call and later ones; 0: in this one alone
         sampling       where samples go; by default adaptive with a target error, else uniform
         progress       called after each submission, about every twentieth of a second; True ends the call with
                        Result.CANCELLED and the whole samples taken so far
@@ -167,8 +166,8 @@ class Context:
     def accumulate_tiles(self, samples: npt.ArrayLike, *, progress: Progress | None = None) -> Result:
         """Adds samples to some tiles, so that machines can share what Film.plan decides.
 
-        samples    to add to each pixel of a tile, or 0; shape (rows, columns) or flat. Tiles are 8 x 8 pixels from the
-                   top left of the rendered part, smaller at the right and lower edges
+        samples    to add to each pixel of a tile; shape (rows, columns) or flat. Tiles are 8 x 8 pixels from the top
+                   left of the rendered part, smaller at the right and lower edges
         progress   as in accumulate
         """
         counts = np.ascontiguousarray(samples, dtype=np.uint32).ravel()
@@ -184,8 +183,8 @@ class Context:
 
         quantity    radiance (linear RGB), its standard error, ... OBJECT needs the format R32UI
         out         receives the pixels in place and is returned: float32 with 3 or 4 channels, float16 with 4 or uint32
-                    with 1. Pixels of a row must be side by side; rows may be at any distance, as in a part of a larger
-                    array. Never copied: ValueError if it does not fit
+                    with 1. Pixels of a row must be side by side; rows may be at any distance. ValueError: it does not
+                    fit
         rectangle   x, y, width, height in pixels, from the top left of the rendered part; None: all of it
         format      of a new array
 
@@ -197,7 +196,6 @@ class Context:
         return pixels
 
     def stats(self) -> Stats:
-        """Counts and costs so far."""
         struct = structs.pt_stats()
         self._call("pt_get_stats", struct)
         return stats_of(struct)
@@ -209,7 +207,7 @@ class Context:
         return broken_rule_of(struct) if struct.subject else None
 
     def error_estimate(self) -> ErrorEstimate:
-        """How good the image is. The first call after new samples examines the whole image."""
+        """The first call after new samples examines the whole image."""
         struct = structs.pt_error_estimate()
         self._call("pt_get_error_estimate", struct)
         return error_estimate_of(struct)
@@ -232,13 +230,12 @@ class Context:
 
     def render(self, scene: Scene, camera: Camera, settings: RenderSettings, samples: int, *,
                target_error: float = 0.0, progress: Progress | None = None, denoise: bool = False) -> Image:
-        """Sets all three, accumulates samples and returns the image, even if progress ended the sampling early. Warns
-        (UserWarning) of what warning() tells.
+        """Sets all three, accumulates samples and returns the image, even if progress ended the sampling early.
+        UserWarning: the text of warning().
 
-        denoise   takes half of the samples with each of two seeds and denoises them, as pt.denoise says; a target error
-                  is the result's
+        denoise   takes half of the samples with each of two seeds for pt.denoise; target_error is the result's
 
-        InvalidStateError: it ended before the first sample, or before there was something to denoise."""
+        InvalidStateError: progress ended it before the first sample, or before there was something to denoise."""
         self.set_scene(scene)
         self.set_camera(camera)
         if denoise:
@@ -257,13 +254,12 @@ class Context:
         return guard
 
     def _call(self, function: str, *arguments: Any, guard: CallbackGuard | None = None) -> Result:
-        """Calls a function on the context; raises a callback's exception or the library's error."""
+        """Raises a callback's exception or the library's error."""
         handle, guard = self._handle, guard or self._guard()
         if handle is None:
             raise InvalidStateError("the context is closed")
-        # A flag, not a lock: KeyboardInterrupt may come when a lock's acquire() returns, but neither it nor a switch of
-        # threads comes between this test and `try`. Without a global lock (PEP 703) they may; then the library refuses
-        # the call.
+        # A flag, not a lock: KeyboardInterrupt may come when a lock's acquire() returns, but not between this test and
+        # `try`. Without a global lock (PEP 703) the library refuses the call.
         if self._in_call:
             raise InvalidStateError("another call on this context is under way")
         self._in_call = True
@@ -277,5 +273,5 @@ class Context:
 
 
 def _destroy(loaded: ctypes.CDLL, handle: ctypes.c_void_p, _log: object) -> None:
-    """The arguments keep the library's callbacks alive until then."""
+    """The arguments keep the library's callbacks alive until the context is destroyed."""
     loaded.pt_destroy(handle)

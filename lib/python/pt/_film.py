@@ -28,8 +28,6 @@ TILE_SIDE = 8  # pixels
 
 @dataclass(frozen=True)
 class FilmInfo:
-    """A film's picture, and the film's part of it."""
-
     width: int  # of the whole image, pixels
     height: int
     x: int  # first column of the smallest rectangle with all of the film's pixels
@@ -40,8 +38,8 @@ class FilmInfo:
     seed: int
     estimator: Estimator
     sampler: Sampler
-    lamp_sample_count: int  # samples of a pixel that meet all lamps in view smaller than a pixel; 0: there are none
-    device: str  # models and drivers of the devices that took the samples
+    lamp_sample_count: int  # samples of a pixel that meet all lamps in view smaller than a pixel; 0: no such lamps
+    device: str  # models and drivers
 
 
 @dataclass(frozen=True)
@@ -61,8 +59,8 @@ class Film:
     Films of other samples or pixels of the same picture add up, by + or sum(), in any order, to the bits of one long
     rendering. They can be pickled, saved, loaded, and compared: equal samples make equal films.
 
-    Made by Context.film(), Film.load(path), or Film(data) from another film's bytes, which need not be trusted
-    (IncompatibleError). A film takes 112 bytes a pixel. Calls of other threads wait for the current one.
+    Film(data) takes another film's bytes, also untrusted ones (IncompatibleError). A film takes 112 bytes a pixel.
+    Calls of other threads wait for the current one.
     """
 
     def __init__(self, data: bytes) -> None:
@@ -75,18 +73,17 @@ class Film:
 
     @classmethod
     def load(cls, path: Path) -> Film:
-        """A film from a file of save() or the program pt (--film, --checkpoint). The program's files are packed: they
-        need Python 3.14 or the module zstandard."""
+        """Reads a file of save() or the program pt, whose packed files need Python 3.14 or the module zstandard."""
         with open(path, "rb", opener=regular) as file:
             return cls(file.read())
 
     def save(self, path: Path) -> None:
-        """Writes the bytes to a file, whole or not at all; `pt merge` reads it too."""
+        """Writes a file, whole or not at all; `pt merge` reads it too."""
         write_atomically(path, lambda file: self.stream(file.write))
 
     def stream(self, write: Callable[[bytes], object]) -> None:
-        """Passes the bytes of to_bytes() to a function in pieces of at most a megabyte, to save or send a film without
-        a second copy in memory. An exception of the function ends the call and is raised."""
+        """Passes the bytes of to_bytes() to a function in pieces of at most a megabyte, without a second copy in
+        memory. The function's exception ends the call and is raised."""
         guard = CallbackGuard()
 
         def take(_: object, data: int, size: int) -> int:
@@ -100,7 +97,7 @@ class Film:
         guard.raise_caught()
 
     def to_bytes(self) -> bytes:
-        """The film as bytes, in the format of lib/film/FORMAT.md. Equal samples of equal pictures are equal bytes."""
+        """The bytes of lib/film/FORMAT.md. Equal samples of equal pictures are equal bytes."""
         return bytes_from(lambda data, size: self._call("pt_write_film", data, size))
 
     @property
@@ -124,8 +121,8 @@ class Film:
         return self
 
     def __iadd__(self, other: Film) -> Film:
-        """Adds the other's samples to this film. IncompatibleError: it is of another picture, or has samples that this
-        film has already; the message has a line for each difference, and nothing is changed."""
+        """Adds the other's samples. IncompatibleError: it is of another picture, or has samples that this film has
+        already; the message has a line for each difference, and nothing is changed."""
         if not isinstance(other, Film):
             return NotImplemented
         data = other.to_bytes()
@@ -148,7 +145,6 @@ class Film:
 
     @property
     def info(self) -> FilmInfo:
-        """The film's picture and part."""
         struct = structs.pt_film_info()
         with self._lock:
             self._call("pt_get_film_info", struct)
@@ -159,7 +155,7 @@ class Film:
 
     @property
     def tiles(self) -> list[FilmTile]:
-        """The tiles with their samples; a single one if all pixels have the same."""
+        """A single one if all pixels have the same samples."""
         with self._lock:
             info = structs.pt_film_info()
             self._call("pt_get_film_info", info)
@@ -177,14 +173,12 @@ class Film:
         return pixels
 
     def stats(self) -> Stats:
-        """The film's sample counts."""
         struct = structs.pt_stats()
         self._call("pt_get_film_stats", struct)
         return stats_of(struct)
 
     def error_estimate(self) -> ErrorEstimate:
-        """How good the film's image is. A film does not know the scene's lamps, so Uncertain.UNMET is set if the
-        estimator finds lamps by chance."""
+        """A film does not know the scene's lamps, so Uncertain.UNMET is set if the estimator finds lamps by chance."""
         struct = structs.pt_error_estimate()
         self._call("pt_get_film_error_estimate", struct)
         return error_estimate_of(struct)
@@ -226,8 +220,7 @@ class Film:
 
 
 def bytes_from(write: Callable[[Any, ctypes.c_uint64], object]) -> bytes:
-    """The bytes that a library function writes after stating their number; in place, because a film takes hundreds of
-    megabytes."""
+    """Written in place, because a film takes hundreds of megabytes."""
     size = ctypes.c_uint64()
     write(None, size)
     allocated = size.value

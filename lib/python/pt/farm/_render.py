@@ -17,7 +17,7 @@ from pt.farm._job import AnyJob
 from pt.farm._options import FarmError, Options, Progress, Result
 from pt.farm._part import Goals, grid_shape
 
-FIRST_LOOK = 16  # the fewest samples per pixel with a known error
+FIRST_LOOK = 16  # the fewest samples with a known error
 
 
 def render(client: Any, job: AnyJob, samples: int, *, target_error: float = 0.0, sampling: Sampling = Sampling.BEST,
@@ -27,7 +27,7 @@ def render(client: Any, job: AnyJob, samples: int, *, target_error: float = 0.0,
 
     client         a distributed.Client
     samples        per pixel; with a target error the most
-    target_error   0: none. Otherwise relative, as in Context.accumulate, and with the same samples
+    target_error   0: none. Otherwise relative, with the same samples as Context.accumulate
     progress       called some times a second with the counts and the film so far, which it must not change; True ends
                    the rendering
 
@@ -49,7 +49,7 @@ def render(client: Any, job: AnyJob, samples: int, *, target_error: float = 0.0,
 
 
 def _to_samples(coordinator: Coordinator, job: AnyJob, samples: int) -> Result:
-    """Renders a fixed number of samples in steps, so that the picture so far always has all pixels."""
+    """Renders in steps, so that the picture so far always has all pixels."""
     shape = grid_shape(job.settings.width, job.settings.height)
     steps = [np.full(shape, count, np.uint32) for count in _counts_to(samples)]
     ended = True
@@ -69,7 +69,7 @@ def _counts_to(samples: int) -> Iterator[int]:
 
 def _to_error(coordinator: Coordinator, job: AnyJob, samples: int, target_error: float, sampling: Sampling) -> Result:
     def further() -> Goals | None:
-        """The next samples of returned tiles while others are running: a tile's own samples decide them
+        """Decides the next samples of returned tiles while others are running: a tile's own samples decide them
         (lib/film/adaptive_rule.h)."""
         result, planned = coordinator.film.plan(target_error, samples)
         return planned if result == Outcome.PENDING else None
