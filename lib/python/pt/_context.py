@@ -149,9 +149,9 @@ class Context:
         """Adds samples to every pixel.
 
         sample_count   >= 1; with a target error the most to add
-        target_error   0: none. Otherwise sampling ends once ErrorEstimate.relative_rmse_high is at or below it, with
-                       Result.TARGET_REACHED; 0.01 is 1%
-        sample_limit   with a target error, a pixel's most samples in this call and later ones; 0: in this one alone
+        target_error   0: none. Otherwise sampling ends with Result.TARGET_REACHED once ErrorEstimate.relative_rmse_high
+                       is at or below it and samples enough to meet lamps smaller than a pixel are taken; 0.01 is 1%
+        sample_limit   with a target error, the most samples of a pixel after this call and later ones; 0: after this
         sampling       where samples go; by default adaptive with a target error, else uniform
         progress       called after each submission, about every twentieth of a second; True ends the call with
                        Result.CANCELLED and the whole samples taken so far
