@@ -178,6 +178,8 @@ CASES = (
     ("images.data", lammps("1 1 0 0 0 0 0 0", "2 2 1 0 0 1 0 0", masses=MASSES), "O H", {"x": [0, 1], "note": "taken to be atomic"}),
     ("charge.data", lammps("1 1 -0.8 0 0 0", "2 2 0.4 1 0 0", masses=MASSES), "O H", {"note": "taken to be charge"}),
     ("sphere.data", lammps("1 1 2.0 1.0 0 0 0", "2 1 1.0 1.0 1 0 0", types=1, hint=" # sphere"), [1, 1], {"radii": [1, 0.5]}),
+    ("ellipsoids.data", lammps("2 1 1 1 0 0 0", "1 1 1 1 1 0 0", types=1, more="2 ellipsoids", hint=" # ellipsoid") +
+     "\nEllipsoids\n\n1 3 2 1 1 0 0 0\n2 5 5 5 1 0 0 0\n", [1, 1], {"radii": [2.5, 1], "note": "2 ellipsoids are drawn as balls"}),
     ("united.data", lammps("1 1 0 0 0", "2 2 1 0 0", masses="\nMasses\n\n1 15.035\n2 14.027\n", hint=" # atomic"), "C C", {}),
     ("tilted.data", lammps("1 1 0 0 0", types=1, more="1 0 0 xy xz yz"), [1], {"cell": [4, 17**0.5, 5]}),
     ("a.yaml", YAML.format(step=0, count=2, rows="  - [ 2, 1, 1.0, 0, -1e-3, ]\n  - [ 1, 2, -2, 0, 0, ]\n"), [1, 2],

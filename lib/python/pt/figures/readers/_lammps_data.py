@@ -38,6 +38,7 @@ _HEADER: Final = re.compile(r"(\d+)\s+([a-z][a-z ]*)")
 _BOUNDS: Final = re.compile(r"(.+?)\s+(xlo xhi|ylo yhi|zlo zhi|xy xz yz|avec|bvec|cvec|abc origin)")
 _IMAGES: Final = ("ix", "iy", "iz")
 _SHAPES: Final = ("shapex", "shapey", "shapez")
+_TURN: Final = ("quatw", "quati", "quatj", "quatk")
 _COMMENT: Final = re.compile(rb"#[^\n]*")
 _BLANK: Final = re.compile(rb"[ \t\r]*(#[^\n]*)?\n")
 _MOST_BLANK: Final = 4096
@@ -89,7 +90,7 @@ class LammpsData:
         elif name == "Bonds":
             self.bonds = self._rows("bonds", ["id", "type", "first", "second"])
         elif name == "Ellipsoids":
-            self.shapes = self._rows("ellipsoids", ["id", *_SHAPES])
+            self.shapes = self._rows("ellipsoids", ["id", *_SHAPES, *_TURN], 4)
 
     def _few_rows(self, counted: str, what: str, with_comments: bool = False) -> list[list[str]]:
         rows: list[list[str]] = []
@@ -120,8 +121,10 @@ class LammpsData:
         lines = self.lines
         while _BLANK.match(lines.peek(_MOST_BLANK)):
             lines.line()
-        start = _COMMENT.sub(b" ", lines.peek(_PEEKED)).decode("utf-8", "replace")
-        some = [words for line in start.split("\n")[:100] if (words := line.split())][:self.counts.get("atoms", 0)]
+        start = lines.peek(_PEEKED)
+        whole = start if len(start) < _PEEKED else start.rpartition(b"\n")[0]
+        rows = _COMMENT.sub(b" ", whole).decode("utf-8", "replace").split("\n")
+        some = [words for line in rows[:100] if (words := line.split())][:self.counts.get("atoms", 0)]
         if not some:
             return
         names = STYLES[self._style(some, hint)]
