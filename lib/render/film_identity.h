@@ -15,7 +15,7 @@ namespace pt {
 
 // Must rise with any change to the bits of samples, in the kernel or its input, or to the samples that a target error
 // takes.
-inline constexpr std::uint32_t estimator_version = 7;
+inline constexpr std::uint32_t estimator_version = 8;
 
 // Leaves out what changes no bits: rows, ranges, submissions, the number of equal devices, kernels with the scene as
 // constants (trace_pipelines.h).
