@@ -130,8 +130,8 @@ std::vector<LampSquare> united(std::vector<LampSquare> lamps) {
     std::ranges::sort(lamps, [&](const LampSquare &a, const LampSquare &b) {
         return std::tuple(place(a), b.samples) < std::tuple(place(b), a.samples);
     });
-    const auto [first, last] = std::ranges::unique(lamps, {}, place);
-    lamps.erase(first, last);
+    const auto is_same = [&](const LampSquare &a, const LampSquare &b) { return place(a) == place(b); };
+    lamps.erase(std::unique(lamps.begin(), lamps.end(), is_same), lamps.end());
     return lamps;
 }
 

@@ -37,7 +37,7 @@ constexpr float turns[] = {0.125F, 0.25F, 0.375F, 0.5F, 0.625F, 0.75F, 0.875F};
 constexpr float complements[] = {0.0625F, 0.25F, 0.5F, 0.75F, 0.875F, 0.999F};
 // Odd multiples of 1/2, where the nearest integer changes.
 constexpr float exponents[] = {-0.5F, -1.0F, -1.5F, -24.5F, -99.5F};
-constexpr float squares[] = {1.0F, 2.0F, 4.0F};
+constexpr float powers_of_two[] = {1.0F, 2.0F, 4.0F};
 
 // Bounds add the errors of all steps, in u = 2^-24; an ulp is 1 to 2 u of its value. Sums, products: u. Vulkan
 // ("Precision and Operation of SPIR-V Instructions"): division 2.5 ulp, inversesqrt 2 ulp.
@@ -57,9 +57,10 @@ constexpr ElementaryFunction functions[] = {
     {"1 - 2^x (one_minus_exp2)", [](double x) { return -std::expm1(x * std::numbers::ln2); }, 2.5, -0x1p-100F, -100.0F,
      exponents},
     // sqrt: 4 u of inversesqrt and 2.5 ulp of the division.
-    {"pi / x (division)", [](double x) { return float_pi / x; }, 2.5, 0x1p-100F, 0x1p100F, squares},
-    {"square root (sqrt)", [](double x) { return std::sqrt(x); }, 6.5, 0x1p-100F, 0x1p100F, squares},
-    {"1 / square root (inversesqrt)", [](double x) { return 1.0 / std::sqrt(x); }, 2.0, 0x1p-100F, 0x1p100F, squares},
+    {"pi / x (division)", [](double x) { return float_pi / x; }, 2.5, 0x1p-100F, 0x1p100F, powers_of_two},
+    {"square root (sqrt)", [](double x) { return std::sqrt(x); }, 6.5, 0x1p-100F, 0x1p100F, powers_of_two},
+    {"1 / square root (inversesqrt)", [](double x) { return 1.0 / std::sqrt(x); }, 2.0, 0x1p-100F, 0x1p100F,
+     powers_of_two},
 };
 
 // a NaN
