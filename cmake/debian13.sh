@@ -5,7 +5,7 @@
 set -eu
 project=$(cd "$(dirname "$0")/.." && pwd)
 tree=${1:-$project/build/debian13}
-packages="g++ clang-19 cmake ninja-build pkg-config libvulkan-dev glslang-tools glslang-dev spirv-tools libglm-dev
+packages="g++ make clang-19 cmake ninja-build pkg-config libvulkan-dev glslang-tools glslang-dev spirv-tools libglm-dev
     libxxhash-dev libpng-dev nlohmann-json3-dev libcli11-dev libzstd-dev libopenimageio-dev libgtest-dev python3
     python3-numpy lld-19 llvm-19 mesa-vulkan-drivers"
 
