@@ -11,8 +11,8 @@ struct CameraRay {
     float time; // in [0, 1], from shutter open to closed
 };
 
-// Offset from the image's middle in pixels, right and down. place: in [0, 1)^2 within the pixel. The pixel's part is a
-// multiple of 1/2, hence exact.
+// Offset from the image's middle in pixels, right and down. place: in [0, 1)^2 within the pixel. The offset of the
+// pixel is a multiple of 1/2, hence exact.
 vec2 image_place(CameraView camera, uvec2 pixel, vec2 place)
 {
     return 0.5 * vec2(ivec2(2u * pixel) - ivec2(camera.width, camera.height)) + place;

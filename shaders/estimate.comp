@@ -116,7 +116,7 @@ Sorted row_about(uint y, uint column, uint first, uint last)
     return sorted(left, means[y][column], right);
 }
 
-// Exactly 1 for the whole sum, although division may err, since the host subtracts shares. sum != 0.
+// part / sum, but exactly 1 for the whole sum, where division may err: the host subtracts shares. sum != 0.
 float share_of(float part, float sum)
 {
     return part == sum ? 1.0 : part / sum;
@@ -295,7 +295,7 @@ void main()
         barrier();
     }
 
-    // Sums of columns, tiles, all.
+    // Sums columns, then tiles, then all.
     [[unroll]] for (uint kind = 0u; kind < SQUARE_KINDS; ++kind)
         errors[invocation].squares[kind] = squares_of(squares[kind]);
     errors[invocation].met_again = met_again;

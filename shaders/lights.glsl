@@ -138,7 +138,7 @@ LampChoice choose_by_tree(Lamps lamps, uint number)
 }
 
 // Low numbers choose uniformly among lamps in sight, others by weight, summed in the order of the total, so that small
-// probabilities survive rounding. Short of the target it takes the last lamp in sight.
+// probabilities survive rounding. If rounding keeps the sum below the target, the last lamp in sight is chosen.
 LampChoice choose(Lamps lamps, uint number)
 {
     if (HAS_LAMP_TREE)

@@ -43,7 +43,7 @@ void take_samples(uvec2 pixel, uint pixel_index, uint done, uint end, inout Film
     } while (done < end);
 }
 
-// The same, one step of a walk at a time (tree_path.glsl).
+// Like take_samples(), one step of a walk at a time (tree_path.glsl).
 void take_samples_by_steps(uvec2 pixel, uint pixel_index, uint done, uint end, inout FilmPixel gathered)
 {
     FrameConstants held = frame;

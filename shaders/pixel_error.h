@@ -65,12 +65,12 @@ PT_FUNCTION real around(real mean, ValueSet tile, real median_beside, real large
     return more_of(more_of(median_beside, of_brighter), mean_besides_and_without_largest(tile, mean));
 }
 
-// The limit that divides squared errors must not come from the bright sample that made the error. It is at most the
-// squares of the darker part's mean and of the level around, and at most the own mean's.
+// The limit that divides squared errors must not come from the bright sample that made the error. It is the pixel's
+// mean or, if less, the greater of the darker part's mean and the level around.
 //
 // At an edge the level around is bright, but at least half of the samples are dark. A share p of samples has value M,
-// so far one of N: the mean is T = M / N, the squared error about T^2. If the prior of p is uniform, y = N p has
-// the density y e^-y, and the limit is M p. The expectation of T^2 / (M^2 p^2 + k^2), k^2 = known, is the integral of y
+// so far one of N: the mean is T = M / N, the squared error about T^2. If the prior of p is uniform, y = N p has the
+// density y e^-y, and the limit is M p. The expectation of T^2 / (M^2 p^2 + k^2), k^2 = known, is the integral of y
 // e^-y / (y^2 + k^2 / T^2): ln(T / k) less about 1, depending on the prior. Leaving out the constant fits the
 // calibration scenes.
 struct Limit {

@@ -30,7 +30,7 @@ bool is_glow(SpotWord word) { return GLOSS == 0u || word.glossiness < 0.0; }
 // Seen from a vertex.
 struct Spot {
     vec4 place;   // image: unit vector, exponent of its lobe; glow: the lamp's middle, squared height over the plane
-    float weight; // for choosing; 0: cannot be seen
+    float weight; // of the choice; 0: the spot cannot be seen
 };
 
 struct Spots {

@@ -22,7 +22,7 @@ struct Path {
 };
 
 // The current path, with spots only.
-float arrival_density; // of the direction to the last vertex, times the directions that left the vertex before
+float arrival_density; // of the direction to the last vertex, times the number of directions from the vertex before
 float departure_share; // weight of light that the next departure finds; a spot's ray finds the rest
 
 Path path_from(Arrival first) { return Path(first, vec3(1.0), vec3(0.0), 1u, true); }

@@ -51,7 +51,7 @@ const char *find_option(const BrokenRule &rule);
 struct LibraryError {
     std::string message;
     std::vector<BrokenRule> rules; // empty if the message concerns no field
-    std::uint64_t left_out = 0;    // further rules, not stored
+    std::uint64_t left_out = 0;    // broken rules beyond those in `rules`
 
     // One line per rule; without rules the message.
     std::string in_words(const std::function<std::string(const BrokenRule &)> &words) const;

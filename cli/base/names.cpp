@@ -42,7 +42,7 @@ std::string_view nearest_name(std::string_view name, std::span<const std::string
         const std::size_t shorter = std::min(candidate.size(), name.size());
         const std::size_t longer = std::max(candidate.size(), name.size());
         if (longer - shorter >= best_distance)
-            continue; // the distance is at least this
+            continue; // a lower bound of the distance
         const std::size_t distance = edit_distance(name, candidate);
         if (distance < best_distance) {
             best_distance = distance;

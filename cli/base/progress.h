@@ -43,7 +43,7 @@ public:
 
     void begin_at(std::uint64_t sample_count) { begun_ = static_cast<double>(sample_count); }
 
-    // seconds: of the whole run.
+    // The work ends this long after the start at the latest.
     void limit_time(double seconds) { limit_seconds_ = seconds; }
 
     // Infinite: unknown.

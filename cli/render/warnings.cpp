@@ -88,7 +88,7 @@ std::optional<std::string> picture_below_its_target(const RenderReport &report, 
     const double stops = is_known ? report.tone_map->exposure : automatic_exposure(radiance);
     if (stops <= most_stops)
         return std::nullopt;
-    return "--error: the picture is darker than what the relative error tells apart, so the target says little of it: "
+    return "--error: the picture is so dark that a relative error says little: "
            "multiply all emission by 2^" +
            formatted("%.0f", stops) + ", or ask for much less";
 }

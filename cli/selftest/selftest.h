@@ -45,7 +45,7 @@ SelftestScene lamp_in_a_ball();
 // mean by at least twice the bound.
 std::vector<SelftestScene> weight_scenes();
 
-// Samples are cosines of sampled directions. Expected are means, second moments, and the share on each side.
+// Samples are cosines of sampled directions. Checks means, second moments, and the share on each side.
 std::vector<SelftestScene> direction_scenes();
 
 struct SelftestReport {

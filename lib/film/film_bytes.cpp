@@ -118,7 +118,7 @@ FilmReader::FilmReader(std::span<const std::byte> bytes) :
                     "film: it has " + std::to_string(bytes.size()) + " bytes, and its header asks for " +
                         std::to_string(layout_.size_bytes()) + ": truncated, or followed by more");
     if (stored_checksum(bytes) != checksum(bytes.first(bytes.size() - checksum_bytes)))
-        throw Error(PT_ERROR_INCOMPATIBLE, "film: its checksum does not fit its bytes, which have been damaged");
+        throw Error(PT_ERROR_INCOMPATIBLE, "film: its checksum does not match its bytes, which are damaged");
 }
 
 void FilmReader::read(std::size_t tile, std::uint64_t first_pixel, PixelSums &sums) const {

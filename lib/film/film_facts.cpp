@@ -76,8 +76,7 @@ void require_same(const FilmIdentity &film, const FilmIdentity &other, const std
 
 void require_apart(const SampleSet &added, const SampleSet &present, const std::string &where) {
     if (const auto overlap = added.overlap(present))
-        refuse_film("samples", text_of(added) + where,
-                    text_of(*overlap) + " are in the film already that it is added to");
+        refuse_film("samples", text_of(added) + where, text_of(*overlap) + " are already in the film");
     if (present.count() + added.count() > UINT32_MAX)
         refuse_film("samples", text_of(added), "a pixel holds at most 2^32 - 1");
 }

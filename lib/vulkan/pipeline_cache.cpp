@@ -68,14 +68,14 @@ void PipelineCache::load(const KernelStore &store, const Log &log) {
     const bool unchanged = store.load(store.user, key_.c_str(), bytes.data(), bytes.size()) == size;
     const std::span<const std::byte> data = unchanged ? unsealed_kernels(key_, bytes) : std::span<const std::byte>{};
     if (data.empty()) {
-        log.info([] { return std::string("the kernels that were kept are damaged or foreign, and are built anew"); });
+        log.info([] { return std::string("the kept kernels are damaged or foreign, and are built again"); });
         return;
     }
     try {
         cache_ = device_->createPipelineCache({.initialDataSize = data.size(), .pInitialData = data.data()});
         kept_checksum_ = kernel_seal(key_, data).checksum;
     } catch (const vk::SystemError &error) {
-        log.info([&] { return std::string("the driver refuses the kernels that were kept: ") + error.what(); });
+        log.info([&] { return std::string("the driver refuses the kept kernels: ") + error.what(); });
     }
 }
 

@@ -130,10 +130,9 @@ TEST(Warnings, PicturesThatAreDarkerThanTheErrorTells) {
     std::vector<float> radiance(300, 0.18F * 0x1p-12F);
     EXPECT_EQ(image_warnings(report, radiance), Texts()) << "no target";
     report.target_error = 0.01;
-    EXPECT_EQ(
-        image_warnings(report, radiance),
-        Texts{"--error: the picture is darker than what the relative error tells apart, so the target says little "
-              "of it: multiply all emission by 2^12, or ask for much less"});
+    EXPECT_EQ(image_warnings(report, radiance),
+              Texts{"--error: the picture is so dark that a relative error says little: "
+                    "multiply all emission by 2^12, or ask for much less"});
     std::ranges::fill(radiance, 0.18F * 0x1p-4F);
     EXPECT_EQ(image_warnings(report, radiance), Texts());
 }

@@ -136,7 +136,7 @@ TEST_F(KeptKernelsApiTest, AreKeptUnderOneKeyAndGivenBack) {
     again.kept = keeper.kept;
     const Context second = keeping(again);
     EXPECT_EQ(again.loads, (std::vector<std::string>{key, key})) << "the size, and the bytes";
-    EXPECT_EQ(again.heard("the kernels that were kept"), 0U) << "they are whole";
+    EXPECT_EQ(again.heard("the kept kernels"), 0U) << "they are whole";
     ASSERT_NO_FATAL_FAILURE(set_coursework(second.get()));
     ASSERT_NO_FATAL_FAILURE(set_coursework(context()));
     EXPECT_EQ(rendered(second.get(), 3), rendered(context(), 3));
@@ -153,7 +153,7 @@ TEST_F(KeptKernelsApiTest, DamagedAndForeignOnesAreLeftAlone) {
         Keeper loading;
         loading.kept = keeper.kept;
         const Context context = keeping(loading);
-        return loading.heard("the kernels that were kept are damaged or foreign, and are built anew") == 0;
+        return loading.heard("the kept kernels are damaged or foreign, and are built again") == 0;
     };
     {
         const Context first = keeping(keeper);

@@ -262,13 +262,13 @@ TEST_F(SavedFilm, StrangersAreRefusedAndNothingChanges) {
          }),
          "film.max_path_length = 4: must be 3, as in this context\nfilm.sampler = 1: must be 4, as in this context"},
         {strange_film([](pt_render &, pt_camera &camera) { camera.vertical_fov = 0.5; }), "film.camera = "},
-        {part(19, 22), "film.samples = [19, 22): [19, 20) are in the film already that it is added to"},
-        {good, "film.samples = [12, 20): [12, 20) are in the film already that it is added to"},
+        {part(19, 22), "film.samples = [19, 22): [19, 20) are already in the film"},
+        {good, "film.samples = [12, 20): [12, 20) are already in the film"},
         {with_another(good, "kernel"), "film.kernel = "},
         {with_another(good, "device"), "film.device = "},
         {with_another(good, "estimator_version"), "film.estimator_version = "},
         {truncated, "film: it has "},
-        {edited(good, "\nkernel", "\ncernel"), "film: its checksum does not fit its bytes, which have been damaged"},
+        {edited(good, "\nkernel", "\ncernel"), "film: its checksum does not match its bytes, which are damaged"},
         {Bytes{}, "film: these bytes are no film"},
     };
     set_up(context(), settings(0));

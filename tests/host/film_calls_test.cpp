@@ -239,9 +239,8 @@ TEST(FilmCalls, RefuseWhatIsNotThere) {
     opening = reinterpret_cast<pt_film *>(1);
     expect_refusal(pt_open_film("no film", 7, &opening), PT_ERROR_INCOMPATIBLE, "film: these bytes are no film");
     EXPECT_EQ(opening, nullptr);
-    expect_refusal(
-        pt_merge_film(film.get(), bytes.data(), bytes.size()), PT_ERROR_INCOMPATIBLE,
-        "film.samples = [0, 3) in the 3x3 pixels from (1, 2): [0, 3) are in the film already that it is added to");
+    expect_refusal(pt_merge_film(film.get(), bytes.data(), bytes.size()), PT_ERROR_INCOMPATIBLE,
+                   "film.samples = [0, 3) in the 3x3 pixels from (1, 2): [0, 3) are already in the film");
     const std::string null_film = "film = NULL: must not be NULL";
     std::uint64_t size = 0;
     std::uint32_t count = 0;

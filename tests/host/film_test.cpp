@@ -182,8 +182,8 @@ TEST(Film, WhatDoesNotBelongChangesNothing) {
     give(others, {0, 0, image_width, image_height}, {3, 4});
     EXPECT_EQ(refusal(seed, others), "film.seed = 7: must be 18446744073709551615, as in the film that it is added to");
     give(others, {8, 8, 4, 4}, {1}); // splits the tiles too
-    EXPECT_EQ(refusal(same, others), "film.samples = [1, 2), [3, 5) in the 4x4 pixels from (8, 8): [1, 2) are in the "
-                                     "film already that it is added to");
+    EXPECT_EQ(refusal(same, others),
+              "film.samples = [1, 2), [3, 5) in the 4x4 pixels from (8, 8): [1, 2) are already in the film");
 }
 
 TEST(Film, WhatNoPictureHasIsRefused) {

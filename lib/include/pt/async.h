@@ -56,7 +56,7 @@ PT_API pt_result pt_start(pt_context *context, const pt_accumulate_info *info);
  * which never falls.
  *
  * One thread at a time per context. PT_PENDING: samples are still under way. Every other result ends what pt_start
- * began, except a refusal of a call in a callback or while another thread is in a call. PT_OK: all samples are taken.
+ * began, except a refusal (in a callback, or while another thread is in a call). PT_OK: all samples are taken.
  * PT_TARGET_REACHED: fewer were enough. PT_CANCELLED: pt_cancel was called; fewer samples are taken, all of them whole.
  * PT_ERROR_INVALID_STATE: nothing is under way. PT_ERROR_OUT_OF_DEVICE_MEMORY, PT_ERROR_SHADER, PT_ERROR_DEVICE_LOST:
  * the driver said so. */
