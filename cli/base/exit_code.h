@@ -34,11 +34,11 @@ inline constexpr const char *exit_code_help =
     "  7    the target error was not reached, or samples that merge --spp asks for are missing; all files\n"
     "       were written\n"
     "  8    the images that were compared differ by more than a limit\n"
-    "  75   --time came first; all files were written, and --resume goes on from the checkpoint\n"
+    "  75   --time came first; all files were written, and --resume continues from the checkpoint\n"
     "  129  SIGHUP: the samples done so far were written, if there were any, and the checkpoint\n"
     "  130  SIGINT: the same\n"
     "  143  SIGTERM: the same\n"
-    "A --watch that such a signal ends while it waits for changes has done its work: 0.";
+    "A waiting --watch that such a signal ends exits with 0.";
 
 class Failure : public std::runtime_error {
 public:

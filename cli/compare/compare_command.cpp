@@ -168,9 +168,9 @@ int run_compare(const CompareOptions &options) {
 
 constexpr const char *compare_help =
     "For values x of the image and r of the reference, mse is the mean of (x-r)^2 over pixels and\n"
-    "channels, relative_mse that of (x-r)^2/(r^2+0.01), and maximum the largest |x-r|. Both files hold\n"
-    "radiance, or both what displays take, from 0 to 1. Pixels that are not finite in either image are\n"
-    "left out and counted; any limit is exceeded then.\n";
+    "channels, relative_mse the mean of (x-r)^2/(r^2+0.01), and maximum the largest |x-r|. Both files\n"
+    "hold radiance, or both values for displays, from 0 to 1. Pixels that are not finite in either image\n"
+    "are left out and counted; any limit is exceeded then.\n";
 
 } // namespace
 
@@ -179,9 +179,7 @@ void add_compare_command(CLI::App &program, Run &chosen) {
         add_command(program, chosen, "compare", "Compare an image with a reference", compare_help, &run_compare);
     constexpr ValueRule limit{.least = 0.0, .largest = 1e18};
     add_text(command, "IMAGE", options.image, "IMAGE", "Image (" + extensions(any_format) + ")")->required();
-    add_text(command, "REFERENCE", options.reference, "REFERENCE",
-             "What it is compared with, of the same size and kind")
-        ->required();
+    add_text(command, "REFERENCE", options.reference, "REFERENCE", "Reference of the same size and kind")->required();
     add_text(command, "--layer", options.layer, "NAME",
              "Compare this layer of both files (default: the channels R, G and B)");
     add_text(command, "--json", options.json, "JSON", "Write the figures as JSON; - is standard output");

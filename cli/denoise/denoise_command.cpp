@@ -63,7 +63,7 @@ Halves read_halves(const DenoiseOptions &options) {
     const RenderReport other = even_report(options.second, second);
     refuse_if(report.render.seed == other.render.seed,
               concat(options.second, ": seed = ", other.render.seed,
-                     ": must be another than in the other film, as parts of one sequence depend on each other"));
+                     ": must differ from the other film's, as parts of one sequence depend on each other"));
     first.require_same_picture(options.second, bytes);
     refuse_if(report.window != other.window || report.stats.sample_count != other.stats.sample_count,
               concat(options.second, ": is ", window_text(other.window), " with ", other.stats.sample_count,
@@ -120,14 +120,14 @@ int run_denoise(const DenoiseOptions &options) {
 
 constexpr const char *denoise_help =
     "The films are those of `pt render --film`, `--checkpoint` or `pt merge` with other --seed and all else\n"
-    "equal, without --error. Each tells the error of what the filter makes of the other, so the result\n"
-    "states its error, as by `pt render --denoise`. Needs no device.\n";
+    "equal, without --error. Each shows the filter's error on the other, so the result states its error,\n"
+    "as by `pt render --denoise`. Needs no device.\n";
 
 } // namespace
 
 void add_denoise_command(CLI::App &program, Run &chosen) {
-    const auto [command, options] = add_command(program, chosen, "denoise", "Take noise out of a picture kept as films",
-                                                denoise_help, &run_denoise);
+    const auto [command, options] =
+        add_command(program, chosen, "denoise", "Denoise a picture kept as films", denoise_help, &run_denoise);
     add_text(command, "FIRST", options.first, "FIRST", "Film with half of the samples")->required();
     add_text(command, "SECOND", options.second, "SECOND", "Film of the same picture by another seed")->required();
     add_text(command, "GUIDES", options.guides, "GUIDES", "Image of it by `--layers albedo,normal` (.exr)")->required();

@@ -63,7 +63,7 @@ std::size_t unpacked_size(platform::InputFile &file, const std::string &path) {
     const std::string_view head = file.first(longest_head);
     const unsigned long long size = ZSTD_getFrameContentSize(head.data(), head.size());
     if (size == ZSTD_CONTENTSIZE_UNKNOWN || size == ZSTD_CONTENTSIZE_ERROR || size / most_ratio > file.size())
-        refuse(path, "damaged or cut short: the head of its zstd frame is no film's");
+        refuse(path, "damaged or cut short: the header of its zstd frame is no film's");
     return size;
 }
 
@@ -124,7 +124,7 @@ pt_sample_range FilmHandle::hull() const {
     return hull;
 }
 
-// Merges only to get the list of differences.
+// The library refuses to merge films of different seeds, and lists all their differences.
 void FilmHandle::require_same_picture(const std::string &path, std::span<const std::byte> bytes) {
     constexpr std::array<std::string_view, 4> allowed{"seed", "estimator_version", "kernel", "device"};
     const pt_result result = pt_merge_film(film_, bytes.data(), bytes.size());

@@ -59,7 +59,7 @@ void check_image_names(std::span<const std::string> paths, std::optional<ImageFo
               "-o -: standard output needs --format, one of " + listed(image_format_names));
     refuse_if(to_standard_output && platform::is_terminal(platform::standard_output),
               "-o -: standard output is a terminal; send it to a file or a program");
-    refuse_if(format && !to_standard_output, "--format: is for -o - alone; the names of files tell their formats");
+    refuse_if(format && !to_standard_output, "--format: is for -o - alone; a file's name states its format");
     for (const std::string &path : paths)
         refuse_if(path != standard_stream && !image_format(path),
                   "-o " + path + ": the name must end in one of " + extensions(any_format));
@@ -78,7 +78,7 @@ void check_image_target(const ImageTarget &target, const ImageWindow &window) {
         AtomicFile::check_writable(target.path);
 }
 
-// An installed tree can be moved.
+// Relative to the program, so that an installed tree can be moved.
 std::filesystem::path module_path() {
     const std::filesystem::path folder = platform::program_file().parent_path() / PT_MODULE_DIRECTORY;
     std::filesystem::path path = (folder / platform::module_file("pt-image-file")).lexically_normal();

@@ -17,7 +17,7 @@ void require_first_samples(const std::string &path, const std::vector<pt_sample_
     const pt_sample_range wanted{first, first + task.sample_count};
     refuse_if(ranges.size() != 1 || ranges.front().first != wanted.first || ranges.front().end > wanted.end,
               path + ": has the samples " + ranges_text(ranges) + ", which are not the first ones of " +
-                  ranges_text({wanted}) + ", those of --first-sample and --spp");
+                  ranges_text({wanted}) + ", the samples of --first-sample and --spp");
 }
 
 } // namespace
@@ -80,7 +80,7 @@ void Checkpoint::take_in() {
 
 void Checkpoint::tell_failure(const std::string &reason) {
     if (!has_told_failure_)
-        say_("no checkpoint: " + reason + "; the rendering goes on");
+        say_("no checkpoint: " + reason + "; the rendering continues");
     has_told_failure_ = true;
 }
 

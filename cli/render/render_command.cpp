@@ -35,8 +35,8 @@ RenderOptions options_of_frame(const RenderOptions &options, std::uint32_t frame
     for_each_output(numbered.output, [&](const char *option, std::string &path) {
         const std::optional<std::string> name = numbered_name(path, frame);
         refuse_if(!name && !path.empty(), concat(option, " ", path,
-                                                 ": with --frames the name must have # signs, for "
-                                                 "the number of the frame"));
+                                                 ": with --frames the name needs # signs for the "
+                                                 "frame's number"));
         path = name.value_or("");
     });
     return numbered;
@@ -56,8 +56,7 @@ public:
         options_(options),
         log_(log),
         scene_(read_scene_file(options.scene, options.overrides)) {
-        refuse_if(scene_.animation.empty(), scene_.path + ": has no animation, of which --frames are rendered",
-                  ExitCode::scene);
+        refuse_if(scene_.animation.empty(), scene_.path + ": has no animation, which --frames needs", ExitCode::scene);
     }
 
     int run() {
@@ -81,7 +80,7 @@ public:
 
     int parts() const {
         const FrameRange frames = options_.frames.value();
-        refuse_if(frames.first != frames.last, "--parts: takes --frames of one frame at a time");
+        refuse_if(frames.first != frames.last, "--parts: needs --frames of one frame");
         return render_parts(task_of(options_, frames.first), log_);
     }
 

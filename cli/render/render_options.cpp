@@ -59,7 +59,7 @@ void add_picture_options(CLI::App &command, RenderOptions &options) {
                          " an alpha channel: the share of a pixel's samples that see a surface");
     command.option_defaults()->group("Picture");
     command.add_flag(concat("--denoise{", platform::denoiser_file, "}"), options.denoiser,
-                     "Take out noise, by the library Open Image Denoise 2, and state the error of the result");
+                     "Denoise by the library Open Image Denoise 2, and state the error of the result");
     add_parsed(command, "--crop", options.crop, &parse_rectangle,
                "must be four whole numbers like 10,20,640,480: x, y, width and height",
                "Render this part of the picture alone, in pixels from its top left corner")
@@ -153,10 +153,10 @@ constexpr const char *render_help =
     "stops sampling once the upper one is at or below E. --stats has both with bounds (rmse_low,\n"
     "rmse_high, ...; null where unknown), uncertain, target_error (null without --error) and\n"
     "target_reached. The layer standard-error is a radiance, infinite with a single sample.\n\n"
-    "--denoise takes half of the samples with each of two seeds, so that each half tells the error of what\n"
-    "the filter makes of the other; error and picture are those of the result. An .exr keeps the mean of\n"
-    "the samples as the layer raw. With --error or --time it is denoised in rounds of half as many samples\n"
-    "again. `pip install pyoidn` brings the library.\n\n"
+    "--denoise takes half of the samples with each of two seeds, so that each half shows the filter's error\n"
+    "on the other; the stated error is the result's. An .exr keeps the mean of the samples as the layer raw.\n"
+    "With --error or --time it is denoised in rounds of half as many samples again. `pip install pyoidn`\n"
+    "brings the library.\n\n"
     "With --error or --time, --spp is the most samples of a pixel, by default 65536.\n\n"
     "--exposure auto brings the average of the picture to middle grey, 0.18 (Reinhard et al. 2002): the\n"
     "exponential of the mean of the logarithms of its pixels, each the mean of its three channels, without\n"

@@ -54,7 +54,7 @@ void check_combinations(const RenderOptions &options) {
     refuse_if(output.images.empty() && output.film.empty(), "-o or --film is missing: there is nothing to write");
     refuse_if(options.sampling == PT_SAMPLING_ADAPTIVE && !options.stopping.has_target(),
               "--sampling adaptive: needs --error");
-    refuse_if(options.resume && !has_checkpoint, "--resume: needs --checkpoint, the file to go on from");
+    refuse_if(options.resume && !has_checkpoint, "--resume: needs --checkpoint");
     refuse_if(options.checkpoint_seconds && !has_checkpoint, "--checkpoint-every: needs --checkpoint");
     refuse_if(options.watch && has_checkpoint, "--checkpoint: a picture under --watch has none");
     refuse_if(options.watch && !output.film.empty(), "--film: a picture under --watch has none");
@@ -97,7 +97,7 @@ void check_checkpoint(const RenderOptions &options) {
         return;
     std::error_code ignored;
     refuse_if(std::filesystem::exists(options.checkpoint, ignored) && !options.resume,
-              "--checkpoint " + options.checkpoint + ": is there already; go on from it by --resume, or remove it");
+              "--checkpoint " + options.checkpoint + ": exists; continue from it by --resume, or remove it");
     remove_abandoned(AtomicFile::target_of(options.checkpoint).parent_path());
 }
 

@@ -58,7 +58,7 @@ void resume_if_asked(const Context &context, const RenderTask &task) {
     const std::uint32_t sample_count = resume(context, task);
     if (!options.output.quiet) {
         print_message(options.checkpoint + (sample_count == 0 ? ": there is no checkpoint yet, so all samples are taken"
-                                                              : concat(": goes on after ", sample_count, " of ",
+                                                              : concat(": continues after ", sample_count, " of ",
                                                                        task.sample_count, " samples per pixel")));
     }
 }
@@ -68,7 +68,7 @@ std::string ending_of(const RenderReport &report, const ImageRender::Result &ren
     return interrupted ? "signal" : rendered.ended_by.value_or(report.target_reached() ? "error" : "samples");
 }
 
-// The outcome without a signal. A missing file outweighs missing samples, which a checkpoint can supply.
+// Applies if no signal came. A missing file outweighs missing samples, which a checkpoint can supply.
 ExitCode outcome_of(const RenderReport &report, const ImageRender::Result &rendered, bool all_written) {
     if (!all_written)
         return ExitCode::file;
@@ -174,7 +174,7 @@ void print_interruption(const RenderTask &task, std::uint32_t done, std::uint32_
                          : rows_done == height
                              ? ""
                              : concat(" in ", rows_done, " of ", height, " rows; the others are black"),
-                         checkpoint.empty() ? "" : "; --resume goes on from " + checkpoint));
+                         checkpoint.empty() ? "" : "; --resume continues from " + checkpoint));
 }
 
 RenderReport report_of(const Context &context, const RenderTask &task) {

@@ -40,11 +40,11 @@ double samples_per_second(const RenderReport &report) {
 // Why the relative error may be far off, if so.
 std::string uncertainty_text(std::uint32_t uncertain) {
     if ((uncertain & PT_UNCERTAIN_UNMET) != 0)
-        return ", uncertain: few samples meet small lamps, more samples tell";
+        return ", uncertain: few samples meet small lamps, take more";
     if ((uncertain & PT_UNCERTAIN_RELATIVE_RMSE) != 0)
-        return ", uncertain: a few bright pixels make most of it, more samples tell";
-    return (uncertain & PT_UNCERTAIN_UNSEEN) != 0 ? ", uncertain: dark pixels may have light of brighter ones beside "
-                                                    "them that no sample has met, more samples tell"
+        return ", uncertain: a few bright pixels make most of it, take more samples";
+    return (uncertain & PT_UNCERTAIN_UNSEEN) != 0 ? ", uncertain: dark pixels beside bright ones may have light that "
+                                                    "no sample has met, take more samples"
                                                   : "";
 }
 

@@ -62,8 +62,8 @@ constexpr std::array camera_keys{
              [](Item item, Value value) { put(value, item.scene.camera.position); }},
     SceneKey{"look_at", lengths, "The point in the middle of the picture", "", required,
              [](Item item, Value value) { put(value, item.scene.camera.target); }},
-    SceneKey{"up", direction, "What is up in the picture; need not be perpendicular to the view", "[0, 1, 0]", optional,
-             [](Item item, Value value) { put(value, item.scene.camera.up); }},
+    SceneKey{"up", direction, "Upward direction in the picture; need not be perpendicular to the view", "[0, 1, 0]",
+             optional, [](Item item, Value value) { put(value, item.scene.camera.up); }},
     SceneKey{"projection", one_of("projection", projections.names()),
              "Rays share the point position, or the direction to look_at", "perspective", optional,
              [](Item item, Value value) {
@@ -72,18 +72,18 @@ constexpr std::array camera_keys{
     // The library's [1e-8, pi) in degrees. 0 would mean its default, here and for the extent.
     SceneKey{"vertical_fov",
              {.least = 6e-7, .largest = 180.0, .excludes_largest = true, .unit = "degrees"},
-             "Of a perspective: the angle of the picture's height",
+             "Angle of the picture's height (perspective)",
              "45",
              optional,
              [](Item item, Value value) {
                  item.scene.camera.vertical_fov = value.get<double>() * (std::numbers::pi / 180.0);
              }},
     SceneKey{"vertical_extent", number(least_length, largest_length),
-             "Of an orthographic projection: the height of what is seen; what lies behind position is not", "",
-             optional, [](Item item, Value value) { item.scene.camera.vertical_extent = value.get<double>(); }},
-    SceneKey{"aperture", distance, "Of a perspective: its lens's diameter", "0", optional,
+             "Height of the view (orthographic); surfaces behind position are not seen", "", optional,
+             [](Item item, Value value) { item.scene.camera.vertical_extent = value.get<double>(); }},
+    SceneKey{"aperture", distance, "Diameter of the lens (perspective)", "0", optional,
              [](Item item, Value value) { item.scene.camera.aperture = value.get<double>(); }},
-    SceneKey{"focus", distance, "Depth that a lens shows sharp, 0 for that of look_at", "0", optional,
+    SceneKey{"focus", distance, "Depth in focus; 0: the depth of look_at", "0", optional,
              [](Item item, Value value) { item.scene.camera.focus = value.get<double>(); }},
     SceneKey{"shutter", times, "When it opens and closes", "[0, 1]", optional,
              [](Item item, Value value) {
@@ -99,7 +99,7 @@ constexpr std::array film_keys{
              [](Item item, Value value) { item.scene.render.height = value.get<std::uint32_t>(); }},
     SceneKey{"exposure",
              {.form = Form::number_or_auto, .least = -largest_exposure, .largest = largest_exposure, .unit = "stops"},
-             "How much brighter than the radiance",
+             "Brightness",
              "auto",
              optional,
              [](Item item, Value value) {
@@ -130,7 +130,7 @@ constexpr std::array render_keys{
                  item.scene.render.sampler = samplers.find(value.get_ref<const std::string &>()).value();
              },
              "--sampler"},
-    SceneKey{"estimator", one_of("estimator", estimators.names()), "How light is looked for", "best", optional,
+    SceneKey{"estimator", one_of("estimator", estimators.names()), "How paths find light", "best", optional,
              [](Item item, Value value) {
                  item.scene.render.estimator = estimators.find(value.get_ref<const std::string &>()).value();
              },

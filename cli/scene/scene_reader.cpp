@@ -33,11 +33,13 @@ void refuse_unknown_section(const JsonPlace &place) {
 void check_projection(const pt_camera &camera, const JsonPlace &place) {
     const bool orthographic = camera.projection == PT_PROJECTION_ORTHOGRAPHIC;
     if (orthographic && camera.vertical_fov != 0.0)
-        refuse(place, "\"vertical_fov\" is of a perspective projection, an orthographic one has a \"vertical_extent\"");
+        refuse(place,
+               "\"vertical_fov\" is for a perspective projection, an orthographic one has a \"vertical_extent\"");
     if (orthographic && camera.vertical_extent == 0.0)
         refuse(place, "\"vertical_extent\" is missing, the height of an orthographic view");
     if (!orthographic && camera.vertical_extent != 0.0)
-        refuse(place, "\"vertical_extent\" is of an orthographic projection, a perspective one has a \"vertical_fov\"");
+        refuse(place,
+               "\"vertical_extent\" is for an orthographic projection, a perspective one has a \"vertical_fov\"");
 }
 
 class SceneReader : public JsonItemHandler {

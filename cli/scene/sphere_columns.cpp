@@ -57,9 +57,9 @@ public:
         for (std::size_t i = 0; i < size_bytes && version_place + 2 + i < start.size(); ++i)
             size |= std::size_t{static_cast<unsigned char>(start[version_place + 2 + i])} << (8 * i);
         if (file.size() < begin || file.size() - begin < size)
-            refuse("ends within its head: it was cut short");
+            refuse("ends within its header: it was cut short");
         if (size > longest)
-            refuse(concat("has a head of ", size, " bytes, must have at most ", longest));
+            refuse(concat("has a header of ", size, " bytes, must have at most ", longest));
         head_ = dictionary_of(file.first(begin + size).substr(begin));
         end_ = begin + size;
     }
@@ -88,7 +88,7 @@ private:
     const json &value_of(const char *key) const {
         const auto found = head_.is_object() ? head_.find(key) : head_.end();
         if (found == head_.end())
-            refuse("its head has no " + std::string(key));
+            refuse("its header has no " + std::string(key));
         return *found;
     }
 
@@ -110,7 +110,7 @@ private:
         const json &shape = value_of("shape");
         if (!shape.is_array() ||
             !std::ranges::all_of(shape, [](const json &each) { return each.is_number_unsigned(); }))
-            refuse("its head has a shape that is none");
+            refuse("its header has an invalid shape");
         return shape.get<std::vector<std::size_t>>();
     }
 

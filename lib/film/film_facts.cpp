@@ -68,7 +68,7 @@ void require_same(const FilmIdentity &film, const FilmIdentity &other, const std
                             .rule = "must be " + fact.value + ", " + place});
     for (const FilmFact &fact : film)
         if (!value_in(other, fact.name))
-            violations.add({.subject = "film", .member = fact.name, .value = fact.value, .rule = "must not be there"});
+            violations.add({.subject = "film", .member = fact.name, .value = fact.value, .rule = "must be absent"});
     violations.throw_if_any(PT_ERROR_INCOMPATIBLE);
     if (film != other)
         throw Error(PT_ERROR_INCOMPATIBLE, "film: lines of its header are repeated, or in another order");

@@ -34,7 +34,7 @@ std::uint32_t samples_of_dispatch(const vulkan::Device &device, const Features &
                                .value = std::to_string(features[gpu::ID_MAX_PATH_LENGTH]),
                                .rule = "a sample of this scene takes up to " + std::to_string(trips) +
                                        " loop trips, and this driver stops a kernel after " + std::to_string(budget) +
-                                       ": shorter paths or fewer surfaces would do"});
+                                       ": use shorter paths or fewer surfaces"});
     const std::uint64_t rows =
         layout.row_blocks() > 0 ? table_bytes / sizeof(PointBlock) / layout.row_blocks() : gpu::FILM_MAX_GATHERED;
     return static_cast<std::uint32_t>(std::min<std::uint64_t>({budget / trips, rows, gpu::FILM_MAX_GATHERED}));

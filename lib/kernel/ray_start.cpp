@@ -192,8 +192,8 @@ void require_held_view(const Camera &camera, const RenderSettings &settings) {
                     BrokenRule{.subject = "camera",
                                .member = "vertical_extent",
                                .value = number_text(camera.vertical_extent),
-                               .rule = "the width of the view, which is as many times that of the image as the height "
-                                       "is, must be at most 1e18, is " +
+                               .rule = "the view's width, vertical_extent times the image's width / height, must be "
+                                       "at most 1e18, is " +
                                        number_text(width)});
 }
 

@@ -24,7 +24,7 @@ Rectangle rectangle_of(const Source &source, std::uint32_t width, std::uint32_t 
 
 bool check_extent(const Subject &image, const char *name, std::uint32_t extent, const Member &begin,
                   std::uint32_t first, std::uint32_t limit) {
-    image.require(extent >= 1, name, extent, "must be >= 1, but where x, y, width and height are all 0");
+    image.require(extent >= 1, name, extent, "must be >= 1, unless x, y, width and height are all 0");
     const bool within = first < limit && extent <= limit - first;
     if (extent >= 1)
         image.require(within, begin, std::uint64_t{first} + extent, "must be <= " + number_text(limit));
@@ -36,8 +36,8 @@ void check_quantity(const Subject &image, std::uint32_t quantity, std::uint32_t 
     const bool is_known = quantity <= gpu::LAST_QUANTITY;
     image.require(is_known, "quantity", quantity, "must be a PT_QUANTITY_* of pt.h");
     image.require(!is_known || of == ImageSource::Context || quantity <= PT_QUANTITY_SAMPLE_COUNT, "quantity", quantity,
-                  "must be PT_QUANTITY_RADIANCE, PT_QUANTITY_STANDARD_ERROR or PT_QUANTITY_SAMPLE_COUNT here: what "
-                  "camera rays meet is read by pt_readback alone");
+                  "must be PT_QUANTITY_RADIANCE, PT_QUANTITY_STANDARD_ERROR or PT_QUANTITY_SAMPLE_COUNT here: only "
+                  "pt_readback reads first hits");
     image.require(format < format_count, "format", format, "must be a PT_FORMAT_* of pt.h");
     image.require(format >= format_count || (format == PT_FORMAT_R32UI) == (quantity == PT_QUANTITY_OBJECT), "format",
                   format,

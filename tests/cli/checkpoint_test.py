@@ -80,7 +80,7 @@ class KilledRender(KeptRender):
         process.send_signal(signal.SIGTERM)
         errors = process.communicate(timeout=PATIENCE)[1]
         self.assertIn(process.returncode, (0, 143), errors)  # 0: ended before the signal
-        self.assertEqual("--resume goes on from c.ptfilm" in errors, process.returncode == 143)
+        self.assertEqual("--resume continues from c.ptfilm" in errors, process.returncode == 143)
         self.assertGreater(self.samples_kept("c.ptfilm"), 0)
         self.expect(0, *options, "--checkpoint", "c.ptfilm", "--resume")
         self.assertEqual([self.contents(file) for file in ("a.png", "a.ptfilm")], expected)
@@ -205,7 +205,7 @@ class Resume(CommandLineTest):
 
     def test_it_is_not_replaced_by_another_rendering(self):
         self.expect(2, *self.small, "-o", "a.png", "--checkpoint", "c.ptfilm",
-                    error="--checkpoint c.ptfilm: is there already; go on from it by --resume, or remove it")
+                    error="--checkpoint c.ptfilm: exists; continue from it by --resume, or remove it")
         self.assertEqual(self.contents("c.ptfilm"), self.checkpoint)
 
     def test_damaged_ones_are_refused(self):

@@ -132,7 +132,7 @@ class RealDeviceDenoise(DenoiseTest):
         self.render("-o", "crop.exr", "--spp", "1", "--layers", "albedo,normal", "--crop", "0,0,9,9")
         rest = self.files()
         for second, guides, code, error in (
-                ("seed", "first", 2, "seed.ptfilm: seed = 0: must be another than in the other film"),
+                ("seed", "first", 2, "seed.ptfilm: seed = 0: must differ from the other film's"),
                 ("part", "first", 2, "part.ptfilm: is 40x24 with 7 samples per pixel, first.ptfilm is 40x24 with 8"),
                 ("length", "first", 2, "length.ptfilm: max_path_length = 3: must be "),
                 ("uneven", "first", 2, "uneven.ptfilm: has "),

@@ -53,7 +53,7 @@ class ExitCodes(CommandLineTest):
                 found = self.run_pt("render", COURSEWORK, "-o", "a.png", "--spp", "200", "--size", "2x2", *options,
                                     FAKE_PT_SIGNAL=f"{int(signal.SIGINT)}:9")
                 self.assertEqual(found, 130, self.errors)
-                self.assertEqual("; --resume goes on from c.ptfilm" in self.errors, options[0] == "--checkpoint")
+                self.assertEqual("; --resume continues from c.ptfilm" in self.errors, options[0] == "--checkpoint")
 
     def test_a_signal_that_comes_twice_at_once_is_one(self):
         """timeout(1) signals the process and its group."""

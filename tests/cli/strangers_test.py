@@ -60,7 +60,7 @@ class NoFiles(CommandLineTest):
         size = 2**40
         for name, start, error in (("n.npy", b"", "is no NPY file"),
                                    ("n.npy", npy("<f4", (1,), []), "goes on after its 1 rows"),
-                                   ("n.npy", b"\x93NUMPY\2\0" + struct.pack("<I", 2**31), "has a head of 2147483648 bytes")):
+                                   ("n.npy", b"\x93NUMPY\2\0" + struct.pack("<I", 2**31), "has a header of 2147483648 bytes")):
             sparse(self.path(name), start, size)
             self.column(name)
             self.expect(3, "render", "s.json", *SMALL, error=error)

@@ -165,7 +165,7 @@ class Command(unittest.TestCase):
         self.same("a.exr", "k.exr")
         code, said = self.refused("-o", "b.exr", "--spp", "9", *words)
         self.assertEqual(code, 2)
-        self.assertEqual(said, "pt-farm: --checkpoint k.ptfilm: is there already; go on from it by --resume\n")
+        self.assertEqual(said, "pt-farm: --checkpoint k.ptfilm: exists; continue from it by --resume\n")
         samples = max(tile.samples[-1].stop for tile in pt.Film.load("k.ptfilm").tiles) + 3
         said = self.farm("-o", "b.exr", "--seed", "7", "--spp", str(samples), "--resume", *words, code=2)
         self.assertIn("the checkpoint is of another picture: its seed differs", said)

@@ -98,8 +98,8 @@ def with_values(**values):
 FAULTS = {  # by message
     "LookupError: a mistake of this task": raising,
     "a part's bytes are damaged": lambda name, part, film: dataclasses.replace(film, data=film.data[:len(film.data) // 2]),
-    "its checksum does not fit": changed,
-    "other samples than were asked for": lambda name, part, film: _task.render_part(
+    "its checksum does not match": changed,
+    "other samples than requested": lambda name, part, film: _task.render_part(
         name, Part(part.first, part.end + 1, part.tiles), frozenset()),
     "it is of another picture": of_another_picture,
     "seconds = nan": with_values(seconds=float("nan")),
@@ -269,7 +269,7 @@ class Farm(unittest.TestCase):
             options = dataclasses.replace(QUICK, checkpoint=path)
             program = subprocess.Popen([sys.executable, __file__, "scheduler"], stdout=subprocess.PIPE, text=True)
             address = program.stdout.readline().strip()
-            with Client(address) as client, self.assertRaisesRegex(farm.FarmError, "the scheduler has gone"):
+            with Client(address) as client, self.assertRaisesRegex(farm.FarmError, "the scheduler is lost"):
                 farm.render(client, JOB, 2**20, options=options,
                             progress=lambda seen, film: seen.parts and program.kill())
             program.communicate()

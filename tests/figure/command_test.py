@@ -122,12 +122,12 @@ class Command(unittest.TestCase):
                 (2, "must end in .exr, .png, .jpg or .jpeg", ("water.xyz", "-o", "a.bmp")),
                 (2, r"a.GIF: a film is made of pictures: -o a-###.png with .* ffmpeg .* -i a-%03d.png a.GIF",
                  ("water.xyz", "-o", "a.GIF")),
-                (6, "its folder nowhere is not there", ("water.xyz", "-o", "nowhere/a.png")),
+                (6, "its folder nowhere does not exist", ("water.xyz", "-o", "nowhere/a.png")),
                 (2, "named twice, or is water.xyz", ("water.xyz", "-o", "a.png", "-o", "./a.png")),
                 (2, "or is data.png", ("data.png", "-o", "./data.png")),
                 (2, "-o -: needs --format", ("water.xyz", "-o", "-")),
                 (2, "JPEG has no alpha", ("water.xyz", "-o", "a.jpg", "--background", "transparent")),
-                (2, "must have # signs", ("water.xyz", "-o", "a.png", "--turntable", "4")),
+                (2, "the name needs # signs", ("water.xyz", "-o", "a.png", "--turntable", "4")),
                 (2, "not with --frames", ("water.xyz", "-o", "a#.png", "--turntable", "4", "--frames", "0-1")),
                 (2, "--trails: only with --frames", ("points.npy", "-o", "a.png", "--trails", "4")),
                 (2, "which standard input cannot be", ("-", "-o", "a#.png", "--frames", "0-1")),
@@ -139,7 +139,7 @@ class Command(unittest.TestCase):
                 (3, "view = '-0,0'", ("water.xyz", "-o", "a.png", "--view", "-0,0")),
                 (3, "bad.xyz", ("bad.xyz", "-o", "a.png")),
                 (4, "no device|'nothing'", ("water.xyz", "-o", "a.png", "--device", "nothing")),
-                (6, "none.xyz: is not there", ("none.xyz", "-o", "a.png"))):
+                (6, "none.xyz: does not exist", ("none.xyz", "-o", "a.png"))):
             with self.subTest(words=words):
                 said = self.call_figure(*arguments, code=code)
                 self.assertRegex(said, words)

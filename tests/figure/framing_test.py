@@ -146,7 +146,7 @@ class Blank(unittest.TestCase):
                                    Options(radius=radii * factor, size=(400, 300), projection=projection))
                 layout = staged.layout
                 pixels = pixels_per_length(layout.camera, 300, layout.distance) * staged.drawn.scale
-                note = re.fullmatch(r"hardly seen, since narrower than a pixel: 93 of 100 balls. --radius (\S+) \(radius=\1\) "
+                note = re.fullmatch(r"narrower than a pixel: 93 of 100 balls. --radius (\S+) \(radius=\1\) "
                                     r"makes balls 8 pixels wide", staged.notes[0])
                 self.assertLess(abs(2 * float(note[1]) * pixels / 8 - 1), 0.05)  # of two digits
         pixels = pixels_per_length(self.staged(0.01).layout.camera, 300, self.staged(0.01).layout.distance)

@@ -172,8 +172,8 @@ class Files(unittest.TestCase):
         np.testing.assert_array_equal(found.colors[2], (0x70, 0x80, 0x90))
         for content, words in ((head.format("U", 4, "ascii") + text, "ends after 3 of 4 particles"),
                                (head.format("U", 3, "binary_compressed"), "must be ascii or binary"),
-                               (head.format("X", 3, "ascii"), "the head must have FIELDS"),
-                               (head[:30], "within its head")):
+                               (head.format("X", 3, "ascii"), "the header must have FIELDS"),
+                               (head[:30], "within its header")):
             with self.assertRaisesRegex(DataError, words):
                 self.read("a.pcd", content.encode())
 

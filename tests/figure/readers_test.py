@@ -297,7 +297,7 @@ class Messages(InAFolder):
                 ("a.ply", PLY.format("ascii 1.0") + "1 2 3\n", "a.ply:8: the file ends after 1 of 2 particles: it was cut short"),
                 ("a.ply", PLY.format("binary_little_endian 1.0") + "1" * 23,
                  "a.ply:7: the file ends after 1 of 2 records of 12 bytes: it was cut short"),
-                ("a.ply", PLY.format("ebcdic 1.0"), "a.ply:2: 'format ebcdic 1.0': is no line of a PLY file's head"),
+                ("a.ply", PLY.format("ebcdic 1.0"), "a.ply:2: 'format ebcdic 1.0': is no line of a PLY file's header"),
                 ("a.xyz", "1\nProperties=pos:R:x\n1 2 3\n", "a.xyz:2: Properties = 'pos:R:x': must be name:type:count for"),
                 ("a.csv.gz", gzip.compress(b"x,y,z\n" * 99)[:-9], "a.csv.gz: after 0 unpacked bytes: Compressed file ended")):
             with self.subTest(message):

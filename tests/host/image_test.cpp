@@ -69,7 +69,7 @@ TEST(Image, MayHaveGapsBetweenRows) {
     EXPECT_EQ(image_outcome(source), "accepted");
 }
 
-const std::string none = ": must be >= 1, but where x, y, width and height are all 0";
+const std::string none = ": must be >= 1, unless x, y, width and height are all 0";
 
 TEST(Image, BrokenRulesAreNamed) {
     const std::string size = "must be >= (height - 1) * row_bytes + width * ";
@@ -156,7 +156,7 @@ TEST(BufferImage, BrokenRulesAreNamed) {
           },
           "image.buffer = 0: must be a VkBuffer\nimage.offset_bytes = 18: must be a multiple of 4\n"
           "image.quantity = 3: must be PT_QUANTITY_RADIANCE, PT_QUANTITY_STANDARD_ERROR or PT_QUANTITY_SAMPLE_COUNT "
-          "here: what camera rays meet is read by pt_readback alone\n"
+          "here: only pt_readback reads first hits\n"
           "image.row_bytes = 62: must be a multiple of 4"},
          {[](pt_buffer_image &i) { --i.size_bytes; },
           "image.size_bytes = 199: must be >= offset_bytes + (height - 1) * row_bytes + width * 12 (20 + 2 * 60 + 60)"},

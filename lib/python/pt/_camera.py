@@ -44,7 +44,7 @@ class Camera:
             object.__setattr__(self, "vertical_fov", math.pi / 4 if self.vertical_fov is None else self.vertical_fov)
         elif self.vertical_fov is not None:
             raise ValueError(f"camera.vertical_fov = {self.vertical_fov}: must be None with a vertical_extent, which is "
-                             "of an orthographic projection")
+                             "for orthographic projections")
         elif self.vertical_extent == 0.0:
             raise ValueError("camera.vertical_extent = 0: must be > 0")
         for name in ("position", "target", "up"):
@@ -64,7 +64,7 @@ class Camera:
         """
         centers = real_column("center", center, 3, None)
         if not len(centers):
-            raise ValueError("center has no spheres: there must be one to be seen")
+            raise ValueError("center has no spheres: must have one at least")
         check_finite("center", center)
         check_finite("radius", radius, positive=True)
         right, above, back = _axes(direction, up)

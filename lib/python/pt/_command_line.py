@@ -42,7 +42,7 @@ def misnamed(files: Sequence[tuple[str, Sequence[str]]], source: str) -> tuple[s
         except ValueError as error:
             return str(error), USAGE
         if not os.access(place.parent, os.W_OK | os.X_OK):
-            return f"{name}: its folder {place.parent} is not there or cannot be written to", FILES
+            return f"{name}: its folder {place.parent} does not exist or cannot be written to", FILES
     names = [os.path.realpath(name) for name, _ in files]
     if len(set(names)) < len(names) or os.path.realpath(source) in names:
         return f"an output is named twice, or is {source}", USAGE

@@ -60,7 +60,7 @@ def frames_of(arguments: argparse.Namespace) -> list[int | None]:
         refuse(f"--frames {arguments.frames}: must be two whole numbers like 0-23, or one")
     for name in written(arguments):
         if "#" not in name:
-            refuse(f"{name}: with --frames the name must have # signs, for the number of the frame")
+            refuse(f"{name}: with --frames the name needs # signs for the frame's number")
     return [frame for frame in range(first, last + 1) if not (arguments.skip_existing and is_done(arguments, frame))]
 
 
@@ -68,13 +68,13 @@ def check(arguments: argparse.Namespace) -> None:
     if not (arguments.output or arguments.film):
         refuse("-o or --film is missing: there is nothing to write")
     if arguments.resume and not arguments.checkpoint:
-        refuse("--resume: needs --checkpoint, the file to go on from")
+        refuse("--resume: needs --checkpoint")
     if arguments.tls and not arguments.scheduler:
         refuse("--tls: needs --scheduler, as tls://host:8786")
     if arguments.frames and arguments.checkpoint:
         refuse("--checkpoint: not with --frames; --skip-existing continues after the finished frames")
     if arguments.checkpoint and not arguments.resume and pathlib.Path(arguments.checkpoint).exists():
-        refuse(f"--checkpoint {arguments.checkpoint}: is there already; go on from it by --resume")
+        refuse(f"--checkpoint {arguments.checkpoint}: exists; continue from it by --resume")
     check_files(arguments)
 
 

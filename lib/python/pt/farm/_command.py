@@ -111,8 +111,8 @@ def render_pictures(arguments: argparse.Namespace, others: list[str], signals: S
             write_pictures(result.film, arguments, facts, frame)
             signals.is_rendering = False
             if len(result.devices) > 1 and not arguments.quiet:
-                tell("pt-farm", "devices were mixed, so that the picture is statistically, and not bitwise, that of one "
-                                f"machine: {'; '.join(result.devices)}")
+                tell("pt-farm", "devices were mixed: the picture is right, but not to the bit: "
+                                f"{'; '.join(result.devices)}")
             if signals.number:
                 break
             if result.progress.ended_by == "limit":

@@ -180,7 +180,7 @@ class Coordinator:
             self._checkpoint_error = ""
         except OSError as error:
             if str(error) != self._checkpoint_error:
-                self._progress.messages.append(f"the checkpoint could not be written, and it goes on without: {error}")
+                self._progress.messages.append(f"the checkpoint could not be written; the rendering continues: {error}")
             self._checkpoint_error = str(error)
 
 
@@ -207,7 +207,7 @@ class Coordinator:
         tries = self._tries.setdefault(each.number, [])
         tries.append(address)
         if len(tries) >= self._options.most_tries:
-            raise FarmError(f"a part came to nothing {len(tries)} times, at last since {reason}",
+            raise FarmError(f"a part failed {len(tries)} times, last because {reason}",
                             self._progress.last_result)
         if self._under_way(each.number) == 0:
             self._waiting.appendleft((each.number, each.part))
@@ -273,12 +273,12 @@ class Coordinator:
             data = _task.unpack(outcome.data)
             opened = _Opened(Film(data), len(data), identity_of(data))
             if not is_film_of(opened.film, part, self._shape):
-                raise ValueError("it has other samples than were asked for")
+                raise ValueError("it has other samples than requested")
             if identity not in (None, opened.identity):
                 raise ValueError("it is of another picture or device than the films before")
             return outcome, opened
         except (ValueError, IncompatibleError) as error:
-            return replace(outcome, error=f"its film is not taken: {error}"), None
+            return replace(outcome, error=f"its film is refused: {error}"), None
 
     def _take_in(self, patience: float) -> None:
         event = self._next_event(patience)

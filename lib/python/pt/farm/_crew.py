@@ -45,7 +45,7 @@ class Crew:
         try:
             there = addresses(self._client)
         except Exception as error:
-            raise FarmError(f"the scheduler has gone: {type(error).__name__}: {error}",
+            raise FarmError(f"the scheduler is lost: {type(error).__name__}: {error}",
                             Result.ERROR_DEVICE_LOST) from error
         self._looked = now()
         for address in there - set(self._members):

@@ -111,7 +111,7 @@ def check(given: argparse.Namespace) -> None:
     if given.frames and given.data == "-":
         refuse("--frames: read the file twice, which standard input cannot be")
     if given.data != "-" and not os.access(given.data, os.R_OK):
-        refuse(f"{given.data}: is not there or cannot be read", FILES)
+        refuse(f"{given.data}: does not exist or cannot be read", FILES)
     if "-" in given.output and (series or not given.output_format):
         refuse("-o -: a series needs files" if series else "-o -: needs --format")
     for path in pictures:
@@ -120,7 +120,7 @@ def check(given: argparse.Namespace) -> None:
             refuse(f"-o {path}: a film is made of pictures: -o {stem}-###.png with --frames or --turntable, and then "
                    f"ffmpeg -framerate 25 -i {stem}-%03d.png {path}")
         if series and "#" not in os.path.basename(path):
-            refuse(f"-o {path}: of a series the name must have # signs, for the number")
+            refuse(f"-o {path}: for a series the name needs # signs for the number")
         if given.background == "transparent" and path.lower().endswith((".jpg", ".jpeg")):
             refuse(f"--background transparent: -o {path}: JPEG has no alpha; .png has")
     if wrong := misnamed(files, given.data):

@@ -120,7 +120,7 @@ def elements_of(labels: Array) -> tuple[Array | None, list[str]]:
     notes = []
     unknown = [name for name, number in zip(names, numbers) if not number]
     if unknown:
-        notes.append(f"no elements: {listed(unknown)}; the radius and color of these are not known")
+        notes.append(f"no elements: {listed(unknown)}; their radius and color are unknown")
     if is_atom_name:
         read = [f"{name} is {SYMBOLS[number]}" for name, number in zip(names, numbers) if number]
         notes.append(f"labels are taken for names of atoms: {listed(read)}")

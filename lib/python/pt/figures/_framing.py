@@ -88,5 +88,5 @@ def narrow_note(radii: Array, pixels: float, size: tuple[int, int], scale: float
     if cover > LEAST_COVER * size[0] * size[1]:
         return None
     radius = f"{0.5 * WIDTH / (pixels * scale):.2g}"
-    return (f"hardly seen, since narrower than a pixel: {count:,} of {len(radii):,} balls. --radius {radius} (radius={radius}) "
+    return (f"narrower than a pixel: {count:,} of {len(radii):,} balls. --radius {radius} (radius={radius}) "
             f"makes balls {WIDTH:.0f} pixels wide")

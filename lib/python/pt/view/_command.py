@@ -43,7 +43,7 @@ def parser() -> argparse.ArgumentParser:
     add("--spp", type=at_least(1, int), default=65536, metavar="N", help="most samples of a pixel (default: 65536)")
     add("--device", metavar="NAME", help="what to render on, as of pt render")
     add("--shader-dir", metavar="DIR", help="kernels to compile and to edit in the page, with the scene")
-    add("--edit", action="store_true", help="the same with a copy of the kernels, in the folder pt-shaders, made if it is not there")
+    add("--edit", action="store_true", help="the same with a copy of the kernels, in the folder pt-shaders, created if missing")
     add("--port", type=at_least(0, int), default=0, metavar="N", help="by default a free one")
     add("--no-browser", action="store_true", help="prints the address alone")
     groups = {name: command.add_argument_group(f"{name} of DATA, as of pt figure") for name in ("data", "particles", "view", "look")}
@@ -114,7 +114,7 @@ def widen_vectors() -> None:
 def main() -> None:
     given = parser().parse_args(joined(sys.argv[1:]))
     if not os.access(given.what, os.R_OK):
-        refuse(f"{given.what}: is not there or cannot be read", FILES)
+        refuse(f"{given.what}: does not exist or cannot be read", FILES)
     if given.shader_dir and not os.path.isdir(given.shader_dir):
         refuse(f"--shader-dir {given.shader_dir}: is no folder", FILES)
     widen_vectors()

@@ -131,7 +131,7 @@ class Server:
 
     async def _connect(self, request: web.Request) -> web.StreamResponse:
         if len(self._sockets) >= MOST_SOCKETS:
-            raise web.HTTPServiceUnavailable(text=f"pt view: {MOST_SOCKETS} pages look already\n")
+            raise web.HTTPServiceUnavailable(text=f"pt view: {MOST_SOCKETS} pages are open already\n")
         connection = web.WebSocketResponse(max_msg_size=MOST_BYTES, compress=False, heartbeat=20.0)
         self._sockets.add(connection)
         sender: asyncio.Task[None] | None = None
@@ -239,7 +239,7 @@ def changes_of(message: dict[str, Any]) -> dict[str, Any]:
         elif name in METHODS:
             changes.setdefault("method", {})[name] = {name_of(each): each for each in METHODS[name]}[value]
         else:
-            raise ValueError(f"{name} = {value!r}: cannot be changed so")
+            raise ValueError(f"{name} = {value!r}: cannot be changed to this")
     return changes
 
 

@@ -15,7 +15,7 @@ from pt.figures.readers._frames import TextFrames
 from pt.figures.readers._lines import Lines
 from pt.figures.readers._rows import Layout, Rows, are_numbers, number, shown
 
-HEAD_ENDS = "the file ends within the head of a frame: it was cut short"
+HEAD_ENDS = "the file ends within the header of a frame: it was cut short"
 
 
 class LammpsDump(TextFrames):
@@ -53,7 +53,7 @@ class LammpsDump(TextFrames):
                 if count is None:
                     raise lines.refuse("ITEM: ATOMS comes before ITEM: NUMBER OF ATOMS")
                 if len(set(self._names)) < max(1, len(self._names)):
-                    raise lines.refuse(f"{shown(line)}: must have the names of columns, each of them once")
+                    raise lines.refuse(f"{shown(line)}: must have the names of columns, each once")
                 return count
             else:
                 raise lines.refuse(f"{shown(line)}: is none of a dump of atoms, which has positions")

@@ -45,7 +45,7 @@ def _array(lines: Lines) -> Array:
         is_first = npy.read_magic(stream) == (1, 0)
         shape, is_fortran, kind = (npy.read_array_header_1_0 if is_first else npy.read_array_header_2_0)(stream)
     except Exception as error:  # any kind: NumPy parses the header as a Python expression
-        raise DataError(f"{lines.name}: byte {lines.byte}: {str(error)[:200]}: the head of an NPY file is damaged or was cut "
+        raise DataError(f"{lines.name}: byte {lines.byte}: {str(error)[:200]}: the header of an NPY file is damaged or was cut "
                         "short") from None
     if kind.hasobject or not kind.itemsize or min(shape, default=0) < 0:
         raise DataError(f"{lines.name}: an array of {kind} with the shape {shape}: must have numbers")

@@ -20,7 +20,7 @@ def read_pcd(lines: Lines) -> Table:
     while "DATA" not in head:
         line = lines.line()
         if line is None:
-            raise lines.refuse("the file ends within its head: it was cut short")
+            raise lines.refuse("the file ends within its header: it was cut short")
         if line.strip() and not line.startswith("#"):
             key, *words = line.split()
             head[key] = words
@@ -33,7 +33,7 @@ def read_pcd(lines: Lines) -> Table:
                 kinds[key] = np.dtype({"F": "f", "U": "u", "I": "i"}[kind] + size).str
         count = int(head["POINTS"][0])
     except (KeyError, ValueError, IndexError, TypeError) as error:
-        raise lines.refuse(f"the head must have FIELDS, SIZE, TYPE, COUNT and POINTS that fit together: {error}") from None
+        raise lines.refuse(f"the header must have FIELDS, SIZE, TYPE, COUNT and POINTS that fit together: {error}") from None
     if head["DATA"] not in (["ascii"], ["binary"]):
         raise lines.refuse(f"DATA {shown(' '.join(head['DATA']))}: must be ascii or binary; pcl_convert_pcd_ascii_binary "
                            "writes these")

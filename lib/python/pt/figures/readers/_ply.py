@@ -54,7 +54,7 @@ def _ply_head(lines: Lines) -> tuple[str, list[_Element]]:
             continue
         if words[0] == "end_header":
             if order is None:
-                raise lines.refuse("there is no line \"format\" in the head")
+                raise lines.refuse("there is no line \"format\" in the header")
             return order, elements
         if words[0] == "format" and len(words) == 3 and words[1] in _ORDERS:
             order = _ORDERS[words[1]]
@@ -66,8 +66,8 @@ def _ply_head(lines: Lines) -> tuple[str, list[_Element]]:
                 and elements and _TYPES[words[2]][0] != "f":
             elements[-1].properties.append((words[4], _TYPES[words[3]], _TYPES[words[2]]))
         else:
-            raise lines.refuse(f"{shown(line)}: is no line of a PLY file's head")
-    raise lines.refuse("the file ends within its head: it was cut short")
+            raise lines.refuse(f"{shown(line)}: is no line of a PLY file's header")
+    raise lines.refuse("the file ends within its header: it was cut short")
 
 
 def text_columns(lines: Lines, kinds: Mapping[str, str], count: int, notes: list[str]) -> dict[str, Array]:
@@ -124,5 +124,5 @@ def _by_value(lines: Lines, element: _Element, order: str) -> dict[str, Array]:
         except (ValueError, OverflowError) as error:  # not a number, or a list of -1 values
             raise lines.refuse(f"{shown(line)}: {error}") from None
         if words:
-            raise lines.refuse(f"{shown(line)}: has {len(words)} more values than the head says")
+            raise lines.refuse(f"{shown(line)}: has {len(words)} more values than the header states")
     return {name: np.array(values[name], kind) for name, kind, length in element.properties if not length}
