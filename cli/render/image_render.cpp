@@ -21,7 +21,6 @@ std::chrono::steady_clock::duration clock_duration(double seconds) {
     return std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(seconds));
 }
 
-// A piece's settings. first_row: from the window's top.
 pt_render piece_of(const RenderTask &task, std::uint32_t half, std::uint32_t first_row, std::uint32_t rows) {
     constexpr std::uint64_t other_seed = std::uint64_t{1} << 63; // as in the package pt for Python
     const Rectangle &part = task.window.part;
@@ -32,7 +31,7 @@ pt_render piece_of(const RenderTask &task, std::uint32_t half, std::uint32_t fir
     return piece;
 }
 
-// Joins the figures of a piece with earlier pieces', the bounds as if all pieces erred in the same direction.
+// Adds a piece's figures. Error bounds join as if all pieces erred in the same direction.
 void join(RenderedImage &image, const pt_stats &piece, const pt_error_estimate &error, std::uint32_t rows) {
     if (image.rows_done == 0) {
         image.stats = piece;
@@ -48,7 +47,7 @@ void join(RenderedImage &image, const pt_stats &piece, const pt_error_estimate &
     whole.mean_sample_count = mean(whole.mean_sample_count, piece.mean_sample_count);
     whole.rejected_samples += piece.rejected_samples;
     whole.device_bytes = std::max(whole.device_bytes, piece.device_bytes);
-    whole.submit_count = piece.submit_count; // the context's total already
+    whole.submit_count = piece.submit_count; // the context's total
     whole.device_seconds = piece.device_seconds;
     image.error.uncertain |= error.uncertain;
     using Error = pt_error_estimate;
@@ -59,7 +58,7 @@ void join(RenderedImage &image, const pt_stats &piece, const pt_error_estimate &
     }
 }
 
-// Adds the samples of the context's piece; returns false without any.
+// Returns false if there are none.
 bool add_piece(const Context &context, std::uint32_t rows, RenderedImage &image) {
     const pt_stats stats = context.stats();
     if (stats.sample_count == 0)
@@ -130,7 +129,7 @@ ImageRender::Result ImageRender::run(const Round &round) {
     }
     if (image_.rows_done == 0) {
         image_.stats = context_.stats();
-        image_.error = context_.error_estimate(); // unknown, without samples
+        image_.error = context_.error_estimate();
     }
     preview_task_.finish();
     if (round.film && !stop_())
@@ -152,39 +151,39 @@ void ImageRender::enter_piece() {
     const double halves = task_.half_count();
     const double other = static_cast<double>(round_.other) / round_.expected;
     progress_.enter_part((other + image_.rows_done / height) / halves, (other + end) / halves);
-    if (has_target()) // the next check
+    if (has_target()) // up to the next check
         progress_.expect(forecast_sample_count(context_.stats().sample_count, 1.0, 1.0, task_.sample_count));
     stopping_.enter_piece(end);
 }
 
-// Continues from the context's samples until they suffice, the target error is reached, or stop() is true. The library
-// checks the error at counts that do not depend on the steps.
+// Continues until the samples suffice, the target error is reached, or stop() is true. The library checks the error at
+// counts that do not depend on the steps.
 void ImageRender::render_piece() {
-    constexpr std::uint32_t first_end = 16; // the first count with a known error; tiles double from there on
+    constexpr std::uint32_t first_end = 16; // the first count with a known error
     pt_stats done = context_.stats();
     std::uint32_t wanted = first_step_length;
     bool ended = done.sample_count >= round_.end;
     while (!ended && !stops()) {
         const std::uint32_t before = done.max_sample_count;
-        std::uint32_t length = std::min(wanted, round_.end - before); // 0: only for pixels that lack samples
+        std::uint32_t length = std::min(wanted, round_.end - before); // 0: complete pixels that lack samples
         if (has_target())
             length = std::min(length, std::max(first_end, 2 * std::bit_floor(before)) - before);
         const Clock::time_point start = Clock::now();
         const pt_result result = take(length, done.mean_sample_count);
         const double seconds = seconds_between(start, Clock::now());
         done = look(result);
-        if (done.max_sample_count > before) // otherwise it ended within a sample, and its duration means nothing
+        if (done.max_sample_count > before) // otherwise the duration says nothing
             wanted = next_step_length(done.max_sample_count - before, seconds);
         ended = has_ended(result, done);
     }
 }
 
-// done: mean samples of a pixel before the step.
+// done: mean samples per pixel before the step.
 pt_result ImageRender::take(std::uint32_t length, double done) {
     std::function<bool(double)> goes_on = [&](double fraction) {
         const double taken = fraction * std::max(length, 1U);
         progress_.update_samples((done + taken) * task_.half_count(), Clock::now());
-        const bool has_sample = taken >= 1.0; // otherwise there is nothing new to see
+        const bool has_sample = taken >= 1.0; // otherwise there is nothing new to show
         return !stops() && !(has_sample && pauses());
     };
     auto info = sized<pt_accumulate_info>();
@@ -199,13 +198,11 @@ pt_result ImageRender::take(std::uint32_t length, double done) {
     return result;
 }
 
-// Whether everything is complete after a step.
 bool ImageRender::has_ended(pt_result result, const pt_stats &done) const {
     return result == PT_TARGET_REACHED || (result == PT_OK && done.max_sample_count >= round_.end);
 }
 
-// Runs after a step. The error takes a look at the whole image; if only progress needs it, that may take a hundredth of
-// the time.
+// Runs after a step. The error reads the whole image, so an estimate for progress alone may take 1% of the time.
 pt_stats ImageRender::look(pt_result result) {
     constexpr double share = 0.01;
     const Clock::time_point start = Clock::now();
@@ -228,7 +225,7 @@ pt_stats ImageRender::look(pt_result result) {
     return done;
 }
 
-// The total is a guess if there is a target error, corrected at each check.
+// The expected total is corrected at each check of a target error.
 void ImageRender::show(const pt_stats &done, bool ended, const std::optional<pt_error_estimate> &error,
                        Clock::time_point now) {
     const auto sample_count = static_cast<std::uint32_t>(std::lround(done.mean_sample_count));
@@ -262,7 +259,7 @@ void ImageRender::preview(Clock::time_point now) {
     preview_task_.start([this] { has_preview_failed_ = !write_preview_(preview_); });
 }
 
-// Whether the step should end at its next whole sample, for look().
+// Whether the step should end at its next whole sample.
 bool ImageRender::pauses() const {
     return wants_preview() || (checkpoint_ && checkpoint_->is_due()) || stopping_.is_due();
 }

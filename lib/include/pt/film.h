@@ -17,12 +17,10 @@ extern "C" {
  *
  * If data is NULL, *size_bytes receives the film's size, up to 112 bytes a pixel and some hundred more. Otherwise
  * *size_bytes is the size of data, which must suffice, and receives how many bytes were written. Equal samples of equal
- * pictures are equal bytes, however they were taken or added. lib/film/FORMAT.md describes the bytes; later versions of
- * this library can read them.
+ * pictures are equal bytes. lib/film/FORMAT.md describes the bytes; later versions of this library can read them.
  *
  * One thread at a time per context. PT_ERROR_INVALID_STATE: there is no sample. PT_ERROR_INVALID_ARGUMENT: *size_bytes
- * is too small. PT_ERROR_DEVICE_LOST. After a failure *size_bytes is as before, and the contents of data are
- * undefined. */
+ * is too small. PT_ERROR_DEVICE_LOST. After a failure *size_bytes is as before, and data is undefined. */
 PT_API pt_result pt_save_film(pt_context *context, void *data, uint64_t *size_bytes);
 
 /** Adds a saved film's samples to the context's.
@@ -32,12 +30,12 @@ PT_API pt_result pt_save_film(pt_context *context, void *data, uint64_t *size_by
  * PT_SAMPLER_SOBOL, and samples that are not the first ones or have gaps, pt_get_error_estimate states 0.76 to 3.7
  * times the true error.
  *
- * The bytes need not be trusted: they are checked as a whole before anything changes.
+ * The bytes need not be trusted: they are checked before anything changes.
  *
  * One thread at a time per context. PT_ERROR_INCOMPATIBLE: the bytes are not a film, damaged, cut short, of another
  * picture, or have samples that the context has already; the message has a line for each difference.
- * PT_ERROR_INVALID_STATE: something is not set. PT_ERROR_OUT_OF_DEVICE_MEMORY: there is no room for the sums twice, as
- * the call needs. PT_ERROR_DEVICE_LOST: the driver said so. */
+ * PT_ERROR_INVALID_STATE: something is not set. PT_ERROR_OUT_OF_DEVICE_MEMORY: there is no room for the sums twice.
+ * PT_ERROR_DEVICE_LOST: the driver said so. */
 PT_API pt_result pt_add_film(pt_context *context, const void *data, uint64_t size_bytes);
 
 /* ---- Films without a context ------------------------------------------------------------------------------------ */
@@ -62,8 +60,8 @@ typedef struct pt_film_info {
     uint32_t estimator;       /**< PT_ESTIMATOR_*, never BEST */
     uint32_t sampler;         /**< PT_SAMPLER_*, never BEST */
     uint32_t tile_count;      /**< rectangles of pixels with the same samples; 1 if all pixels have the same */
-    /** samples of a pixel that are expected to meet all lamps in view smaller than a pixel; 0: there are none. With
-     * fewer, no target error is reached */
+    /** fewest samples of a pixel with which a target error is reached: they are expected to meet all lamps in view
+     * smaller than a pixel. 0: there are none */
     uint32_t lamp_sample_count;
     /** models and drivers of the devices that took the samples; ASCII, owned by the film */
     const char *device;
@@ -85,8 +83,8 @@ typedef struct pt_sample_range {
     uint64_t end;   /**< > first, <= 2^32 */
 } pt_sample_range;
 
-/** Opens a film from the bytes of pt_save_film, pt_write_film or pt_stream_film. They are copied and checked as a
- * whole, so need not be trusted.
+/** Opens a film from the bytes of pt_save_film, pt_write_film or pt_stream_film. They are copied and checked, so need
+ * not be trusted.
  *
  * The film takes 112 bytes of memory a pixel. On success the caller owns it and frees it by pt_close_film; on failure
  * *film is NULL. Any thread. PT_ERROR_INCOMPATIBLE: the bytes are not a film, damaged or cut short. */
@@ -151,33 +149,31 @@ PT_API pt_result pt_get_film_ranges(const pt_film *film, uint32_t tile, pt_sampl
  * film. */
 PT_API pt_result pt_get_film_stats(const pt_film *film, pt_stats *stats);
 
-/** Writes how good a film's image is, as pt_get_error_estimate does for a context; the last bits may differ, since they
- * depend on the order of additions.
+/** Estimates the error of a film's image, as pt_get_error_estimate does for a context; the last bits may differ, since
+ * they depend on the order of additions.
  *
- * Nothing is known if pt_stats.sample_count is below 16. If counts differ, the smallest one decides what is stated
- * about light that no sample has met. A film does not know the scene's lamps, so PT_UNCERTAIN_UNMET is set whenever the
- * estimator finds lamps by chance (uniform, cosine, bsdf) and max_path_length is above 1. error->struct_size must be
- * set; no more bytes than that are written. One thread at a time per film. */
+ * Nothing is known if pt_stats.sample_count is below 16. If counts differ, the smallest one decides the stated unseen
+ * light. A film does not know the scene's lamps, so PT_UNCERTAIN_UNMET is set whenever the estimator finds lamps by
+ * chance (uniform, cosine, bsdf) and max_path_length is above 1. error->struct_size must be set; no more bytes than
+ * that are written. One thread at a time per film. */
 PT_API pt_result pt_get_film_error_estimate(const pt_film *film, pt_error_estimate *error);
 
 /** Decides which samples a film takes next on its way to a target error, as pt_accumulate does with
- * PT_SAMPLING_ADAPTIVE. So one machine can decide, and others take the samples (pt_accumulate_info.tile_samples),
- * however they share them.
+ * PT_SAMPLING_ADAPTIVE. So one machine can decide, and others take the samples (pt_accumulate_info.tile_samples).
  *
  * The film must have all pixels of an image, or of whole rows of one, the first row a multiple of 8. target_error must
  * be > 0 and finite; most is the number of samples that a pixel may have. If goals is NULL, *count receives the number
  * of tiles, which are squares of 8 x 8 pixels as in pt_accumulate_info. Otherwise *count is the number of elements of
  * goals and must be the number of tiles, and goals receives for each tile how many samples its pixels are to have,
- * never fewer than they have already. Decisions stay in the film: later calls on it, or on a saved copy, go on from
+ * never fewer than they have already. Decisions stay in the film: later calls on it, or on a saved copy, continue from
  * there.
  *
  * PT_PENDING: some tiles are to take more. PT_TARGET_REACHED: the film has the target error. PT_OK: it has not, and no
- * tile that needs more may take more. The same samples give the same answers, whoever took them and in whatever parts.
- * A context on a CPU with the same limit comes to the same film; on a GPU, tiles begin to differ at a later number of
- * samples, and rounding differs.
+ * tile that needs more may take more. Answers depend on the samples alone. A context on a CPU with the same limit gets
+ * the same film; on a GPU, tiles begin to differ at a later number of samples, and rounding differs.
  *
- * One thread at a time per film. PT_ERROR_INVALID_ARGUMENT: a rule is broken. PT_ERROR_INCOMPATIBLE: the tiles of the
- * film cannot be made of such squares. */
+ * One thread at a time per film. PT_ERROR_INVALID_ARGUMENT: a rule is broken. PT_ERROR_INCOMPATIBLE: the film's tiles
+ * cannot be made of such squares. */
 PT_API pt_result pt_plan_film(pt_film *film, double target_error, uint32_t most, uint32_t *goals, uint32_t *count);
 
 #ifdef __cplusplus

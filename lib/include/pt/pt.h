@@ -41,24 +41,24 @@
 #define PT_API
 #endif
 
-/** Version of this header: major * 1000000 + minor * 1000 + patch. */
+/** major * 1000000 + minor * 1000 + patch. */
 #define PT_VERSION 3000u
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/** The result of a call. < 0: error; 0: done; > 0: done with a remark. The numbers never change. */
+/** The result of a call. < 0: error; 0: done; > 0: done with a remark. Numbers never change. */
 typedef int32_t pt_result;
 /** Values of pt_result. */
 enum {
     PT_OK = 0,                          /**< done */
-    PT_CANCELLED = 1,                   /**< the caller asked to stop; whole samples, or the earlier scene, were kept */
+    PT_CANCELLED = 1,                   /**< the caller asked to stop; whole samples, or the earlier scene, are kept */
     PT_TARGET_REACHED = 2,              /**< the target error was reached before all samples were taken */
     PT_PENDING = 3,                     /**< samples are under way, see pt/async.h */
     PT_ERROR_INVALID_ARGUMENT = -1,     /**< a field, size or pointer breaks a rule of this header */
     PT_ERROR_INVALID_SCENE = -2,        /**< a scene breaks a rule; the message names field, value and rule */
-    PT_ERROR_INVALID_STATE = -3,        /**< something has to be set or to end first, or another call is under way */
+    PT_ERROR_INVALID_STATE = -3,        /**< something must be set or end first, or another call is under way */
     PT_ERROR_UNSUPPORTED = -4,          /**< valid, but beyond this device, driver or library */
     PT_ERROR_NO_DEVICE = -5,            /**< no Vulkan driver, or no device fits; the message has the reasons */
     PT_ERROR_OUT_OF_HOST_MEMORY = -6,   /**< the machine has too little memory left */
@@ -69,16 +69,16 @@ enum {
     PT_ERROR_INCOMPATIBLE = -11         /**< bytes that are no film of this picture (pt/film.h) */
 };
 
-/** One renderer, on one device or several. Made by pt_create and owned by its caller until pt_destroy. */
+/** A renderer on one or several devices. Made by pt_create and owned by its caller until pt_destroy. */
 typedef struct pt_context pt_context;
 
 /** The caller's own Vulkan; defined in pt/vulkan.h. */
 typedef struct pt_vulkan pt_vulkan;
 
-/** Called now and then during a long call with the share that is done, in [0, 1], never falling.
+/** Called during a long call with the share that is done, in [0, 1], never falling.
  *
- * Return 0 to go on; anything else asks the call to stop, which then returns PT_CANCELLED. See pt_scene and
- * pt_accumulate_info for how often it is called and what is kept then. user is the progress_user given beside the
+ * Return 0 to go on. Anything else asks the call to stop, which then returns PT_CANCELLED. pt_scene and
+ * pt_accumulate_info state how often it is called and what is kept. user is the progress_user given beside the
  * function. */
 typedef int32_t (*pt_progress_fn)(void *user, double fraction);
 
@@ -102,10 +102,9 @@ typedef struct pt_material {
 
 /** Bits of pt_material.flags. */
 enum {
-    /** Camera rays pass through surfaces of the material; all other rays meet them. So a lamp can be out of the
-     * picture and still light it, or the camera can look through a wall into a room. Hidden spheres are tested one
-     * by one, even if others are in a tree (PT_FEATURE_TREE), so they should be few. If surfaces are merged
-     * (pt_sphere), the first one's material decides. */
+    /** Camera rays pass through surfaces of the material; all other rays meet them. So a lamp out of the picture lights
+     * it, or the camera looks through a wall into a room. Hidden spheres are tested one by one, even if others are in a
+     * tree (PT_FEATURE_TREE), so they should be few. The first of merged surfaces (pt_sphere) decides. */
     PT_MATERIAL_HIDDEN_FROM_CAMERA = 1
 };
 
@@ -117,14 +116,14 @@ enum {
  *
  * Spheres in a tree (PT_FEATURE_TREE) are merged only if the tree holds equal numbers for them. The largest of
  * concentric ones is seen. A camera nearer to such a sphere's surface than 2^-22 of its radius plus 2^-28 of the extent
- * of the spheres in the tree may see the other side of the surface. */
+ * of the spheres in the tree may see the surface's other side. */
 typedef struct pt_sphere {
     double center[3]; /**< at time 0 */
     double radius;    /**< > 0 */
     /** Displacement from time 0 to time 1. A sphere whose surface is nearer to the camera than 1/65536 of its radius
      * when the shutter opens must move by less than 1/32 of its radius while it is open (otherwise pt_accumulate
-     * returns PT_ERROR_UNSUPPORTED). If the projection is orthographic, the distance is the first visible surface's,
-     * and the rule applies only if the view's half diagonal is below 1/65536 of the radius, too. */
+     * returns PT_ERROR_UNSUPPORTED). With an orthographic projection the first visible surface's distance counts, and
+     * only if the view's half diagonal is below 1/65536 of the radius, too. */
     double motion[3];
     uint32_t material; /**< index into pt_scene.materials */
     uint32_t reserved; /**< 0 */
@@ -139,8 +138,8 @@ enum {
     PT_TYPE_SRGB8 = 4
 };
 
-/** One property of many spheres in the caller's memory. The value of sphere i begins at data + i * stride_bytes, its
- * components one after the other, without alignment. All zero: no column, so the property has its default. */
+/** One property of many spheres in the caller's memory. Sphere i's value is at data + i * stride_bytes, its components
+ * side by side, without alignment. All zero: the property has its default. */
 typedef struct pt_column {
     const void *data;      /**< NULL only if there is no column */
     uint32_t stride_bytes; /**< < 2^31; at least the size of one value, or 0: one value for all spheres */
@@ -155,22 +154,20 @@ typedef struct pt_sphere_array {
     pt_column radius;     /**< FLOAT32 or FLOAT64; required */
     pt_column motion;     /**< x, y, z; FLOAT32 or FLOAT64; default (0, 0, 0) */
     pt_column material;   /**< index into pt_scene.materials; UINT32; default 0 */
-    /** R, G, B in [0, 1], factors of the material's diffuse, so that spheres of one white material have their own
-     * colors; FLOAT32 or FLOAT64, linear, or SRGB8; default (1, 1, 1). Held to a thousandth in a tree
-     * (PT_FEATURE_TREE). */
+    /** R, G, B in [0, 1], factors of the material's diffuse, so that spheres of one material have their own colors;
+     * FLOAT32 or FLOAT64, linear, or SRGB8; default (1, 1, 1). Held to a thousandth in a tree (PT_FEATURE_TREE). */
     pt_column color;
     /** x, y, z of a second center; FLOAT32 or FLOAT64; default none. It makes each a capsule: all points no farther
-     * than the radius from the segment between center and end. Capsules neither emit nor move
-     * (PT_ERROR_INVALID_SCENE); their surface is off by 2^-21 of their length and radius where these are larger than
-     * the distance. They count as spheres otherwise. */
+     * than the radius from the segment between center and end. Capsules neither emit nor move (PT_ERROR_INVALID_SCENE);
+     * their surface is off by 2^-21 of their length and radius where these exceed the distance. They count as spheres
+     * otherwise. */
     pt_column end;
-    /** Share of rays in [0, 1] that meet the sphere; the others pass it, decided at random for each camera, path and
-     * shadow ray. Spheres that differ in anything decide independently: the product of their 1 - opacity passes. The
-     * default sampler lets a pixel's rays meet a single sphere in even proportion; the error from several spheres,
-     * or together with the place in the pixel or on a lamp, falls with the root of the sample count. FLOAT32 or
-     * FLOAT64, held to a 255th; default 1. Below 1 the material neither emits nor is hidden
-     * (PT_ERROR_INVALID_SCENE), and the sphere is in a tree: centers are held to 2^-30 of the extent of all spheres
-     * in it, radii to a relative 2^-16. */
+    /** Share of rays in [0, 1] that meet the sphere; the others pass it. The choice is random for each camera, path and
+     * shadow ray and each sphere, so the product of the spheres' 1 - opacity passes. The default sampler lets a pixel's
+     * rays meet a single sphere in even proportion; the error from several spheres, or together with the place in the
+     * pixel or on a lamp, falls with the root of the sample count. FLOAT32 or FLOAT64, held to a 255th; default 1.
+     * Below 1 the material neither emits nor is hidden (PT_ERROR_INVALID_SCENE), and the sphere is in a tree: centers
+     * are held to 2^-30 of the extent of all spheres in it, radii to a relative 2^-16. */
     pt_column opacity;
 } pt_sphere_array;
 
@@ -195,10 +192,9 @@ typedef struct pt_scene {
     const pt_sphere_array *sphere_arrays; /**< more spheres, for instance one element per species */
     uint32_t sphere_array_count;          /**< elements of sphere_arrays, at most 65536 */
     uint32_t reserved;                    /**< 0 */
-    /** NULL, or called during pt_set_scene, which takes some seconds for ten million spheres: every few milliseconds
-     * if there are many spheres, and always with 1 before the scene is taken over. If it asks to stop, pt_set_scene
-     * returns PT_CANCELLED and has changed nothing. The share grows roughly with time, but jumps if a tree's shape
-     * is kept (PT_FEATURE_TREE). */
+    /** NULL, or called during pt_set_scene, which takes some seconds for ten million spheres: every few milliseconds if
+     * there are many, and always with 1 before the scene is taken over. If it asks to stop, pt_set_scene returns
+     * PT_CANCELLED and has changed nothing. The share jumps if a tree's shape is kept (PT_FEATURE_TREE). */
     pt_progress_fn progress;
     void *progress_user; /**< handed to progress; the library does not look at it */
 } pt_scene;
@@ -207,8 +203,8 @@ typedef struct pt_scene {
 enum {
     PT_PROJECTION_PERSPECTIVE = 0, /**< a pinhole: all rays start at position; or a lens (pt_camera.aperture) */
     /** parallel rays along the viewing direction, which start on the plane through position perpendicular to it.
-     * Surfaces behind this plane are not seen; a ball that it cuts shows its inside. An object's size in the image
-     * does not depend on its distance. */
+     * Surfaces behind this plane are not seen; a ball that it cuts shows its inside. An object's size does not depend
+     * on its distance. */
     PT_PROJECTION_ORTHOGRAPHIC = 1
 };
 
@@ -226,7 +222,7 @@ typedef struct pt_camera {
      * [1e-18, 1e18] (a width outside: PT_ERROR_UNSUPPORTED of pt_accumulate). No default. Perspective: 0. */
     double vertical_extent;
     /** Perspective: diameter of a thin lens about position, perpendicular to the viewing direction; 0: a pinhole.
-     * Points at the depth focus are sharp; at the depth z, a pixel's rays spread over a disc of the diameter
+     * Points at the depth focus are sharp; a pixel's rays spread at depth z over a disc of the diameter
      * aperture * |z / focus - 1|. A photographic lens has the diameter focal length / f-number. At most 2 * focus.
      * Orthographic: 0. */
     double aperture;
@@ -238,14 +234,14 @@ typedef struct pt_camera {
 /* ---- Rendering -------------------------------------------------------------------------------------------------- */
 
 /** Values of pt_render.estimator: how light is found. All converge to the same image, with different noise and time.
- * Lamps are emitting spheres that can be sampled. With any estimator, an emitting sphere around the camera (a sky)
- * and emitting planes are found by directions. */
+ * Lamps are emitting spheres that can be sampled; only directions find a sky (an emitting sphere around the camera) and
+ * emitting planes. */
 enum {
     PT_ESTIMATOR_BEST = 0,    /**< what this version considers best: mis */
     PT_ESTIMATOR_UNIFORM = 1, /**< directions uniform on the hemisphere; lamps are found by chance */
     PT_ESTIMATOR_COSINE = 2,  /**< directions in proportion to the cosine to the normal; lamps are found by chance */
     PT_ESTIMATOR_BSDF = 3,    /**< directions by the material, cosine and specular lobe; lamps are found by chance */
-    PT_ESTIMATOR_LIGHT = 4,   /**< lamps sampled by solid angle; directions as bsdf, which count no such lamps */
+    PT_ESTIMATOR_LIGHT = 4,   /**< lamps sampled by solid angle; directions as bsdf, which do not count these lamps */
     PT_ESTIMATOR_MIS = 5      /**< lamps sampled by solid angle and directions as bsdf, combined by weights */
 };
 
@@ -283,8 +279,8 @@ enum {
     PT_SAMPLING_UNIFORM = 1, /**< to all pixels alike */
     /** where they reduce the error most; needs a target error. While tiles of 8 x 8 pixels are much alike, all pixels
      * get the same. Then a tile's samples are doubled while the gain for the cost exceeds a bound, which falls until
-     * the image has the target error. Whenever it falls, pixels with fewer than half of the mean number of samples
-     * are brought up to that half. */
+     * the image has the target error. Whenever it falls, pixels with fewer than half of the mean number of samples get
+     * that half. */
     PT_SAMPLING_ADAPTIVE = 2
 };
 
@@ -296,31 +292,31 @@ typedef struct pt_accumulate_info {
     uint32_t sample_count;
     /** NULL, or called by pt_accumulate after every submission to a device. pt_start refuses it.
      *
-     * The share does not grow with submissions that take no samples, as when a device makes room for another one's.
-     * Before the first call the driver builds a kernel, which cannot be interrupted: on Mesa's lavapipe some tenths of
-     * a second, unless its cache has the kernel (pt_prepare builds it ahead).
+     * The share does not grow with submissions that take no samples. Before the first call the driver builds a kernel,
+     * which cannot be interrupted: on Mesa's lavapipe some tenths of a second, unless its cache has the kernel
+     * (pt_prepare builds it ahead).
      *
-     * If it asks to stop, the call ends with the submissions under way, at most two per device; and if one sample of
-     * all pixels takes several submissions, with those that complete it. */
+     * If it asks to stop, the call ends with the submissions under way, at most two per device, and with those that
+     * complete a sample of all pixels. */
     pt_progress_fn progress;
     void *progress_user; /**< handed to progress; the library does not look at it */
     /** 0: none. Otherwise no more samples are added once pt_error_estimate.relative_rmse_high is at or below it and
-     * pixels with lamps smaller than a pixel have samples enough to meet them: the call then returns PT_TARGET_REACHED.
+     * pixels with lamps smaller than a pixel have enough samples to meet them: the call then returns PT_TARGET_REACHED.
      * It returns PT_OK if sample_count runs out first, or the pixels that need more have sample_limit samples. The
      * error is checked only when all pixels have as many samples as pt_next_check says or, where tiles differ
-     * (PT_SAMPLING_ADAPTIVE), when no tile wants more at the present bound. So where a sequence ends, and with which
-     * samples in which pixels, does not depend on how it is split over calls with the same sample_limit, devices, or
-     * films that are saved and added again. Finite, >= 0. */
+     * (PT_SAMPLING_ADAPTIVE), when no tile wants more at the present bound. So the samples of each pixel at the end do
+     * not depend on the split over calls with the same sample_limit, devices, or films that are saved and added again.
+     * Finite, >= 0. */
     double target_error;
     uint32_t sampling; /**< PT_SAMPLING_*: where samples go */
-    /** With a target error: the most samples that a pixel is to have after this call and later ones. Where pixels that
-     * need more have so many already, the others take more, until all have them. 0, or fewer than this call may come
-     * to: as many as that. */
+    /** Used if there is a target_error: the most samples of a pixel after this call and later ones. While pixels that
+     * need more have that many, the others take more, until all have them. 0, or a number that this call may pass: the
+     * number that it may reach. */
     uint32_t sample_limit;
-    /** NULL: all pixels get the same, or as the target error decides. Otherwise each tile takes this many samples,
-     * from 0 to sample_count: the first ones from pt_render.first_sample on that it lacks. target_error must be 0.
-     * Tiles are squares of 8 x 8 pixels, row by row from the top left of the rendered rows, smaller at the right and
-     * lower edges. So machines can share a film's next samples (pt_plan_film). Read only during the call. */
+    /** NULL: all pixels get the same, or as the target error decides. Otherwise each tile takes this many samples, from
+     * 0 to sample_count: the first ones from pt_render.first_sample on that it lacks. target_error must be 0. Tiles are
+     * squares of 8 x 8 pixels, row by row from the top left of the rendered rows, smaller at the right and lower edges.
+     * So machines can share a film's next samples (pt_plan_film). Read only during the call. */
     const uint32_t *tile_samples;
     uint32_t tile_count; /**< elements of tile_samples: all tiles, or 0 */
     uint32_t reserved2;  /**< 0 */
@@ -329,24 +325,21 @@ typedef struct pt_accumulate_info {
 /** Values of pt_image.quantity. */
 enum {
     PT_QUANTITY_RADIANCE = 0, /**< mean of the samples */
-    /** standard error of that mean, from the difference between the means of two parts of the samples: half of its
-     * magnitude if the parts are equal. The first part has the largest power of two below the number of samples. A
-     * single pixel's value is only a hint: it has one degree of freedom, and a quarter of all values are below a
-     * third of the true one. INFINITY if a part has no sample: up to 8 samples are all in the first. */
+    /** standard error of that mean, from the difference between the means of two parts of the samples: half of it if
+     * the parts are equal. The first part has the largest power of two below the number of samples. A single pixel's
+     * value is only a hint: it has one degree of freedom, and a quarter of all values are below a third of the true
+     * one. INFINITY if a part has no sample: up to 8 samples are all in the first. */
     PT_QUANTITY_STANDARD_ERROR = 1,
     PT_QUANTITY_SAMPLE_COUNT = 2, /**< the pixel's samples, rounded to float32, the same in all channels */
-    /* The next four are about the first hit of camera rays in the present scene, for compositing, denoising and
-     * picking. They need no samples: a kernel of their own, built on first use, computes them at every read. A camera
-     * with an aperture is a pinhole here, so edges are sharp that the lens blurs in the radiance and in
-     * PT_QUANTITY_COVERAGE. */
-    /** depth along the viewing direction: dot(x - camera.position, unit viewing direction) for the point x that the
-     * ray through the pixel's center meets halfway between shutter_open and shutter_close; the same in all channels.
-     * For parallel rays, the distance from their start. INFINITY where the ray meets nothing. The channel Z of
-     * OpenEXR. */
+    /* The next four describe the first hit of camera rays in the present scene. They need no samples: a kernel of
+     * their own, built on first use, computes them at every read. A camera with an aperture is a pinhole here, so edges
+     * are sharp that the lens blurs in the radiance and in PT_QUANTITY_COVERAGE. */
+    /** depth along the viewing direction: dot(x - camera.position, unit viewing direction) for the point x that the ray
+     * through the pixel's center meets halfway between shutter_open and shutter_close; the same in all channels. For
+     * parallel rays, the distance from their start. INFINITY where the ray meets nothing. The channel Z of OpenEXR. */
     PT_QUANTITY_DEPTH = 3,
-    /** unit normal in world coordinates, on the side of the camera: the mean over 16 rays spread evenly over pixel
-     * and shutter time, filtered like radiance for denoisers; shorter than 1 at edges. A ray that meets nothing
-     * counts as 0. */
+    /** unit normal in world coordinates, on the side of the camera: the mean over 16 rays spread evenly over pixel and
+     * shutter time; shorter than 1 at edges. A ray that meets nothing counts as 0. */
     PT_QUANTITY_NORMAL = 4,
     /** diffuse + specular, each component at most 1: the mean over the same 16 rays. A ray that meets nothing counts as
      * 0. */
@@ -403,23 +396,23 @@ typedef void (*pt_log_fn)(void *user, int32_t level, const char *line);
 /** Hands out bytes that pt_store_kernels_fn has stored under a key, perhaps in another process.
  *
  * Returns their number, 0 for none, and writes them to data if they are no more than size_bytes. Called first with NULL
- * and 0, to learn the number. Bytes that are damaged or of another driver or version are ignored: kernels are then
- * built anew, and no call fails. key is as for pt_store_kernels_fn, user is pt_create_info.kernels_user. */
+ * and 0. Bytes that are damaged or of another driver or version are ignored: kernels are then built again. key is as
+ * for pt_store_kernels_fn, user is pt_create_info.kernels_user. */
 typedef uint64_t (*pt_load_kernels_fn)(void *user, const char *key, void *data, uint64_t size_bytes);
 
 /** Stores a driver's compiled kernels under a key, in place of earlier ones.
  *
  * key has 32 hexadecimal digits, which stand for the device's model, its driver and the kernels' code; it can be a
- * file's name. data is valid during the call: some dozens of bytes to some megabytes, mostly the driver's own. Failing
- * to keep it is no error. user is pt_create_info.kernels_user. */
+ * file's name. data is valid during the call: some dozens of bytes to some megabytes. Failing to keep it is no error.
+ * user is pt_create_info.kernels_user. */
 typedef void (*pt_store_kernels_fn)(void *user, const char *key, const void *data, uint64_t size_bytes);
 
 /** Bits of pt_create_info.flags. */
 enum {
     PT_CREATE_VALIDATION = 1, /**< the Khronos validation layer reports to log; absent: PT_ERROR_UNSUPPORTED */
-    /** No kernels with a scene's numbers as constants. So nothing is built when the camera moves. On CPUs such
-     * kernels are up to 1.5 times as fast. The first scene of a context gets one, as does each that is rendered for
-     * some time, at first a second. Building takes a third of a second; pt_poll builds none. */
+    /** No kernels with a scene's numbers as constants, so nothing is built when the camera moves. On CPUs such kernels
+     * are up to 1.5 times as fast. The first scene of a context gets one, as does each that is rendered for some time,
+     * at first a second. Building takes a third of a second; pt_poll builds none. */
     PT_CREATE_NO_SCENE_KERNELS = 2
 };
 
@@ -432,16 +425,15 @@ typedef struct pt_create_info {
     void *log_user;               /**< handed to log; the library does not look at it */
     uint32_t submit_milliseconds; /**< aim for the duration of a submission, [1, 1000]; default 50 */
     uint32_t reserved;            /**< 0 */
-    /** NULL: the context makes an instance and devices of its own. Else it runs on this device alone, see
+    /** NULL: the context makes an instance and devices of its own. Otherwise it runs on this device alone, see
      * pt/vulkan.h; device must be NULL, and PT_CREATE_VALIDATION not set. Read by pt_create alone. */
     const pt_vulkan *vulkan;
     /** NULL or empty: the library's kernels. Else a folder of their GLSL files, see pt/shaders.h. */
     const char *shader_dir;
-    /** Either may be NULL. They let the caller keep compiled kernels, so that contexts of later processes start
-     * sooner. load_kernels is called by pt_create, for each device; store_kernels at the end of calls that have
-     * built kernels, even if they fail (pt_prepare, pt_accumulate, pt_reload_shaders, pt_readback of first hits; on
-     * GPUs any pt_readback, and pt_get_error_estimate). Drivers with a cache of their own, such as Mesa's lavapipe,
-     * hand over almost nothing. */
+    /** Either may be NULL. They let the caller keep compiled kernels, so that contexts of later processes start sooner.
+     * load_kernels is called by pt_create, for each device; store_kernels at the end of calls that have built kernels,
+     * even if they fail (pt_prepare, pt_accumulate, pt_reload_shaders, pt_readback of first hits; on GPUs any
+     * pt_readback, and pt_get_error_estimate). Drivers with a cache of their own hand over almost nothing. */
     pt_load_kernels_fn load_kernels;
     pt_store_kernels_fn store_kernels; /**< see load_kernels */
     void *kernels_user;                /**< handed to both; the library does not look at it */
@@ -462,7 +454,7 @@ PT_API const char *pt_result_name(pt_result result);
  * *context is NULL.
  *
  * Any thread, also while other contexts are in use. PT_ERROR_INVALID_ARGUMENT: info breaks a rule. PT_ERROR_NO_DEVICE:
- * there is no Vulkan, no such device, or none that fits. PT_ERROR_UNSUPPORTED: no validation layer, or a newer struct.
+ * there is no Vulkan, or no device that fits. PT_ERROR_UNSUPPORTED: no validation layer, or a newer struct.
  * PT_ERROR_OUT_OF_DEVICE_MEMORY, PT_ERROR_DEVICE_LOST: the driver said so. PT_ERROR_SHADER: the driver refused a
  * kernel, or a file of shader_dir does not compile. */
 PT_API pt_result pt_create(const pt_create_info *info, pt_context **context);
@@ -471,7 +463,7 @@ PT_API pt_result pt_create(const pt_create_info *info, pt_context **context);
  * that uses the context.
  *
  * If this thread's last call was refused because another call was under way, the message of that refusal. While another
- * thread is in a call, a message that says so.
+ * thread is in a call, a message that states this.
  *
  * If context is NULL: the message of this thread's last failed call without a context (pt_create, pt_get_devices,
  * films), valid until the next such call. UTF-8, never NULL, owned by the library. Never fails. */
@@ -490,9 +482,8 @@ PT_API void pt_destroy(pt_context *context);
  *
  * The three setters may be called in any order and again at any time. Each copies its argument.
  *
- * Building a tree over many spheres takes most of the time. If a scene has as many spheres as the one before, which
- * have only moved a little or changed their colors, the tree's shape is kept, which halves the time and changes no bits
- * of the image or of films.
+ * Building a tree over many spheres takes most of the time. If as many spheres as before have only moved a little or
+ * changed their colors, the tree's shape is kept, which halves the time and changes no bits of the image or of films.
  *
  * One thread at a time per context. PT_CANCELLED: pt_scene.progress asked to stop. PT_ERROR_INVALID_SCENE: the message
  * has a line for each broken rule, such as "spheres[3].radius = -1: must be > 0" or, for a column,
@@ -516,10 +507,9 @@ PT_API pt_result pt_set_render(pt_context *context, const pt_render *render);
 /** Builds the kernels for the present scene, camera and render settings ahead of pt_accumulate. This takes a third of a
  * second on Mesa's lavapipe for a few spheres, and about as long on a GPU whose driver has not kept them.
  *
- * A context keeps the last eight kernels, for settings that come back. The kernel depends on the kinds and numbers of
- * things in the scene and on which sides of them the camera is, but not on where they are. If that is faster, the scene
- * gets a kernel of its own at once here (see PT_CREATE_NO_SCENE_KERNELS). Samples stay as they are. The call cannot be
- * interrupted, as drivers cannot.
+ * A context keeps the last eight kernels. A kernel depends on the kinds and numbers of things in the scene and on the
+ * camera's side of them, not on their places. If that is faster, the scene also gets a kernel of its own (see
+ * PT_CREATE_NO_SCENE_KERNELS). Samples stay as they are. The call cannot be interrupted, as drivers cannot.
  *
  * One thread at a time per context. PT_ERROR_INVALID_STATE: something is not set. PT_ERROR_UNSUPPORTED: the scene is
  * beyond the device. PT_ERROR_SHADER, PT_ERROR_OUT_OF_DEVICE_MEMORY, PT_ERROR_DEVICE_LOST: the driver said so. */
@@ -532,11 +522,11 @@ PT_API pt_result pt_prepare(pt_context *context);
  * Estimators that do not sample the material's lobe to find lamps (uniform, cosine, light) meet such samples on
  * surfaces of glossiness beyond 1e5, and should not be used for these.
  *
- * One thread at a time per context. PT_CANCELLED and PT_TARGET_REACHED: fewer samples than asked for were taken, all of
- * them whole. PT_ERROR_INVALID_STATE: something is not set. PT_ERROR_INVALID_ARGUMENT: a rule is broken.
- * PT_ERROR_UNSUPPORTED: the scene is beyond the device. PT_ERROR_SHADER, PT_ERROR_OUT_OF_DEVICE_MEMORY,
- * PT_ERROR_DEVICE_LOST: the driver said so. After a failure the whole samples that were taken stay, and
- * pt_stats.sample_count says how many: none if several devices had begun samples that they could not complete. */
+ * One thread at a time per context. PT_CANCELLED and PT_TARGET_REACHED: fewer samples were taken, all of them whole.
+ * PT_ERROR_INVALID_STATE: something is not set. PT_ERROR_INVALID_ARGUMENT: a rule is broken. PT_ERROR_UNSUPPORTED: the
+ * scene is beyond the device. PT_ERROR_SHADER, PT_ERROR_OUT_OF_DEVICE_MEMORY, PT_ERROR_DEVICE_LOST: the driver said so.
+ * After a failure whole samples stay, and pt_stats.sample_count is their number: none if several devices had begun
+ * samples that they could not complete. */
 PT_API pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *info);
 
 /** Writes the mean radiance of the samples so far, its standard error, or another PT_QUANTITY_*, of all pixels or a

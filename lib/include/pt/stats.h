@@ -45,26 +45,26 @@ typedef struct pt_stats {
  * certain. */
 enum {
     PT_UNCERTAIN_RMSE = 1, /**< rmse comes from fewer than 4 pixels: rare bright samples, or a small lamp */
-    /** relative_rmse comes from fewer than 4 pixels, or light that single samples have met may be so rare that its
-     * square is three times as large */
+    /** relative_rmse comes from fewer than 4 pixels, or from light that single samples have met and that may be so rare
+     * that the square is three times as large */
     PT_UNCERTAIN_RELATIVE_RMSE = 2,
-    /** More than a fifth of the square of relative_rmse are expected from dark pixels beside very bright ones, as
-     * light that no sample has met. */
+    /** More than a fifth of the square of relative_rmse is expected from dark pixels beside very bright ones, as light
+     * that no sample has met. */
     PT_UNCERTAIN_UNSEEN = 4,
     /** Either lamps in view that less than half of a pixel's samples meet, since they are small, move, are out of focus
      * or shine through translucent spheres: by their sizes they add more than the samples show, and fewer than 6
-     * samples are expected to have met them. Or lamps that are found by chance (uniform, cosine,
-     * bsdf), or lobes (uniform, cosine): one that matters was met fewer than a thousand times in all pixels. */
+     * samples are expected to have met them. Or lamps found by chance (uniform, cosine, bsdf), or lobes (uniform,
+     * cosine): one that matters was met fewer than a thousand times in all pixels. */
     PT_UNCERTAIN_UNMET = 8
 };
 
-/** How good the image is, estimated without a reference (shaders/README.md, section 11).
+/** The image's error, estimated without a reference (shaders/README.md, section 11).
  *
  * rmse is the root of the mean of (x - r)^2 over pixels and channels, for the image x and its limit r; relative_rmse is
- * the same for (x - r)^2 / (r^2 + 0.01). Bounds have 95% confidence. Of light that no sample has met yet, only that of
- * small lamps in view is included. Nothing is known with fewer than 16 samples, or if
- * more than one sample in 2^20 was left out, since these may have carried as much light as all others: then the lower
- * bounds are 0, the other values INFINITY. */
+ * the same for (x - r)^2 / (r^2 + 0.01). Bounds have 95% confidence. Light that no sample has met yet is not included,
+ * except small lamps in view. Nothing is known with fewer than 16 samples, or if more than one sample in 2^20 was left
+ * out, since these may have carried as much light as all others: then the lower bounds are 0, the other values
+ * INFINITY. */
 typedef struct pt_error_estimate {
     uint32_t struct_size;      /**< sizeof(pt_error_estimate); must be set by the caller */
     uint32_t uncertain;        /**< PT_UNCERTAIN_*: how far the error can be known; 0 with fewer than 16 samples */

@@ -92,7 +92,7 @@ class CreateFlag(enum.IntFlag):
     """What else a context is to be; see Context."""
 
     VALIDATION = 1  # the Khronos validation layer reports to log
-    NO_SCENE_KERNELS = 2  # No kernels with a scene's numbers as constants
+    NO_SCENE_KERNELS = 2  # No kernels with a scene's numbers as constants, so nothing is built when the camera moves
 
 
 class DeviceKind(enum.IntEnum):
@@ -138,7 +138,7 @@ class Result(enum.IntEnum):
     PENDING = 3  # samples are under way, see pt/async.h
     ERROR_INVALID_ARGUMENT = -1  # a field, size or pointer breaks a rule of this header
     ERROR_INVALID_SCENE = -2  # a scene breaks a rule
-    ERROR_INVALID_STATE = -3  # something has to be set or to end first, or another call is under way
+    ERROR_INVALID_STATE = -3  # something must be set or end first, or another call is under way
     ERROR_UNSUPPORTED = -4  # valid, but beyond this device, driver or library
     ERROR_NO_DEVICE = -5  # no Vulkan driver, or no device fits
     ERROR_OUT_OF_HOST_MEMORY = -6  # the machine has too little memory left
