@@ -42,8 +42,8 @@ float share_beside_spots(Spots spots, Path path, Vertex first, float time)
     return density > 0.0 ? power_heuristic(arrival_density, density) : 1.0;
 }
 
-// Light of the first vertex and all paths from it, most of the picture: so every lamp is sampled if they are few, and
-// several branches leave.
+// Light of the first vertex and all paths from it. It is most of the picture, so every lamp is sampled if they are few,
+// and several branches leave.
 vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
 {
     const float directions = float(BRANCH_COUNT);

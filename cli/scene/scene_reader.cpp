@@ -59,7 +59,7 @@ public:
         begun_.insert(section_);
     }
 
-    // Fast for the millions of items without an override.
+    // Does little for items without an override, of which there may be millions.
     void item(const JsonPlace &place, const json &value) override {
         const std::vector<std::size_t> changes =
             scene_.overrides.empty() ? std::vector<std::size_t>() : overrides_of(place.path());
