@@ -61,16 +61,17 @@ vec4 direction_numbers(SampleKey branch, uint begin, uint count)
 }
 
 // Decides whether a vertex's ray passes a surface (passes() of tree_walk.glsl); vertex 0 is the camera. Times a
-// surface's odd number it is a coordinate of an extensible lattice in base 2 (Hickernell, Hong, L'Ecuyer, Lemieux
-// 2000), shifted per pixel: 2^m samples fall into different ones of 2^m parts of [0, 1), and surfaces decide
-// independently.
+// surface's odd number it is a coordinate of a lattice: each 16 samples fall into different ones of 16 parts of [0, 1).
+// Some lattices spread the decisions of two surfaces badly, so pixels, and each 16 samples, have different ones: the
+// last bits choose them.
 uint opacity_number(SampleKey branch, uint vertex)
 {
     const uint first_block = 1u << 31; // beyond all paths' blocks
     uint block = first_block + vertex;
     if (SAMPLER == SAMPLER_RANDOM)
         return sample_words(branch, block).x;
-    return (bitfieldReverse(branch.sample_index) + branch.shift.w + branch.seed.y) * odd_number(block);
+    uint number = (bitfieldReverse(branch.sample_index) + branch.shift.w + branch.seed.y) * odd_number(block);
+    return number ^ (number >> 16u & TREE_OPACITY_BITS); // bits without the index's last four
 }
 
 #endif

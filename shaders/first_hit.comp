@@ -28,7 +28,7 @@ vec3 lattice_point(uint ray)
 // neighbors: callers take means over pixels. The last bits are equal because opacity_generator() depends on them.
 uint opacity_number(uint pixel_index, uint ray)
 {
-    return ((pixel_index + 1u) * 0x9e3779b9u + bitfieldReverse(ray)) & ~0xfffu;
+    return ((pixel_index + 1u) * 0x9e3779b9u + bitfieldReverse(ray)) & ~TREE_OPACITY_BITS;
 }
 
 // Depth along the view. Rays start at the pinhole, or on a plane across the view.

@@ -159,6 +159,7 @@ PT_CONSTANT TREE_ALIGNMENT = 16; // 256 bytes: no device asks for more (Vulkan s
 PT_CONSTANT TREE_LAMP_BIT = 0x80000000u;
 PT_CONSTANT TREE_COLOR_STEPS = 1023;
 PT_CONSTANT TREE_OPACITY_STEPS = 255u;
+PT_CONSTANT TREE_OPACITY_BITS = 0xfffu; // of an opacity_number() that choose its lattice
 
 // Grid point p is at (p - camera) step + shift, relative to the camera.
 struct TreeFrame {

@@ -207,16 +207,15 @@ bool is_in_tree(uint surface) { return surface >= SURFACE_COUNT && surface != NO
 
 // An odd hash of a sphere's word in grid steps, so independent of scale. Words differ (lib/tree/coincident_spheres.h).
 // Ends like lowbias32 (Wellons, "Prospecting for hash functions", 2018), where each input bit flips half of the output.
-// Each pixel has its own factors, because a lattice that is poor for two surfaces must not spoil all pixels: they are
-// bits of opacity_number that are constant over a pixel's first 2^20 samples.
+// The last bits of opacity_number change two factors.
 uint opacity_generator(uvec4 word, uint opacity_number)
 {
-    uint of_pixel = (opacity_number & 0xfffu) << 1u;
+    uint change = (opacity_number & TREE_OPACITY_BITS) << 1u;
     uint radius = word.w - floatBitsToUint(tree_step());
     uint hash = (word.x ^ radius) * 0x9e3779b1u;
     hash = (hash ^ (hash >> 15u) ^ word.y) * 0x85ebca77u;
-    hash = (hash ^ (hash >> 13u) ^ word.z) * (0xc2b2ae3du ^ of_pixel);
-    hash = (hash ^ (hash >> 16u)) * (0x7feb352du ^ of_pixel);
+    hash = (hash ^ (hash >> 13u) ^ word.z) * (0xc2b2ae3du ^ change);
+    hash = (hash ^ (hash >> 16u)) * (0x7feb352du ^ change);
     return hash ^ (hash >> 16u) | 1u;
 }
 
