@@ -4,6 +4,7 @@
 
 #include "maths.glsl"
 #include "scene.glsl"
+#include "tree.glsl"
 
 // The camera decides with KNOWN_SIDES on which side of each surface paths are: rounding may put a vertex on the wrong
 // side of a close surface, where paths end or leak.
@@ -63,12 +64,20 @@ struct ShadowRay {
 
 const ShadowRay NO_SHADOW_RAY = ShadowRay(vec3(0.0), 0.0, NO_SURFACE);
 
+// By how far a ray that starts on a surface may miss another that coincides with it: a vertex is off by 2^-22 of its
+// distance at most, and an atom's sticks, one grid step apart, are within 16 steps (lib/tree/coincident_spheres.h).
+float rounding_of(Start start)
+{
+    return 2.3841858e-7 * dot(abs(start.origin), vec3(1.0)) + (TREE_OPACITY == 1 ? 16.0 * tree_step() : 0.0);
+}
+
 // A walk fetches each surface once.
 float distance_to_sphere(Start start, vec3 direction, uint sphere, Ball ball)
 {
     vec3 to_first = ball.centre_radius.xyz - start.origin;
     vec3 from_side = KNOWN_SIDES == 1 ? ball.centre_radius.xyz : to_first;
-    return ball_distance(ball, to_first, from_side, direction, sphere == start.surface, start.inside, 0.0, KINDS);
+    return ball_distance(ball, to_first, from_side, direction, sphere == start.surface, start.inside, rounding_of(start),
+                         KINDS);
 }
 
 // A lamp is a plain ball.

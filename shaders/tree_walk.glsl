@@ -43,11 +43,8 @@ float distance_in_tree(Start start, GridRay ray, vec3 direction, uint surface, B
         return ray.advance + distance_from_outside(to_centre, ball.centre_radius.w, direction, leaving);
     }
     vec3 from_side = KNOWN_SIDES == 1 ? tree_ball(surface - SURFACE_COUNT, time).centre_radius.xyz : to_first;
-    // A vertex is off by 2^-22 of its distance at most. An atom's sticks, one step apart, are within 16 steps
-    // (lib/tree/coincident_spheres.h).
-    float rounding = 2.3841858e-7 * dot(abs(start.origin), vec3(1.0)) + 16.0 * tree_step();
     return ray.advance +
-           ball_distance(ball, to_first, from_side, direction, leaving, start.inside, rounding, TREE_KINDS);
+           ball_distance(ball, to_first, from_side, direction, leaving, start.inside, rounding_of(start), TREE_KINDS);
 }
 
 // distance: where the shadow ray meets the sphere. A lamp outside the tree sorts before tree spheres.

@@ -249,9 +249,22 @@ Given sticks() {
     return given;
 }
 
+// Opaque sticks that share an end stay in the list beside the tree of a translucent one.
+Given opaque_sticks() {
+    Given given;
+    given.camera = camera_at({2, 0, 6.7}, {0, 0, 0}, 0.6);
+    given.spheres.push_back({{3, 5, 1}, 1.5, {0, 0, 0}, 2, 0});
+    const glm::dvec3 atom(1.3, -0.1, 0.3);
+    given.capsules = {rod(atom, {-0.8, 0.5, -0.8}, 1.0F), rod(atom, {-0.2, -1.0, -1.8}, 1.0F),
+                      rod({0.8, -0.5, 0.9}, {-0.3, 0.3, 1.0}, 0.67F)};
+    for (Given::Capsule &each : given.capsules)
+        each.radius = 0.3;
+    return given;
+}
+
 // Negative control: opacities larger by a third.
 TEST_F(Opacity, HasTheLightOfAPathTracerInDouble) {
-    for (const Given &given : {shells(), sticks()}) {
+    for (const Given &given : {shells(), sticks(), opaque_sticks()}) {
         const Blocks exact = exact_blocks(given, 1200);
         EXPECT_LT(largest_error(given, exact, PT_SAMPLER_SOBOL), most_errors);
         Given denser = given;
