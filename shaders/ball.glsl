@@ -82,9 +82,9 @@ bool sphere_blocks(vec3 to_centre, float radius, vec3 direction, bool at_end, fl
 // |p| and h^2 = r^2 - |l + n p / |p||^2; the last ball has the other sign of h. Both are convex in s, so s is clamped
 // to [0, L]. For |p| = 0 the sign of c h decides.
 //
-// Rounding shifts the ends across the ray by d <= 2^-22 (|to_first| + L), and s by e = d / |p|, which delays the hit by
-// e^2 / (2 h |p|). For |p|^2 < 2 d / h the ball might be missed, so h - d replaces h: the delay is then at most d /
-// |p|, as for a shift by d.
+// Rounding shifts the ends across the ray by d <= 2^-22 (|to_first| + L), so s by e = d / |p| and the hit distance by
+// e^2 / (2 h |p|). If |p|^2 < 2 d / h, the ray might miss the ball, so h - d replaces h. The hit distance is then too
+// large by at most d / |p|, as if the ends were shifted by d.
 vec3 swept_to(vec3 to_first, vec4 axis, float radius, vec3 direction, bool to_last)
 {
     vec3 unit = axis.xyz * axis.w;

@@ -244,8 +244,8 @@ struct ErrorSquares {
 struct TileErrors {
     ErrorSquares square;          // of (x - r)^2, in film units
     ErrorSquares relative_square; // of (x - r)^2 / (r^2 + offset^2), times relative_scale^2; without values met once
-    ErrorSquares met_once;        // of values met once, with limits r known without them
-    ErrorSquares as_lamps;        // of values met once, with r their own means
+    ErrorSquares met_once;        // from values met once, with r estimated without them
+    ErrorSquares as_lamps;        // the same values, with their means as r
     float unseen;                 // of light that no sample met, not scaled
     uint met_again;               // number of values
     uint unknown_pixels;          // without a sample in either part
@@ -279,7 +279,7 @@ struct FrameConstants {
     uint is_first;     // 1: the part has no sample of these pixels; in a fold: such a dispatch follows
     uint first_sample; // index in the sequence
     uint sample_count; // >= 1
-    uint share;        // most samples of an invocation; invocations along y share the samples
+    uint share;        // maximum samples per invocation; invocations along y share the samples
 };
 
 PT_CONSTANT ANY_COUNT = 0xffffffffu;

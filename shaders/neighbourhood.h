@@ -1,4 +1,4 @@
-// A pixel and its neighbors in its tile, in one channel. Values are float32 >= 0 on the host too, since they are only
+// A pixel and its neighbors in its tile, in one channel. Values are float32 >= 0 on the host too: they are only
 // compared.
 #ifndef PT_NEIGHBOURHOOD_H
 #define PT_NEIGHBOURHOOD_H

@@ -74,8 +74,8 @@ PT_FUNCTION real around(real mean, ValueSet tile, real median_beside, real large
 // e^-y / (y^2 + k^2 / T^2): ln(T / k) less about 1, depending on the prior. Leaving out the constant fits the
 // calibration scenes.
 struct Limit {
-    real square;       // with the offset
-    real known;        // the darker part's, with the offset
+    real square;       // of the limit, plus offset^2
+    real known;        // of the darker part's mean, plus offset^2
     real light_beyond; // > 0: an edge; the logarithm applies
     real alone;        // > 0: brighter than the level around
 };

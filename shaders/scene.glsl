@@ -121,7 +121,7 @@ bool may_emit(uint surface)
     return surface < WALKED_LAMPS + SKY_COUNT || (PLANES_EMIT == 1u && is_plane) || is_lamp;
 }
 
-// Radiance, and its mean.
+// rgb: radiance; a: the mean of its channels.
 vec4 emission_of(uint surface)
 {
     if (!HAS_TABLE)
@@ -152,13 +152,13 @@ vec4 specular_of(uint surface)
     return HAS_TABLE ? scene_word(material_words(surface) + 1u) : scene_word_among(SPECULAR, SURFACE_COUNT, surface);
 }
 
-// A sphere at a time in [0, 1], open to closed. The index is a loop's, ...
+// A sphere at a time in [0, 1], open to closed. The index is a loop's.
 Ball ball_at(uint sphere, float time)
 {
     return ball_from(scene_word(sphere), HAS_WAYS ? scene_word(MOTIONS + sphere) : vec4(0.0), time, KINDS);
 }
 
-// ... or below count and may differ between invocations, ...
+// The same for an index below count, which may differ between invocations.
 Ball ball_among(uint count, uint sphere, float time)
 {
     vec4 way = HAS_WAYS ? scene_word_among(MOTIONS, count, sphere) : vec4(0.0);
@@ -170,7 +170,7 @@ bool is_sphere(uint surface)
     return surface < SPHERE_COUNT || (TREE == 1u && surface >= SURFACE_COUNT);
 }
 
-// ... or any surface that is a sphere, ...
+// Any surface that is a sphere.
 Ball ball_of(uint surface, float time)
 {
     if (TREE == 1u && surface >= SURFACE_COUNT)
@@ -178,7 +178,7 @@ Ball ball_of(uint surface, float time)
     return ball_among(SPHERE_COUNT, surface, time);
 }
 
-// ... or a lamp's number.
+// By a lamp's number.
 vec4 sphere_of_lamp(uint lamp, float time)
 {
     if (TREE_LAMPS > 0u && lamp >= WALKED_LAMPS)

@@ -41,8 +41,8 @@ PT_SPECIALIZED(TREE_LAMPS, 23, 0)         // the last of LAMP_COUNT
 PT_SPECIALIZED(TREE_COLORS, 24, 0)        // 1: tree spheres have own colors
 PT_SPECIALIZED(TREE_LEVELS, 35, 0)        // at least the nodes on the longest way down
 PT_SPECIALIZED(TREE_INSIDE, 34, 1)        // 1: paths may be inside a sphere of the tree
-PT_SPECIALIZED(POINT_BLOCKS, 12, 1024)    // in the binding of the point table
-PT_SPECIALIZED(WALK_TRIPS, 27, 0)         // before finished walks are left; 0: each walk is ended
+PT_SPECIALIZED(POINT_BLOCKS, 12, 1024)    // blocks in the point table's binding
+PT_SPECIALIZED(WALK_TRIPS, 27, 0)         // trips before finished walks are left; 0: each walk is ended
 PT_SPECIALIZED(SPOT_COUNT, 28, 0)         // spots with a ray of their own (spots.glsl)
 // Surfaces hidden from the camera: last lamps outside the tree, first skies, last other spheres, first planes.
 PT_SPECIALIZED(HIDDEN_LAMPS, 30, 0)

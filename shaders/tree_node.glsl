@@ -42,7 +42,7 @@ GridRay grid_ray(vec3 origin, vec3 direction)
     return ray;
 }
 
-// Grid step over direction, kept finite: components near 0 change the ray by less than the margin.
+// tree_step() / direction. Components below 2^-60 become +-2^-60, which moves the ray by less than its margin.
 vec3 inverse_of(vec3 direction)
 {
     const float least = 8.6736174e-19; // 2^-60

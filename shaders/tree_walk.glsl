@@ -1,5 +1,5 @@
-// Rays against tree spheres. The result equals a test of all spheres: ties depend on spheres alone, and no box with a
-// nearer one is skipped.
+// Rays against tree spheres. The hit is the same as if all spheres were tested: no box that holds a nearer sphere is
+// skipped, and the spheres decide ties, not the order of the walk.
 #ifndef TREE_WALK_GLSL
 #define TREE_WALK_GLSL
 

@@ -51,7 +51,7 @@ private:
     platform::FileDescriptor file_;
 };
 
-// role: such as "--stats".
+// role: the option that names the file, such as "--stats".
 struct NamedFile {
     std::string role;
     std::string path; // empty: none; "-": standard input or output

@@ -22,7 +22,7 @@ std::chrono::steady_clock::duration clock_duration(double seconds) {
 }
 
 pt_render piece_of(const RenderTask &task, std::uint32_t half, std::uint32_t first_row, std::uint32_t rows) {
-    constexpr std::uint64_t other_seed = std::uint64_t{1} << 63; // as in the package pt for Python
+    constexpr std::uint64_t other_seed = std::uint64_t{1} << 63; // the Python package's value, for the same bits
     const Rectangle &part = task.window.part;
     pt_render piece = task.render;
     piece.seed ^= half * other_seed;
@@ -31,7 +31,7 @@ pt_render piece_of(const RenderTask &task, std::uint32_t half, std::uint32_t fir
     return piece;
 }
 
-// Adds a piece's figures. Error bounds join as if all pieces erred in the same direction.
+// Adds a piece's statistics. Error bounds are averaged as if fully correlated.
 void join(RenderedImage &image, const pt_stats &piece, const pt_error_estimate &error, std::uint32_t rows) {
     if (image.rows_done == 0) {
         image.stats = piece;

@@ -19,7 +19,7 @@ namespace cli {
 
 // Row order, little-endian.
 struct NpyArray {
-    std::string file; // ends with the elements
+    std::string file; // its bytes; the elements begin at `first`
     std::size_t first = 0;
     std::uint32_t type = 0; // PT_TYPE_FLOAT32, FLOAT64, or SRGB8 for uint8
     std::size_t row_count = 0;

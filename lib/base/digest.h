@@ -26,8 +26,9 @@ public:
     void add(std::span<const std::uint32_t> words);
     void add(std::string_view text);
 
-    // The XXH3 of all bytes in a row, if only bytes are added.
     void add_bytes(std::span<const std::byte> bytes);
+
+    // After calls of add_bytes alone, the XXH3 of the concatenated bytes.
     std::uint64_t checksum() const;
 
     // 32 hexadecimal digits.

@@ -6,7 +6,7 @@
 
 namespace pt {
 
-// to: at least as many bytes.
+// to: room for from.size() bytes.
 void stream_copy(std::span<const std::byte> from, std::byte *to);
 
 } // namespace pt

@@ -6,7 +6,7 @@
 //
 //     E (S - r)^2 = E ((a - b) / 2)^2 + E (a - r) (b - r) = E (s + u)^2 + E p q,                        (1)
 //
-// where (s + u)^2 is noise and p q are faults.
+// where (s + u)^2 is variance and p q squared bias, the faults below.
 //
 // Moves are limited (limits.h), then scaled by a share t of 0 to 1. For faults f, the sum of s^2 + 2 s u t + (u^2 + f)
 // t^2 is least at t = -sum s u / (sum u^2 + f) (James and Stein, "Estimation with quadratic loss", 1961). The least t

@@ -1,4 +1,4 @@
-// Scales of the moves.
+// By how much the denoiser's change of a tile is scaled.
 #pragma once
 
 #include "lib/denoise/tiles.h"

@@ -35,7 +35,7 @@ std::int32_t last_content_round(double gain) {
     return -2 * exponent + (fraction <= 0.5 ? 2 : fraction <= root_of_half ? 1 : 0);
 }
 
-// Sums of tiles' squares, by the last round that asks nothing of them.
+// Summed squared errors of tiles, by the last round in which they need no samples.
 using SquaresByRound = std::map<std::int32_t, double>;
 
 SquaresByRound by_content_round(std::span<const double> gains, std::span<const double> squares) {

@@ -64,9 +64,9 @@ struct MostSamples {
     std::uint64_t limit; // ever; not less
 };
 
-// The rule from look to look. Interruptions and limits do not change a film's samples: alike tiles are looked at when
-// all have the same samples; later a tile's decision depends on its own sums and the round alone, and a round ends when
-// every tile has come to rest.
+// The rule from one error check to the next. While tiles have equal samples, checks come at fixed counts. Later a tile
+// decides by its own sums and the round alone, and a round ends when no tile needs samples. So interruptions and limits
+// do not change a film's samples.
 class AdaptivePlan {
 public:
     AdaptivePlan(double target_error, const MostSamples &counts, FilmLooks film) :

@@ -47,10 +47,10 @@ void add_squares(ErrorSquares &to, const ErrorSquares &other, double factor = 1.
 }
 
 // Let a pixel's samples be expected to meet some light w times. With q = e^(-w / 2), neither half of the samples meets
-// it in a share q^2 of the pixels, one half in 2 q (1 - q), and both in (1 - q)^2. So w = 2 ln(1 + 2 b), for b the
-// pixels met by both halves over those met by one. A pixel of mean T that was met once has the expected limit w T, so
-// its error is 1 / w times its error by T. Lamps smaller than a pixel are met again as often as once; rare bright
-// samples hardly ever are.
+// it in a share q^2 of the pixels, one half in 2 q (1 - q), and both in (1 - q)^2. So w = 2 ln(1 + 2 b), where b
+// pixels are met by both halves for each that one meets. A pixel of mean T that was met once has the expected limit
+// w T, so its error is 1 / w times its error by T. Lamps smaller than a pixel are met again as often as once; rare
+// bright samples hardly ever are.
 double square_by_meetings(double met_once, double met_again) {
     const double meetings = 2.0 * std::log1p(2.0 * met_again / (met_once + 1.0));
     return std::max(1.0, 1.0 / squared(meetings));
@@ -113,9 +113,9 @@ bool is_check(std::uint64_t sample_count) {
 }
 
 double exaggeration(std::uint32_t sampler) {
-    // If the mean square error falls as N^-p, a quarter of the squared difference of two runs of N / 2 points is
-    // expected to be 2^p - 1 times as large: exact for p = 1, the slowest usual, 7 times too much for p = 3, the
-    // fastest of scrambled nets (Owen 1997).
+    // Let the mean square error fall as N^-p. A quarter of the squared difference of two runs of N / 2 points is
+    // expected to be 2^p - 1 times that error. This is exact for p = 1, random points, and 7 times too large for p = 3,
+    // scrambled nets at best (Owen 1997).
     return sampler == PT_SAMPLER_RANDOM ? 1.0 : std::sqrt(7.0);
 }
 

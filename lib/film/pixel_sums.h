@@ -66,7 +66,7 @@ public:
 
     void copy(const PixelSums &from, std::size_t first, std::size_t count, std::size_t to_first) noexcept;
 
-    // Copies the intersection of two rectangles of an image, this object's `own` and the other's of_from.
+    // Copies the pixels in both rectangles of an image: `own`, this object's, and `of_from`, that `from` covers.
     void copy(const Rectangle &own, const PixelSums &from, const Rectangle &of_from) noexcept;
 
     // Accepted or rejected samples.

@@ -33,7 +33,7 @@ std::optional<float> rounded_product(WideSum number, double factor) {
     return std::nullopt;
 }
 
-// Rounded once. If this is outside double's normal numbers, products are outside float's.
+// Rounded once. If the result is no normal double, its products are no normal floats.
 double factor_of(std::uint32_t divisor, int exponent) {
     return std::ldexp(1.0 / divisor, exponent);
 }

@@ -69,8 +69,8 @@ static_assert(gpu::FILM_PARTS == 2);
 using PartCounts = std::array<std::uint64_t, gpu::FILM_PARTS>;
 
 // The index with most trailing zero bits among those with samples on both sides, if it is a multiple of 8. Otherwise
-// the next multiple of 8 after the last sample, and all samples are in the older part: fewer than 8 would say next to
-// nothing.
+// the next multiple of 8 after the last sample, which puts all samples into the older part: the error of a part with
+// fewer than 8 is hardly known.
 //
 // At N = 2^k, [0, N) splits into runs of 2^(k - 1) points that begin at a multiple of 2^(k - 1), the best sets of a
 // sequence.

@@ -34,7 +34,7 @@ public:
     void add(std::span<const std::uint32_t> tiles, const SampleRange &range);
     void set(std::size_t tile, const SampleSet &samples);
 
-    // For consecutive rows of pixels that begin with a row of tiles.
+    // The samples of row_count rows of pixels. first_row must begin a row of tiles.
     TileSamples rows(std::uint32_t first_row, std::uint32_t row_count) const;
 
     // Takes no memory.

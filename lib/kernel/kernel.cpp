@@ -119,8 +119,8 @@ void Kernel::dispatch_nothing() {
     });
 }
 
-// Each batch has its dispatch, in one part of the film after the slice. Tables are free: slices end in order, with room
-// for all under way.
+// Each batch has its dispatch, in one part of the film after the slice. The next table is never in use: slices end in
+// order, and there are tables for all under way.
 std::vector<Kernel::Batch> Kernel::next_batches(const TileSlice &slice) {
     const std::uint64_t split = slice.split();
     SampleRange before = slice.before;

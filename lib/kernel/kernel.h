@@ -98,7 +98,7 @@ private:
     std::vector<vulkan::DescriptorSet> sets_;
     std::uint32_t next_table_ = 0;
     bool scene_is_old_ = true; // the buffer lacks the scene
-    double seconds_ = 0.0;     // of all slices of the scene
+    double seconds_ = 0.0;     // device time of the scene's slices
 };
 
 } // namespace pt

@@ -42,7 +42,7 @@ std::uint32_t owen_scrambled(std::uint32_t coordinate, std::uint32_t seed);
 // Multiples of 2^-32; 0 beyond the block's dimensions.
 using PointBlock = std::array<std::uint32_t, 4>;
 
-// A row per index, as the kernel reads them. sampler: one with a sequence. The seed scrambles Sobol points.
+// A row per index, in the kernel's layout. sampler: not PT_SAMPLER_RANDOM. The seed scrambles Sobol points.
 std::vector<PointBlock> point_table(std::uint32_t sampler, std::uint64_t seed, std::span<const std::uint32_t> indices,
                                     const PointLayout &layout);
 

@@ -25,7 +25,7 @@ struct View {
     std::array<glm::dvec3, 4> corners; // at depth 1
     glm::dvec3 forward;
     double half_angle;
-    double aside; // a lens's largest deviation from these rays, up to twice the depth of focus
+    double aside; // a lens ray's largest distance from the pinhole ray, up to twice the focus
 
     View(const Camera &camera, const RenderSettings &settings) : forward(camera.forward), aside(camera.lens_radius) {
         const double up = camera.tan_half_fov;

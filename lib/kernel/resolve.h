@@ -16,10 +16,10 @@
 namespace pt {
 
 struct ImageQuery {
-    Rectangle pixels;                        // of the film, at least one
+    Rectangle pixels;                        // region of the film, at least one pixel
     std::uint32_t quantity;                  // PT_QUANTITY_*
-    double unit;                             // of the film, a power of two, in radiance
-    std::optional<PartCounts> samples;       // of every pixel, if equal
+    double unit;                             // radiance per unit of the film, a power of two
+    std::optional<PartCounts> samples;       // each pixel's samples, if equal
     std::uint32_t format = PT_FORMAT_RGB32F; // PT_FORMAT_*
 };
 

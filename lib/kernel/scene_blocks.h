@@ -21,7 +21,7 @@ struct SceneBlocks {
     std::uint64_t curvature;
     std::uint64_t lamp_tree;
     std::uint64_t spots; // only with spots, in the uniform buffer
-    std::uint64_t index; // only outside the uniform buffer
+    std::uint64_t index; // only if the scene is not in the uniform buffer
     std::uint64_t tree;  // only with a tree
     std::uint64_t word_count;
 

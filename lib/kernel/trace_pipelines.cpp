@@ -69,7 +69,7 @@ const vulkan::ComputePipeline *TracePipelines::find(const std::vector<std::uint3
     return &found->pipeline;
 }
 
-// Reports the last own kernel's time once another scene comes.
+// Reports how long a specialized kernel was used once the scene changes.
 void TracePipelines::note_own(const std::vector<std::uint32_t> &constants, double seconds) {
     if (!own_)
         return;

@@ -36,7 +36,7 @@ bool Accumulation::set(TileTasks tasks, std::optional<double> unit_of_error) {
     return !tasks_.empty();
 }
 
-// Once the time is over, takes in slices that have ended, but deals nothing, so that a call returns however short
+// After `until`, collects all slices that have ended before it starts others, so that a call returns however short
 // slices are.
 bool Accumulation::run(Clock::time_point until) {
     const bool begins = !is_under_way();
@@ -134,7 +134,7 @@ double Accumulation::fraction() const {
     return std::min(static_cast<double>(done_) / static_cast<double>(wanted_), 1.0);
 }
 
-// The device whose slice ends first, if any by then. Vulkan can wait for only one device, so several are polled.
+// The device whose slice ends first, or NULL if none by `until`. Vulkan can wait for only one, so several are polled.
 RenderDevice *Accumulation::next_to_finish(Clock::time_point until) const {
     constexpr std::chrono::microseconds pause{50}; // a thousandth of a slice
     if (devices_.size() == 1)

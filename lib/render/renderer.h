@@ -122,8 +122,8 @@ public:
     // About the visible scene (displacement.h); may be NULL. Valid until the next call.
     const BrokenRule *warning();
 
-    // Includes lamps in view that samples have hardly met. On the way to a target error these must be met first, so
-    // films added elsewhere need not know them.
+    // Includes lamps in view that samples have hardly met. A target error is reached only once samples meet
+    // these, so films added elsewhere need no lamps.
     ErrorEstimate error_with_lamps();
 
     // Accuracy of the first device's elementary functions.

@@ -16,7 +16,7 @@ class Schedule {
 public:
     explicit Schedule(const ScheduleLimits &limits);
 
-    // Samples of each of these tiles in one submission, from 1 to most.
+    // Samples of each of `tile_count` tiles in one submission, from 1 to `most`.
     std::uint64_t samples(std::size_t tile_count, std::uint64_t most) const;
 
     // Number of remaining tiles that the next submission takes, with these samples each; at least 1.

@@ -42,7 +42,7 @@ struct ExpectedSquares {
     double sum = 0.0;
     double variance = 0.0;
 
-    // Meetings with lamps on which the sum rests.
+    // Effective number of lamp hits behind the sum.
     double meetings() const { return sum * sum / variance; }
 };
 
@@ -52,8 +52,8 @@ struct UnmetSquares {
     ExpectedSquares relative_square;
 };
 
-// For lamps that samples(piece) samples of a pixel are too few to show. A piece that covers a share p of the pixel is
-// met by n p of n samples, with the variance n p (1 - p) if they are random. Quasi-random points lie one in each of n
+// For lamps that a pixel's samples(piece) are too few to show. A piece that covers a share p of the pixel is hit by n p
+// of n samples, with the variance n p (1 - p) if they are random. Quasi-random points lie one in each of n
 // cells, so chance is left only in the cells at the piece's edge: some 4.5 sqrt(n p) for a disc, with 0.13 each, or 0.6
 // sqrt(n p) together (the test counts). The mean, whose limit is p E, errs by E / n times the root of the variance.
 // offset: as in (x - r)^2 / (r^2 + offset).

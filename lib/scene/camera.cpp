@@ -14,8 +14,8 @@ namespace {
 
 constexpr double default_vertical_fov = std::numbers::pi / 4.0;
 
-// Least sine s of the angle between up and the view. With u = 2^-53, forward errs by 2 u, up by u, their cross product
-// by 2 u: unit vectors by 5 u / s, which float32's 2^-24 hides if s >= 5 * 2^-29.
+// Least sine s of the angle between up and the view. With u = 2^-53, the errors are 2 u in forward, u in up and 2 u in
+// their cross product, so 5 u / s in the unit vectors. For s >= 5 * 2^-29 this is below float32's rounding, 2^-24.
 constexpr double min_sine = 0x1p-26;
 
 // The image plane's distance in pixels, height / (2 tan(fov / 2)), must be at most 1e18, so tan(fov / 2) >= 2^31 / 1e18

@@ -28,7 +28,7 @@ private:
 
 struct MovingBall {
     glm::dvec3 open; // center at the beginning
-    glm::dvec3 way;  // of the center until the end
+    glm::dvec3 way;  // the center's displacement until the end
     double radius;
     Kind kind = Kind::ball; // a capsule is at all places of its way at once
 

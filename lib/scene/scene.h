@@ -45,7 +45,7 @@ inline double passing_share(std::int16_t opacity) {
 struct Sphere {
     glm::dvec3 center;
     double radius;
-    glm::dvec3 motion;      // for capsules from one end to the other
+    glm::dvec3 motion;      // while the shutter is open; for capsules, vector between the ends
     std::uint32_t material; // index into Scene::materials
     Kind kind = Kind::ball;
     std::int16_t opacity = no_opacity; // in steps
@@ -66,8 +66,8 @@ struct Scene {
     std::vector<Material> materials; // the caller's, then materials of spheres with their own colors
     std::vector<Sphere> spheres;     // pt_scene.spheres, then the arrays
     std::vector<Plane> planes;
-    std::vector<std::uint32_t> array_starts = {}; // of pt_scene.sphere_arrays
-    std::vector<std::uint32_t> indices = {};      // in the caller's scene, if these are not all of its spheres
+    std::vector<std::uint32_t> array_starts = {}; // first spheres of pt_scene.sphere_arrays
+    std::vector<std::uint32_t> indices = {};      // each sphere's in the caller's scene; empty: all are kept
 };
 
 struct CheckedScene;

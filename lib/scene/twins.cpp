@@ -14,7 +14,7 @@ namespace {
 constexpr double same_size = 0x1p-18;
 // Relative to the distance: four times the spacing of numbers that hold the center.
 constexpr double same_place = 0x1p-21;
-// Vertices tell planes apart beyond this difference, their places being known to 2^-22 of the distance. Planes at this
+// Planes that differ by more have distinct vertices, whose positions are known to 2^-22 of the distance. Planes at this
 // angle are closer in a band of 2^-14 of the distance, parallel ones in a strip of 2^-14 below the horizon: both less
 // than a pixel.
 constexpr double two_planes = 0x1p-8;

@@ -1,4 +1,4 @@
-// Undivided groups of spheres and their boxes, while a tree is shaped.
+// Groups of spheres that a tree's build has yet to split, with their bounding boxes.
 #pragma once
 
 #include "lib/base/mixed.h"

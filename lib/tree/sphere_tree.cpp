@@ -143,7 +143,7 @@ std::span<glm::uvec4> SphereTree::words_of_node(std::size_t node) {
     return std::span(words_).subspan(node * gpu::TREE_NODE_WORDS, gpu::TREE_NODE_WORDS);
 }
 
-// All blocks except nodes, in the tree's order: random reads of the caller's memory are faster than random writes.
+// Writes all blocks but nodes, in the tree's order: random reads of the caller's memory are faster than random writes.
 void SphereTree::write_spheres(const SphereSource &spheres, std::span<const TreeMaterial> materials,
                                WorkProgress &progress) {
     std::vector<FoundLamp> lamps;
@@ -183,8 +183,8 @@ void SphereTree::write_nodes(WorkProgress &progress) {
     cost_ /= box_.surface();
 }
 
-// Writes a node after its children, whose boxes make up its own, and adds up the cost. Children go from last to first,
-// in the order of nodes and places.
+// Writes a node after its children, whose boxes make up its own, and adds up the cost. Visits children from last to
+// first: spheres by falling slot, then inner nodes.
 GridBox SphereTree::write_node(std::uint32_t node, WorkProgress &progress) {
     const TreeLinks links = TreeNodeView(words_of_node(node)).links();
     TreeNode written(links);

@@ -61,7 +61,7 @@ public:
     Kinds kinds() const { return kinds_; }
     bool has_opacities() const { return has_opacities_; }
 
-    // spheres(): scene indices by place.
+    // spheres()[slot]: the scene index of the sphere in a slot of the tree.
     std::span<const std::uint32_t> spheres() const { return *spheres_; }
     std::uint32_t scene_sphere_count() const { return scene_sphere_count_; }
     bool has_colors() const { return has_colors_; }
@@ -142,9 +142,9 @@ private:
     std::uint32_t depth_ = 0;
     std::uint32_t sphere_count_ = 0;
     std::uint32_t node_count_ = 0;
-    std::shared_ptr<const std::vector<std::uint32_t>> spheres_; // scene indices by place; shared with the shape
+    std::shared_ptr<const std::vector<std::uint32_t>> spheres_; // scene indices by slot; shared with the shape
     double cost_ = 0.0;
-    double cost_as_made_ = 0.0;      // of the tree for which the shape was made
+    double cost_as_made_ = 0.0;      // cost() of the tree whose build made the shape
     std::uint32_t first_sphere_ = 0; // first words of the blocks
     std::uint32_t first_motion_ = 0;
     std::uint32_t first_surface_ = 0;

@@ -15,7 +15,7 @@ namespace pt::vulkan {
 
 namespace {
 
-// Far more than a context's kernels.
+// Limit of a file's size; a context's kernels take far less.
 constexpr std::uint64_t most_bytes = std::uint64_t{1} << 28;
 
 constexpr std::string_view magic = "ptkernel";

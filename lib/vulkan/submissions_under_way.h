@@ -17,7 +17,7 @@ public:
     ~SubmissionsUnderWay() {
         try {
             finish_all();
-        } catch (...) { // the failed call reports it
+        } catch (...) { // reported by the call that failed
         }
     }
 

@@ -31,7 +31,7 @@ from relative_error import relative_square  # noqa: E402
 from scene_file import FOLDER, read_scene  # noqa: E402
 
 MOST_TRUTH = 1 << 17  # samples
-REFERENCE_SHARE = 0.2  # of the picture's error, at most
+REFERENCE_SHARE = 0.2  # the reference's error over the picture's, at most
 FIRST_SEED, FIRST_TARGET_SEED = 100, 200
 RELATIVE_BITS = pt.Uncertain.RELATIVE_RMSE | pt.Uncertain.UNSEEN | pt.Uncertain.UNMET
 

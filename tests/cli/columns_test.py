@@ -105,7 +105,7 @@ class RealDevice(ColumnsTest):
                 for name, lines in expected.items():
                     for line, other in zip(lines, found[name]):
                         for a, b in zip(line, other):
-                            # The library decodes to float32: an ulp of a color is one of the light.
+                            # The library decodes sRGB to float32; an ulp of a color changes the light by an ulp.
                             self.assertLessEqual(abs(a - b), 2**-20 * abs(a))
 
     def test_columns_are_the_capsules_that_they_list(self):

@@ -7,7 +7,7 @@ import pathlib
 from command_line import PT, SCENES, CommandLineTest, main
 from scene_file import read_scene
 
-# These reflect more than they receive, as in the original coursework.
+# Their materials reflect more than they receive, as in the original coursework.
 WARNED_OF = ["coursework-motion.json", "coursework.json"]
 FILES = sorted(name for name in os.listdir(SCENES) if name.endswith(".json"))
 

@@ -8,7 +8,7 @@ from command_line import PT, RESULT, SCENES, CommandLineTest, main
 
 
 class Selftest(CommandLineTest):
-    """The stand-in's image fails every scene."""
+    """Every scene fails with the image of the fake library."""
 
     def checks(self, **environment):
         self.assertEqual(self.run_pt("selftest", "--json", "s.json", **environment), 1, self.errors)

@@ -1,4 +1,4 @@
-// Moving huge spheres against frozen times and rest; the shutter.
+// Huge moving spheres equal the mean of fixed times, and slow ones a static render. The shutter.
 #include "tests/support/batch_fixture.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/scene_of.h"

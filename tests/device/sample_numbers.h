@@ -51,7 +51,7 @@ inline Blocks as_integers(const std::vector<glm::vec4> &numbers) {
 }
 
 inline constexpr std::uint32_t table_blocks = 4;
-inline constexpr std::uint32_t shared_blocks = 1; // of a scene without lamps
+inline constexpr std::uint32_t shared_blocks = 1; // without lamps
 inline constexpr std::uint32_t most_blocks = 6000;
 
 // Rows for up to 256 samples with one branch fill the probe's table.

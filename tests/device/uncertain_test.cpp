@@ -49,7 +49,7 @@ protected:
 
 constexpr uint32_t unmet = PT_UNCERTAIN_UNMET;
 
-// 16 samples of 1024 pixels hit a lamp of a hundredth 164 times, 256 samples 2,620 times.
+// A ray hits the lamp with probability 1/100: 164 hits for 16 samples of 1024 pixels, 2,620 for 256; 1,000 suffice.
 TEST_F(UncertainTest, WhileALampIsHardlyMetByChance) {
     for (const uint32_t estimator : {PT_ESTIMATOR_UNIFORM, PT_ESTIMATOR_COSINE, PT_ESTIMATOR_BSDF}) {
         set_up(20.0, estimator);

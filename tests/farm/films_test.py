@@ -60,7 +60,7 @@ class Unreadable:
 
 
 def faulty(name, part, codecs):
-    """Every other first film of a worker is faulty. Workers start at different faults, so that few parts suffice."""
+    """Every other first film of a worker is faulty. Each begins elsewhere in FAULTS, so few parts show all."""
     worker = distributed.get_worker()
     worker.films = getattr(worker, "films", 0) + 1
     time.sleep(0.03)

@@ -164,7 +164,7 @@ void require_words(const std::vector<glm::vec4> &words, const pt::Features &feat
             "the scene fits into the buffer that it is in");
     const std::uint64_t reflections = features.scene_in_uniform() ? features.surface_count() : features.table_materials;
     const auto is_specular = [&](std::uint64_t word) {
-        const std::uint64_t from_first = word - blocks.specular; // wraps around for earlier words
+        const std::uint64_t from_first = word - blocks.specular; // huge for words before it
         return features[pt::gpu::ID_GLOSS] && from_first % blocks.reflection_step == 0 &&
                from_first / blocks.reflection_step < reflections;
     };

@@ -130,7 +130,7 @@ TEST(SphereOrder, LeavesTheFirstOfTwins) {
     expect_well_linked(shape);
 }
 
-// Reading bits is slow: once for a hash, once more each for two spheres of one hash.
+// A sphere's bits are slow to read: once for its hash, and again if another sphere has the same hash.
 TEST(SphereOrder, ReadsTheBitsOfASphereThreeTimesAtTheMost) {
     for (const bool are_twins : {false, true})
         for (const Kind &kind : kinds()) {

@@ -1,4 +1,4 @@
-"""Files that are no files are refused at once; printed texts steer no terminal."""
+"""Pipes and other special files are refused at once; control characters are escaped before printing."""
 
 import contextlib
 import io

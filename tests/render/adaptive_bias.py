@@ -2,8 +2,8 @@
 
     PT_LIBRARY=build/lib/libpt.so python3 tests/render/adaptive_bias.py SCENE TARGET [SEEDS]   # caustic 0.1 96
 
-SCENE is one of cli/scenes or calibration_scenes.py. Each picture is compared with an even one of the same seed and many
-more samples; shared first samples reduce noise.
+SCENE is one of cli/scenes or calibration_scenes.py. Each picture is compared with a non-adaptive one of the same seed
+and many more samples; shared first samples reduce noise.
 """
 
 import math

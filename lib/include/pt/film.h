@@ -77,7 +77,7 @@ typedef struct pt_film_tile {
     uint32_t range_count; /**< ranges that pt_get_film_ranges writes for the tile; >= 1 */
 } pt_film_tile;
 
-/** The samples with indices from first to end - 1. It is an element of arrays, and so frozen. */
+/** The samples with indices from first to end - 1. Arrays hold it, so later versions add no fields. */
 typedef struct pt_sample_range {
     uint64_t first; /**< index of the first sample */
     uint64_t end;   /**< > first, <= 2^32 */

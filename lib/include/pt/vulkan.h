@@ -29,8 +29,8 @@ typedef void (*pt_queue_fn)(void *user);
  *            vkDeviceWaitIdle. All other use of the device needs no lock.
  * Order      the context uses only its own buffers and those that pt_readback_to_buffer names. Its pipeline barriers
  *            for compute and transfers may delay other commands in the queue, but never change their results.
- * Time       other work ahead in the queue must not wait for the calling thread. Its time counts as the context's own:
- *            it makes submissions smaller, and a GPU counts as lost if one has not ended after 10 seconds.
+ * Time       other work ahead in the queue must not wait for the calling thread. Time spent behind that work counts as
+ *            the submission's own: later ones get smaller, and after 10 seconds without an end the GPU counts as lost.
  * Rounding   drivers' threads inherit the floating-point mode of the thread that starts them, so the caller must create
  *            the device while rounding to nearest.
  * Loss       calls fail with PT_ERROR_DEVICE_LOST. If submissions of this context hang at pt_destroy, their objects are

@@ -23,8 +23,8 @@ struct Result {
 std::vector<Item> items() {
     Inputs inputs(1);
     std::vector<Item> items;
-    // Heights from 5e-15 (1e-7 radians) to 2. Densities whose squares or ratios overflow, within 2^+-126, where Vulkan
-    // bounds the error of division.
+    // Caps of height 1 - cos(angle) from 5e-15, an angle of 1e-7, to 2, the whole sphere. Densities whose squares or
+    // ratios overflow, within 2^+-126, where Vulkan bounds the error of division.
     for (std::size_t i = 0; i < random_count; ++i)
         items.push_back({inputs.direction(), static_cast<float>(inputs.log_uniform(5e-15, 2.0)),
                          glm::vec2(inputs.number(), inputs.number()),

@@ -135,7 +135,7 @@ def _guessed(particles: Particles, notes: list[str]) -> Bonds:
 
 
 def stick_radius(ways: Doubles, model: str, radii: Array) -> float:
-    """The default radius of sticks; without bonds, as if balls touched."""
+    """The default radius of sticks: a share of the median bond or, without bonds, ball diameter."""
     lengths = 2.0 * np.linalg.norm(ways, axis=1)
     return STICK_SHARES[model] * float(np.median(lengths if len(lengths) else 2.0 * radii))
 

@@ -1,4 +1,4 @@
-"""Columns by their names: which one is meant, and which hold positions."""
+"""Finds columns by name: the one that a user names, and those of positions."""
 
 from __future__ import annotations
 
@@ -83,8 +83,8 @@ def first_of(columns: Mapping[str, Array], names: tuple[str, ...]) -> str | None
 
 
 def coordinate_names(names: list[str]) -> tuple[list[str], bool]:
-    """Columns of positions (two, three or none), and whether they are fractions of the cell. Beside x, y and z a column
-    Z is the atomic number."""
+    """Columns of positions (two, three or none), and whether they are fractions of the cell. If there are
+    x, y and z, a column Z holds atomic numbers."""
     if all(axis in names for axis in "xyz"):
         return ["x", "y", "z"], False
     by_plain: dict[str, str] = {}

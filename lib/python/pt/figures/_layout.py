@@ -85,7 +85,7 @@ class View:
 
 
 def _shape(extents: Doubles) -> tuple[int, int]:
-    """The extents' proportions, but never a ribbon: PIXELS in all, sides multiples of 8."""
+    """Width and height: some PIXELS in all, multiples of 8, their ratio the extents' up to MOST_ASPECT."""
     aspect = min(max(float(extents[0] / extents[1]), 1.0 / MOST_ASPECT), MOST_ASPECT)
     sides = [8 * math.floor(side / 8.0 + 0.5) for side in (math.sqrt(PIXELS * aspect), math.sqrt(PIXELS / aspect))]
     return sides[0], sides[1]

@@ -34,7 +34,7 @@ class Pairs(NamedTuple):
 
 
 def pairs_within(positions: Array, cutoff: float, cell: Cell | None, radii: Array | None = None, slack: float = 0.0) -> Pairs:
-    """Pairs no farther apart than the cutoff and, with radii, than their sum and the slack. ValueError: too many."""
+    """Pairs at most `cutoff` apart; with radii, at most the sum of both plus `slack`. ValueError: too many."""
     positions = positions.astype(np.float64)
     sources, shifts = _images(positions, cell, cutoff)
     places = positions[sources] if cell is None else positions[sources] + shifts @ cell.vectors

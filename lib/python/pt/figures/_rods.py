@@ -15,7 +15,7 @@ from pt.figures._options import Vectors
 from pt.figures._particles import Particles
 from pt.figures._radii import column
 
-LONGEST: Final = 4.0  # of the vectors, in median radii of particles; by taste
+LONGEST: Final = 4.0  # longest vector, in median particle radii; by taste
 WIDTH: Final = 0.3
 
 

@@ -20,7 +20,7 @@ from pt.figures._radii import covalent_factor
 
 
 def frames(read: Callable[[], Iterator[Particles]], options: Options, trails: int = 0) -> Iterator[Staged]:
-    """Stages each frame. Reads all frames twice, first to find what fits all.
+    """Stages each frame. Reads all frames twice, first to choose one view and scale for all.
 
     trails   through how many earlier frames a picture's trails lead
     """

@@ -44,7 +44,7 @@ class Source(Protocol):
         """Reads it, perhaps again. Error, ValueError, OSError: it cannot be read."""
 
     def explained(self, error: Exception) -> str:
-        """The error in the words of the file."""
+        """The message for an error, by the file's keys."""
 
     def saved(self, camera: Camera) -> tuple[str, bytes]:
         """Name and contents of a file with the scene and another camera."""
