@@ -2,7 +2,6 @@
 
 #include <bit>
 #include <cmath>
-#include <optional>
 
 namespace pt {
 
@@ -13,71 +12,60 @@ gpu::uvec4 words_of(WideSum sum) {
             static_cast<std::uint32_t>(sum >> 64), static_cast<std::uint32_t>(sum >> 96)};
 }
 
-// Relative error at most 2^-52. Words make up the lower half, since converting unsigned 64-bit numbers takes an
-// unpredictable branch.
-double nearly(WideSum number) {
-    const double lower = static_cast<double>(static_cast<std::uint32_t>(number >> 32)) * 0x1p32 +
-                         static_cast<double>(static_cast<std::uint32_t>(number));
-    return static_cast<double>(static_cast<std::uint64_t>(number >> 64)) * 0x1p64 + lower;
-}
-
-// The float nearest to a product; nothing if a double within a relative 2^-50 rounds to another float (Ziv 1991, Fast
-// evaluation of elementary mathematical functions with correctly rounded last bit).
-std::optional<float> rounded_product(WideSum number, double factor) {
-    constexpr std::uint64_t tie = std::uint64_t{1} << 28; // half of the 29 bits that a float lacks
-    const double product = nearly(number) * factor;
-    const std::uint64_t below_float = std::bit_cast<std::uint64_t>(product) % (2 * tie);
-    const bool decided = below_float + 8 < tie || below_float > tie + 8;
-    if (decided && product >= 0x1p-126 && product < 0x1p127)
-        return static_cast<float>(product);
-    return std::nullopt;
-}
-
-// Rounded once. If the result is no normal double, its products are no normal floats.
-double factor_of(std::uint32_t divisor, int exponent) {
-    return std::ldexp(1.0 / divisor, exponent);
-}
-
 } // namespace
+
+Divisor::Divisor(std::uint32_t divisor, int exponent) :
+    normal_(std::uint64_t{divisor} << std::countl_zero(divisor)),
+    reciprocal_(divisor == 0 ? 0 : UINT64_MAX / normal_),
+    factor_(std::ldexp(1.0, exponent + std::countl_zero(divisor))) {}
+
+// Rounds to odd first, 32 bits or more, so that the rounding to float gives the nearest (Boldo and Melquiond 2008,
+// Emulation of a FMA and correctly rounded sums: proved algorithms using rounding to odd).
+float Divisor::quotient(WideSum dividend) const {
+    if (dividend == 0 || normal_ == 0)
+        return 0.0F;
+    const auto high = static_cast<std::uint64_t>(dividend >> 64);
+    const auto low = static_cast<std::uint64_t>(dividend);
+    const std::uint64_t upper = high != 0 ? high : low;
+    const std::uint64_t lower = high != 0 ? low : 0;
+    const int zeros = std::countl_zero(upper);
+    const std::uint64_t leading = upper << zeros | lower >> 1 >> (63 - zeros);
+    const auto estimate = static_cast<std::uint64_t>(WideSum{leading} * reciprocal_ >> 64); // at most 1 too small
+    const std::uint64_t quotient = estimate + (leading - estimate * normal_ >= normal_ ? 1 : 0);
+    const std::uint64_t rest = (leading - quotient * normal_) | lower << zeros;
+    const auto odd_if_inexact = static_cast<std::int64_t>(quotient | (rest != 0 ? 1 : 0));
+    const int exponent = (high != 0 ? 64 : 0) - zeros;
+    const auto power = std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52);
+    return static_cast<float>(static_cast<double>(odd_if_inexact) * power * factor_);
+}
 
 PartQuotients::PartQuotients(std::uint32_t a, std::uint32_t b, int exponent) :
     a_(a),
     b_(b),
     exponent_(exponent),
-    factor_(factor_of(a + b, exponent)),
-    factor_a_(factor_of(a, exponent)),
-    factor_b_(factor_of(b, exponent)) {
+    of_all_(a + b, exponent),
+    of_a_(a, exponent),
+    of_b_(b, exponent) {
     if (a > 0 && b > 0)
-        divisor_ = gpu::error_divisor(a, b);
-    factor_of_error_ = factor_of(divisor_.divisor, exponent + divisor_.exponent);
+        error_divisor_ = gpu::error_divisor(a, b);
+    of_error_ = Divisor(error_divisor_.divisor, exponent + error_divisor_.exponent);
 }
 
-// Tries double precision first, with four roundings.
-float PartQuotients::mean_of(WideSum sum, std::uint32_t count, double factor) const {
-    if (sum == 0)
-        return 0.0F;
-    if (const std::optional<float> mean = rounded_product(sum, factor))
-        return *mean;
-    return std::bit_cast<float>(gpu::mean_bits(words_of(sum), count, exponent_));
-}
-
-// The products of sums below 2^96 have 128 bits, and double mostly suffices for the quotient.
+// Products of sums below 2^96 have at most 128 bits.
 PartQuotients::Difference PartQuotients::difference(WideSum sum_a, WideSum sum_b) const {
     bool first_is_less = false;
-    std::optional<float> error;
+    float error = 0.0F;
     if ((sum_a | sum_b) >> 96 == 0) {
         const WideSum product_a = sum_a * b_;
         const WideSum product_b = sum_b * a_;
         first_is_less = product_a < product_b;
-        const WideSum numerator = first_is_less ? product_b - product_a : product_a - product_b;
-        error = numerator == 0 ? 0.0F : rounded_product(numerator, factor_of_error_);
-    }
-    if (!error) {
+        error = of_error_.quotient(first_is_less ? product_b - product_a : product_a - product_b);
+    } else {
         const gpu::WholeNumber numerator =
             gpu::weighted_difference(words_of(sum_a), a_, words_of(sum_b), b_, first_is_less);
-        error = std::bit_cast<float>(gpu::standard_error_bits(numerator, divisor_, exponent_));
+        error = std::bit_cast<float>(gpu::standard_error_bits(numerator, error_divisor_, exponent_));
     }
-    return {*error, first_is_less ? mean_of(sum_a, a_, factor_a_) : mean_of(sum_b, b_, factor_b_)};
+    return {error, first_is_less ? of_a_.quotient(sum_a) : of_b_.quotient(sum_b)};
 }
 
 } // namespace pt

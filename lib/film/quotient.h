@@ -1,4 +1,4 @@
-// Quotients of exact sums and counts, with the bits of shaders/quotient.h, but faster.
+// Quotients of exact sums and counts, with the bits of shaders/quotient.h, but faster: hosts multiply 64-bit numbers.
 #pragma once
 
 #include "shaders/quotient.h"
@@ -9,6 +9,20 @@ namespace pt {
 
 __extension__ using WideSum = unsigned __int128;
 
+// Divides numbers in units of 2^exponent.
+class Divisor {
+public:
+    Divisor(std::uint32_t divisor, int exponent);
+
+    // Rounded once to nearest; 0 if the divisor is 0.
+    float quotient(WideSum dividend) const;
+
+private:
+    std::uint64_t normal_;     // the divisor times a power of two, in [2^31, 2^32)
+    std::uint64_t reciprocal_; // 2^64 / normal_, at most 1 too small
+    double factor_;            // of quotients by normal_
+};
+
 // a, b: samples of two parts. Sums are in units of 2^exponent.
 class PartQuotients {
 public:
@@ -17,7 +31,7 @@ public:
     bool are_of(std::uint32_t a, std::uint32_t b) const { return a == a_ && b == b_; }
 
     // The mean of all samples, rounded once to nearest; 0 without samples.
-    float mean(WideSum sum_a, WideSum sum_b) const { return mean_of(sum_a + sum_b, a_ + b_, factor_); }
+    float mean(WideSum sum_a, WideSum sum_b) const { return of_all_.quotient(sum_a + sum_b); }
 
     // Requires samples in both parts. standard_error: of the mean, derived at gpu::ErrorDivisor.
     struct Difference {
@@ -27,16 +41,14 @@ public:
     Difference difference(WideSum sum_a, WideSum sum_b) const;
 
 private:
-    float mean_of(WideSum sum, std::uint32_t count, double factor) const;
-
     std::uint32_t a_;
     std::uint32_t b_;
     int exponent_;
-    gpu::ErrorDivisor divisor_{1, 0};
-    double factor_; // from sums to means, in double
-    double factor_a_;
-    double factor_b_;
-    double factor_of_error_;
+    Divisor of_all_;
+    Divisor of_a_;
+    Divisor of_b_;
+    gpu::ErrorDivisor error_divisor_{1, 0};
+    Divisor of_error_{1, 0};
 };
 
 } // namespace pt

@@ -135,6 +135,29 @@ pt::gpu::uvec4 words_of(pt::WideSum sum) {
             static_cast<std::uint32_t>(sum >> 64), static_cast<std::uint32_t>(sum >> 96)};
 }
 
+// Sums whose quotients are ties between floats, or next to ties; extremes.
+std::vector<pt::WideSum> close_to_ties(std::uint32_t count) {
+    std::vector<pt::WideSum> sums{0, 1, 2, 3, ~pt::WideSum{0}, ~pt::WideSum{0} - 1, pt::WideSum{1} << 127};
+    for (const std::uint32_t tie : {(1U << 24) + 1, (1U << 24) + 3, (1U << 25) - 3, (1U << 25) - 1, (1U << 24) + 2})
+        for (int shift = 0; shift <= 70; ++shift) {
+            const pt::WideSum sum = pt::WideSum{tie} * count << shift;
+            sums.insert(sums.end(), {sum - 1, sum, sum + 1});
+        }
+    return sums;
+}
+
+TEST(Divisor, RoundsAsKernelsDo) {
+    for (const std::uint32_t count : {0U, 1U, 2U, 3U, 4U, 5U, 7U, 100U, 1U << 16, (1U << 16) + 1, 1U << 31,
+                                      (1U << 31) + 1, UINT32_MAX - 1, UINT32_MAX})
+        for (const int exponent : {-1300, -250, -200, -190, -175, -150, -60, 0, 30, 100, 1300}) {
+            const pt::Divisor divisor(count, exponent);
+            for (const pt::WideSum sum : close_to_ties(count))
+                ASSERT_EQ(std::bit_cast<std::uint32_t>(divisor.quotient(sum)),
+                          pt::gpu::mean_bits(words_of(sum), count, exponent))
+                    << count << ", 2^" << exponent << ", " << static_cast<double>(sum);
+        }
+}
+
 pt::PixelValue expected(const Planes &pixel, std::uint32_t channel, int unit_exponent) {
     const int exponent = unit_exponent - static_cast<int>(pt::gpu::FILM_FRACTION_BITS);
     const pt::WideSum sum_a = sum_of(pixel, 0, channel);
