@@ -107,7 +107,7 @@ PT_CONSTANT BINDING_ADDED = 3;
 PT_CONSTANT WORKGROUP_SIZE = 64;
 
 // ---- Scene buffer: an array of vec4, positions relative to the camera -----------------------------------------------
-// Surface indices: spheres, then planes, then with TREE the spheres of the tree by place.
+// Surface indices: spheres, then planes, then with TREE the tree's spheres by slot.
 PT_CONSTANT NO_SURFACE = 0xffffffffu;
 // Consecutive blocks, with S = spheres + planes:
 //   geometry[S]       sphere: center as the shutter opens, radius; plane: unit normal, offset (lib/scene/seen_scene.h)
@@ -167,8 +167,8 @@ struct TreeFrame {
     uint reserved_0;
     vec3 shift;
     float step;         // a power of two
-    vec3 middle;        // of the grid
-    float shutter_open; // in units of time of motion
+    vec3 middle;        // the grid's center
+    float shutter_open; // time in [0, 1]
     uint first_motion;  // word offsets after the first sphere
     uint first_surface;
     uint first_color;
@@ -237,7 +237,7 @@ PT_CONSTANT ESTIMATE_WORKGROUP_SIZE = 128; // 16 adjacent tiles; every device al
 struct ErrorSquares {
     float sum;          // over pixels and channels
     float pixel_shares; // squared shares of pixels, summed
-    float tile_shares;  // of tiles
+    float tile_shares;  // squared shares of tiles, summed
     float part_share;   // tiles' shares, each times its fraction of a whole tile's pixels, summed
 };
 
@@ -246,7 +246,7 @@ struct TileErrors {
     ErrorSquares relative_square; // of (x - r)^2 / (r^2 + offset^2), times relative_scale^2; without values met once
     ErrorSquares met_once;        // from values met once, with r estimated without them
     ErrorSquares as_lamps;        // the same values, with their means as r
-    float unseen;                 // of light that no sample met, not scaled
+    float unseen;                 // square for light that no sample met, not scaled
     uint met_again;               // number of values
     uint unknown_pixels;          // without a sample in either part
     uint lost_pixels;             // whose samples a driver lost
@@ -259,7 +259,7 @@ struct CameraView {
     vec3 right;        // unit vector
     float start_scale; // rays start at this times their pixel offset from the image's middle
     vec3 up;           // unit vector
-    uint width;        // of the image, in pixels
+    uint width;        // image size in pixels
     vec3 forward;      // length: distance of the image plane in pixels, or 1 for parallel rays
     uint height;
     float lens_radius; // where rays start (with LENS)
@@ -272,9 +272,9 @@ struct FrameConstants {
     uvec2 seed;             // mixed from pt_render.seed
     float film_scale;       // film units per radiance, a power of two
     uint film_first_pixel;  // index in the image, row by row
-    uint strip_first_pixel; // in the film
+    uint strip_first_pixel; // index in the film
     uint strip_pixel_count;
-    uint first_entry;  // in the list of tiles
+    uint first_entry;  // index in the list of tiles
     uint film_part;    // the part that gets the samples
     uint is_first;     // 1: the part has no sample of these pixels; in a fold: such a dispatch follows
     uint first_sample; // index in the sequence
@@ -292,20 +292,20 @@ struct ResolveConstants {
     uint film_width;
     uint strip_first_pixel;
     uint strip_pixel_count;
-    uint first_pixel; // of the rectangle
-    uint width;       // of the rectangle
-    uint pixel_count; // in the rectangle
-    uint first_word;  // of the image, in its buffer
-    uint row_words;   // from a row to the next
+    uint first_pixel; // the rectangle's corner
+    uint width;       // the rectangle's width
+    uint pixel_count; // pixels of the rectangle
+    uint first_word;  // the image's start in its buffer
+    uint row_words;   // distance between rows
 };
 
 // first_hit.comp. Pixels are numbered row by row over the image.
 struct FirstHitConstants {
     CameraView camera;
-    float start_distance; // from the pinhole to the scene's origin, along the view
+    float start_distance; // pinhole to the scene's origin, along the view
     uint quantity;        // PT_QUANTITY_* of pt.h
     uint format;          // PT_FORMAT_* of pt.h
-    uint first_pixel;     // of the rectangle
+    uint first_pixel;     // the rectangle's corner
     uint rectangle_width;
     uint first_of_rectangle; // first pixel of this dispatch, row by row over the rectangle
     uint pixel_count;
@@ -321,7 +321,7 @@ PT_FUNCTION uint rays_of_pixel(uint quantity)
 struct CoverageConstants {
     CameraView camera;
     uvec2 seed;
-    uint first_row; // of the film, in the image
+    uint first_row; // the film's first image row
     uint first_pixel;
     uint rectangle_width;
     uint first_of_rectangle;
@@ -335,7 +335,7 @@ struct EstimateConstants {
     uint film_width;
     uint strip_pixel_count;
     uint row_count;
-    uint first_tile;       // of the strip, in the film
+    uint first_tile;       // the strip's first tile
     uvec2 sample_counts;   // in the older and the newer part; ANY_COUNT: tiles differ
     uint by_tile;          // 1: also writes each tile's errors
     float relative_offset; // in film units
@@ -345,7 +345,7 @@ struct EstimateConstants {
 // add.comp: consecutive pixels of a strip.
 struct AddConstants {
     uint strip_pixel_count;
-    uint first_pixel; // in the strip
+    uint first_pixel; // index in the strip
     uint pixel_count;
     uint added_first_pixel;
     uint added_stride; // words of a plane

@@ -190,7 +190,7 @@ bool is_walked_lamp(uint surface) { return TREE_LAMPS == 0u || surface < WALKED_
 
 struct Level {
     float height;    // on the side of the normal
-    vec3 gradient;   // of the height; on the plane the normal
+    vec3 gradient;   // gradient of the height; on the plane the normal
     float curvature;
 };
 

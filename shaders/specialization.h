@@ -21,8 +21,8 @@ PT_SPECIALIZED(GLOSS, 5, 1)               // 1: some material has a lobe
 PT_SPECIALIZED(MOTION, 6, 1)              // 1: some sphere moves
 PT_SPECIALIZED(SCENE_SOURCE, 7, SCENE_IN_UNIFORM)
 PT_SPECIALIZED(SAMPLER, 8, SAMPLER_RANDOM)
-PT_SPECIALIZED(TABLE_BLOCKS, 9, 0)        // of a sample and one branch, in the point table
-PT_SPECIALIZED(BRANCH_COUNT, 10, 1)       // from a path's first vertex
+PT_SPECIALIZED(TABLE_BLOCKS, 9, 0)        // blocks of a sample and one branch, in the point table
+PT_SPECIALIZED(BRANCH_COUNT, 10, 1)       // branches at a path's first vertex
 PT_SPECIALIZED(CURVATURE, 11, 0)          // 1: some plane is curved
 PT_SPECIALIZED(INSIDE, 13, 1)             // 1: paths may be inside a sphere, like the camera
 PT_SPECIALIZED(PLANES_BLOCK, 14, 1)       // 1: a plane may block a lamp
@@ -34,7 +34,7 @@ PT_SPECIALIZED(STARTS_AHEAD, 21, 1)       // 1: camera rays start on a plane (ra
 PT_SPECIALIZED(ORTHOGRAPHIC, 29, 0)       // 1: ... and are parallel
 PT_SPECIALIZED(LENS, 39, 0)               // 1: ... or start on a lens
 PT_SPECIALIZED(LAMP_TREE_LEVELS, 25, 0)   // below the top; 0: no tree of lamps
-PT_SPECIALIZED(LAMP_TREE_WORDS, 26, 0)    // of the tree of lamps
+PT_SPECIALIZED(LAMP_TREE_WORDS, 26, 0)    // words of the lamp tree
 PT_SPECIALIZED(OVERLAP, 15, 0)            // 1: several invocations may add to a pixel at once
 PT_SPECIALIZED(TREE, 22, 0)               // 1: most spheres are in a tree
 PT_SPECIALIZED(TREE_LAMPS, 23, 0)         // the last of LAMP_COUNT
@@ -51,7 +51,7 @@ PT_SPECIALIZED(HIDDEN_OTHERS, 32, 0)
 PT_SPECIALIZED(HIDDEN_PLANES, 33, 0)
 PT_SPECIALIZED(UNIFORM_READS, 38, 0)      // 1: the scene buffer is a short uniform
 PT_SPECIALIZED(KINDS, 40, 1)              // KIND_BALL and others
-PT_SPECIALIZED(TREE_KINDS, 41, 1)         // of those in the tree
+PT_SPECIALIZED(TREE_KINDS, 41, 1)         // kinds in the tree
 PT_SPECIALIZED(TREE_OPACITY, 19, 0)       // 1: rays pass through tree spheres at random
 PT_SPECIALIZED(UNROLLED, 36, 112)         // most surfaces of unrolled loops
 PT_SPECIALIZED(INTEGER_ORDER, 37, 0)      // 1: integer comparisons are faster (maths.glsl)
@@ -66,7 +66,7 @@ const uint CONSTANT_SCENE_WORDS = 64;
 
 #ifndef __cplusplus
 const bool STARTS_ON_DISC = ORTHOGRAPHIC + LENS > 0; // not at or near one point
-const uint CAMERA_BLOCKS = 1u + LENS;                // of a camera ray
+const uint CAMERA_BLOCKS = 1u + LENS;                // blocks of a camera ray
 #endif
 
 #endif

@@ -7,9 +7,9 @@
 // A ray on the grid. Differences from grid points are exact, so precision grows near spheres, wherever the camera is.
 struct GridRay {
     ivec3 base;    // grid point next to the start
-    vec3 rest;     // from base to the start, in steps
-    float advance; // from the origin to the start
-    float margin;  // of boxes, in steps
+    vec3 rest;     // vector from base to the start, in steps
+    float advance; // distance from the origin to the start
+    float margin;  // added to boxes, in steps
     bool is_near;  // may reach the tree
 };
 
@@ -109,7 +109,7 @@ Entered enter_node(NodeWords words, GridRay ray, vec3 inverse, float before)
 
     uint inner_count = (head.w >> 20) & 7u;
     uint child_count = (head.w >> 16) & 7u;
-    uint keys[TREE_WIDTH]; // of entered child nodes: distance, and the child's index in the two low bits
+    uint keys[TREE_WIDTH]; // entered child nodes: distance, and the child's index in the two low bits
     uint entered = 0u;
     uint i = 0u;
     [[unroll]] do {

@@ -14,7 +14,7 @@ const float ADVANCE_ROUNDED = 0.99999976; // 1 - 2^-22
 const uvec4 NO_SPHERE_WORD = uvec4(0u, 0u, 0u, ~0u);
 
 // Order at equal distances, independent of the tree's shape: of concentric spheres the larger, else the lower word. The
-// place decides only between spheres that differ by motion; such trees have no fixed shape (sphere_tree.h).
+// slot decides only between spheres that differ by motion; such trees have no fixed shape (sphere_tree.h).
 bool goes_before(uvec4 word, uint surface, uvec4 other_word, uint other_surface)
 {
     return word.x != other_word.x   ? word.x < other_word.x
@@ -93,9 +93,9 @@ struct Walk {
     bool seeks_light; // needs emission only: without lamps in the tree any of its spheres ends the ray
     bool in_shadow;
     uint node;        // to be entered next
-    uint first_place; // of the last node's child spheres; `spheres` marks those to be tested
+    uint first_place; // slot of the last node's child spheres; `spheres` marks those to be tested
     uint spheres;
-    int height; // of the stack, or ENDED
+    int height; // stack height, or ENDED
     bool done;
 };
 

@@ -126,8 +126,7 @@ AdaptiveRound round_of_lamps(std::span<const double> gains) {
     return {most > 0.0 ? last_content_round(most) : 0, 0};
 }
 
-// Goes to the round in which the target is expected to be reached. Rounds in between would take looks, and place
-// samples no better.
+// The round in which the target is expected to be reached. Rounds in between would cost checks and help nothing.
 AdaptiveRound round_after(const AdaptiveRound &round, const TileSamples &samples, std::span<const double> squares,
                           std::span<const double> gains, double excess, bool sees_too_little) {
     const std::uint64_t pixels = std::uint64_t{samples.grid().width} * samples.grid().height;
@@ -189,7 +188,7 @@ std::optional<TileStep> AdaptivePlan::next(const TileSamples &samples, AdaptiveR
     return next_apart(samples, round);
 }
 
-// While all tiles are alike, checks the error as for even samples and, at each level before, whether treating tiles
+// While all tiles are alike, checks the error as without adaptation and, at each level before, whether treating tiles
 // differently pays. Some tiles may be between two of these counts.
 std::optional<TileStep> AdaptivePlan::next_together(const TileSamples &samples, AdaptiveRound &round) const {
     const std::uint64_t count = samples.least();

@@ -1,7 +1,7 @@
 // Decides which tiles of a film take more samples. A tile has 16, 32, 64, ... samples per pixel. It doubles them while
 // the expected gain per added sample exceeds a bound, which falls from round to round until the image's error is small
 // enough. A tile's samples are then in proportion to the root of its error square after equal times. Equal errors
-// everywhere would take as many samples as an even film.
+// everywhere would take as many samples as no adaptation.
 //
 // A round leaves each tile at the first level whose gain is at most the bound, however it got there.
 #pragma once
@@ -50,15 +50,15 @@ struct TileStep {
     std::function<std::uint64_t(std::uint32_t)> goal;
 };
 
-// Each look takes time.
+// Each call takes time.
 struct FilmLooks {
     std::function<ErrorEstimate()> error;
-    std::function<std::vector<double>()> squares; // by tile: own_square() of tile_errors.h
+    std::function<std::vector<double>()> squares; // each tile's own_square() (tile_errors.h)
 
-    std::function<std::vector<std::uint64_t>()> samples_for_lamps; // by tile, as in wanting_tiles()
+    std::function<std::vector<std::uint64_t>()> samples_for_lamps; // lamps of wanting_tiles()
 };
 
-// Most samples of any pixel.
+// Maximum samples of a pixel.
 struct MostSamples {
     std::uint64_t most;  // now
     std::uint64_t limit; // ever; not less

@@ -227,7 +227,7 @@ void Film::read(const Rectangle &pixels, std::uint32_t quantity, const ReceiveRo
 }
 
 void Film::read_rows_from(std::uint32_t first_row, PixelSums &sums) const {
-    sums.clear(); // for pixels without a tile
+    sums.clear(); // pixels without a tile keep 0
     const Rectangle rows{bounds_.x, bounds_.y + first_row, bounds_.width,
                          static_cast<std::uint32_t>(sums.pixel_count() / bounds_.width)};
     for (const Tile &tile : tiles_)

@@ -87,8 +87,8 @@ private:
 
 struct PixelValue {
     float mean;           // 0 if all samples were rejected
-    float standard_error; // of the mean, from its parts; infinity if one is empty, as with up to 8 samples
-    float lesser;         // of the parts' means; 0 where the standard error is infinity
+    float standard_error; // the mean's, from its parts; infinity if one is empty, as with up to 8 samples
+    float lesser;         // lesser mean of the parts; 0 where the standard error is infinity
 };
 
 // Rounds as in quotient.h.
@@ -105,7 +105,7 @@ private:
 
     const PixelSums &sums_;
     int exponent_;
-    PartQuotients quotients_; // of the previous pixel: most have the same samples
+    PartQuotients quotients_; // the previous pixel's: most have the same samples
 };
 
 // Throws PT_ERROR_INTERNAL if the samples differ: a driver lost work.

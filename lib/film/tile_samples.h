@@ -26,7 +26,7 @@ public:
     std::uint32_t set_of(std::size_t tile) const { return even() ? 0 : set_of_[tile]; }
 
     bool empty() const;
-    std::uint64_t least() const; // of a pixel
+    std::uint64_t least() const; // a pixel's minimum
     std::uint64_t most() const;
     std::uint64_t total() const; // summed over pixels
 
@@ -49,7 +49,7 @@ private:
 
     TileGrid grid_;
     std::vector<SampleSet> sets_{SampleSet()};
-    std::vector<std::uint32_t> set_of_; // by tile; empty: all have the first set
+    std::vector<std::uint32_t> set_of_; // each tile's; empty: all have the first set
 };
 
 } // namespace pt

@@ -16,7 +16,7 @@ public:
     // seconds: spent on the scene so far.
     bool is_time(double seconds) const { return seconds > wait_; }
 
-    // seconds: spent with the last own kernel.
+    // seconds: spent with the last specialized kernel.
     void left_after(double seconds) {
         wait_ = seconds < seconds_to_pay ? std::min(2.0 * wait_, longest_wait) : seconds_to_pay;
     }

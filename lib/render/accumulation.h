@@ -1,5 +1,5 @@
 // Takes samples into the films of a context's devices, in slices of tiles. Every begun sample is completed. Only run()
-// deals slices; between calls devices work on alone. One per pt_accumulate or pt_start, owned by Renderer.
+// starts slices; between calls devices work on alone. One per pt_accumulate or pt_start, owned by Renderer.
 #pragma once
 
 #include "lib/film/tile_samples.h"

@@ -21,7 +21,7 @@ bool may_miss_lamps(const PreparedScene &scene, const Camera &camera, const Rend
                     std::uint64_t samples);
 
 // Raises the stated error of value_count values to the one expected for lamps in view with too few samples. If that
-// rests on few meetings and exceeds half of the error that samples show, the error is uncertain.
+// rests on few hits and exceeds half of the error that samples show, the error is uncertain.
 void take_in_unmet_lamps(ErrorEstimate &error, const UnmetSquares &unmet, double value_count);
 
 } // namespace pt

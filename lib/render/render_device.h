@@ -1,4 +1,4 @@
-// A device's share of the rendering: its film, kernel and slices under way. Owned by Renderer, which deals samples to
+// A device's share of the rendering: its film, kernel and slices under way. Owned by Renderer, which gives samples to
 // its devices; any device may take any sample, because films are exact sums.
 #pragma once
 

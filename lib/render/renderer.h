@@ -41,7 +41,7 @@ namespace pt {
 // A valid pt_create_info, with defaults applied.
 struct CreateSettings {
     bool validation = false;
-    bool scene_kernels = true;    // with a scene's numbers as constants, if faster
+    bool scene_kernels = true;    // specialized for a scene, if faster
     std::string device;           // empty: the best
     std::string shader_directory; // empty: the library's kernels
     Log log;
@@ -50,8 +50,8 @@ struct CreateSettings {
     vulkan::KernelStore kernel_store;
     std::uint32_t devices_of_each = 1;          // render devices per named one, so that tests can share work
     bool like_gpus = false;                     // treats CPUs like GPUs, for tests
-    std::optional<std::uint32_t> tree_from{};   // for tests of trees over few spheres
-    std::optional<std::uint32_t> adaptive_from; // for tests of few samples
+    std::optional<std::uint32_t> tree_from{};   // tests lower it for trees over few spheres
+    std::optional<std::uint32_t> adaptive_from; // tests lower it for few samples
 };
 
 std::vector<pt_device_info> list_devices();
@@ -97,7 +97,7 @@ public:
         double fraction;  // done share of the samples
     };
 
-    // Takes in finished samples and deals out the next, for at most this long. If it throws, no samples are under way.
+    // Collects finished samples and starts the next, for at most this long. If it throws, no samples are under way.
     Advance poll(std::uint64_t nanoseconds);
 
     // Begins no more samples; poll() returns when the present ones have ended. False if nothing is under way.
@@ -114,7 +114,7 @@ public:
     std::span<std::byte> map(const ImageLayout &layout);
 
     FilmHeader film_header();
-    void save_film(const FilmHeader &header, std::span<std::byte> bytes) const; // of FilmLayout's size
+    void save_film(const FilmHeader &header, std::span<std::byte> bytes) const; // FilmLayout's size
     void add_film(std::span<const std::byte> bytes);
 
     pt_stats stats();
@@ -183,18 +183,18 @@ private:
     std::optional<PreparedScene> scene_;
     std::optional<Camera> camera_;
     std::optional<RenderSettings> settings_;            // if set, the devices have films
-    std::shared_ptr<const GpuScene> gpu_scene_;         // of the three above; NULL after a change
-    TileSamples samples_;                               // in the films
+    std::shared_ptr<const GpuScene> gpu_scene_;         // made of the three above; NULL after a change
+    TileSamples samples_;                               // taken by the films
     AdaptiveRound round_;                               // reached by the samples
-    std::optional<ErrorEstimate> error_;                // of the samples; computed on demand
-    std::optional<std::uint64_t> rejected_samples_;     // of the samples; computed on demand
-    std::vector<double> tile_squares_;                  // of the samples; empty until asked for
-    std::vector<std::byte> mapped_image_;               // for mapped images that the host makes
-    std::optional<std::vector<LampPiece>> small_lamps_; // of scene, camera and settings; computed on demand
+    std::optional<ErrorEstimate> error_;                // computed on demand
+    std::optional<std::uint64_t> rejected_samples_;     // computed on demand
+    std::vector<double> tile_squares_;                  // empty until asked for
+    std::vector<std::byte> mapped_image_;               // mapped images that the host makes
+    std::optional<std::vector<LampPiece>> small_lamps_; // computed on demand
     std::optional<BrokenRule> warning_;
     DeviceWork work_;
-    Cancellation cancellation_; // of job_, present or about to begin
-    std::unique_ptr<Job> job_;  // while samples are under way
+    Cancellation cancellation_; // cancels job_, present or about to begin
+    std::unique_ptr<Job> job_;  // set while samples are under way
 };
 
 } // namespace pt

@@ -11,7 +11,7 @@ namespace {
 // Limits growth over the largest measured submission: a wrong guess must not run into drivers' timeouts.
 constexpr double max_growth = 2.0;
 
-constexpr double paths_of_tile = gpu::WORKGROUP_SIZE; // with one sample
+constexpr double paths_of_tile = gpu::WORKGROUP_SIZE; // paths of one sample
 
 } // namespace
 

@@ -7,8 +7,8 @@
 namespace pt {
 
 struct ScheduleLimits {
-    double target_seconds = 0.05;       // aim for a submission
-    double first_slice_paths = 16384.0; // for even a slow device in that time
+    double target_seconds = 0.05;       // a submission's target
+    double first_slice_paths = 16384.0; // within the target on slow devices
     std::uint32_t max_samples = 1;      // per pixel and submission
 };
 
@@ -19,7 +19,7 @@ public:
     // Samples of each of `tile_count` tiles in one submission, from 1 to `most`.
     std::uint64_t samples(std::size_t tile_count, std::uint64_t most) const;
 
-    // Number of remaining tiles that the next submission takes, with these samples each; at least 1.
+    // Number of remaining tiles in the next submission, with these samples each; at least 1.
     std::size_t tiles(std::size_t left, std::uint64_t sample_count) const;
 
     // Paths that should take the time of one submission.

@@ -210,7 +210,7 @@ namespace {
 
 // Expectations for a piece.
 struct UnmetPiece {
-    double meetings; // in all of its pixels
+    double meetings; // hits in all of its pixels
     double square;
     double relative_square;
     double lack; // the squares, if no sample meets it

@@ -16,14 +16,14 @@ namespace pt {
 struct LampPiece {
     std::uint32_t x; // among the rows
     std::uint32_t y;
-    double share;      // of the pixel covered, or of its samples that meet the lamp
+    double share;      // covered share of the pixel, or share of its samples that hit the lamp
     double lamp_share; // the largest share of a pixel that the whole lamp covers
     glm::dvec3 emission;
-    double pixels = 1.0;    // that are alike
-    bool is_spread = false; // by a lens or motion: samples meet it at random
+    double pixels = 1.0;    // number of pixels alike
+    bool is_spread = false; // a lens or motion spreads it, so samples hit it at random
 
-    // Samples of a pixel after which the number of meetings deviates by a third: 8 random meetings, or 3 with one point
-    // per cell. From then on the samples show the lamp.
+    // Samples of a pixel after which the number of hits deviates by a third: 8 random hits, or 3 with one point per
+    // cell. From then on the samples show the lamp.
     double enough_samples(bool is_random) const;
 };
 

@@ -30,7 +30,7 @@ struct MovingBall {
     glm::dvec3 open; // center at the beginning
     glm::dvec3 way;  // the center's displacement until the end
     double radius;
-    Kind kind = Kind::ball; // a capsule is at all places of its way at once
+    Kind kind = Kind::ball; // a capsule is everywhere on its way at once
 
     glm::dvec3 close() const { return open + way; }
     bool moves() const { return kind == Kind::ball && way != glm::dvec3(0.0); }

@@ -21,7 +21,7 @@ struct Material {
     glm::vec3 specular;
     glm::vec3 emission;
     float glossiness;
-    bool hidden = false; // from the camera
+    bool hidden = false; // unseen by the camera
 };
 
 inline bool emits(const Material &material) {
@@ -48,11 +48,11 @@ struct Sphere {
     glm::dvec3 motion;      // while the shutter is open; for capsules, vector between the ends
     std::uint32_t material; // index into Scene::materials
     Kind kind = Kind::ball;
-    std::int16_t opacity = no_opacity; // in steps
+    std::int16_t opacity = no_opacity; // number of steps
 
     bool is_translucent() const { return opacity != no_opacity && opacity < opaque; }
 
-    MovingBall ball() const { return {center, motion, radius, kind}; } // from time 0 to 1
+    MovingBall ball() const { return {center, motion, radius, kind}; } // times 0 to 1
 };
 
 // dot(normal, x) + offset = 0

@@ -209,7 +209,7 @@ void SphereTree::add_to(Digest &digest) const {
     digest.add(grid_.step);
     if (has_opacities_) // the last bits of radii then differ in meaning
         digest.add(std::uint64_t{gpu::TREE_OPACITY_STEPS});
-    std::vector<std::uint32_t> places(scene_sphere_count_, nowhere); // for spheres left out, and twins
+    std::vector<std::uint32_t> places(scene_sphere_count_, nowhere); // nowhere: left out, or twins
     for (std::uint32_t place = 0; place < sphere_count_; ++place)
         places[(*spheres_)[place]] = place;
     std::erase(places, nowhere);
@@ -237,7 +237,7 @@ bool SphereTree::is_far(const Camera &camera) const {
     return !(std::max({steps.x, steps.y, steps.z}) <= 2.0 * Grid::reach);
 }
 
-// Whether a place whose rounded box meets the box has the property.
+// Whether a slot whose rounded box meets the box has the property.
 template <typename Property>
 bool SphereTree::any_in(const GridBox &box, Property &&property) const {
     std::vector<std::uint32_t> nodes{0};

@@ -32,8 +32,8 @@ public:
     SphereTree(const SphereSource &spheres, std::span<const std::uint32_t> left_out,
                std::span<const TreeMaterial> materials, WorkProgress &progress);
 
-    // Reuses another tree's shape: each sphere gets the place of its index there. Nothing if a new tree would be much
-    // better, other spheres are left out, or a tree has twins, which share a place.
+    // Reuses another tree's shape: each sphere gets the slot of its index there. Nothing if a new tree would be much
+    // better, other spheres are left out, or a tree has twins, which share a slot.
     static std::optional<SphereTree> with_shape_of(const SphereTree &other, const SphereSource &spheres,
                                                    std::span<const std::uint32_t> left_out,
                                                    std::span<const TreeMaterial> materials, WorkProgress &progress);
@@ -91,7 +91,7 @@ public:
     struct Farthest {
         std::uint32_t sphere; // scene index
         MovingBall surface;
-        double distance; // from the middle to its center
+        double distance; // middle to its center
     };
     Farthest farthest() const;
 

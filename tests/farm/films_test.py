@@ -95,7 +95,7 @@ def with_values(**values):
     return lambda name, part, film: dataclasses.replace(film, **values)
 
 
-FAULTS = {  # by message
+FAULTS = {  # message: fault
     "LookupError: a mistake of this task": raising,
     "a part's bytes are damaged": lambda name, part, film: dataclasses.replace(film, data=film.data[:len(film.data) // 2]),
     "its checksum does not match": changed,

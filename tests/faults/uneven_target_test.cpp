@@ -66,7 +66,7 @@ protected:
     void TearDown() override {
         context_.reset();
         heal_devices();
-        forget_objects(); // of a lost device
+        forget_objects(); // the lost device's
     }
 
     void expect_bytes_after(pt_result disturbed) {
@@ -113,7 +113,7 @@ TEST_P(UnevenTargetTest, AnyVulkanCallMayFail) {
     std::size_t failures = 0;
     bool reached = true;
     for (std::size_t place = 1; reached && !HasFatalFailure(); place = place_after(place)) {
-        for (std::size_t error = 0; error < 2; ++error) { // of memory; others lose the device and its film
+        for (std::size_t error = 0; error < 2; ++error) { // memory errors; others lose the device and its film
             SCOPED_TRACE("call " + std::to_string(place) + ", error " + std::to_string(error));
             begin_picture(context());
             fail_call(place, error);

@@ -17,7 +17,7 @@ from pt.figures._elements import SYMBOLS
 from pt.figures._errors import DataError
 from structures_cases import CASES, MMCIF, REFUSED, gro, lammps
 
-DAMAGES = 6  # of each file
+DAMAGES = 6  # per file
 LETTERS = b" \n0123456789.-+eEdX\"'\t\xff\0"
 
 DATA = pathlib.Path(sys.argv.pop(1))

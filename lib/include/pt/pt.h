@@ -12,8 +12,8 @@
  * - Numbers: all finite. Lengths are 0 or lie in [1e-18, 1e18], where their squares are float32 numbers too.
  * - Structs: one passed by pointer begins with struct_size = sizeof(the struct) as the caller compiled it and grows
  *   only at its tail; a zero field means "default". A shorter struct is read as if zeros followed; in a longer one the
- *   unknown tail must be zero (otherwise PT_ERROR_UNSUPPORTED). Elements of arrays have no struct_size and are frozen,
- *   except pt_sphere_array. Reserved fields must be zero.
+ *   unknown tail must be zero (otherwise PT_ERROR_UNSUPPORTED). Elements of arrays have no struct_size and gain no
+ *   fields, except pt_sphere_array. Reserved fields must be zero.
  * - Ownership: arguments are copied or no longer needed when a call returns, except callbacks, their user pointers and
  *   where a comment says so. Pointers may be NULL only where a comment says so.
  * - Results: a call that fails (result < 0) has changed nothing, except that a lost device stays lost (destroy the
@@ -212,7 +212,7 @@ enum {
 typedef struct pt_camera {
     uint32_t struct_size; /**< sizeof(pt_camera) */
     uint32_t projection;  /**< PT_PROJECTION_* */
-    double position[3];   /**< of the pinhole, or where the ray in the middle of the image starts; default the origin */
+    double position[3];   /**< the pinhole, or where the image's middle ray starts; default the origin */
     double target[3];     /**< seen in the middle of the image; must differ from position */
     double up[3];         /**< not parallel to the viewing direction; default (0, 1, 0) */
     double vertical_fov;  /**< perspective: full vertical angle in [1e-8, pi); default pi / 4. Orthographic: 0 */
@@ -403,7 +403,7 @@ typedef uint64_t (*pt_load_kernels_fn)(void *user, const char *key, void *data, 
 /** Stores a driver's compiled kernels under a key, in place of earlier ones.
  *
  * key has 32 hexadecimal digits, which stand for the device's model, its driver and the kernels' code; it can be a
- * file's name. data is valid during the call: some dozens of bytes to some megabytes. Failing to keep it is no error.
+ * file's name. data, dozens of bytes to some megabytes, is valid during the call. Failing to keep it is no error.
  * user is pt_create_info.kernels_user. */
 typedef void (*pt_store_kernels_fn)(void *user, const char *key, const void *data, uint64_t size_bytes);
 

@@ -74,8 +74,8 @@ typedef struct pt_buffer_image {
     uint32_t struct_size;      /**< sizeof(pt_buffer_image) */
     uint32_t quantity;         /**< PT_QUANTITY_RADIANCE, STANDARD_ERROR or SAMPLE_COUNT: see pt_readback */
     uint64_t buffer;           /**< VkBuffer, cast to uint64_t also where handles are pointers; never 0 */
-    uint64_t offset_bytes;     /**< of the first pixel in the buffer, a multiple of 4 */
-    uint64_t size_bytes;       /**< of the buffer; at least offset_bytes and, as in pt_image, what the rows take */
+    uint64_t offset_bytes;     /**< where the first pixel begins, a multiple of 4 */
+    uint64_t size_bytes;       /**< the buffer's size; at least offset_bytes and, as in pt_image, what the rows take */
     uint64_t row_bytes;        /**< distance between rows, a multiple of 4; default width * bytes of a pixel */
     uint32_t x;                /**< the rectangle, as in pt_image: all 0, or within the image */
     uint32_t y;                /**< see x */

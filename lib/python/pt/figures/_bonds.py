@@ -20,7 +20,7 @@ from pt.figures._templates import agreeing, free_ions, known_residues
 # Angstroms.
 TOLERANCE: Final = 0.45
 LEAST_DISTANCE: Final = 0.4
-BALL_SHARE: Final = 0.5  # of a ball with a stick, relative to a ball alone; by taste
+BALL_SHARE: Final = 0.5  # ball radius with a stick over that alone; by taste
 STICK_SHARES: Final = {"space-filling": 0.07, "ball-and-stick": 0.07, "sticks": 0.14}
 
 

@@ -16,7 +16,7 @@ MOST_COMPARED: Final = 400_000_000  # pairs: about a minute
 MOST_FOUND: Final = 20_000_000
 COMPARED_AT_ONCE: Final = 1 << 21
 SLACK: Final = 1.0 + 2.0**-30  # so that roundings put no neighbour two cells away
-AHEAD: Final = ((0, 1), (1, -1), (1, 0), (1, 1))  # of the rows of a grid next to one, for which each pair is met once
+AHEAD: Final = ((0, 1), (1, -1), (1, 0), (1, 1))  # neighbouring rows of a grid's row, for each pair once
 
 
 class Pairs(NamedTuple):
