@@ -1,10 +1,14 @@
-// `pt compare`: differences of two images.
+// `pt compare`: differences of two images, and whether they show the same light.
+#include "cli/base/enumerations.h"
 #include "cli/base/exit_code.h"
 #include "cli/base/file.h"
 #include "cli/base/json.h"
 #include "cli/base/options.h"
 #include "cli/base/text.h"
 #include "cli/commands.h"
+#include "cli/compare/kernels.h"
+#include "cli/compare/light.h"
+#include "cli/film/film.h"
 #include "cli/image/image_file.h"
 
 #include <nlohmann/json.hpp>
@@ -30,6 +34,9 @@ struct ImageDifference {
 };
 
 using Values = std::span<const float>;
+
+// Channel of the layer sample-count.
+constexpr const char *counts_channel = "sample_count";
 
 constexpr double relative_offset = 0.01;
 
@@ -69,6 +76,9 @@ struct CompareOptions {
     std::string reference;
     std::string layer; // empty: the main one
     std::string json;
+    std::string difference;
+    KernelTask kernels; // with shader_dir, instead of the images
+    LightRule rule;
     bool quiet = false;
 
     std::optional<double> mse;
@@ -78,8 +88,71 @@ struct CompareOptions {
 
 void check_outputs(const CompareOptions &options) {
     require_distinct_files({{"the image", options.image}, {"the reference", options.reference}},
-                           {{"--json", options.json}});
+                           {{"--json", options.json}, {"--difference", options.difference}});
     check_report_file(options.json);
+    refuse_if(!options.difference.empty() && !options.difference.ends_with(".png"),
+              "--difference " + options.difference + ": the name must end in .png");
+    const bool has_kernels = !options.kernels.shader_dir.empty();
+    refuse_if(has_kernels != options.reference.empty(),
+              has_kernels ? "--shader-dir: compares the kernels of a SCENE, without REFERENCE"
+                          : "REFERENCE is required");
+}
+
+// A film as an image with the channel of sample counts.
+DecodedImage read_film_image(const std::string &path) {
+    const FilmHandle film(path, read_film_file(path));
+    const pt_film_info info = film.info();
+    DecodedImage image{};
+    image.path = path;
+    image.x = static_cast<std::int32_t>(info.x);
+    image.y = static_cast<std::int32_t>(info.y);
+    image.width = info.columns;
+    image.height = info.rows;
+    image.full_width = info.width;
+    image.full_height = info.height;
+    image.is_float = true;
+    image.channels = {"R", "G", "B", counts_channel};
+    const std::vector<float> radiance = film.read_image(PT_QUANTITY_RADIANCE);
+    const std::vector<float> counts = film.read_image(PT_QUANTITY_SAMPLE_COUNT);
+    for (std::size_t i = 0; i < radiance.size(); i += 3)
+        image.values.insert(image.values.end(), {radiance[i], radiance[i + 1], radiance[i + 2], counts[i]});
+    image.attributes = {{"pt.sampler", std::string(samplers.name(info.sampler))},
+                        {"pt.estimator", std::string(estimators.name(info.estimator))}};
+    return image;
+}
+
+DecodedImage read_compared(const std::string &path) {
+    return path.ends_with(".ptfilm") ? read_film_image(path) : read_image(path);
+}
+
+bool has_counts(const DecodedImage &image) {
+    return std::ranges::count(image.channels, counts_channel) > 0;
+}
+
+std::string attribute_of(const DecodedImage &image, std::string_view name) {
+    const auto found = std::ranges::find(image.attributes, name, &ImageAttribute::name);
+    return found == image.attributes.end() ? "" : attribute_text(*found);
+}
+
+// The first estimators find lamps by chance.
+bool finds_lamps_by_chance(const DecodedImage &image) {
+    const std::uint32_t estimator = estimators.find(attribute_of(image, "pt.estimator")).value_or(PT_ESTIMATOR_BEST);
+    return estimator != PT_ESTIMATOR_BEST && estimator <= PT_ESTIMATOR_BSDF;
+}
+
+TestedImage tested(const DecodedImage &image, const std::vector<float> &radiance) {
+    const std::vector<float> counts = image.layer(counts_channel);
+    const auto [fewest, most] = std::ranges::minmax(counts);
+    const ImageWindow window{
+        {static_cast<std::uint32_t>(image.x), static_cast<std::uint32_t>(image.y), image.width, image.height},
+        image.full_width,
+        image.full_height};
+    return {window,
+            radiance,
+            static_cast<std::uint32_t>(fewest),
+            static_cast<std::uint32_t>(most),
+            samplers.find(attribute_of(image, "pt.sampler")).value_or(0),
+            finds_lamps_by_chance(image)};
 }
 
 std::string size_text(const DecodedImage &image) {
@@ -104,6 +177,7 @@ struct CompareReport {
     const CompareOptions &options;
     const DecodedImage &image;
     ImageDifference difference;
+    std::optional<LightVerdict> verdict;
 
     std::int64_t x() const { return image.x + static_cast<std::int64_t>(difference.maximum_value / 3 % image.width); }
     std::int64_t y() const { return image.y + static_cast<std::int64_t>(difference.maximum_value / 3 / image.width); }
@@ -124,6 +198,13 @@ struct CompareReport {
     }
 
     nlohmann::ordered_json json() const {
+        nlohmann::ordered_json json = figures();
+        if (verdict)
+            json.update(light_json(*verdict));
+        return json;
+    }
+
+    nlohmann::ordered_json figures() const {
         return {{"image", options.image},
                 {"reference", options.reference},
                 {"layer", options.layer},
@@ -144,33 +225,78 @@ struct CompareReport {
             text += concat(" at ", x(), ",", y(), " in ", channel());
         if (difference.not_finite > 0)
             text += concat("\nnot finite    ", difference.not_finite, " pixels, left out above");
-        return text + "\n";
+        return text + "\n" + (verdict ? light_text(*verdict) : "");
     }
 };
 
+// Says why unless the light is the same.
+ExitCode exit_code_of(const LightVerdict &verdict) {
+    if (verdict.is_decided() && !verdict.is_different())
+        return ExitCode::done;
+    print_message(verdict.comparison.summary);
+    return verdict.is_different() ? ExitCode::images_differ : ExitCode::undecided;
+}
+
+int run_kernels(const CompareOptions &options) {
+    KernelTask task = options.kernels;
+    task.scene = options.image;
+    task.rule = options.rule;
+    task.rule.min_change = options.rule.min_change.value_or(0.01);
+    const auto tell = [&](std::uint32_t samples, const LightVerdict &verdict) {
+        if (!options.quiet)
+            print_for_people(concat(counted(samples, "sample"), ": ", light_text(verdict)),
+                             options.json == standard_stream);
+    };
+    const LightVerdict verdict = compare_kernels(task, tell);
+    write_report_file(options.json, json_text(light_json(verdict)));
+    if (!options.difference.empty())
+        write_difference(options.difference, verdict);
+    return static_cast<int>(exit_code_of(verdict));
+}
+
+std::optional<LightVerdict> verdict_of(const CompareOptions &options, const DecodedImage &image,
+                                       const DecodedImage &reference, const std::vector<float> &values,
+                                       const std::vector<float> &wanted) {
+    const bool is_tested = options.layer.empty() && has_counts(image) && has_counts(reference);
+    refuse_if(!is_tested && (options.rule.rate || options.rule.min_change || !options.difference.empty()),
+              "--rate, --min-change, --difference: need two films, or two .exr with the layer sample-count");
+    return is_tested ? std::optional(test_light(tested(image, values), tested(reference, wanted), options.rule))
+                     : std::nullopt;
+}
+
 int run_compare(const CompareOptions &options) {
     check_outputs(options);
-    const DecodedImage image = read_image(options.image);
-    const DecodedImage reference = read_image(options.reference);
+    if (!options.kernels.shader_dir.empty())
+        return run_kernels(options);
+    const DecodedImage image = read_compared(options.image);
+    const DecodedImage reference = read_compared(options.reference);
     require_comparable(image, reference);
     const std::vector<float> values = image.layer(options.layer);
     const std::vector<float> wanted = reference.layer(options.layer);
 
-    const CompareReport report{options, image, compare_images(values, wanted)};
+    const CompareReport report{options, image, compare_images(values, wanted),
+                               verdict_of(options, image, reference, values, wanted)};
     write_report_file(options.json, json_text(report.json()));
+    if (!options.difference.empty())
+        write_difference(options.difference, *report.verdict);
     if (!options.quiet)
         print_for_people(report.text(), options.json == standard_stream);
     const std::vector<std::string> exceeded = report.exceeded();
     for (const std::string &line : exceeded)
         print_message(line);
-    return static_cast<int>(exceeded.empty() ? ExitCode::done : ExitCode::images_differ);
+    if (!exceeded.empty())
+        return static_cast<int>(ExitCode::images_differ);
+    return static_cast<int>(report.verdict ? exit_code_of(*report.verdict) : ExitCode::done);
 }
 
 constexpr const char *compare_help =
     "For values x of the image and r of the reference, mse is the mean of (x-r)^2 over pixels and\n"
     "channels, relative_mse the mean of (x-r)^2/(r^2+0.01), and maximum the largest |x-r|. Both files\n"
     "hold radiance, or both values for displays, from 0 to 1. Pixels that are not finite in either image\n"
-    "are left out and counted; any limit is exceeded then.\n";
+    "are left out and counted; any limit is exceeded then.\n"
+    "Two films, or two .exr with the layer sample-count, are also tested for the same light: 0 if no\n"
+    "difference stands out of the noise, 8 if one does, 9 if a change of --min-change may be missed.\n"
+    "With --shader-dir the kernels in a folder and the library's render SCENE until the test decides.\n";
 
 } // namespace
 
@@ -178,12 +304,32 @@ void add_compare_command(CLI::App &program, Run &chosen) {
     const auto [command, options] =
         add_command(program, chosen, "compare", "Compare an image with a reference", compare_help, &run_compare);
     constexpr ValueRule limit{.least = 0.0, .largest = 1e18};
-    add_text(command, "IMAGE", options.image, "IMAGE", "Image (" + extensions(any_format) + ")")->required();
-    add_text(command, "REFERENCE", options.reference, "REFERENCE", "Reference of the same size and kind")->required();
+    add_text(command, "IMAGE", options.image, "IMAGE",
+             "Image (" + extensions(any_format) + "), film (.ptfilm), or scene")
+        ->required();
+    add_text(command, "REFERENCE", options.reference, "REFERENCE", "Reference of the same size and kind");
     add_text(command, "--layer", options.layer, "NAME",
              "Compare this layer of both files (default: the channels R, G and B)");
     add_text(command, "--json", options.json, "JSON", "Write the figures as JSON; - is standard output");
+    add_text(command, "--difference", options.difference, "PNG",
+             "Write the tiles' differences in standard deviations: red brighter, blue darker, full at 8");
     add_quiet(command, options.quiet);
+    command.option_defaults()->group("Test of the light");
+    add_number<double>(command, "--rate", {.least = 1e-12, .largest = 0.5}, options.rule.rate,
+                       "Probability of calling equal light different (default: 1e-6)");
+    const auto read_change = [&options = options](const std::string &text) {
+        options.rule.min_change = parse_share(text);
+        if (!(options.rule.min_change > 0.0 && options.rule.min_change <= 1.0))
+            refuse_option("--min-change", "must be above 0 and at most 1, like 0.01 or 1%", text);
+    };
+    command
+        .add_option_function<std::string>("--min-change", read_change,
+                                          "Exit with 9 if a change by this share of all light may be missed, like 1% "
+                                          "(default: 100%, with --shader-dir 1%)")
+        ->type_name("SHARE");
+    add_shader_dir(command, options.kernels.shader_dir);
+    add_device(command, options.kernels.device);
+    add_set(command, options.kernels.overrides);
     command.option_defaults()->group("Limits");
     add_number<double>(command, "--max-mse", limit, options.mse, "Exit with 8 if mse is above X");
     add_number<double>(command, "--max-relative-mse", limit, options.relative_mse,

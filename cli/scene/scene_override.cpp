@@ -41,22 +41,6 @@ void add_size(CLI::App &command, std::vector<SceneOverride> &overrides) {
         ->group("Picture");
 }
 
-// First, so that single options override it.
-void add_set(CLI::App &command, std::vector<SceneOverride> &overrides) {
-    const auto read = [&overrides](const std::vector<std::string> &texts) {
-        for (const std::string &text : texts)
-            overrides.push_back(parse_override(text));
-    };
-    command
-        .add_option_function<std::vector<std::string>>(
-            "--set", read,
-            "A value in place of the scene's, like camera.vertical_fov=30 or spheres[0].radius=2; may be given again")
-        ->expected(1)
-        ->take_all()
-        ->type_name("PATH=VALUE")
-        ->group("Picture");
-}
-
 bool can_move(const JsonPath &path) {
     const SceneSection *section = find_section(path[0].key);
     if (section == nullptr || !section->may_move() || path.back().in_array)
@@ -119,9 +103,24 @@ void SceneOverride::apply_to(json &item) const {
     *part = value;
 }
 
+void add_set(CLI::App &command, std::vector<SceneOverride> &overrides) {
+    const auto read = [&overrides](const std::vector<std::string> &texts) {
+        for (const std::string &text : texts)
+            overrides.push_back(parse_override(text));
+    };
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--set", read,
+            "A value in place of the scene's, like camera.vertical_fov=30 or spheres[0].radius=2; may be given again")
+        ->expected(1)
+        ->take_all()
+        ->type_name("PATH=VALUE")
+        ->group("Picture");
+}
+
 void add_scene_options(CLI::App &command, std::vector<SceneOverride> &overrides, bool has_scene) {
     if (has_scene) {
-        add_set(command, overrides);
+        add_set(command, overrides); // applied first, so that later ones override it
         add_size(command, overrides);
     }
     for (const SceneSection &section : scene_sections()) {

@@ -35,6 +35,9 @@ struct SceneOverride {
 // "camera.vertical_fov=30": JSON, or else a text, so names need no quotes. Throws Failure(ExitCode::usage).
 SceneOverride parse_override(const std::string &text);
 
+// The option --set, which fills `overrides`.
+void add_set(CLI::App &command, std::vector<SceneOverride> &overrides);
+
 // Parsing fills `overrides`. has_scene: false leaves only the display's options.
 void add_scene_options(CLI::App &command, std::vector<SceneOverride> &overrides, bool has_scene);
 

@@ -24,6 +24,7 @@ ENUMERATIONS = (
     ("PT_CREATE_", "CreateFlag", "IntFlag", "What else a context is to be; see Context."),
     ("PT_DEVICE_", "DeviceKind", "IntEnum", "What a Vulkan device is."),
     ("PT_FEATURE_", "Feature", "IntFlag", "What the kernel contains because the scene needs it."),
+    ("PT_LIGHT_", "Light", "IntEnum", "What a comparison of two images comes to."),
     ("PT_UNCERTAIN_", "Uncertain", "IntFlag", "Why an error that is stated may be far off. Its bounds are then wider by a "
                                               "further factor of two."),
     ("PT_", "Result", "IntEnum", "What a call came to. Errors are raised (see Error), so that calls return one of the "

@@ -1,8 +1,13 @@
-"""`pt compare`: figures, limits, exit codes, refusals."""
+"""`pt compare`: figures, limits, tests of the light, exit codes, refusals."""
 
 import json
+import os
+import shutil
 
-from command_line import COURSEWORK, PT, CommandLineTest, main
+from command_line import COURSEWORK, PT, SCENES, CommandLineTest, main, read_png
+
+SHADERS = os.path.join(SCENES, "..", "..", "shaders")
+MODULE = os.path.join(os.path.dirname(os.path.dirname(PT)), "lib", "pt", "libpt-glsl.so")
 
 SIZE = ("--size", "5x3", "--spp", "1")
 BRIGHTER = {"FAKE_PT_FAIL": "split:1"}
@@ -107,6 +112,68 @@ class RealDevice(CommandLineTest):
         self.assertIn("\nnot finite    15 pixels, left out above\n", self.output)
         for option in "--max-mse", "--max-relative-mse", "--max-difference":
             self.expect(8, *compare, option, "1e18", error="pt: 15 pixels are not finite")
+
+
+class LightOnDevice(CommandLineTest):
+    """Films and EXR files with counts are tested for the same light."""
+    program = PT
+    SIZE = ("--size", "64x48", "--spp", "32", "-q")
+
+    def film(self, name, *more, code=0):
+        self.expect(code, "render", COURSEWORK, *self.SIZE, "--film", f"{name}.ptfilm", "-o", f"{name}.exr", "--layers",
+                    "mean,sample-count", *more)
+
+    def test_verdicts_and_exit_codes(self):
+        self.film("a")
+        self.film("b", "--seed", "1")
+        self.film("darker", "--seed", "2", "--set", "materials.floor.diffuse=0.72")
+        for ending in "ptfilm", "exr":
+            a, b, darker = (f"{name}.{ending}" for name in ("a", "b", "darker"))
+            self.expect(0, "compare", a, a)
+            self.assertIn("\nequal bits\n", self.output)
+            self.expect(0, "compare", a, b, "--min-change", "5%")
+            self.assertRegex(self.output, r"\nsame light: a change by [\d.]+% of all light.* would have been found\n")
+            self.expect(9, "compare", a, b, "--min-change", "1e-5")
+            self.assertIn("\ntoo few samples to tell: ", self.output)
+            self.expect(8, "compare", darker, a, "--json", "j.json", "--difference", "d.png")
+            self.assertRegex(self.output, r"\ndifferent light: -.*\n  \d+x\d+ pixels at \d+,\d+: difference \(-")
+            verdict = json.loads(self.read("j.json"))
+            self.assertEqual((verdict["light"], verdict["rate"]), ("different", 1e-6))
+            self.assertLess(verdict["probability"], 1e-6)
+            self.assertEqual([verdict["regions"][0][name] for name in ("x", "y", "width", "height")], [0, 0, 64, 48])
+            self.assertLess(verdict["regions"][0]["difference"][0], 0)
+            width, height, rows = read_png(self.path("d.png"))
+            self.assertEqual((width, height), (64, 48))
+            self.assertEqual(rows[47][2::3], [255] * 64)  # blue: the floor is darker
+            self.assertLess(max(rows[47][0::3]), 255)
+
+    def test_what_cannot_be_tested(self):
+        self.film("a")
+        self.film("h", "--sampler", "halton")
+        self.expect(0, "render", COURSEWORK, "--size", "64x48", "--error", "5%", "-q", "--film", "u.ptfilm")
+        self.expect(2, "compare", "a.ptfilm", "h.ptfilm", error="the reference: sampler = 2: must not be")
+        self.expect(2, "compare", "u.ptfilm", "a.ptfilm", error="must be min_samples")
+        self.expect(0, "render", COURSEWORK, *self.SIZE, "-o", "plain.exr")
+        for option in ("--rate", "0.1"), ("--min-change", "1%"), ("--difference", "d.png"):
+            self.expect(2, "compare", "plain.exr", "a.exr", *option, error="need two films, or two .exr with")
+        self.expect(0, "compare", "plain.exr", "a.exr", "--max-difference", "0")
+        self.expect(2, "compare", "a.ptfilm", "a.ptfilm", "--min-change", "0", error="must be above 0 and at most 1")
+        self.expect(2, "compare", "a.ptfilm", "a.ptfilm", "--difference", "d.exr", error="must end in .png")
+        self.expect(2, "compare", COURSEWORK, "a.exr", "--shader-dir", ".", error="without REFERENCE")
+
+    def test_kernels(self):
+        if not os.path.exists(MODULE):
+            self.skipTest("built without glslang")
+        shutil.copytree(SHADERS, self.path("shaders"))
+        scene = ("compare", COURSEWORK, "--shader-dir", "shaders", "--set", "film.width=64", "--set", "film.height=48")
+        self.expect(0, *scene)
+        self.assertTrue(self.output.endswith("256 samples: equal bits\n"), self.output)
+        phong = self.read("shaders/phong.glsl")
+        self.assertEqual(phong.count("vec3 f = material.diffuse;"), 1)
+        self.write("shaders/phong.glsl", phong.replace("vec3 f = material.diffuse;", "vec3 f = 0.97 * material.diffuse;"))
+        self.expect(8, *scene, "--json", "j.json")
+        self.assertEqual(json.loads(self.read("j.json"))["light"], "different")
+        self.expect(9, *scene, "--set", "render.spp=2")
 
 
 if __name__ == "__main__":

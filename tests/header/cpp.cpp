@@ -1,6 +1,7 @@
 // The headers in C++: numbers and types of the binary interface never change (sizes: tests/abi/struct_layout.txt).
 #include <pt/accuracy.h>
 #include <pt/async.h>
+#include <pt/compare.h>
 #include <pt/denoise.h>
 #include <pt/devices.h>
 #include <pt/errors.h>
@@ -21,6 +22,7 @@ static_assert(are_plain<pt_device_info, pt_material, pt_sphere, pt_plane, pt_sce
 static_assert(are_plain<pt_accumulate_info, pt_image, pt_stats, pt_error_estimate, pt_function_accuracy, pt_vulkan,
                         pt_create_info>);
 static_assert(are_plain<pt_broken_rule, pt_buffer_image, pt_column, pt_denoise_info, pt_sphere_array>);
+static_assert(are_plain<pt_compare_info, pt_compared_image, pt_compared_region, pt_comparison>);
 
 static_assert(std::is_same_v<pt_result, int32_t>);
 static_assert(PT_OK == 0 && PT_CANCELLED == 1 && PT_TARGET_REACHED == 2 && PT_PENDING == 3);
@@ -40,6 +42,7 @@ static_assert(PT_NO_OBJECT == UINT32_MAX);
 static_assert(PT_TYPE_FLOAT32 == 1 && PT_TYPE_FLOAT64 == 2 && PT_TYPE_UINT32 == 3 && PT_TYPE_SRGB8 == 4);
 static_assert(PT_LOG_ERROR == 1 && PT_LOG_WARNING == 2 && PT_LOG_INFO == 3);
 static_assert(PT_CREATE_VALIDATION == 1);
+static_assert(PT_LIGHT_EQUAL_BITS == 1 && PT_LIGHT_SAME == 2 && PT_LIGHT_DIFFERENT == 3 && PT_LIGHT_UNDECIDED == 4);
 
 // C linkage and types.
 static_assert(std::is_same_v<decltype(&pt_version), uint32_t (*)()>);
@@ -64,6 +67,8 @@ static_assert(
 static_assert(std::is_same_v<decltype(&pt_readback_to_buffer), pt_result (*)(pt_context *, const pt_buffer_image *)>);
 static_assert(std::is_same_v<decltype(&pt_get_stats), pt_result (*)(pt_context *, pt_stats *)>);
 static_assert(std::is_same_v<decltype(&pt_get_error_estimate), pt_result (*)(pt_context *, pt_error_estimate *)>);
+static_assert(std::is_same_v<decltype(&pt_compare), pt_result (*)(const pt_compare_info *, pt_comparison *,
+                                                                  pt_compared_region *, uint32_t *)>);
 static_assert(std::is_same_v<decltype(&pt_denoise), pt_result (*)(const pt_denoise_info *, pt_error_estimate *)>);
 static_assert(
     std::is_same_v<decltype(&pt_get_accuracy), pt_result (*)(pt_context *, pt_function_accuracy *, uint32_t *)>);

@@ -12,9 +12,9 @@ CURRENT = [page for page in PAGES if page.name not in ("CHANGELOG.md", "NOTEBOOK
 CODE = re.compile(r"\.(h|c|cpp|glsl|comp|py|json|csv|cmake|sh)$|^CMakeLists\.txt$")
 
 # Limits of words: of a page, and of all pages but the changes.
-MOST_WORDS = {"README.md": 1230, "CONTRIBUTING.md": 1300, "cli/README.md": 5170, "shaders/README.md": 6850,
+MOST_WORDS = {"README.md": 1230, "CONTRIBUTING.md": 1300, "cli/README.md": 5510, "shaders/README.md": 7280,
               "tests/bench/README.md": 1520}
-MOST_WORDS_IN_ALL = 25_200
+MOST_WORDS_IN_ALL = 26_150
 
 # A file and its text, with groups in the same order.
 NUMBERS = (

@@ -4,8 +4,8 @@
  * To render: pt_create, pt_set_scene (with pt_set_camera and pt_set_render), pt_accumulate, pt_readback. Other headers:
  * pt/async.h (samples in the background), pt/map.h (images without a copy), pt/stats.h (statistics, the image's error),
  * pt/errors.h (the last error as data), pt/devices.h (devices), pt/film.h (films that are saved and added), pt/vulkan.h
- * (the caller's own device), pt/denoise.h (denoised images), pt/shaders.h (changed kernels) and pt/accuracy.h (a
- * device's accuracy).
+ * (the caller's own device), pt/denoise.h (denoised images), pt/compare.h (whether two images show the same light),
+ * pt/shaders.h (changed kernels) and pt/accuracy.h (a device's accuracy).
  *
  * - World: right-handed, lengths in scene units, positions in double, angles in radians, time in [0, 1]. Color is
  *   linear RGB radiance, unclamped. Row 0 of an image is the top row.

@@ -17,9 +17,10 @@ from typing import TYPE_CHECKING
 
 from pt._callbacks import Log, Progress
 from pt._camera import Camera, RenderSettings
+from pt._compare import Comparison, Region, assert_same_light, compare
 from pt._context import Context
 from pt._denoise import denoise
-from pt._enums import (NO_OBJECT, DeviceKind, Estimator, Feature, Format, LogLevel, Projection, Quantity, Result, Sampler,
+from pt._enums import (NO_OBJECT, DeviceKind, Estimator, Feature, Format, Light, LogLevel, Projection, Quantity, Result, Sampler,
                        Sampling,
                        Uncertain)
 from pt._errors import (BrokenRule, DeviceLostError, Error, IncompatibleError, InternalError, InvalidArgumentError,
@@ -36,12 +37,12 @@ if TYPE_CHECKING:  # imported on first use, because figures import slowly
     from pt.figures import Figure, figure
 
 __all__ = [
-    "BrokenRule", "Camera", "Context", "DeviceInfo", "DeviceKind", "DeviceLostError", "Error", "Estimator", "Feature", "Figure",
+    "BrokenRule", "Camera", "Comparison", "Context", "DeviceInfo", "DeviceKind", "DeviceLostError", "Error", "Estimator", "Feature", "Figure",
     "Film", "FilmInfo", "FilmTile", "Format", "Image", "IncompatibleError", "InternalError", "InvalidArgumentError",
-    "InvalidSceneError", "InvalidStateError", "Log", "LogLevel", "Material", "NO_OBJECT", "NoDeviceError",
-    "OutOfDeviceMemoryError", "OutOfHostMemoryError", "Plane", "Progress", "Projection", "Quantity", "RenderSettings",
+    "InvalidSceneError", "InvalidStateError", "Light", "Log", "LogLevel", "Material", "NO_OBJECT", "NoDeviceError",
+    "OutOfDeviceMemoryError", "OutOfHostMemoryError", "Plane", "Progress", "Projection", "Quantity", "Region", "RenderSettings",
     "Result", "Sampler", "Sampling", "Scene", "ShaderError", "Sphere", "SphereArray", "Stats", "Uncertain", "UnsupportedError",
-    "denoise", "devices", "figure", "render", "version",
+    "assert_same_light", "compare", "denoise", "devices", "figure", "render", "version",
 ]
 
 __version__: str  # the library's

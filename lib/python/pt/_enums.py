@@ -120,6 +120,15 @@ class Feature(enum.IntFlag):
     OPACITY = 512  # rays pass some spheres at random
 
 
+class Light(enum.IntEnum):
+    """What a comparison of two images comes to."""
+
+    EQUAL_BITS = 1  # all numbers are equal
+    SAME = 2  # no difference beyond noise, and min_change would have been found
+    DIFFERENT = 3  # the light differs in some region
+    UNDECIDED = 4  # no difference beyond noise, but a change of min_change may have been missed
+
+
 class Uncertain(enum.IntFlag):
     """Why an error that is stated may be far off. Its bounds are then wider by a further factor of two."""
 

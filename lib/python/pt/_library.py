@@ -53,6 +53,8 @@ PARAMETERS: Final[dict[str, list[Any]]] = {
     "pt_plan_film": [c_void_p, c_double, c_uint32, POINTER(c_uint32), POINTER(c_uint32)],
     "pt_get_film_stats": [c_void_p, POINTER(structs.pt_stats)],
     "pt_get_film_error_estimate": [c_void_p, POINTER(structs.pt_error_estimate)],
+    "pt_compare": [POINTER(structs.pt_compare_info), POINTER(structs.pt_comparison), POINTER(structs.pt_compared_region),
+                   POINTER(c_uint32)],
     "pt_denoise": [POINTER(structs.pt_denoise_info), POINTER(structs.pt_error_estimate)],
 }
 NOT_RESULTS: Final[dict[str, Any]] = {

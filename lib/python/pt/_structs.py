@@ -87,6 +87,28 @@ class pt_function_accuracy(ctypes.Structure):
     _fields_ = [("name", c_char * 40), ("worst_error", c_double), ("bound", c_double), ("worst_input", c_double)]
 
 
+class pt_compared_image(ctypes.Structure):
+    _fields_ = [("radiance", POINTER(c_float)), ("min_samples", c_uint32), ("max_samples", c_uint32),
+                ("sampler", c_uint32), ("may_miss_light", c_uint32)]
+
+
+class pt_compare_info(Sized):
+    _fields_ = [("struct_size", c_uint32), ("width", c_uint32), ("height", c_uint32), ("look", c_uint32),
+                ("first", pt_compared_image), ("second", pt_compared_image), ("rate", c_double),
+                ("min_change", c_double)]
+
+
+class pt_compared_region(ctypes.Structure):
+    _fields_ = [("x", c_uint32), ("y", c_uint32), ("width", c_uint32), ("height", c_uint32), ("light", c_double * 3),
+                ("difference", c_double * 3), ("deviation", c_double * 3), ("probability", c_double),
+                ("smallest_change", c_double)]
+
+
+class pt_comparison(Sized):
+    _fields_ = [("struct_size", c_uint32), ("light", c_uint32), ("probability", c_double),
+                ("smallest_change", c_double), ("smallest_tile_change", c_double), ("summary", c_char * 160)]
+
+
 class pt_denoise_info(Sized):
     _fields_ = [("struct_size", c_uint32), ("width", c_uint32), ("height", c_uint32), ("any_device", c_uint32),
                 ("first", POINTER(c_float)), ("second", POINTER(c_float)), ("albedo", POINTER(c_float)),

@@ -1,0 +1,74 @@
+#include "cli/compare/kernels.h"
+
+#include "cli/base/context.h"
+#include "cli/render/render_task.h"
+#include "cli/scene/scene_file.h"
+#include "cli/scene/sphere_columns.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace cli {
+namespace {
+
+constexpr std::uint32_t first_look = 16; // samples
+constexpr std::uint32_t usual_samples = 65536;
+
+// Equal bits of so few samples leave rare branches untried.
+constexpr std::uint32_t least_equal = 256;
+
+class Rendering {
+public:
+    Rendering(const KernelTask &task, const SceneFile &scene, const char *shader_dir) :
+        context_(create_info(task, shader_dir)),
+        window_(whole_window(scene.render.width, scene.render.height)),
+        radiance_(3 * window_.part.pixel_count()) {
+        describe_scene(context_, scene, [](double) { return true; });
+        context_.require(pt_set_render(context_.get(), &scene.render));
+    }
+
+    void render_up_to(std::uint32_t samples) {
+        auto info = sized<pt_accumulate_info>();
+        info.sample_count = samples - samples_;
+        context_.require(pt_accumulate(context_.get(), &info));
+        samples_ = samples;
+        context_.read(0, window_.part.width, window_.part.height, PT_QUANTITY_RADIANCE, radiance_.data());
+    }
+
+    TestedImage image() const { return {window_, radiance_, samples_, samples_}; }
+
+private:
+    static pt_create_info create_info(const KernelTask &task, const char *shader_dir) {
+        auto info = sized<pt_create_info>();
+        info.device = task.device.empty() ? nullptr : task.device.c_str();
+        info.shader_dir = shader_dir;
+        return info;
+    }
+
+    Context context_;
+    ImageWindow window_;
+    std::vector<float> radiance_;
+    std::uint32_t samples_ = 0;
+};
+
+} // namespace
+
+LightVerdict compare_kernels(const KernelTask &task, const TellLook &told) {
+    SceneFile scene = read_scene_file(task.scene, task.overrides);
+    load_columns(scene);
+    const std::uint32_t most =
+        scene.gives({{"render", 0, false}, {"spp", 0, false}}) ? scene.sample_count.value() : usual_samples;
+    Rendering edited(task, scene, task.shader_dir.c_str());
+    Rendering built_in(task, scene, nullptr);
+    for (std::uint32_t look = 1, samples = std::min(first_look, most);; ++look, samples = std::min(2 * samples, most)) {
+        edited.render_up_to(samples);
+        built_in.render_up_to(samples);
+        LightVerdict verdict = test_light(edited.image(), built_in.image(), task.rule, look);
+        told(samples, verdict);
+        const bool is_early = verdict.comparison.light == PT_LIGHT_EQUAL_BITS && samples < least_equal;
+        if ((verdict.is_decided() && !is_early) || samples == most)
+            return verdict;
+    }
+}
+
+} // namespace cli

@@ -1,0 +1,321 @@
+#include "lib/film/comparison.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace pt {
+
+namespace {
+
+constexpr std::size_t colors = 3;
+constexpr double not_found = std::numeric_limits<double>::infinity();
+
+constexpr std::uint32_t least_side = 16;    // of a tile, pixels
+constexpr std::uint32_t reported_side = 32; // of smallest_tile_change
+
+// Differences up to this share of the light are rounding.
+constexpr double rounding_share = 1e-4;
+
+// P(|sum of e_i d_i| >= z sqrt(sum of d_i^2)) <= 2 * 3.178 P(normal >= z) for random signs e_i (Bentkus and
+// Dzindzalieta 2015).
+constexpr double sign_constant = 3.178;
+
+// The darker image must have met light in as many pixels. With k rare events the skewness is 1 / sqrt(k), and the least
+// probability about exp(-k / 6): that of 125 is 10^-9.
+constexpr double least_lit = 125.0;
+
+// Deviations that a change found with 99% is above the least that is found: 2.33, and more for estimated deviations.
+constexpr double margin_99 = 3.0;
+
+struct ChannelSums {
+    double light = 0.0; // of the second image
+    double light_squares = 0.0;
+    double difference = 0.0; // first minus second
+    double squares = 0.0;    // of differences
+    double cubes = 0.0;
+    double first_lit = 0.0; // pixels with light
+    double second_lit = 0.0;
+
+    void add_pixel(double first, double second) {
+        const double change = first - second;
+        add({second, second * second, change, change * change, change * change * change, first > 0.0 ? 1.0 : 0.0,
+             second > 0.0 ? 1.0 : 0.0});
+    }
+
+    void add(const ChannelSums &other) {
+        light += other.light;
+        light_squares += other.light_squares;
+        difference += other.difference;
+        squares += other.squares;
+        cubes += other.cubes;
+        first_lit += other.first_lit;
+        second_lit += other.second_lit;
+    }
+};
+
+// Whether a lack of light says something, by the darker image.
+struct Knowledge {
+    bool of_first;
+    bool of_second;
+};
+
+Knowledge knowledge_of(const pt_compare_info &info) {
+    const bool first_misses = info.first.may_miss_light != 0;
+    const bool second_misses = info.second.may_miss_light != 0;
+    return {!first_misses || second_misses, !second_misses || first_misses};
+}
+
+struct Region {
+    std::uint32_t x = 0;
+    std::uint32_t y = 0;
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    std::array<ChannelSums, colors> channels{};
+
+    double pixel_count() const { return static_cast<double>(width) * height; }
+};
+
+// Regions of one size, row by row.
+struct Level {
+    std::uint32_t side;
+    std::uint32_t columns;
+    std::vector<Region> regions;
+};
+
+std::uint32_t quotient_up(std::uint32_t a, std::uint32_t b) {
+    return a / b + (a % b != 0 ? 1 : 0);
+}
+
+Level level_of(const pt_compare_info &info, std::uint32_t side) {
+    Level level{side, quotient_up(info.width, side), {}};
+    for (std::uint32_t y = 0; y < info.height; y += std::min(side, info.height - y))
+        for (std::uint32_t x = 0; x < info.width; x += std::min(side, info.width - x))
+            level.regions.push_back({x, y, std::min(side, info.width - x), std::min(side, info.height - y)});
+    return level;
+}
+
+Level tiles_of(const pt_compare_info &info) {
+    Level level = level_of(info, least_side);
+    for (Region &region : level.regions)
+        for (std::uint32_t y = region.y; y < region.y + region.height; ++y)
+            for (std::uint32_t x = region.x; x < region.x + region.width; ++x)
+                for (std::size_t channel = 0; channel < colors; ++channel) {
+                    const std::size_t place = colors * (std::size_t{y} * info.width + x) + channel;
+                    region.channels[channel].add_pixel(info.first.radiance[place], info.second.radiance[place]);
+                }
+    return level;
+}
+
+Level twice_as_large(const pt_compare_info &info, const Level &level) {
+    Level larger = level_of(info, 2 * level.side);
+    for (const Region &region : level.regions) {
+        Region &holder = larger.regions[std::size_t{region.y / larger.side} * larger.columns + region.x / larger.side];
+        for (std::size_t channel = 0; channel < colors; ++channel)
+            holder.channels[channel].add(region.channels[channel]);
+    }
+    return larger;
+}
+
+// The smallest tiles first, the whole picture last.
+std::vector<Level> levels_of(const pt_compare_info &info) {
+    std::vector<Level> levels{tiles_of(info)};
+    while (levels.back().regions.size() > 1)
+        levels.push_back(twice_as_large(info, levels.back()));
+    return levels;
+}
+
+// An event of one sample counts this much more in the image with fewer samples.
+double sample_ratio(const pt_compare_info &info) {
+    const double first = info.first.min_samples;
+    const double second = info.second.min_samples;
+    return first > 0.0 && second > 0.0 ? std::max(first / second, second / first) : 1.0;
+}
+
+// The largest differences of single pixels, as the sizes that light may have which a region has not met by chance.
+struct Events {
+    double absolute = 0.0; // of pixels whose light it at least doubles, or one sample as bright as the brightest pixel
+    double relative = 0.0; // share of the pixel's light, of others; at most 1
+
+    void add_pixel(double first, double second, double ratio) {
+        const double event = ratio * std::abs(first - second);
+        const double light = std::max(std::min(first, second), 0.0);
+        if (event > light)
+            absolute = std::max(absolute, event);
+        relative = std::max(relative, event < light ? event / light : event > 0.0 ? 1.0 : 0.0);
+    }
+};
+
+using ChannelEvents = std::array<Events, colors>;
+
+ChannelEvents largest_events(const pt_compare_info &info) {
+    ChannelEvents events{};
+    const std::size_t value_count = colors * info.width * info.height;
+    const double ratio = sample_ratio(info);
+    const double samples = std::min(info.first.min_samples, info.second.min_samples);
+    for (std::size_t i = 0; i < value_count; ++i) {
+        const double first = info.first.radiance[i];
+        const double second = info.second.radiance[i];
+        Events &channel = events[i % colors];
+        channel.add_pixel(first, second, ratio);
+        if (samples > 0.0)
+            channel.absolute = std::max(channel.absolute, std::max(first, second) / samples);
+    }
+    return events;
+}
+
+// A difference z in deviations, which events of the size `event` may have caused by their absence.
+struct Difference {
+    double z;
+    double event;    // in deviations
+    double skewness; // of the noise, against the sign of the difference; at least 0
+
+    // At most, that equal light shows it. Noise explains up to 1 / event, absent events the rest.
+    double probability() const {
+        const double by_noise = event > 0.0 ? std::min(z, 1.0 / event) : z;
+        const double by_events = event > 0.0 ? (z - by_noise) / event : 0.0;
+        const double skewed = skewness > 0.0 ? std::min(by_noise, 1.0 / skewness) : by_noise;
+        const double tail = sign_constant * std::erfc(skewed / std::sqrt(2.0));
+        return std::min(1.0, tail * std::exp(skewness * skewed * skewed * skewed / 3.0 - by_events));
+    }
+};
+
+// A region's difference in one channel.
+class Evidence {
+public:
+    Evidence(const ChannelSums &sums, const Events &events, const Knowledge &knowledge, double pixel_count) :
+        sums_(sums),
+        knowledge_(knowledge),
+        event_(std::max(events.absolute, events.relative * std::max(sums.light, 0.0) / pixel_count)),
+        deviation_(std::sqrt(sums.squares)) {}
+
+    // That equal light shows such a difference.
+    double probability() const {
+        const double sign = sums_.difference < 0.0 ? -1.0 : 1.0;
+        const double excess = std::abs(sums_.difference) - rounding_share * std::abs(sums_.light);
+        return has_light(sign) && excess > 0.0 ? probability_of(excess, deviation_, skewness(sign)) : 1.0;
+    }
+
+    // As a share of the light, found with 99% at this rate. A change a adds a^2 times the squared light to the squared
+    // differences.
+    double smallest_change(double rate) const {
+        const double worst_skewness = std::max(skewness(-1.0), skewness(1.0));
+        const auto is_found = [&](double change) {
+            const double deviation = std::sqrt(sums_.squares + change * change * sums_.light_squares);
+            const double excess = (change - rounding_share) * sums_.light - margin_99 * deviation;
+            return excess > 0.0 && probability_of(excess, deviation, worst_skewness) <= rate;
+        };
+        if (!has_light(-1.0) || !has_light(1.0) || !is_found(1.0))
+            return not_found;
+        double low = 0.0;
+        double high = 1.0;
+        constexpr int halvings = 24;
+        for (int i = 0; i < halvings; ++i) {
+            const double middle = 0.5 * (low + high);
+            (is_found(middle) ? high : low) = middle;
+        }
+        return high;
+    }
+
+private:
+    // Of the image that is darker with this sign.
+    bool has_light(double sign) const {
+        return sign < 0.0 ? knowledge_.of_first && sums_.first_lit >= least_lit
+                          : knowledge_.of_second && sums_.second_lit >= least_lit;
+    }
+
+    double skewness(double sign) const {
+        return deviation_ > 0.0 ? std::max(0.0, -sign * sums_.cubes / std::pow(deviation_, 3.0)) : 0.0;
+    }
+
+    double probability_of(double excess, double deviation, double skewness) const {
+        return Difference{excess / deviation, event_ / deviation, skewness}.probability();
+    }
+
+    const ChannelSums &sums_;
+    Knowledge knowledge_;
+    double event_;
+    double deviation_; // of the sum
+};
+
+// test_count: of which any may fail.
+pt_compared_region compared(const Region &region, const ChannelEvents &events, const Knowledge &knowledge, double rate,
+                            double test_count) {
+    pt_compared_region result{};
+    result.x = region.x;
+    result.y = region.y;
+    result.width = region.width;
+    result.height = region.height;
+    result.probability = 1.0;
+    result.smallest_change = not_found;
+    for (std::size_t channel = 0; channel < colors; ++channel) {
+        const ChannelSums &sums = region.channels[channel];
+        const double pixel_count = region.pixel_count();
+        result.light[channel] = sums.light / pixel_count;
+        result.difference[channel] = sums.difference / pixel_count;
+        result.deviation[channel] = std::sqrt(sums.squares) / pixel_count;
+        const Evidence evidence(sums, events[channel], knowledge, pixel_count);
+        result.probability = std::min(result.probability, test_count * evidence.probability());
+        result.smallest_change = std::min(result.smallest_change, evidence.smallest_change(rate / test_count));
+    }
+    return result;
+}
+
+bool are_equal_bits(const pt_compare_info &info) {
+    const std::size_t bytes = colors * sizeof(float) * info.width * info.height;
+    return std::memcmp(info.first.radiance, info.second.radiance, bytes) == 0;
+}
+
+double median_of(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+std::uint32_t light_of(const pt_compare_info &info, const pt_comparison &verdict, double rate) {
+    if (are_equal_bits(info))
+        return PT_LIGHT_EQUAL_BITS;
+    if (verdict.probability <= rate)
+        return PT_LIGHT_DIFFERENT;
+    return verdict.smallest_change <= info.min_change ? PT_LIGHT_SAME : PT_LIGHT_UNDECIDED;
+}
+
+} // namespace
+
+// Each size of regions gets an equal part of the rate, each region and channel an equal part of that.
+Comparison compare_light(const pt_compare_info &info) {
+    const double look = info.look;
+    const double rate = info.look > 0 ? info.rate / (look * (look + 1.0)) : info.rate;
+    const ChannelEvents events = largest_events(info);
+    const std::vector<Level> levels = levels_of(info);
+    Comparison comparison;
+    comparison.rate = rate;
+    pt_comparison &verdict = comparison.verdict;
+    verdict.probability = 1.0;
+    verdict.smallest_change = not_found;
+    verdict.smallest_tile_change = not_found;
+    for (auto level = levels.rbegin(); level != levels.rend(); ++level) {
+        std::vector<double> changes;
+        const double test_count = static_cast<double>(colors * level->regions.size() * levels.size());
+        for (const Region &region : level->regions) {
+            const pt_compared_region &result =
+                comparison.regions.emplace_back(compared(region, events, knowledge_of(info), rate, test_count));
+            verdict.probability = std::min(verdict.probability, result.probability);
+            verdict.smallest_change = std::min(verdict.smallest_change, result.smallest_change);
+            changes.push_back(result.smallest_change);
+        }
+        if (level->side == reported_side || levels.size() == 1)
+            verdict.smallest_tile_change = median_of(std::move(changes));
+    }
+    verdict.light = light_of(info, verdict, rate);
+    const std::string summary = summary_of(comparison, info.min_change);
+    std::copy_n(summary.begin(), std::min(summary.size(), sizeof verdict.summary - 1), verdict.summary);
+    return comparison;
+}
+
+} // namespace pt

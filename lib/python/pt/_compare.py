@@ -1,0 +1,116 @@
+"""Whether two images show the same light."""
+
+from __future__ import annotations
+
+import ctypes
+from dataclasses import dataclass
+from typing import Any, Final
+
+import numpy as np
+import numpy.typing as npt
+
+from pt import _structs as structs
+from pt._enums import Light, Quantity, Uncertain
+from pt._film import Film
+from pt._image import Image
+from pt._library import checked, library
+
+WORST: Final = 5  # regions in messages
+
+
+@dataclass(frozen=True)
+class Region:
+    """A part of the picture. Tuples are R, G, B."""
+
+    x: int  # first column
+    y: int  # first row
+    width: int  # pixels
+    height: int
+    light: tuple[float, float, float]  # mean of the second image
+    difference: tuple[float, float, float]  # mean of the first image minus that
+    deviation: tuple[float, float, float]  # standard deviation of the difference
+    probability: float  # at most, that equal light shows such a difference in any region of this size
+    smallest_change: float  # of the region's light that would be found with 99%, as a share; infinite if none would
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """What compare() found; str() is a sentence."""
+
+    light: Light
+    probability: float  # at most, that equal light shows such differences
+    smallest_change: float  # of all light that would be found with 99%, as a share; infinite if none would
+    smallest_tile_change: float  # the same of a tile of 32 x 32 pixels alone: the median over these tiles
+    summary: str
+    regions: tuple[Region, ...]  # the whole picture first, then tiles of halved sides down to 16 pixels
+
+    def __str__(self) -> str:
+        return self.summary
+
+
+def compare(first: Film | Image | npt.ArrayLike, second: Film | Image | npt.ArrayLike, *, rate: float = 1e-6,
+            min_change: float = 1.0, look: int = 0) -> Comparison:
+    """Whether two images show the same light, by a test of their differences (shaders/README.md, section 11).
+
+    first, second   films, images or radiance of shape (height, width, 3), equally large. second is the reference:
+                    changes are shares of its light. They may share a seed: where samples correspond, smaller changes
+                    are found
+    rate            probability of calling equal light different
+    min_change      0.01: Light.UNDECIDED if a change by 1% of all light may be missed
+    look            number, from 1, of this look at growing images, so that all looks together have the rate
+
+    InvalidArgumentError: the tiles have different numbers of samples, whose means are shifted, or the sampler is
+    HALTON, whose errors are not random. ValueError: other shapes."""
+    images = [_radiance(each) for each in (first, second)]
+    shape = images[0].shape
+    if len(shape) != 3 or shape[2] != 3 or images[1].shape != shape:
+        raise ValueError(f"shapes = {[image.shape for image in images]}: must both be (height, width, 3)")
+    info = structs.pt_compare_info(width=shape[1], height=shape[0], look=look, rate=rate, min_change=min_change,
+                                   first=_compared(images[0], first), second=_compared(images[1], second))
+    found, count, loaded = structs.pt_comparison(), ctypes.c_uint32(), library()
+    checked(loaded, loaded.pt_compare(info, found, None, count))
+    regions = (structs.pt_compared_region * count.value)()
+    checked(loaded, loaded.pt_compare(info, found, regions, count))
+    return Comparison(Light(found.light), found.probability, found.smallest_change, found.smallest_tile_change,
+                      found.summary.decode(), tuple(map(_region, regions)))
+
+
+def assert_same_light(first: Film | Image | npt.ArrayLike, second: Film | Image | npt.ArrayLike, *,
+                      min_change: float = 0.01, rate: float = 1e-6) -> None:
+    """For tests: AssertionError if the light differs, with the parts that differ most, or if a change by min_change of
+    all light may have been missed. Arguments are those of compare()."""
+    comparison = compare(first, second, rate=rate, min_change=min_change)
+    if comparison.light in (Light.EQUAL_BITS, Light.SAME):
+        return
+    worst = sorted(comparison.regions, key=lambda region: region.probability)[:WORST]
+    lines = [f"  {each.width}x{each.height} pixels at {each.x},{each.y}: difference {_numbers(each.difference)} +- "
+             f"{_numbers(each.deviation)} of {_numbers(each.light)}" for each in worst if each.probability <= rate]
+    raise AssertionError("\n".join([str(comparison), *lines]))
+
+
+def _radiance(image: Film | Image | npt.ArrayLike) -> npt.NDArray[np.float32]:
+    if isinstance(image, Film):
+        image = image.readback(Quantity.RADIANCE)
+    return np.ascontiguousarray(image, np.float32)
+
+
+def _compared(radiance: npt.NDArray[np.float32], source: object) -> structs.pt_compared_image:
+    struct = structs.pt_compared_image(radiance=radiance.ctypes.data_as(ctypes.POINTER(ctypes.c_float)))
+    if isinstance(source, Film):
+        struct.sampler = source.info.sampler
+    if isinstance(source, (Film, Image)):
+        stats = source.stats() if isinstance(source, Film) else source.stats
+        error = source.error_estimate() if isinstance(source, Film) else source.error_estimate
+        struct.may_miss_light = bool(error.uncertain & Uncertain.UNMET)
+        struct.min_samples, struct.max_samples = stats.sample_count, stats.max_sample_count
+    return struct
+
+
+def _region(struct: structs.pt_compared_region) -> Region:
+    values: dict[str, Any] = {name: getattr(struct, name) for name in Region.__dataclass_fields__}
+    values.update({name: tuple(values[name]) for name in ("light", "difference", "deviation")})
+    return Region(**values)
+
+
+def _numbers(values: tuple[float, ...]) -> str:
+    return "(" + ", ".join(f"{value:.3g}" for value in values) + ")"

@@ -1,0 +1,279 @@
+// Comparisons of light, on invented images whose means and noise are known.
+#include <pt/compare.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace {
+
+constexpr std::uint32_t width = 48;
+constexpr std::uint32_t height = 32;
+constexpr std::size_t pixel_count = std::size_t{width} * height;
+
+using Pixels = std::vector<float>;
+using Noise = std::function<double(std::mt19937 &)>;
+
+// Grey pixels, each a draw.
+Pixels drawn(std::mt19937 &random, const Noise &noise) {
+    Pixels pixels;
+    for (std::size_t i = 0; i < pixel_count; ++i)
+        pixels.insert(pixels.end(), 3, static_cast<float>(noise(random)));
+    return pixels;
+}
+
+Pixels times(Pixels pixels, double factor) {
+    for (float &value : pixels)
+        value = static_cast<float>(value * factor);
+    return pixels;
+}
+
+pt_compare_info info_of(const Pixels &first, const Pixels &second) {
+    pt_compare_info info{};
+    info.struct_size = sizeof info;
+    info.width = width;
+    info.height = height;
+    info.first.radiance = first.data();
+    info.second.radiance = second.data();
+    return info;
+}
+
+pt_comparison compared(const pt_compare_info &info) {
+    pt_comparison comparison{};
+    comparison.struct_size = sizeof comparison;
+    std::uint32_t count = 0;
+    EXPECT_EQ(pt_compare(&info, &comparison, nullptr, &count), PT_OK) << pt_last_error(nullptr);
+    return comparison;
+}
+
+// With the mean 1.
+Noise normal(double deviation) {
+    return [=](std::mt19937 &random) { return std::normal_distribution(1.0, deviation)(random); };
+}
+
+// Of the mean 1: events that a share of the pixels has met.
+Noise rare_events(double share) {
+    return [=](std::mt19937 &random) { return std::poisson_distribution<int>(share)(random) / share; };
+}
+
+// A share of the light is as rare.
+Noise partly_rare(double share, double of_light) {
+    return [=](std::mt19937 &random) {
+        return (1.0 - of_light) * normal(0.001)(random) + of_light * rare_events(share)(random);
+    };
+}
+
+int count_different(const Noise &first, const Noise &second, int pairs, double rate, double ratio = 1.0) {
+    std::mt19937 random(7);
+    int different = 0;
+    for (int i = 0; i < pairs; ++i) {
+        const Pixels a = drawn(random, first);
+        const Pixels b = drawn(random, second);
+        pt_compare_info info = info_of(a, b);
+        info.rate = rate;
+        info.first.min_samples = info.first.max_samples = 64;
+        info.second.min_samples = info.second.max_samples = static_cast<std::uint32_t>(64 * ratio);
+        different += compared(info).light == PT_LIGHT_DIFFERENT ? 1 : 0;
+    }
+    return different;
+}
+
+TEST(Comparison, EqualBitsAndLightWithoutNoise) {
+    const Pixels ones(3 * pixel_count, 1.0F);
+    EXPECT_EQ(compared(info_of(ones, ones)).light, PT_LIGHT_EQUAL_BITS);
+    const Pixels rounded = times(ones, 1.0 + 9e-5);
+    EXPECT_EQ(compared(info_of(rounded, ones)).light, PT_LIGHT_SAME);
+    const Pixels brighter = times(ones, 1.05);
+    EXPECT_EQ(compared(info_of(brighter, ones)).light, PT_LIGHT_DIFFERENT);
+    EXPECT_STREQ(compared(info_of(brighter, ones)).summary, "different light: +5% +- 0.25% of the picture in R");
+}
+
+// The bound in shaders/README.md, section 11, by hand: there are three sizes of regions.
+TEST(Comparison, TheProbabilityIsThatOfSigns) {
+    std::mt19937 random(1);
+    const Pixels ones(3 * pixel_count, 1.0F);
+    Pixels first;
+    for (std::size_t i = 0; i < pixel_count; ++i)
+        first.insert(first.end(), 3, i % 5 == 0 ? 0.9F : 1.1F);
+    pt_compare_info info = info_of(first, ones);
+    std::uint32_t count = 1;
+    pt_compared_region whole{};
+    pt_comparison comparison{};
+    comparison.struct_size = sizeof comparison;
+    ASSERT_EQ(pt_compare(&info, &comparison, &whole, &count), PT_OK);
+    const double minus = std::ceil(static_cast<double>(pixel_count) / 5.0);
+    const double plus = static_cast<double>(pixel_count) - minus;
+    const double up = static_cast<double>(1.1F) - 1.0;
+    const double down = static_cast<double>(0.9F) - 1.0;
+    const double deviation = std::sqrt(plus * up * up + minus * down * down);
+    const double event = std::max(up / 1.0, -down / (1.0 + down)); // relative, of the light of 1
+    const double excess = plus * up + minus * down - 1e-4 * pixel_count;
+    const double by_noise = std::min(excess, deviation * deviation / event) / deviation;
+    const double by_events = excess / event - by_noise * deviation / event;
+    const double expected = 9.0 * 3.178 * std::erfc(by_noise / std::sqrt(2.0)) * std::exp(-by_events);
+    EXPECT_NEAR(whole.probability, expected, 1e-9 * expected);
+    EXPECT_LT(expected, 1e-6);
+    EXPECT_EQ(count, 1U);
+    EXPECT_EQ(whole.width, width);
+    EXPECT_NEAR(whole.difference[1], (plus * up + minus * down) / pixel_count, 1e-12);
+}
+
+// Bentkus and Dzindzalieta's constant, against exact tails of sums of n signs.
+TEST(Comparison, TheConstantOfSignsHolds) {
+    for (const int n : {2, 3, 10, 31}) {
+        double term = std::pow(0.5, n); // n signs +
+        double tail = 0.0;
+        for (int minus = 0; 2 * minus <= n; ++minus) {
+            tail += term;
+            term *= static_cast<double>(n - minus) / (minus + 1);
+            const double z = (n - 2 * minus) / std::sqrt(n);
+            EXPECT_LE(2.0 * tail, 3.178 * std::erfc(z / std::sqrt(2.0)) * (1.0 + 1e-3)) << n << " " << z;
+        }
+    }
+}
+
+// Of a Poisson number of equal events that meet a pixel each, against an image without noise.
+TEST(Comparison, TheProbabilityIsAtLeastThatOfEvents) {
+    constexpr double expected = 300.0;
+    const Pixels ones(3 * pixel_count, 1.0F);
+    double term = std::exp(-expected);
+    double tail = 0.0;
+    for (int count = 0; count < 300; ++count) {
+        tail += term;
+        term *= expected / (count + 1);
+        Pixels first(3 * pixel_count, 0.0F);
+        for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
+            std::fill_n(&first[3 * (i * 5 % pixel_count)], 3, static_cast<float>(pixel_count / expected));
+        const double least = tail > 1e-9 ? std::min(tail, 0.5) : 0.0;
+        EXPECT_GE(compared(info_of(first, ones)).probability, least) << count;
+    }
+}
+
+TEST(Comparison, EqualLightIsHardlyEverCalledDifferent) {
+    constexpr int pairs = 400;
+    constexpr double rate = 0.01;
+    // P(Poisson(4) > 13) < 10^-4.
+    constexpr int most = 13;
+    EXPECT_LE(count_different(normal(0.01), normal(0.01), pairs, rate), most);
+    EXPECT_LE(count_different(normal(0.3), normal(0.01), pairs, rate), most);
+    EXPECT_LE(count_different(rare_events(0.05), rare_events(0.05), pairs, rate), most);
+    EXPECT_LE(count_different(rare_events(0.05), normal(0.001), pairs, rate), most);
+    EXPECT_LE(count_different(rare_events(0.003), normal(0.001), pairs, rate), most);
+    EXPECT_LE(count_different(partly_rare(0.01, 0.1), normal(0.001), pairs, rate), most);
+    EXPECT_LE(count_different(partly_rare(0.01, 0.01), normal(0.001), pairs, rate), most);
+    EXPECT_LE(count_different(partly_rare(0.001, 0.05), partly_rare(0.016, 0.05), pairs, rate, 16.0), most);
+}
+
+// Such a change is found with 99%: of 300 pairs all but 10 with a probability of 99.9%.
+TEST(Comparison, TheSmallestChangeIsFound) {
+    std::mt19937 random(3);
+    for (const Noise &noise : {normal(0.02), normal(0.2), rare_events(3.0)}) {
+        int found = 0;
+        constexpr int pairs = 300;
+        for (int i = 0; i < pairs; ++i) {
+            const Pixels second = drawn(random, noise);
+            const Pixels first = drawn(random, noise);
+            const double change = compared(info_of(first, second)).smallest_change;
+            ASSERT_LT(change, 0.6);
+            const Pixels changed = times(first, 1.0 + change);
+            found += compared(info_of(changed, second)).light == PT_LIGHT_DIFFERENT ? 1 : 0;
+        }
+        EXPECT_GE(found, pairs - 10);
+    }
+}
+
+TEST(Comparison, TooFewSamplesAreToldFromTheSameLight) {
+    std::mt19937 random(5);
+    const Pixels first = drawn(random, normal(0.02));
+    const Pixels second = drawn(random, normal(0.02));
+    pt_compare_info info = info_of(first, second);
+    const double smallest = compared(info).smallest_change;
+    info.min_change = smallest * 1.01;
+    EXPECT_EQ(compared(info).light, PT_LIGHT_SAME);
+    EXPECT_NE(std::string(compared(info).summary).find("% of all light"), std::string::npos);
+    info.min_change = smallest * 0.99;
+    EXPECT_EQ(compared(info).light, PT_LIGHT_UNDECIDED);
+    const Pixels black(first.size(), 0.0F);
+    EXPECT_EQ(compared(info_of(black, second)).light, PT_LIGHT_UNDECIDED); // perhaps it has not met the lamp
+}
+
+// Unless the other image may miss it as well.
+TEST(Comparison, LackOfLightThatMayBeMissedSaysNothing) {
+    std::mt19937 random(5);
+    const Pixels darker = drawn(random, normal(0.02));
+    const Pixels brighter = times(drawn(random, normal(0.02)), 1.1);
+    pt_compare_info info = info_of(darker, brighter);
+    info.first.may_miss_light = 1;
+    EXPECT_EQ(compared(info).light, PT_LIGHT_UNDECIDED);
+    info.second.may_miss_light = 1;
+    EXPECT_EQ(compared(info).light, PT_LIGHT_DIFFERENT);
+    info.first.may_miss_light = 0;
+    EXPECT_EQ(compared(info).light, PT_LIGHT_DIFFERENT);
+}
+
+// The lack may be one of samples as bright as the lamp in view.
+TEST(Comparison, ASampleOfTheBrightestPixelMayBeMissing) {
+    Pixels second(3 * pixel_count, 1.0F);
+    Pixels first = times(second, 0.97);
+    std::fill_n(first.begin(), 3, 1000.0F);
+    std::fill_n(second.begin(), 3, 1000.0F);
+    pt_compare_info info = info_of(first, second);
+    for (const std::uint32_t samples : {16U, 4096U}) {
+        info.first.min_samples = info.first.max_samples = samples;
+        info.second.min_samples = info.second.max_samples = samples;
+        EXPECT_EQ(compared(info).light == PT_LIGHT_DIFFERENT, samples == 4096U) << samples;
+    }
+}
+
+TEST(Comparison, LooksShareTheRate) {
+    std::mt19937 random(5);
+    const Pixels second = drawn(random, normal(0.02));
+    const Pixels first = times(drawn(random, normal(0.02)), 1.01);
+    pt_compare_info info = info_of(first, second);
+    info.rate = 0.5;
+    info.rate = 3.0 * compared(info).probability;
+    ASSERT_LT(info.rate, 0.5);
+    for (const std::uint32_t look : {0U, 1U, 2U, 5U}) {
+        info.look = look;
+        const bool found = look * (look + 1) <= 3;
+        EXPECT_EQ(compared(info).light == PT_LIGHT_DIFFERENT, found) << look;
+    }
+}
+
+void expect_refusal(const pt_compare_info &info, const std::string &message) {
+    pt_comparison comparison{};
+    comparison.struct_size = sizeof comparison;
+    std::uint32_t count = 0;
+    EXPECT_EQ(pt_compare(&info, &comparison, nullptr, &count), PT_ERROR_INVALID_ARGUMENT);
+    EXPECT_NE(std::string(pt_last_error(nullptr)).find(message), std::string::npos) << pt_last_error(nullptr);
+}
+
+TEST(Comparison, WhatBreaksARuleIsRefused) {
+    const Pixels ones(3 * pixel_count, 1.0F);
+    Pixels wrong = ones;
+    wrong[7] = std::numeric_limits<float>::infinity();
+    const auto changed = [&](const std::function<void(pt_compare_info &)> &change) {
+        pt_compare_info info = info_of(ones, ones);
+        change(info);
+        return info;
+    };
+    expect_refusal(changed([](auto &info) { info.width = 0; }), "compare.width * height = 0: must be in [1, 2^32 - 1]");
+    expect_refusal(changed([](auto &info) { info.rate = 0.6; }), "compare.rate = 0.6: must be in (0, 0.5], or 0");
+    expect_refusal(changed([](auto &info) { info.min_change = -1.0; }), "compare.min_change = -1: must be finite");
+    expect_refusal(changed([](auto &info) { info.first.radiance = nullptr; }), "first.radiance = NULL");
+    expect_refusal(changed([&](auto &info) { info.second.radiance = wrong.data(); }), "second.radiance[7] = inf");
+    expect_refusal(changed([](auto &info) { info.first.max_samples = 3; }),
+                   "first.max_samples = 3: must be min_samples, 0: samples that go where the error is shift the mean");
+    expect_refusal(changed([](auto &info) { info.second.sampler = PT_SAMPLER_HALTON; }),
+                   "second.sampler = 2: must not be PT_SAMPLER_HALTON");
+}
+
+} // namespace
