@@ -27,7 +27,7 @@ Ball ball_from(vec4 centre_radius, vec4 way, float time, uint kinds)
     return Ball(centre_radius, is_capsule ? way : NO_AXIS);
 }
 
-// Center of the swept ball nearest to a place. to_first: from the place to the first center.
+// Center of the swept ball nearest to a point. to_first: from the point to the first center.
 vec3 nearest_centre(Ball ball, vec3 centre, vec3 to_first, uint kinds)
 {
     if ((kinds & KIND_CAPSULE) == 0u)
@@ -123,7 +123,7 @@ bool is_outside(vec3 to_centre, float radius, vec3 direction, float rounding)
     return above > nearly || (above > -nearly && dot(to_centre, direction) < 0.0);
 }
 
-// sphere_distance() for a ball. from_side: its place relative to where the side is decided. From inside, a capsule's
+// sphere_distance() for a ball. from_side: its position relative to where the side is decided. From inside, a capsule's
 // last ball counts; a ray that leaves inwards usually starts on another one.
 float ball_distance(Ball ball, vec3 to_first, vec3 from_side, vec3 direction, bool leaving, bool inside, float rounding,
                     uint kinds)

@@ -34,12 +34,12 @@ PT_CONSTANT KIND_CAPSULE = 2;
 // ---- Dimensions: the random numbers of a sample -------------------------------------------------------------------
 // Blocks hold up to four numbers. A sequence's low dimensions are its best, and go to the first blocks.
 // Blocks that all branches of a sample share:
-//   place in the pixel (2), time (1, with MOTION)
-//   place on the lens (2, with LENS)
-//   place on a lamp as seen from the first vertex (2), for each of up to EVERY_LAMP_LIMIT lamps
+//   point in the pixel (2), time (1, with MOTION)
+//   point on the lens (2, with LENS)
+//   point on a lamp as seen from the first vertex (2), for each of up to EVERY_LAMP_LIMIT lamps
 //   with spots: direction (2) and spot (1); at the spot, lamp (3) and direction (2 or 3)
 // Blocks of each vertex that a branch leaves:
-//   place on a lamp (2) and which lamp (1, if there are several), unless every lamp has been sampled
+//   point on a lamp (2) and which lamp (1, if there are several), unless every lamp has been sampled
 //   direction (2), specular or diffuse lobe (1, with GLOSS), survival of Russian roulette (1, for long paths)
 PT_CONSTANT EVERY_LAMP_LIMIT = 4;    // most lamps all sampled at the first vertex
 PT_CONSTANT SPOT_LIMIT = 8;          // per scene
@@ -141,7 +141,7 @@ PT_CONSTANT MATERIAL_INDEX_BITS = 0x3f800000;
 //   node[nodes][3]    the root first:
 //                     low corner of the box, x, y, z; exponents of the steps along x, y, z, five bits each; from bit 16
 //                     the number of children, from bit 20 of child nodes
-//                     first child node; place of the first child sphere (both kinds are consecutive); low sides of the
+//                     first child node; slot of the first child sphere (both kinds are consecutive); low sides of the
 //                     children's boxes in steps from the corner, a byte per child, along x; along y
 //                     low sides along z; high sides along x, y and z
 //   sphere[places]    center at time 0; radius as the bits of a float, its low eight bits with TREE_OPACITY the opacity
@@ -151,7 +151,7 @@ PT_CONSTANT MATERIAL_INDEX_BITS = 0x3f800000;
 //   surface[places]   four to a word: index in the material table, or TREE_LAMP_BIT + lamp number
 //   color[places]     four to a word: factors of the diffuse reflection, the root of each times TREE_COLOR_STEPS in ten
 //                     bits (with TREE_COLORS)
-//   lamp[tree lamps]  place; index in the material table; 0; 0
+//   lamp[tree lamps]  slot; index in the material table; 0; 0
 PT_CONSTANT TREE_WIDTH = 4;
 PT_CONSTANT TREE_STACK_SIZE = 27; // nodes on the longest way down, root included (lib/tree/sphere_order.h)
 PT_CONSTANT TREE_NODE_WORDS = 3;

@@ -112,7 +112,7 @@ PT_FUNCTION real square_as_lamp(real standard_error, real mean, real offset_squa
     return square_of_quotient(standard_error, squared(mean) + offset_square);
 }
 
-// A pixel that stands out is a lamp or highlight, which many samples meet, or one rare bright sample. Light in one part
+// A pixel that stands out is a lamp or highlight, which many samples hit, or one rare bright sample. Light in one part
 // alone was met once, and may be either; light in both was met again. lib/film/error_estimate.cpp compares their
 // numbers.
 PT_FUNCTION bool is_met_once(real standard_error, real mean, real lesser)

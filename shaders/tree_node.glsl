@@ -54,7 +54,7 @@ vec3 inverse_of(vec3 direction)
 const uint NO_NODE = ~0u;
 
 // A group holds up to three children still to be entered, nearest first: the first child's number, never 0, above three
-// places of two bits, the last one repeated.
+// fields of two bits, the last one repeated.
 uint next_of(uint group) { return (group >> 6) + (group & 3u); }
 bool has_one(uint group) { return ((group ^ (group >> 2)) & 3u) == 0u; }
 uint without_next(uint group) { return (group & ~15u) | ((group >> 2) & 15u); }

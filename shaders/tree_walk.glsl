@@ -1,5 +1,5 @@
 // Rays against tree spheres. The hit is the same as if all spheres were tested: no box that holds a nearer sphere is
-// skipped, and the spheres decide ties, not the order of the walk.
+// skipped, and ties do not depend on the walk's order.
 #ifndef TREE_WALK_GLSL
 #define TREE_WALK_GLSL
 
@@ -102,8 +102,8 @@ struct Walk {
 // Whether all invocations execute all branches, as on lavapipe; then each walk is ended.
 const bool IN_STEP = WALK_TRIPS == 0u;
 
-// Groups to be entered. Outside Walk, because functions copy arguments. IN_STEP they are in registers, the last first,
-// because lavapipe accesses arrays one invocation at a time; otherwise each is at its height.
+// Groups to be entered. Outside Walk, because functions copy arguments. IN_STEP they are in registers, last first:
+// lavapipe accesses arrays one invocation at a time. Otherwise each is at its height.
 const uint STACK_SIZE = TREE_LEVELS > 0u ? TREE_LEVELS : 1u;
 uint walk_stack[STACK_SIZE];
 

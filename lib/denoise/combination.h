@@ -10,8 +10,8 @@
 //
 // Moves are limited (limits.h), then scaled by a share t of 0 to 1. For faults f, the sum of s^2 + 2 s u t + (u^2 + f)
 // t^2 is least at t = -sum s u / (sum u^2 + f) (James and Stein, "Estimation with quadratic loss", 1961). The least t
-// of four is taken: by squares of errors and of relative errors, with all pixels and without the one of each tile that
-// gains most. Last, the mean is kept.
+// of four is taken: by errors and relative errors, with all pixels and without the one of each tile that gains most.
+// Last, the mean is kept.
 //
 // Limits use both halves, so (1) holds only for free moves v = t (D(A) - A) and w, of B. Other moves add E (p - v) (B -
 // r) + (q - w) (A - r). Where the filter is right, D(B) and D(A) stand for r, and the faults are v w + (p - v) (q - w).

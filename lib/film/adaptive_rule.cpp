@@ -93,8 +93,8 @@ std::vector<double> tile_gains(const TileSamples &samples, std::span<const doubl
     return gains;
 }
 
-// Tiles with the variances v reach the same error with mean(sqrt v)^2 / mean(v) times the samples of an even film, if
-// these are in proportion to sqrt(v). Up to an eighth of that is lost again.
+// Tiles with the variances v reach the same error with mean(sqrt v)^2 / mean(v) times the samples of equal counts, if
+// counts are in proportion to sqrt(v). Up to an eighth is lost again.
 bool are_worth_telling_apart(std::span<const double> gains) {
     constexpr double least_ratio = 1.2;
     double sum = 0.0;

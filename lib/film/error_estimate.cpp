@@ -70,8 +70,8 @@ ErrorSquares relative_squares(const TileErrors &all, double met_again) {
 
 } // namespace
 
-// The root of a sum over n pixels deviates by about 1 / (2 sqrt(n)), and more if the brightest are missing. A little
-// more than that is added, since understated errors do more harm. Calibrated.
+// The root of a sum over n pixels deviates by about 1 / (2 sqrt(n)). A little more is added: understated errors do more
+// harm. Calibrated.
 double share_added(double pixel_count) {
     return 0.6 / std::sqrt(pixel_count) + 1.2 / pixel_count;
 }

@@ -18,7 +18,7 @@ struct Interval {
 
 struct ErrorEstimate {
     Interval rmse;           // root of the mean of (x - r)^2 over pixels and channels
-    Interval relative_rmse;  // of (x - r)^2 / (r^2 + 0.01)
+    Interval relative_rmse;  // the same for (x - r)^2 / (r^2 + 0.01)
     std::uint32_t uncertain; // PT_UNCERTAIN_* of pt/stats.h
 };
 
@@ -28,11 +28,11 @@ inline constexpr std::uint32_t min_estimate_samples = 16;
 // 95% of a normal distribution lie within this many standard deviations.
 inline constexpr double normal_95 = 1.96;
 
-// An estimate from fewer pixels is uncertain. Calibrated.
+// Fewer pixels give an uncertain estimate. Calibrated.
 inline constexpr double few_pixels = 4.0;
 
-// For an estimate that scatters like this many pixels with equal errors: the share added to the root, and the factor
-// from the estimate to its bounds.
+// The share added to the root, and the factor from the estimate to its bounds, if it scatters like this many pixels
+// with equal errors.
 double share_added(double pixel_count);
 double spread_of_pixels(double pixel_count);
 
@@ -48,14 +48,14 @@ pt_error_estimate stated(const ErrorEstimate &error);
 // brightest emission (gpu_layout.h, FILM_MAX_EXPONENT), so one in 2^20 may outweigh all light in the picture.
 bool hides_error(std::uint64_t rejected_samples, std::uint64_t samples);
 
-// The next sample count at which the error is looked at: 16, then quarters of powers of two.
+// The next sample count at which the error is checked: 16, then quarters of powers of two.
 std::uint64_t next_check(std::uint64_t sample_count);
 bool is_check(std::uint64_t sample_count);
 
-// Factor >= 1 by which the error that the parts show may exceed the true one. sampler: of pt.h.
+// Factor >= 1 by which the error that the parts show may exceed the true one. sampler: PT_SAMPLER_*.
 double exaggeration(std::uint32_t sampler);
 
-// Whether paths meet lamps only by chance, because the estimator, one of pt.h, does not sample them.
+// Whether paths hit lamps only by chance, because the estimator (PT_ESTIMATOR_*) does not sample them.
 bool finds_lamps_by_chance(std::uint32_t estimator, std::uint32_t max_path_length);
 
 struct SampleConditions {

@@ -61,7 +61,7 @@ std::vector<FilmTile> Film::list() const {
     return tiles;
 }
 
-// Throws PT_ERROR_INCOMPATIBLE if a pixel has a sample in this film and in `others`, whose TileMap is map.
+// Throws PT_ERROR_INCOMPATIBLE if a pixel has a sample here and in `others`, whose TileMap is map.
 void Film::require_disjoint(const std::vector<FilmTile> &others, const TileMap &map) const {
     for (const Tile &own : tiles_)
         for (const TileMap::Piece &piece : map.cut(own.pixels))

@@ -69,14 +69,13 @@ static_assert(gpu::FILM_PARTS == 2);
 using PartCounts = std::array<std::uint64_t, gpu::FILM_PARTS>;
 
 // The index with most trailing zero bits among those with samples on both sides, if it is a multiple of 8. Otherwise
-// the next multiple of 8 after the last sample, which puts all samples into the older part: the error of a part with
-// fewer than 8 is hardly known.
+// the next multiple of 8 after the last sample: a part of fewer than 8 would hardly show an error.
 //
-// At N = 2^k, [0, N) splits into runs of 2^(k - 1) points that begin at a multiple of 2^(k - 1), the best sets of a
-// sequence.
+// At N = 2^k, [0, N) splits into runs of 2^(k - 1) points that begin at a multiple of 2^(k - 1), a sequence's best
+// sets.
 //
-// The index is unique, since between two with equally many zeros lies one with more. So films that are added each have
-// the split of the sum or lie on one side of it: two parts suffice.
+// The index is unique, since between two with equally many zeros lies one with more. So each added film has the sum's
+// split or lies on one side of it: two parts suffice.
 std::uint64_t split_of(const SampleRange &hull);
 
 PartCounts part_counts(const SampleSet &samples);

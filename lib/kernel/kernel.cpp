@@ -22,7 +22,7 @@ std::uint64_t checked_scene_bytes(const vulkan::Device &device, std::size_t word
     return bytes;
 }
 
-// Samples of a pixel, limited by loop trips and the table of points.
+// Samples of a pixel, limited by loop trips and the point table.
 std::uint32_t samples_of_dispatch(const vulkan::Device &device, const Features &features, const PointLayout &layout,
                                   std::uint32_t table_bytes) {
     const std::uint64_t trips = loop_trips_per_sample(features);

@@ -1,4 +1,4 @@
-// Decides when a scene has been rendered long enough for a kernel of its own to pay.
+// Decides when a scene has been rendered long enough for a specialized kernel to pay.
 #pragma once
 
 #include <algorithm>

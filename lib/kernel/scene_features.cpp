@@ -29,7 +29,7 @@ bool samples_lamps(const Features &features) {
 }
 
 std::vector<std::uint32_t> camera_blocks(const Features &features) {
-    std::vector<std::uint32_t> blocks(1 + features[gpu::ID_LENS], 2); // place on the lens
+    std::vector<std::uint32_t> blocks(1 + features[gpu::ID_LENS], 2); // point on the lens
     blocks.front() = gpu::camera_dimensions(features[gpu::ID_MOTION]);
     return blocks;
 }
@@ -152,7 +152,7 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
     features[gpu::ID_ESTIMATOR] = render.estimator;
     features[gpu::ID_SAMPLER] = render.sampler;
     features[gpu::ID_GLOSS] = scene.gloss;
-    // The tree holds places at time 0.
+    // The tree holds positions at time 0.
     const bool tree_is_late = tree && tree->moves() && camera.shutter_open > 0.0;
     features[gpu::ID_MOTION] = scene.moves && (camera.shutter_close > camera.shutter_open || tree_is_late);
     Kinds kinds = tree ? tree->kinds() : Kinds();
@@ -199,7 +199,7 @@ PointLayout point_layout(const Features &features) {
     const std::uint32_t branches = branch_count(features);
     if (features[gpu::ID_SAMPLER] == PT_SAMPLER_RANDOM)
         return {{}, 0, branches};
-    blocks.resize(shared, 2); // place on each lamp
+    blocks.resize(shared, 2); // point on each lamp
     const std::uint32_t direction =
         gpu::direction_dimensions(features[gpu::ID_GLOSS], features[gpu::ID_MAX_PATH_LENGTH]);
     if (features[gpu::ID_SPOT_COUNT] > 0) {

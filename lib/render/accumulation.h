@@ -24,8 +24,7 @@ struct Progress {
     void *user;
 };
 
-// Whether samples are under way, and whether they were cancelled. The only part of a context that any thread may touch
-// at any time.
+// Whether samples are under way or cancelled. The only part of a context that any thread may touch at any time.
 class Cancellation {
 public:
     void begin() noexcept { state_ = State::UnderWay; }

@@ -11,12 +11,11 @@
 
 namespace pt {
 
-// The share of directions from the camera that the smallest important lamp covers as the shutter opens. Important lamps
-// give at least a hundredth of the light that arrives there. 1 if no lamp can be missed, since lamps around the camera
-// do not count.
+// The share of directions from the camera that the smallest important lamp covers as the shutter opens; 1 if none can
+// be missed, since lamps around the camera do not count. Important lamps give at least a hundredth of the light there.
 double smallest_lamp_share(std::span<const Sphere> lamps, std::span<const Material> materials, const Camera &camera);
 
-// Whether a lamp or lobe is found only by chance and is so small that few of these samples, if any, have met it.
+// Whether a lamp or lobe is found only by chance and is so small that few of these samples, if any, have hit it.
 bool may_miss_lamps(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings,
                     std::uint64_t samples);
 

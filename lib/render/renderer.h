@@ -100,8 +100,7 @@ public:
     // Collects finished samples and starts the next, for at most this long. If it throws, no samples are under way.
     Advance poll(std::uint64_t nanoseconds);
 
-    // Begins no more samples; poll() returns when the present ones have ended. False if nothing is under way.
-    // Thread-safe.
+    // Begins no more samples; poll() returns when the present ones have ended. False if there are none. Thread-safe.
     bool cancel() noexcept { return cancellation_.ask(); }
     static constexpr const char *nothing_under_way = "no samples are under way: call pt_start first";
 
@@ -122,8 +121,8 @@ public:
     // About the visible scene (displacement.h); may be NULL. Valid until the next call.
     const BrokenRule *warning();
 
-    // Includes lamps in view that samples have hardly met. A target error is reached only once samples meet
-    // these, so films added elsewhere need no lamps.
+    // Includes lamps in view that samples have hardly hit. A target error is reached only once samples hit these, so
+    // films added elsewhere need no lamps.
     ErrorEstimate error_with_lamps();
 
     // Accuracy of the first device's elementary functions.

@@ -12,7 +12,7 @@ namespace pt {
 
 namespace {
 
-// Sixteen samples, the fewest with a stated error, meet larger shares of a pixel often enough. Calibrated.
+// Sixteen samples, the fewest with a stated error, hit larger shares of a pixel often enough. Calibrated.
 constexpr double largest_share = 0.5;
 
 // A lamp's disc on the image, in pixels from its top left corner.
@@ -37,8 +37,7 @@ double ahead(double way) {
 }
 
 // Distance from the origin along a unit vector at which a ray enters a ball, or leaves it if it begins inside; infinite
-// for a miss. Only the first position of a moving ball or capsule is used. It never hides more than the whole path
-// does.
+// for a miss. Uses the first position of a moving ball or capsule, which never hides more than the whole path.
 double way_to(const MovingBall &ball, const glm::dvec3 &direction) {
     const double along = glm::dot(ball.open, direction);
     const double beside = glm::length(ball.open - along * direction);
@@ -108,7 +107,7 @@ Disc disc_of(const glm::dvec3 &center, double radius, const Camera &camera, cons
 }
 
 // Adds the pixels of a disc, in squares large enough that no disc has many. Thin lines of the disc are divided among
-// the squares that they cross. of_disc: with the share of the disc's samples that meet the lamp.
+// the squares that they cross. of_disc: with the share of the disc's samples that hit the lamp.
 void add_pieces(std::vector<LampPiece> &pieces, std::size_t first, Disc disc, int lines, const LampPiece &of_disc,
                 const Window &window) {
     constexpr double few = 4.0; // squares along a radius
@@ -237,8 +236,8 @@ void add(ExpectedSquares &to, double square, double meetings) {
 
 } // namespace
 
-// The number of samples that meet a piece has a Poisson distribution. The pieces that would err most if met, and
-// together are hardly met once, count as missed, as they are in most pictures.
+// The number of samples that hit a piece has a Poisson distribution. The pieces that would err most if hit, and
+// together are hardly hit once, count as missed, as in most pictures.
 UnmetSquares unmet_squares(const std::vector<LampPiece> &pieces, double offset, bool is_random,
                            const std::function<std::uint64_t(const LampPiece &)> &samples) {
     std::vector<UnmetPiece> unmet;

@@ -27,14 +27,12 @@ struct LampPiece {
     double enough_samples(bool is_random) const;
 };
 
-// Emitting spheres in these rows that cover less than half a pixel, or that less than half of a pixel's samples meet,
-// because they move, are out of focus, or shine through translucent spheres. Opaque surfaces before its center hide a
-// lamp.
+// Emitting spheres in these rows that cover less than half a pixel, or that less than half of a pixel's samples hit:
+// they move, are out of focus, or shine through translucent spheres. Opaque surfaces before its center hide a lamp.
 std::vector<LampPiece> small_lamps_in_view(const PreparedScene &scene, const Camera &camera, std::uint32_t width,
                                            std::uint32_t height, std::uint32_t first_row, std::uint32_t row_count);
 
-// Samples of a pixel that are enough for a lamp; 0 if the pixel without it would have a relative square, as below,
-// under a hundredth.
+// Samples of a pixel that suffice for a lamp; 0 if the pixel without it has a relative square under a hundredth.
 std::uint64_t samples_to_meet(const LampPiece &piece, double offset, bool is_random);
 
 // The expected sum of squared errors, and its variance.
@@ -53,10 +51,10 @@ struct UnmetSquares {
 };
 
 // For lamps that a pixel's samples(piece) are too few to show. A piece that covers a share p of the pixel is hit by n p
-// of n samples, with the variance n p (1 - p) if they are random. Quasi-random points lie one in each of n
-// cells, so chance is left only in the cells at the piece's edge: some 4.5 sqrt(n p) for a disc, with 0.13 each, or 0.6
-// sqrt(n p) together (the test counts). The mean, whose limit is p E, errs by E / n times the root of the variance.
-// offset: as in (x - r)^2 / (r^2 + offset).
+// of n samples, with the variance n p (1 - p) if they are random. Quasi-random points lie one in each of n cells, so
+// chance is left only in cells at the piece's edge: some 4.5 sqrt(n p) for a disc, with 0.13 each, or 0.6 sqrt(n p) in
+// all. The mean, whose limit is p E, errs by E / n times the root of the variance. offset: as in (x - r)^2 / (r^2 +
+// offset).
 UnmetSquares unmet_squares(const std::vector<LampPiece> &pieces, double offset, bool is_random,
                            const std::function<std::uint64_t(const LampPiece &)> &samples);
 

@@ -15,8 +15,7 @@ constexpr double same_size = 0x1p-18;
 // Relative to the distance: four times the spacing of numbers that hold the center.
 constexpr double same_place = 0x1p-21;
 // Planes that differ by more have distinct vertices, whose positions are known to 2^-22 of the distance. Planes at this
-// angle are closer in a band of 2^-14 of the distance, parallel ones in a strip of 2^-14 below the horizon: both less
-// than a pixel.
+// angle are closer in a band of 2^-14 of the distance, parallel ones in such a strip below the horizon: under a pixel.
 constexpr double two_planes = 0x1p-8;
 
 // Incommensurable, for spheres on a lattice: 1, sqrt(2), sqrt(3) over sqrt(6).

@@ -58,8 +58,8 @@ inline constexpr std::size_t sample_size = 4096;
 
 inline constexpr std::size_t sampled_from = 4 * sample_size;
 
-// Calls use(item) for all, or one item from anywhere in each of sample_size equal runs, so that no pattern in the order
-// matters. Deterministic.
+// Calls use(item) for all, or one item from anywhere in each of sample_size equal runs, against patterns in the order.
+// Deterministic.
 template <typename Use>
 void for_each_or_sample(Items items, Use use) {
     if (items.size() < sampled_from) {

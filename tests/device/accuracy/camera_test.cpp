@@ -58,7 +58,7 @@ std::vector<Item> items() {
 constexpr Real bound = (2.9L + 2 + 15.5L) * half_ulp;
 
 // Distance in the plane of focus between lens ray and pinhole ray, over their length. Radius: origin 2 u, its opposite
-// in the direction 2 u, lack of unit length, place in the image 2 u: 7 u. `bound` is added.
+// in the direction 2 u, lack of unit length, position in the image 2 u: 7 u. `bound` is added.
 Real lens_bound(Real radius, Real distance) {
     return 7 * half_ulp * radius / distance + bound;
 }
