@@ -50,7 +50,8 @@ class Images:
         self.renderer.accumulate(samples)
         radiance = np.array(self.renderer.image(), np.float32).reshape(size[1], size[0], 3)
         counts = SimpleNamespace(sample_count=samples, max_sample_count=samples)
-        return pt.Image(radiance, radiance, np.full((*radiance.shape[:2], 1), samples), None, counts)
+        error = SimpleNamespace(uncertain=pt.Uncertain.UNMET if estimator == "bsdf" else pt.Uncertain(0))  # as of films
+        return pt.Image(radiance, radiance, np.full((*radiance.shape[:2], 1), samples), error, counts)
 
 
 def probabilities(images, fields, pairs):
