@@ -84,7 +84,7 @@ bool sphere_blocks(vec3 to_centre, float radius, vec3 direction, bool at_end, fl
 //
 // Rounding shifts the ends across the ray by d <= 2^-22 (|to_first| + L), so s by e = d / |p| and the hit distance by
 // e^2 / (2 h |p|). If |p|^2 < 2 d / h, the ray might miss the ball, so h - d replaces h. The hit distance is then too
-// large by at most d / |p|, as if the ends were shifted by d.
+// large by at most d / |p|.
 vec3 swept_to(vec3 to_first, vec4 axis, float radius, vec3 direction, bool to_last)
 {
     vec3 unit = axis.xyz * axis.w;

@@ -67,7 +67,7 @@ float byte_as_float(uint word, uint i)
 }
 
 // The part of a node that a ray enters before a distance. Distances are compared as integers: negative ones lose
-// against 0, as they should.
+// against 0.
 struct Entered {
     uint node;   // nearest child
     uint others; // a group

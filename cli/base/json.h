@@ -25,7 +25,7 @@ struct JsonStep {
     bool operator==(const JsonStep &) const = default;
 };
 
-using JsonPath = std::vector<JsonStep>; // from the root
+using JsonPath = std::vector<JsonStep>; // steps from the root
 
 // spheres[3].radius, materials["blue ball"].diffuse[0]
 std::string path_text(const JsonPath &path);

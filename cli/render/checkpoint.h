@@ -41,8 +41,8 @@ private:
     Clock::time_point due_;
     Clock::time_point saved_at_;
     std::chrono::duration<double> write_time_{0};
-    std::uint32_t saved_count_ = 0;   // in the film being written or written last
-    std::uint32_t written_count_ = 0; // in the file
+    std::uint32_t saved_count_ = 0;   // samples in the film being written or written last
+    std::uint32_t written_count_ = 0; // samples in the file
     bool has_told_failure_ = false;
     std::vector<std::byte> film_;
     BackgroundTask task_; // destroyed first: it uses the other members

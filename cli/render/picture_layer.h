@@ -34,7 +34,7 @@ inline constexpr ValueNames<7, FileLayer> file_layers({
 struct PictureLayer {
     std::uint32_t quantity;             // PT_QUANTITY_*
     std::vector<float> values;          // from the top left; empty for objects
-    std::vector<std::uint32_t> numbers; // for objects, one per pixel
+    std::vector<std::uint32_t> numbers; // objects, one per pixel
 
     PictureLayer(std::uint32_t of_quantity, std::size_t pixel_count);
 
@@ -53,9 +53,9 @@ struct RenderedImage {
     std::vector<float> radiance{}; // black below rows_done
     std::vector<float> raw{};      // mean of the samples, if the picture is denoised
     std::vector<PictureLayer> layers{};
-    std::uint32_t rows_done = 0; // with samples
-    pt_stats stats{};            // of these rows; sample_count is the least
-    pt_error_estimate error{};   // of these rows
+    std::uint32_t rows_done = 0; // rows with samples
+    pt_stats stats{};            // statistics of these rows; sample_count is the least
+    pt_error_estimate error{};   // error of these rows
 };
 
 } // namespace cli

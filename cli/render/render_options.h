@@ -48,7 +48,7 @@ inline std::optional<std::string> numbered_name(const std::string &pattern, std:
 
 struct OutputOptions {
     std::vector<std::string> images;
-    std::optional<ImageFormat> format; // of standard output
+    std::optional<ImageFormat> format; // standard output's format
     std::vector<std::uint32_t> layers; // PT_QUANTITY_*, in .exr files beside the radiance
     std::string film;                  // empty: none
     std::string stats;

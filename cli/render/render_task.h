@@ -11,9 +11,9 @@ namespace cli {
 struct RenderTask {
     RenderOptions options;
     SceneFile scene;            // before load() without files of columns
-    pt_render render;           // of the whole picture
+    pt_render render;           // settings of the whole picture
     ImageWindow window;         // the part to be rendered
-    std::uint32_t sample_count; // of each half; the most if a rule may end the rendering
+    std::uint32_t sample_count; // samples of each half; the most if a rule may end the rendering
 
     // Throws Failure for an impossible crop or impossible samples.
     RenderTask(RenderOptions chosen, SceneFile file);

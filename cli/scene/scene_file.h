@@ -51,7 +51,7 @@ struct Capsule {
 
 struct SceneFile {
     std::string path;
-    std::string text; // for line numbers in messages
+    std::string text; // gives messages their line numbers
     std::vector<SceneOverride> overrides;
     std::vector<JsonPath> given;             // keys of `camera`, `film` and `render`
     std::vector<std::string> material_names; // all arrays from here on are in the file's order
@@ -65,7 +65,7 @@ struct SceneFile {
     std::vector<AnimatedValue> animation;
     pt_camera camera = default_camera();
     pt_render render = default_render();
-    std::optional<std::uint32_t> sample_count; // of a pixel
+    std::optional<std::uint32_t> sample_count; // samples of a pixel
     Display display;
 
     void add_sphere(const pt_sphere &sphere, const std::optional<Look> &look);

@@ -22,7 +22,7 @@ inline constexpr std::size_t item_depth = 2;
 struct SceneOverride {
     JsonPath path;
     nlohmann::json value;
-    std::string source;       // for messages: "--set camera.vertical_fov=30"
+    std::string source;       // shown in messages: "--set camera.vertical_fov=30"
     ExitCode blame;           // if the value is wrong
     bool is_its_name = false; // messages call the value "--spp", not by its path
 

@@ -62,8 +62,8 @@ private:
     void *user_ = nullptr;
     double begin_ = 0.0; // share of the whole
     double end_ = 0.0;
-    double work_ = 1.0; // of the stage
-    double done_ = 0.0; // of the stage
+    double work_ = 1.0; // the stage's work
+    double done_ = 0.0; // its finished part
     std::size_t untold_ = 0;
 };
 

@@ -9,7 +9,7 @@
 
 namespace pt {
 
-// An estimate and its bounds of 95% confidence.
+// Bounds have 95% confidence.
 struct Interval {
     double estimate;
     double low;

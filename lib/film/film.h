@@ -93,9 +93,9 @@ private:
 
     FilmFacts facts_;
     std::vector<Tile> tiles_;
-    FilmHeader header_; // of the tiles
+    FilmHeader header_; // describes the tiles
     Rectangle bounds_;
-    mutable FilmErrors errors_; // of earlier looks, so that the next sees only changed tiles
+    mutable FilmErrors errors_; // earlier checks' errors, so that the next reads only changed tiles
 };
 
 } // namespace pt

@@ -9,7 +9,7 @@
 namespace pt {
 
 struct FilmFacts {
-    std::uint32_t width; // of the whole image
+    std::uint32_t width; // the whole image's width
     std::uint32_t height;
     std::uint32_t max_path_length;
     std::uint64_t seed;

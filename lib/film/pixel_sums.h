@@ -87,7 +87,7 @@ private:
 
 struct PixelValue {
     float mean;           // 0 if all samples were rejected
-    float standard_error; // the mean's, from its parts; infinity if one is empty, as with up to 8 samples
+    float standard_error; // error of the mean, from its parts; infinity if one is empty, as with up to 8 samples
     float lesser;         // lesser mean of the parts; 0 where the standard error is infinity
 };
 

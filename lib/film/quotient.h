@@ -20,7 +20,7 @@ public:
 private:
     std::uint64_t normal_;     // the divisor times a power of two, in [2^31, 2^32)
     std::uint64_t reciprocal_; // 2^64 / normal_, at most 1 too small
-    double factor_;            // of quotients by normal_
+    double factor_;            // makes quotients by normal_
 };
 
 // a, b: samples of two parts. Sums are in units of 2^exponent.
@@ -36,7 +36,7 @@ public:
     // Requires samples in both parts. standard_error: of the mean, derived at gpu::ErrorDivisor.
     struct Difference {
         float standard_error;
-        float lesser; // of the parts' means
+        float lesser; // lesser mean of the parts
     };
     Difference difference(WideSum sum_a, WideSum sum_b) const;
 

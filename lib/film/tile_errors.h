@@ -26,7 +26,7 @@ using gpu::squared;
 struct TileValues {
     std::size_t width;
     std::size_t height;
-    double sample_count;      // of a pixel
+    double sample_count;      // samples of a pixel
     std::uint64_t rejected{}; // samples left out
     // In each channel, row by row; rows are tile_size apart even in narrower tiles.
     std::array<std::array<PixelValue, 3>, tile_size * tile_size> pixels{};

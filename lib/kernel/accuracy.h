@@ -16,7 +16,7 @@ struct ElementaryFunction {
     const char *name;
     double (*exact)(double);
     double bound;                  // on the error of conforming devices, in ulp
-    float first, last;             // of one sign; |last| > |first|
+    float first, last;             // same sign; |last| > |first|
     std::span<const float> places; // where it switches formulas
 };
 

@@ -16,7 +16,7 @@
 namespace pt {
 
 struct ErrorQuery {
-    double unit; // of the film, a power of two, in radiance
+    double unit; // radiance per unit of the film, a power of two
     const TileSamples &samples;
     std::span<double> by_tile{}; // receives each tile's own_square() (tile_errors.h), unless empty
 };

@@ -17,7 +17,7 @@ constexpr bool is_of_first_hits(std::uint32_t quantity) {
 }
 
 struct FirstHitQuery {
-    Rectangle pixels;       // of the image, at least one
+    Rectangle pixels;       // region of the image, at least one pixel
     std::uint32_t quantity; // must satisfy is_of_first_hits()
     std::uint32_t format;   // PT_FORMAT_*
 };

@@ -19,8 +19,8 @@ struct GpuScene {
     std::vector<glm::vec4> words;
     gpu::FrameConstants frame;
     std::shared_ptr<const SphereTree> tree; // may be NULL
-    double start_distance;                  // of the coordinates' origin from the pinhole, along the view
-    std::vector<std::uint32_t> objects;     // of the surfaces outside the tree, in the caller's scene
+    double start_distance;                  // pinhole to the coordinates' origin, along the view
+    std::vector<std::uint32_t> objects;     // scene indices of the surfaces outside the tree
 
     // surface: the kernels' number. PT_NO_OBJECT for NO_SURFACE.
     std::uint32_t object_of(std::uint32_t surface) const;

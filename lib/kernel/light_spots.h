@@ -14,7 +14,7 @@ struct LightSpot {
     std::uint32_t lamp;
     std::uint32_t surface;
     float reflectance; // mean of R, G and B
-    float glossiness;  // of a mirror image; -1 for a glow
+    float glossiness;  // a mirror image's gloss; -1 for a glow
 };
 
 // Empty for short paths, many lamps, or more than SPOT_LIMIT spots. Independent of the camera, so that a moving one

@@ -20,7 +20,7 @@ struct PreparedScene {
     // bright are accepted; samples 2^-44 times as bright are exact.
     double film_unit;
     std::vector<Material> used_materials;    // in the scene's order
-    std::vector<std::uint32_t> used_indices; // from the scene's materials into used_materials
+    std::vector<std::uint32_t> used_indices; // scene's material to index in used_materials
     bool gloss;                              // some used material has a specular lobe
     std::shared_ptr<const SphereTree> tree;  // most spheres if there are many, else NULL
     bool moves;

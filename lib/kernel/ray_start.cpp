@@ -56,7 +56,7 @@ double angle_from_middle(const glm::dvec3 &point, const View &view) {
 // cos(angle) is written as (d^2 - r^2) / (b + sqrt(...)), which does not cancel for small far balls.
 double depth_of_ball(const glm::dvec3 &centre, double radius, const View &view) {
     const double distance = glm::length(centre);
-    const double power = (distance - radius) * (distance + radius); // the camera's with respect to the ball
+    const double power = (distance - radius) * (distance + radius); // the camera's power with respect to the ball
     if (power <= 0.0)
         return 0.0;
     const double angle = angle_from_middle(centre, view);

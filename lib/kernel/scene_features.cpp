@@ -183,7 +183,7 @@ std::uint32_t branch_count(const Features &features) {
 
 namespace {
 
-// How many more lamps than branches there are, if the first vertex samples every lamp; else 0.
+// Number of lamps in excess of branches, if the first vertex samples every lamp; else 0.
 std::uint32_t further_lamps(const Features &features, std::uint32_t branches) {
     const std::uint32_t lamps = features[gpu::ID_LAMP_COUNT] > gpu::EVERY_LAMP_LIMIT ? 0 : features[gpu::ID_LAMP_COUNT];
     return lamps - std::min(lamps, branches);

@@ -18,8 +18,8 @@ namespace pt {
 struct Features {
     // By gpu::ID_*, so far as scene, camera and settings decide them.
     std::array<std::uint32_t, gpu::CONSTANT_COUNT> constants{};
-    std::uint32_t most_branches = 0;   // from a path's first vertex
-    std::uint32_t table_materials = 0; // in the table, if the scene is not in the uniform buffer
+    std::uint32_t most_branches = 0;   // maximum branches at a path's first vertex
+    std::uint32_t table_materials = 0; // number of materials in the table, if the scene is not in the uniform buffer
 
     bool operator==(const Features &) const = default;
 

@@ -91,7 +91,7 @@ private:
     // Started on one device after the other. If one fails, complete() continues from there.
     struct Begun {
         TileSlice slice;
-        const RenderDevice *taker; // of its samples
+        const RenderDevice *taker; // takes the slice's samples
         TileSamples samples;       // including the slice's
         bool is_estimated;
         std::size_t next_device = 0;
@@ -112,14 +112,14 @@ private:
     const Cancellation &cancellation_;
     std::uint64_t wanted_;
     std::uint64_t done_ = 0;
-    TileSamples samples_; // in the films or begun
+    TileSamples samples_; // samples in the films or begun
     std::vector<std::uint32_t> all_tiles_;
     std::uint32_t first_sample_;
     TileTasks tasks_;
     std::optional<double> unit_of_error_;
     std::optional<Begun> begun_;
     bool has_estimate_ = false;
-    bool stopped_ = false; // by the caller or a failure
+    bool stopped_ = false; // the caller or a failure stopped it
 };
 
 } // namespace pt

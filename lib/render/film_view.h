@@ -76,7 +76,7 @@ private:
 
     const RenderDevices &devices_;
     FilmErrors errors_;
-    std::list<Sum> sums_; // by the sizes of bands, at most two
+    std::list<Sum> sums_; // at most two, for different sizes of bands
 };
 
 } // namespace pt

@@ -1,4 +1,4 @@
-// Tells whether an estimate of the error can know about all lamps.
+// Whether an error estimate can know about all lamps.
 #pragma once
 
 #include "lib/film/error_estimate.h"
@@ -15,7 +15,7 @@ namespace pt {
 // be missed, since lamps around the camera do not count. Important lamps give at least a hundredth of the light there.
 double smallest_lamp_share(std::span<const Sphere> lamps, std::span<const Material> materials, const Camera &camera);
 
-// Whether a lamp or lobe is found only by chance and is so small that few of these samples, if any, have hit it.
+// Whether a lamp or lobe is found only by chance and too small for these samples to have hit it often.
 bool may_miss_lamps(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings,
                     std::uint64_t samples);
 

@@ -129,11 +129,11 @@ private:
     std::unique_ptr<TracePipelines> pipelines_; // never NULL
     double target_seconds_;
     double tests_per_second_;                 // assumed for kernels not measured yet
-    std::optional<ResolvePipelines> resolve_; // of the code; made on first use
+    std::optional<ResolvePipelines> resolve_; // made on first use
     std::optional<vulkan::ComputePipeline> estimate_;
-    std::optional<vulkan::ComputePipeline> add_; // for films of several devices
+    std::optional<vulkan::ComputePipeline> add_; // adds films of several devices
     std::optional<DeviceFilm> film_;
-    std::optional<ImageReader> image_reader_; // of the film; made on first use
+    std::optional<ImageReader> image_reader_; // made on first use
     std::optional<BufferWriter> buffer_writer_;
     std::optional<ErrorReader> error_reader_;
     std::shared_ptr<const SphereTree> tree_;
@@ -142,7 +142,7 @@ private:
     std::optional<Coverage> coverage_;
     std::optional<Kernel> kernel_;
     std::optional<Schedule> schedule_;
-    std::vector<Work> under_way_; // in order of start; has room for all
+    std::vector<Work> under_way_; // started in this order; has room for all
     bool film_is_void_ = true;    // to be cleared before use
 };
 

@@ -56,9 +56,8 @@ struct CreateSettings {
 
 std::vector<pt_device_info> list_devices();
 
-// Methods throw pt::Error. A failed method has changed nothing, except that a lost device stays lost, and that methods
-// that take samples keep whole ones. While samples are under way, only poll(), cancel() and const methods may be
-// called.
+// Methods throw pt::Error. A failed method has changed nothing, except that a lost device stays lost and whole samples
+// are kept. While samples are under way, only poll(), cancel() and const methods may be called.
 class Renderer {
 public:
     explicit Renderer(const CreateSettings &settings);

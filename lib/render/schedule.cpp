@@ -41,9 +41,8 @@ double Schedule::expected_seconds(double paths) const {
 }
 
 // A submission takes an overhead o and a time 1 / r per path, which one measurement cannot tell apart. So all time
-// beyond the expected counts as overhead. That is exact for a submission of the whole budget; small ones hardly change
-// it. The step x -> x t / (o + x / r) has the only stable fixed point x = r (t - o), where a submission takes
-// target_seconds.
+// beyond the expected counts as overhead: exact for a submission of the whole budget; small ones hardly change it. The
+// step x -> x t / (o + x / r) has the only stable fixed point x = r (t - o), where a submission takes target_seconds.
 void Schedule::measured(double paths, double seconds) {
     if (!(seconds >= 0.0))
         return;

@@ -15,12 +15,12 @@ struct Camera {
     glm::dvec3 right;    // orthonormal with the next two; right x up points backwards
     glm::dvec3 up;
     glm::dvec3 forward;
-    double tan_half_fov; // of the vertical field of view; 0: parallel rays
+    double tan_half_fov; // tangent of half the vertical angle; 0: parallel rays
     double shutter_open; // 0 <= open <= close <= 1
     double shutter_close;
-    double vertical_extent = 0.0; // of parallel rays' view; 0: perspective
-    double start_distance = 0.0;  // from pt_camera.position (ray_start.h)
-    double start_radius = 0.0;    // of the disc around position where rays start; 0: a point
+    double vertical_extent = 0.0; // height of parallel rays' view; 0: perspective
+    double start_distance = 0.0;  // distance from pt_camera.position (ray_start.h)
+    double start_radius = 0.0;    // radius of the disc around position where rays start; 0: a point
     double lens_radius = 0.0;     // 0: a pinhole, or parallel rays
     double focus = 0.0;           // along forward; 0 without a lens
 

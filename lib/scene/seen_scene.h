@@ -12,7 +12,7 @@
 namespace pt {
 
 struct SeenSphere : MovingBall {
-    double distance;        // of the center as the shutter opens
+    double distance;        // distance of the center as the shutter opens
     std::uint32_t material; // index into Scene::materials
     std::uint32_t index;    // into Scene::spheres
     bool emits;

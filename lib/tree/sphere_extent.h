@@ -33,7 +33,7 @@ struct SphereExtent {
     PointBox box{glm::dvec3(std::numeric_limits<double>::infinity()),
                  glm::dvec3(-std::numeric_limits<double>::infinity())};
     double largest_radius = 0.0;
-    bool moves = false; // in the tree or left out: a kernel reads the ways of all or of none
+    bool moves = false; // a sphere moves, perhaps one left out: a kernel reads the ways of all or of none
     Kinds kinds;
     std::uint32_t lamp_count = 0;
 

@@ -30,7 +30,7 @@ struct TreeLinks {
 
 struct TreeShape {
     std::vector<TreeLinks> nodes;       // the root first, each before its children
-    std::vector<std::uint32_t> spheres; // by place
+    std::vector<std::uint32_t> spheres; // index by slot
     std::uint32_t depth;                // nodes on the longest way down, with the root
 };
 

@@ -23,7 +23,7 @@ using FilmBytes = std::vector<char>;
 constexpr uint32_t uneven_width = 40;
 constexpr uint32_t uneven_height = 24;
 
-// Without the validation layer, whose calls and memory would be counted too.
+// Without the validation layer, whose calls and memory would be counted.
 Context context_of(uint32_t device_count) {
     pt_create_info info{};
     info.struct_size = sizeof info;

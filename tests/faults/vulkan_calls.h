@@ -25,7 +25,7 @@ CallFault call_fault();
 
 void heal_devices();
 
-// Devices report that they are discrete GPUs. So the library uses staging buffers, two submissions and a time limit.
+// Devices pose as discrete GPUs, with staging buffers, two submissions at a time and a time limit.
 void pose_as_gpu(bool pose);
 
 void limit_memory(std::uint64_t bytes);

@@ -201,7 +201,7 @@ class Binary(InAFolder):
 
 
     def test_dcd_without_a_cell(self):
-        """The file is written by hand; each record stands between its lengths, and cells are like MDAnalysis's."""
+        """Written by hand, with cells like MDAnalysis's."""
         def record(data):
             return struct.pack("<i", len(data)) + data + struct.pack("<i", len(data))
         path, topology = self.folder / "a.dcd", self.folder / "a.gro"

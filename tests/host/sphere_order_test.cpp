@@ -130,7 +130,7 @@ TEST(SphereOrder, LeavesTheFirstOfTwins) {
     expect_well_linked(shape);
 }
 
-// A sphere's bits are slow to read: once for its hash, and again if another sphere has the same hash.
+// Bits are slow to read: once for a hash, and again for spheres with equal hashes.
 TEST(SphereOrder, ReadsTheBitsOfASphereThreeTimesAtTheMost) {
     for (const bool are_twins : {false, true})
         for (const Kind &kind : kinds()) {

@@ -21,7 +21,7 @@ typedef struct pt_broken_rule {
     /** "materials", "spheres", "planes" or "sphere_arrays" of pt_scene; "scene", "camera", "render", "accumulate",
      * "image", "stats", "create", "vulkan" or "denoise" for the struct itself; or the name of another argument */
     const char *subject;
-    const char *member; /**< of the subject's struct, or "center.type"; "" for a rule about the argument itself */
+    const char *member; /**< the subject's member, or "center.type"; "" for a rule about the argument itself */
     const char *with;   /**< other factors of the value, as "* height" beside "width"; else "" */
     const char *value;  /**< "-1", "NULL" */
     const char *rule;   /**< "must be > 0" */

@@ -49,7 +49,7 @@ typedef struct pt_film pt_film;
 /** The picture that a film belongs to, and its part of it. */
 typedef struct pt_film_info {
     uint32_t struct_size;     /**< sizeof(pt_film_info); must be set by the caller */
-    uint32_t width;           /**< the whole image's, pixels */
+    uint32_t width;           /**< the whole image's width, pixels */
     uint32_t height;          /**< likewise */
     uint32_t x;               /**< first column of the smallest rectangle of the image with all pixels of the film */
     uint32_t y;               /**< its first row */
