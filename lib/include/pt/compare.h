@@ -39,7 +39,7 @@ typedef struct pt_compare_info {
     uint32_t height;      /**< pixels, >= 1; width * height <= 2^32 - 1 */
     uint32_t look; /**< number, from 1, of this look at growing images: look k has the rate / (k (k + 1)), so that
                     * all looks together have the rate. 0: the only look */
-    pt_compared_image first;
+    pt_compared_image first;  /**< the image to be judged */
     pt_compared_image second; /**< the reference: changes are shares of its light */
     double rate;              /**< probability of calling equal light different; in (0, 0.5], 0 for 10^-6 */
     double min_change;        /**< change of the light that must not be missed, as a share; >= 0, 0 for 1 */
