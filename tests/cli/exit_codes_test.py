@@ -50,6 +50,7 @@ CASES = [
     (7, ["merge", "first.ptfilm", "second.ptfilm", "--film", "sum.ptfilm", "--first-sample", "0", "--spp", "9"], {},
      "pt: ", ["sum.ptfilm"]),
     (8, ["compare", "dark.png", "bright.png", "--max-mse", "0"], {}, "pt: ", []),
+    (9, ["compare", "first.ptfilm", "second.ptfilm", "--min-change", "1e-5"], {}, "pt: too few samples to tell", []),
     (75, [*ENDLESS, "--checkpoint", "c.ptfilm"], {"FAKE_PT_SAMPLE_MS": 5}, "", ["a.png", "c.ptfilm"]),
     (129, RENDER, {"FAKE_PT_SIGNAL": "1:5"}, "pt: stopped by SIGHUP after 1 of 4 samples", ["a.png"]),
     (130, RENDER, {"FAKE_PT_SIGNAL": "2:5"}, "pt: stopped by SIGINT after 1 of 4 samples", ["a.png"]),

@@ -76,7 +76,7 @@ class Command(unittest.TestCase):
                 (["-o", "a.png", "--part-seconds", "nan"], 2, "number of 0.1 or more, is 'nan'"),
                 (["-o", "a.png", "--resume"], 2, "--resume: needs --checkpoint"),
                 (["-o", "a.png", "--tls", "a", "b", "c"], 2, "--tls: needs --scheduler"),
-                (["-o", "a.png", "--checkpoint", "scene.json"], 2, "scene.json: is there already"),
+                (["-o", "a.png", "--checkpoint", "scene.json"], 2, "scene.json: exists"),
                 (["-o", "a.png", "--frames", "0-1", "--checkpoint", "k"], 2, "--checkpoint: not with --frames"),
                 (["-o", "a.png", "--spp", "0"], 2, '^pt-farm: --spp: must be .*, is 0'),
                 (["-o", "a.png", "--scheduler", "nowhere"], 4, "--scheduler nowhere: ")):
