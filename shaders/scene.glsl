@@ -178,7 +178,7 @@ Ball ball_of(uint surface, float time)
     return ball_among(SPHERE_COUNT, surface, time);
 }
 
-// By a lamp's number.
+// A lamp's sphere by the lamp's number.
 vec4 sphere_of_lamp(uint lamp, float time)
 {
     if (TREE_LAMPS > 0u && lamp >= WALKED_LAMPS)

@@ -14,7 +14,7 @@
 
 namespace cli {
 
-// What the test needs of a picture.
+// A picture for the test.
 struct TestedImage {
     ImageWindow window;
     std::span<const float> radiance; // three values a pixel

@@ -27,7 +27,7 @@ constexpr double rounding_share = 1e-4;
 constexpr double sign_constant = 3.178;
 
 // The darker image must have met light in as many pixels. With k rare events the skewness is 1 / sqrt(k), and the least
-// probability about exp(-k / 6): that of 125 is 10^-9.
+// probability about exp(-k / 6), 10^-9 with 125.
 constexpr double least_lit = 125.0;
 
 // Deviations that a change found with 99% is above the least that is found: 2.33, and more for estimated deviations.
@@ -194,15 +194,15 @@ public:
         event_(std::max(events.absolute, events.relative * std::max(sums.light, 0.0) / pixel_count)),
         deviation_(std::sqrt(sums.squares)) {}
 
-    // That equal light shows such a difference.
+    // The probability that equal light shows such a difference, at most.
     double probability() const {
         const double sign = sums_.difference < 0.0 ? -1.0 : 1.0;
         const double excess = std::abs(sums_.difference) - rounding_share * std::abs(sums_.light);
         return has_light(sign) && excess > 0.0 ? probability_of(excess, deviation_, skewness(sign)) : 1.0;
     }
 
-    // As a share of the light, found with 99% at this rate. A change a adds a^2 times the squared light to the squared
-    // differences.
+    // The smallest change, as a share of the light, that is found with 99% at this rate. A change a adds a^2 times the
+    // squared light to the squared differences.
     double smallest_change(double rate) const {
         const double worst_skewness = std::max(skewness(-1.0), skewness(1.0));
         const auto is_found = [&](double change) {
@@ -223,7 +223,7 @@ public:
     }
 
 private:
-    // Of the image that is darker with this sign.
+    // Whether the image that is darker with this sign has met light.
     bool has_light(double sign) const {
         return sign < 0.0 ? knowledge_.of_first && sums_.first_lit >= least_lit
                           : knowledge_.of_second && sums_.second_lit >= least_lit;

@@ -4,7 +4,7 @@
 
 PT_LIBRARY names the library. Without --changes: pairs of equal light, N for each scene and kind of pair, in which the
 other image has another method or number of samples; all images have their own seeds, and each is in up to four pairs.
-Scenes are those of the benchmark and ten difficult ones: lamps below a pixel, caustics, mostly black. With --changes:
+The scenes are the benchmark's and ten difficult ones: lamps below a pixel, caustics, mostly black. With --changes:
 how many of the benchmark's scenes show a change of their brightest lamp, of a material or of a tile.
 """
 

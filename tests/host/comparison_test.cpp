@@ -54,12 +54,12 @@ pt_comparison compared(const pt_compare_info &info) {
     return comparison;
 }
 
-// With the mean 1.
+// Normal noise of the mean 1.
 Noise normal(double deviation) {
     return [=](std::mt19937 &random) { return std::normal_distribution(1.0, deviation)(random); };
 }
 
-// Of the mean 1: events that a share of the pixels has met.
+// Noise of the mean 1: events that a share of the pixels has met.
 Noise rare_events(double share) {
     return [=](std::mt19937 &random) { return std::poisson_distribution<int>(share)(random) / share; };
 }
@@ -140,7 +140,7 @@ TEST(Comparison, TheConstantOfSignsHolds) {
     }
 }
 
-// Of a Poisson number of equal events that meet a pixel each, against an image without noise.
+// A Poisson number of equal events meet a pixel each; the other image has no noise.
 TEST(Comparison, TheProbabilityIsAtLeastThatOfEvents) {
     constexpr double expected = 300.0;
     const Pixels ones(3 * pixel_count, 1.0F);
@@ -172,7 +172,7 @@ TEST(Comparison, EqualLightIsHardlyEverCalledDifferent) {
     EXPECT_LE(count_different(partly_rare(0.001, 0.05), partly_rare(0.016, 0.05), pairs, rate, 16.0), most);
 }
 
-// Such a change is found with 99%: of 300 pairs all but 10 with a probability of 99.9%.
+// The smallest change is found with 99%: of 300 pairs all but 10 with a probability of 99.9%.
 TEST(Comparison, TheSmallestChangeIsFound) {
     std::mt19937 random(3);
     for (const Noise &noise : {normal(0.02), normal(0.2), rare_events(3.0)}) {

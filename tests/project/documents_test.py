@@ -13,7 +13,7 @@ CODE = re.compile(r"\.(h|c|cpp|glsl|comp|py|json|csv|cmake|sh)$|^CMakeLists\.txt
 
 # Limits of words: of a page, and of all pages but the changes.
 MOST_WORDS = {"README.md": 1230, "CONTRIBUTING.md": 1300, "cli/README.md": 5510, "shaders/README.md": 7280,
-              "tests/bench/README.md": 1520}
+              "tests/bench/README.md": 1550}
 MOST_WORDS_IN_ALL = 26_150
 
 # A file and its text, with groups in the same order.

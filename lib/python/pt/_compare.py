@@ -35,7 +35,7 @@ class Region:
 
 @dataclass(frozen=True)
 class Comparison:
-    """What compare() found; str() is a sentence."""
+    """The result of compare(); str() is a sentence."""
 
     light: Light
     probability: float  # at most, that equal light shows such differences
@@ -78,7 +78,7 @@ def compare(first: Film | Image | npt.ArrayLike, second: Film | Image | npt.Arra
 def assert_same_light(first: Film | Image | npt.ArrayLike, second: Film | Image | npt.ArrayLike, *,
                       min_change: float = 0.01, rate: float = 1e-6) -> None:
     """For tests: AssertionError if the light differs, with the parts that differ most, or if a change by min_change of
-    all light may have been missed. Arguments are those of compare()."""
+    all light may have been missed. The arguments are as for compare()."""
     comparison = compare(first, second, rate=rate, min_change=min_change)
     if comparison.light in (Light.EQUAL_BITS, Light.SAME):
         return

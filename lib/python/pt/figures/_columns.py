@@ -1,4 +1,4 @@
-"""Finds columns by name: the one that a user names, and those of positions."""
+"""Finds columns by name: the one that a user names, and positions."""
 
 from __future__ import annotations
 
