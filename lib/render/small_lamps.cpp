@@ -160,8 +160,8 @@ void add_lamp(std::vector<LampPiece> &pieces, const PreparedScene &scene, const 
     const double apart = std::max(path / moments, 1.0);
     const bool is_veiled = scene.tree && scene.tree->has_opacities();
     const std::size_t first = pieces.size();
-    for (double moment = 0.5; moment < moments; moment += 1.0) {
-        const glm::dvec3 center = lamp.open + moment / moments * lamp.way;
+    for (int moment = 0; moment < static_cast<int>(moments); ++moment) {
+        const glm::dvec3 center = lamp.open + (moment + 0.5) / moments * lamp.way;
         const Disc disc = seen(center);
         if (!disc.meets(window.width, window.row_count))
             continue;
