@@ -159,13 +159,13 @@ typedef struct pt_sphere_array {
     pt_column color;
     /** x, y, z of a second center; FLOAT32 or FLOAT64; default none. It makes each a capsule: all points no farther
      * than the radius from the segment between center and end. Capsules neither emit nor move (PT_ERROR_INVALID_SCENE);
-     * their surface is off by 2^-21 of their length and radius where these exceed the distance. In all other respects
-     * they are spheres. */
+     * their surface is off by 2^-21 of their length and radius where these exceed the distance. Capsules are spheres in
+     * all other respects. */
     pt_column end;
     /** Share of rays in [0, 1] that meet the sphere; the others pass it. The choice is random for each camera, path and
-     * shadow ray and each sphere, so the product of the spheres' 1 - opacity passes. With the default sampler a single
-     * sphere adds little noise. If several overlap, or opacity combines with antialiasing or a lamp's extent, the error
-     * falls as 1 / sqrt(samples). FLOAT32 or FLOAT64, held to a 255th; default 1.
+     * shadow ray and each sphere, so the product of the spheres' 1 - opacity passes. All samplers but PT_SAMPLER_RANDOM
+     * spread a sphere's choices evenly over 16 samples, so a single sphere adds less noise than several, which decide
+     * independently. The error falls as 1 / sqrt(samples). FLOAT32 or FLOAT64, held to a 255th; default 1.
      * Below 1 the material neither emits nor is hidden (PT_ERROR_INVALID_SCENE), and the sphere is in a tree: centers
      * are held to 2^-30 of the extent of all spheres in it, radii to a relative 2^-16. */
     pt_column opacity;
