@@ -12,8 +12,8 @@ namespace pt {
 
 namespace {
 
-constexpr double few_tiles = 8.0;  // fewer make an estimate uncertain, like as few pixels in error_estimate.cpp
-constexpr double normal_90 = 1.28; // 90% of a normal distribution lie below this many standard deviations
+constexpr double few_tiles = 8.0;
+constexpr double normal_90 = 1.28; // 90% quantile of the standard normal distribution
 
 struct Squares {
     explicit Squares(const Halves &halves) :
@@ -35,13 +35,13 @@ struct Squares {
 
     Tiles noise;
     Tiles free_products;
-    Tiles limit_products; // of the moves that limits took away
+    Tiles limit_products;
     Tiles first_moves;
     Tiles second_moves;
 };
 
 Tiles by_tile(Squares squares, const Tiles &value_counts) {
-    Tiles products = squares.first_moves; // of sums
+    Tiles products = squares.first_moves;
     for (std::size_t tile = 0; tile < products.numbers.size(); ++tile)
         products.numbers[tile] *= squares.second_moves.numbers[tile] / value_counts.numbers[tile];
     spread(squares.free_products);
@@ -53,7 +53,7 @@ Tiles by_tile(Squares squares, const Tiles &value_counts) {
     return std::move(squares.noise);
 }
 
-// Number of equal tiles with the same ratio of squares to sum.
+// Kish's effective sample size.
 double effective_count(const Tiles &sums) {
     double sum = 0.0;
     double squares = 0.0;
@@ -64,8 +64,7 @@ double effective_count(const Tiles &sums) {
     return sum > 0.0 ? squared(sum) / squares : 0.0;
 }
 
-// The root of a mean, from sums by tile. The differences of tiles, in noise and in content, make its bounds rather too
-// wide.
+// The root of the mean. The variance between tiles includes differences in content, so the interval is rather too wide.
 Interval root_mean(const Tiles &sums, const Tiles &value_counts, bool uncertain) {
     double sum = 0.0;
     double count = 0.0;

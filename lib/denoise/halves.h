@@ -1,4 +1,4 @@
-// Two images of independent noise, both filtered, and how far each value moves towards its filtered one.
+// Two images of independent noise, their filtered versions, and the move of each value towards its filtered value.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@ namespace pt {
 
 inline constexpr std::size_t channel_count = 3;
 
-// Each with width * height * 3 values.
+// Each array has width * height * 3 values.
 struct Halves {
     std::size_t width;
     std::size_t height;

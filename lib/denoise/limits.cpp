@@ -30,7 +30,7 @@ Support support_about(const Halves &halves, std::size_t x, std::size_t y, std::s
 
 float reach_at(const Halves &halves, std::size_t x, std::size_t y, std::size_t channel) {
     constexpr float most_raised = 16.0F;
-    constexpr float standard_errors = 2.0F * 1.41421356F; // two of a half, in standard errors of the mean of both
+    constexpr float standard_errors = 2.0F * 1.41421356F; // a half's standard error is sqrt(2) times the mean's
     const float own = spread_at(halves, halves.index(x, y, channel));
     const float about = median_about(halves, x, y, channel, &spread_at);
     return standard_errors * std::max(own, std::min(about, most_raised * own));
@@ -40,9 +40,8 @@ float limited(float move, float value, float reach, const Support &support) {
     return std::clamp(move, std::max(-reach, support.lowest - value), std::min(reach, support.highest - value));
 }
 
-// Shortens moves upwards (sign 1) or downwards (-1) so that their sum is at most `most`. The sum is a concave function
-// of the longest move's length, so Newton's method from 0 approaches the length from below, and ends when it passes no
-// other move.
+// Clips the moves in the direction of `sign` to one length, so that sign * sum <= most. The sum is a concave, piecewise
+// linear function of this length, so Newton's method from 0 approaches the length from below.
 void shorten(std::vector<float> &moves, std::size_t channel, float sign, double most) {
     float longest = 0.0F;
     for (std::size_t longer_before = 0;;) {
@@ -86,7 +85,7 @@ void limit_moves(Halves &halves) {
 
 void keep_mean(Halves &halves) {
     for (std::size_t channel = 0; channel < channel_count; ++channel) {
-        double square = 0.0; // of the standard error of the sum of means
+        double square = 0.0;
         for (std::size_t i = channel; i < halves.value_count(); i += channel_count)
             square += std::pow(double{spread_at(halves, i)}, 2);
         keep_mean(halves.first_move, channel, std::sqrt(square));

@@ -12,8 +12,7 @@ namespace pt {
 
 namespace {
 
-// The C interface of Open Image Denoise 2 (openimagedenoise.org, "Open Image Denoise API"). Handles are opaque
-// pointers; enumerations are as large as int.
+// The C interface of Open Image Denoise 2 (openimagedenoise.org, "Open Image Denoise API").
 constexpr int oidn_device_type_default = 0;
 constexpr int oidn_device_type_cpu = 1;
 constexpr int oidn_format_float3 = 3;
@@ -23,7 +22,7 @@ constexpr int oidn_error_unsupported_hardware = 5;
 
 class Library {
 public:
-    // The library stays loaded: threads that it has started may still end.
+    // The library is never unloaded, since its threads may outlast this object.
     explicit Library(const std::string &path) : path_(path), handle_(platform::load_module(platform::path_of(path))) {
         find("oidnNewDevice", new_device);
         find("oidnCommitDevice", commit_device);
@@ -44,7 +43,7 @@ public:
     void *(*new_device)(int type);
     void (*commit_device)(void *device);
     void (*release_device)(void *device);
-    int (*get_device_error)(void *device, const char **message); // forgets the error
+    int (*get_device_error)(void *device, const char **message); // also clears the error
     void *(*new_filter)(void *device, const char *type);
     void *(*new_buffer)(void *device, std::size_t size);
     void (*write_buffer)(void *buffer, std::size_t offset, std::size_t size, const void *from);
@@ -84,7 +83,7 @@ pt_result result_of(int error) {
     }
 }
 
-// The device keeps its errors; device NULL keeps errors of creation.
+// A null device stands for errors of device creation.
 void require_success(const Library &library, void *device) {
     const char *message = nullptr;
     const int error = library.get_device_error(device, &message);
@@ -94,7 +93,7 @@ void require_success(const Library &library, void *device) {
 
 using Handle = std::unique_ptr<void, void (*)(void *)>;
 
-// Images lie in the device's memory, since a GPU may not read the host's.
+// Copies images to device buffers, since a GPU may be unable to read host memory.
 void filter(const Library &library, void *device, const pt_denoise_info &info, float *first_filtered,
             float *second_filtered) {
     const std::size_t size = std::size_t{info.width} * info.height * 3 * sizeof(float);

@@ -1,11 +1,11 @@
-// Open Image Denoise, loaded on demand: this library does not link it, and works without it.
+// Open Image Denoise is loaded on demand. This library does not link it and works without it.
 #pragma once
 
 #include <pt/denoise.h>
 
 namespace pt {
 
-// Filters each image by itself, into memory of its size. Throws PT_ERROR_UNSUPPORTED if the library cannot be loaded.
+// Filters info.first and info.second separately. Throws PT_ERROR_UNSUPPORTED if the library cannot be loaded.
 void run_open_image_denoise(const pt_denoise_info &info, float *first_filtered, float *second_filtered);
 
 } // namespace pt

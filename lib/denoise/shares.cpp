@@ -14,7 +14,6 @@ enum Sum : std::size_t { gain, noise_square, free_products, limit_products, prod
 
 using Sums = std::array<double, sum_count>;
 
-// Sums by tile, with one kind of weights.
 class Evidence {
 public:
     explicit Evidence(const Halves &halves) : shares_(halves), sums_(shares_.numbers.size()), largest_(sums_.size()) {}
@@ -26,7 +25,7 @@ public:
             largest_[tile] = pixel;
     }
 
-    // Lowers shares to the best by all pixels, then to the best without the pixel of each tile that gains most.
+    // Lowers each share to the best share for all pixels, and to the best share without the pixel that gains most.
     void lower(Tiles &shares) {
         lower_by_sums(shares);
         for (std::size_t tile = 0; tile < sums_.size(); ++tile)

@@ -1,4 +1,4 @@
-// The 3x3 pixels around one, repeated at the image's edges, in one channel.
+// The 3x3 pixels around a pixel, in one channel. Pixels at the image's edge are repeated beyond the edge.
 #pragma once
 
 #include "lib/denoise/halves.h"
@@ -9,7 +9,6 @@
 
 namespace pt {
 
-// Calls visit(index) row by row.
 template <typename Visit>
 void for_each_about(const Halves &halves, std::size_t x, std::size_t y, std::size_t channel, Visit &&visit) {
     for (std::size_t row = 0; row < 3; ++row)
@@ -18,7 +17,6 @@ void for_each_about(const Halves &halves, std::size_t x, std::size_t y, std::siz
                                std::clamp<std::size_t>(y + row, 1, halves.height) - 1, channel));
 }
 
-// The median of value(halves, index), a float.
 template <typename Value>
 float median_about(const Halves &halves, std::size_t x, std::size_t y, std::size_t channel, Value &&value) {
     std::array<float, 9> values{};

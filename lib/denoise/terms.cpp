@@ -11,10 +11,10 @@ float mean_at(const Halves &halves, std::size_t index) {
     return 0.5F * (halves.first[index] + halves.second[index]);
 }
 
-// Estimates the square of the limit by D(A) D(B), whose factors are independent; the square of S would include noise,
-// and weigh dark places too little. A lamp that the filter spreads over dark pixels must not hide there, so the
-// estimate is limited to the square of the raw pixel or of four times the median around. Halves that met little beside
-// something bright count like a film's edges (pixel_error.h).
+// Estimates the square of the true value by D(A) D(B), since the square of S would include noise. Where a filter
+// spreads a lamp over dark pixels, this estimate is too large and would hide the error. The estimate is therefore at
+// most the square of the raw pixel or of four times the median of 3x3 pixels. The logarithm at edges is explained in
+// pixel_error.h.
 double relative_weight(const Halves &halves, std::size_t x, std::size_t y, std::size_t channel) {
     constexpr double most_above_median = 4.0;
     const std::size_t index = halves.index(x, y, channel);
@@ -23,7 +23,7 @@ double relative_weight(const Halves &halves, std::size_t x, std::size_t y, std::
     const double mean = 0.5 * (first + second);
     const double product = std::max(double{halves.first_filtered[index]} * halves.second_filtered[index], 0.0);
     double most_square = squared(mean);
-    if (mean < 0.0 || product > most_square) // else the median would change nothing
+    if (mean < 0.0 || product > most_square) // otherwise the median changes nothing
         most_square = squared(std::max(mean, most_above_median * median_about(halves, x, y, channel, &mean_at)));
     gpu::Limit limit{};
     limit.square = std::min(product, most_square) + relative_offset;

@@ -1,4 +1,4 @@
-// A value's contributions to the error, in the names of combination.h.
+// The terms of one value in the formulas of combination.h.
 #pragma once
 
 #include "lib/denoise/halves.h"
@@ -13,7 +13,7 @@ struct Terms {
     double second_move; // q
     double first_free;  // D(A) - A
     double second_free; // D(B) - B
-    double weight;      // weight of relative squares
+    double weight;      // makes a squared error relative
 
     double noise_change() const { // u
         return 0.5 * (first_move - second_move);
@@ -22,8 +22,7 @@ struct Terms {
 
 Terms terms_at(const Halves &halves, std::size_t x, std::size_t y, std::size_t channel);
 
-// The faults of a tile by combination.h. Limited moves count three times, since D(B), which stands for r, has a part of
-// the noise of B: calibrated.
+// Returns the faults of a tile (combination.h). The factor 3 is calibrated: D(B), which estimates r, has noise of B.
 inline double faults(double free_products, double limit_products, double least) {
     const double of_filter = std::max(free_products, 0.0);
     const double of_limits = std::max(limit_products, 0.0);

@@ -4,7 +4,6 @@ namespace pt {
 
 namespace {
 
-// Along one axis, for `count` tiles that are `step` apart.
 void spread(std::vector<double> &numbers, std::size_t first, std::size_t count, std::size_t step) {
     double before = numbers[first];
     for (std::size_t i = 0; i < count; ++i) {
@@ -26,7 +25,7 @@ void spread(Tiles &tiles) {
 }
 
 Place::Place(std::size_t pixel, std::size_t count) {
-    const double position = (static_cast<double>(pixel) + 0.5) / Tiles::width - 0.5; // 0: in the first one's middle
+    const double position = (static_cast<double>(pixel) + 0.5) / Tiles::width - 0.5; // 0: center of the first tile
     const double inside = std::clamp(position, 0.0, static_cast<double>(count - 1));
     first = static_cast<std::size_t>(inside);
     second = std::min(first + 1, count - 1);

@@ -1,4 +1,3 @@
-// Numbers of an image's tiles of 8x8 pixels; with its neighbors, a tile has hundreds of values.
 #pragma once
 
 #include "lib/denoise/halves.h"
@@ -21,11 +20,11 @@ struct Tiles {
     std::vector<double> numbers; // row by row
 };
 
-// Averages each tile with its neighbors, with half of the weight for each step away. Outermost tiles repeat beyond the
-// edge, so the sum of all stays.
+// Averages each tile with its neighbors by the weights 1/4, 1/2, 1/4 along both axes. Tiles at the edge are repeated
+// beyond the edge, so the sum over all tiles does not change.
 void spread(Tiles &tiles);
 
-// Between two tiles, and how near to the second.
+// The position of a pixel between the centers of two tiles. The share is the weight of the second tile.
 struct Place {
     std::size_t first;
     std::size_t second;
@@ -34,10 +33,8 @@ struct Place {
     Place(std::size_t pixel, std::size_t count);
 };
 
-// Linear between the middles of tiles, so without seams.
 double at(const Tiles &tiles, const Place &x, const Place &y);
 
-// Calls visit(tile, x, y) for all pixels, tile by tile.
 template <typename Visit>
 void for_each_pixel(const Halves &halves, Visit &&visit) {
     const Tiles tiles(halves);
