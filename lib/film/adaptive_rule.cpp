@@ -10,15 +10,15 @@ namespace pt {
 
 namespace {
 
-constexpr std::uint64_t first_level = 16; // fewer say too little about the error
+constexpr std::uint64_t first_level = 16;
 
-// Every tile takes at least half of the mean number of samples, since only more samples find light that a tile has not
-// met.
+// Each tile takes at least 1 / floor_share of the mean number of samples. Otherwise a tile would stop before a sample
+// has hit its light.
 constexpr std::uint64_t floor_share = 2;
 
 constexpr double root_of_half = 0.70710678118654752440;
 
-// 2^(-halves / 2), the same on all machines.
+// Returns 2^(-halves / 2), with the same bits on all machines.
 double power_of_halves(std::int32_t halves) {
     const std::int32_t wholes = halves >> 1; // rounded down
     return std::ldexp((halves & 1) != 0 ? root_of_half : 1.0, -wholes);
@@ -28,14 +28,14 @@ double bound_of(std::int32_t round) {
     return power_of_halves(round);
 }
 
-// The last round whose bound is not below a gain > 0: -2 log2(gain), rounded down.
+// Returns the last round whose bound is at least `gain`.
 std::int32_t last_content_round(double gain) {
     int exponent = 0;
     const double fraction = std::frexp(gain, &exponent); // in [1/2, 1)
     return -2 * exponent + (fraction <= 0.5 ? 2 : fraction <= root_of_half ? 1 : 0);
 }
 
-// Summed squared errors of tiles, by the last round in which they need no samples.
+// Sums of squared errors by the last round in which tiles need no samples.
 using SquaresByRound = std::map<std::int32_t, double>;
 
 SquaresByRound by_content_round(std::span<const double> gains, std::span<const double> squares) {
@@ -45,18 +45,18 @@ SquaresByRound by_content_round(std::span<const double> gains, std::span<const d
         if (!(gains[tile] > 0.0))
             continue;
         const std::int32_t round = last_content_round(gains[tile]);
-        if (last == sums.end() || last->first != round) // neighbors are alike
+        if (last == sums.end() || last->first != round)
             last = sums.try_emplace(round, 0.0).first;
         last->second += squares[tile];
     }
     return sums;
 }
 
-// The sum expected in a round. With stratified samples squares fall about as N^-1.5: doubling a tile's samples divides
-// its square by 2^1.5 and its gain by 2^2.5, which takes five rounds.
+// With stratified samples, squared errors fall about as N^-1.5. Doubling a tile's samples divides its squared error by
+// 2^1.5 and its gain by 2^2.5, which takes five rounds.
 double expected_sum(const SquaresByRound &squares, std::int32_t round) {
     constexpr std::int32_t rounds = 5; // per doubling
-    constexpr std::int32_t halves = 3; // a doubling divides a square by 2^(halves / 2)
+    constexpr std::int32_t halves = 3; // 1.5, in halves
     double sum = 0.0;
     for (const auto &[content, square] : squares)
         sum += square * power_of_halves(halves * std::max((round - content + rounds - 1) / rounds, 0));
@@ -73,8 +73,7 @@ bool is_level(std::uint64_t sample_count) {
     return sample_count >= first_level && std::has_single_bit(sample_count);
 }
 
-// Half of the square over the number of samples, without the constant half. Loops by rows, since a division per tile
-// would take longer than the rest.
+// Loops by rows, since a division per tile would take longer than the rest.
 std::vector<double> tile_gains(const TileSamples &samples, std::span<const double> squares) {
     std::vector<double> shares; // by set
     for (const SampleSet &set : samples.sets())
@@ -93,8 +92,8 @@ std::vector<double> tile_gains(const TileSamples &samples, std::span<const doubl
     return gains;
 }
 
-// Tiles with the variances v reach the same error with mean(sqrt v)^2 / mean(v) times the samples of equal counts, if
-// counts are in proportion to sqrt(v). Up to an eighth is lost again.
+// For tiles with the variances v, sample counts in proportion to sqrt(v) reach the same error with mean(sqrt v)^2 /
+// mean(v) times the samples of equal counts. Rounding to powers of two costs up to an eighth.
 bool are_worth_telling_apart(std::span<const double> gains) {
     constexpr double least_ratio = 1.2;
     double sum = 0.0;
@@ -126,7 +125,7 @@ AdaptiveRound round_of_lamps(std::span<const double> gains) {
     return {most > 0.0 ? last_content_round(most) : 0, 0};
 }
 
-// The round in which the target is expected to be reached. Rounds in between would cost checks and help nothing.
+// Skips rounds that are not expected to reach the target, since each round costs checks.
 AdaptiveRound round_after(const AdaptiveRound &round, const TileSamples &samples, std::span<const double> squares,
                           std::span<const double> gains, double excess, bool sees_too_little) {
     const std::uint64_t pixels = std::uint64_t{samples.grid().width} * samples.grid().height;
@@ -141,7 +140,7 @@ AdaptiveRound round_after(const AdaptiveRound &round, const TileSamples &samples
         return next;
     }
     const std::int32_t content = std::max(round.number, by_round.begin()->first);
-    if (sees_too_little && excess <= 1.0) { // another bound would not change that
+    if (sees_too_little && excess <= 1.0) { // a lower bound finds no unseen light
         next.number = content;
         return next;
     }
@@ -156,10 +155,9 @@ AdaptiveRound round_after(const AdaptiveRound &round, const TileSamples &samples
 
 namespace {
 
-// The image's own error is looked at once the tiles' own errors come this near to the target.
+// The image's error is slow to compute, so it is checked only this near to the target.
 constexpr double near_target = 1.2;
 
-// The image's error by the tiles that know their own.
 double error_of(const TileSamples &samples, std::span<const double> squares) {
     double sum = 0.0;
     for (const double square : squares)
@@ -167,7 +165,6 @@ double error_of(const TileSamples &samples, std::span<const double> squares) {
     return std::sqrt(sum / (3.0 * samples.grid().width * samples.grid().height));
 }
 
-// Calls holds(tile, samples of a pixel).
 template <typename Holds>
 std::vector<std::uint32_t> tiles_where(const TileSamples &samples, const Holds &holds) {
     std::vector<std::uint32_t> tiles;
@@ -179,7 +176,7 @@ std::vector<std::uint32_t> tiles_where(const TileSamples &samples, const Holds &
 
 } // namespace
 
-// Tiles interrupted on their way to a level go first, so far as the call allows.
+// Tiles that were interrupted between two levels come first.
 std::optional<TileStep> AdaptivePlan::next(const TileSamples &samples, AdaptiveRound &round) const {
     if (round.number == AdaptiveRound::none && samples.most() <= next_check(samples.least()))
         return next_together(samples, round);
@@ -188,8 +185,8 @@ std::optional<TileStep> AdaptivePlan::next(const TileSamples &samples, AdaptiveR
     return next_apart(samples, round);
 }
 
-// While all tiles are alike, checks the error as without adaptation and, at each level before, whether treating tiles
-// differently pays. Some tiles may be between two of these counts.
+// While all tiles have equal samples, the error is checked at the same counts as without adaptation. Each level first
+// checks whether different counts would save samples.
 std::optional<TileStep> AdaptivePlan::next_together(const TileSamples &samples, AdaptiveRound &round) const {
     const std::uint64_t count = samples.least();
     if (samples.even() && is_level(count) && are_worth_telling_apart(tile_gains(samples, film_.squares())))
@@ -201,8 +198,8 @@ std::optional<TileStep> AdaptivePlan::next_together(const TileSamples &samples, 
                     [goal](std::uint32_t) { return goal; }};
 }
 
-// Tiles that the call holds back keep the round under way. Tiles at their limit do not: then those with the fewest
-// samples take more.
+// A round does not end while a tile must wait for another call. If all wanting tiles are at their final limit, the
+// tiles with the fewest samples take more.
 std::optional<TileStep> AdaptivePlan::next_apart(const TileSamples &samples, AdaptiveRound &round) const {
     const std::vector<double> squares = film_.squares();
     const std::vector<double> gains = tile_gains(samples, squares);
@@ -230,7 +227,6 @@ std::optional<TileStep> AdaptivePlan::next_apart(const TileSamples &samples, Ada
     return to_next_level(samples, std::move(tiles));
 }
 
-// Ends, unless lamps in view are still to be met. Tiles with such lamps want samples in every round.
 std::optional<TileStep> AdaptivePlan::next_on_target(const TileSamples &samples, AdaptiveRound &round) const {
     const std::vector<std::uint64_t> lamps = film_.samples_for_lamps();
     std::vector<std::uint32_t> tiles =
@@ -242,7 +238,7 @@ std::optional<TileStep> AdaptivePlan::next_on_target(const TileSamples &samples,
     return to_next_level(samples, std::move(tiles));
 }
 
-// Tiles interrupted on their way to a level, or without samples.
+// Returns the tiles that are between two levels or have no samples.
 std::vector<std::uint32_t> AdaptivePlan::unfinished_tiles(const TileSamples &samples) const {
     return tiles_where(samples,
                        [this](std::uint32_t, std::uint64_t has) { return !is_level(has) && has < counts_.limit; });

@@ -16,25 +16,26 @@ namespace {
 constexpr std::size_t colors = 3;
 constexpr double not_found = std::numeric_limits<double>::infinity();
 
-constexpr std::uint32_t least_side = 16;    // of a tile, pixels
+constexpr std::uint32_t least_side = 16;    // pixels
 constexpr std::uint32_t reported_side = 32; // of smallest_tile_change
 
-// Differences up to this share of the light are rounding.
+// Differences up to this fraction of the light count as rounding errors.
 constexpr double rounding_share = 1e-4;
 
 // P(|sum of e_i d_i| >= z sqrt(sum of d_i^2)) <= 2 * 3.178 P(normal >= z) for random signs e_i (Bentkus and
 // Dzindzalieta 2015).
 constexpr double sign_constant = 3.178;
 
-// The darker image must have met light in as many pixels. With k rare events the skewness is 1 / sqrt(k), and the least
-// probability about exp(-k / 6), 10^-9 with 125.
+// The darker image must have light in at least this many pixels. With k rare events the skewness is 1 / sqrt(k). The
+// bound for the probability is then at least about exp(-k / 6), 10^-9 for k = 125.
 constexpr double least_lit = 125.0;
 
-// Deviations that a change found with 99% is above the least that is found: 2.33, and more for estimated deviations.
+// A change is found with 99% probability if it exceeds the threshold by this many deviations. Known deviations would
+// need 2.33. Estimated deviations need more.
 constexpr double margin_99 = 3.0;
 
 struct ChannelSums {
-    double light = 0.0; // of the second image
+    double light = 0.0; // second image
     double light_squares = 0.0;
     double difference = 0.0; // first minus second
     double squares = 0.0;    // of differences
@@ -59,7 +60,7 @@ struct ChannelSums {
     }
 };
 
-// Whether a lack of light says something, by the darker image.
+// Whether a lack of light in the first or second image is evidence.
 struct Knowledge {
     bool of_first;
     bool of_second;
@@ -81,7 +82,6 @@ struct Region {
     double pixel_count() const { return static_cast<double>(width) * height; }
 };
 
-// Regions of one size, row by row.
 struct Level {
     std::uint32_t side;
     std::uint32_t columns;
@@ -122,7 +122,7 @@ Level twice_as_large(const pt_compare_info &info, const Level &level) {
     return larger;
 }
 
-// The smallest tiles first, the whole picture last.
+// Returns the levels from the smallest tiles to the whole picture.
 std::vector<Level> levels_of(const pt_compare_info &info) {
     std::vector<Level> levels{tiles_of(info)};
     while (levels.back().regions.size() > 1)
@@ -130,17 +130,17 @@ std::vector<Level> levels_of(const pt_compare_info &info) {
     return levels;
 }
 
-// An event of one sample counts this much more in the image with fewer samples.
+// Returns how much more one sample counts in the image with fewer samples.
 double sample_ratio(const pt_compare_info &info) {
     const double first = info.first.min_samples;
     const double second = info.second.min_samples;
     return first > 0.0 && second > 0.0 ? std::max(first / second, second / first) : 1.0;
 }
 
-// The largest differences of single pixels, as the sizes that light may have which a region has not met by chance.
+// The largest differences of single pixels. By chance, a region may have missed light of this size.
 struct Events {
-    double absolute = 0.0; // of pixels whose light it at least doubles, or one sample as bright as the brightest pixel
-    double relative = 0.0; // share of the pixel's light, of others; at most 1
+    double absolute = 0.0; // from pixels with more than twice the light, or one sample of the brightest pixel
+    double relative = 0.0; // from other pixels, as a fraction of their light, at most 1
 
     void add_pixel(double first, double second, double ratio) {
         const double event = ratio * std::abs(first - second);
@@ -169,13 +169,14 @@ ChannelEvents largest_events(const pt_compare_info &info) {
     return events;
 }
 
-// A difference z in deviations, which events of the size `event` may have caused by their absence.
+// A difference that the chance absence of rare events may explain in part.
 struct Difference {
-    double z;
-    double event;    // in deviations
-    double skewness; // of the noise, against the sign of the difference; at least 0
+    double z;        // difference, in deviations
+    double event;    // size of one event, in deviations
+    double skewness; // against the sign of the difference, at least 0
 
-    // At most, that equal light shows it. Noise explains up to 1 / event, absent events the rest.
+    // Returns an upper bound for the probability of this difference in equal light. Noise explains up to 1 / event
+    // deviations, absent events the rest.
     double probability() const {
         const double by_noise = event > 0.0 ? std::min(z, 1.0 / event) : z;
         const double by_events = event > 0.0 ? (z - by_noise) / event : 0.0;
@@ -185,7 +186,6 @@ struct Difference {
     }
 };
 
-// A region's difference in one channel.
 class Evidence {
 public:
     Evidence(const ChannelSums &sums, const Events &events, const Knowledge &knowledge, double pixel_count) :
@@ -194,15 +194,14 @@ public:
         event_(std::max(events.absolute, events.relative * std::max(sums.light, 0.0) / pixel_count)),
         deviation_(std::sqrt(sums.squares)) {}
 
-    // The probability that equal light shows such a difference, at most.
     double probability() const {
         const double sign = sums_.difference < 0.0 ? -1.0 : 1.0;
         const double excess = std::abs(sums_.difference) - rounding_share * std::abs(sums_.light);
         return has_light(sign) && excess > 0.0 ? probability_of(excess, deviation_, skewness(sign)) : 1.0;
     }
 
-    // The smallest change, as a share of the light, that is found with 99% at this rate. A change a adds a^2 times the
-    // squared light to the squared differences.
+    // Returns the smallest change, as a fraction of the light, that is found with 99% probability at this rate. A
+    // change a adds a^2 times the squared light to the squared differences.
     double smallest_change(double rate) const {
         const double worst_skewness = std::max(skewness(-1.0), skewness(1.0));
         const auto is_found = [&](double change) {
@@ -223,7 +222,7 @@ public:
     }
 
 private:
-    // Whether the image that is darker with this sign has met light.
+    // A negative sign means that the first image is darker.
     bool has_light(double sign) const {
         return sign < 0.0 ? knowledge_.of_first && sums_.first_lit >= least_lit
                           : knowledge_.of_second && sums_.second_lit >= least_lit;
@@ -243,7 +242,7 @@ private:
     double deviation_; // of the sum
 };
 
-// test_count: of which any may fail.
+// `test_count` is the number of tests that together have the rate.
 pt_compared_region compared(const Region &region, const ChannelEvents &events, const Knowledge &knowledge, double rate,
                             double test_count) {
     pt_compared_region result{};
@@ -287,7 +286,8 @@ std::uint32_t light_of(const pt_compare_info &info, const pt_comparison &verdict
 
 } // namespace
 
-// Each size of regions gets an equal part of the rate, each region and channel an equal part of that.
+// Bonferroni correction: the sizes of regions have equal parts of the rate, and so have the regions and channels of one
+// size.
 Comparison compare_light(const pt_compare_info &info) {
     const double look = info.look;
     const double rate = info.look > 0 ? info.rate / (look * (look + 1.0)) : info.rate;

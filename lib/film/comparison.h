@@ -10,14 +10,14 @@ namespace pt {
 
 struct Comparison {
     pt_comparison verdict{};
-    double rate = 0.0;                       // of this look
-    std::vector<pt_compared_region> regions; // as pt_compare orders them
+    double rate = 0.0;                       // for this look
+    std::vector<pt_compared_region> regions; // in pt_compare's order
 };
 
-// info: valid, without defaults.
+// `info` must be valid and must not rely on defaults.
 Comparison compare_light(const pt_compare_info &info);
 
-// "different light: -3.1% +- 0.4% of the picture in G"
+// Example: "different light: -3.1% +- 0.4% of the picture in G".
 std::string summary_of(const Comparison &comparison, double min_change);
 
 } // namespace pt

@@ -1,4 +1,3 @@
-// A comparison in words.
 #include "lib/film/comparison.h"
 
 #include <algorithm>
@@ -12,14 +11,13 @@ namespace pt {
 
 namespace {
 
-// "0.41%"
+// Example: "0.41%".
 std::string percent(double share) {
     std::array<char, 32> text{};
     std::snprintf(text.data(), text.size(), "%.2g%%", 100.0 * share);
     return text.data();
 }
 
-// The channel in which the difference stands out most.
 std::size_t clearest_channel(const pt_compared_region &region) {
     const auto clarity = [&](std::size_t channel) {
         return std::abs(region.difference[channel]) / std::max(region.deviation[channel], 1e-300);
@@ -31,7 +29,7 @@ std::size_t clearest_channel(const pt_compared_region &region) {
     return clearest;
 }
 
-// "-3.1% +- 0.4% of the picture in G", with bounds of 95%.
+// Example: "-3.1% +- 0.4% of the picture in G". The bounds have 95% confidence.
 std::string change_of(const pt_compared_region &region, bool is_whole) {
     const std::size_t channel = clearest_channel(region);
     const double light = region.light[channel];
@@ -43,7 +41,7 @@ std::string change_of(const pt_compared_region &region, bool is_whole) {
            " in " + "RGB"[channel];
 }
 
-// Names the whole picture unless a part is far clearer.
+// Names the whole picture if its difference is significant.
 std::string clearest_change_of(const Comparison &comparison) {
     const auto &regions = comparison.regions;
     const auto clearest = std::ranges::min_element(regions, {}, &pt_compared_region::probability);

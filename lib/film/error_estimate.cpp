@@ -14,31 +14,28 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double channels = 3.0;
 
-// Uncertain if unmet light is expected to add more than this share to the square, a tenth of the root. Calibrated.
+// A larger fraction of unseen light in the squared error makes an estimate uncertain. Calibrated.
 constexpr double much_unseen = 0.2;
 
-// Uncertain if the square may be this many times as large, since light may be as rare as values met once allow.
-// Calibrated.
+// An estimate is uncertain if rarer light could make the squared error this much larger. Calibrated.
 constexpr double much_more = 3.0;
 
-// Plain Halton points are the same in every pixel, so errors of neighbors are dependent and scatter more. Calibrated.
+// Plain Halton points are the same in all pixels, so errors of neighbors are correlated and scatter more. Calibrated.
 double margin(std::uint32_t sampler) {
     return sampler == PT_SAMPLER_HALTON ? 1.2 : 1.0;
 }
 
-// Quasi-random errors often fall a tenth too slowly, compared with N^-1/2, and the film's parts show too little of that
-// (exaggeration()). So stated errors are this much larger, within the bounds; bounds of uncertain errors are wide
-// enough anyway. Calibrated.
+// At some sample counts N, quasi-random errors fall more slowly than N^-1/2, and the difference of the parts is too
+// small. Calibrated.
 double margin_of_sequence(std::uint32_t sampler) {
     return sampler == PT_SAMPLER_RANDOM ? 1.0 : 1.145;
 }
 
-// Number of pixels with equal errors that would make a sum equally uncertain.
+// The number of pixels with equal errors whose sum is equally uncertain.
 double pixel_count(const ErrorSquares &squares) {
     return squares.sum > 0.0 ? squared(squares.sum) / squares.of_pixels : infinity;
 }
 
-// factor: of each square.
 void add_squares(ErrorSquares &to, const ErrorSquares &other, double factor = 1.0) {
     to.sum += factor * other.sum;
     to.of_pixels += squared(factor) * other.of_pixels;
@@ -46,20 +43,20 @@ void add_squares(ErrorSquares &to, const ErrorSquares &other, double factor = 1.
     to.times_tile_sizes += factor * other.times_tile_sizes;
 }
 
-// Let a pixel's samples be expected to meet some light w times. With q = e^(-w / 2), neither half of the samples meets
-// it in a share q^2 of the pixels, one half in 2 q (1 - q), and both in (1 - q)^2. So w = 2 ln(1 + 2 b), where b
-// pixels are met by both halves for each that one meets. A pixel of mean T that was met once has the expected limit
-// w T, so its error is 1 / w times its error by T. Lamps smaller than a pixel are met again as often as once; rare
-// bright samples hardly ever are.
-double square_by_meetings(double met_once, double met_again) {
-    const double meetings = 2.0 * std::log1p(2.0 * met_again / (met_once + 1.0));
-    return std::max(1.0, 1.0 / squared(meetings));
+// Corrects the relative errors of pixels that only one half of the samples hit. Let w be the expected number of hits in
+// a pixel, and q = e^(-w / 2). The light is hit by neither half in a fraction q^2 of the pixels, by one half in 2 q (1
+// - q), and by both in (1 - q)^2. If b is the ratio of pixels hit by both to pixels hit by one, w = 2 ln(1 + 2 b). A
+// pixel with mean T that one half hit has the expected value w T, so its relative error is 1 / w times the error
+// relative to T.
+double square_by_hits(double met_once, double met_again) {
+    const double hits = 2.0 * std::log1p(2.0 * met_again / (met_once + 1.0));
+    return std::max(1.0, 1.0 / squared(hits));
 }
 
-// met_again: pixels that both parts of the film met. Values met once count by their limits without them or, if that is
-// less, by the number met again.
+// For values that one half hit there are two estimates: relative to the mean of the other half and the surroundings, or
+// by square_by_hits(). The smaller is used.
 ErrorSquares relative_squares(const TileErrors &all, double met_again) {
-    const double factor = square_by_meetings(all.as_lamps.sum / channels, met_again);
+    const double factor = square_by_hits(all.as_lamps.sum / channels, met_again);
     ErrorSquares squares = all.relative_square;
     if (all.met_once.sum > factor * all.as_lamps.sum)
         add_squares(squares, all.as_lamps, factor);
@@ -70,14 +67,15 @@ ErrorSquares relative_squares(const TileErrors &all, double met_again) {
 
 } // namespace
 
-// The root of a sum over n pixels deviates by about 1 / (2 sqrt(n)). A little more is added: understated errors do more
-// harm. Calibrated.
+// The root of a sum over n pixels has a relative deviation of about 1 / (2 sqrt(n)). A little more is added, since
+// understated errors do more harm. Calibrated.
 double share_added(double pixel_count) {
     return 0.6 / std::sqrt(pixel_count) + 1.2 / pixel_count;
 }
 
-// The logarithm of the root of m equal normal squares deviates by 1 / sqrt(2 m), and m = 3 n squares count as n pixels,
-// since E x^4 = 3. The picture's own errors scatter as much, so together they deviate by 1 / sqrt(3 n).
+// The logarithm of the root of a sum of m squared normal variables has the deviation 1 / sqrt(2 m). Since E x^4 = 3, m
+// = 3 n such squares count as n pixels. The image's true error scatters as much as its estimate, so their ratio has the
+// deviation 1 / sqrt(3 n).
 double spread_of_pixels(double pixel_count) {
     return std::exp(normal_95 / std::sqrt(3.0 * pixel_count));
 }
@@ -113,9 +111,8 @@ bool is_check(std::uint64_t sample_count) {
 }
 
 double exaggeration(std::uint32_t sampler) {
-    // Let the mean square error fall as N^-p. A quarter of the squared difference of two runs of N / 2 points is
-    // expected to be 2^p - 1 times that error. This is exact for p = 1, random points, and 7 times too large for p = 3,
-    // scrambled nets at best (Owen 1997).
+    // If the mean squared error falls as N^-p, a quarter of the squared difference between both halves is expected to
+    // be 2^p - 1 times this error: 1 for random points (p = 1), and 7 for scrambled nets at best (p = 3, Owen 1997).
     return sampler == PT_SAMPLER_RANDOM ? 1.0 : std::sqrt(7.0);
 }
 
@@ -136,8 +133,8 @@ void ErrorEstimator::add(const TileErrors &tiles) {
     all_.rejected += tiles.rejected;
 }
 
-// Tiles are independent. The variance of the sum S over n values is estimated by the sum of (s - c S / n)^2 over tiles
-// with sum s and c values. Different expectations of tiles only add to it.
+// The variance of a sum S of n values is estimated by the sum over tiles of (s - c S / n)^2, if a tile has c values
+// with the sum s. Different expectations of tiles only increase the estimate.
 Interval ErrorEstimator::root_mean(const ErrorSquares &squares, double other_squares, bool uncertain) const {
     const bool shows_nothing = squares.sum + other_squares == 0.0;
     if (!std::isfinite(squares.sum) || (shows_nothing && uncertain))
@@ -158,8 +155,8 @@ Interval ErrorEstimator::root_mean(const ErrorSquares &squares, double other_squ
             estimate * spread};
 }
 
-// The number of pixels met again is known to within its square root; none may mean that light is far rarer. Where lamps
-// are found by chance, less rare samples say nothing about rarer ones.
+// The number of pixels that both parts hit has a deviation of about its square root. Where lamps are found by chance,
+// this number shows nothing about rarer light, so it is not used.
 ErrorEstimate ErrorEstimator::result() const {
     const double again = all_.met_again / channels;
     const bool by_chance = conditions_.finds_lamps_by_chance;

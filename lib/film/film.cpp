@@ -14,7 +14,7 @@ namespace pt {
 
 namespace {
 
-// 7 MB, unless a row is longer: little is held twice while another film's tiles cut a tile.
+// Limits a tile to 7 MB, unless one row is larger. cut_along() copies whole tiles.
 constexpr std::uint32_t most_tile_pixels = 1U << 16;
 
 std::string where(const Rectangle &pixels) {
@@ -61,7 +61,7 @@ std::vector<FilmTile> Film::list() const {
     return tiles;
 }
 
-// Throws PT_ERROR_INCOMPATIBLE if a pixel has a sample here and in `others`, whose TileMap is map.
+// Throws PT_ERROR_INCOMPATIBLE if a pixel has a common sample in both films. `map` is made from `others`.
 void Film::require_disjoint(const std::vector<FilmTile> &others, const TileMap &map) const {
     for (const Tile &own : tiles_)
         for (const TileMap::Piece &piece : map.cut(own.pixels))
@@ -69,7 +69,7 @@ void Film::require_disjoint(const std::vector<FilmTile> &others, const TileMap &
                 require_apart(others[*piece.tile].samples, own.samples, where(piece.pixels));
 }
 
-// Cuts tile by tile, so that only one is held twice. Each tile then lies within a tile of the map, or outside all.
+// Cuts each tile so that its pieces are within one tile of the map or outside all. Only one tile at a time is copied.
 void Film::cut_along(const TileMap &map) {
     const std::size_t count = tiles_.size();
     for (std::size_t i = 0; i < count; ++i) {
@@ -85,7 +85,6 @@ void Film::cut_along(const TileMap &map) {
     }
 }
 
-// Parts of tiles outside the map.
 std::vector<Film::Tile> Film::outside(const TileMap &map, std::vector<Tile> tiles) {
     std::vector<Tile> found;
     for (Tile &tile : tiles)
@@ -99,8 +98,8 @@ std::vector<Film::Tile> Film::outside(const TileMap &map, std::vector<Tile> tile
     return found;
 }
 
-// Adds the pixels that another tile shares with this one. samples: of both. A film that moves to another split has all
-// samples on one side of it.
+// Adds the pixels that both tiles have. `samples` is the union of their samples. If its split is a new one for a tile,
+// the tile has all samples on one side of it.
 void Film::add_to(Tile &tile, const Tile &other, SampleSet samples) noexcept {
     const std::uint64_t split = split_of(samples.hull());
     const std::uint64_t others_split = split_of(other.samples.hull());
@@ -128,10 +127,10 @@ void Film::add(Film other) {
     cut_along(theirs);
     std::vector<FilmTile> sum = list();
     const TileMap own(sum);
-    std::vector<std::pair<std::size_t, std::size_t>> meetings; // own tile, other tile with its pixels
+    std::vector<std::pair<std::size_t, std::size_t>> overlaps; // own tile, other tile
     for (std::size_t i = 0; i < tiles_.size(); ++i)
         if (const TileMap::Span *const span = theirs.find(tiles_[i].pixels.x, tiles_[i].pixels.y)) {
-            meetings.emplace_back(i, span->tile);
+            overlaps.emplace_back(i, span->tile);
             sum[i].samples.add(others[span->tile].samples);
         }
     std::vector<Tile> added = outside(own, other.tiles_);
@@ -143,8 +142,8 @@ void Film::add(Film other) {
                       united(std::move(lamps))};
     const Rectangle bounds = bounds_of(header.tiles);
     tiles_.reserve(tiles_.size() + added.size());
-    // Nothing below can fail.
-    for (const auto &[tile, others_tile] : meetings)
+    // No exception may occur below.
+    for (const auto &[tile, others_tile] : overlaps)
         add_to(tiles_[tile], other.tiles_[others_tile], std::move(sum[tile].samples));
     std::ranges::move(added, std::back_inserter(tiles_));
     header_ = std::move(header);
@@ -171,7 +170,7 @@ void Film::stream(const FilmStream::Receive &receive) const {
     stream.end();
 }
 
-// Each piece is in one tile in memory.
+// Each piece must be within one tile.
 void Film::stream_plane(const std::vector<TileMap::Piece> &pieces, std::uint32_t part, std::size_t plane,
                         FilmStream &stream) const {
     for (auto first = pieces.begin(); first != pieces.end();) {
@@ -227,14 +226,14 @@ void Film::read(const Rectangle &pixels, std::uint32_t quantity, const ReceiveRo
 }
 
 void Film::read_rows_from(std::uint32_t first_row, PixelSums &sums) const {
-    sums.clear(); // pixels without a tile keep 0
+    sums.clear(); // pixels outside all tiles stay 0
     const Rectangle rows{bounds_.x, bounds_.y + first_row, bounds_.width,
                          static_cast<std::uint32_t>(sums.pixel_count() / bounds_.width)};
     for (const Tile &tile : tiles_)
         sums.copy(rows, tile.sums, tile.pixels);
 }
 
-// If no context can have such tiles, all pixels count with the fewest samples, and every tile as changed.
+// If pixels of a tile have different samples, the fewest samples count for all pixels, and no errors are cached.
 ErrorEstimate Film::error() const {
     if (const std::optional<TileSamples> samples = tile_samples(header_.tiles, bounds_))
         return error(*samples, errors_);
@@ -245,7 +244,7 @@ ErrorEstimate Film::error() const {
 ErrorEstimate Film::error(const TileSamples &samples, FilmErrors &errors) const {
     if (samples.least() < min_estimate_samples)
         return unknown_error();
-    // A film has no scene, so small lamps are ignored.
+    // A film has no scene, so the sizes of lamps are unknown.
     const bool by_chance = finds_lamps_by_chance(facts_.estimator, facts_.max_path_length);
     ErrorEstimator estimator({facts_.sampler, by_chance, by_chance});
     for (const TileErrors &tile : look_at(samples, errors))

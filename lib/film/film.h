@@ -1,4 +1,4 @@
-// A film on the host: its header, and its tiles' exact sums. It needs no device. Behind pt_film.
+// The film behind pt_film. It needs no device.
 #pragma once
 
 #include "lib/film/adaptive_rule.h"
@@ -21,7 +21,7 @@ namespace pt {
 
 class Film {
 public:
-    // Throws PT_ERROR_INCOMPATIBLE if the bytes are no film, damaged, or of an impossible picture.
+    // Throws PT_ERROR_INCOMPATIBLE if the bytes are not a film, are damaged, or describe an impossible picture.
     explicit Film(std::span<const std::byte> bytes);
 
     const FilmFacts &facts() const { return facts_; }
@@ -29,45 +29,43 @@ public:
     // Tiles are in canonical form.
     const FilmHeader &header() const { return header_; }
 
-    // The smallest rectangle of the image with all of the film's pixels.
+    // The smallest rectangle that contains all pixels of the film.
     const Rectangle &bounds() const { return bounds_; }
 
-    // Adds another film in place, with little more memory. Throws PT_ERROR_INCOMPATIBLE for another picture, or if a
-    // pixel has a sample in both. After an exception nothing has changed.
+    // Adds another film. Throws PT_ERROR_INCOMPATIBLE if the films are of different pictures or have a common sample.
+    // After an exception this film is unchanged.
     void add(Film other);
 
-    // bytes: of the size of header()'s layout.
+    // `bytes` must have the size of header()'s layout.
     void write(std::span<std::byte> bytes) const;
 
-    // Hands out the same bytes in pieces.
     void stream(const FilmStream::Receive &receive) const;
 
-    // Fewest of any pixel within the bounds, perhaps 0.
+    // The minimum within the bounds.
     std::uint64_t sample_count() const;
     std::uint64_t max_sample_count() const;
     std::uint64_t total_samples() const; // summed over pixels
 
-    // Calls receive(x, y, values) for runs of pixels within rows, in order. pixels: of the image. quantity: as for
-    // PixelSums::values().
+    // Calls receive(x, y, values) for runs of pixels within rows, in order. `pixels` is a rectangle of the image.
+    // `quantity` is a PT_QUANTITY_* of samples.
     using ReceiveRow = std::function<void(std::uint32_t x, std::uint32_t y, const std::vector<float> &values)>;
     void read(const Rectangle &pixels, std::uint32_t quantity, const ReceiveRow &receive) const;
 
-    // Within the bounds.
+    // The error of all pixels within the bounds.
     ErrorEstimate error() const;
 
-    // Summed over pixels.
     std::uint64_t rejected_samples() const;
 
-    // By tile of a grid over the bounds. Throws PT_ERROR_INCOMPATIBLE if the film's tiles cut the grid's.
+    // Throws PT_ERROR_INCOMPATIBLE if pixels of a tile of the TileGrid over the bounds have different samples.
     TileSamples samples_by_tile() const;
 
-    // Samples of a pixel that meet all lamps in view smaller than a pixel; 0: no such lamps.
+    // The samples per pixel that are needed to hit all small lamps in view, or 0.
     std::uint32_t samples_for_lamps() const;
 
-    // The next samples of tiles (adaptive_rule.h). Begins the next round when one is over.
+    // Returns the next step (AdaptivePlan::next()).
     std::optional<TileStep> plan(const TileSamples &samples, double target_error, std::uint64_t most);
 
-    // Tiles of the grid over the bounds.
+    // Tiles of the TileGrid over the bounds.
     std::size_t tile_count() const { return TileGrid{bounds_.width, bounds_.height}.count(); }
 
 private:
@@ -82,7 +80,7 @@ private:
     std::vector<std::uint64_t> samples_for_lamps(const TileGrid &grid) const;
     std::span<const TileErrors> look_at(const TileSamples &samples, FilmErrors &errors) const;
     double unit() const { return std::ldexp(1.0, facts_.unit_exponent); }
-    void read_rows_from(std::uint32_t first_row, PixelSums &sums) const; // fills sums with rows of the bounds
+    void read_rows_from(std::uint32_t first_row, PixelSums &sums) const;
     std::vector<FilmTile> list() const;
     void require_disjoint(const std::vector<FilmTile> &others, const TileMap &map) const;
     void cut_along(const TileMap &map);
@@ -93,9 +91,9 @@ private:
 
     FilmFacts facts_;
     std::vector<Tile> tiles_;
-    FilmHeader header_; // describes the tiles
+    FilmHeader header_;
     Rectangle bounds_;
-    mutable FilmErrors errors_; // earlier checks' errors, so that the next reads only changed tiles
+    mutable FilmErrors errors_;
 };
 
 } // namespace pt

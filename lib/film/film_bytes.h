@@ -1,4 +1,4 @@
-// A film as bytes: header, exact sums, checksum (FORMAT.md).
+// Reads and writes the bytes of a film (FORMAT.md).
 #pragma once
 
 #include "lib/base/digest.h"
@@ -14,14 +14,13 @@
 
 namespace pt {
 
-// Positions of sums in a film's bytes.
 class FilmLayout {
 public:
     explicit FilmLayout(const FilmHeader &header);
 
     std::uint64_t size_bytes() const { return size_bytes_; }
 
-    // The first pixel's word in a plane. Parts without samples are not stored.
+    // The offset of the first pixel's word. Parts without samples are not stored.
     std::uint64_t plane_offset(std::size_t tile, std::uint32_t part, std::size_t plane) const;
     bool has_part(std::size_t tile, std::uint32_t part) const { return tiles_[tile].counts[part] > 0; }
     const PartCounts &counts(std::size_t tile) const { return tiles_[tile].counts; }
@@ -40,7 +39,7 @@ private:
 // Throws PT_ERROR_INVALID_ARGUMENT if the caller's memory is too small.
 void require_room(std::uint64_t size_bytes, std::uint64_t needed);
 
-// Writes a film into memory of its layout's size: each tile's sums in any pieces, then end().
+// Call write() for all pixels of all tiles, then end().
 class FilmWriter {
 public:
     FilmWriter(const FilmHeader &header, std::span<std::byte> bytes);
@@ -53,8 +52,8 @@ private:
     std::span<std::byte> bytes_;
 };
 
-// Hands on a film's bytes in order, in pieces of at most a megabyte: the words of each plane of each nonempty part,
-// tile by tile, then end().
+// Passes on a film's bytes in pieces of at most a megabyte. Call add() for each plane of each nonempty part, tile by
+// tile, then end().
 class FilmStream {
 public:
     using Receive = std::function<void(std::span<const std::byte>)>; // may throw
@@ -75,12 +74,12 @@ private:
 
 class FilmReader {
 public:
-    // Throws PT_ERROR_INCOMPATIBLE if the bytes are no film, damaged, or of another size.
+    // Throws PT_ERROR_INCOMPATIBLE if the bytes are not a film, are damaged, or have a wrong size.
     explicit FilmReader(std::span<const std::byte> bytes);
 
     const FilmHeader &header() const { return header_; }
 
-    // Reads consecutive pixels of a tile. Throws PT_ERROR_INCOMPATIBLE if no samples can have such sums.
+    // Reads consecutive pixels of a tile. Throws PT_ERROR_INCOMPATIBLE if the tile's samples cannot have these sums.
     void read(std::size_t tile, std::uint64_t first_pixel, PixelSums &sums) const;
 
 private:

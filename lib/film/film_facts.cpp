@@ -15,7 +15,7 @@ namespace pt {
 
 namespace {
 
-// Above all films of this library, with radiance up to 2^60 times 10^18.
+// Above the exponents of all films.
 constexpr int most_unit_exponent = 300;
 
 std::optional<std::string> value_in(const FilmIdentity &identity, const std::string &name) {
@@ -23,7 +23,7 @@ std::optional<std::string> value_in(const FilmIdentity &identity, const std::str
     return fact == identity.end() ? std::nullopt : std::optional(fact->value);
 }
 
-// A number within bounds, in its only spelling. On failure records a violation and returns `least`.
+// Reads a number in canonical spelling. On failure records a violation and returns `least`.
 template <typename Number>
 Number number_in(const FilmIdentity &identity, const char *name, Number least, Number most, Violations &violations) {
     const std::string text = value_in(identity, name).value_or("nothing");

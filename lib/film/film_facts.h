@@ -1,4 +1,3 @@
-// A film's identity as numbers, and the conditions for adding films.
 #pragma once
 
 #include "lib/film/film_header.h"
@@ -9,7 +8,7 @@
 namespace pt {
 
 struct FilmFacts {
-    std::uint32_t width; // the whole image's width
+    std::uint32_t width; // whole image, pixels
     std::uint32_t height;
     std::uint32_t max_path_length;
     std::uint64_t seed;
@@ -19,15 +18,15 @@ struct FilmFacts {
     std::string device;
 };
 
-// Throws PT_ERROR_INCOMPATIBLE if a fact is missing or cannot be pt_save_film's.
+// Throws PT_ERROR_INCOMPATIBLE if a fact is missing or invalid.
 FilmFacts facts_of(const FilmIdentity &identity);
 
-// Throws PT_ERROR_INCOMPATIBLE with a rule for each fact that differs. place: where the film is added, "as in this
+// Throws PT_ERROR_INCOMPATIBLE that names all different facts. `place` ends each message, for example "as in this
 // context".
 void require_same(const FilmIdentity &film, const FilmIdentity &other, const std::string &place);
 
-// Throws PT_ERROR_INCOMPATIBLE if the sets overlap or have too many samples together. where: " in" which pixels, for
-// the message, or empty.
+// Throws PT_ERROR_INCOMPATIBLE if the sets overlap or have too many samples together. `where` names the pixels in the
+// message, or is empty.
 void require_apart(const SampleSet &added, const SampleSet &present, const std::string &where);
 
 // Throws PT_ERROR_INCOMPATIBLE.

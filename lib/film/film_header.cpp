@@ -23,7 +23,7 @@ constexpr std::string_view samples_name = "samples";
 constexpr std::string_view round_name = "round";
 constexpr std::string_view lamps_name = "lamps";
 
-// Far more rounds than double-precision errors can take.
+// More rounds than double-precision errors can need.
 constexpr std::uint64_t max_round = 10'000;
 
 // Several times the present number. Limits memory, since short lines take many times their length.
@@ -33,7 +33,6 @@ constexpr std::size_t max_facts = 100;
     throw Error(PT_ERROR_INCOMPATIBLE, "film: " + message);
 }
 
-// Removes and returns the first line.
 std::string_view take_line(std::string_view &text) {
     const std::size_t end = text.find('\n');
     if (end == std::string_view::npos)
@@ -45,7 +44,7 @@ std::string_view take_line(std::string_view &text) {
     return line;
 }
 
-// Numbers separated by blanks; nothing for other text.
+// Reads numbers separated by blanks. Returns no value for other text.
 template <std::size_t Count>
 std::optional<std::array<std::uint64_t, Count>> numbers(std::string_view text) {
     std::array<std::uint64_t, Count> values{};
@@ -89,7 +88,6 @@ void read_samples(std::string_view value, FilmHeader &header) {
     samples.add(range);
 }
 
-// Two numbers; the first may be negative.
 void read_round(std::string_view value, FilmHeader &header) {
     const bool negative = value.starts_with('-');
     const auto round = numbers<2>(value.substr(negative ? 1 : 0));
@@ -99,7 +97,7 @@ void read_round(std::string_view value, FilmHeader &header) {
     header.round = {negative ? -number : number, (*round)[1]};
 }
 
-// text_of() compares the order.
+// The caller checks the order of lines.
 void read_lamps(std::string_view value, FilmHeader &header) {
     const auto lamps = numbers<3>(value);
     if (!lamps || std::ranges::any_of(*lamps, [](std::uint64_t number) { return number > UINT32_MAX; }) ||
@@ -109,7 +107,6 @@ void read_lamps(std::string_view value, FilmHeader &header) {
                             static_cast<std::uint32_t>((*lamps)[2])});
 }
 
-// All tiles are pixels of one image.
 void require_counts(const std::vector<FilmTile> &tiles) {
     std::uint64_t pixels = 0;
     for (const FilmTile &tile : tiles) {

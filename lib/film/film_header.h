@@ -1,4 +1,4 @@
-// A film's header: its picture, and the samples of its pixels. Text, a line per fact (FORMAT.md).
+// The header of a film, as text (FORMAT.md).
 #pragma once
 
 #include "lib/film/sample_set.h"
@@ -13,7 +13,7 @@
 
 namespace pt {
 
-// Facts decide the samples' bits. Films can be added only if all are equal.
+// A setting that decides the bits of samples. Only films with equal facts can be added.
 struct FilmFact {
     std::string name;
     std::string value;
@@ -22,7 +22,7 @@ struct FilmFact {
 };
 using FilmIdentity = std::vector<FilmFact>;
 
-// In pixels from the image's top left corner.
+// The origin is the image's top left corner.
 struct Rectangle {
     std::uint32_t x, y, width, height;
 
@@ -30,7 +30,6 @@ struct Rectangle {
     std::uint32_t right() const { return x + width; }
     std::uint32_t bottom() const { return y + height; }
 
-    // Index of an image's pixel within the rectangle, row by row.
     std::size_t index_of(std::uint32_t column, std::uint32_t row) const {
         return std::size_t{row - y} * width + (column - x);
     }
@@ -38,14 +37,14 @@ struct Rectangle {
     bool operator==(const Rectangle &) const = default;
 };
 
-// The intersection; width or height 0 if empty.
+// Returns the intersection. An empty intersection has width or height 0.
 inline Rectangle common(const Rectangle &a, const Rectangle &b) {
     const std::uint32_t x = std::max(a.x, b.x);
     const std::uint32_t y = std::max(a.y, b.y);
     return {x, y, std::max(std::min(a.right(), b.right()), x) - x, std::max(std::min(a.bottom(), b.bottom()), y) - y};
 }
 
-// Pixels with the same samples.
+// All pixels have the same samples.
 struct FilmTile {
     Rectangle pixels;
     SampleSet samples;
@@ -53,49 +52,47 @@ struct FilmTile {
     bool operator==(const FilmTile &) const = default;
 };
 
-// Progress towards a target error, by adaptive_rule.h.
+// Progress towards a target error (adaptive_rule.h).
 struct AdaptiveRound {
     static constexpr std::int32_t none = std::numeric_limits<std::int32_t>::min();
 
-    std::int32_t number = none; // bound: 2^(-number / 2), of squared relative error per sample and pixel
-    std::uint64_t floor = 0;    // samples that every pixel is to have
+    std::int32_t number = none; // the bound is 2^(-number / 2)
+    std::uint64_t floor = 0;    // minimum samples per pixel
 
     bool operator==(const AdaptiveRound &) const = default;
 };
 
-// The round of two films' sum.
 inline AdaptiveRound later_of(const AdaptiveRound &a, const AdaptiveRound &b) {
     return {std::max(a.number, b.number), std::max(a.floor, b.floor)};
 }
 
-// The lamps smaller than a pixel in a square of the image, lamp_square pixels a side. x, y: its corner, multiples of
-// lamp_square. samples: of a pixel, enough to meet the least lamp.
+// A square of lamp_square x lamp_square pixels with lamps smaller than a pixel.
 struct LampSquare {
-    std::uint32_t x;
+    std::uint32_t x; // multiples of lamp_square
     std::uint32_t y;
-    std::uint32_t samples;
+    std::uint32_t samples; // needed per pixel to hit the smallest lamp
 
     bool operator==(const LampSquare &) const = default;
 };
 
 inline constexpr std::uint32_t lamp_square = 8;
 
-// Ordered by rows, each square once, with the most samples needed.
+// Sorts by rows, and keeps the largest `samples` of equal squares.
 std::vector<LampSquare> united(std::vector<LampSquare> lamps);
 
 struct FilmHeader {
     FilmIdentity identity;
-    std::vector<FilmTile> tiles; // their sums follow in this order
-    AdaptiveRound round{};       // towards a target error, if any
+    std::vector<FilmTile> tiles; // in the order of their sums
+    AdaptiveRound round{};
     std::vector<LampSquare> lamps{};
 
     bool operator==(const FilmHeader &) const = default;
 };
 
-// Ends with an empty line.
+// The text ends with an empty line.
 std::string text_of(const FilmHeader &header);
 
-// Inverse of text_of(). Throws PT_ERROR_INCOMPATIBLE for any other text or version.
+// The inverse of text_of(). Throws PT_ERROR_INCOMPATIBLE for any other text or version.
 FilmHeader parsed_film_header(std::string_view text);
 
 } // namespace pt

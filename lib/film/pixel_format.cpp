@@ -8,7 +8,6 @@ namespace pt {
 
 namespace {
 
-// Alpha is 1. convert: from float to a component.
 template <typename Convert>
 void write_with_alpha(std::span<const float> values, std::byte *to, const Convert &convert) {
     for (std::size_t first = 0; first < values.size(); first += 3) {
@@ -26,7 +25,7 @@ std::uint16_t half_bits(float value) {
     constexpr std::uint32_t difference_of_biases = 0x38000000;
     constexpr std::uint32_t half_infinity = 0x7c00;
     const auto float_bits = std::bit_cast<std::uint32_t>(value);
-    // Below 2^-14 the last bit is 2^-24; below 2^-25 the result is 0.
+    // Results below 2^-14 are multiples of 2^-24.
     const bool normal = float_bits >= smallest_normal;
     const std::uint32_t number = normal ? float_bits - difference_of_biases : (float_bits & 0x7fffff) | 0x800000;
     const std::uint32_t dropped = normal ? 13 : std::min(126 - (float_bits >> 23), 25U);
@@ -34,7 +33,7 @@ std::uint16_t half_bits(float value) {
     const std::uint32_t rest = number & ((1U << dropped) - 1);
     const std::uint32_t half_of_last = 1U << (dropped - 1);
     const bool up = rest > half_of_last || (rest == half_of_last && kept % 2 == 1);
-    // A carry goes into the exponent, and turns the largest number into infinity.
+    // A carry increases the exponent, and turns the largest number into infinity.
     return static_cast<std::uint16_t>(std::min(kept + (up ? 1U : 0U), half_infinity));
 }
 

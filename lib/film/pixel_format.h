@@ -1,4 +1,4 @@
-// Pixels in each PT_FORMAT_*, byte for byte as shaders/resolve.comp writes them.
+// Writes pixels with the same bytes as shaders/resolve.comp.
 #pragma once
 
 #include "shaders/gpu_layout.h"
@@ -22,10 +22,10 @@ constexpr std::uint32_t pixel_bytes(std::uint32_t format) {
     return components * component_bytes(format);
 }
 
-// Nearest float16 to a number >= 0, ties to even; infinity from 65520 on.
+// The nearest float16 of a number >= 0, ties to even. It is infinity from 65520 on.
 std::uint16_t half_bits(float value);
 
-// values: R, G and B per pixel. The format must have them.
+// `values` has R, G and B of each pixel.
 void write_pixels(std::span<const float> values, std::uint32_t format, std::byte *to);
 
 } // namespace pt

@@ -36,13 +36,12 @@ private:
     std::size_t pixel_;
 };
 
-// carry: into the next more significant word, 0 or 1.
 struct WordAndCarry {
     std::uint32_t word;
-    std::uint32_t carry;
+    std::uint32_t carry; // 0 or 1
 };
 
-// Uses 32 bits, so that compilers vectorise over pixels.
+// 32-bit arithmetic lets compilers vectorise over pixels.
 WordAndCarry sum_of(std::uint32_t a, std::uint32_t b, std::uint32_t carry) {
     const std::uint32_t sum = a + b;
     const std::uint32_t with_carry = sum + carry;
@@ -54,11 +53,11 @@ WordAndCarry difference_of(std::uint32_t a, std::uint32_t b, std::uint32_t borro
     return {difference - borrow, static_cast<std::uint32_t>(a < b) | static_cast<std::uint32_t>(difference < borrow)};
 }
 
-// Plane by plane: a sum's carries go from word to word.
+// Goes plane by plane, since a sum's words pass carries on.
 template <typename Operation>
 void combine(const PartWords<std::uint32_t> &to, const PartWords<const std::uint32_t> &from, std::size_t pixel_count,
              const Operation &operation) noexcept {
-    constexpr std::size_t block_pixels = 256; // their carries and planes stay in the fastest cache
+    constexpr std::size_t block_pixels = 256; // planes and carries fit the fastest cache
     std::array<std::uint32_t, block_pixels> carries;
     for (std::size_t done = 0; done < pixel_count; done += block_pixels) {
         const std::size_t block = std::min(block_pixels, pixel_count - done);

@@ -1,5 +1,4 @@
-// Exact sums of samples in consecutive pixels, on the host. Read from devices (device_film.h) and bytes (film_bytes.h),
-// added, and turned into radiance and its error.
+// Exact sums of the samples of consecutive pixels, on the host.
 #pragma once
 
 #include "lib/film/film_header.h"
@@ -15,18 +14,15 @@
 
 namespace pt {
 
-// A part's words, plane by plane (gpu_layout.h).
 template <typename Word>
 struct PartWords {
     Word *first;
     std::size_t stride; // between planes
 };
 
-// Adds one part of consecutive pixels to another.
 void add_words(const PartWords<std::uint32_t> &to, const PartWords<const std::uint32_t> &from,
                std::size_t pixel_count) noexcept;
 
-// Undoes add_words().
 void subtract_words(const PartWords<std::uint32_t> &to, const PartWords<const std::uint32_t> &from,
                     std::size_t pixel_count) noexcept;
 
@@ -36,7 +32,7 @@ public:
 
     std::size_t pixel_count() const { return pixel_count_; }
 
-    // The sums are then undefined.
+    // Leaves the sums undefined.
     void resize(std::size_t pixel_count) {
         words_.resize(pixel_count * words_per_pixel);
         pixel_count_ = pixel_count;
@@ -44,7 +40,7 @@ public:
 
     void clear() noexcept;
 
-    // One word of every pixel: a plane of a part (gpu_layout.h).
+    // One word of each pixel.
     std::span<std::uint32_t> plane(std::uint32_t part, std::size_t index) {
         return std::span(words_).subspan((std::size_t{part} * gpu::FILM_WORDS + index) * pixel_count_, pixel_count_);
     }
@@ -54,28 +50,28 @@ public:
 
     void add(const PixelSums &other) noexcept;
 
-    // Adds one part of consecutive pixels in `from` to a part of the pixels from to_first on.
+    // Adds part from_part of the pixels [first, first + count) of `from`.
     void add_part(std::uint32_t to_part, std::size_t to_first, const PixelSums &from, std::uint32_t from_part,
                   std::size_t first, std::size_t count) noexcept;
 
-    // Adds the other part of consecutive pixels to this one and empties it.
+    // Adds the other part to this part and clears the other part.
     void fold_into(std::uint32_t part, std::size_t first, std::size_t count) noexcept;
 
-    // Moves these samples' sums to a larger set's split, which may put all of them on one side.
+    // Converts the sums of `samples` to the split of a larger set.
     void split_for(const SampleSet &samples, std::uint64_t split, std::size_t first, std::size_t count) noexcept;
 
     void copy(const PixelSums &from, std::size_t first, std::size_t count, std::size_t to_first) noexcept;
 
-    // Copies the pixels in both rectangles of an image: `own`, this object's, and `of_from`, that `from` covers.
+    // Copies the pixels common to two rectangles of an image: `own` of this object and `of_from` of `from`.
     void copy(const Rectangle &own, const PixelSums &from, const Rectangle &of_from) noexcept;
 
-    // Accepted or rejected samples.
+    // Accepted and rejected samples of each part.
     PartCounts samples_of(std::size_t pixel) const;
 
-    // Whether this many samples can have such sums: each accepted one is below 2^FILM_MAX_EXPONENT.
+    // Whether this many samples can have these sums.
     bool holds(const PartCounts &expected) const;
 
-    // R, G and B of each pixel. quantity: a PT_QUANTITY_* of samples. unit: of the sums, in radiance.
+    // Returns R, G and B of each pixel. `quantity` is a PT_QUANTITY_* of samples. `unit` is the radiance of one unit.
     std::vector<float> values(std::uint32_t quantity, double unit) const;
 
     bool operator==(const PixelSums &) const = default;
@@ -87,14 +83,14 @@ private:
 
 struct PixelValue {
     float mean;           // 0 if all samples were rejected
-    float standard_error; // error of the mean, from its parts; infinity if one is empty, as with up to 8 samples
-    float lesser;         // lesser mean of the parts; 0 where the standard error is infinity
+    float standard_error; // of the mean; infinity if a part has no samples
+    float lesser;         // smaller mean of the two parts; 0 if a part has no samples
 };
 
 // Rounds as in quotient.h.
 class PixelValues {
 public:
-    // unit: of the sums, a power of two, in radiance.
+    // `unit` is the radiance of one unit, a power of two.
     PixelValues(const PixelSums &sums, double unit);
 
     std::array<float, 3> means(std::size_t pixel);
@@ -105,10 +101,10 @@ private:
 
     const PixelSums &sums_;
     int exponent_;
-    PartQuotients quotients_; // the previous pixel's: most have the same samples
+    PartQuotients quotients_; // cached: most pixels have equal sample counts
 };
 
-// Throws PT_ERROR_INTERNAL if the samples differ: a driver lost work.
+// Throws PT_ERROR_INTERNAL if the counts differ, since a driver lost work.
 void require_samples(const PartCounts &done, const PartCounts &expected);
 
 } // namespace pt

@@ -1,4 +1,4 @@
-// Quotients of exact sums and counts, with the bits of shaders/quotient.h, but faster: hosts multiply 64-bit numbers.
+// Divides exact sums by sample counts, with the same bits as shaders/quotient.h but with faster 64-bit products.
 #pragma once
 
 #include "shaders/quotient.h"
@@ -14,29 +14,29 @@ class Divisor {
 public:
     Divisor(std::uint32_t divisor, int exponent);
 
-    // Rounded once to nearest; 0 if the divisor is 0.
+    // Rounds once to nearest. Returns 0 if the divisor is 0.
     float quotient(WideSum dividend) const;
 
 private:
     std::uint64_t normal_;     // the divisor times a power of two, in [2^31, 2^32)
     std::uint64_t reciprocal_; // 2^64 / normal_, at most 1 too small
-    double factor_;            // makes quotients by normal_
+    double factor_;            // the unit times normal_ / divisor
 };
 
-// a, b: samples of two parts. Sums are in units of 2^exponent.
+// The two parts have a and b samples. Sums are in units of 2^exponent.
 class PartQuotients {
 public:
     PartQuotients(std::uint32_t a, std::uint32_t b, int exponent);
 
     bool are_of(std::uint32_t a, std::uint32_t b) const { return a == a_ && b == b_; }
 
-    // The mean of all samples, rounded once to nearest; 0 without samples.
+    // Rounds the mean once to nearest. Returns 0 without samples.
     float mean(WideSum sum_a, WideSum sum_b) const { return of_all_.quotient(sum_a + sum_b); }
 
-    // Requires samples in both parts. standard_error: of the mean, derived at gpu::ErrorDivisor.
+    // Requires samples in both parts. gpu::ErrorDivisor derives the standard error.
     struct Difference {
         float standard_error;
-        float lesser; // lesser mean of the parts
+        float lesser; // smaller mean of the two parts
     };
     Difference difference(WideSum sum_a, WideSum sum_b) const;
 

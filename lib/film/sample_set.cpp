@@ -42,7 +42,7 @@ SampleRange SampleSet::hull() const {
     return empty() ? SampleRange{} : SampleRange{ranges_.front().first, ranges_.back().end};
 }
 
-// A single pass along both sets, since a film may have very many ranges.
+// Goes through both sets once, since a film may have very many ranges.
 std::optional<SampleRange> SampleSet::overlap(const SampleSet &other) const {
     auto own = ranges_.begin();
     for (const SampleRange &range : other.ranges_) {
@@ -99,8 +99,7 @@ std::string text_of(const SampleSet &samples) {
     return text;
 }
 
-// The common leading digits of two numbers, then a one, then zeros: the number above the first and up to the second
-// with most trailing zeros.
+// The index in (first, last] with the most trailing zeros has the common leading bits of both, then a one, then zeros.
 std::uint64_t split_of(const SampleRange &hull) {
     if (hull.count() < 2)
         return multiple_from(hull.end, min_part);

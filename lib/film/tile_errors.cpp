@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t channel_count = 3;
 
-// Per pixel of a row: the values to its left, in it and to its right, sorted. Missing ones come first.
+// The left neighbor, the pixel and the right neighbor of each pixel, sorted. Missing neighbors come first.
 using SortedRow = std::array<gpu::Sorted, tile_size>;
 
 SortedRow sorted_row(const TileValues &tile, std::size_t channel, std::size_t y) {
@@ -103,7 +103,7 @@ TileErrors tile_errors(const TileValues &tile) {
 
 namespace {
 
-// rows: begin with the first row of the tile.
+// `rows` starts with the first row of the tile.
 TileErrors errors_of(const Rectangle &pixels, const SampleSet &samples, double unit, std::uint32_t film_width,
                      const PixelSums &rows) {
     TileValues tile{
@@ -126,11 +126,11 @@ std::span<const TileErrors> FilmErrors::of(const TileSamples &samples, double un
     const TileGrid &grid = samples.grid();
     const bool is_known = !tiles_.empty() && samples_.grid() == grid;
     if (!is_known) {
-        samples_ = {}; // until all of it has been looked at
+        samples_ = {}; // stays empty if read() throws
         tiles_.assign(grid.count(), {});
     }
     PixelSums rows;
-    std::uint32_t end = 0; // of the rows that have been read
+    std::uint32_t end = 0; // of the rows read
     for (std::size_t tile = 0; tile < grid.count(); ++tile) {
         if (is_known && samples.of(tile) == samples_.of(tile))
             continue;

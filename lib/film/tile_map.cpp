@@ -26,7 +26,7 @@ struct RangesBefore {
     static std::pair<std::uint64_t, std::uint64_t> ends(const SampleRange &range) { return {range.first, range.end}; }
 };
 
-// Index of the first tile with equal samples, per tile: faster to compare than sets of many ranges.
+// Returns the first tile with equal samples for each tile, since sets of many ranges are slow to compare.
 std::vector<std::size_t> first_equals(const std::vector<FilmTile> &tiles) {
     std::map<const SampleSet *, std::size_t, RangesBefore> known;
     std::vector<std::size_t> firsts;
@@ -36,7 +36,7 @@ std::vector<std::size_t> first_equals(const std::vector<FilmTile> &tiles) {
     return firsts;
 }
 
-// Joins neighbors in a band with equal samples; a span's tile is the first with these samples.
+// The tile of a run is the first tile with its samples.
 std::vector<TileMap::Span> runs_of(const TileMap::Band &band, const std::vector<std::size_t> &firsts) {
     std::vector<TileMap::Span> runs;
     for (const TileMap::Span &span : band.spans) {
@@ -76,7 +76,7 @@ Rectangle shifted(const Rectangle &pixels, const Rectangle &origin) {
     return {pixels.x + origin.x, pixels.y + origin.y, pixels.width, pixels.height};
 }
 
-// Empty if no tile has the pixels; no value if their samples differ.
+// Returns an empty set if no tile has the pixels, and no value if the pixels have different samples.
 std::optional<SampleSet> samples_of(const TileMap &map, const std::vector<FilmTile> &tiles, const Rectangle &pixels) {
     const SampleSet none;
     const auto samples_in = [&](const TileMap::Piece &piece) -> const SampleSet & {

@@ -1,5 +1,4 @@
-// Maps pixels to a film's tiles. Checks tile lists, cuts them along each other, brings them to the canonical form of
-// written films, and converts them to and from the tiles of a grid.
+// Maps pixels to a film's tiles.
 #pragma once
 
 #include "lib/film/film_header.h"
@@ -14,31 +13,31 @@ namespace pt {
 
 class TileMap {
 public:
-    // Columns [first, end) of a band, within a tile.
+    // Columns [first, end) of a band that are in one tile.
     struct Span {
         std::uint32_t first;
         std::uint32_t end;
         std::size_t tile;
     };
 
-    // Rows [first, end) that meet the same tiles; spans from left to right.
+    // Rows [first, end) that cross the same tiles.
     struct Band {
         std::uint32_t first;
         std::uint32_t end;
         std::vector<Span> spans;
     };
 
-    // Pixels within one tile, or in none.
+    // Pixels that are in one tile or outside all tiles.
     struct Piece {
         Rectangle pixels;
         std::optional<std::size_t> tile;
     };
 
-    // Throws PT_ERROR_INCOMPATIBLE if tiles overlap. A tile is in no more bands than it has rows, so a map takes no
-    // more memory than its film's sums.
+    // Throws PT_ERROR_INCOMPATIBLE if tiles overlap. A tile is in at most as many bands as it has rows, which limits
+    // the memory of a map to that of its film's sums.
     explicit TileMap(const std::vector<FilmTile> &tiles);
 
-    // Ordered from the top down; rows without pixels are in none.
+    // From top to bottom, without empty rows.
     const std::vector<Band> &bands() const { return bands_; }
 
     // NULL if no tile has the pixel.
@@ -50,17 +49,16 @@ private:
     std::vector<Band> bands_;
 };
 
-// Contains all tiles; at least one.
+// Requires at least one tile.
 Rectangle bounds_of(const std::vector<FilmTile> &tiles);
 
-// The same pixels and samples: neighbors in a row with equal samples are joined, then equal runs in adjacent rows.
-// Sorted from the top down, then from left to right.
+// Joins neighbors in a row with equal samples, then equal runs in adjacent rows. Sorts tiles from top to bottom, then
+// from left to right.
 std::vector<FilmTile> canonical_tiles(const std::vector<FilmTile> &tiles);
 
-// As few tiles as possible. pixels: the film's, in the image.
 std::vector<FilmTile> film_tiles(const TileSamples &samples, const Rectangle &pixels);
 
-// Samples by tile of a grid over these pixels; nothing if the film's tiles cut the grid's.
+// Returns the samples of each tile of a TileGrid, or no value if pixels of a tile have different samples.
 std::optional<TileSamples> tile_samples(const std::vector<FilmTile> &tiles, const Rectangle &pixels);
 
 } // namespace pt

@@ -1,4 +1,4 @@
-// The samples of each tile of a film. Tiles share equal sets.
+// The samples of each tile of a film. Tiles with equal samples share a set.
 #pragma once
 
 #include "lib/film/sample_set.h"
@@ -21,26 +21,26 @@ public:
     bool even() const { return set_of_.empty(); }
     const SampleSet &of(std::size_t tile) const { return even() ? sets_.front() : sets_[set_of_[tile]]; }
 
-    // Different sets, perhaps some that no tile has any more.
+    // Different sets. Some may be unused.
     const std::vector<SampleSet> &sets() const { return sets_; }
     std::uint32_t set_of(std::size_t tile) const { return even() ? 0 : set_of_[tile]; }
 
     bool empty() const;
-    std::uint64_t least() const; // a pixel's minimum
+    std::uint64_t least() const; // minimum per pixel
     std::uint64_t most() const;
     std::uint64_t total() const; // summed over pixels
 
-    // The samples must be missing so far; tiles ascend.
+    // The tiles must ascend, and must not have these samples yet.
     void add(std::span<const std::uint32_t> tiles, const SampleRange &range);
     void set(std::size_t tile, const SampleSet &samples);
 
-    // The samples of row_count rows of pixels. first_row must begin a row of tiles.
+    // first_row must begin a row of tiles.
     TileSamples rows(std::uint32_t first_row, std::uint32_t row_count) const;
 
-    // Takes no memory.
+    // Allocates no memory.
     void clear() noexcept;
 
-    // Forgets unused sets and, if all tiles have the same set, the list of tiles.
+    // Removes unused sets and, if all tiles have the same set, the list of tiles.
     void tidy();
 
 private:
@@ -49,7 +49,7 @@ private:
 
     TileGrid grid_;
     std::vector<SampleSet> sets_{SampleSet()};
-    std::vector<std::uint32_t> set_of_; // each tile's; empty: all have the first set
+    std::vector<std::uint32_t> set_of_; // of each tile; empty if all tiles have the first set
 };
 
 } // namespace pt
