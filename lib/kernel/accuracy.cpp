@@ -21,7 +21,7 @@ namespace {
 constexpr double full_turn = 2.0 * std::numbers::pi;
 constexpr double float_pi = 3.14159274101257324;
 
-// Folds exactly to a quarter turn, so that zeros are exact.
+// Folds to a quarter turn, which makes zeros exact.
 double sine_of_turn(double u) {
     if (u > 0.5)
         return -sine_of_turn(u - 0.5);
@@ -33,27 +33,26 @@ double cosine_of_turn(double u) {
 }
 
 constexpr float turns[] = {0.125F, 0.25F, 0.375F, 0.5F, 0.625F, 0.75F, 0.875F};
-// The polynomial's end, and where 1 - x passes powers of two.
 constexpr float complements[] = {0.0625F, 0.25F, 0.5F, 0.75F, 0.875F, 0.999F};
-// Odd multiples of 1/2, where the nearest integer changes.
+// The nearest integer changes at these places.
 constexpr float exponents[] = {-0.5F, -1.0F, -1.5F, -24.5F, -99.5F};
 constexpr float powers_of_two[] = {1.0F, 2.0F, 4.0F};
 
-// Bounds add the errors of all steps, in u = 2^-24; an ulp is 1 to 2 u of its value. Sums, products: u. Vulkan
-// ("Precision and Operation of SPIR-V Instructions"): division 2.5 ulp, inversesqrt 2 ulp.
+// Bounds add the errors of all steps in units u = 2^-24. An ulp is 1 to 2 u of its value. Sums and products have an
+// error of u. Vulkan allows 2.5 ulp for division and 2 ulp for inversesqrt ("Precision and Operation of SPIR-V
+// Instructions").
 constexpr ElementaryFunction functions[] = {
-    // sin: 1/2 - u 1, product 1, q 1.95; half an ulp. cos, worst near 1 (p = 4): w^2 0.5, p's last sum 1, cofactor 1.2,
+    // sin: 1/2 - u 1, product 1, q 1.95; half an ulp. cos near 1 (p = 4): w^2 0.5, p's last sum 1, cofactor 1.2,
     // constant 0.9, remainder 0.1; half an ulp.
     {"sine (sin_cos_turn)", sine_of_turn, 4.5, 0x1p-100F, 1.0F, turns},
     {"cosine (sin_cos_turn)", cosine_of_turn, 4.5, 0x1p-100F, 1.0F, turns},
-    // Polynomial: last sum 0.7, constant 0.2, rest 0.4; half an ulp. Worst at 1/4, ulp 2^-25: log2 16 ulp (2^-21), 1 -
-    // y 2.
+    // Polynomial: last sum 0.7, constant 0.2, rest 0.4; half an ulp. At 1/4 (ulp 2^-25): log2 16 ulp (2^-21), 1 - y 2
+    // ulp.
     {"log2(1 - x) (log2_one_minus)", [](double x) { return std::log1p(-x) / std::numbers::ln2; }, 18.0, 0x1p-100F,
      0x1.fffffep-1F, complements},
     // Vulkan: 3 + 2 |x| ulp.
     {"2^x (exp2_negative)", [](double x) { return std::exp2(x); }, 203.0, -0x1p-100F, -100.0F, exponents},
     // k = 0, e = r (0.69 + w): sum 0.9, constant 0.1, w 0.4, remainder 0.2; half an ulp. k = -1, r = 1/2: 1.6 ulp.
-    // Smaller k: less.
     {"1 - 2^x (one_minus_exp2)", [](double x) { return -std::expm1(x * std::numbers::ln2); }, 2.5, -0x1p-100F, -100.0F,
      exponents},
     // sqrt: 4 u of inversesqrt and 2.5 ulp of the division.

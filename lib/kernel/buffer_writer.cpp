@@ -12,7 +12,6 @@ constexpr std::uint64_t most_pixel_bytes = pixel_bytes(PT_FORMAT_RGBA32F);
 
 } // namespace
 
-// An aligned binding may begin before the piece.
 BufferWriter::PieceLimits BufferWriter::piece_limits(const vulkan::Limits &limits) {
     const std::uint64_t bytes = limits.max_storage_buffer_range - limits.storage_buffer_alignment;
     const std::uint64_t dispatched = std::uint64_t{limits.max_workgroup_count} * gpu::WORKGROUP_SIZE;
@@ -31,7 +30,7 @@ BufferWriter::~BufferWriter() {
     try {
         if (under_way_ && !device_.hangs())
             device_.finish(*under_way_);
-    } catch (...) { // the device is lost; a destructor cannot report it
+    } catch (...) { // A destructor cannot report a lost device.
     }
 }
 

@@ -1,4 +1,4 @@
-// Resolves a film into a caller's buffer. Owned by RenderDevice; bound to its film.
+// Writes a film's image into a caller's buffer.
 #pragma once
 
 #include "lib/kernel/pixel_results.h"
@@ -11,7 +11,7 @@
 
 namespace pt {
 
-// Offset and row distance are multiples of 4.
+// offset and row_bytes are multiples of 4.
 struct BufferTarget {
     vk::Buffer buffer;
     std::uint64_t offset;
@@ -22,19 +22,18 @@ struct BufferTarget {
 class BufferWriter {
 public:
     struct PieceLimits {
-        std::uint64_t pixels; // at least one; fit the bytes in any format
+        std::uint64_t pixels; // >= 1, in any format
         std::uint64_t bytes;  // including gaps between rows
     };
     static PieceLimits piece_limits(const vulkan::Limits &limits);
 
     BufferWriter(vulkan::Device &device, ResolvePipelines &pipelines, DeviceFilm &film, const PieceLimits &limits);
-    // Waits for the device.
     ~BufferWriter();
     BufferWriter(const BufferWriter &) = delete;
     BufferWriter &operator=(const BufferWriter &) = delete;
 
-    // Waits for the device; with a semaphore to signal, the next call waits instead. Throws PT_ERROR_INTERNAL if a
-    // driver lost work; nothing has been written if an earlier call's was lost.
+    // Waits for the device. With a semaphore to signal, the next call waits instead. Throws PT_ERROR_INTERNAL if a
+    // driver lost work. After a loss in the previous call, nothing is written.
     void write(const ImageQuery &query, const BufferTarget &target);
 
 private:

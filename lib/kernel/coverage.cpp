@@ -16,7 +16,6 @@ namespace {
 constexpr std::uint64_t count_bytes = sizeof(std::uint32_t);
 constexpr glm::uvec2 no_samples(1, 0);
 
-// A sample's first blocks are the camera ray's.
 PointLayout camera_layout(const Features &features) {
     const std::vector<std::uint32_t> blocks = camera_blocks(features);
     return {blocks, static_cast<std::uint32_t>(blocks.size()), 1};

@@ -1,5 +1,5 @@
-// Counts the camera rays that meet a surface (shaders/coverage.comp). It traces them again, so the film needs no fourth
-// channel.
+// Counts the camera rays that hit a surface (shaders/coverage.comp). Tracing them again saves a fourth channel of the
+// film.
 #pragma once
 
 #include "lib/film/film_header.h"
@@ -26,8 +26,7 @@ class Coverage {
 public:
     Coverage(vulkan::Device &device, std::span<const std::uint32_t> code);
 
-    // Calls receive(counts) for consecutive pieces of the pixels, row by row. tests_per_submission: ray-surface tests
-    // to aim for. Throws PT_ERROR_SHADER if the driver refuses the kernel, PT_ERROR_INTERNAL if it lost work.
+    // Calls receive(counts) for consecutive pieces, row by row. Throws PT_ERROR_SHADER or PT_ERROR_INTERNAL.
     using Receive = std::function<void(std::span<const std::uint32_t>)>;
     void read(const BoundScene &bound, const CoverageQuery &query, double tests_per_submission, const Receive &receive);
 

@@ -19,12 +19,10 @@ struct PixelRange {
     std::uint32_t count;
 };
 
-// Count 0 if they are disjoint.
 PixelRange common_pixels(const PixelRange &a, const PixelRange &b);
 
 class DeviceFilm {
 public:
-    // Consecutive pixels that fit into one binding.
     struct Strip {
         std::uint32_t first_pixel;
         std::uint32_t pixel_count;
@@ -35,7 +33,7 @@ public:
 
     static constexpr std::uint64_t bytes_per_pixel = PixelSums::words_per_pixel * sizeof(std::uint32_t);
 
-    // Clear before use. Throws PT_ERROR_OUT_OF_DEVICE_MEMORY, or PT_ERROR_UNSUPPORTED for sizes beyond the device.
+    // Clear the film before use. Throws PT_ERROR_OUT_OF_DEVICE_MEMORY or PT_ERROR_UNSUPPORTED.
     DeviceFilm(vulkan::Device &device, std::uint32_t width, std::uint32_t height, std::uint32_t max_strip_pixels);
 
     std::uint32_t width() const { return grid_.width; }
@@ -50,12 +48,12 @@ public:
 
     bool has_whole_tiles() const;
 
-    // Records a copy: planes without gaps, part after part.
+    // Records a copy without gaps between planes.
     void copy_to(const vk::raii::CommandBuffer &commands, const PixelRange &pixels, const vulkan::Buffer &to) const;
 
     void read(std::uint32_t first_pixel, PixelSums &sums);
 
-    // The film is unchanged until replace().
+    // Leaves the film unchanged until replace().
     class NewSums {
     public:
         // Throws PT_ERROR_OUT_OF_DEVICE_MEMORY.
@@ -63,7 +61,7 @@ public:
 
         void write(std::uint32_t first_pixel, const PixelSums &sums);
 
-        // In one submission. All sums must have been written.
+        // All sums must be written before.
         void replace();
 
     private:
@@ -79,15 +77,14 @@ private:
     std::vector<Strip> strips_;
 };
 
-// Reads the sum of films of one size, which together hold `samples`, in pieces. Throws PT_ERROR_INTERNAL if a driver
-// lost work.
+// Reads the sum of films of equal size, in pieces. Throws PT_ERROR_INTERNAL if the films lack samples.
 void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, const PixelRange &pixels,
                 std::uint32_t most_pixels, const std::function<void(const PixelSums &)> &receive);
 
 void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, std::uint32_t first_pixel,
                 PixelSums &sums);
 
-// Not a power of two, since planes would share the processor's cache sets.
+// A power of two would put all planes into the same cache sets.
 inline constexpr std::uint32_t piece_pixels = 130'000;
 
 std::uint32_t max_strip_pixels(const vulkan::Limits &limits);

@@ -19,7 +19,7 @@ namespace {
 
 // of length plus radius
 constexpr double rounding_of_capsules = 0x1p-21;
-// of the radius; opacities take its last bits
+// of the radius, whose last bits hold the opacity
 constexpr double rounding_of_radii = 0.5 * (gpu::TREE_OPACITY_STEPS + 1) * 0x1p-23;
 
 // Largest displacements by rounding, in scene units.
@@ -31,7 +31,6 @@ struct Losses {
     double all() const { return of_center + of_radius + of_capsule; }
 };
 
-// tree: NULL for surfaces outside. length: of a capsule.
 Losses losses_of(const SphereTree *tree, double length, double radius) {
     const double half_diagonal = 0.5 * std::sqrt(3.0);
     return {tree ? half_diagonal * tree->grid().step : 0.0,
@@ -43,7 +42,7 @@ Losses losses_of(const SphereTree *tree, const MovingBall &surface) {
     return losses_of(tree, surface.kind == Kind::capsule ? glm::length(surface.way) : 0.0, surface.radius);
 }
 
-// A pixel's side at the depth of the surface.
+// The side of a pixel at a surface's depth.
 class PixelSides {
 public:
     PixelSides(const Camera &camera, const RenderSettings &settings) :
@@ -55,7 +54,7 @@ public:
     // A lower bound; infinite out of view.
     double nearest(const MovingBall &ball) const { return at(depth_(ball)); }
 
-    // A lower bound. Long ways are divided until the parts are short or far. From inside, a ball's wall is seen.
+    // A lower bound. Long ways are halved until the parts are short or far away. From inside, a ball's wall is seen.
     double of_surface(const MovingBall &surface) const {
         const double depth = depth_(surface);
         const double short_way = view_ > 0.0 ? view_ : 0.25 * std::max(surface.radius, depth);
@@ -74,12 +73,12 @@ private:
     }
 
     std::function<double(const MovingBall &)> depth_;
-    double view_;        // parallel rays: the height of the view; else 0
-    double of_parallel_; // parallel rays: a pixel's side; else 0
+    double view_;        // height of parallel rays' view, or 0
+    double of_parallel_; // of parallel rays, or 0
     double at_distance_1_;
 };
 
-// Few digits, since stored numbers are rounded.
+// Stored values are rounded, so a few digits suffice.
 std::string short_text(double number) {
     std::array<char, 32> text{};
     return {text.data(),
@@ -90,7 +89,6 @@ std::string short_text(const glm::dvec3 &vector) {
     return '(' + short_text(vector.x) + ", " + short_text(vector.y) + ", " + short_text(vector.z) + ')';
 }
 
-// Components that may be mere rounding become 0.
 glm::dvec3 without_less_than(double rounding, const glm::dvec3 &vector) {
     return glm::mix(vector, glm::dvec3(0.0), glm::lessThanEqual(glm::abs(vector), glm::dvec3(rounding)));
 }
@@ -118,7 +116,7 @@ Displaced most_displaced(const PreparedScene &scene, const Camera &camera, const
     const SphereTree *tree = scene.tree.get();
     if (tree == nullptr)
         return most;
-    // Ratios from 1 on are harmless, so the walk skips them.
+    // The search skips displacements of at most a pixel.
     const auto bounded = [](double ratio) {
         if (ratio < 1.0)
             return ratio;

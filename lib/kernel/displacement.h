@@ -1,4 +1,4 @@
-// How far rounding moves surfaces in the picture.
+// How far rounding moves surfaces in the image.
 #pragma once
 
 #include "lib/base/error.h"
@@ -10,8 +10,8 @@
 
 namespace pt {
 
-// The visible surface that rounding moves farthest, if by more than a pixel. The rule names the value that causes it,
-// and what to do.
+// Returns the visible surface that rounding moves farthest, if by more than a pixel. The rule names the cause and a
+// remedy.
 std::optional<BrokenRule> displaced_surface(const PreparedScene &scene, const Camera &camera,
                                             const RenderSettings &settings);
 

@@ -16,15 +16,15 @@ std::uint32_t groups_in_row(const TileGrid &grid) {
     return (grid.width + gpu::ESTIMATE_WORKGROUP_SIZE - 1) / gpu::ESTIMATE_WORKGROUP_SIZE;
 }
 
-// With these units the squares of all relative errors are normal floats.
+// Units in which all squared relative errors are normal floats.
 struct RelativeUnits {
     float offset;  // in film units
-    float scale;   // errors are below 2^FILM_MAX_EXPONENT; scaled, over the offset, below 2^60
-    double factor; // corrects squares for the limited offset
+    float scale;   // Errors are below 2^FILM_MAX_EXPONENT, so error * scale / offset < 2^60.
+    double factor; // corrects squares for a limited offset
 
     double undone() const { return 1.0 / (static_cast<double>(scale) * static_cast<double>(scale) * factor); }
 
-    // An offset far above the film's values makes up the whole denominator, so limiting it scales all squares equally.
+    // An offset far above the film's values dominates the denominator. Limiting it scales all squares equally.
     explicit RelativeUnits(double unit) {
         constexpr double far_above = 1e13;
         const double exact = std::sqrt(relative_offset) / unit;
@@ -97,7 +97,7 @@ TileGrid ErrorReader::grid_of(std::size_t strip) const {
     return {film_.width(), film_.strips()[strip].pixel_count / film_.width()};
 }
 
-// The kernel that reads this memory must not be running.
+// No kernel that reads this memory may be running.
 void ErrorReader::list_counts(const TileSamples &samples) {
     if (samples.even())
         return;

@@ -1,4 +1,4 @@
-// Reads the error of a film's image, summed over tiles by estimate.comp. Owned by RenderDevice; bound to its film.
+// Reads the error of a film's image, summed over tiles by estimate.comp.
 #pragma once
 
 #include "lib/film/error_estimate.h"
@@ -16,24 +16,24 @@
 namespace pt {
 
 struct ErrorQuery {
-    double unit; // radiance per unit of the film, a power of two
+    double unit; // radiance per film unit, a power of two
     const TileSamples &samples;
-    std::span<double> by_tile{}; // receives each tile's own_square() (tile_errors.h), unless empty
+    std::span<double> by_tile{}; // receives each tile's own_square() (tile_errors.h)
 };
 
 class ErrorReader {
 public:
-    // estimate: from estimate_pipeline(). The film must have whole tiles.
+    // The film must have whole tiles.
     ErrorReader(vulkan::Device &device, const vulkan::ComputePipeline &estimate, DeviceFilm &film);
 
     using Receive = std::function<void(const TileErrors &)>;
 
-    // Calls receive(tiles) for sums over some tiles of a row, in a fixed order. Throws PT_ERROR_INTERNAL if a driver
-    // lost work.
+    // Calls receive() with sums over some tiles of a row, in a fixed order. Throws PT_ERROR_INTERNAL if a driver lost
+    // work.
     void read(const ErrorQuery &query, const Receive &receive);
 
-    // read() in two steps, for a film of one strip. record() appends to commands that take samples; collect() reads
-    // once they have ended. No other such commands may be under way.
+    // read() in two steps, for films of one strip. record() appends to commands that take samples, and collect() reads
+    // once they have ended. Only one such submission may be in flight.
     void record(const vk::raii::CommandBuffer &commands, const ErrorQuery &query);
     void collect(const ErrorQuery &query, const Receive &receive) const;
 

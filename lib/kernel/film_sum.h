@@ -1,5 +1,4 @@
-// Sums devices' films, or some of their rows, in the first device's memory (add.comp). Other films come through host
-// memory.
+// Sums the films of several devices in the first one's memory (add.comp). The others' films pass through host memory.
 #pragma once
 
 #include "lib/kernel/device_film.h"
@@ -23,13 +22,12 @@ public:
         DeviceFilm &film;
     };
 
-    // sources: films of one size. add: add_pipeline() on the first film's device. Throws PT_ERROR_OUT_OF_DEVICE_MEMORY.
+    // The films have one size. Throws PT_ERROR_OUT_OF_DEVICE_MEMORY.
     FilmSum(const std::vector<Source> &sources, const vulkan::ComputePipeline &add, std::uint32_t row_count);
 
-    // The rows gathered last.
     DeviceFilm &film() { return film_; }
 
-    // Sums rows from first_row on, defined for `wanted` only.
+    // Sums rows from first_row on, but only the pixels `wanted`.
     void gather(std::uint32_t first_row, const PixelRange &wanted);
 
 private:
@@ -54,8 +52,8 @@ private:
     std::list<Distant> others_;
     std::uint32_t piece_pixels_;
     std::vector<vulkan::Buffer> slots_;
-    std::vector<std::vector<vulkan::DescriptorSet>> slot_sets_; // by slot and strip of the sum
-    std::vector<std::vector<vulkan::DescriptorSet>> own_sets_;  // by strip of the first film and of the sum
+    std::vector<std::vector<vulkan::DescriptorSet>> slot_sets_; // by slot and strip
+    std::vector<std::vector<vulkan::DescriptorSet>> own_sets_;  // by both films' strips
 };
 
 vulkan::ComputePipeline add_pipeline(vulkan::Device &device, std::span<const std::uint32_t> code);

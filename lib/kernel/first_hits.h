@@ -1,4 +1,4 @@
-// Reads depth, normal, albedo and object of first hits (shaders/first_hit.comp), with or without samples.
+// Reads depth, normal, albedo and object of first hits (shaders/first_hit.comp).
 #pragma once
 
 #include "lib/film/film_header.h"
@@ -17,7 +17,7 @@ constexpr bool is_of_first_hits(std::uint32_t quantity) {
 }
 
 struct FirstHitQuery {
-    Rectangle pixels;       // region of the image, at least one pixel
+    Rectangle pixels;       // at least one pixel
     std::uint32_t quantity; // must satisfy is_of_first_hits()
     std::uint32_t format;   // PT_FORMAT_*
 };
@@ -26,9 +26,8 @@ class FirstHits {
 public:
     FirstHits(vulkan::Device &device, std::span<const std::uint32_t> code);
 
-    // Calls receive(bytes) for consecutive pieces of the pixels, row by row. Objects are the kernels' surface numbers.
-    // tests_per_submission: ray-surface tests to aim for. Throws PT_ERROR_SHADER if the driver refuses the kernel,
-    // PT_ERROR_INTERNAL if it lost work.
+    // Calls receive(bytes) for consecutive pieces, row by row. Objects are the kernel's surface indices. Throws
+    // PT_ERROR_SHADER or PT_ERROR_INTERNAL.
     using Receive = std::function<void(std::span<const std::byte>)>;
     void read(const BoundScene &bound, const FirstHitQuery &query, double tests_per_submission, const Receive &receive);
 

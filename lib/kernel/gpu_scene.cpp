@@ -23,7 +23,7 @@ float mean(const glm::vec3 &color) {
     return (color.r + color.g + color.b) / 3.0F;
 }
 
-// Proportional to reflectance, the diffuse lobe's doubled: light from a whole hemisphere varies more.
+// Proportional to reflectance. The diffuse lobe counts twice, because light from a hemisphere varies more.
 float specular_probability(const Material &material) {
     const float specular = mean(material.specular);
     const float diffuse = 2.0F * mean(material.diffuse);
@@ -45,7 +45,6 @@ public:
     }
 
     void reflection(std::uint32_t index, const Material &material) {
-        // Includes the constant factors of f.
         const double lobe = (material.glossiness + 2.0) / (2.0 * std::numbers::pi);
         const glm::dvec3 diffuse = glm::dvec3(material.diffuse) / std::numbers::pi;
         const std::uint64_t word = blocks_.reflection_step * index;
@@ -87,7 +86,7 @@ public:
     }
 
 private:
-    // Adding 0 turns -0 into +0; the film rejects negative numbers.
+    // Adding 0 turns -0 into +0. The film rejects negative numbers.
     void write_emission(std::uint64_t word, const Material &material) {
         words_[word] = glm::vec4(material.emission + 0.0F, mean(material.emission));
     }
@@ -110,7 +109,7 @@ private:
     const SceneBlocks blocks_;
 };
 
-// Ordered like the lamp tree. Lamps in the tree of spheres have the last numbers.
+// Returns lamps in the lamp tree's order. The sphere tree's lamps have the last numbers.
 std::vector<TreeLamp> tree_lamps(const KernelSurfaces &surfaces, const PreparedScene &scene, const Camera &camera) {
     constexpr std::uint32_t no_lamp = 0xffffffff;
     const auto sphere_count = static_cast<std::uint32_t>(scene.scene.spheres.size());
@@ -177,7 +176,6 @@ gpu::FrameConstants frame_constants(const Camera &camera, const RenderSettings &
     return constants;
 }
 
-// Planes follow all spheres in the caller's scene.
 std::vector<std::uint32_t> objects_of(const KernelSurfaces &surfaces, const PreparedScene &scene) {
     const Scene &held = scene.scene;
     const std::size_t sphere_count = scene.tree ? scene.tree->scene_sphere_count() : held.spheres.size();

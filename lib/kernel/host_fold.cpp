@@ -10,11 +10,10 @@ namespace pt {
 
 namespace {
 
-// 0 in an empty part, and ordered like rare_plane() of film.glsl.
+// 0 in an empty part, and in the order of rare_plane() (film.glsl).
 constexpr std::array<std::size_t, 4> rare_planes = {gpu::FILM_SUM_WORDS - 1, 2 * gpu::FILM_SUM_WORDS - 1,
                                                     3 * gpu::FILM_SUM_WORDS - 1, gpu::FILM_REJECTED};
 
-// Calls function(words of a part, pixels) per strip.
 template <typename Function>
 void for_each_strip(DeviceFilm &film, const PixelRange &pixels, std::uint32_t part, const Function &function) {
     for (DeviceFilm::Strip &strip : film.strips()) {

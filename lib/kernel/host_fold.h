@@ -1,5 +1,5 @@
-// Folds a film's parts on the host, for devices that share its memory. lavapipe's kernel would access memory one
-// invocation at a time.
+// Adds one part of a film to the other on the host. On lavapipe a kernel is slower, because its invocations access
+// memory one at a time.
 #pragma once
 
 #include "lib/film/pixel_sums.h"
@@ -14,17 +14,16 @@ class HostFold {
 public:
     HostFold(DeviceFilm &film, std::uint32_t into) : film_(film), into_(into) {}
 
-    // Undoes the fold, unless keep() was called.
+    // Undoes the fold unless keep() was called.
     ~HostFold();
     HostFold(const HostFold &) = delete;
     HostFold &operator=(const HostFold &) = delete;
 
-    // Call once, with the film in host memory and no submission under way. The next submission overwrites the other
-    // part, except rare words (film.glsl), which it assumes to be 0. If one is nonzero, returns false and folds
-    // nothing.
+    // Call it once, with the film in host memory and no submission running. Returns false and folds nothing if a rare
+    // word (film.glsl) is not 0, because the next submission expects zeros there.
     bool fold(std::vector<PixelRange> pixels);
 
-    // Call after submission.
+    // Call it after the submission.
     void keep() noexcept { folded_.clear(); }
 
 private:

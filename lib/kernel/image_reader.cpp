@@ -7,7 +7,7 @@ namespace pt {
 
 namespace {
 
-// 3 MiB: keeps a bus busy, yet the first piece arrives soon.
+// 3 MiB keep a bus busy, yet the first piece arrives soon.
 constexpr std::uint32_t read_pixels = 1U << 18;
 
 } // namespace

@@ -1,5 +1,4 @@
-// Reads a film as an image. resolve.comp makes the pixels, so only 4 to 16 bytes of each cross the bus. Owned by
-// RenderDevice; bound to its film.
+// Reads a film as an image. resolve.comp makes the pixels, so only 4 to 16 bytes of each are transferred.
 #pragma once
 
 #include "lib/kernel/pixel_results.h"
@@ -23,12 +22,10 @@ public:
         pipelines_(pipelines),
         film_(film) {}
 
-    // Calls receive(bytes) for consecutive pieces of the pixels, row by row. Throws PT_ERROR_INTERNAL if a driver lost
-    // work.
+    // Calls receive(bytes) for consecutive pieces, row by row. Throws PT_ERROR_INTERNAL if a driver lost work.
     void read(const ImageQuery &query, const std::function<void(std::span<const std::byte>)> &receive);
 
-    // Returns all pixels, without gaps, in memory that the device writes; valid until the next call or the object's
-    // end. Throws like read().
+    // Returns all pixels without gaps. The memory is valid until the next call. Throws like read().
     std::span<std::byte> map(const ImageQuery &query);
 
 private:
@@ -55,7 +52,7 @@ private:
     ResolvePipelines &pipelines_;
     DeviceFilm &film_;
     std::vector<Slot> slots_;
-    std::optional<vulkan::Buffer> mapped_; // an image, then findings
+    std::optional<vulkan::Buffer> mapped_; // image, then lost pixels
 };
 
 } // namespace pt

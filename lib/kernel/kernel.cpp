@@ -22,7 +22,6 @@ std::uint64_t checked_scene_bytes(const vulkan::Device &device, std::size_t word
     return bytes;
 }
 
-// Samples of a pixel, limited by loop trips and the point table.
 std::uint32_t samples_of_dispatch(const vulkan::Device &device, const Features &features, const PointLayout &layout,
                                   std::uint32_t table_bytes) {
     const std::uint64_t trips = loop_trips_per_sample(features);
@@ -82,7 +81,7 @@ Kernel::Kernel(vulkan::Device &device, TracePipelines &pipelines, DeviceFilm &fi
 void Kernel::bind_film(const vulkan::ComputePipeline &trace) {
     if (!sets_.empty())
         return;
-    std::vector<vulkan::DescriptorSet> sets; // no set is kept if one fails
+    std::vector<vulkan::DescriptorSet> sets; // none is kept after a failure
     for (const DeviceFilm::Strip &strip : film_.strips()) {
         std::vector<vulkan::BufferRange> ranges = scene_ranges(*gpu_scene_, scene_, tree_);
         ranges.insert(ranges.end(), {strip.words, points_, tile_lists_.buffer()});
@@ -119,8 +118,8 @@ void Kernel::dispatch_nothing() {
     });
 }
 
-// Each batch has its dispatch, in one part of the film after the slice. The next table is never in use: slices end in
-// order, and there are tables for all under way.
+// Each batch is a dispatch, in one part of the film after the slice. The next table is free, because slices end in
+// order and each slice in flight has its own tables.
 std::vector<Kernel::Batch> Kernel::next_batches(const TileSlice &slice) {
     const std::uint64_t split = slice.split();
     SampleRange before = slice.before;
@@ -149,12 +148,11 @@ void Kernel::upload_points(const std::vector<Batch> &batches) {
     }
 }
 
-// Requires that nothing under way reads the film.
 bool Kernel::folds_on_host() const {
     return !overlap_ && film_.is_host_memory() && device_.is_at_rest();
 }
 
-// Invocations that share a pixel's samples, so that few tiles keep the device busy.
+// Invocations share a pixel's samples, so that few tiles keep the device busy.
 std::uint32_t Kernel::sharers_of(std::size_t tile_count, std::uint32_t sample_count) const {
     constexpr std::uint32_t least_samples = 4; // worth an addition to the film
     const std::size_t wanted = device_.policy().invocations / (tile_count * gpu::WORKGROUP_SIZE);

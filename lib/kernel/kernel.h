@@ -1,4 +1,4 @@
-// The path-tracing kernel, specialised to a scene's features, with its buffers.
+// The path-tracing kernel, specialised to a scene's features, and its buffers.
 #pragma once
 
 #include "lib/kernel/device_film.h"
@@ -25,38 +25,38 @@ namespace pt {
 
 class Kernel {
 public:
-    // tree: the scene's tree buffer, or NULL. Throws PT_ERROR_UNSUPPORTED for scenes beyond the device.
+    // Throws PT_ERROR_UNSUPPORTED if the device is too small for the scene.
     Kernel(vulkan::Device &device, TracePipelines &pipelines, DeviceFilm &film, const vulkan::Buffer *tree,
            std::shared_ptr<const GpuScene> scene, const RenderSettings &settings);
 
     const Features &features() const { return gpu_scene_->features; }
 
-    // show() takes scenes of the same features, while no work is under way.
+    // show() needs a scene with the same features, and no work in flight.
     const GpuScene &scene() const { return *gpu_scene_; }
     bool can_show(const GpuScene &scene) const;
     void show(std::shared_ptr<const GpuScene> scene, const RenderSettings &settings);
 
-    // For other kernels, while no work is under way.
+    // For other kernels, while no work is in flight.
     BoundScene bound_scene();
 
-    // Builds this kernel's pipelines in another cache. Throws PT_ERROR_SHADER if the driver refuses one.
+    // Builds pipelines in another cache. Throws PT_ERROR_SHADER if the driver rejects one.
     void build(TracePipelines &pipelines) const;
 
-    // Some drivers compile only at the first dispatch. No work may be under way.
+    // Some drivers compile only at the first dispatch. No work may be in flight.
     void dispatch_nothing();
 
     std::uint32_t max_samples() const { return max_dispatch_samples_ * (max_tables - 1); }
 
     using Behind = std::function<void(const vk::raii::CommandBuffer &)>;
 
-    // At most queue_depth slices of the device may be under way.
+    // At most queue_depth slices may be in flight.
     vulkan::Device::Ticket start(const TileSlice &slice, bool on_cleared_film, const Behind &behind = {});
 
-    // Waits for a slice and returns its seconds, estimated by expected_seconds if the device cannot measure.
+    // Waits for a slice. Returns its seconds, or an estimate by expected_seconds if the device cannot measure.
     double finish(vulkan::Device::Ticket ticket, double expected_seconds = 0.0);
 
 private:
-    // Tables of points: one per dispatch of a slice, at most 4 MiB. The film's split may add a dispatch.
+    // Each dispatch of a slice has a table of points, at most 4 MiB together. The film's split may add a dispatch.
     static constexpr std::uint32_t max_tables = 64;
 
     struct Batch {
@@ -64,7 +64,7 @@ private:
         std::uint32_t sample_count;
         std::uint32_t table_offset;
         FilmPart part;
-        bool begins_part; // no samples of these pixels yet
+        bool begins_part;
 
         SampleRange range() const { return {first_sample, std::uint64_t{first_sample} + sample_count}; }
     };
@@ -78,27 +78,27 @@ private:
     std::uint32_t sharers_of(std::size_t tile_count, std::uint32_t sample_count) const;
     bool folds_on_host() const;
 
-    // Overlapping dispatches do not overwrite their part but add atomically.
+    // Overlapping dispatches add atomically instead of overwriting.
     std::uint32_t overwrites(bool part_is_empty) const { return part_is_empty && !overlap_ ? 1 : 0; }
 
     vulkan::Device &device_;
     TracePipelines &pipelines_;
     DeviceFilm &film_;
-    std::shared_ptr<const GpuScene> gpu_scene_; // never NULL
+    std::shared_ptr<const GpuScene> gpu_scene_;
     PointLayout layout_;
     std::uint64_t seed_;
     gpu::FrameConstants frame_;
     std::uint32_t table_bytes_;
     std::uint32_t max_dispatch_samples_; // per pixel
-    bool overlap_;                       // dispatches may add at the same time
+    bool overlap_;
     vulkan::Buffer scene_;
     const vulkan::Buffer *tree_;
-    vulkan::Buffer points_; // used in turn by the slices under way
+    vulkan::Buffer points_;
     TileLists tile_lists_;
     std::vector<vulkan::DescriptorSet> sets_;
     std::uint32_t next_table_ = 0;
-    bool scene_is_old_ = true; // the buffer lacks the scene
-    double seconds_ = 0.0;     // device time of the scene's slices
+    bool scene_is_old_ = true;
+    double seconds_ = 0.0; // the device's, for the scene
 };
 
 } // namespace pt

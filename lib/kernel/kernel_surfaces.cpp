@@ -8,7 +8,7 @@ namespace pt {
 
 namespace {
 
-// Whether the camera is surely inside while the shutter is open. Motion is straight, so both ends suffice.
+// Whether the camera is surely inside. Motion is straight, so both ends suffice.
 bool holds_camera(const SeenSphere &sphere) {
     constexpr double margin = 1.0 - side_margin;
     return sphere.distance < sphere.radius * margin && glm::length(sphere.close()) < sphere.radius * margin;

@@ -1,4 +1,4 @@
-// The surfaces that one camera sees, in the kernels' order.
+// The surfaces that one camera sees, in the kernel's order.
 #pragma once
 
 #include "lib/scene/camera.h"
@@ -14,27 +14,27 @@ namespace pt {
 struct HiddenCounts {
     std::uint32_t lamps;
     std::uint32_t skies;
-    std::uint32_t others; // spheres that do not emit
+    std::uint32_t others;
     std::uint32_t planes;
 };
 
-// Lamps, skies, other spheres, curved planes, planes, without twins. Each kind keeps the scene's order, but hidden ones
-// are the last lamps, first skies, last other spheres and first planes, so that the camera sees two ranges. A sky is an
-// emitting sphere around the camera, which cannot be sampled from inside. A hidden one apart from everything visible is
-// a lamp.
+// The order is lamps, skies, other spheres, curved planes, planes. Each kind keeps the scene's order. Hidden surfaces
+// are the last lamps, first skies, last other spheres and first planes, so that visible ones form two ranges. A sky is
+// an emitting sphere around the camera, which cannot be sampled from inside. If it is hidden and lies apart from all
+// visible surfaces, it is a lamp.
 struct KernelSurfaces {
-    std::vector<SeenSphere> spheres; // held by center and radius
+    std::vector<SeenSphere> spheres; // given by center and radius
     std::vector<CurvedPlane> planes;
     std::uint32_t lamp_count;
     std::uint32_t sky_count;
     HiddenCounts hidden;
 };
 
-// Whether a ball lies apart, as in moving_ball.h.
+// See moving_ball.h.
 bool lies_apart(const MovingBall &ball, const CurvedPlane &flat);
 bool lies_apart(const MovingBall &ball, const PointBox &box);
 
-// Whether a hidden sphere lies apart from everything visible, so that no path gets into it. tree: may be NULL.
+// Whether a hidden sphere lies apart from all visible surfaces, so that no path enters it.
 bool lies_apart(const SeenSphere &hidden, const SeenScene &scene, const SphereTree *tree, const Camera &camera);
 
 KernelSurfaces kernel_surfaces(const SeenScene &distinct, const SphereTree *tree, const Camera &camera);

@@ -12,7 +12,7 @@ namespace pt {
 
 namespace {
 
-// Rounded: nodes must contain the lamps as the kernel sees them.
+// In float32, because nodes must contain the lamps as the kernel sees them.
 struct Ball {
     glm::vec3 open;
     glm::vec3 way{0.0F};
@@ -37,8 +37,8 @@ Ball ball_of(const SeenSphere &sphere) {
     return {glm::vec3(sphere.open), glm::vec3(sphere.way), static_cast<float>(sphere.radius)};
 }
 
-// Divides by the largest power, rounded down to a power of two, and multiplies by the lamps' extent if above 1. The
-// kernel's quotients by squared distances then lie between 1e-17 and 1e17.
+// Scales powers by the largest one and, if above 1, the lamps' extent. The kernel's quotients by squared distances then
+// lie between 1e-17 and 1e17.
 std::vector<Lamp> scaled_lamps(std::span<const TreeLamp> lamps) {
     double largest_power = 0.0;
     double size = 1.0;
@@ -57,7 +57,7 @@ std::vector<Lamp> scaled_lamps(std::span<const TreeLamp> lamps) {
     return scaled;
 }
 
-// The center is the mean by power. It moves in a straight line, so distances from it are largest at an end.
+// The center is the mean by power. It moves straight, so distances from it are largest at an end.
 Node node_of(std::span<const Lamp> lamps) {
     Node node;
     glm::dvec3 open(0.0);
@@ -81,7 +81,7 @@ Node node_of(std::span<const Lamp> lamps) {
             spreads[end] += lamp.power * (distance * distance + 3.0 * lamp_radius * lamp_radius);
         }
     }
-    // In between, the kernel rounds places to 2^-24 of their size.
+    // In between, the kernel rounds positions to 2^-24 of their size.
     radius += 0x1p-21 * (std::max(glm::length(middles[0]), glm::length(middles[1])) + radius);
     const double spread = std::max(
         {spreads[0] / node.power, spreads[1] / node.power, radius * radius / gpu::LAMP_TREE_BALL * (1.0 + 0x1p-20)});

@@ -1,4 +1,4 @@
-// Writes the tree of lamps into the scene buffer (shaders/gpu_layout.h).
+// Writes the lamp tree into the scene buffer (shaders/gpu_layout.h).
 #pragma once
 
 #include "lib/scene/seen_scene.h"
@@ -10,10 +10,9 @@
 
 namespace pt {
 
-// From this number on, the tree is faster than a loop over all lamps.
+// From here on the tree is faster than a loop over all lamps.
 constexpr std::uint32_t least_tree_lamps = 32;
 
-// For nodes, slots' lamps and lamps' slots.
 std::uint64_t lamp_tree_words(std::uint32_t lamp_count, bool motion);
 
 struct TreeLamp {
@@ -22,7 +21,7 @@ struct TreeLamp {
     std::uint32_t lamp; // index in the kernel
 };
 
-// words: lamp_tree_words() of them. lamps: in the tree's order.
+// `words` has lamp_tree_words(). Lamps are in the tree's order.
 void write_lamp_tree(std::span<glm::vec4> words, std::span<const TreeLamp> lamps, bool motion);
 
 } // namespace pt

@@ -1,4 +1,4 @@
-// Finds spots: small places far brighter than others, which random rays seldom find (shaders/spots.glsl).
+// Finds spots: small bright places that random rays seldom hit (shaders/spots.glsl).
 #pragma once
 
 #include "lib/kernel/kernel_surfaces.h"
@@ -14,11 +14,11 @@ struct LightSpot {
     std::uint32_t lamp;
     std::uint32_t surface;
     float reflectance; // mean of R, G and B
-    float glossiness;  // a mirror image's gloss; -1 for a glow
+    float glossiness;  // of a mirror image; -1 for a glow
 };
 
-// Empty for short paths, many lamps, or more than SPOT_LIMIT spots. Independent of the camera, so that a moving one
-// keeps its kernel. features: without spots.
+// Returns none for short paths, many lamps, or more than SPOT_LIMIT spots. Spots do not depend on the camera, so a
+// moving camera keeps its kernel.
 std::vector<LightSpot> light_spots(const KernelSurfaces &surfaces, const std::vector<Material> &materials,
                                    const Features &features);
 

@@ -1,4 +1,4 @@
-// A kernel's results per pixel, on the device and for the host: lost pixels, then words.
+// A kernel's results per pixel, after a header with the number of lost pixels.
 #pragma once
 
 #include "lib/vulkan/buffer.h"
@@ -15,28 +15,26 @@ namespace pt {
 
 class PixelResults {
 public:
-    // Size of the header, a multiple of every device's alignment.
+    // A multiple of every device's alignment.
     static constexpr std::uint64_t findings_bytes = 256;
 
-    // bytes: room for pixels. what: for error messages.
     PixelResults(vulkan::Device &device, std::uint64_t bytes, const std::string &what) :
         found_(device, vulkan::BufferUse::Storage, findings_bytes + bytes, what),
         host_(device, vulkan::BufferUse::HostRead, findings_bytes + bytes, what) {}
 
-    const vulkan::Buffer &found() const { return found_; } // findings, then pixels
+    const vulkan::Buffer &found() const { return found_; } // header, then pixels
     std::uint64_t room() const { return found_.size() - findings_bytes; }
 
-    // For gpu::BINDING_RESOLVED and BINDING_FINDINGS.
     vulkan::BufferRange pixels() const { return {found_.handle(), findings_bytes, room()}; }
     vulkan::BufferRange findings() const { return {found_.handle(), 0, findings_bytes}; }
 
-    // clear() goes before the kernel, hand_over() after it. bytes: of pixels.
+    // clear() goes before the kernel, hand_over() after it.
     void clear(const vk::raii::CommandBuffer &commands) const { found_.clear(commands, 0, findings_bytes); }
     void hand_over(const vk::raii::CommandBuffer &commands, std::uint64_t bytes) const {
         host_.copy(commands, found_, vk::BufferCopy{.size = findings_bytes + bytes});
     }
 
-    // Valid once the handed-over work has ended.
+    // Valid once the work has ended.
     std::span<const std::byte> bytes() const { return host_.host_memory().subspan(findings_bytes); }
     std::uint32_t lost_pixels() const {
         std::uint32_t count = 0;

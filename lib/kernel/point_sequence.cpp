@@ -12,7 +12,7 @@ namespace pt {
 
 namespace {
 
-// Primitive polynomial over GF(2), highest power first, and initial direction numbers.
+// A primitive polynomial over GF(2), highest power first, and initial direction numbers.
 struct SobolDimension {
     std::uint32_t polynomial;
     std::array<std::uint32_t, 9> initial;
@@ -86,7 +86,7 @@ constexpr SobolDimension joe_kuo[sequence_dimensions - 1] = {
     {637, {1, 1, 3, 13, 25, 47, 39, 87, 257}},
 };
 
-using Matrix = std::array<std::uint32_t, 32>; // per bit of the index, least significant first
+using Matrix = std::array<std::uint32_t, 32>; // for each bit of the index, least significant first
 
 // v_k = m_k 2^(32 - k) by the recurrence of Bratley and Fox (ACM TOMS 14, 1988, section 2).
 constexpr Matrix direction_numbers(std::uint32_t dimension) {
@@ -118,11 +118,11 @@ constexpr std::array<Matrix, sequence_dimensions> sobol_matrices = [] {
     return matrices;
 }();
 
-// One bit's numbers in all dimensions, which are faster to combine than single coordinates.
+// One bit's numbers in all dimensions. Combining rows is faster than combining coordinates.
 using Row = std::array<std::uint32_t, sequence_dimensions>;
 using Rows = std::array<Row, 32>;
 
-// With motion, the time is the third number and takes the fifth dimension, which lowers the error
+// With motion, the time is the third number. It takes the fifth dimension, which lowers the error
 // (tests/bench/NOTEBOOK.md).
 constexpr std::uint32_t dimension_of(std::uint32_t number, bool motion) {
     constexpr std::uint32_t order[] = {0, 1, 4, 2, 3};
@@ -174,7 +174,7 @@ std::uint32_t radical_inverse(std::uint64_t index, std::uint32_t dimension) {
     // index = sum d_k b^k with K digits; reversed = sum d_k b^(K - 1 - k); the inverse is reversed / b^K.
     const std::uint64_t base = primes[dimension];
     std::uint64_t reversed = 0;
-    std::uint64_t power = 1; // b^K <= 311 * 2^35: no overflow
+    std::uint64_t power = 1; // b^K <= 311 * 2^35, no overflow
     for (std::uint64_t rest = index; rest != 0; rest /= base) {
         reversed = reversed * base + rest % base;
         power *= base;
@@ -183,8 +183,8 @@ std::uint32_t radical_inverse(std::uint64_t index, std::uint32_t dimension) {
     return static_cast<std::uint32_t>((Wide{reversed} << 32) / power);
 }
 
-// With digits reversed, carries make a digit depend on those before it (Laine and Karras 2011; Burley, "Practical
-// Hash-based Owen Scrambling", JCGT 9(4), 2020). Constants: N. Vegdahl (2021).
+// With digits reversed, carries make each digit depend on more significant ones (Laine and Karras 2011; Burley,
+// "Practical Hash-based Owen Scrambling", JCGT 9(4), 2020). Constants: N. Vegdahl (2021).
 std::uint32_t owen_scrambled(std::uint32_t coordinate, std::uint32_t seed) {
     std::uint32_t v = reversed_bits(coordinate);
     v ^= v * 0x3d20adeaU;
@@ -199,7 +199,7 @@ namespace {
 
 using Point = std::vector<std::uint32_t>;
 
-// Indices from 2^32 on repeat points, with other seeds.
+// From index 2^32 on, points repeat with other seeds.
 std::vector<std::uint32_t> scrambling_seeds(std::uint64_t seed, std::uint64_t repetition, std::uint32_t dimensions) {
     std::vector<std::uint32_t> seeds;
     std::uint64_t state = mixed(seed) + repetition;

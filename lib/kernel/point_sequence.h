@@ -1,4 +1,4 @@
-// Exact points of quasi-random sequences, for shaders/sampler.glsl.
+// Exact points of quasi-random sequences for shaders/sampler.glsl.
 #pragma once
 
 #include "shaders/gpu_layout.h"
@@ -14,15 +14,15 @@ namespace pt {
 // Later numbers of a path are random.
 inline constexpr std::uint32_t sequence_dimensions = 64;
 
-// A multiple of 2^-32. dimension < sequence_dimensions.
+// A multiple of 2^-32.
 std::uint32_t sobol(std::uint32_t index, std::uint32_t dimension);
 
-// By Halton (1960), in the dimension-th prime base, rounded down to a multiple of 2^-32. index < 2^35.
+// Halton (1960) in the dimension-th prime base, rounded down to a multiple of 2^-32. index < 2^35.
 std::uint32_t radical_inverse(std::uint64_t index, std::uint32_t dimension);
 
-// A row's blocks in the point table (row_blocks() in gpu_layout.h), of up to four dimensions each.
+// The blocks of a row in the point table (row_blocks() in gpu_layout.h).
 struct PointLayout {
-    std::vector<std::uint32_t> block_dimensions; // the shared blocks, then a branch's
+    std::vector<std::uint32_t> block_dimensions; // shared blocks, then one branch's
     std::uint32_t shared_blocks;
     std::uint32_t branches;
 
@@ -42,7 +42,7 @@ std::uint32_t owen_scrambled(std::uint32_t coordinate, std::uint32_t seed);
 // Multiples of 2^-32; 0 beyond the block's dimensions.
 using PointBlock = std::array<std::uint32_t, 4>;
 
-// A row per index, in the kernel's layout. sampler: not PT_SAMPLER_RANDOM. The seed scrambles Sobol points.
+// Returns a row per index. The sampler must not be PT_SAMPLER_RANDOM. The seed scrambles Sobol points.
 std::vector<PointBlock> point_table(std::uint32_t sampler, std::uint64_t seed, std::span<const std::uint32_t> indices,
                                     const PointLayout &layout);
 

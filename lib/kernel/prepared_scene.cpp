@@ -27,7 +27,7 @@ double film_unit(const std::vector<Material> &materials) {
         brightest = std::max({brightest, material.emission.r, material.emission.g, material.emission.b});
     if (brightest == 0.0F)
         return 1.0;
-    int exponent = 0; // brightest = fraction * 2^exponent, fraction in [1/2, 1)
+    int exponent = 0; // fraction * 2^exponent with fraction in [1/2, 1)
     std::frexp(brightest, &exponent);
     // The kernel needs 1 / unit as a normal float32.
     return std::ldexp(1.0, std::clamp(exponent - 8, -120, 120));
@@ -43,7 +43,8 @@ Scene with_lamps(Scene scene, const SphereTree &tree) {
     return scene;
 }
 
-// The tree's material numbers count used materials only. Its shape depends on earlier scenes and is left out.
+// Material numbers in the tree count only used materials. The tree's shape is left out, because it depends on earlier
+// scenes.
 std::string digest_with_tree(const PreparedScene &prepared) {
     Digest digest;
     digest.add(digest_of(prepared.scene));
@@ -53,7 +54,7 @@ std::string digest_with_tree(const PreparedScene &prepared) {
     return digest.text();
 }
 
-// Shares of the remaining work, for progress.
+// Shares of the remaining work.
 constexpr double share_of_hidden = 0.05;
 constexpr double share_of_outlying = 0.05;
 constexpr double share_of_materials = 0.02;
@@ -70,7 +71,7 @@ std::vector<std::uint32_t> hidden_spheres(const CheckedScene &checked, WorkProgr
     return hidden;
 }
 
-// Includes hidden spheres: camera rays do not check the materials of tree spheres.
+// Hidden spheres stay outside the tree, because camera rays do not check its materials.
 std::vector<std::uint32_t> left_out_of(const CheckedScene &checked, const std::vector<std::uint32_t> &hidden,
                                        WorkProgress &progress) {
     progress.enter(share_of_outlying, static_cast<double>(checked.spheres.size()));

@@ -17,26 +17,26 @@ namespace pt {
 struct PreparedScene {
     Scene scene; // without the tree's spheres
     // Radiance of a film unit, a power of two. The brightest emission has 2^7 to 2^8 units. Samples 2^20 times as
-    // bright are accepted; samples 2^-44 times as bright are exact.
+    // bright are accepted. Samples 2^-44 times as bright are exact.
     double film_unit;
     std::vector<Material> used_materials;    // in the scene's order
-    std::vector<std::uint32_t> used_indices; // scene's material to index in used_materials
-    bool gloss;                              // some used material has a specular lobe
-    std::shared_ptr<const SphereTree> tree;  // most spheres if there are many, else NULL
+    std::vector<std::uint32_t> used_indices; // by the scene's materials
+    bool gloss;                              // Any used material is glossy.
+    std::shared_ptr<const SphereTree> tree;  // NULL if there are few spheres
     bool moves;
-    std::vector<std::uint32_t> lamp_order; // emitting spheres in the order of lamp_tree.h
+    std::vector<std::uint32_t> lamp_order; // emitting spheres (lamp_tree.h)
 
     // Makes no tree.
     explicit PreparedScene(Scene of);
 
-    // Makes a tree from tree_from visible spheres on; default: where faster. Keeps the tree shape of `before` (may be
-    // NULL) if it fits. The caller's memory is not read afterwards.
+    // Makes a tree from tree_from visible spheres on, or by default where it is faster. Reuses the tree shape of
+    // `before` (may be NULL) if it fits. Does not read the caller's memory afterwards.
     PreparedScene(CheckedScene checked, std::optional<std::uint32_t> tree_from, const PreparedScene *before,
                   WorkProgress &progress);
 
     std::vector<Sphere> lamps() const;
 
-    // Digest of scene and tree, computed on first use.
+    // Computed on first use.
     const std::string &digest() const;
 
 private:
@@ -48,7 +48,7 @@ private:
 
     void note_materials(const std::vector<bool> &used);
 
-    mutable std::string digest_; // empty: not computed
+    mutable std::string digest_;
 };
 
 } // namespace pt

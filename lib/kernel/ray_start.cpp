@@ -14,10 +14,10 @@ namespace pt {
 
 namespace {
 
-// Spheres are nearer, since coordinates are at most 1e18. Farther starts would overflow squared distances in float32.
+// Farther starts would overflow squared distances in float32. Spheres are nearer, because coordinates are at most 1e18.
 constexpr double farthest_start = 6e18;
 
-// Below this the 2^-24 error of directions exceeds 1/1024 of a pixel.
+// Directions have an error of 2^-24, which exceeds 1/1024 of a narrower pixel.
 constexpr double narrow_pixel = 0x1p-14; // side of a pixel at distance 1
 
 // The pyramid of rays through the lens's center, and the cone around it.
@@ -25,7 +25,7 @@ struct View {
     std::array<glm::dvec3, 4> corners; // at depth 1
     glm::dvec3 forward;
     double half_angle;
-    double aside; // a lens ray's largest distance from the pinhole ray, up to twice the focus
+    double aside; // of lens rays from the pinhole ray
 
     View(const Camera &camera, const RenderSettings &settings) : forward(camera.forward), aside(camera.lens_radius) {
         const double up = camera.tan_half_fov;
@@ -36,7 +36,7 @@ struct View {
     }
 };
 
-// depth = -offset / (normal . direction), least at a corner. A lens brings the plane nearer by `aside`.
+// depth = -offset / (normal . direction) is least at a corner.
 double nearest_depth(const CurvedPlane &plane, const View &view) {
     const double offset = std::max(plane.offset - view.aside, 0.0);
     double nearest = offset == 0.0 ? 0.0 : out_of_view;
@@ -52,11 +52,11 @@ double angle_from_middle(const glm::dvec3 &point, const View &view) {
     return std::atan2(glm::length(point - along * view.forward), along);
 }
 
-// The cone's direction nearest to the center meets the ball first. b - sqrt(r^2 - d^2 sin^2(angle)) with b = d
-// cos(angle) is written as (d^2 - r^2) / (b + sqrt(...)), which does not cancel for small far balls.
+// The cone's direction nearest to the center hits the ball first. With b = d cos(angle), b - sqrt(r^2 - d^2
+// sin^2(angle)) = (d^2 - r^2) / (b + sqrt(...)). The second form does not cancel for small distant balls.
 double depth_of_ball(const glm::dvec3 &centre, double radius, const View &view) {
     const double distance = glm::length(centre);
-    const double power = (distance - radius) * (distance + radius); // the camera's power with respect to the ball
+    const double power = (distance - radius) * (distance + radius);
     if (power <= 0.0)
         return 0.0;
     const double angle = angle_from_middle(centre, view);
@@ -73,7 +73,7 @@ bool starts_within(const glm::dvec3 &centre, double radius, const View &) {
     return glm::length(centre) <= radius;
 }
 
-// From inside, the direction farthest from the center meets the sphere first.
+// From inside, the direction farthest from the center hits the sphere first.
 double depth_from_within(const glm::dvec3 &centre, double radius, const View &view) {
     const double distance = glm::length(centre);
     const double angle = angle_from_middle(centre, view);
@@ -103,7 +103,7 @@ struct ParallelView {
         radius(std::hypot(glm::length(half_right), glm::length(half_up))) {}
 };
 
-// depth = -height / (normal . forward), least at a corner; 0 if rays start on both sides.
+// depth = -height / (normal . forward) is least at a corner.
 double nearest_depth(const CurvedPlane &plane, const ParallelView &view) {
     const double across =
         std::abs(glm::dot(plane.normal, view.half_right)) + std::abs(glm::dot(plane.normal, view.half_up));
@@ -113,9 +113,9 @@ double nearest_depth(const CurvedPlane &plane, const ParallelView &view) {
     return slope > 0.0 ? (plane.offset - across) / slope : out_of_view;
 }
 
-// The cylinder's line nearest to the center meets the ball first. a - sqrt(r^2 - c^2) with the center's depth a and
-// distance c from the line is written as (a^2 + c^2 - r^2) / (a + sqrt(r^2 - c^2)), which does not cancel for small far
-// balls.
+// The cylinder's line nearest to the center hits the ball first. With the center's depth a and its distance c from the
+// line, a - sqrt(r^2 - c^2) = (a^2 + c^2 - r^2) / (a + sqrt(r^2 - c^2)). The second form does not cancel for small
+// distant balls.
 double depth_of_ball(const glm::dvec3 &centre, double radius, const ParallelView &view) {
     const double depth = glm::dot(centre, view.forward);
     const double across = glm::length(centre - depth * view.forward);
@@ -144,13 +144,12 @@ double depth_from_within(const glm::dvec3 &centre, double radius, const Parallel
     return glm::dot(centre, view.forward) + std::sqrt((radius - most) * (radius + most));
 }
 
-// A sphere is nearest at an end of its way; the ball around a way across the view would reach farther.
+// A sphere is nearest at an end of its way. The ball around the whole way may be nearer still.
 double depth_on_way(const MovingBall &sphere, const ParallelView &view) {
     const double open = glm::dot(sphere.open, view.forward);
     return open + std::min(glm::dot(sphere.way, view.forward), 0.0) - sphere.radius;
 }
 
-// A lower bound for a moving ball.
 template <typename AnyView>
 double depth_of_region(const MovingBall &ball, const AnyView &view) {
     const double radius = ball.radius + 0.5 * glm::length(ball.way) + view.aside;
@@ -158,7 +157,7 @@ double depth_of_region(const MovingBall &ball, const AnyView &view) {
     return ball.way == glm::dvec3(0.0) ? depth : std::max(depth, depth_on_way(ball, view));
 }
 
-// From inside, rays meet the far wall. margin: distance kept from the surface, over the radius.
+// From inside, rays hit the far wall. Rays stay `margin` radii away from the surface.
 template <typename AnyView>
 double depth_of_sphere(const MovingBall &sphere, const AnyView &view, double margin = 0.0) {
     const double inner = sphere.radius * (1.0 - margin) - view.aside;
@@ -167,7 +166,7 @@ double depth_of_sphere(const MovingBall &sphere, const AnyView &view, double mar
     return depth_of_region({sphere.open, sphere.way, sphere.radius * (1.0 + margin)}, view);
 }
 
-// A lower bound for visible surfaces. Rays stop short of tree spheres, so that float32 tells the side.
+// A lower bound. Starts stay away from tree spheres, so that float32 finds their side.
 template <typename AnyView>
 double first_depth(const Scene &scene, const SphereTree *tree, const Camera &camera, const AnyView &view) {
     double depth = out_of_view;
@@ -197,7 +196,7 @@ void require_held_view(const Camera &camera, const RenderSettings &settings) {
                                        number_text(width)});
 }
 
-// Ahead of the first surface by the view's width and a little more, so that no visible surface divides the disc.
+// Stops before the first surface by the view's width and a little more, so that no visible surface divides the disc.
 Camera starting_in_parallel(const Scene &scene, const SphereTree *tree, const Camera &camera,
                             const RenderSettings &settings) {
     require_held_view(camera, settings);
@@ -225,8 +224,8 @@ Camera starting_ahead(const Scene &scene, const SphereTree *tree, const Camera &
     const double depth = first_depth(scene, tree, camera, view);
     if (depth > farthest_start)
         return ahead;
-    // Ahead of the first surface by the lens's radius and the view's width, so that rounding puts no start behind it. A
-    // lens's rays converge towards the plane in focus.
+    // Stops before the first surface by the lens's radius and the view's width, so that rounding puts no start behind
+    // it. A lens's rays converge towards the focus.
     const double tangent = std::tan(view.half_angle);
     ahead.start_distance = std::max((1.0 - tangent) * depth - camera.lens_radius, 0.0);
     if (camera.has_lens()) {

@@ -1,4 +1,4 @@
-// Moves the start of camera rays ahead, in narrow views of distant things and with parallel rays.
+// Moves the start of camera rays towards the scene.
 #pragma once
 
 #include "lib/scene/camera.h"
@@ -12,18 +12,17 @@
 
 namespace pt {
 
-// Moves the camera ahead to the first surface that may be in view, if the view is so narrow that rounded directions and
-// distant coordinates would show. Rays start on the plane there, the origin of the kernel's coordinates. Parallel rays
-// always start on such a plane, on the disc around the image (start_radius). tree: may be NULL. Throws
-// PT_ERROR_UNSUPPORTED if a parallel view is too wide.
+// Moves the camera ahead to the first surface that may be in view, if the view is so narrow that rounding would show.
+// Rays start on a plane there, the origin of the kernel's coordinates. Parallel rays always start on such a plane, in a
+// disc (start_radius). Throws PT_ERROR_UNSUPPORTED if a parallel view is too wide.
 Camera starting_ahead(const Scene &scene, const SphereTree *tree, const Camera &camera, const RenderSettings &settings);
 
 inline constexpr double out_of_view = std::numeric_limits<double>::infinity();
 
-// The function returns lower bounds of a moving ball's depth.
+// Returns a function for lower bounds of a moving ball's depth.
 std::function<double(const MovingBall &)> depths_in_view(const Camera &camera, const RenderSettings &settings);
 
-// camera: from starting_ahead().
+// `camera` comes from starting_ahead().
 gpu::CameraView camera_view(const Camera &camera, const RenderSettings &settings);
 
 } // namespace pt

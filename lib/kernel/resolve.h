@@ -1,4 +1,4 @@
-// The pipelines of shaders/resolve.comp, which makes images of films.
+// Pipelines of shaders/resolve.comp, which makes images from films.
 #pragma once
 
 #include "lib/film/film_header.h"
@@ -16,9 +16,9 @@
 namespace pt {
 
 struct ImageQuery {
-    Rectangle pixels;                        // region of the film, at least one pixel
+    Rectangle pixels;                        // at least one pixel
     std::uint32_t quantity;                  // PT_QUANTITY_*
-    double unit;                             // radiance per unit of the film, a power of two
+    double unit;                             // radiance per film unit, a power of two
     std::optional<PartCounts> samples;       // each pixel's samples, if equal
     std::uint32_t format = PT_FORMAT_RGB32F; // PT_FORMAT_*
 };
@@ -27,7 +27,7 @@ class ResolvePipelines {
 public:
     ResolvePipelines(vulkan::Device &device, std::span<const std::uint32_t> code) : device_(device), code_(code) {}
 
-    // Built on first use. Layouts are equal, so buffers bound for one format serve all.
+    // Builds on first use. Layouts are equal, so buffers bound for one format serve all.
     const vulkan::ComputePipeline &of(std::uint32_t format);
 
 private:
@@ -42,7 +42,7 @@ struct ResolvedPiece {
     std::uint32_t row_words;
 };
 
-// Includes barriers before and after. sets: by strip of the film.
+// Includes barriers before and after.
 void resolve(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline, const DeviceFilm &film,
              std::span<const vulkan::DescriptorSet> sets, const ImageQuery &query, const ResolvedPiece &piece);
 

@@ -20,8 +20,8 @@ struct SceneBlocks {
     std::uint64_t motion;
     std::uint64_t curvature;
     std::uint64_t lamp_tree;
-    std::uint64_t spots; // only with spots, in the uniform buffer
-    std::uint64_t index; // only if the scene is not in the uniform buffer
+    std::uint64_t spots; // in the uniform buffer
+    std::uint64_t index; // outside the uniform buffer
     std::uint64_t tree;  // only with a tree
     std::uint64_t word_count;
 
@@ -53,7 +53,6 @@ inline SceneBlocks::SceneBlocks(const Features &features) {
     }
 }
 
-// A word holds four numbers.
 inline void write_number(std::span<glm::vec4> block, std::uint64_t place, std::uint32_t number) {
     block[place / 4][static_cast<int>(place % 4)] = std::bit_cast<float>(gpu::MATERIAL_INDEX_BITS + number);
 }

@@ -15,8 +15,8 @@
 
 namespace pt {
 
-// For two rays. The longest walk of invocations in step has about 100 trips for 10^6 spheres. Samples that need more
-// are lost and reported (tree_walk.glsl).
+// Suffices for two rays. The longest walk of invocations in lockstep has about 100 trips for 10^6 spheres. Samples that
+// need more are lost and reported (tree_walk.glsl).
 std::uint64_t loop_trips_per_walk(const Features &features) {
     constexpr std::uint64_t tree_trips = 200;
     return features.surface_count() + (features[gpu::ID_TREE] ? tree_trips : 0);
@@ -29,14 +29,14 @@ bool samples_lamps(const Features &features) {
 }
 
 std::vector<std::uint32_t> camera_blocks(const Features &features) {
-    std::vector<std::uint32_t> blocks(1 + features[gpu::ID_LENS], 2); // point on the lens
+    std::vector<std::uint32_t> blocks(1 + features[gpu::ID_LENS], 2);
     blocks.front() = gpu::camera_dimensions(features[gpu::ID_MOTION]);
     return blocks;
 }
 
 namespace {
 
-// Whether a sphere lies in the convex region between the planes around the camera, which paths do not leave.
+// Whether a sphere lies in the convex region between the planes around the camera, which paths cannot leave.
 bool is_in_region(const std::vector<CurvedPlane> &planes, const SeenSphere &sphere) {
     const std::array way = {sphere.open, sphere.close()};
     return std::ranges::all_of(planes, [&](const CurvedPlane &plane) {
@@ -46,7 +46,7 @@ bool is_in_region(const std::vector<CurvedPlane> &planes, const SeenSphere &sphe
     });
 }
 
-// box: in scene coordinates.
+// `box` has scene coordinates.
 bool is_in_region(const std::vector<CurvedPlane> &planes, const PointBox &box, const Camera &camera) {
     return std::ranges::all_of(planes, [&](const CurvedPlane &plane) {
         const glm::dvec3 nearest = glm::mix(box.low, box.high, glm::lessThan(plane.normal, glm::dvec3(0.0)));
@@ -54,7 +54,7 @@ bool is_in_region(const std::vector<CurvedPlane> &planes, const PointBox &box, c
     });
 }
 
-// Whether float32 can tell the camera's side as the shutter opens.
+// Whether float32 can tell the camera's side.
 bool has_known_side(const CurvedPlane &plane) {
     return static_cast<float>(plane.offset) != 0.0F;
 }
@@ -72,8 +72,8 @@ std::uint32_t rounded_up(std::uint32_t levels) {
     return (levels + step - 1) / step * step;
 }
 
-// Without a tree: the sum and the choice over all lamps. With one: its top, then the ways down to the chosen lamp and
-// to one that a direction meets.
+// Loops sum and choose over all lamps. A tree has its top groups, and the ways down to the chosen lamp and to a lamp
+// that a direction hits.
 std::uint64_t lamp_trips(const Features &features) {
     return features[gpu::ID_LAMP_TREE_LEVELS] ? gpu::LAMP_TREE_TOP_GROUPS + 2 * features[gpu::ID_LAMP_TREE_LEVELS]
                                               : 2 * std::uint64_t{features[gpu::ID_LAMP_COUNT]};
@@ -99,7 +99,7 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
     const auto may_hold_paths = [&](const SeenSphere &sphere) {
         return sphere.hidden ? !lies_apart(sphere) : is_at_camera(sphere);
     };
-    // Paths may be on the far side of hidden surfaces.
+    // Paths may be behind hidden surfaces.
     const auto is_passed = [&](const SeenSphere &sphere) {
         return sphere.hidden && (may_hold_origin(sphere) || !lies_apart(sphere));
     };
@@ -135,8 +135,8 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
     features[gpu::ID_PLANES_BLOCK] = features[gpu::ID_CURVATURE] || planes_divide || planes_are_passed ||
                                      std::ranges::any_of(lamps, is_behind_a_plane) ||
                                      (tree_lamps > 0 && !is_in_region(distinct.seen.planes, tree->bounds(), camera));
-    // Among flat planes that do not nearly coincide, vertices tell the sides faster. Sides are unknown if rays start on
-    // both sides of a surface, or pass it.
+    // Vertices give the sides faster among distinct flat planes. Sides are unknown if rays start on both sides of a
+    // surface, or pass it.
     const bool starts_divided = distinct.seen.any_surface(divides) || (tree && tree->divides_start(camera));
     const bool some_are_passed = planes_are_passed || std::ranges::any_of(distinct.seen.spheres, is_passed);
     features[gpu::ID_KNOWN_SIDES] =
@@ -176,14 +176,13 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
 std::uint32_t branch_count(const Features &features) {
     const bool spots_find_most = features[gpu::ID_SPOT_COUNT] > 0 && features[gpu::ID_MAX_PATH_LENGTH] == 3;
     const std::uint32_t branches = std::min(features.most_branches, spots_find_most ? 2U : 4U);
-    constexpr std::uint64_t max_trips = 1 << 14; // a quarter of the limit, for several samples at once
+    constexpr std::uint64_t max_trips = 1 << 14; // a quarter of the limit
     const bool affordable = branches * loop_trips_per_branch(features) <= max_trips;
     return features[gpu::ID_MAX_PATH_LENGTH] > 2 && affordable ? branches : 1;
 }
 
 namespace {
 
-// Number of lamps in excess of branches, if the first vertex samples every lamp; else 0.
 std::uint32_t further_lamps(const Features &features, std::uint32_t branches) {
     const std::uint32_t lamps = features[gpu::ID_LAMP_COUNT] > gpu::EVERY_LAMP_LIMIT ? 0 : features[gpu::ID_LAMP_COUNT];
     return lamps - std::min(lamps, branches);
@@ -199,7 +198,7 @@ PointLayout point_layout(const Features &features) {
     const std::uint32_t branches = branch_count(features);
     if (features[gpu::ID_SAMPLER] == PT_SAMPLER_RANDOM)
         return {{}, 0, branches};
-    blocks.resize(shared, 2); // point on each lamp
+    blocks.resize(shared, 2);
     const std::uint32_t direction =
         gpu::direction_dimensions(features[gpu::ID_GLOSS], features[gpu::ID_MAX_PATH_LENGTH]);
     if (features[gpu::ID_SPOT_COUNT] > 0) {
@@ -231,11 +230,10 @@ std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Fe
 }
 
 std::uint64_t loop_trips_per_sample(const Features &features) {
-    // The sample loop, walks of the camera ray and to further lamps, the first vertex's choice of lamps, the branches.
+    // The sample loop, walks of the camera ray and to further lamps, the choice of lamps, and branches.
     const std::uint64_t walk = loop_trips_per_walk(features);
     const std::uint32_t branches = branch_count(features);
     const std::uint64_t first_vertex = further_lamps(features, branches) * (1 + walk) + lamp_trips(features);
-    // To see, choose and weigh a spot, once more per branch, and two walks.
     const std::uint64_t way =
         features[gpu::ID_SPOT_COUNT] > 0
             ? std::uint64_t{4 + branches} * features[gpu::ID_SPOT_COUNT] + 2 * walk + lamp_trips(features)

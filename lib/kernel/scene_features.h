@@ -1,4 +1,4 @@
-// The kernel's features that a scene needs.
+// The kernel features that a scene needs.
 #pragma once
 
 #include "lib/kernel/kernel_surfaces.h"
@@ -16,17 +16,17 @@
 namespace pt {
 
 struct Features {
-    // By gpu::ID_*, so far as scene, camera and settings decide them.
+    // By gpu::ID_*, where scene, camera and settings decide.
     std::array<std::uint32_t, gpu::CONSTANT_COUNT> constants{};
-    std::uint32_t most_branches = 0;   // maximum branches at a path's first vertex
-    std::uint32_t table_materials = 0; // number of materials in the table, if the scene is not in the uniform buffer
+    std::uint32_t most_branches = 0;   // at a path's first vertex
+    std::uint32_t table_materials = 0; // 0 for scenes in the uniform buffer
 
     bool operator==(const Features &) const = default;
 
     std::uint32_t &operator[](std::uint32_t id) { return constants[id]; }
     std::uint32_t operator[](std::uint32_t id) const { return constants[id]; }
 
-    // If true, each surface has its own material words.
+    // Each surface then has its own material words.
     bool scene_in_uniform() const { return constants[gpu::ID_SCENE_SOURCE] == gpu::SCENE_IN_UNIFORM; }
     bool has_ways() const { return constants[gpu::ID_MOTION] > 0 || constants[gpu::ID_KINDS] > gpu::KIND_BALL; }
     std::uint32_t surface_count() const { return constants[gpu::ID_SPHERE_COUNT] + constants[gpu::ID_PLANE_COUNT]; }
@@ -34,39 +34,35 @@ struct Features {
     std::uint32_t walked_lamps() const { return constants[gpu::ID_LAMP_COUNT] - constants[gpu::ID_TREE_LAMPS]; }
 };
 
-// All except gpu::ID_SPOT_COUNT (light_spots.h).
+// Sets all but gpu::ID_SPOT_COUNT (light_spots.h).
 Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfaces, const PreparedScene &scene,
                      const Camera &camera, const RenderSettings &render);
 
-// Whether the estimator samples lamps, and paths are long enough.
 bool samples_lamps(const Features &features);
 
-// Numbers in each block of a camera ray.
 std::vector<std::uint32_t> camera_blocks(const Features &features);
 
-// Branches share a path's camera ray and first vertex, since later vertices bring most of the noise. Fewer pay with
-// more spheres (2 or 1), and for paths of three vertices lit by spots (2). Samples near a driver's limit of 65535 loop
-// trips have 1.
+// Branches share a path's camera ray and first vertex, because later vertices bring most of the noise. Many spheres,
+// and paths of three vertices with spots, pay with fewer. Samples near a driver's limit of 65535 loop trips have 1.
 std::uint32_t branch_count(const Features &features);
 
-// The numbers of a sample that come from the table; empty without a sequence.
 PointLayout point_layout(const Features &features);
 
 // By constant_id.
 std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Features &features);
 
-// An upper bound, with no loop unrolled.
+// An upper bound without unrolled loops.
 std::uint64_t loop_trips_per_sample(const Features &features);
 
-// For one ray, or two rays that leave the same vertex.
+// For one ray, or two rays from the same vertex.
 std::uint64_t loop_trips_per_walk(const Features &features);
 
-// Ray-surface tests of a path of full length, roughly. tree: may be NULL.
+// An estimate for a path of full length.
 double surface_tests_per_path(const Features &features, const SphereTree *tree);
 
 double surface_tests_per_ray(const Features &features, const SphereTree *tree);
 
-// As PT_FEATURE_* bits.
+// PT_FEATURE_* bits.
 std::uint32_t feature_bits(const Features &features);
 
 } // namespace pt

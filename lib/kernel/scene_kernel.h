@@ -1,4 +1,4 @@
-// A further kernel that reads the scene and is specialised to it.
+// A further kernel that reads the scene.
 #pragma once
 
 #include "lib/kernel/gpu_scene.h"
@@ -14,8 +14,7 @@
 
 namespace pt {
 
-// The scene's bindings, before further ones, and their buffers. words: the scene buffer. tree: the tree buffer, or
-// NULL; the bindings do not depend on it.
+// The scene's bindings come before further ones, and do not depend on a tree.
 std::vector<vulkan::Binding> with_scene_bindings(std::initializer_list<vulkan::Binding> further);
 std::vector<vulkan::BufferRange> scene_ranges(const GpuScene &scene, const vulkan::Buffer &words,
                                               const vulkan::Buffer *tree);
@@ -27,19 +26,18 @@ struct BoundScene {
 
 class SceneKernel {
 public:
-    // bindings: including the scene's.
+    // `bindings` include the scene's.
     SceneKernel(vulkan::Device &device, std::span<const std::uint32_t> code, std::vector<vulkan::Binding> bindings,
                 std::uint32_t push_constant_bytes);
 
-    // constants: by constant_id. Throws PT_ERROR_SHADER if the driver refuses the kernel.
+    // By constant_id. Throws PT_ERROR_SHADER if the driver rejects the kernel.
     void fit(std::span<const std::uint32_t> constants);
 
-    // ranges: for the bindings after the scene's.
+    // `ranges` are for the further bindings.
     vulkan::DescriptorSet bind(const BoundScene &bound, std::initializer_list<vulkan::BufferRange> ranges) const;
     void dispatch(const vk::raii::CommandBuffer &commands, const vulkan::DescriptorSet &set,
                   std::span<const std::byte> push_constants, std::uint64_t invocations) const;
 
-    // Pixels per submission, limited by a dispatch and by `rays`.
     std::uint64_t pixels_at_once(std::uint64_t pixels, std::uint32_t rays_of_pixel, double rays) const;
 
 private:
@@ -51,7 +49,7 @@ private:
     std::optional<vulkan::ComputePipeline> pipeline_;
 };
 
-// Rays that amount to these tests; at least one.
+// About this many tests, at least one ray.
 double rays_for(double tests, const GpuScene &scene);
 
 // Throws PT_ERROR_INTERNAL unless 0.

@@ -1,4 +1,4 @@
-// The kernels' SPIR-V, embedded in the library or compiled from GLSL files.
+// The kernels' SPIR-V, embedded or compiled from GLSL files.
 #pragma once
 
 #include <cstdint>
@@ -18,25 +18,25 @@ struct KernelCode {
     std::span<const std::uint32_t> accuracy;
     std::span<const std::uint32_t> first_hit;
     std::span<const std::uint32_t> coverage;
-    std::shared_ptr<const std::vector<std::vector<std::uint32_t>>> words; // owns the members' words
+    std::shared_ptr<const std::vector<std::vector<std::uint32_t>>> words; // owner of the other members' words
 
     bool operator==(const KernelCode &other) const { return *words == *other.words; }
 };
 
 KernelCode embedded_code();
 
-// Digest of the code that makes pixels.
+// Covers the code that makes pixels.
 std::string digest_of(const KernelCode &code);
 
 class ShaderSource {
 public:
-    // directory: has a .comp file per member of KernelCode; empty: the embedded code.
+    // The directory has a .comp file for each member of KernelCode. Empty means embedded code.
     explicit ShaderSource(std::string directory) : directory_(std::move(directory)) {}
 
     bool is_embedded() const { return directory_.empty(); }
 
-    // Compiles the files as they are now. Throws PT_ERROR_SHADER with the compiler's log, PT_ERROR_UNSUPPORTED without
-    // the compiler's module.
+    // Compiles the current files. Throws PT_ERROR_SHADER with the compiler's log, or PT_ERROR_UNSUPPORTED without its
+    // module.
     KernelCode read() const;
 
 private:

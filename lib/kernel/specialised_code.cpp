@@ -60,12 +60,12 @@ bool ends_block(Opcode opcode) {
 }
 
 struct Fact {
-    std::optional<std::uint32_t> value; // of a constant of 32 bits, or a Boolean
+    std::optional<std::uint32_t> value; // of a 32-bit or Boolean constant
     std::optional<std::uint32_t> spec_id;
     std::uint32_t place = 0;
-    std::uint32_t taken = 0; // the only branch of a block with a constant condition, else 0
-    bool is_reached = false; // a block by branches, a function by calls
-    bool is_merge = false;   // a kept instruction merges there
+    std::uint32_t taken = 0; // the only branch after a constant condition, else 0
+    bool is_reached = false; // blocks by branches, functions by calls
+    bool is_merge = false;   // A kept instruction merges there.
     bool is_there = false;
 };
 
@@ -174,8 +174,8 @@ private:
         return result_of(instruction[3], operand);
     }
 
-    // Follows a function to its first block, or a block to its calls and branches. A constant `if` has one branch;
-    // branches that end a loop stay.
+    // Follows a function to its first block, or a block to its calls and branches. A constant `if` has one branch.
+    // Branches that end a loop stay.
     void follow(std::uint32_t id) {
         const std::size_t place = fact(id).place;
         if (place == 0)
@@ -211,7 +211,7 @@ private:
         });
     }
 
-    // Calls use(instruction, block); block is 0 outside functions.
+    // Calls use(instruction, block), with block 0 outside functions.
     template <typename Use>
     void for_each_kept(Use &&use) {
         bool keeps_function = true;
@@ -232,14 +232,14 @@ private:
         });
     }
 
-    // Most instructions have their result in word 2. The others have another kept instruction's result there, noted
-    // twice.
+    // Most instructions have their result in word 2. The others have another kept instruction's result there, so noting
+    // it is harmless.
     void note_result(Words instruction, std::uint32_t block) {
         const Opcode opcode = opcode_of(instruction);
         if (block != 0 && !fact(block).is_reached)
             return;
         if (opcode == OpLoopMerge && !fact(instruction[2]).is_reached)
-            throw Unknown(); // the loop would lack its way back
+            throw Unknown(); // The loop would lack its continue block.
         if ((opcode == OpSelectionMerge && fact(block).taken == 0) || opcode == OpLoopMerge)
             fact(instruction[1]).is_merge = true;
         const bool is_type = opcode >= OpTypeVoid && opcode <= OpTypeForwardPointer;

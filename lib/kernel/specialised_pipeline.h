@@ -13,14 +13,13 @@
 
 namespace pt {
 
-// Constants that depend on the device alone.
 inline void set_device_constants(std::span<std::uint32_t> constants, const vulkan::Device &device) {
     constants[gpu::ID_UNROLLED] = device.policy().unrolled;
     constants[gpu::ID_INTEGER_ORDER] = device.policy().compiles_for_cpu ? 1 : 0;
     constants[gpu::ID_POINT_BLOCKS] = device.limits().max_uniform_range / std::uint32_t{sizeof(PointBlock)};
 }
 
-// constants: by constant_id. Throws PT_ERROR_SHADER if the driver refuses the kernel.
+// By constant_id. Throws PT_ERROR_SHADER if the driver rejects the kernel.
 inline vulkan::ComputePipeline specialised_pipeline(vulkan::Device &device, std::span<const std::uint32_t> spirv,
                                                     std::span<const vulkan::Binding> bindings,
                                                     std::uint32_t push_constant_bytes,

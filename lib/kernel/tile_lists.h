@@ -1,4 +1,4 @@
-// Lists of tiles for dispatches: each tile's first pixel in the film.
+// Lists of tiles for dispatches. An entry is a tile's first pixel in the film.
 #pragma once
 
 #include "lib/film/tile_grid.h"
@@ -27,7 +27,7 @@ public:
 
     const vulkan::Buffer &buffer() const { return entries_; }
 
-    // tiles: ascending. Valid until queue_depth more slices have begun.
+    // Tiles are ascending. The list is valid until queue_depth more slices have begun.
     std::uint32_t first_entry(std::span<const std::uint32_t> tiles) {
         if (tiles.back() - tiles.front() == tiles.size() - 1)
             return tiles.front();
@@ -46,7 +46,7 @@ private:
     std::uint32_t tile_count_;
     std::uint32_t slice_lists_;
     std::uint32_t next_list_ = 0;
-    vulkan::Buffer entries_; // all tiles, then a list per slice of nonconsecutive tiles
+    vulkan::Buffer entries_; // all tiles, then slices' lists
 };
 
 } // namespace pt

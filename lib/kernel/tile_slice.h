@@ -12,7 +12,7 @@ struct TileSlice {
     std::span<const std::uint32_t> tiles; // ascending
     SampleRange before;                   // hull of the tiles' samples; may be empty
     SampleRange samples;
-    bool takes; // false: only makes room for samples of another device
+    bool takes; // false if another device does
 
     std::uint64_t split() const { return split_of(hull_of(before, samples)); }
 

@@ -1,4 +1,4 @@
-// The specialised pipelines of pathtrace.comp, and fold.comp's.
+// Pipelines of pathtrace.comp and fold.comp.
 #pragma once
 
 #include "lib/kernel/own_kernel_clock.h"
@@ -18,10 +18,10 @@
 
 namespace pt {
 
-// All bindings are equal, so one descriptor set serves all.
+// All have the same bindings, so one descriptor set serves all.
 class TracePipelines {
 public:
-    // For scenes that alternate. Work under way uses at most the last two.
+    // Enough for alternating scenes. Work in flight uses at most the last two.
     static constexpr std::size_t most_kept = 8;
 
     explicit TracePipelines(vulkan::Device &device, KernelCode code = embedded_code());
@@ -29,12 +29,12 @@ public:
     // Takes the driver cache's key for this code and device, once.
     std::string take_kernel_key() noexcept { return std::move(kernel_key_); }
 
-    // Returns the kernel for scenes with these features or, where faster, one for this scene alone; both compute the
-    // same bits. The first scene gets its own at once, since some kernel must be built; others wait
-    // (own_kernel_clock.h). words: the scene buffer. seconds: spent on the scene so far. Valid until the next call.
+    // Returns the kernel for these features or, where faster, one for this scene alone. Both compute the same bits. The
+    // first scene gets its own at once, because some kernel must be built. Others wait (own_kernel_clock.h). `words` is
+    // the scene buffer. `seconds` were spent on the scene so far. The result is valid until the next call.
     const vulkan::ComputePipeline &trace(const Features &features, std::span<const glm::vec4> words, double seconds);
 
-    // When scenes get kernels of their own. at_once: for callers that prepare ahead. never: for polls.
+    // at_once is for preparation, and never is for polls.
     enum class OwnKernels { when_they_pay, at_once, never };
     void build_own(OwnKernels when) { own_kernels_ = when; }
 
@@ -48,8 +48,8 @@ private:
 
     struct OwnKernel {
         std::vector<std::uint32_t> constants;
-        double last_seconds; // of the scene
-        double used_seconds; // since the kernel was built
+        double last_seconds; // spent on the scene
+        double used_seconds; // since it was built
     };
 
     const vulkan::ComputePipeline *find(const std::vector<std::uint32_t> &constants);

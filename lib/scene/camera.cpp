@@ -14,12 +14,12 @@ namespace {
 
 constexpr double default_vertical_fov = std::numbers::pi / 4.0;
 
-// Least sine s of the angle between up and the view. With u = 2^-53, the errors are 2 u in forward, u in up and 2 u in
+// The least sine s of the angle between up and the view. With u = 2^-53, errors are 2 u in forward, u in up and 2 u in
 // their cross product, so 5 u / s in the unit vectors. For s >= 5 * 2^-29 this is below float32's rounding, 2^-24.
 constexpr double min_sine = 0x1p-26;
 
 // The image plane's distance in pixels, height / (2 tan(fov / 2)), must be at most 1e18, so tan(fov / 2) >= 2^31 / 1e18
-// = 2.1e-9. Near pi, doubles give at least 1e-16.
+// = 2.1e-9. For angles near pi the distance is at least 1e-16 in doubles.
 constexpr double min_vertical_fov = 1e-8;
 
 const char *fov_rule(double value) {
@@ -72,13 +72,13 @@ void check_fields(const pt_camera &camera) {
     }
     subject.check("shutter_open", camera.shutter_open, shutter_rule);
     subject.check("shutter_close", camera.shutter_close, shutter_rule);
-    // NaN passes: it has been refused already.
+    // shutter_rule() has already rejected NaN.
     subject.require(!(camera.shutter_close < camera.shutter_open), "shutter_close", camera.shutter_close,
                     "must be >= shutter_open (" + number_text(camera.shutter_open) + ")");
     violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
 }
 
-// Rounds to 40 bits: systems' tangents differ in the last bits, but their films must match.
+// Rounds to 40 bits, because films must match and systems' tangents differ in the last bits.
 double tangent(double angle) {
     int exponent = 0;
     const double mantissa = std::frexp(std::tan(angle), &exponent);
@@ -98,7 +98,7 @@ Camera validated_camera(const pt_camera &source) {
     subject.require(target != position, "target", target, "must differ from position");
     violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
 
-    // With focus >= radius the blur of a far point, radius / focus times the image plane's distance, is a length too.
+    // For focus >= radius, a far point's blur, radius / focus times the image plane's distance, is also a length.
     const double focus = camera.focus > 0.0 ? camera.focus : glm::distance(target, position);
     subject.require(camera.aperture <= 2.0 * focus, "aperture", camera.aperture,
                     "must be at most twice the focus (" + number_text(focus) + ")");

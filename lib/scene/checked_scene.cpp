@@ -14,10 +14,10 @@ namespace pt {
 
 namespace {
 
-// Positions in the scene buffer, a few times as many, have 32 bits.
+// Positions in the scene buffer have 32 bits.
 constexpr std::uint64_t max_surface_count = std::uint64_t{1} << 30;
 
-// Share of pt_set_scene's time with many spheres.
+// Share of pt_set_scene's time for many spheres.
 constexpr double share_of_checks = 0.08;
 
 glm::vec3 color(const float (&components)[3]) {
@@ -33,8 +33,8 @@ const char *color_rule(double value) {
     return value <= 1e18 ? nullptr : "must be <= 1e18";
 }
 
-// exp(-n a^2 / 2) falls to 1 / e at an angle a = sqrt(2 / n). There float32 unit vectors, d = 2^-23, change the
-// exponent by n a d = sqrt(2 n) d: 0.5% of the lobe for n = 1e9.
+// exp(-n a^2 / 2) falls to 1 / e at the angle a = sqrt(2 / n). Errors d = 2^-23 of float32 unit vectors change the
+// exponent there by n a d = sqrt(2 n) d, 0.5% for n = 1e9.
 const char *glossiness_rule(double value) {
     if (!std::isfinite(value))
         return "must be finite";
@@ -43,7 +43,7 @@ const char *glossiness_rule(double value) {
     return value <= 1e9 ? nullptr : "must be <= 1e9";
 }
 
-// The square of the given length may overflow.
+// The square of an unscaled normal may overflow.
 Plane normalized(const pt_plane &plane) {
     const auto [normal, exponent] = scaled(vector(plane.normal));
     const double length = glm::length(normal);
@@ -108,7 +108,7 @@ private:
     std::string material_rule_;
 };
 
-// A missing array is a violation and has no elements.
+// A missing array is a violation and counts as empty.
 template <typename Element>
 std::span<const Element> elements(const Element *array, std::uint32_t count, const std::string &name,
                                   Violations &violations) {

@@ -1,4 +1,4 @@
-// A valid scene, whose spheres are still in the caller's memory.
+// A valid scene. Its spheres are still in the caller's memory.
 #pragma once
 
 #include "lib/base/work_progress.h"
@@ -17,7 +17,7 @@ struct CheckedScene {
     std::vector<Plane> planes;
 };
 
-// scene.struct_size is checked already. Throws PT_ERROR_INVALID_SCENE with all broken rules.
+// Expects a checked struct_size. Throws PT_ERROR_INVALID_SCENE with all broken rules.
 CheckedScene checked_scene(const pt_scene &scene, WorkProgress &progress);
 
 } // namespace pt

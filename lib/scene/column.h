@@ -1,4 +1,4 @@
-// Reads elements of a pt_column, deciding on the type once per call.
+// The type of a pt_column is decided once per call.
 #pragma once
 
 #include "lib/scene/srgb.h"
@@ -18,7 +18,6 @@ inline bool is_there(const pt_column &column) {
     return column.data != nullptr;
 }
 
-// Needs no alignment.
 template <typename Element>
 Element element(const pt_column &column, std::size_t index) {
     static_assert(std::is_trivially_copyable_v<Element>);
@@ -29,7 +28,7 @@ Element element(const pt_column &column, std::size_t index) {
 
 static_assert(sizeof(glm::vec3) == 3 * sizeof(float) && sizeof(glm::dvec3) == 3 * sizeof(double));
 
-// Calls use with a function from an index to a float or double.
+// Calls use(read), where read(index) is a float or double.
 template <typename Use>
 decltype(auto) with_numbers(const pt_column &column, Use use) {
     if (column.type == PT_TYPE_FLOAT32)
@@ -37,7 +36,7 @@ decltype(auto) with_numbers(const pt_column &column, Use use) {
     return use([&column](std::size_t index) { return element<double>(column, index); });
 }
 
-// The function returns vec3 or dvec3.
+// read(index) is a vec3 or dvec3.
 template <typename Use>
 decltype(auto) with_vectors(const pt_column &column, Use use) {
     if (column.type == PT_TYPE_FLOAT32)
@@ -45,7 +44,6 @@ decltype(auto) with_vectors(const pt_column &column, Use use) {
     return use([&column](std::size_t index) { return element<glm::dvec3>(column, index); });
 }
 
-// Decodes bytes.
 template <typename Use>
 decltype(auto) with_colors(const pt_column &column, Use use) {
     if (column.type != PT_TYPE_SRGB8)

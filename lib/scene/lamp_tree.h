@@ -1,4 +1,4 @@
-// The shape and order of the tree by which kernels choose among many lamps. gpu_layout.h describes its nodes.
+// The shape and order of the lamp tree, by which kernels choose among many lamps (gpu_layout.h).
 #pragma once
 
 #include "lib/scene/scene.h"
@@ -8,18 +8,16 @@
 
 namespace pt {
 
-// Depends only on the number of lamps, so moving things needs no other kernel. The top has one to four groups of four
-// nodes; each node has a group below it. The last level's nodes are slots for lamps, more than half of them taken
-// beyond 16 lamps.
+// The shape depends only on the number of lamps, so moving lamps needs no new kernel. The top has one to four groups of
+// four nodes. Each node has a group below it. The last level's nodes are slots for lamps.
 class LampTreeShape {
 public:
     explicit LampTreeShape(std::uint32_t lamp_count);
 
-    std::uint32_t levels() const { return levels_; } // below the top; at least 1
+    std::uint32_t levels() const { return levels_; } // below the top; >= 1
     std::uint32_t top_groups() const { return top_groups_; }
     std::uint64_t slots() const { return 4 * groups_of(levels_); }
 
-    // Level 0 is the top.
     std::uint64_t groups_of(std::uint32_t level) const { return std::uint64_t{top_groups_} << (2 * level); }
     std::uint64_t groups_above(std::uint32_t level) const {
         return top_groups_ * (((std::uint64_t{1} << (2 * level)) - 1) / 3);
@@ -37,8 +35,8 @@ private:
     std::uint32_t top_groups_;
 };
 
-// Emitting spheres in the order of slots, by their places at time 1/2. Leaving out spheres that the camera does not see
-// as lamps keeps the order.
+// Returns emitting spheres in the order of slots, by their places at time 1/2. A camera for which some are no lamps
+// keeps the order.
 std::vector<std::uint32_t> order_in_lamp_tree(const Scene &scene);
 
 } // namespace pt

@@ -1,5 +1,4 @@
-// A ball that moves along a straight line, or a capsule, a ball swept along one. Everything that distinguishes the two
-// is here.
+// A moving ball, or a capsule: a ball swept along a line. Only this file distinguishes them.
 #pragma once
 
 #include "lib/base/digest.h"
@@ -27,10 +26,10 @@ private:
 };
 
 struct MovingBall {
-    glm::dvec3 open; // center at the beginning
-    glm::dvec3 way;  // the center's displacement until the end
+    glm::dvec3 open; // at the beginning
+    glm::dvec3 way;  // displacement until the end
     double radius;
-    Kind kind = Kind::ball; // a capsule is everywhere on its way at once
+    Kind kind = Kind::ball; // A capsule is everywhere on its way at once.
 
     glm::dvec3 close() const { return open + way; }
     bool moves() const { return kind == Kind::ball && way != glm::dvec3(0.0); }
@@ -41,12 +40,11 @@ struct PointBox {
     glm::dvec3 high;
 };
 
-// Over all time.
 inline PointBox box_about(const MovingBall &ball) {
     return {glm::min(ball.open, ball.close()) - ball.radius, glm::max(ball.open, ball.close()) + ball.radius};
 }
 
-// While the shutter is open, relative to the camera.
+// The ball while the shutter is open, relative to the camera.
 inline MovingBall seen_ball(const MovingBall &ball, const Camera &camera) {
     if (ball.kind != Kind::ball)
         return {ball.open - camera.position, ball.way, ball.radius, ball.kind};
@@ -54,14 +52,13 @@ inline MovingBall seen_ball(const MovingBall &ball, const Camera &camera) {
             (camera.shutter_close - camera.shutter_open) * ball.way, ball.radius};
 }
 
-// Share of the radius within which float32 may put a point on the wrong side.
+// Within this share of the radius, float32 may misplace points.
 inline constexpr double side_margin = 0x1p-16;
 
-// Balls that differ by more than this share of their radii are different. A distance d is known to 2^-22 d, which is
-// the share at 2^20 radii; there a center's rounding is visible anyway.
+// Balls that differ by more than this share of their radii are distinct. A distance d has an error of 2^-22 d, which is
+// this share at 2^20 radii. There the rounding of centers is visible anyway.
 inline constexpr double two_spheres = 0.25;
 
-// Adds a margin for float32's rounding.
 inline double with_margin(double length) {
     return length * (1.0 + side_margin);
 }
@@ -73,13 +70,12 @@ inline double least_distance(const glm::dvec3 &open, const glm::dvec3 &way) {
     return glm::length(open + nearest * way);
 }
 
-// Whether the origin is ever inside the ball, or float32 cannot tell. slack: additional distance.
+// Whether the origin is ever inside the ball, or float32 cannot tell.
 inline bool may_hold_origin(const MovingBall &ball, double slack = 0.0) {
     return !(least_distance(ball.open, ball.way) > with_margin(ball.radius) + slack);
 }
 
-// Whether no point of either surface is far from the other, compared with their size. A capsule counts if this may hold
-// for one of its balls.
+// Whether both surfaces nearly coincide. For a capsule, one of its balls suffices.
 inline bool nearly_coincide(const MovingBall &ball, const MovingBall &other) {
     const double apart = other.kind == Kind::capsule
                              ? std::max(least_distance(other.open - ball.open, other.way) - glm::length(ball.way), 0.0)
@@ -95,8 +91,8 @@ inline MovingBall ball_about(const MovingBall &ball) {
     return {ball.open + half, glm::dvec3(0.0), ball.radius + glm::length(half)};
 }
 
-// Whether a ball never meets a surface while the shutter is open, and does not contain it. Relative motion is straight,
-// so the greatest distance is at an end.
+// Whether the ball never touches the surface and does not contain it. Relative motion is straight, so the greatest
+// distance is at an end.
 inline bool lies_apart(const MovingBall &ball, const MovingBall &surface) {
     const MovingBall about = ball_about(surface);
     const glm::dvec3 from = ball.open - about.open;
@@ -107,8 +103,8 @@ inline bool lies_apart(const MovingBall &ball, const MovingBall &surface) {
     return is_beside || is_within;
 }
 
-// As kernels read it (shaders/gpu_layout.h). Capsules whose 1 / length overflows are far shorter than any radius and
-// held as balls.
+// The word in shaders/gpu_layout.h. A capsule whose 1 / length overflows is far shorter than any radius, and becomes a
+// ball.
 inline glm::vec4 way_word(const MovingBall &ball) {
     const glm::vec3 rounded = glm::vec3(ball.way) + 0.0F; // -0 + 0 = +0, for twins
     if (ball.kind == Kind::ball)

@@ -16,10 +16,10 @@ struct RenderSettings {
     std::uint32_t estimator; // never PT_ESTIMATOR_BEST
     std::uint32_t sampler;   // never PT_SAMPLER_BEST
     std::uint32_t first_row;
-    std::uint32_t row_count; // >= 1; rows within the image
+    std::uint32_t row_count; // >= 1; within the image
 };
 
-// source.struct_size is checked already. Throws PT_ERROR_INVALID_ARGUMENT with all broken rules.
+// Expects a checked struct_size. Throws PT_ERROR_INVALID_ARGUMENT with all broken rules.
 RenderSettings validated_render(const pt_render &source);
 
 } // namespace pt

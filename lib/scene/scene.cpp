@@ -11,7 +11,7 @@ namespace pt {
 
 namespace {
 
-// Treats -0 as 0, like comparisons of materials.
+// -0 equals 0, as for materials.
 using MaterialKey = std::array<float, 11>;
 
 MaterialKey key_of(const Material &material) {
@@ -20,7 +20,7 @@ MaterialKey key_of(const Material &material) {
             emission.r, emission.g, emission.b, glossiness, hidden ? 1.0F : 0.0F};
 }
 
-// A material per sphere color, reused for equal ones.
+// Makes a material for each sphere color. Equal ones are shared.
 class ColoredMaterials {
 public:
     explicit ColoredMaterials(std::vector<Material> &materials) : materials_(materials) {}
@@ -41,7 +41,7 @@ public:
 
 private:
     std::vector<Material> &materials_;
-    std::map<MaterialKey, std::uint32_t> indices_; // of the first of equal ones
+    std::map<MaterialKey, std::uint32_t> indices_;
 };
 
 } // namespace
@@ -83,11 +83,11 @@ void add(Digest &digest, const Material &material) {
     digest.add(material.specular);
     digest.add(material.emission);
     digest.add(static_cast<double>(material.glossiness));
-    if (material.hidden) // keeps the digests of scenes without hidden materials
+    if (material.hidden) // Other scenes keep their digests.
         digest.add(std::uint64_t{PT_MATERIAL_HIDDEN_FROM_CAMERA});
 }
 
-// Numbers materials as they occur, each new one followed by its values.
+// Materials are numbered in order of use.
 std::string digest_of(const Scene &scene) {
     Digest digest;
     std::map<MaterialKey, std::uint64_t> numbers;

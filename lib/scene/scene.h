@@ -21,7 +21,7 @@ struct Material {
     glm::vec3 specular;
     glm::vec3 emission;
     float glossiness;
-    bool hidden = false; // unseen by the camera
+    bool hidden = false; // from the camera
 };
 
 inline bool emits(const Material &material) {
@@ -32,7 +32,7 @@ inline bool is_glossy(const Material &material) {
     return material.specular != glm::vec3(0.0F);
 }
 
-// Opacities are in steps of 1 / TREE_OPACITY_STEPS; no_opacity if all spheres of the scene are opaque.
+// In steps of 1 / TREE_OPACITY_STEPS. If all spheres are opaque, they have no_opacity.
 inline constexpr std::int16_t no_opacity = -1;
 inline constexpr auto opaque = static_cast<std::int16_t>(gpu::TREE_OPACITY_STEPS);
 inline constexpr double least_opaque = 1.0 - 0.5 / gpu::TREE_OPACITY_STEPS; // rounds to opaque
@@ -45,14 +45,14 @@ inline double passing_share(std::int16_t opacity) {
 struct Sphere {
     glm::dvec3 center;
     double radius;
-    glm::dvec3 motion;      // while the shutter is open; for capsules, vector between the ends
+    glm::dvec3 motion;      // from time 0 to 1; for capsules between the ends
     std::uint32_t material; // index into Scene::materials
     Kind kind = Kind::ball;
-    std::int16_t opacity = no_opacity; // number of steps
+    std::int16_t opacity = no_opacity; // in steps
 
     bool is_translucent() const { return opacity != no_opacity && opacity < opaque; }
 
-    MovingBall ball() const { return {center, motion, radius, kind}; } // times 0 to 1
+    MovingBall ball() const { return {center, motion, radius, kind}; }
 };
 
 // dot(normal, x) + offset = 0
@@ -63,32 +63,31 @@ struct Plane {
 };
 
 struct Scene {
-    std::vector<Material> materials; // the caller's, then materials of spheres with their own colors
+    std::vector<Material> materials; // the caller's, then those of colored spheres
     std::vector<Sphere> spheres;     // pt_scene.spheres, then the arrays
     std::vector<Plane> planes;
     std::vector<std::uint32_t> array_starts = {}; // first spheres of pt_scene.sphere_arrays
-    std::vector<std::uint32_t> indices = {};      // each sphere's in the caller's scene; empty: all are kept
+    std::vector<std::uint32_t> indices = {};      // in the caller's scene; empty: all are kept
 };
 
 struct CheckedScene;
 
-// Takes over all spheres or, unless NULL, the ones with the ascending indices in `only`.
+// Takes all spheres, or those with the ascending indices `only`.
 Scene owned_scene(CheckedScene checked, const std::vector<std::uint32_t> *only = nullptr);
 
 // A sphere in the caller's scene, for a BrokenRule.
 struct SpherePlace {
     const char *subject;
     std::int64_t index;
-    std::int32_t component; // -1: in no array
+    std::int32_t component; // -1 outside arrays
 };
 
 SpherePlace place_of_sphere(const Scene &scene, std::size_t position);
 
-// index: among all of the caller's spheres.
 SpherePlace place_of_index(const Scene &scene, std::size_t index);
 
-// Digest::text of the surfaces in their order and of their materials, by which films tell scenes apart. It does not
-// depend on structs or columns, unused materials, or the order and repetition of materials.
+// Films distinguish scenes by this digest of surfaces, in order, and their materials. It does not depend on structs or
+// columns, unused materials, or the materials' order and repetition.
 std::string digest_of(const Scene &scene);
 
 void add(Digest &digest, const Material &material);

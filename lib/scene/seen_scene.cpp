@@ -10,24 +10,24 @@ namespace pt {
 
 namespace {
 
-// Radius over distance of a nearly flat sphere. Below, center and radius cost a hit at most 5 of 24 bits.
+// Radius over distance of a nearly flat sphere. Below it, center and radius cost a hit at most 5 of 24 bits.
 constexpr double nearly_flat = 32.0;
 
-// The ratio for lamps. As planes, lamps are found by directions alone, which adds noise. At this ratio the surface is
-// off by 2^-24 R, 1/256 of the distance.
+// The ratio for lamps. Only directions find curved planes as lamps, which adds noise. Here the surface is off by 2^-24
+// R, 1/256 of the distance.
 constexpr double nearly_flat_lamp = 65536.0;
 
 bool is_large(const SeenSphere &sphere, double ratio) {
     return sphere.kind == Kind::ball && sphere.radius > ratio * std::abs(sphere.height());
 }
 
-// A moving sphere is seen as if the camera moved, so its way counts like a distance.
+// The camera sees motion like a distance.
 bool moves_little(const SeenSphere &sphere) {
     return sphere.radius > nearly_flat * glm::length(sphere.way);
 }
 
-// Whether the surface is so near that it must be held as a plane, but moves too far for that. Errors small beside the
-// disc of starts do no harm.
+// Whether a surface is too near for a sphere and moves too far for a plane. Errors that are small beside the disc of
+// ray starts are harmless.
 bool moves_too_far(const SeenSphere &sphere, const Camera &camera) {
     return is_large(sphere, nearly_flat_lamp) && sphere.radius > nearly_flat_lamp * camera.start_radius &&
            !moves_little(sphere);
@@ -96,8 +96,8 @@ void require_held_motions(const SeenScene &seen, const Scene &scene, const Camer
 }
 
 // Let the center be at a from the disc's plane and c from its axis. Squared distances from the disc's points are a^2 +
-// max(c - radius, 0)^2 to a^2 + (c + radius)^2. A moving ball is wider by half its way. Float32 tells sides up to a
-// share of the ball's size or, for a huge ball, its distance.
+// max(c - radius, 0)^2 to a^2 + (c + radius)^2. Half the way of a moving ball is added. Float32 has an error of a share
+// of the ball's size or, for a huge ball, its distance.
 bool divides_start(const MovingBall &ball, const Camera &camera, double slack) {
     if (camera.start_radius == 0.0 || !may_hold_origin(ball, camera.start_radius + slack))
         return false;

@@ -17,7 +17,7 @@ namespace {
 // Catches an uninitialised count before arrays are read.
 constexpr std::uint32_t max_array_count = 65536;
 
-// Also refuses NumPy's negative strides.
+// Also catches NumPy's negative strides.
 constexpr std::uint32_t max_stride = (std::uint32_t{1} << 31) - 1;
 
 struct ElementType {
@@ -32,7 +32,7 @@ constexpr ElementType index_type{[](std::uint32_t type) { return type == PT_TYPE
 constexpr ElementType color_type{[](std::uint32_t type) { return real_type.is(type) || type == PT_TYPE_SRGB8; },
                                  "must be PT_TYPE_FLOAT32 (1), PT_TYPE_FLOAT64 (2) or PT_TYPE_SRGB8 (4)"};
 
-// is_length without a branch on the sign, which would be mispredicted.
+// A branch on the sign would be mispredicted.
 bool is_coordinate(double value) {
     return is_length(std::abs(value));
 }
@@ -44,7 +44,7 @@ bool is_dark(const pt_material &material) {
     return std::ranges::all_of(material.emission, [](float component) { return component == 0.0F; });
 }
 
-// Shadow rays do not check whether their lamp lets them pass, nor camera rays whether a tree sphere is hidden.
+// Shadow rays do not test their lamp's opacity. Camera rays do not test whether a tree sphere is hidden.
 const char *const plain_rule = "must be of a material that neither emits nor is hidden, as its opacity is below 1";
 
 bool is_plain(const pt_material &material) {
@@ -69,7 +69,6 @@ struct ColumnKind {
     void (ColumnChecker::*check)(const ColumnKind &kind) const;
 };
 
-// All columns must be readable.
 class ColumnChecker {
 public:
     ColumnChecker(const Subject &subject, const pt_sphere_array &array, std::span<const pt_material> materials,
@@ -112,7 +111,6 @@ public:
             dark_rule);
     }
 
-    // Also checks the materials if a tree would hold opacities below 1.
     void opacities(const ColumnKind &kind) const {
         numbers<is_share, share_rule>(kind);
         constexpr std::uint32_t none = UINT32_MAX;
@@ -126,7 +124,7 @@ public:
     }
 
 private:
-    // A single value for all spheres is checked once.
+    // A value for all spheres is checked once.
     std::size_t elements(const pt_column &column) const { return column.stride_bytes == 0 ? 1 : array_.count; }
 
     std::uint32_t material(std::size_t i) const {
@@ -182,7 +180,7 @@ std::string member(const ColumnKind &kind, const char *name) {
     return std::string(kind.name) + '.' + name;
 }
 
-// Whether a column can be read, or may be missing.
+// Returns whether a column can be read or may be missing.
 bool check_layout(const Subject &array, const pt_column &column, std::uint32_t count, const ColumnKind &kind) {
     const auto refuse = [&](const char *name, const std::string &value, const std::string &rule) {
         array.refuse(member(kind, name).c_str(), value, rule);

@@ -1,4 +1,4 @@
-// The rules of pt_scene.sphere_arrays, one line each.
+// The rules of pt_scene.sphere_arrays.
 #pragma once
 
 #include "lib/base/rules.h"
@@ -13,15 +13,15 @@
 
 namespace pt {
 
-// Limit for all arrays together, for which indices and memory are designed.
+// Indices and memory are designed for this many spheres in all.
 constexpr std::uint64_t max_sphere_count = std::uint64_t{1} << 26;
 
-// Throws PT_ERROR_INVALID_ARGUMENT or PT_ERROR_UNSUPPORTED for a bad struct_size.
+// Throws PT_ERROR_INVALID_ARGUMENT or PT_ERROR_UNSUPPORTED for a wrong struct_size.
 std::vector<pt_sphere_array> copied_sphere_arrays(const pt_scene &scene, Violations &violations);
 
 double elements_of(std::span<const pt_sphere_array> arrays);
 
-// A unit of work per element. If an array's columns cannot be read, its elements are not checked.
+// An element is a unit of work. Unreadable columns are skipped.
 void check_sphere_arrays(std::span<const pt_sphere_array> arrays, std::span<const pt_material> materials,
                          Violations &violations, WorkProgress &progress);
 

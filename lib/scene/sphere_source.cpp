@@ -38,7 +38,7 @@ bool is_any_translucent(const pt_sphere_array &array) {
     return any;
 }
 
-// at(i), here and below: row of the i-th sphere.
+// at(i) is the row of the i-th sphere.
 template <typename At>
 void read_columns(const pt_sphere_array &columns, At at, std::span<Sphere> spheres) {
     with_vectors(columns.center, [&](auto center) {
@@ -164,7 +164,7 @@ void SphereSource::read_colors(std::span<const std::uint32_t> indices, std::span
     });
 }
 
-// A sphere is in the last part that begins at or before its index; empty parts begin where the next one does.
+// Empty parts begin where the next one does, so a sphere is in the last part that begins at or before its index.
 template <typename Element, typename Read>
 void SphereSource::read_parts(std::span<const std::uint32_t> indices, std::span<Element> elements,
                               Read read_part) const {

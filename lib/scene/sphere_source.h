@@ -1,4 +1,4 @@
-// The spheres of pt_set_scene in the caller's memory.
+// The spheres of pt_set_scene, in the caller's memory.
 #pragma once
 
 #include "lib/base/work_progress.h"
@@ -21,7 +21,7 @@ namespace pt {
 // Valid only during the call. Several threads may read it.
 class SphereSource {
 public:
-    // Structs first, then arrays. All must obey sphere_array_rules.h.
+    // Structs come first, then arrays. All obey sphere_array_rules.h.
     SphereSource(std::span<const pt_sphere> spheres, std::span<const pt_sphere_array> arrays);
 
     std::size_t size() const { return starts_.back(); }
@@ -32,17 +32,17 @@ public:
 
     bool are_mere_balls() const { return others_count_ == 0; }
 
-    // Ascending indices; none if they are more than `most`.
+    // Ascending indices; none if there are more than `most`.
     std::vector<std::uint32_t> other_kinds(std::size_t most) const;
 
-    // For many, for_each is faster.
+    // for_each() is faster for many spheres.
     Sphere operator[](std::uint32_t index) const;
     glm::vec3 color(std::uint32_t index) const;
 
     // A unit of work is a sphere, or an array with one material.
     void mark_materials(std::vector<bool> &used, WorkProgress &progress) const;
 
-    // Calls use(index, sphere, color) in order, a unit of work each. color: factor of the material's diffuse.
+    // Calls use(index, sphere, color) in order, a unit of work each. `color` is a factor of the material's diffuse.
     template <typename Use>
     void for_each(WorkProgress &progress, Use use) const {
         std::array<std::uint32_t, chunk_size> indices;
@@ -55,7 +55,7 @@ public:
             use);
     }
 
-    // Calls use(i, sphere, color) for the spheres indices[i], in this order.
+    // Calls use(i, sphere, color) for the spheres indices[i], in order.
     template <typename Use>
     void for_each(std::span<const std::uint32_t> indices, WorkProgress &progress, Use use) const {
         for_each_read(
@@ -63,11 +63,10 @@ public:
             [&](std::size_t first, std::size_t count) { return indices.subspan(first, count); }, use);
     }
 
-    // Index of each array's first sphere, even if it has none.
     std::span<const std::uint32_t> array_starts() const { return {starts_.begin() + 1, starts_.end() - 1}; }
 
 private:
-    static constexpr std::size_t chunk_size = 256; // 19 KiB, within the first cache
+    static constexpr std::size_t chunk_size = 256; // fits into the first cache
 
     template <typename From, typename Use>
     void for_each_read(std::size_t all, WorkProgress &progress, From from, Use use) const {
@@ -85,19 +84,18 @@ private:
         }
     }
 
-    // Requests all memory before using the first.
     void read(std::span<const std::uint32_t> indices, std::span<Sphere> spheres) const;
     void read_colors(std::span<const std::uint32_t> indices, std::span<glm::vec3> colors) const;
 
-    // Calls read_part(columns, at, elements) for each run of spheres in one array; at(i): row of the i-th one.
+    // Calls read_part(columns, at, elements) for each run of spheres in one array.
     template <typename Element, typename Read>
     void read_parts(std::span<const std::uint32_t> indices, std::span<Element> elements, Read read_part) const;
 
-    std::vector<pt_sphere_array> parts_; // the structs as columns, then the arrays
-    std::vector<std::uint32_t> starts_;  // index of each part's first sphere, then the number of all
+    std::vector<pt_sphere_array> parts_; // structs as columns, then arrays
+    std::vector<std::uint32_t> starts_;  // first sphere of each part, then the total
     bool has_colors_;
     bool has_opacities_;
-    std::size_t others_count_ = 0; // no balls
+    std::size_t others_count_ = 0;
 };
 
 } // namespace pt

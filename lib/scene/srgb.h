@@ -1,5 +1,5 @@
-// Decodes sRGB bytes (IEC 61966-2-1), by a table made at compile time, so that a scene's bits do not depend on a maths
-// library.
+// Decodes sRGB bytes (IEC 61966-2-1). The table is made at compile time, so that a scene's bits do not depend on a
+// maths library.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@ namespace pt {
 
 namespace srgb {
 
-// x^(1/5) for x in (0, 1], by Newton's method from above, until rounding stops it.
+// x^(1/5) for x in (0, 1], by Newton's method from above.
 constexpr double fifth_root(double x) {
     double root = 1.0;
     for (;;) {

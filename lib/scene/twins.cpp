@@ -9,23 +9,24 @@ namespace pt {
 
 namespace {
 
-// Largest difference of twins relative to the radius: 64 roundings. A distance along a ray is off by a dozen, and paths
-// see surfaces from farther than the camera.
+// Twins differ by at most 64 roundings of the radius. A distance along a ray is off by a dozen, and paths see surfaces
+// from farther than the camera.
 constexpr double same_size = 0x1p-18;
-// Relative to the distance: four times the spacing of numbers that hold the center.
+// Relative to the distance: four times the spacing of float32.
 constexpr double same_place = 0x1p-21;
-// Planes that differ by more have distinct vertices, whose positions are known to 2^-22 of the distance. Planes at this
-// angle are closer in a band of 2^-14 of the distance, parallel ones in such a strip below the horizon: under a pixel.
+// Planes that differ by more have distinct vertices, because positions are known to 2^-22 of the distance. At this
+// angle planes are closer only in a band of 2^-14 of the distance. Parallel planes are closer only near the horizon, in
+// less than a pixel.
 constexpr double two_planes = 0x1p-8;
 
-// Incommensurable, for spheres on a lattice: 1, sqrt(2), sqrt(3) over sqrt(6).
+// Incommensurable, for spheres on a lattice: 1, sqrt(2) and sqrt(3) over sqrt(6).
 constexpr glm::dvec3 generic_direction(0.40824829046386307, 0.5773502691896258, 0.7071067811865476);
 
 double tolerance(const SeenSphere &sphere) {
     return std::min(same_size * sphere.radius + same_place * sphere.distance, two_spheres * sphere.radius);
 }
 
-// Planes equal to same_size have centers and radii equal to three times that, if the offset is small against the
+// For planes equal to same_size, centers and radii are equal to three times that, if the offset is small against the
 // radius.
 double reach(const SeenSphere &sphere) {
     return sphere.is_flat ? 4.0 * same_size * sphere.radius : tolerance(sphere);
@@ -63,7 +64,7 @@ double reach(const CurvedPlane &) {
     return same_size;
 }
 
-// Elements sorted by positions on a line, where similar ones are close.
+// Elements sorted by places on a line. Similar ones are close.
 class Line {
 public:
     template <typename Element>

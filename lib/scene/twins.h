@@ -1,16 +1,16 @@
-// Merges surfaces so close that float32 hardly tells which of them a ray meets first.
+// Merges surfaces whose hits float32 can hardly order.
 #pragma once
 
 #include "lib/scene/seen_scene.h"
 
 namespace pt {
 
-// The first of several surfaces that float32 cannot tell apart from the camera stands for all. Otherwise rounding would
-// choose differently for each ray of a path, and light would count twice or never.
+// Float32 cannot tell some surfaces apart. Only the first of them stays. Otherwise rounding would choose differently
+// for each ray of a path, and light would count twice or never.
 struct DistinctScene {
     SeenScene seen;
-    bool close_lamps;  // a lamp and another sphere differ by under a quarter of their radii
-    bool close_planes; // two planes differ by under 2^-8 in direction and distance
+    bool close_lamps;  // A lamp and another sphere differ by under a quarter of their radii.
+    bool close_planes; // Two planes differ by under 2^-8 in direction and distance.
 };
 
 DistinctScene without_twins(SeenScene seen);

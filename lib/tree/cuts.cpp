@@ -14,7 +14,7 @@ int bins_for(std::size_t spheres) {
     return spheres > 64 ? most_bins : 8;
 }
 
-// Bins of equal width along the longest axis. Other axes are hardly better for many spheres.
+// Bins of equal width along the longest axis. The other axes hardly improve large parts.
 class Bins {
 public:
     explicit Bins(const Part &part) :
@@ -41,7 +41,7 @@ private:
 };
 
 struct BinCut {
-    float cost = std::numeric_limits<float>::infinity(); // no cut
+    float cost = std::numeric_limits<float>::infinity(); // no cut found
     int bin = 0;
     float first_surface = 0.0F;
     float second_surface = 0.0F;
@@ -84,7 +84,7 @@ BinCut best_cut(const BinContents &contents, const Bins &bins) {
     return best;
 }
 
-// Uses all spheres if the sample is in a single bin.
+// If the sample lies in a single bin, uses all spheres.
 BinCut best_cut(const Part &part, const Bins &bins) {
     BinContents sample;
     for_each_or_sample(part.items, [&](const TreeItem &item) { sample.add(item, bins); });
@@ -99,11 +99,11 @@ BinCut best_cut(const Part &part, const Bins &bins) {
 
 } // namespace
 
-// Without branches, since half would be mispredicted.
+// Has no branches, because half of them would be mispredicted.
 Halves binned_halves(const Part &part) {
     const Bins bins(part);
     const BinCut cut = best_cut(part, bins);
-    std::size_t count = 0; // items in the first half so far; the other visited ones are in the second
+    std::size_t count = 0; // The first half has these items so far.
     for (TreeItem &item : part.items) {
         const TreeItem looked_at = item;
         item = part.items[count];
@@ -115,7 +115,7 @@ Halves binned_halves(const Part &part) {
     return {{first, centres_of(first), cut.first_surface}, {second, centres_of(second), cut.second_surface}};
 }
 
-// Sorts by counting, without branches, which would be mispredicted.
+// Sorts by counting. Branches would be mispredicted.
 Halves swept_halves(const Part &part) {
     const std::size_t count = part.items.size();
     std::array<TreeItem, most_swept> best_items{};
@@ -124,7 +124,7 @@ Halves swept_halves(const Part &part) {
     float first_surface = 0.0F;
     float second_surface = 0.0F;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        std::array<std::uint32_t, most_swept> places{}; // along the axis, stable
+        std::array<std::uint32_t, most_swept> places{}; // positions along the axis
         for (std::size_t i = 0; i < count; ++i)
             for (std::size_t other = 0; other < i; ++other) {
                 const bool is_before = part.items[other].centre_radius[axis] <= part.items[i].centre_radius[axis];

@@ -1,4 +1,4 @@
-// Divides spheres in two: few at the best of all cuts, many at nearly the best.
+// Divides a group of spheres in two.
 #pragma once
 
 #include "lib/tree/part.h"
@@ -7,11 +7,11 @@
 
 namespace pt {
 
-// The halves with the least sum of surface times expected nodes, among cuts between bins along the longest axis (Wald
-// 2007). Requires different centers; equal ones stay together.
+// The halves with the least sum of surface times expected nodes (Wald 2007). Cuts are between bins along the longest
+// axis. The spheres must have different centers, and equal ones stay together.
 Halves binned_halves(const Part &part);
 
-// Up to here sorting costs less than bins.
+// Up to here, trying all cuts is faster than bins.
 inline constexpr std::size_t most_swept = 12;
 
 // Tries all cuts along each axis, for at most most_swept spheres.

@@ -15,15 +15,15 @@ namespace {
 
 constexpr std::uint32_t empty = ~std::uint32_t{0};
 constexpr unsigned place_bits = 26;
-constexpr std::uint32_t tag_count = 63; // of a slot's six other bits, so that no used slot looks empty
+constexpr std::uint32_t tag_count = 63; // The 64th tag would make a used slot look empty.
 
 std::uint64_t hash_of(const glm::uvec4 &word) {
     const auto two = [](std::uint32_t low, std::uint32_t high) { return std::uint64_t{high} << 32 | low; };
     return mixed(mixed(two(word.x, word.y)) ^ two(word.z, word.w));
 }
 
-// A slot holds a word's place and some bits of its hash, so different words are hardly ever compared. At most three
-// quarters are used.
+// A slot has a word's position and six bits of its hash, so different words are rarely compared. At most three quarters
+// of the slots are used.
 class Slots {
 public:
     explicit Slots(std::span<const glm::uvec4> words) :
@@ -32,7 +32,7 @@ public:
 
     void fetch(std::uint64_t hash) const { __builtin_prefetch(&slots_[hash & (slots_.size() - 1)]); }
 
-    // False if there is an equal word, or no free slot nearby.
+    // Returns false if an equal word exists or no slot nearby is free.
     bool add(std::uint32_t place, std::uint64_t hash) {
         constexpr std::size_t most_looks = 1000;
         const std::uint32_t tag = static_cast<std::uint32_t>(hash >> 32) % tag_count << place_bits;
@@ -50,12 +50,12 @@ public:
 
 private:
     std::span<const glm::uvec4> words_;
-    std::vector<std::uint32_t> slots_; // size: a power of two
+    std::vector<std::uint32_t> slots_;
 };
 
 } // namespace
 
-// Fetches memory for some words while comparing others.
+// Prefetches some slots while it compares others.
 bool has_equal_words(std::span<const glm::uvec4> words, WorkProgress &progress) {
     Slots slots(words);
     std::array<std::uint64_t, 32> hashes;

@@ -9,8 +9,8 @@
 
 namespace pt {
 
-// Takes up to 11 bytes per word; at most 2^26 words, each a unit of work. Also true if finding out would take long,
-// which does not happen by chance.
+// Uses up to 11 bytes per word. Takes at most 2^26 words, each a unit of work. Also returns true if the search would
+// take long, which random hashes do not cause.
 bool has_equal_words(std::span<const glm::uvec4> words, WorkProgress &progress);
 
 } // namespace pt

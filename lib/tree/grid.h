@@ -1,4 +1,4 @@
-// The integer grid of a tree's places. Differences are exact, so nothing is rebuilt when the camera moves.
+// The integer grid of a tree's spheres. Differences of its points are exact, so the tree does not depend on the camera.
 #pragma once
 
 #include "shaders/gpu_layout.h"
@@ -13,20 +13,19 @@
 namespace pt {
 
 struct Grid {
-    // Largest coordinate, in steps. The camera may be twice as far away without overflow of differences.
+    // Largest coordinate. Differences to a camera twice as far away do not overflow.
     static constexpr double reach = gpu::TREE_REACH;
 
-    glm::dvec3 middle; // in the scene's units
-    double step;       // a power of two, in the scene's units
+    glm::dvec3 middle; // in scene units
+    double step;       // scene units, a power of two
     double steps_per_unit;
 
-    // The finest grid that reaches this far along each axis.
+    // The finest grid that covers this distance along each axis.
     Grid(const glm::dvec3 &middle_of, double distance) :
         middle(middle_of),
         step(step_for(distance)),
         steps_per_unit(1.0 / step) {}
 
-    // The grid must reach the point.
     glm::ivec3 place(const glm::dvec3 &point) const {
         const glm::dvec3 steps = (point - middle) * steps_per_unit;
         return {nearest(steps.x), nearest(steps.y), nearest(steps.z)};
@@ -35,21 +34,21 @@ struct Grid {
     glm::dvec3 point(const glm::ivec3 &at) const { return middle + step * glm::dvec3(at); }
 
 private:
-    // The smallest power of two with which `reach` steps cover the distance; float32 must hold it and its inverse.
+    // The smallest power of two for which `reach` steps cover the distance. Float32 must hold it and its inverse.
     static double step_for(double distance) {
         int exponent = 0; // distance / reach = fraction * 2^exponent with fraction in [1/2, 1)
         std::frexp(distance / reach, &exponent);
         return std::ldexp(1.0, std::clamp(exponent, -120, 120));
     }
 
-    // The last bit of so large a number counts ones, so adding rounds to integers, ties to even.
+    // Doubles near 1.5 * 2^52 have a spacing of 1, so adding rounds to an integer, ties to even.
     static int nearest(double number) {
         constexpr double ones_are_last = 0x1.8p52;
         return static_cast<int>(static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(number + ones_are_last)));
     }
 };
 
-// Includes both ends. A default box is empty.
+// Includes both corners. A default box is empty.
 struct GridBox {
     glm::ivec3 low{INT32_MAX};
     glm::ivec3 high{INT32_MIN};

@@ -1,4 +1,4 @@
-// Finds where most points are, however far the others.
+// Finds where most points are.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -10,7 +10,7 @@
 
 namespace pt {
 
-// Medians of the coordinates of about a thousand of the points center_of(i).
+// Returns medians of the coordinates of about a thousand points. A few distant points do not change them.
 template <typename CenterOf>
 glm::dvec3 middle_of(std::uint32_t count, CenterOf center_of) {
     constexpr std::uint32_t enough = 1000;

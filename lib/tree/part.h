@@ -1,4 +1,4 @@
-// Groups of spheres that a tree's build has yet to split, with their bounding boxes.
+// Groups of spheres that a tree's build has not yet split.
 #pragma once
 
 #include "lib/base/mixed.h"
@@ -12,7 +12,7 @@
 
 namespace pt {
 
-using Vector = float __attribute__((vector_size(16))); // three coordinates and an unused one, in a register
+using Vector = float __attribute__((vector_size(16))); // three coordinates and an unused one
 using Items = std::span<TreeItem>;
 
 struct Box {
@@ -58,8 +58,8 @@ inline constexpr std::size_t sample_size = 4096;
 
 inline constexpr std::size_t sampled_from = 4 * sample_size;
 
-// Calls use(item) for all, or one item from anywhere in each of sample_size equal runs, against patterns in the order.
-// Deterministic.
+// Calls use(item) for all items of a small group. Takes one random item from each of sample_size runs of a large group,
+// because its order may have patterns. The result is deterministic.
 template <typename Use>
 void for_each_or_sample(Items items, Use use) {
     if (items.size() < sampled_from) {
@@ -76,7 +76,7 @@ void for_each_or_sample(Items items, Use use) {
     }
 }
 
-// Box of all centers, or of a sample unless that is a single point.
+// The box of all centers, or of a sample's if these differ.
 inline Box centres_of(Items items) {
     Box box;
     for_each_or_sample(items, [&](const TreeItem &item) { box.add_centre(item); });
@@ -95,7 +95,7 @@ inline Box balls_of(Items items) {
 // A large part has a sample's boxes.
 struct Part {
     Items items;
-    Box centres; // a point only if all are there
+    Box centres; // a point only if all centers are equal
     float surface = 0.0F;
     bool has_no_twins = false;
 };

@@ -1,4 +1,4 @@
-// The spheres in a tree, their extent over time, and the number of lamps.
+// The extent of a tree's spheres over time.
 #pragma once
 
 #include "lib/base/work_progress.h"
@@ -17,7 +17,7 @@ struct TreeMaterial {
     bool emits;
 };
 
-// Calls use(index, sphere) for all spheres except left_out, in ascending order. Each is a unit of work.
+// Calls use(index, sphere) for all spheres except left_out, in ascending order.
 template <typename Use>
 void for_each_in_tree(const SphereSource &spheres, std::span<const std::uint32_t> left_out, WorkProgress &progress,
                       Use use) {
@@ -33,13 +33,13 @@ struct SphereExtent {
     PointBox box{glm::dvec3(std::numeric_limits<double>::infinity()),
                  glm::dvec3(-std::numeric_limits<double>::infinity())};
     double largest_radius = 0.0;
-    bool moves = false; // a sphere moves, perhaps one left out: a kernel reads the ways of all or of none
+    bool moves = false; // includes left_out, because kernels read all motions or none
     Kinds kinds;
     std::uint32_t lamp_count = 0;
 
     SphereExtent(const SphereSource &spheres, std::span<const std::uint32_t> left_out,
                  std::span<const TreeMaterial> materials, WorkProgress &progress) {
-        constexpr double share_of_extent = 0.06; // of the remaining work
+        constexpr double share_of_extent = 0.06;
         progress.enter(share_of_extent, static_cast<double>(spheres.size()));
         for_each_in_tree(spheres, left_out, progress, [&](std::uint32_t, const Sphere &sphere) {
             const PointBox own = box_about(sphere.ball());
@@ -53,7 +53,7 @@ struct SphereExtent {
             moves = moves || spheres[index].ball().moves();
     }
 
-    // Reaches a step farther on each side, because places are rounded.
+    // Extends one step farther, because places are rounded.
     Grid grid() const {
         const glm::dvec3 half = 0.5 * box.high - 0.5 * box.low;
         return {0.5 * box.low + 0.5 * box.high, std::max({half.x, half.y, half.z, largest_radius}) * (1.0 + 0x1p-28)};

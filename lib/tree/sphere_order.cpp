@@ -12,7 +12,7 @@ namespace pt {
 
 namespace {
 
-// Deeper nodes are halved: another log4(2^26) = 13 levels hold all spheres of a scene.
+// Deeper nodes are halved. log4(2^26) = 13 more levels hold all spheres of a scene.
 constexpr std::uint32_t free_depth = 14;
 
 Part part_of(Items items) {
@@ -55,7 +55,7 @@ std::uint64_t hash_of(const SphereBits &bits) {
     return hash;
 }
 
-// Sorts by hashes, since bits take long to read, and compares bits of equal hashes.
+// Compares bits only for equal hashes, because reading bits is slow.
 Part without_twins(Part part, const Making &making) {
     const std::size_t count = part.items.size();
     if (part.has_no_twins || (count <= tree_width && !have_equals(part.items)))
@@ -99,8 +99,7 @@ struct Children {
     std::span<Part> all() { return std::span(parts).first(count); }
 };
 
-// The part with the larger surface goes first; deep in the tree the one with more spheres, so that no child has more
-// than a quarter of them.
+// Larger surfaces come first. Deep in the tree more spheres come first, so no child has over a quarter of them.
 bool goes_before(const Part &part, const Part &other, std::uint32_t depth) {
     return depth < free_depth ? part.surface > other.surface : part.items.size() > other.items.size();
 }
@@ -113,8 +112,8 @@ Part *next_of(std::span<Part> parts, std::uint32_t depth) {
     return next;
 }
 
-// Divides a node's parts until there are enough children. Cuts separate twins only among few spheres or at one point,
-// halving perhaps; twins are removed before these.
+// Divides a node's parts until there are enough children. Twins must be removed before a cut could separate them. Only
+// cuts of few spheres, of a single point, or by halving can.
 Children children_of(Part node, const Making &making, std::uint32_t depth) {
     Children children;
     if (node.items.size() <= tree_width || node.centres.is_point() || depth == free_depth)
@@ -149,7 +148,7 @@ TreeShape tree_shape(std::vector<TreeItem> items, const BitsOfSphere &bits_of, W
         std::uint32_t depth;
     };
     TreeShape shape{{TreeLinks{}}, {}, 0};
-    shape.nodes.reserve(items.size() / 2); // nearly always enough
+    shape.nodes.reserve(items.size() / 2);
     shape.spheres.reserve(items.size());
     std::vector<Task> tasks{{part_of(items), 0, 1}};
     while (!tasks.empty()) {

@@ -21,8 +21,8 @@ namespace {
 
 constexpr std::uint32_t nowhere = ~std::uint32_t{0};
 
-// A new tree is made if the old shape's cost differs by this factor, up or down. Rays are then about an eighth slower;
-// a new tree takes twice the time of a kept shape.
+// If the old shape's cost differs by this factor, a new tree is built. Rays would be about an eighth slower. A new tree
+// takes twice the time of an old shape.
 constexpr double most_growth = 1.25;
 
 // Shares of the remaining work, for a million spheres.
@@ -119,7 +119,7 @@ SphereTree::SphereTree(const SphereExtent &extent, const SphereSource &spheres,
     lamp_materials_.reserve(extent.lamp_count);
 }
 
-// The lamps' block starts empty and grows in place.
+// The lamps' block grows later, without reallocation.
 void SphereTree::make_room(std::size_t node_count, WorkProgress &progress) {
     sphere_count_ = static_cast<std::uint32_t>(spheres_->size());
     const std::uint32_t quarter = (sphere_count_ + 3) / 4;
@@ -131,7 +131,7 @@ void SphereTree::make_room(std::size_t node_count, WorkProgress &progress) {
     first_color_ = first_surface_ + quarter;
     first_lamp_ = first_color_ + (has_colors_ ? quarter : 0);
     words_.reserve(first_lamp_ + lamp_materials_.capacity());
-    // In pieces, since touching new memory takes long.
+    // Pieces report progress, because touching new memory takes long.
     constexpr std::size_t some = std::size_t{1} << 20;
     while (words_.size() < first_lamp_) {
         words_.resize(std::min<std::size_t>(words_.size() + some, first_lamp_));
@@ -143,7 +143,7 @@ std::span<glm::uvec4> SphereTree::words_of_node(std::size_t node) {
     return std::span(words_).subspan(node * gpu::TREE_NODE_WORDS, gpu::TREE_NODE_WORDS);
 }
 
-// Writes all blocks but nodes, in the tree's order: random reads of the caller's memory are faster than random writes.
+// Writes in the tree's order. Random reads of the caller's memory are faster than random writes.
 void SphereTree::write_spheres(const SphereSource &spheres, std::span<const TreeMaterial> materials,
                                WorkProgress &progress) {
     std::vector<FoundLamp> lamps;
@@ -175,7 +175,6 @@ void SphereTree::write_lamps(std::vector<FoundLamp> lamps, std::span<const TreeM
     }
 }
 
-// The links must be written already.
 void SphereTree::write_nodes(WorkProgress &progress) {
     progress.enter(share_of_nodes, static_cast<double>(node_count()));
     cost_ = 0.0;
@@ -183,8 +182,7 @@ void SphereTree::write_nodes(WorkProgress &progress) {
     cost_ /= box_.surface();
 }
 
-// Writes a node after its children, whose boxes make up its own, and adds up the cost. Visits children from last to
-// first: spheres by falling slot, then inner nodes.
+// The node's box consists of its children's, so they are written first.
 GridBox SphereTree::write_node(std::uint32_t node, WorkProgress &progress) {
     const TreeLinks links = TreeNodeView(words_of_node(node)).links();
     TreeNode written(links);
@@ -198,7 +196,7 @@ GridBox SphereTree::write_node(std::uint32_t node, WorkProgress &progress) {
     return written.box();
 }
 
-// Whether two spheres are equal except in motion.
+// Whether two spheres are equal except for their motions.
 bool SphereTree::has_alike(WorkProgress &progress) const {
     progress.enter(share_of_alike, static_cast<double>(sphere_count_));
     return has_equal_words(std::span(words_).subspan(first_sphere_, sphere_count_), progress);
@@ -207,9 +205,9 @@ bool SphereTree::has_alike(WorkProgress &progress) const {
 void SphereTree::add_to(Digest &digest) const {
     digest.add(grid_.middle);
     digest.add(grid_.step);
-    if (has_opacities_) // the last bits of radii then differ in meaning
+    if (has_opacities_) // Low bits of radii then have another meaning.
         digest.add(std::uint64_t{gpu::TREE_OPACITY_STEPS});
-    std::vector<std::uint32_t> places(scene_sphere_count_, nowhere); // nowhere: left out, or twins
+    std::vector<std::uint32_t> places(scene_sphere_count_, nowhere); // left-out spheres and twins
     for (std::uint32_t place = 0; place < sphere_count_; ++place)
         places[(*spheres_)[place]] = place;
     std::erase(places, nowhere);
@@ -237,7 +235,7 @@ bool SphereTree::is_far(const Camera &camera) const {
     return !(std::max({steps.x, steps.y, steps.z}) <= 2.0 * Grid::reach);
 }
 
-// Whether a slot whose rounded box meets the box has the property.
+// Whether any sphere whose rounded box meets the box has the property.
 template <typename Property>
 bool SphereTree::any_in(const GridBox &box, Property &&property) const {
     std::vector<std::uint32_t> nodes{0};
@@ -286,14 +284,14 @@ bool SphereTree::divides_start(const Camera &camera) const {
     });
 }
 
-// A ball around a box, relative to the camera.
+// A ball around the box, relative to the camera.
 MovingBall SphereTree::region_of(const GridBox &box, const Camera &camera) const {
     const glm::dvec3 low = grid_.point(box.low) - camera.position;
     const glm::dvec3 high = grid_.point(box.high) - camera.position;
     return {0.5 * (low + high), glm::dvec3(0.0), 0.5 * glm::length(high - low)};
 }
 
-// Enters the node with the least bound first, and none with a bound above the least number so far.
+// Visits nodes by ascending bound.
 SphereTree::Least SphereTree::least(const Camera &camera, const std::function<double(const MovingBall &)> &of_region,
                                     const std::function<double(const MovingBall &)> &of_sphere) const {
     using Entry = std::pair<double, std::uint32_t>; // bound and node
@@ -352,7 +350,7 @@ void SphereTree::visit(const Camera &camera, const std::function<bool(const Movi
 }
 
 bool SphereTree::finds_close_lamps(WorkProgress &progress) const {
-    constexpr std::size_t as_many_spheres = 16; // spheres that take about the time of a lamp
+    constexpr std::size_t as_many_spheres = 16; // A lamp takes the time of this many spheres.
     progress.enter(share_of_close_lamps, static_cast<double>(lamp_materials_.size()));
     for (std::uint32_t lamp = 0; lamp < lamp_materials_.size(); ++lamp) {
         progress.add(1.0, as_many_spheres);
@@ -369,8 +367,8 @@ bool SphereTree::finds_close_lamps(WorkProgress &progress) const {
     return false;
 }
 
-// A camera within twice the grid's reach is a grid point with exact differences. Farther away the grid's middle stands
-// for it, since rounding is small against the distance.
+// A camera within twice the grid's reach becomes a grid point, with exact differences. Farther away the grid's middle
+// replaces it, because rounding is small against the distance.
 gpu::TreeFrame SphereTree::frame(const Camera &camera) const {
     gpu::TreeFrame frame{};
     frame.camera = is_far(camera) ? glm::ivec3(0) : grid_.place(camera.position);

@@ -1,8 +1,7 @@
-// The tree of spheres as the kernel reads it, for scenes with too many to test each. Independent of the camera; shared
-// by all devices.
+// The tree of spheres in the kernel's layout. All devices share it.
 //
-// The shape changes nothing visible, so spheres that have moved a little can keep an earlier tree's, which takes a
-// fraction of the time.
+// The shape only affects speed. Spheres that have moved a little can reuse an older shape, which takes a fraction of
+// the time.
 #pragma once
 
 #include "lib/base/digest.h"
@@ -28,11 +27,12 @@ namespace pt {
 
 class SphereTree {
 public:
-    // Over all spheres except left_out, ascending indices; at least one must remain. materials: all of the scene.
+    // Contains all spheres except left_out (ascending indices). At least one must remain. `materials` are the whole
+    // scene's.
     SphereTree(const SphereSource &spheres, std::span<const std::uint32_t> left_out,
                std::span<const TreeMaterial> materials, WorkProgress &progress);
 
-    // Reuses another tree's shape: each sphere gets the slot of its index there. Nothing if a new tree would be much
+    // Reuses another tree's shape, with each sphere in its old slot. Returns nothing if a new tree would be much
     // better, other spheres are left out, or a tree has twins, which share a slot.
     static std::optional<SphereTree> with_shape_of(const SphereTree &other, const SphereSource &spheres,
                                                    std::span<const std::uint32_t> left_out,
@@ -50,10 +50,10 @@ public:
     // Adds the grid and each sphere's words, in the scene's order.
     void add_to(Digest &digest) const;
 
-    // Expected nodes that a ray through the tree meets: their summed surface over the root's.
+    // Expected nodes that a ray through the tree visits: the sum of their surfaces over the root's.
     double cost() const { return cost_; }
 
-    // Spheres without twins, nodes, and nodes on the longest way down.
+    // The spheres without twins.
     std::uint32_t sphere_count() const { return sphere_count_; }
     std::uint32_t node_count() const { return node_count_; }
     std::uint32_t depth() const { return depth_; }
@@ -61,15 +61,15 @@ public:
     Kinds kinds() const { return kinds_; }
     bool has_opacities() const { return has_opacities_; }
 
-    // spheres()[slot]: the scene index of the sphere in a slot of the tree.
+    // spheres()[slot] is a scene index.
     std::span<const std::uint32_t> spheres() const { return *spheres_; }
     std::uint32_t scene_sphere_count() const { return scene_sphere_count_; }
     bool has_colors() const { return has_colors_; }
 
-    // By lamp number, in the scene's order.
+    // In the scene's order.
     const std::vector<std::uint32_t> &lamp_materials() const { return lamp_materials_; }
 
-    // A lamp's sphere as the kernel holds it.
+    // A lamp with the kernel's rounding.
     Sphere lamp(std::uint32_t number) const;
 
     // Whether the camera is ever inside a sphere, or float32 cannot tell.
@@ -78,7 +78,7 @@ public:
     // Whether parallel rays may start on both sides of a sphere (seen_scene.h).
     bool divides_start(const Camera &camera) const;
 
-    // The sphere with the least of_sphere(). of_region: a lower bound for everything in a ball.
+    // Finds the sphere with the least of_sphere(). of_region() is a lower bound for all spheres in a ball.
     struct Least {
         double number;
         std::uint32_t sphere; // scene index
@@ -87,33 +87,31 @@ public:
     Least least(const Camera &camera, const std::function<double(const MovingBall &)> &of_region,
                 const std::function<double(const MovingBall &)> &of_sphere) const;
 
-    // The sphere that reaches farthest from the middle of most, which makes the grid coarse.
+    // Finds the sphere that reaches farthest from most others.
     struct Farthest {
         std::uint32_t sphere; // scene index
         MovingBall surface;
-        double distance; // middle to its center
+        double distance; // from the middle to its center
     };
     Farthest farthest() const;
 
-    // Hands out the spheres, with opacities, in all regions that `enters` accepts, as a camera sees them.
+    // Calls receive() for the spheres in all regions that enters() accepts.
     void visit(const Camera &camera, const std::function<bool(const MovingBall &)> &enters,
                const std::function<void(const MovingBall &, std::int16_t opacity)> &receive) const;
 
-    // At any time.
     PointBox bounds() const { return {grid_.point(box_.low), grid_.point(box_.high)}; }
 
     // Whether a lamp and another sphere nearly coincide (twins.h).
     bool has_close_lamps() const { return close_lamps_; }
 
 private:
-    // Indices are the scene's.
+    // sphere and material are scene indices.
     struct FoundLamp {
         std::uint32_t sphere;
         std::uint32_t place;
         std::uint32_t material;
     };
 
-    // Without shape and words.
     SphereTree(const SphereExtent &extent, const SphereSource &spheres, std::span<const std::uint32_t> left_out);
 
     void make_room(std::size_t node_count, WorkProgress &progress);
@@ -142,9 +140,9 @@ private:
     std::uint32_t depth_ = 0;
     std::uint32_t sphere_count_ = 0;
     std::uint32_t node_count_ = 0;
-    std::shared_ptr<const std::vector<std::uint32_t>> spheres_; // scene indices by slot; shared with the shape
+    std::shared_ptr<const std::vector<std::uint32_t>> spheres_; // scene indices by slot; trees may share them
     double cost_ = 0.0;
-    double cost_as_made_ = 0.0;      // cost() of the tree whose build made the shape
+    double cost_as_made_ = 0.0;      // of the tree for which the shape was built
     std::uint32_t first_sphere_ = 0; // first words of the blocks
     std::uint32_t first_motion_ = 0;
     std::uint32_t first_surface_ = 0;

@@ -4,7 +4,7 @@ namespace pt {
 
 namespace {
 
-// The float next to the radius whose last bits are the opacity; a further word would slow walks.
+// Rounds to the nearest float32 whose low bits are the opacity. A separate word would slow walks.
 std::uint32_t radius_bits(const Sphere &sphere) {
     const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(sphere.radius));
     if (sphere.opacity == no_opacity)
@@ -14,7 +14,7 @@ std::uint32_t radius_bits(const Sphere &sphere) {
     return ((bits + half - opacity) & ~gpu::TREE_OPACITY_STEPS) + opacity;
 }
 
-// For int-sized numbers: std::ceil is a function call for old processors.
+// std::ceil is a function call on older processors.
 int ceiling(double number) {
     const auto whole = static_cast<int>(number);
     return whole + (whole < number ? 1 : 0);

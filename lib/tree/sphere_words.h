@@ -1,4 +1,4 @@
-// A surface in the words of a tree (gpu_layout.h), and back. Only moving_ball.h tells kinds apart.
+// Converts surfaces to tree words (gpu_layout.h) and back.
 #pragma once
 
 #include "lib/scene/scene.h"
@@ -13,7 +13,7 @@
 namespace pt {
 
 struct SphereWords {
-    glm::uvec4 place; // center on the grid; bits of the radius
+    glm::uvec4 place; // center on the grid, bits of the radius
     glm::uvec4 way{0};
 
     SphereWords(const glm::uvec4 &place_of, const glm::uvec4 &way_of) : place(place_of), way(way_of) {}
@@ -24,13 +24,13 @@ struct SphereWords {
     // From time 0 to 1, or from end to end.
     MovingBall surface(const Grid &grid) const;
 
-    // In steps; only if the tree has opacities.
+    // In steps, if the tree has opacities.
     std::int16_t opacity() const { return static_cast<std::int16_t>(place.w & gpu::TREE_OPACITY_STEPS); }
 
-    // Box of the whole surface. The kernel's margin covers rounding.
+    // The kernel's margin covers rounding.
     GridBox box(const Grid &grid) const;
 
-    // Center and radius, in grid steps, of the ball around the surface. Equal for twins.
+    // The ball around the surface, in grid steps.
     std::array<float, 4> ball(const Grid &grid) const;
 
 private:
@@ -38,7 +38,7 @@ private:
     double radius() const { return std::bit_cast<float>(place.w); }
 };
 
-// Ten bits for each component's square root, which resolves dark colors as well as bright ones.
+// Stores ten bits of each square root, which resolves dark colors better.
 std::uint32_t color_word(const glm::vec3 &color);
 
 } // namespace pt

@@ -12,24 +12,23 @@ namespace pt {
 
 namespace {
 
-// Every ray tests these spheres, which at most doubles the time (default_tree_from). The tree would cost more: boxes
-// grow by 2^-19 of its reach, and rays test all spheres closer together.
+// Every ray tests these spheres, which at most doubles the time (default_tree_from). In the tree they cost more,
+// because its boxes grow by 2^-19 of its reach.
 constexpr std::size_t most_outlying = 50;
 
-// Nearer spheres cost the tree up to four of its 29 bits, which leaves more than float32 has.
+// Nearer spheres cost at most four of the 29 bits of coordinates. The rest exceeds float32's precision.
 constexpr double much_farther = 16.0;
 
-// A few capsules outside, such as a cell's twelve edges, leave a tree of balls alone, where walks are faster.
+// Walks are faster without capsules, so a few stay outside, such as a cell's twelve edges.
 constexpr std::size_t few_others = 16;
 
-// The few spheres that would make a tree's grid coarse: they reach 16 times as far from the scene's middle as all
-// others. Ascending indices.
+// Finds the few spheres that reach 16 times as far from the scene's middle as all others.
 std::vector<std::uint32_t> outlying_spheres(const SphereSource &spheres, WorkProgress &progress) {
     const std::size_t few = std::min(most_outlying, spheres.size() / 2);
     const glm::dvec3 middle =
         middle_of(static_cast<std::uint32_t>(spheres.size()), [&](std::uint32_t i) { return spheres[i].center; });
 
-    // The farthest spheres and one more, farthest first.
+    // The farthest spheres and one more, in descending order.
     using Reach = std::pair<double, std::uint32_t>;
     std::vector<Reach> farthest;
     spheres.for_each(progress, [&](std::size_t i, const Sphere &sphere, const glm::vec3 &) {
@@ -55,7 +54,7 @@ std::uint32_t tree_pays_from(const SphereSource &spheres) {
     return spheres.are_mere_balls() ? default_tree_from : tree_of_others_from;
 }
 
-// Only walks through the tree know opacities; hidden spheres have none below 1.
+// Translucent spheres stay in the tree, because only its walks handle opacities.
 std::vector<std::uint32_t> spheres_beside_tree(const SphereSource &spheres, WorkProgress &progress) {
     const std::vector<std::uint32_t> outlying = outlying_spheres(spheres, progress);
     std::vector<std::uint32_t> beside;

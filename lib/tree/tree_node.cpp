@@ -29,7 +29,7 @@ TreeNodeWords words_of(const TreeLinks &links) {
 
 TreeNodeWords TreeNode::words() const {
     std::uint32_t head = head_of(links_);
-    std::array<std::uint32_t, 6> sides{}; // low along x, y, z, then high
+    std::array<std::uint32_t, 6> sides{}; // low sides, then high sides
     for (int axis = 0; axis < 3; ++axis) {
         const std::uint32_t exponent = exponent_for(static_cast<std::uint32_t>(box_.high[axis] - box_.low[axis]));
         head |= exponent << (5 * axis);

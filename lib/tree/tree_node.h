@@ -1,4 +1,4 @@
-// A tree node as the kernel reads it (gpu_layout.h): links, and the children's boxes in bytes.
+// A tree node in the kernel's layout (gpu_layout.h).
 #pragma once
 
 #include "lib/tree/grid.h"
@@ -12,7 +12,7 @@ namespace pt {
 
 using TreeNodeWords = std::array<glm::uvec4, gpu::TREE_NODE_WORDS>;
 
-// Fills in only the links.
+// Sets only the links.
 TreeNodeWords words_of(const TreeLinks &links);
 
 class TreeNode {
@@ -24,7 +24,7 @@ public:
         box_.add(box);
     }
 
-    // Before rounding.
+    // The box before rounding.
     const GridBox &box() const { return box_; }
 
     // Rounds the children's boxes outwards.
@@ -36,7 +36,7 @@ private:
     std::array<GridBox, tree_width> boxes_{};
 };
 
-// words: beginning with the node's.
+// Reads the node at the beginning of the words.
 class TreeNodeView {
 public:
     explicit TreeNodeView(std::span<const glm::uvec4> words) : words_(words.first(gpu::TREE_NODE_WORDS)) {}

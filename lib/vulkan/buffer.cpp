@@ -20,7 +20,7 @@ using Usage = vk::BufferUsageFlagBits;
 constexpr vk::MemoryPropertyFlags host_visible = Property::eHostVisible | Property::eHostCoherent;
 constexpr vk::MemoryPropertyFlags host_readable = host_visible | Property::eHostCached;
 
-// Takes far longer to copy than a submission.
+// Copying this much takes far longer than submitting.
 constexpr std::uint64_t max_staging_bytes = 16U << 20;
 
 struct Allocation {
@@ -44,7 +44,7 @@ struct Allocation {
     }
 
     DeviceObject<vk::raii::DeviceMemory> memory;
-    DeviceObject<vk::raii::Buffer> buffer; // destroyed before its memory
+    DeviceObject<vk::raii::Buffer> buffer;
     std::byte *mapped = nullptr;
 };
 
@@ -90,7 +90,6 @@ struct Buffer::State {
     State(const State &) = delete;
     State &operator=(const State &) = delete;
 
-    // Calls function(staging, first, length) for pieces.
     template <typename Function>
     void staged(std::uint64_t size, Function &&function) {
         const std::uint64_t piece = staging_bytes();
@@ -189,7 +188,7 @@ void Buffer::download(std::span<const BufferPiece> pieces) {
 }
 
 void Buffer::write(const vk::raii::CommandBuffer &commands, std::span<const std::byte> data) const {
-    if (!data.empty()) // Vulkan forbids 0 bytes
+    if (!data.empty()) // Vulkan forbids 0 bytes.
         commands.updateBuffer<std::byte>(handle(), 0, data);
 }
 

@@ -13,25 +13,23 @@ namespace pt::vulkan {
 
 enum class BufferUse {
     Storage,
-    UniformOrStorage, // or as texels
+    UniformOrStorage, // texels too
     Texels,
-    Streamed,    // uniform; the host writes it often, without waiting
-    HostWritten, // in place, without waiting
-    HostRead     // in place
+    Streamed,    // written often by the host
+    HostWritten, // in mapped memory
+    HostRead     // in mapped memory
 };
 
-// offset: in the buffer. data: destination.
 struct BufferPiece {
     std::span<std::byte> data;
     std::uint64_t offset;
 };
 
-// Limit of vkCmdUpdateBuffer.
 inline constexpr std::uint64_t max_recorded_bytes = 65'536;
 
 class Buffer {
 public:
-    // what: name for error messages. Throws PT_ERROR_OUT_OF_DEVICE_MEMORY.
+    // Throws PT_ERROR_OUT_OF_DEVICE_MEMORY.
     Buffer(Device &device, BufferUse use, std::uint64_t bytes, const std::string &what);
     ~Buffer();
     Buffer(Buffer &&other) noexcept;
@@ -40,15 +38,15 @@ public:
     std::uint64_t size() const;
     vk::Buffer handle() const;
 
-    // Wait for the device, except uploads to a streamed buffer. Offsets and sizes: multiples of 4 bytes.
+    // Offsets and sizes are multiples of 4 bytes. Without mapped memory, these functions wait for the device.
     void upload(std::span<const std::byte> data, std::uint64_t offset);
     void download(std::span<std::byte> data, std::uint64_t offset);
     void download(std::span<const BufferPiece> pieces);
 
-    // At NULL if the host cannot access the buffer.
+    // The data is NULL if the host cannot access the buffer.
     std::span<std::byte> host_memory() const;
 
-    // Records a write of up to max_recorded_bytes at the beginning.
+    // Records a write at the buffer's beginning.
     void write(const vk::raii::CommandBuffer &commands, std::span<const std::byte> data) const;
 
     void clear(const vk::raii::CommandBuffer &commands, std::uint64_t offset, std::uint64_t bytes) const;

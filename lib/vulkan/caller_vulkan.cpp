@@ -26,8 +26,7 @@ std::string pointer_text(const void *pointer) {
                 BrokenRule{.subject = "vulkan", .member = field, .value = value, .rule = rule});
 }
 
-// An instance's version cannot be queried. This function is from version 1.2, and drivers should offer none beyond the
-// instance's version.
+// An instance cannot report its version, but only devices of version 1.2 should have this function.
 bool offers_version_1_2(const vk::raii::Instance &instance, VkDevice device) {
     return instance.getDispatcher()->vkGetDeviceProcAddr(device, "vkGetSemaphoreCounterValue") != nullptr;
 }
@@ -64,7 +63,7 @@ vk::raii::PhysicalDevice validated_physical_device(const vk::raii::Instance &ins
                                          [](const vk::raii::PhysicalDevice &device) { return *device; });
     if (found == devices.end())
         refuse("physical_device", pointer_text(caller.physical_device), "must be one of vulkan.instance");
-    // Must precede calls beyond Vulkan 1.0.
+    // Calls beyond Vulkan 1.0 need this check first.
     const std::uint32_t device_version = found->getProperties().apiVersion;
     if (device_version >= VK_API_VERSION_1_2 && !offers_version_1_2(instance, caller.device))
         refuse("instance", pointer_text(caller.instance),

@@ -1,4 +1,4 @@
-// The caller's Vulkan handles (pt_vulkan), not owned.
+// The caller's Vulkan handles (pt_vulkan).
 #pragma once
 
 #include "lib/vulkan/api.h"
@@ -12,7 +12,6 @@
 
 namespace pt::vulkan {
 
-// Locks a queue by the caller's functions, if any.
 struct QueueLock {
     pt_queue_fn lock_queue = nullptr;
     pt_queue_fn unlock_queue = nullptr;
@@ -37,14 +36,14 @@ struct CallerVulkan {
     QueueLock queue_lock;
 };
 
-// Checks without calling Vulkan. Throws PT_ERROR_INVALID_ARGUMENT.
+// Checks the fields alone. Throws PT_ERROR_INVALID_ARGUMENT.
 CallerVulkan validated_vulkan(const pt_vulkan &vulkan);
 
-// Checks the rest. Throws PT_ERROR_INVALID_ARGUMENT, or PT_ERROR_UNSUPPORTED for unsuitable devices. The caller's
-// instance must outlive the result.
+// Throws PT_ERROR_INVALID_ARGUMENT, or PT_ERROR_UNSUPPORTED for unsuitable devices. The caller's instance must outlive
+// the result.
 vk::raii::PhysicalDevice validated_physical_device(const vk::raii::Instance &instance, const CallerVulkan &caller);
 
-// Machine-independent parts of validated_physical_device().
+// Tests call these parts without a device.
 void require_compute(std::span<const vk::QueueFamilyProperties> families, std::uint32_t queue_family);
 void require_suitable(const pt_device_info &physical_device);
 

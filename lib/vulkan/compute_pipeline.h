@@ -1,4 +1,4 @@
-// A specialised compute kernel and its buffers.
+// A specialised compute kernel.
 #pragma once
 
 #include "lib/vulkan/buffer.h"
@@ -12,9 +12,9 @@
 
 namespace pt::vulkan {
 
-// The offset is a multiple of Limits::storage_buffer_alignment or, for texels, of 256 bytes.
+// Offsets are multiples of Limits::storage_buffer_alignment, or of 256 bytes for texels.
 struct BufferRange {
-    BufferRange() = default; // no buffer
+    BufferRange() = default;
     BufferRange(const Buffer &whole) : buffer(whole.handle()), bytes(whole.size()) {}
     BufferRange(vk::Buffer of, std::uint64_t first, std::uint64_t count) : buffer(of), offset(first), bytes(count) {}
 
@@ -38,7 +38,6 @@ private:
     vk::DescriptorSet set_;
 };
 
-// Always in set 0.
 struct Binding {
     std::uint32_t number;
     vk::DescriptorType type = vk::DescriptorType::eStorageBuffer;
@@ -46,14 +45,14 @@ struct Binding {
 
 class ComputePipeline {
 public:
-    // constants[i]: specialization constant id i. Throws PT_ERROR_SHADER if the driver refuses the kernel.
+    // constants[i] has the specialization id i. Throws PT_ERROR_SHADER if the driver rejects the kernel.
     ComputePipeline(Device &device, std::span<const std::uint32_t> spirv, std::span<const Binding> bindings,
                     std::uint32_t push_constant_bytes, std::span<const std::uint32_t> constants);
 
-    // ranges[i] is for bindings[i].
+    // Binds ranges[i] to bindings[i].
     DescriptorSet bind(std::span<const BufferRange> ranges) const;
 
-    // Records group_count x rows workgroups. offsets: of the dynamic bindings, in bytes.
+    // Records group_count x rows workgroups. `offsets` has the dynamic bindings' offsets in bytes.
     void dispatch(const vk::raii::CommandBuffer &commands, const DescriptorSet &set,
                   std::span<const std::byte> push_constants, std::uint32_t group_count,
                   std::span<const std::uint32_t> offsets = {}, std::uint32_t rows = 1) const;

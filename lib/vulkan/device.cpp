@@ -21,25 +21,25 @@ namespace {
 constexpr std::uint64_t llvmpipe_loop_trips = 65'535;
 constexpr int first_mesa_without_limit = 25;
 
-// More would not help. A multiple of the largest alignment.
+// Larger ranges do not help. This one is a multiple of every alignment.
 constexpr std::uint32_t largest_uniform_range = 65'536;
 
-// A few times what a large GPU holds.
+// A large GPU runs fewer at a time.
 constexpr std::uint32_t busy_gpu_invocations = 1U << 18;
 
-// Submissions aim at a twentieth of a second.
+// Submissions aim at 0.05 seconds.
 constexpr std::chrono::seconds gpu_patience{10};
 constexpr std::chrono::nanoseconds wait_step = std::chrono::milliseconds{100};
 
-// Longer code stalls on instruction fetches.
+// Longer code waits for instruction fetches.
 constexpr std::uint32_t gpu_unrolled = 16;
 
 constexpr std::uint32_t gpu_walk_trips = 8;
 
-// Many times the cost of sleeping and waking.
+// Sleeping and waking takes far less time.
 constexpr std::chrono::microseconds gpu_polling{300};
 
-// The version stands in text only: "Mesa 22.3.6 (LLVM 15.0.6)".
+// Drivers give the version only as text: "Mesa 22.3.6 (LLVM 15.0.6)".
 bool ends_loops(const vk::PhysicalDeviceDriverProperties &driver) {
     constexpr std::string_view mesa = "Mesa ";
     const std::string_view info = driver.driverInfo;
@@ -83,7 +83,7 @@ void write_barrier(const vk::raii::CommandBuffer &commands, vk::PipelineStageFla
     commands.pipelineBarrier(device_stages, stages, {}, barrier, {}, {});
 }
 
-// The slowest devices of each kind.
+// Rates of the slowest devices.
 double tests_per_second(std::uint32_t kind) {
     switch (kind) {
     case PT_DEVICE_DISCRETE_GPU:
@@ -98,7 +98,6 @@ double tests_per_second(std::uint32_t kind) {
 } // namespace
 
 DevicePolicy default_policy(const pt_device_info &info) {
-    // A loaded CPU may take any time. CPUs and integrated GPUs share the host's memory; other GPUs reach it over a bus.
     const bool cpu = info.kind == PT_DEVICE_CPU;
     return {.patience = cpu ? std::chrono::nanoseconds::max() : gpu_patience,
             .share_memory = cpu || info.kind == PT_DEVICE_INTEGRATED_GPU,
@@ -153,7 +152,7 @@ Device::Device(Instance &instance, const vk::raii::PhysicalDevice &physical_devi
 Device::~Device() {
     if (!abandoned_ && comes_to_rest())
         return;
-    // vkDestroyDevice may wait for running work forever (NVIDIA 580.159); destroying the instance first crashes.
+    // vkDestroyDevice may wait for running work forever (NVIDIA 580.159). Destroying the instance first crashes.
     pipeline_cache_.abandon();
     for (Submission &submission : submissions_) {
         submission.fence.release();
@@ -198,7 +197,7 @@ void Device::require_alive() const {
         throw Error(PT_ERROR_DEVICE_LOST, lost_message_);
 }
 
-// Succeeds even without memory for the message.
+// Making the message may fail, so lost_ is set first.
 void Device::lose(const std::function<std::string()> &reason) {
     lost_ = true;
     lost_message_ += ": " + reason();
@@ -226,7 +225,7 @@ Device::Ticket Device::start(const Record &record, const Semaphores &semaphores)
                                          .pSignalSemaphores = &semaphores.signal},
                           *free->fence);
         } catch (const vk::DeviceLostError &error) {
-            comes_to_rest(); // earlier submissions' objects may be destroyed now
+            comes_to_rest();
             lose([&] { return error.what(); });
         }
     });
@@ -236,7 +235,7 @@ Device::Ticket Device::start(const Record &record, const Semaphores &semaphores)
     return static_cast<Ticket>(free - submissions_.begin());
 }
 
-// finish() gives up overdue submissions.
+// Overdue submissions count as done, because finish() gives them up.
 bool Device::is_done(Ticket ticket, Clock::time_point until) {
     Submission &submission = submissions_[ticket];
     while (!lost() && !is_overdue(submission)) {
@@ -286,7 +285,7 @@ bool Device::comes_to_rest() noexcept {
         } catch (const vk::DeviceLostError &) {
             submission.pending = false;
         } catch (...) {
-            gave_up_ = true; // may still be running
+            gave_up_ = true;
             return false;
         }
     }
@@ -294,10 +293,10 @@ bool Device::comes_to_rest() noexcept {
 }
 
 void Device::record_work(const vk::raii::CommandBuffer &commands, const Record &record) const {
-    commands.reset(); // the last recording may have failed half-way
+    commands.reset(); // The last recording may have failed.
     commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
-    // The host's earlier writes are visible (Vulkan, "Host Write Ordering Guarantees"). Fences make earlier
-    // submissions' writes available; this barrier makes them visible.
+    // Submitting makes the host's earlier writes visible (Vulkan, "Host Write Ordering Guarantees"). Fences make
+    // earlier submissions' writes available, and this barrier makes them visible.
     write_barrier(commands, device_stages, device_accesses);
     record(commands);
     write_barrier(commands, Stage::eHost, Access::eHostRead | Access::eHostWrite);
@@ -328,13 +327,13 @@ bool Device::look_at(Submission &submission, std::chrono::nanoseconds timeout) {
         }
         return ended;
     } catch (const vk::SystemError &error) {
-        // Objects of running work may be destroyed now.
+        // Callers may now destroy objects that running work uses.
         comes_to_rest();
         lose([&] { return error.what(); });
     }
 }
 
-// Looks once more when overdue, since the process may have been stopped while the work ended.
+// Looks again when overdue, because the work may have ended while this process was stopped.
 void Device::wait(Submission &submission) {
     for (bool was_overdue = false; !look_at(submission, wait_time()); was_overdue = is_overdue(submission))
         if (was_overdue) {

@@ -74,7 +74,7 @@ bool is_index(const std::string &text) {
     return !text.empty() && text.size() < 32 && text.find_first_not_of("0123456789") == std::string::npos;
 }
 
-// Empty for a match. Ignores indices.
+// Returns an empty text for a match.
 std::string mismatch(const pt_device_info &device, const std::string &wanted) {
     if (wanted.empty())
         return "";
@@ -89,7 +89,6 @@ std::string mismatch(const pt_device_info &device, const std::string &wanted) {
     return lower_case(device.name).find(wanted) != std::string::npos ? "" : "the name does not contain it";
 }
 
-// Lower is better.
 int rank(const pt_device_info &device) {
     constexpr std::array<std::uint32_t, 4> best_first = {PT_DEVICE_DISCRETE_GPU, PT_DEVICE_INTEGRATED_GPU,
                                                          PT_DEVICE_VIRTUAL_GPU, PT_DEVICE_CPU};
@@ -156,7 +155,7 @@ std::size_t choose_device(std::span<const pt_device_info> devices, const std::st
 
 namespace {
 
-// Empty unless all items are indices and UUIDs, because names may have commas.
+// Returns nothing if an item is a name, because names may contain commas.
 std::vector<std::string> listed(const std::string &wanted) {
     std::vector<std::string> items;
     for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {
@@ -171,7 +170,7 @@ std::vector<std::string> listed(const std::string &wanted) {
     return items;
 }
 
-// Two drivers may list one GPU, with the same UUID.
+// Two drivers may list one GPU with the same UUID.
 std::optional<std::size_t> same_device_among(std::span<const pt_device_info> devices,
                                              std::span<const std::size_t> chosen, std::size_t other) {
     const std::string uuid = uuid_digits(devices[other]);

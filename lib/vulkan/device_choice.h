@@ -1,4 +1,4 @@
-// Describes the Vulkan devices and chooses.
+// Describes and chooses Vulkan devices.
 #pragma once
 
 #include "lib/vulkan/api.h"
@@ -15,11 +15,11 @@ namespace pt::vulkan {
 
 pt_device_info describe(const vk::raii::PhysicalDevice &device);
 
-// Index of the device that pt_create_info.device names; "": the best. Throws PT_ERROR_NO_DEVICE with a reason for each
-// device.
+// Finds the device that pt_create_info.device names, or the best one for "". Throws PT_ERROR_NO_DEVICE with a reason
+// for each device.
 std::size_t choose_device(std::span<const pt_device_info> devices, const std::string &wanted);
 
-// One or several. Throws PT_ERROR_INVALID_ARGUMENT if a list names a device twice.
+// Throws PT_ERROR_INVALID_ARGUMENT if a list names a device twice.
 std::vector<std::size_t> choose_devices(std::span<const pt_device_info> devices, const std::string &wanted);
 
 } // namespace pt::vulkan

@@ -1,4 +1,4 @@
-// The lifetime of objects on a device.
+// Owns an object on a device.
 #pragma once
 
 #include "lib/vulkan/device.h"
@@ -7,12 +7,11 @@
 
 namespace pt::vulkan {
 
-// Not destroyed if the device hangs: running work needs its objects (Vulkan, "Object Lifetime"), and may still write to
-// their memory.
+// Running work still uses its objects (Vulkan, "Object Lifetime"), so a hanging device keeps them.
 template <typename Object>
 class DeviceObject {
 public:
-    DeviceObject() = default; // no object
+    DeviceObject() = default;
     DeviceObject(const Device &device, Object object) : device_(&device), object_(std::move(object)) {}
     DeviceObject(DeviceObject &&) noexcept = default;
     DeviceObject &operator=(DeviceObject &&other) noexcept {

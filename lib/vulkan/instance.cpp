@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char *validation_layer = "VK_LAYER_KHRONOS_validation";
 
-// Parameter types come from the C header or newer Vulkan-Hpp.
+// The parameters' types differ between versions of Vulkan-Hpp.
 template <typename Severity, typename Types, typename Data>
 VKAPI_ATTR VkBool32 VKAPI_CALL on_message(Severity severity, Types /*types*/, const Data *data, void *user) {
     const bool is_error = static_cast<vk::DebugUtilsMessageSeverityFlagBitsEXT>(severity) >=
@@ -68,7 +68,7 @@ void throw_if_out_of_memory(const vk::SystemError &error, const std::string &wha
         throw Error(result, what_was_being_done + ": " + error.what());
 }
 
-// messages: for the validation layer; NULL without it.
+// If `messages` is NULL, there is no validation layer.
 vk::raii::Instance create_instance(const vk::raii::Context &context,
                                    const vk::DebugUtilsMessengerCreateInfoEXT *messages) {
     std::vector<const char *> layers;
@@ -76,7 +76,7 @@ vk::raii::Instance create_instance(const vk::raii::Context &context,
     vk::InstanceCreateFlags flags;
     if (contains(context.enumerateInstanceExtensionProperties(), &vk::ExtensionProperties::extensionName,
                  VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME)) {
-        // Implementations on top of another interface are listed on request only.
+        // Drivers on top of another interface are listed only on request.
         extensions.push_back(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
         flags |= vk::InstanceCreateFlagBits::eEnumeratePortabilityKHR;
     }
@@ -107,17 +107,17 @@ vk::raii::Instance create_instance(const vk::raii::Context &context,
     }
 }
 
-// The loader unloads drivers with the last instance. NVIDIA's driver (580.159) loses static thread-local storage at
-// each load, until none can be loaded.
+// The last instance unloads the drivers. NVIDIA's driver (580.159) leaks static thread-local storage at each load,
+// until it cannot be loaded.
 void keep_nvidia_driver_loaded() noexcept {
-    for (const char *name : {"libGLX_nvidia.so.0", "libEGL_nvidia.so.0"}) // one of them is the driver
+    for (const char *name : {"libGLX_nvidia.so.0", "libEGL_nvidia.so.0"}) // one of them
         platform::keep_loaded(name);
 }
 
 vk::raii::Instance owned_instance(const vk::raii::Context &context, const Log &log, bool validation) {
     const vk::DebugUtilsMessengerCreateInfoEXT messages = messenger_info(log);
     try {
-        // Chained, the messenger also reports the instance's creation and destruction.
+        // The messenger also reports the instance's creation and destruction.
         vk::raii::Instance instance = create_instance(context, validation ? &messages : nullptr);
         keep_nvidia_driver_loaded();
         return instance;

@@ -1,4 +1,4 @@
-// The Vulkan instance, the library's own or the caller's.
+// The library's or the caller's Vulkan instance.
 #pragma once
 
 #include "lib/base/log.h"
@@ -12,7 +12,7 @@ namespace pt::vulkan {
 
 class Instance {
 public:
-    // Throws PT_ERROR_NO_DEVICE without Vulkan or drivers, PT_ERROR_UNSUPPORTED without the validation layer.
+    // Throws PT_ERROR_NO_DEVICE without Vulkan or drivers, or PT_ERROR_UNSUPPORTED without the validation layer.
     Instance(const Log &log, bool validation);
 
     // Does not own the caller's instance.
@@ -27,14 +27,14 @@ public:
 
     const vk::raii::Instance &handle() const { return instance_; }
 
-    // At least one; else throws PT_ERROR_NO_DEVICE.
+    // Throws PT_ERROR_NO_DEVICE if there are none.
     std::vector<vk::raii::PhysicalDevice> physical_devices() const;
 
-    // Never destroys the Vulkan instance, which must outlive its devices.
+    // Keeps the Vulkan instance alive for ever, because its devices need it.
     void abandon();
 
 private:
-    std::unique_ptr<const Log> log_; // the layer keeps its address, also during destruction
+    std::unique_ptr<const Log> log_; // The layer uses its address until destruction.
     vk::raii::Context context_;
     vk::raii::Instance instance_;
     bool is_owned_;

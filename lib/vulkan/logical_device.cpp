@@ -19,7 +19,7 @@ std::uint32_t compute_family(const vk::raii::PhysicalDevice &device) {
 }
 
 vk::raii::Device create_device(const vk::raii::PhysicalDevice &physical_device, std::uint32_t queue_family) {
-    // Must be enabled if present.
+    // Vulkan requires this extension where it exists.
     constexpr const char *portability_subset = "VK_KHR_portability_subset";
     std::vector<const char *> extensions;
     for (const vk::ExtensionProperties &extension : physical_device.enumerateDeviceExtensionProperties())

@@ -1,4 +1,4 @@
-// The library's own VkDevice, with one compute queue.
+// Creates the library's own VkDevice.
 #pragma once
 
 #include "lib/vulkan/api.h"

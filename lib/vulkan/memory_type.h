@@ -1,4 +1,4 @@
-// Chooses memory types of buffers.
+// Chooses memory types.
 #pragma once
 
 #include "lib/base/error.h"
@@ -11,8 +11,8 @@
 
 namespace pt::vulkan {
 
-// Allowed types (bit i: type i) with a wanted set of properties, best first, each once. Throws PT_ERROR_UNSUPPORTED if
-// there are none.
+// Returns the allowed types with any wanted set of properties, best first. Bit i of `allowed` is type i. Throws
+// PT_ERROR_UNSUPPORTED if there are none.
 inline std::vector<std::uint32_t> memory_types(const vk::PhysicalDeviceMemoryProperties &memory, std::uint32_t allowed,
                                                std::span<const vk::MemoryPropertyFlags> wanted_best_first) {
     std::vector<std::uint32_t> types;
@@ -27,7 +27,7 @@ inline std::vector<std::uint32_t> memory_types(const vk::PhysicalDeviceMemoryPro
     return types;
 }
 
-// Returns allocate(type) for the first type whose heap has room; rethrows the last failure.
+// Returns allocate(type) for the first type whose heap has room. Rethrows the last failure.
 template <typename Allocate>
 auto allocate_where_there_is_room(std::span<const std::uint32_t> types, Allocate &&allocate) {
     for (const std::uint32_t type : types.first(types.size() - 1)) {

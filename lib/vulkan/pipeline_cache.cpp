@@ -15,12 +15,12 @@ namespace pt::vulkan {
 
 namespace {
 
-// Limit of a file's size; a context's kernels take far less.
+// Kernels of a context take far less.
 constexpr std::uint64_t most_bytes = std::uint64_t{1} << 28;
 
 constexpr std::string_view magic = "ptkernel";
 
-// Drivers trust their bytes, so they must see no others.
+// A header that guards drivers from damaged or foreign bytes.
 struct KernelSeal {
     char magic[8];
     char key[32];
@@ -28,7 +28,7 @@ struct KernelSeal {
     std::uint64_t checksum;
 };
 
-// key: 32 characters.
+// The key has 32 characters.
 KernelSeal kernel_seal(const std::string &key, std::span<const std::byte> data) {
     KernelSeal seal{};
     std::ranges::copy(magic, seal.magic);
@@ -38,7 +38,7 @@ KernelSeal kernel_seal(const std::string &key, std::span<const std::byte> data) 
     return seal;
 }
 
-// The bytes after the seal; empty unless sealed under this key.
+// Returns the bytes after the seal, or nothing if the seal does not match.
 std::span<const std::byte> unsealed_kernels(const std::string &key, std::span<const std::byte> bytes) {
     if (bytes.size() < sizeof(KernelSeal))
         return {};
@@ -79,7 +79,7 @@ void PipelineCache::load(const KernelStore &store, const Log &log) {
     }
 }
 
-// Never throws, because finished calls end with it.
+// Cannot throw, because it runs at the end of successful calls.
 void PipelineCache::save(const Log &log) noexcept {
     if (!store_.store || !std::exchange(has_news_, false))
         return;

@@ -1,5 +1,4 @@
-// A driver's cache of built kernels, which the caller may keep between processes. Damaged or foreign kernels are
-// rebuilt.
+// A driver's cache of built kernels. The caller may keep it between processes.
 #pragma once
 
 #include "lib/base/log.h"
@@ -13,7 +12,6 @@
 
 namespace pt::vulkan {
 
-// The caller's functions, or NULL.
 struct KernelStore {
     pt_load_kernels_fn load = nullptr;
     pt_store_kernels_fn store = nullptr;
@@ -27,15 +25,14 @@ public:
 
     const vk::raii::PipelineCache &handle() const { return cache_; }
 
-    // Loads the caller's kernels if they are intact and the driver accepts them. key: 32 hexadecimal digits, also for
-    // save().
+    // Loads the caller's kernels if they are intact and the driver accepts them. `key` has 32 hexadecimal digits.
     void use(const KernelStore &store, std::string key, const Log &log);
 
     void set_key(std::string key) noexcept { key_ = std::move(key); }
 
     void note_kernel() { has_news_ = true; }
 
-    // Gives the caller new kernels, if the driver's bytes have changed.
+    // Passes the kernels to the caller if the driver's bytes have changed.
     void save(const Log &log) noexcept;
 
     void abandon() { cache_.release(); }
@@ -47,7 +44,7 @@ private:
     vk::raii::PipelineCache cache_ = nullptr;
     KernelStore store_;
     std::string key_;
-    std::uint64_t kept_checksum_ = 0; // checksum of the caller's copy
+    std::uint64_t kept_checksum_ = 0; // of the caller's copy
     bool has_news_ = false;
 };
 

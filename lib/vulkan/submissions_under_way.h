@@ -1,4 +1,4 @@
-// Waits for submissions in order. The destructor waits for all, also after errors.
+// Waits for submissions in order. The destructor waits for all of them, even after errors.
 #pragma once
 
 #include "lib/vulkan/device.h"
@@ -10,14 +10,13 @@ namespace pt::vulkan {
 
 class SubmissionsUnderWay {
 public:
-    // most: running at a time.
     SubmissionsUnderWay(Device &device, std::size_t most) : device_(device) { tickets_.reserve(most); }
     SubmissionsUnderWay(const SubmissionsUnderWay &) = delete;
     SubmissionsUnderWay &operator=(const SubmissionsUnderWay &) = delete;
     ~SubmissionsUnderWay() {
         try {
             finish_all();
-        } catch (...) { // reported by the call that failed
+        } catch (...) { // The failed call has reported the error.
         }
     }
 
