@@ -1,7 +1,8 @@
-"""Generates from the headers: structs and enumerations in Python (pt/_structs.py, pt/_enums.py), the kernels' numbers
-(shaders/enumerations.h), and the program's names of values (cli/base/enumerations.h).
+"""Generates Python's structs and enumerations (pt/_structs.py, pt/_enums.py), the kernels' numbers
+(shaders/enumerations.h) and the program's value names (cli/base/enumerations.h) from the C headers.
 
-python3 lib/python/generate.py [HEADERS [ROOT]]; the package is installed without headers, so the files are committed.
+Usage: python3 lib/python/generate.py [HEADERS [ROOT]]. The generated files are committed, because the package is
+installed without headers.
 """
 
 import pathlib
@@ -31,7 +32,7 @@ ENUMERATIONS = (
                                  "first four."),
 )
 
-# Enumerations with names in the program (its table, and the separator of words).
+# For each prefix: the table's name in the program, and the separator of words in its values.
 OF_PROGRAM = {"PT_SAMPLER_": ("samplers", "-"), "PT_SAMPLING_": ("samplings", "-"), "PT_ESTIMATOR_": ("estimators", "-"),
               "PT_PROJECTION_": ("projections", "-"), "PT_FEATURE_": ("features", "_"),
               "PT_UNCERTAIN_": ("uncertainties", "_")}
@@ -47,7 +48,7 @@ def without_comments(text):
 
 
 def python_type(declared, known):
-    """known: the structs so far; pointers to others are handles."""
+    """Pointers to structs that are not in `known` become c_void_p."""
     kind, bracket, count = declared.removeprefix("const ").partition("[")
     if bracket:
         return f"{NUMBERS[kind.strip()]} * {count[:-1]}"

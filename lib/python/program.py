@@ -1,6 +1,6 @@
 #!python
-"""A wheel's command pt: becomes the package's program without importing NumPy. Finds pt-figure and others beside
-itself."""
+"""The command pt of a wheel. It replaces itself by the package's program, without importing NumPy. The PATH gets this
+script's folder, so that pt finds the wheel's other commands."""
 import importlib.util
 import os
 import sys

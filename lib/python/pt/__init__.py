@@ -4,12 +4,12 @@
     image = pt.render(positions, radii, colors)   # NumPy arrays: (n, 3), (n,), (n, 3)
     image.save("picture.png")                     # or leave it as the last line of a notebook's cell
 
-A Context takes a Scene, a Camera and RenderSettings, accumulates samples and reads the image back.
+A Context takes a Scene, a Camera and RenderSettings. It accumulates samples and returns the image.
 
-World: right-handed, lengths in scene units, angles in radians, time in [0, 1]. Color is linear RGB radiance, unclamped.
-Row 0 of an image is the top row.
+The world is right-handed. Lengths are in scene units, angles in radians, times in [0, 1]. Colors are linear RGB
+radiance, unclamped. Row 0 of an image is the top row.
 
-Library: PT_LIBRARY, else the one installed with the package, else the system's libpt.so.0.3.
+The library comes from PT_LIBRARY, else from the installed package, else from the system (libpt.so.0.3).
 """
 
 import importlib
@@ -32,7 +32,7 @@ from pt._library import library, version_text
 from pt._scene import Material, Plane, Scene, Sphere, SphereArray
 from pt._stats import DeviceInfo, ErrorEstimate, Stats, devices
 
-if TYPE_CHECKING:  # imported on first use, because figures import slowly
+if TYPE_CHECKING:  # They are imported on first use, because figures import slowly.
     from pt._render import render
     from pt.figures import Figure, figure
 
@@ -45,14 +45,14 @@ __all__ = [
     "assert_same_light", "compare", "denoise", "devices", "figure", "render", "version",
 ]
 
-__version__: str  # the library's
+__version__: str
 
 
 def version() -> str:
     return version_text(library())
 
 
-if not TYPE_CHECKING:  # type checkers would allow any name
+if not TYPE_CHECKING:  # A type checker would accept any name.
     def __getattr__(name):
         if name == "__version__":
             return version()

@@ -1,8 +1,8 @@
 """Python callbacks of the library, and their exceptions.
 
-Signal handlers run in Python code, so during a call in the library's callbacks, often before any `try`. ctypes passes
-their exceptions to sys.unraisablehook, not through C. A CallbackGuard takes them there; the library stops at its next
-callback, and the call raises the exception.
+Python runs signal handlers while a callback executes, often before its first `try`. ctypes then passes the exception to
+sys.unraisablehook instead of the caller. A CallbackGuard catches it there. The library stops at its next callback, and
+the guarded call raises the exception.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ Log = Callable[[LogLevel, str], object]
 
 
 class CallbackGuard:
-    """Encloses one call of the library by `with`, then raises the caught exception."""
+    """Guards one call of the library as a context manager. raise_caught() raises the caught exception."""
 
     def __init__(self) -> None:
         self.error: BaseException | None = None
@@ -43,7 +43,7 @@ class CallbackGuard:
         self._functions.append(function)
 
     def progress(self, function: Progress | None) -> Any:
-        """A pt_progress_fn that stops after an exception, or once the function returns True."""
+        """A pt_progress_fn that stops the call after an exception, or when the function returns True."""
 
         def report(_: object, fraction: float) -> int:
             if self.error is not None:
@@ -54,7 +54,7 @@ class CallbackGuard:
         return structs.pt_progress_fn(report)
 
     def takes(self, function: object, words: str | None) -> bool:
-        """Whether a function that raised belongs to this call. Python 3.13 gives only a text with its address."""
+        """Whether `function`, which raised, belongs to this call. Python 3.13 reports only a text with its address."""
         return any(own is function or (words is not None and repr(own) in words) for own in self._functions)
 
 
@@ -84,7 +84,7 @@ def _install(guard: CallbackGuard) -> None:
 def _remove(guard: CallbackGuard) -> None:
     with _lock:
         _guards.remove(guard)
-        if not _guards and isinstance(sys.unraisablehook, _Hook):  # otherwise another hook has replaced it and calls it
+        if not _guards and isinstance(sys.unraisablehook, _Hook):  # Another hook may have replaced ours. It still calls ours.
             sys.unraisablehook = sys.unraisablehook.before
 
 

@@ -1,4 +1,4 @@
-"""The camera, and render settings."""
+"""The camera and the render settings."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ from pt._vectors import Vector, vector
 
 @dataclass(frozen=True)
 class Camera:
-    """A pinhole; with an aperture a thin lens; with a vertical_extent parallel rays. Lengths are in scene units.
+    """A pinhole, a thin lens (with an aperture) or parallel rays (with a vertical_extent). Lengths are in scene units.
 
-    position          of the pinhole; parallel rays start on the plane through it across the view
-    target            the middle of the image; must differ from position
-    up                not parallel to the viewing direction
-    vertical_fov      full angle, radians, in [1e-8, pi); default pi / 4. None with parallel rays
-    shutter           0 <= open <= close <= 1; light is gathered evenly in between
-    vertical_extent   full height of parallel rays, in [1e-18, 1e18]; None: perspective
-    aperture          diameter of the lens, at most twice the focus; 0: a pinhole
-    focus             depth of the plane in focus; 0: the distance of target
+    position          the pinhole; parallel rays start on the plane through position that is parallel to the image
+    target            the point in the middle of the image; must differ from position
+    up                must not be parallel to the viewing direction
+    vertical_fov      full angle in radians, in [1e-8, pi); default pi / 4; None with parallel rays
+    shutter           0 <= open <= close <= 1; the image averages this interval
+    vertical_extent   full height of the view with parallel rays, in [1e-18, 1e18]; None for a perspective
+    aperture          diameter of the lens, at most twice the focus; 0 for a pinhole
+    focus             depth of the plane in focus; 0 for the distance of target
     """
 
     position: Vector
@@ -54,13 +54,13 @@ class Camera:
     def around(center: npt.ArrayLike, radius: npt.ArrayLike, *, direction: Vector = (0.5, 0.4, 1.0),
                up: Vector = (0.0, 1.0, 0.0), vertical_fov: float = math.pi / 6, aspect: float = 4 / 3,
                margin: float = 1.05) -> Camera:
-        """The nearest camera that sees all spheres.
+        """Returns the nearest camera that sees all spheres.
 
         center      shape (n, 3), n >= 1
         radius      shape (n,), or one number for all
         direction   from the spheres to the camera, not 0
         aspect      width / height of the image
-        margin      width of the view over the tightest one
+        margin      width of the view relative to the tightest view
         """
         centers = real_column("center", center, 3, None)
         if not len(centers):
@@ -77,7 +77,7 @@ class Camera:
         return Camera(position=position, target=position - distance * back, up=up, vertical_fov=vertical_fov)
 
     def axes(self) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.float64]]:
-        """Unit vectors right and up in the image, and from the target to the camera."""
+        """Unit vectors: right in the image, up in the image, and from the target to the camera."""
         return _axes(np.subtract(self.position, self.target), self.up)
 
     @property
@@ -100,7 +100,7 @@ class Camera:
 
     @staticmethod
     def _of_section(section: dict[str, Any]) -> Camera:
-        """Reads a scene file's section. ValueError, TypeError, KeyError: not a camera."""
+        """Reads a section of a scene file. Raises ValueError, TypeError or KeyError if it is not a camera."""
         others = {name: float(section[name]) for name in ("vertical_extent", "aperture", "focus") if name in section}
         angle = section.get("vertical_fov")
         first, last = map(float, section.get("shutter", (0.0, 1.0)))
@@ -132,16 +132,16 @@ def _axes(direction: Vector, up: Vector
 
 @dataclass(frozen=True)
 class RenderSettings:
-    """The size of the image, and how it is made.
+    """Size of the image, and settings of the sampling.
 
     width, height     pixels, >= 1
-    max_path_length   surface vertices after the camera, in [1, 1024]; 1 is emission only
-    seed              equal inputs, device, driver and seed give equal bits
-    first_sample      index of the first sample; films of ranges of one sequence add up
-    estimator         how light is found
-    sampler           where a sample's numbers come from
-    first_row         the first row rendered; rows are read back as an image of their own
-    row_count         0: all from first_row on
+    max_path_length   surface vertices after the camera, in [1, 1024]; 1 shows emission only
+    seed              the same inputs, device, driver and seed give the same bits
+    first_sample      index of the first sample; films of different index ranges can be added
+    estimator         method that finds the light
+    sampler           source of a sample's numbers
+    first_row         first row to render; the rows are read back as an image
+    row_count         number of rows; 0 for all from first_row on
     """
 
     width: int
@@ -157,7 +157,7 @@ class RenderSettings:
     def _struct(self) -> structs.pt_render:
         for name, bits in (("width", 32), ("height", 32), ("max_path_length", 32), ("seed", 64), ("first_sample", 32),
                            ("first_row", 32), ("row_count", 32)):
-            if not 0 <= getattr(self, name) < 2**bits:  # ctypes would reduce it modulo 2^bits
+            if not 0 <= getattr(self, name) < 2**bits:  # ctypes would reduce the value modulo 2^bits.
                 raise ValueError(f"render.{name} = {getattr(self, name)}: must be at least 0 and below 2^{bits}")
         return structs.pt_render(
             width=self.width, height=self.height, max_path_length=self.max_path_length, seed=self.seed,

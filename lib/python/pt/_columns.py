@@ -1,4 +1,4 @@
-"""NumPy arrays as columns of spheres, read in place if the layout allows."""
+"""NumPy arrays as columns of spheres. Suitable layouts are read in place."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def _readable(array: Array) -> bool:
 
 
 def _laid_out(name: str, array: Array, components: int, count: int | None) -> Array:
-    """Shape (count, 3) or (count,); one value for all has stride 0."""
+    """Returns shape (count, 3) or (count,). A single value for all rows gets stride 0."""
     single = (3,) if components == 3 else ()
     if array.shape == single and count is not None:
         return np.broadcast_to(array, (count, *single))
@@ -39,7 +39,7 @@ def _laid_out(name: str, array: Array, components: int, count: int | None) -> Ar
 
 
 def real_column(name: str, values: npt.ArrayLike, components: int, count: int | None) -> Array:
-    """Keeps native float32 and float64; copies small floats to float32, others to float64."""
+    """Keeps native float32 and float64. Converts smaller floats to float32, other numbers to float64."""
     array = np.asarray(values)
     if array.dtype.kind not in "fiu":
         raise TypeError(f"{name}.dtype = {array.dtype}: must be of real numbers")
@@ -49,7 +49,7 @@ def real_column(name: str, values: npt.ArrayLike, components: int, count: int | 
 
 
 def check_finite(name: str, values: npt.ArrayLike, *, positive: bool = False) -> None:
-    """ValueError names the first bad value by row and column."""
+    """Raises ValueError with the row and column of the first bad value."""
     array = np.asarray(values)
     good = np.isfinite(array)
     if positive:
@@ -81,7 +81,7 @@ def index_column(name: str, values: npt.ArrayLike, count: int) -> Array:
 
 
 def column_of(array: Array | None) -> structs.pt_column:
-    """The library's view of a column, valid as long as the array."""
+    """The library's view of the column. The array must outlive it."""
     if array is None:
         return structs.pt_column()
     stride = array.strides[0] if len(array) > 1 else 0

@@ -1,4 +1,4 @@
-"""Shared by the package's commands: exit codes, numbers, names of files and series."""
+"""Parts that the package's commands share: exit codes, number options, file names."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def at_least(least: float, kind: type) -> Callable[[str], Any]:
 
 
 def misnamed(files: Sequence[tuple[str, Sequence[str]]], source: str) -> tuple[str, int] | None:
-    """Why names of output files are wrong, and the exit code, or None. formats: empty for any."""
+    """Returns a message and an exit code if an output file's name is wrong, else None. Without formats any ending is good."""
     for name, formats in files:
         place = pathlib.Path(name)
         try:

@@ -15,34 +15,34 @@ from pt._film import Film
 from pt._image import Image
 from pt._library import checked, library
 
-WORST: Final = 5  # regions in messages
+WORST: Final = 5  # regions in a message
 
 
 @dataclass(frozen=True)
 class Region:
-    """A part of the picture. Tuples are R, G, B."""
+    """A rectangle of the picture. Tuples are R, G, B."""
 
     x: int  # first column
     y: int  # first row
     width: int  # pixels
     height: int
     light: tuple[float, float, float]  # mean of the second image
-    difference: tuple[float, float, float]  # mean of the first image minus that
+    difference: tuple[float, float, float]  # mean of the first image minus mean of the second
     deviation: tuple[float, float, float]  # standard deviation of the difference
-    probability: float  # at most, that equal light shows such a difference in any region of this size
-    smallest_change: float  # of the region's light that would be found with 99%, as a share; infinite if none would
+    probability: float  # upper bound: equal light shows such a difference in some region of this size
+    smallest_change: float  # smallest relative change of the region's light that would be found with 99%; may be infinite
 
 
 @dataclass(frozen=True)
 class Comparison:
-    """The result of compare(); str() is a sentence."""
+    """The result of compare(). str() returns the summary."""
 
     light: Light
-    probability: float  # at most, that equal light shows such differences
-    smallest_change: float  # of all light that would be found with 99%, as a share; infinite if none would
-    smallest_tile_change: float  # the same of a tile of 32 x 32 pixels alone: the median over these tiles
+    probability: float  # upper bound: equal light shows such differences
+    smallest_change: float  # smallest relative change of all light that would be found with 99%; may be infinite
+    smallest_tile_change: float  # the same for one tile of 32 x 32 pixels: the median over these tiles
     summary: str
-    regions: tuple[Region, ...]  # the whole picture first, then tiles of halved sides down to 16 pixels
+    regions: tuple[Region, ...]  # the whole picture first, then tiles whose sides are halved down to 16 pixels
 
     def __str__(self) -> str:
         return self.summary
@@ -50,17 +50,16 @@ class Comparison:
 
 def compare(first: Film | Image | npt.ArrayLike, second: Film | Image | npt.ArrayLike, *, rate: float = 1e-6,
             min_change: float = 1.0, look: int = 0) -> Comparison:
-    """Whether two images show the same light, by a test of their differences (shaders/README.md, section 11).
+    """Tests whether two images show the same light (shaders/README.md, section 11).
 
-    first, second   films, images or radiance of shape (height, width, 3), equally large. second is the reference:
-                    changes are shares of its light. They may share a seed: where samples correspond, smaller changes
-                    are found
+    first, second   films, images or radiance of shape (height, width, 3), equally large. Changes are relative to the
+                    second. Images with the same seed and sampler show smaller changes
     rate            probability of calling equal light different
-    min_change      0.01: Light.UNDECIDED if a change by 1% of all light may be missed
-    look            number, from 1, of this look at growing images, so that all looks together have the rate
+    min_change      result is Light.UNDECIDED if a relative change of all light by this much may be missed
+    look            1, 2, ... for repeated comparisons of growing images; all together then have the rate
 
-    InvalidArgumentError: the tiles have different numbers of samples, whose means are shifted, or the sampler is
-    HALTON, whose errors are not random. ValueError: other shapes."""
+    Raises InvalidArgumentError if the tiles have different sample counts (their means are biased) or the sampler is
+    HALTON (its errors are not random), and ValueError for unsuitable shapes."""
     images = [_radiance(each) for each in (first, second)]
     shape = images[0].shape
     if len(shape) != 3 or shape[2] != 3 or images[1].shape != shape:
@@ -77,8 +76,8 @@ def compare(first: Film | Image | npt.ArrayLike, second: Film | Image | npt.Arra
 
 def assert_same_light(first: Film | Image | npt.ArrayLike, second: Film | Image | npt.ArrayLike, *,
                       min_change: float = 0.01, rate: float = 1e-6) -> None:
-    """For tests: AssertionError if the light differs, with the parts that differ most, or if a change by min_change of
-    all light may have been missed. The arguments are as for compare()."""
+    """Raises AssertionError with the most different regions if the light differs, or if a relative change by min_change
+    may have been missed. The arguments are the same as in compare()."""
     comparison = compare(first, second, rate=rate, min_change=min_change)
     if comparison.light in (Light.EQUAL_BITS, Light.SAME):
         return

@@ -30,29 +30,31 @@ MOST_SAMPLES = 2**32 - 1
 
 
 class Context:
-    """One renderer: set a scene, a camera and settings, accumulate samples, read the image.
+    """A renderer. Set a scene, a camera and settings, accumulate samples, read the image.
 
-    device                None: the best one. Otherwise an index into devices(), "gpu", "cpu", a UUID, or part of a
-                          name. "all" devices of the best kind, or several separated by commas, share the samples
-    log                   called with level and line, during any call
-    validation            the Khronos validation layer reports to log; UnsupportedError without it
-    scene_kernels         False: no kernels with a scene's numbers as constants, for scenes that change every frame
-    submit_milliseconds   intended length of a submission, in [1, 1000]; decides how soon calls can be stopped
-    shader_dir            a folder of GLSL files to compile in place of the library's kernels (pt/shaders.h);
-                          ShaderError if one does not compile
+    device                None: the best device. Otherwise an index into devices(), "gpu", "cpu", a UUID, or part of a
+                          name. "all" shares the samples among the devices of the best kind, a list separated by commas
+                          among its devices
+    log                   function that is called with level and line during any call
+    validation            whether the Khronos validation layer reports to log; UnsupportedError if it is missing
+    scene_kernels         whether kernels may have a scene's numbers as constants; False suits scenes that change in
+                          every frame
+    submit_milliseconds   intended length of a submission, in [1, 1000]; calls can stop after each submission
+    shader_dir            folder of GLSL files that replace the library's kernels (pt/shaders.h); ShaderError if one
+                          does not compile
 
-    Use it by `with`, or close() it; otherwise the garbage collector closes it.
+    Use `with` or close(). Otherwise the garbage collector closes the context.
 
-    Threads: contexts are independent, and calls release the interpreter's lock. A context takes one call at a time,
-    also in callbacks (InvalidStateError). After os.fork() a child cannot use its parent's contexts: start workers by
-    multiprocessing.get_context("spawn").
+    Threads: contexts are independent, and calls release the interpreter's lock. A context takes one call at a time;
+    a second one, also from a callback, raises InvalidStateError. After os.fork() a child cannot use its parent's
+    contexts: start workers with multiprocessing.get_context("spawn").
 
-    Callbacks run on the calling thread. An exception in a callback or a signal handler stops the call at its next
-    callback, and the call raises it; the context stays usable. Progress functions get the share done, in [0, 1], and
-    stop the call by returning True.
+    Callbacks run on the calling thread. After an exception in a callback or a signal handler, the call stops at its
+    next callback and raises the exception. The context stays usable. Progress functions get the finished fraction, in
+    [0, 1]. They stop the call by returning True.
 
-    A failed call raises an Error and has changed nothing, but a lost device stays lost, and accumulate may keep some of
-    its samples.
+    A failed call raises an Error and changes nothing, with two exceptions: a lost device stays lost, and accumulate may
+    keep some of its samples.
     """
 
     def __init__(self, device: str | None = None, *, log: Log | None = None, validation: bool = False,
@@ -62,7 +64,7 @@ class Context:
         self._in_call = False
         self._shape: tuple[int, int] | None = None
         self._log = log
-        # Outlives the context without keeping it alive: log may refer to the context.
+        # The log may refer to the context. A weak reference avoids a cycle.
         this = weakref.ref(self)
         self._log_function = log_function(lambda: getattr(this(), "_log", None))
         log_pointer = structs.pt_log_fn(self._log_function)
@@ -86,7 +88,7 @@ class Context:
         guard.raise_caught()
 
     def close(self) -> None:
-        """A second call does nothing. InvalidStateError: another call is running."""
+        """Closes the context. A second call does nothing. Raises InvalidStateError if another call is running."""
         if self._handle is None:
             return
         if self._in_call:
@@ -106,55 +108,57 @@ class Context:
 
     @property
     def device(self) -> DeviceInfo:
-        """The first of several."""
+        """The device, or the first of several."""
         info = structs.pt_device_info()
         self._call("pt_get_context_device", info)
         return device_of(info)
 
     def set_scene(self, scene: Scene, progress: Progress | None = None) -> Result:
-        """Discards the samples so far. Ten million spheres take some seconds.
+        """Sets the scene and discards all samples. Ten million spheres take some seconds.
 
-        Result.CANCELLED: progress returned True, and everything is as before. An exception after progress(1) may come
-        too late for that. InvalidSceneError: the message has a line for each broken rule, such as "spheres[3].radius =
-        -1: must be > 0"."""
+        Returns Result.CANCELLED if progress returned True; then nothing has changed. An exception after progress(1) may
+        come too late to stop the call. Raises InvalidSceneError; its message has a line for each broken rule, such as
+        "spheres[3].radius = -1: must be > 0"."""
         guard = self._guard()
         scene_struct = SceneStruct(scene, guard, progress)
         return self._call("pt_set_scene", scene_struct.struct, guard=guard)
 
     def set_camera(self, camera: Camera) -> None:
-        """Discards the samples so far. InvalidArgumentError: a rule is broken."""
+        """Sets the camera and discards all samples. Raises InvalidArgumentError for a broken rule."""
         self._call("pt_set_camera", camera._struct())
 
     def set_render(self, settings: RenderSettings) -> None:
-        """Discards the samples so far. Takes 112 bytes a pixel of device memory.
+        """Sets the render settings and discards all samples. Takes 112 bytes a pixel of device memory.
 
-        InvalidArgumentError: a rule is broken. UnsupportedError, OutOfDeviceMemoryError: render fewer rows at a time.
-        """
+        Raises InvalidArgumentError for a broken rule. After UnsupportedError or OutOfDeviceMemoryError, render fewer
+        rows at a time."""
         self._call("pt_set_render", settings._struct())
         self._shape = settings.shape()
 
     def reload_shaders(self) -> None:
-        """Compiles the files of shader_dir again. Different kernels discard the samples so far.
+        """Compiles the files of shader_dir again. Discards the samples if the kernels change.
 
-        ShaderError: a file does not compile; kernels and samples are as before. InvalidStateError: no shader_dir."""
+        Raises ShaderError if a file does not compile; then nothing has changed. Raises InvalidStateError without a
+        shader_dir."""
         self._call("pt_reload_shaders")
 
     def prepare(self) -> None:
-        """Builds the kernels of accumulate in advance, without interruption. InvalidStateError: scene, camera or
-        settings are not set."""
+        """Builds the kernels that accumulate needs. Cannot be interrupted. Raises InvalidStateError if the scene, camera
+        or settings are missing."""
         self._call("pt_prepare")
 
     def accumulate(self, sample_count: int, *, target_error: float = 0.0, sample_limit: int = 0,
                    sampling: Sampling = Sampling.BEST, progress: Progress | None = None) -> Result:
         """Adds samples to every pixel.
 
-        sample_count   >= 1; with a target error the most to add
-        target_error   0: none. Otherwise sampling ends with Result.TARGET_REACHED once ErrorEstimate.relative_rmse_high
-                       is at or below it and samples enough to meet lamps smaller than a pixel are taken; 0.01 is 1%
-        sample_limit   with a target error, the most samples of a pixel after this call and later ones; 0: after this
-        sampling       where samples go; by default adaptive with a target error, else uniform
-        progress       called after each submission, about every twentieth of a second; True ends the call with
-                       Result.CANCELLED and the whole samples taken so far
+        sample_count   >= 1; with a target error, the most to add
+        target_error   0: none. Otherwise sampling ends with Result.TARGET_REACHED once
+                       ErrorEstimate.relative_rmse_high is at most this value (0.01 is 1%) and there are enough samples
+                       to hit lamps smaller than a pixel
+        sample_limit   with a target error, the most samples of a pixel after this and later calls; 0: after this call
+        sampling       distribution of samples; by default adaptive with a target error, else uniform
+        progress       called after each submission, about 20 times a second; if it returns True, the call returns
+                       Result.CANCELLED and keeps the complete samples
         """
         if not 0 <= sample_count <= MOST_SAMPLES:
             raise ValueError(f"sample_count = {sample_count}: must be in [1, {MOST_SAMPLES}]")
@@ -164,10 +168,10 @@ class Context:
         return self._call("pt_accumulate", info, guard=guard)
 
     def accumulate_tiles(self, samples: npt.ArrayLike, *, progress: Progress | None = None) -> Result:
-        """Adds samples to some tiles, so that machines can share what Film.plan decides.
+        """Adds samples to some tiles, so that several machines can take the samples that Film.plan requests.
 
-        samples    to add to each pixel of a tile; shape (rows, columns) or flat. Tiles are 8 x 8 pixels from the top
-                   left of the rendered part, smaller at the right and lower edges
+        samples    number to add to each pixel of a tile; shape (rows, columns) or flat. Tiles are 8 x 8 pixels from the
+                   top left of the rendered part, smaller at the right and lower edges
         progress   as in accumulate
         """
         counts = np.ascontiguousarray(samples, dtype=np.uint32).ravel()
@@ -179,16 +183,16 @@ class Context:
 
     def readback(self, quantity: Quantity = Quantity.RADIANCE, *, out: npt.NDArray[Any] | None = None,
                  rectangle: Rectangle | None = None, format: Format = Format.RGB32F) -> npt.NDArray[Any]:
-        """The image so far: an array of shape (height, width, 3), float32, row 0 at the top, or by format.
+        """Returns the current image: shape (height, width, 3), float32, row 0 at the top, unless format says otherwise.
 
-        quantity    radiance (linear RGB), its standard error, ... OBJECT needs the format R32UI
-        out         receives the pixels in place and is returned: float32 with 3 or 4 channels, float16 with 4 or uint32
-                    with 1. Pixels of a row must be side by side; rows may be at any distance. ValueError: it does not
-                    fit
-        rectangle   x, y, width, height in pixels, from the top left of the rendered part; None: all of it
-        format      of a new array
+        quantity    radiance (linear RGB), its standard error, ...; OBJECT needs the format R32UI
+        out         array that receives the pixels and is returned: float32 with 3 or 4 channels, float16 with 4 or
+                    uint32 with 1. Pixels of a row must be adjacent; rows may have any stride. ValueError if the image
+                    does not fit
+        rectangle   x, y, width, height in pixels, from the top left of the rendered part; None for all
+        format      pixel format of a new array
 
-        InvalidStateError: there is no sample."""
+        Raises InvalidStateError before the first sample."""
         if self._shape is None:
             raise InvalidStateError("there is no image: set_render was not called")
         pixels = new_pixels(self._shape, rectangle, format) if out is None else out
@@ -201,41 +205,42 @@ class Context:
         return stats_of(struct)
 
     def warning(self) -> BrokenRule | None:
-        """The surface that rounding moves farthest, if by more than a pixel in view, and what to do."""
+        """The surface that rounding moves farthest, with advice, or None if it moves by at most a pixel in the image."""
         struct = structs.pt_broken_rule()
         self._call("pt_get_warning", struct)
         return broken_rule_of(struct) if struct.subject else None
 
     def error_estimate(self) -> ErrorEstimate:
-        """The first call after new samples examines the whole image."""
+        """Estimates the error of the image. The first call after new samples examines all pixels."""
         struct = structs.pt_error_estimate()
         self._call("pt_get_error_estimate", struct)
         return error_estimate_of(struct)
 
     def film(self) -> Film:
-        """The exact sums of the samples so far. InvalidStateError: there is no sample."""
+        """Returns the exact sums of all samples. Raises InvalidStateError before the first sample."""
         return Film(bytes_from(lambda data, size: self._call("pt_save_film", data, size)))
 
     def add_film(self, film: Film) -> None:
         """Adds a film of the same scene, camera and settings (first_sample may differ).
 
-        IncompatibleError: it is of another picture, or has samples that the context has already."""
+        Raises IncompatibleError if the film shows another picture or repeats samples of this context."""
         data = film.to_bytes()
         self._call("pt_add_film", data, len(data))
 
     def image(self) -> Image:
-        """Radiance, standard error and sample counts now, with the error. InvalidStateError: there is no sample."""
+        """Returns radiance, standard error, sample counts and error. Raises InvalidStateError before the first sample."""
         return Image(self.readback(Quantity.RADIANCE), self.readback(Quantity.STANDARD_ERROR),
                      self.readback(Quantity.SAMPLE_COUNT), self.error_estimate(), self.stats())
 
     def render(self, scene: Scene, camera: Camera, settings: RenderSettings, samples: int, *,
                target_error: float = 0.0, progress: Progress | None = None, denoise: bool = False) -> Image:
-        """Sets all three, accumulates samples and returns the image, even if progress ended the sampling early.
-        UserWarning: the text of warning().
+        """Sets scene, camera and settings, accumulates samples and returns the image, also after progress returned True.
+        A UserWarning has the text of warning().
 
-        denoise   takes half of the samples with each of two seeds for pt.denoise; target_error is the result's
+        denoise   denoises by pt.denoise, from half of the samples with each of two seeds; target_error then applies to
+                  the denoised image
 
-        InvalidStateError: progress ended it before the first sample, or before there was something to denoise."""
+        Raises InvalidStateError if progress ended the call before there was an image."""
         self.set_scene(scene)
         self.set_camera(camera)
         if denoise:
@@ -254,12 +259,12 @@ class Context:
         return guard
 
     def _call(self, function: str, *arguments: Any, guard: CallbackGuard | None = None) -> Result:
-        """Raises a callback's exception or the library's error."""
+        """Raises the callback's exception, else the library's error."""
         handle, guard = self._handle, guard or self._guard()
         if handle is None:
             raise InvalidStateError("the context is closed")
-        # A flag, not a lock: KeyboardInterrupt may come when a lock's acquire() returns, but not between this test and
-        # `try`. Without a global lock (PEP 703) the library refuses the call.
+        # A lock would not do: KeyboardInterrupt may come when its acquire() returns, but not between this test and
+        # `try`. Without a global interpreter lock (PEP 703) the library itself refuses a second call.
         if self._in_call:
             raise InvalidStateError("another call on this context is under way")
         self._in_call = True
@@ -273,5 +278,5 @@ class Context:
 
 
 def _destroy(loaded: ctypes.CDLL, handle: ctypes.c_void_p, _log: object) -> None:
-    """The arguments keep the library's callbacks alive until the context is destroyed."""
+    """Takes `_log` only to keep the library's callbacks alive until the context is destroyed."""
     loaded.pt_destroy(handle)

@@ -28,22 +28,22 @@ if TYPE_CHECKING:
 
 Pixels = npt.NDArray[np.float32]
 
-OTHER_SEED: Final = 2**63  # the two images' seeds differ in this bit
-FIRST_SAMPLES: Final = 16  # per image, before the first check of a target error
+OTHER_SEED: Final = 2**63  # The two images' seeds differ in this bit.
+FIRST_SAMPLES: Final = 16  # samples of each image before the first check of a target error
 
 
 def denoise(first: npt.ArrayLike, second: npt.ArrayLike, albedo: npt.ArrayLike, normal: npt.ArrayLike, *,
             library_path: str | os.PathLike[str] | None = None, any_device: bool = False
             ) -> tuple[Pixels, ErrorEstimate]:
-    """A picture without noise, and its error. Each pixel lies between the mean of both and the filtered image.
+    """Returns an image without noise, and its error. Each pixel lies between the mean of both images and the filtered one.
 
-    first, second   radiance, shape (height, width, 3): two images that differ in RenderSettings.seed only. Dependent
-                    images make the stated error too small
+    first, second   radiance, shape (height, width, 3), of renderings that differ in RenderSettings.seed only; for
+                    dependent images the stated error is too small
     albedo, normal  Quantity.ALBEDO and NORMAL, of the same shape
-    library_path    of Open Image Denoise 2; None: the module pyoidn's, else the system's
-    any_device      its own choice of device or OIDN_DEFAULT_DEVICE's, instead of the CPU
+    library_path    Open Image Denoise 2; None for the module pyoidn's library, else the system's
+    any_device      whether OIDN_DEFAULT_DEVICE or the library chooses the device, instead of the CPU
 
-    UnsupportedError: the library is not installed (`pip install pyoidn`). ValueError: shapes differ.
+    Raises UnsupportedError if the library is not installed (`pip install pyoidn`), ValueError if shapes differ.
     """
     images = [np.ascontiguousarray(image, np.float32) for image in (first, second, albedo, normal)]
     shape = images[0].shape
@@ -71,8 +71,8 @@ def find_library() -> str | None:
 
 def render_denoised(context: Context, settings: RenderSettings, samples: int, target_error: float,
                     progress: Progress | None) -> Image:
-    """Takes half of the samples with each of two seeds. A target error is checked after 16 samples of each, and
-    whenever there are half as many again."""
+    """Takes half of the samples with each of two seeds. Checks a target error after 16 samples of each half, and again
+    whenever the number has grown by half."""
     most = max(samples // 2, 1)
     halves = [settings, replace(settings, seed=settings.seed ^ OTHER_SEED)]
     films: list[Film | None] = [None, None]

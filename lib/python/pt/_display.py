@@ -1,4 +1,4 @@
-"""From linear radiance to a picture, as pt does by default: exposure, and IEC 61966-2-1 (sRGB)."""
+"""The default conversion from linear radiance to a picture: exposure and sRGB (IEC 61966-2-1)."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ MOST_STOPS = 64.0
 
 
 def automatic_exposure(radiance: npt.NDArray[Any]) -> float:
-    """The stops that bring the average to middle grey, in hundredths: Reinhard, Stark, Shirley, Ferwerda 2002,
+    """Returns the stops, in hundredths, that bring the average to middle grey: Reinhard, Stark, Shirley, Ferwerda 2002,
     "Photographic Tone Reproduction for Digital Images", eqs. 1 and 2, for the mean of the channels. Pixels below 1/128
-    of the level have less weight. The level is the mean after three times clipping values to the mean."""
+    of the level have less weight. The level is the mean after clipping values to the mean three times."""
     means = radiance.astype(np.float64).mean(axis=2)
     means = means[means > 0]
     if not means.size:
@@ -27,12 +27,12 @@ def automatic_exposure(radiance: npt.NDArray[Any]) -> float:
         level = float(np.minimum(means, level).mean())
     weights = means / (means + level / 128)
     stops = math.log2(MIDDLE_GREY) - float((weights * np.log2(means)).sum() / weights.sum())
-    hundredths = math.copysign(math.floor(abs(100 * stops) + 0.5), stops)  # halves away from zero
+    hundredths = math.copysign(math.floor(abs(100 * stops) + 0.5), stops)  # Halves round away from zero.
     return min(max(hundredths / 100, -MOST_STOPS), MOST_STOPS)
 
 
 def to_srgb8(radiance: npt.NDArray[Any], exposure: float) -> npt.NDArray[np.uint8]:
-    """255 times the sRGB signal of radiance times 2^exposure, clamped to [0, 1]; halves round up."""
+    """Returns 255 times the sRGB signal of radiance times 2^exposure, clamped to [0, 1]. Halves round up."""
     pixels: npt.NDArray[np.uint8] = quantised(signal(radiance.astype(np.float64) * 2.0**exposure), np.uint8)
     return pixels
 
@@ -52,7 +52,7 @@ def quantised(signal: npt.NDArray[np.float64], dtype: Any) -> npt.NDArray[Any]:
 
 
 def encode_png(pixels: npt.NDArray[Any]) -> bytes:
-    """Pixels of shape (height, width, 3), or 4 with alpha, uint8 or uint16 (W3C, "Portable Network Graphics (PNG)
+    """Encodes uint8 or uint16 pixels of shape (height, width, 3), or 4 with alpha (W3C, "Portable Network Graphics (PNG)
     Specification", 2003)."""
     height, width, channels = pixels.shape
     big_endian = np.ascontiguousarray(pixels, pixels.dtype.newbyteorder(">"))

@@ -1,4 +1,4 @@
-"""The library's errors as exceptions: a class for each result below 0."""
+"""The library's errors as exceptions, one class for each negative result."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from pt._enums import Result
 
 @dataclass(frozen=True)
 class BrokenRule:
-    """A field and its broken rule: `spheres[3].center[0] = nan: must be finite`."""
+    """A broken rule, such as `spheres[3].center[0] = nan: must be finite`."""
 
     subject: str  # "materials", "spheres", "planes", "sphere_arrays", "scene", "camera", "render", ...
     index: int | None  # None unless the subject is an array
-    member: str  # "center"; "" for a rule about the argument itself
-    component: int | None  # None unless the member has several
-    joined_with: str  # the rest of the value, as "* height" beside "width"; else ""
+    member: str  # "center"; "" if the rule concerns the argument itself
+    component: int | None  # None unless the member has several components
+    joined_with: str  # other factor of the value, such as "* height" for a rule about width * height; else ""
     value: str  # "nan"
     rule: str  # "must be finite"
 
@@ -29,8 +29,7 @@ class BrokenRule:
 
 
 class Error(Exception):
-    """A failed call. It has changed nothing, but a lost device stays lost, and accumulate may keep some of its samples.
-    """
+    """A failed call. Nothing has changed, except that a lost device stays lost and accumulate may keep some samples."""
 
     result: Result
     broken_rules: tuple[BrokenRule, ...]
@@ -60,13 +59,13 @@ class InvalidStateError(Error, RuntimeError):
 
 
 class UnsupportedError(Error, RuntimeError):
-    """Valid, but beyond this device, driver or library."""
+    """The request is valid, but beyond this device, driver or library."""
 
     result = Result.ERROR_UNSUPPORTED
 
 
 class NoDeviceError(Error, RuntimeError):
-    """No Vulkan driver, or no device fits."""
+    """There is no Vulkan driver, or no suitable device."""
 
     result = Result.ERROR_NO_DEVICE
 
@@ -82,7 +81,7 @@ class OutOfDeviceMemoryError(Error, MemoryError):
 
 
 class DeviceLostError(Error, RuntimeError):
-    """The device gave up; the context can only be closed."""
+    """The device failed. The context can only be closed."""
 
     result = Result.ERROR_DEVICE_LOST
 
@@ -100,7 +99,7 @@ class InternalError(Error, RuntimeError):
 
 
 class IncompatibleError(Error, ValueError):
-    """The film is damaged, or belongs to another picture."""
+    """The film is damaged, or shows another picture."""
 
     result = Result.ERROR_INCOMPATIBLE
 

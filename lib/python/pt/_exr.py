@@ -13,7 +13,7 @@ EXR_ROWS: Final = 16
 
 
 def encode_exr(radiance: npt.NDArray[np.float32]) -> bytes:
-    """An OpenEXR file of float32 R, G, B in blocks packed by zip ("OpenEXR File Layout", openexr.com)."""
+    """Encodes float32 R, G, B in blocks compressed by zip ("OpenEXR File Layout", openexr.com)."""
     height, width, _ = radiance.shape
     channels = b"".join(name + b"\0" + struct.pack("<iB3xii", 2, 0, 1, 1) for name in (b"B", b"G", b"R")) + b"\0"
     window = struct.pack("<4i", 0, 0, width - 1, height - 1)
@@ -32,7 +32,7 @@ def encode_exr(radiance: npt.NDArray[np.float32]) -> bytes:
         halves = np.concatenate([data[0::2], data[1::2]]).astype(np.int16)
         halves[1:] = halves[1:] - halves[:-1] + 128
         packed = zlib.compress((halves & 255).astype(np.uint8).tobytes(), 4)
-        packed = packed if len(packed) < len(data) else data.tobytes()  # the decoder recognises this by the size
+        packed = packed if len(packed) < len(data) else data.tobytes()  # Decoders recognise an uncompressed block by its size.
         blocks.append(struct.pack("<2i", row, len(packed)) + packed)
     places = len(header) + 8 * len(blocks) + np.cumsum([0, *map(len, blocks[:-1])])
     return header + places.astype("<u8").tobytes() + b"".join(blocks)

@@ -1,4 +1,4 @@
-"""Files that are written whole or not at all."""
+"""Atomic writing of files, and checks of files and names."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ PICTURES: Final = ("exr", "png", "jpg", "jpeg")
 
 
 def format_of(path: Path, formats: Sequence[str]) -> str:
-    """The lower-case ending without its dot. ValueError: none of the formats."""
+    """Returns the lower-case ending without its dot. Raises ValueError for a format that is not listed."""
     ending = pathlib.Path(path).suffix.lower().removeprefix(".")
     if ending not in formats:
         *others, last = (f".{each}" for each in formats)
@@ -25,7 +25,7 @@ def format_of(path: Path, formats: Sequence[str]) -> str:
 
 
 def regular(path: Path, flags: int) -> int:
-    """For open(opener=): a named pipe or a device could have no end. OSError: not a regular file."""
+    """An opener for open(). Raises OSError unless the file is regular: reading a pipe or a device could never end."""
     descriptor = os.open(path, flags | getattr(os, "O_NONBLOCK", 0))
     if stat.S_ISREG(os.fstat(descriptor).st_mode):
         return descriptor
@@ -34,7 +34,7 @@ def regular(path: Path, flags: int) -> int:
 
 
 def write_atomically(path: Path, write: Callable[[BinaryIO], object]) -> None:
-    """Writes to another name in the same folder, then renames."""
+    """Writes a temporary file in the same folder, then renames it."""
     place = pathlib.Path(path)
     beside = place.with_name(f".{place.name}.{uuid.uuid4().hex}")
     try:

@@ -1,4 +1,4 @@
-"""Films: the exact sums behind an image, which add up."""
+"""Films: exact sums of samples, which can be added."""
 
 from __future__ import annotations
 
@@ -28,39 +28,39 @@ TILE_SIDE = 8  # pixels
 
 @dataclass(frozen=True)
 class FilmInfo:
-    width: int  # of the whole image, pixels
+    width: int  # width of the whole image, pixels
     height: int
-    x: int  # first column of the smallest rectangle with all of the film's pixels
-    y: int  # its first row
-    columns: int  # its width, pixels
-    rows: int  # its height, pixels
+    x: int  # first column of the smallest rectangle around the film's pixels
+    y: int  # first row of the rectangle
+    columns: int  # width of the rectangle, pixels
+    rows: int  # height of the rectangle, pixels
     max_path_length: int
     seed: int
     estimator: Estimator
     sampler: Sampler
-    lamp_sample_count: int  # samples of a pixel that meet all lamps in view smaller than a pixel; 0: no such lamps
+    lamp_sample_count: int  # samples of a pixel that hit all visible lamps smaller than a pixel; 0 without such lamps
     device: str  # models and drivers
 
 
 @dataclass(frozen=True)
 class FilmTile:
-    """A rectangle of pixels with the same samples."""
+    """A rectangle of pixels with the same sample indices."""
 
-    x: int  # first column, in the image
+    x: int  # first column
     y: int  # first row
     width: int  # pixels
     height: int
-    samples: tuple[range, ...]  # indices, ascending and never adjacent
+    samples: tuple[range, ...]  # ranges of indices, ascending, never adjacent
 
 
 class Film:
-    """Samples of an image as exact sums, without a device or the scene.
+    """The samples of an image as exact sums. Needs neither a device nor the scene.
 
-    Films of other samples or pixels of the same picture add up, by + or sum(), in any order, to the bits of one long
-    rendering. They can be pickled, saved, loaded, and compared: equal samples make equal films.
+    Films with other samples or pixels of the same picture can be added by + or sum() in any order. The result has the
+    bits of one long rendering. Films can be pickled, saved and loaded. Two films are equal if their samples are equal.
 
-    Film(data) takes another film's bytes, also untrusted ones (IncompatibleError). A film takes 112 bytes a pixel.
-    Calls of other threads wait for the current one.
+    Film(data) reads the bytes of another film. Damaged or untrusted bytes raise IncompatibleError at worst. A film takes
+    112 bytes a pixel. Concurrent calls wait for one another.
     """
 
     def __init__(self, data: bytes) -> None:
@@ -73,17 +73,17 @@ class Film:
 
     @classmethod
     def load(cls, path: Path) -> Film:
-        """Reads a file of save() or the program pt, whose packed files need Python 3.14 or the module zstandard."""
+        """Reads a file of save() or of pt. Films packed by pt need Python 3.14 or the module zstandard."""
         with open(path, "rb", opener=regular) as file:
             return cls(file.read())
 
     def save(self, path: Path) -> None:
-        """Writes a file, whole or not at all; `pt merge` reads it too."""
+        """Writes a file atomically. `pt merge` reads it, too."""
         write_atomically(path, lambda file: self.stream(file.write))
 
     def stream(self, write: Callable[[bytes], object]) -> None:
         """Passes the bytes of to_bytes() to a function in pieces of at most a megabyte, without a second copy in
-        memory. The function's exception ends the call and is raised."""
+        memory. An exception of the function ends the call and is raised."""
         guard = CallbackGuard()
 
         def take(_: object, data: int, size: int) -> int:
@@ -97,12 +97,12 @@ class Film:
         guard.raise_caught()
 
     def to_bytes(self) -> bytes:
-        """The bytes of lib/film/FORMAT.md. Equal samples of equal pictures are equal bytes."""
+        """Returns the bytes that lib/film/FORMAT.md describes. Equal samples of equal pictures give equal bytes."""
         return bytes_from(lambda data, size: self._call("pt_write_film", data, size))
 
     @property
     def size(self) -> int:
-        """The size of to_bytes()."""
+        """Number of bytes of to_bytes()."""
         size = ctypes.c_uint64()
         self._call("pt_write_film", None, size)
         return size.value
@@ -115,14 +115,14 @@ class Film:
         return total
 
     def __radd__(self, other: int) -> Film:
-        """0 + film, with which sum() begins."""
+        """Returns the film for 0 + film, because sum() begins with 0."""
         if other != 0:
             return NotImplemented
         return self
 
     def __iadd__(self, other: Film) -> Film:
-        """Adds the other's samples. IncompatibleError: it is of another picture, or has samples that this film has
-        already; the message has a line for each difference, and nothing is changed."""
+        """Adds the other film's samples. Raises IncompatibleError if it shows another picture or repeats samples of this
+        film; the message has a line for each difference, and nothing has changed."""
         if not isinstance(other, Film):
             return NotImplemented
         data = other.to_bytes()
@@ -134,7 +134,7 @@ class Film:
             return NotImplemented
         return self.to_bytes() == other.to_bytes()
 
-    __hash__ = None  # type: ignore[assignment] # += changes it
+    __hash__ = None  # type: ignore[assignment] # += changes the film
 
     def __reduce__(self) -> tuple[type[Film], tuple[bytes]]:
         return Film, (self.to_bytes(),)
@@ -155,7 +155,7 @@ class Film:
 
     @property
     def tiles(self) -> list[FilmTile]:
-        """A single one if all pixels have the same samples."""
+        """A single tile if all pixels have the same samples."""
         with self._lock:
             info = structs.pt_film_info()
             self._call("pt_get_film_info", info)
@@ -163,8 +163,8 @@ class Film:
 
     def readback(self, quantity: Quantity = Quantity.RADIANCE, *, out: npt.NDArray[Any] | None = None,
                  rectangle: Rectangle | None = None, format: Format = Format.RGB32F) -> npt.NDArray[Any]:
-        """The rectangle in FilmInfo, with the bits of Context.readback. Missing pixels are black, with an infinite
-        standard error."""
+        """Returns the rectangle of FilmInfo, with the same bits as Context.readback. Missing pixels are black, and their
+        standard error is infinite."""
         with self._lock:
             info = self.info
             shape = info.rows, info.columns
@@ -178,27 +178,27 @@ class Film:
         return stats_of(struct)
 
     def error_estimate(self) -> ErrorEstimate:
-        """A film does not know the scene's lamps, so Uncertain.UNMET is set if the estimator finds lamps by chance."""
+        """A film does not know the scene's lamps. Uncertain.UNMET is set if the estimator hits lamps only by chance."""
         struct = structs.pt_error_estimate()
         self._call("pt_get_film_error_estimate", struct)
         return error_estimate_of(struct)
 
     def image(self) -> Image:
-        """Radiance, standard error and sample counts, with the error."""
+        """Returns radiance, standard error, sample counts and error."""
         with self._lock:
             return Image(self.readback(Quantity.RADIANCE), self.readback(Quantity.STANDARD_ERROR),
                          self.readback(Quantity.SAMPLE_COUNT), self.error_estimate(), self.stats())
 
     def plan(self, target_error: float, most: int) -> tuple[Result, npt.NDArray[np.uint32]]:
-        """Decides the film's next samples on its way to a target error, as Context.accumulate does: one machine
-        decides, others take the samples (Context.accumulate_tiles).
+        """Plans the next samples towards a target error, as Context.accumulate does. One machine can plan while others
+        take the samples by Context.accumulate_tiles.
 
         target_error   > 0; 0.01 is 1%
-        most           the most samples per pixel
+        most           most samples of a pixel
 
-        Returns Result.PENDING and the samples that each tile of 8 x 8 pixels is to have: shape (rows, columns). Or
-        Result.TARGET_REACHED, or Result.OK if no tile may take more, and the present numbers. Decisions stay in the
-        film. IncompatibleError: the film's tiles are not made of such squares."""
+        Returns a result and the intended sample counts of the 8 x 8 pixel tiles, shape (rows, columns). The result is
+        Result.PENDING, Result.TARGET_REACHED, or Result.OK if no tile may have more samples. The film remembers its
+        plans. Raises IncompatibleError if the film's tiles are not made of such squares."""
         with self._lock:
             info, count = self.info, ctypes.c_uint32()
             self._call("pt_plan_film", target_error, most, None, count)
@@ -220,7 +220,7 @@ class Film:
 
 
 def bytes_from(write: Callable[[Any, ctypes.c_uint64], object]) -> bytes:
-    """Written in place, because a film takes hundreds of megabytes."""
+    """Lets `write` fill the bytes object in place, because a film may take hundreds of megabytes."""
     size = ctypes.c_uint64()
     write(None, size)
     allocated = size.value
@@ -232,7 +232,7 @@ def bytes_from(write: Callable[[Any, ctypes.c_uint64], object]) -> bytes:
 
 
 def _unpacked(data: bytes) -> bytes:
-    """The contents of a zstd frame; other bytes unchanged."""
+    """Returns the contents of a zstd frame, and other bytes unchanged."""
     if not data.startswith(_zstd.MAGIC):
         return data
     module = _zstd.module()

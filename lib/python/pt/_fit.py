@@ -1,4 +1,4 @@
-"""Extents of balls in a view, and the nearest camera that sees them all whole."""
+"""Extents of balls in a view, and the nearest camera that sees all of them."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def chunks(count: int) -> Iterator[slice]:
 
 
 def coordinates(rows: Array) -> Doubles:
-    """Shape (3, n): NumPy is slow along an axis of length three."""
+    """Returns shape (3, n), because NumPy is slow along an axis of length three."""
     return rows.T.astype(np.float64, order="C")
 
 
@@ -36,9 +36,9 @@ def reach(centers: Array, radii: Array, axes: Doubles, directions: Doubles, spin
 
     centers      shape (n, 3), n >= 1
     radii        shape (n,)
-    axes         shape (3, 3): unit vectors in rows
-    directions   shape (k, 3): unit vectors in the coordinates of the axes
-    spin         for the bodies that the turning balls sweep
+    axes         shape (3, 3); unit vectors in rows
+    directions   shape (k, 3); unit vectors in the coordinates of the axes
+    spin         rotation, if the balls turn; the result then covers every angle
     """
     farthest = np.full(len(directions), -np.inf)
     world = directions @ axes
@@ -62,7 +62,7 @@ def reach(centers: Array, radii: Array, axes: Doubles, directions: Doubles, spin
 
 
 def _dot(direction: Doubles, places: Any) -> Doubles:
-    """Skips components of 0, in a fixed order, so that it rounds alike everywhere."""
+    """Adds products in a fixed order and skips zero factors, so that all machines round alike."""
     terms = [factor * place for factor, place in zip(direction, places, strict=True) if factor != 0.0]
     total: Doubles = terms[0]
     for term in terms[1:]:
@@ -70,7 +70,7 @@ def _dot(direction: Doubles, places: Any) -> Doubles:
     return total
 
 
-SIDES: Final = np.vstack([np.eye(3), -np.eye(3)])  # right, up, forward, and the opposite
+SIDES: Final = np.vstack([np.eye(3), -np.eye(3)])  # right, up, forward, then their opposites
 
 
 @dataclass(frozen=True)
@@ -92,8 +92,8 @@ class Extents:
 
 
 def pyramid(tangents: tuple[float, float]) -> Doubles:
-    """Outward unit normals of a perspective's bounding planes, in the view's axes: left, right, bottom, top. tangents:
-    of half angles, horizontal and vertical."""
+    """Outward unit normals of a perspective's bounding planes, in the view's axes: left, right, bottom, top. The tangents
+    belong to the horizontal and the vertical half angle."""
     across, upwards = (1.0 / math.hypot(1.0, tangent) for tangent in tangents)
     sines = tangents[0] * across, tangents[1] * upwards
     return np.array([(-across, 0.0, -sines[0]), (across, 0.0, -sines[0]),
@@ -103,10 +103,10 @@ def pyramid(tangents: tuple[float, float]) -> Doubles:
 def apex(reaches: Doubles, axes: Doubles, normals: Doubles) -> Doubles:
     """The nearest pinhole that sees balls with these reaches along the pyramid's normals.
 
-    A ball is in view if dot(n, p) >= dot(n, c) + r for the pinhole p and each outward normal n; all are if dot(n, p) >=
-    s, the reach. For half the horizontal angle a the normals are -+cos(a) right - sin(a) forward. Their sum:
-    dot(forward, p) <= -(s_left + s_right) / (2 sin a); their difference: dot(right, p) = (s_right - s_left) / (2 cos
-    a).
+    A ball with center c and radius r is in view of the pinhole p if dot(n, p) >= dot(n, c) + r for each outward normal
+    n. All balls are if dot(n, p) >= s with the reach s. For the horizontal half angle a the normals are -+cos(a) right -
+    sin(a) forward. Their sum gives dot(forward, p) <= -(s_left + s_right) / (2 sin a). Their difference gives
+    dot(right, p) = (s_right - s_left) / (2 cos a).
     """
     right, above, forward = axes
     low, high = -reaches[0::2], -reaches[1::2]

@@ -13,15 +13,15 @@ from pt._stats import ErrorEstimate, Stats
 
 
 class Image:
-    """Linear radiance, shape (height, width, 3), float32, row 0 at the top; converts to a NumPy array.
+    """A finished image of shape (height, width, 3). np.asarray(image) is the radiance.
 
-    radiance         the mean of the samples, linear RGB, unclamped, >= 0
-    standard_error   of each number; a mere hint in a single pixel, infinite with up to 8 samples
+    radiance         mean of the samples, linear RGB, float32, unclamped, >= 0, row 0 at the top
+    standard_error   standard error of each number; a rough hint for a single pixel, infinite with up to 8 samples
     sample_count     shape (height, width), uint32
-    error_estimate   of the whole image
+    error_estimate   error of the whole image
     stats            counts and costs
-    exposure         stops for the picture of _repr_png_ and save; None: automatic
-    raw              a denoised image's mean of the samples, which standard_error belongs to; else None
+    exposure         stops for _repr_png_ and save; None: automatic
+    raw              for a denoised image the mean of the samples, to which standard_error belongs; else None
     """
 
     def __init__(self, radiance: npt.NDArray[np.float32], standard_error: npt.NDArray[np.float32],
@@ -41,12 +41,12 @@ class Image:
 
     @property
     def error(self) -> float:
-        """Relative root mean square error: 0.01 is 1%. Infinite below 16 samples."""
+        """Relative root mean square error; 0.01 is 1%. Infinite below 16 samples."""
         return self.error_estimate.relative_rmse
 
     @property
     def error_bounds(self) -> tuple[float, float]:
-        """Bounds of the error with 95% confidence."""
+        """Bounds of the relative error with 95% confidence."""
         return self.error_estimate.relative_rmse_low, self.error_estimate.relative_rmse_high
 
     def __array__(self, dtype: npt.DTypeLike | None = None, copy: bool | None = None) -> npt.NDArray[Any]:
@@ -70,14 +70,14 @@ class Image:
                 f"error {self.error:.3g} ({low:.3g} to {high:.3g})>")
 
     def to_srgb8(self, exposure: float | None = None) -> npt.NDArray[np.uint8]:
-        """The picture in sRGB, shape (height, width, 3): radiance times 2^exposure, clamped to [0, 1]; pt's bytes.
-        exposure defaults to the image's, then to one that brings the average to middle grey, 0.18."""
+        """Returns the sRGB picture, shape (height, width, 3), like pt: radiance times 2^exposure, clamped to [0, 1].
+        exposure defaults to the image's exposure, else to one that brings the average to middle grey, 0.18."""
         if exposure is None:
             exposure = self.exposure
         return to_srgb8(self.radiance, automatic_exposure(self.radiance) if exposure is None else exposure)
 
     def save(self, path: Path, *, exposure: float | None = None) -> None:
-        """Writes the picture of to_srgb8 for .png, the radiance for .npy, whole or not at all. ValueError: another
+        """Writes the picture of to_srgb8 (.png) or the radiance (.npy) atomically. Raises ValueError for another
         ending."""
         if format_of(path, ("png", "npy")) == "npy":
             write_atomically(path, lambda file: np.save(file, self.radiance, allow_pickle=False))

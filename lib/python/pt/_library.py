@@ -1,4 +1,4 @@
-"""Loads libpt, declares its functions, and turns results into values or exceptions."""
+"""Loads libpt, declares its functions, and converts results to values or exceptions."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ VERSION: Final = "0.3"
 SONAME: Final = {"win32": "pt.dll", "darwin": f"libpt.{VERSION}.dylib"}.get(sys.platform, f"libpt.so.{VERSION}")
 BROKEN_RULES_KEPT: Final = 8
 
-# Must list every function: without types, ctypes truncates pointers to 32 bits.
+# Every function must be listed: without types, ctypes truncates pointers to 32 bits.
 PARAMETERS: Final[dict[str, list[Any]]] = {
     "pt_version": [],
     "pt_result_name": [c_int32],
@@ -72,8 +72,8 @@ def library_path() -> str:
 
 
 def load_library(path: str) -> ctypes.CDLL:
-    """Loads a libpt; its functions release the interpreter's lock. ImportError: missing, or other structs. Functions
-    that an older build lacks raise AttributeError when called."""
+    """Loads a libpt. Its functions release the interpreter's lock. Raises ImportError if it is missing or has other
+    structs. Functions that an older build lacks raise AttributeError on call."""
     try:
         loaded = ctypes.CDLL(path)
         for name, parameters in PARAMETERS.items():
@@ -119,8 +119,8 @@ def _broken_rules(loaded: ctypes.CDLL, context: c_void_p | None) -> tuple[Broken
 
 
 def checked(loaded: ctypes.CDLL, result: int, context: c_void_p | None = None) -> Result:
-    """Returns a good result; otherwise raises the error. The message lasts until the next call on the context, or of
-    this thread without one."""
+    """Returns a result >= 0, raises the error of another. The library keeps an error's message until the next call on
+    the context, or until the thread's next call without a context."""
     if result >= 0:
         return Result(result)
     message = _text(loaded.pt_last_error(context))

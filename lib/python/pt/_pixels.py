@@ -27,7 +27,7 @@ def new_pixels(shape: tuple[int, int], rectangle: Rectangle | None, format: Form
 
 
 def _format_of(array: npt.NDArray[Any]) -> Format:
-    """Rows may be at any distance, pixels of a row must be side by side. ValueError: no format fits."""
+    """Rows may have any stride; pixels of a row must be adjacent. Raises ValueError if no format fits."""
     if array.ndim == 3 and array.dtype.isnative:
         for format, (channels, dtype) in LAYOUTS.items():
             dense = (channels * dtype.itemsize, dtype.itemsize)
@@ -40,7 +40,7 @@ def _format_of(array: npt.NDArray[Any]) -> Format:
 
 def image_struct(pixels: npt.NDArray[Any], quantity: Quantity, shape: tuple[int, int], rectangle: Rectangle | None
                  ) -> structs.pt_image:
-    """The array must outlive the call. ValueError: the image does not fit."""
+    """The array must outlive the struct. Raises ValueError if the image does not fit."""
     format = _format_of(pixels)
     if not pixels.flags.writeable:
         raise ValueError("out is read-only: must be writeable")

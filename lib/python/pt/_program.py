@@ -1,4 +1,4 @@
-"""Reads scene files by the program `pt`: one reader with one set of messages."""
+"""Reads scene files by the program `pt`, which alone interprets them."""
 
 from __future__ import annotations
 
@@ -41,11 +41,11 @@ class ReadScene:
 class Program:
     """Reads and renders a scene by `pt render --parts` (cli/render/render_command.h).
 
-    files       initial ones, by names relative to its working folder
-    facts       pt's statement about the job, made before it opens a device
-    is_cpu      known after the first film
+    files       contents of scene files that need not exist, by name relative to the working folder
+    facts       statement of pt about the job, made before it opens a device
+    is_cpu      valid after the first film
 
-    Error: pt refuses the scene, or is not installed. OSError: a file cannot be read."""
+    Raises Error if pt refuses the scene or is not installed, OSError if a file cannot be read."""
 
     def __init__(self, arguments: Sequence[str], files: Mapping[str, bytes] | None = None, device: str | None = None) -> None:
         self.is_cpu = False
@@ -116,7 +116,7 @@ class Program:
             self._process.stdin.write(request)
             self._process.stdin.flush()
         except OSError:
-            pass  # pt has ended, with a message
+            pass  # pt has ended with a message, which _fail reads.
 
     def _line(self) -> bytes:
         assert self._process.stdout
@@ -149,7 +149,7 @@ def _sized(columns: dict[str, list[int]]) -> dict[str, tuple[int, int, int]]:
 
 
 def program() -> str:
-    """PT_PROGRAM, else the installed package's, else the PATH's."""
+    """Returns PT_PROGRAM, else the installed package's program, else pt from the PATH."""
     packaged = pathlib.Path(__file__).with_name("bin") / "pt"
     named = os.environ.get("PT_PROGRAM") or (str(packaged) if packaged.exists() else "pt")
     return os.path.abspath(named) if os.sep in named else named

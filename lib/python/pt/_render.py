@@ -1,4 +1,4 @@
-"""A picture of spheres in one call."""
+"""Renders arrays of spheres in one call."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ def render(positions: npt.ArrayLike, radii: npt.ArrayLike, colors: npt.ArrayLike
            camera: Camera | None = None, up: Direction = "z", floor: bool = False, material: Material | None = None,
            max_path_length: int = 4, denoise: bool = False, seed: int = 0, device: str | None = None,
            context: Context | None = None, progress: Progress | None = None) -> Figure:
-    """Renders spheres like figure(), but from arrays only, and sooner: 640 x 480 pixels, 16 samples.
+    """Renders spheres from arrays, with the parameters of figure() but a faster start: 640 x 480 pixels, 16 samples.
 
     positions   shape (n, 3), n >= 1
     radii       shape (n,), or one number for all; > 0
-    colors      shape (n, 3) or (3,): sRGB, floats in [0, 1] or uint8, times the material's diffuse; None: grey
+    colors      shape (n, 3) or (3,), sRGB, floats in [0, 1] or uint8, times the material's diffuse; None: grey
 
-    Other parameters are figure()'s. Arrays are read in place as SphereArray says.
+    Arrays are read in place if SphereArray allows.
     """
     centers = real_column("positions", positions, 3, None)
     if not len(centers):

@@ -19,14 +19,14 @@ from pt._vectors import Color, Vector, color, vector
 
 @dataclass(frozen=True)
 class Material:
-    """The physically-normalised Phong model of pt/pt.h. Colors are linear R, G, B, each in [0, 1e18], or one number for
-    a grey.
+    """The physically normalised Phong model of pt/pt.h. A color is linear R, G, B, each in [0, 1e18], or one number for
+    grey.
 
-    diffuse      share of the light that is reflected diffusely
+    diffuse      fraction of the light that is reflected diffusely
     specular     weight of the lobe about the mirror direction
     emission     radiance, in every direction and on both sides
     glossiness   exponent of the lobe, in [0, 1e9]
-    hidden_from_camera   whether camera rays, and no others, pass through
+    hidden_from_camera   whether camera rays (only these) pass through
     """
 
     diffuse: Color = 0.0
@@ -58,9 +58,9 @@ MaterialOrIndex: TypeAlias = "Material | int"
 
 @dataclass(frozen=True)
 class Sphere:
-    """A ball: visible, lit and emitting on both sides. Lengths are in scene units.
+    """A ball. Both sides are visible, reflect and emit. Lengths are in scene units.
 
-    center     at time 0
+    center     position at time 0
     radius     > 0
     material   a Material, or its index in Scene.materials
     motion     displacement from time 0 to time 1
@@ -79,9 +79,9 @@ class Sphere:
 
 @dataclass(frozen=True)
 class Plane:
-    """The points x with dot(normal, x) + offset = 0: visible, lit and emitting on both sides.
+    """The points x with dot(normal, x) + offset = 0. Both sides are visible, reflect and emit.
 
-    normal     any length except 0; normal and offset are divided by it
+    normal     any length except 0; normal and offset are divided by this length
     material   a Material, or its index in Scene.materials
     """
 
@@ -95,8 +95,7 @@ class Plane:
 
 
 class SphereArray:
-    """Many spheres, read from NumPy arrays in place whenever the scene is set; later changes of the arrays do not
-    count. Lengths are in scene units.
+    """Many spheres from NumPy arrays. Each set_scene reads the arrays anew. Lengths are in scene units.
 
     center     shape (n, 3), at time 0
     radius     shape (n,), or one number for all; > 0
@@ -105,11 +104,12 @@ class SphereArray:
     color      shape (n, 3) or (3,), times the material's diffuse: linear floats in [0, 1], or sRGB in uint8; 1 by
                default
     end        shape (n, 3) or (3,): the other center of a capsule, which neither emits nor moves
-    opacity    shape (n,), or one number for all, in [0, 1]: the share of rays that meet it, at random; 1 by default
+    opacity    shape (n,), or one number for all, in [0, 1]: probability that a ray hits the sphere; 1 by default
 
-    Native float32, float64, uint32 (indices) and uint8 (colors) are read in place if rows are contiguous and ascend, at
-    any distance: slices a[::2], columns a[:, :3], fields of structured arrays. Others are copied once, here; `copied`
-    names them. ValueError: shapes do not fit. TypeError: not numbers, or colors of integers that are not uint8.
+    Native float32, float64, uint32 (indices) and uint8 (colors) are read in place if each row is contiguous and rows
+    ascend at any stride: a[::2], a[:, :3], fields of structured arrays. Other arrays are copied at once; `copied` has
+    their names. Raises ValueError for unsuitable shapes, TypeError for values that are not numbers and for integer
+    colors other than uint8.
     """
 
     def __init__(self, center: npt.ArrayLike, radius: npt.ArrayLike, material: MaterialOrIndex | npt.ArrayLike, *,
@@ -142,7 +142,7 @@ class SphereArray:
 
 @dataclass
 class Scene:
-    """materials       by index; materials of spheres and planes are added, each once
+    """materials       list for indices; materials of spheres and planes are appended, each once
     sphere_arrays   more spheres, for instance one SphereArray for each species
     """
 
@@ -172,7 +172,7 @@ class _Materials:
 
 
 class SceneStruct:
-    """A pt_scene and its arrays, valid as long as this object."""
+    """A pt_scene with its arrays. The object must outlive the struct."""
 
     def __init__(self, scene: Scene, guard: CallbackGuard, progress: Progress | None) -> None:
         materials = _Materials(scene.materials)

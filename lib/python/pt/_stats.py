@@ -16,15 +16,15 @@ from pt._library import checked, library
 class Stats:
     """Counts and costs so far. Fields that only a context knows are 0 for a film."""
 
-    sample_count: int  # in every pixel; the fewest if they differ
-    max_sample_count: int  # the most that a pixel has (Sampling.ADAPTIVE)
-    mean_sample_count: float  # over all pixels
-    rejected_samples: int  # over all pixels: NaN, infinite, negative or too bright
-    features: Feature  # of the kernel
-    device_bytes: int  # on all devices of the context now
+    sample_count: int  # fewest samples of a pixel
+    max_sample_count: int  # most samples of a pixel (Sampling.ADAPTIVE)
+    mean_sample_count: float  # mean over all pixels
+    rejected_samples: int  # number of NaN, infinite, negative or too bright samples
+    features: Feature  # features of the kernel
+    device_bytes: int  # memory on all devices of the context now
     device_count: int
-    device_seconds: float  # in submissions, summed
-    submit_count: int  # with samples
+    device_seconds: float  # sum over submissions
+    submit_count: int  # number of submissions with samples
 
 
 def stats_of(struct: structs.pt_stats) -> Stats:
@@ -35,9 +35,9 @@ def stats_of(struct: structs.pt_stats) -> Stats:
 
 @dataclass(frozen=True)
 class ErrorEstimate:
-    """Estimated without a reference: the root mean square of x - r over pixels and channels, for the image x and its
-    limit r, and of (x - r) / sqrt(r^2 + 0.01), with bounds of 95% confidence. With fewer than 16 samples the lower
-    bounds are 0, the other values infinite.
+    """Errors, estimated without a reference, with bounds of 95% confidence. For the image x and its limit r, rmse is the
+    root mean square of x - r over pixels and channels, relative_rmse of (x - r) / sqrt(r^2 + 0.01). Below 16 samples
+    lower bounds are 0 and other values infinite.
     """
 
     rmse: float  # in units of radiance
@@ -46,7 +46,7 @@ class ErrorEstimate:
     relative_rmse: float  # 0.01 is 1%
     relative_rmse_low: float
     relative_rmse_high: float
-    uncertain: Uncertain  # why the error may be far off
+    uncertain: Uncertain  # reasons why the error may be far off
 
 
 def error_estimate_of(struct: structs.pt_error_estimate) -> ErrorEstimate:
@@ -60,10 +60,10 @@ class DeviceInfo:
     name: str
     kind: DeviceKind
     driver: str  # name and version
-    memory_bytes: int  # of the largest memory heap that kernels can reach quickly
-    uuid: uuid.UUID  # stable over reboots; differs between equal devices
-    suitable: bool  # whether a Context can use it
-    reason: str  # why not, else empty
+    memory_bytes: int  # size of the largest memory heap that kernels can access quickly
+    uuid: uuid.UUID  # stable over reboots; differs between devices of one model
+    suitable: bool  # whether a Context can use the device
+    reason: str  # why the device is not suitable, else empty
 
 
 def device_of(struct: structs.pt_device_info) -> DeviceInfo:
@@ -74,7 +74,7 @@ def device_of(struct: structs.pt_device_info) -> DeviceInfo:
 
 
 def devices() -> list[DeviceInfo]:
-    """This machine's Vulkan devices; Context(device="0") uses the first. NoDeviceError: none, or no Vulkan."""
+    """This machine's Vulkan devices. Context(device="0") uses the first. Raises NoDeviceError without one."""
     loaded, count = library(), ctypes.c_uint32()
     checked(loaded, loaded.pt_get_devices(None, count))
     found = (structs.pt_device_info * count.value)()

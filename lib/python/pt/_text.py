@@ -1,4 +1,4 @@
-"""Text from strangers: names of files and keys, and messages of drivers and compilers."""
+"""Safe output of foreign text: names of files and keys, messages of drivers and compilers."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ import re
 import sys
 from typing import Final, TextIO
 
-# Characters that move the cursor, change the terminal, begin a line, or reverse the order of others (UAX #9, table 1).
+# Characters that move the cursor, change the terminal, begin a line, or reorder other characters (UAX #9, table 1).
 CONTROL: Final = re.compile("[\0-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069]")
 
 
 def printable(text: str) -> str:
-    """Control characters become <U+001B>, as in the library."""
+    """Writes control characters as <U+001B>, like the library."""
     return CONTROL.sub(lambda found: f"<U+{ord(found[0]):04X}>", text)
 
 
@@ -22,7 +22,7 @@ def tell(program: str, message: str, stream: TextIO | None = None) -> None:
 
 
 def c_string(text: str | os.PathLike[str] | None) -> bytes | None:
-    """ValueError: a NUL byte, which would end the library's string."""
+    """Raises ValueError for a NUL byte, which would end the string in C."""
     if text is None:
         return None
     data = os.fsencode(text)

@@ -1,4 +1,4 @@
-"""zstd frames, by whichever Python module is installed."""
+"""Compression by zstd, with any Python module that offers it."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ def module() -> Any:
 
 
 def packer(size: int) -> Any:
-    """compress(piece) and flush() for a frame that states its contents' size, as film readers need; None without a
-    module."""
+    """Returns an object with compress(piece) and flush(), or None without a module. The frame states its contents' size,
+    which film readers need."""
     found = module()
     if found is None:
         return None
-    if hasattr(found.ZstdCompressor, "compressobj"):  # the module zstandard
+    if hasattr(found.ZstdCompressor, "compressobj"):  # only the module zstandard
         return found.ZstdCompressor().compressobj(size=size)
     compressor = found.ZstdCompressor()
     compressor.set_pledged_input_size(size)

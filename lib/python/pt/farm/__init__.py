@@ -1,4 +1,4 @@
-"""One picture on many machines: Dask (distributed) runs the workers, and films add up exactly.
+"""One picture on many machines. Dask (distributed) runs the workers; their films are added exactly.
 
     from distributed import Client
     from pt import farm
@@ -6,7 +6,7 @@
         result = farm.render(client, farm.Job(scene, camera, settings), 1000, target_error=0.01)
     result.film.image().save("picture.png")
 
-pt-farm renders scene files. lib/python/FARM.md has the promises: failures, bits, trust.
+pt-farm renders scene files. lib/python/FARM.md describes failures, equal bits and trust.
 """
 
 from pt.farm._job import Job

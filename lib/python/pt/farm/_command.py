@@ -1,4 +1,4 @@
-"""pt-farm: scene files on a Dask cluster. `pt` reads and renders them on the workers and writes pictures here."""
+"""pt-farm: scene files on a Dask cluster. Workers read and render them by `pt`; this process writes the pictures."""
 
 from __future__ import annotations
 
@@ -46,13 +46,13 @@ def cluster(arguments: argparse.Namespace) -> Iterator[Any]:
                                      require_encryption=True)
         try:
             client = dask.Client(arguments.scheduler, security=security)
-        except (OSError, ValueError, TypeError) as error:  # TypeError: tls:// without certificates
+        except (OSError, ValueError, TypeError) as error:  # TypeError comes from tls:// without certificates.
             refuse(f"--scheduler {arguments.scheduler}: {error}", NO_DEVICE)
         with client:
             yield client
         return
     count = arguments.local_workers or 2
-    # Each worker's driver would otherwise take all processors.
+    # Otherwise each worker's driver takes all processors.
     os.environ.setdefault("LP_NUM_THREADS", str(max((os.cpu_count() or count) // count, 1)))
     with dask.LocalCluster(n_workers=count, threads_per_worker=1, processes=True, dashboard_address=None,
                       host="127.0.0.1") as local, dask.Client(local) as client:
@@ -107,7 +107,7 @@ def render_pictures(arguments: argparse.Namespace, others: list[str], signals: S
                             sampling=Sampling(facts["sampling"]), options=options,
                             progress=Shown(arguments.quiet, signals))
             if signals.number and frame is not None:
-                break  # an unfinished frame would look finished
+                break  # Do not write an unfinished frame.
             write_pictures(result.film, arguments, facts, frame)
             signals.is_rendering = False
             if len(result.devices) > 1 and not arguments.quiet:

@@ -1,4 +1,4 @@
-"""Hands out parts, adds returned films, and writes checkpoints."""
+"""Distributes parts, adds returned films, and writes checkpoints."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ from pt.farm._sum import Sum, read_film, write_film
 from pt.farm._workers import MOST_FETCHED, Member, Try, now, submit
 
 TICK = 0.25
-SLOTS = 2  # parts per worker: one renders while another travels or waits
+SLOTS = 2  # parts per worker: one renders while another is being transferred
 
-# Tiles that keep a device busy. CPU: 4 for each of 16 cores. GPU: 262,144 pixels.
+# Number of tiles that keeps a device busy. CPU: 4 for each of 16 cores. GPU: 262,144 pixels.
 LEAST_TILES = {True: 64, False: 4096}
 LEAD = 0.05
-LATE = 3.0  # times the expected seconds, after which a part is late
+LATE = 3.0  # A part is late after this multiple of its expected duration.
 LOOK_SHARE = 0.05
 
 
@@ -41,7 +41,7 @@ class _Opened(NamedTuple):
 
 
 class Coordinator:
-    """final: samples per pixel in the end; 0: undecided."""
+    """final: samples per pixel at the end; 0 if undecided."""
 
     def __init__(self, client: Any, job: AnyJob, options: Options,
                  show: Callable[[Progress, Film | None], object], final: int) -> None:
@@ -76,11 +76,11 @@ class Coordinator:
 
 
     def run(self, goals: Goals, more: Callable[[], Goals | None] = lambda: None) -> bool:
-        """Works until each tile has its samples; False if progress() stopped it. more: further goals of tiles without
-        running parts, asked for once all parts are given out and some are back."""
+        """Works until each tile has its samples. Returns False if progress() stopped it. `more` returns further goals for
+        tiles without running parts. It is called once all parts are distributed and some have returned."""
         first_sample, has_worked = self._job.settings.first_sample, False
         self._goals = goals
-        while not self._stopped:  # the film decides completeness, not the list of parts
+        while not self._stopped:  # The film decides completeness, not the list of parts.
             if self._cells is None or self._cells_at != self._progress.parts:
                 self._cells, self._cells_at = cells_of(self._sum.film, self._shape), self._progress.parts
             missing = missing_parts(self._cells, first_sample, self._goals)
@@ -113,8 +113,8 @@ class Coordinator:
         self._progress.samples_wanted = float((wanted * self._pixels).sum() / self._pixels.sum())
 
     def _seconds_to_ask(self) -> float:
-        """Seconds until it should ask for more work: shortly before a worker runs out, because later more tiles can be
-        decided together; at most half of the time."""
+        """Seconds until asking for more work. Waits until shortly before a worker runs out, because then more tiles are
+        decided together. Asking takes at most half of the time."""
         if self._waiting or not self._open or not self._has_only or self._progress.parts == self._asked_at:
             return float("inf")
         idle = min((member.busy_until for member in self._crew if member.can_take(SLOTS)), default=float("inf"))
@@ -213,7 +213,7 @@ class Coordinator:
             self._waiting.appendleft((each.number, each.part))
 
     def _may_try(self, member: Member, number: int) -> bool:
-        """No worker gets a part twice at once; one that failed gets it again only if all others failed too."""
+        """A worker never gets a part twice at once. After a failure it gets the part again only if all others failed."""
         if any(each.number == number for each in member.tries.values()):
             return False
         tried = self._tries.get(number, [])
@@ -258,7 +258,7 @@ class Coordinator:
         self._tell_of(future, *self._opened(_task.first_part(self._job), outcome, None))
 
     def _tell_of(self, *event: Any) -> None:
-        """Waits while the queue is full, to bound the films in memory."""
+        """Waits while the queue is full, to bound the memory of films."""
         while not self._closed:
             with contextlib.suppress(queue.Full):
                 self._events.put(event, timeout=TICK)
@@ -266,7 +266,7 @@ class Coordinator:
 
     def _opened(self, part: Part, outcome: _task.Outcome | None, identity: Identity | None
                 ) -> tuple[_task.Outcome | None, _Opened | None]:
-        """Opens an outcome's film. Called by threads. identity: required of the film."""
+        """Opens an outcome's film. Called by threads. identity: expected identity of the film."""
         if outcome is None or outcome.error:
             return outcome, None
         try:

@@ -1,4 +1,4 @@
-"""A job's workers: they join, get introduced, and leave or are refused."""
+"""A job's workers. They join, introduce themselves, and leave or are refused."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ LOOK_SECONDS = 0.25
 
 
 class Crew:
-    """identity: of the films so far. mixed: other devices may join."""
+    """identity: identity of the films so far. mixed: whether other devices may join."""
 
     def __init__(self, client: Any, packed: bytes, done: Done, progress: Progress, identity: Identity | None, *,
                  mixed: bool, patience: float) -> None:
@@ -39,7 +39,7 @@ class Crew:
         return any(member.identity for member in self)
 
     def look(self) -> list[tuple[str, Try]]:
-        """Notes arrivals and departures. Returns departed workers' tries and addresses. FarmError: nobody can work."""
+        """Notes arrivals and departures. Returns addresses and tries of departed workers. Raises FarmError without workers."""
         if now() - self._looked < LOOK_SECONDS:
             return []
         try:
@@ -82,7 +82,7 @@ class Crew:
             self._compare(member, identity)
 
     def blame(self, member: Member, outcome: Outcome, most: int = MOST_FAILURES) -> None:
-        """Counts a worker's error. FarmError: no other worker could do better."""
+        """Counts a worker's error. Raises FarmError if another worker could not do better."""
         self._progress.failed += 1
         self._progress.last_result = outcome.result
         if not outcome.may_help_elsewhere:

@@ -1,5 +1,5 @@
-"""A film's identity: the lines of its header from `scene` to `device` (lib/film/FORMAT.md). Films of one identity add
-up."""
+"""Identity of a film: the lines of its header from `scene` to `device` (lib/film/FORMAT.md). Films with equal identity can
+be added."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import importlib
 from dataclasses import dataclass
 
 FIRST, LAST = "scene", "device"
-WORTH_ANOTHER_WORKER = ("estimator_version", "kernel", LAST)  # depend on workers, not on the picture
+WORTH_ANOTHER_WORKER = ("estimator_version", "kernel", LAST)  # These depend on workers, not on the picture.
 CHECKSUM_BYTES = 8
 
 
@@ -25,7 +25,7 @@ class Identity:
 
 
 def identity_of(data: bytes) -> Identity:
-    """Reads a film's bytes. ValueError: not a film."""
+    """Reads a film's bytes. Raises ValueError if they are not a film."""
     names = dict(line.partition(" ")[::2] for line in _header(data).decode("ascii", "replace").splitlines())
     keys = list(names)
     if FIRST not in names or LAST not in names:
@@ -34,7 +34,7 @@ def identity_of(data: bytes) -> Identity:
 
 
 def with_models(data: bytes, models: frozenset[str]) -> bytes:
-    """Writes these models as devices, so that mixed films add up. ImportError: xxhash is missing."""
+    """Replaces the devices, so that films of mixed devices can be added. Raises ImportError without xxhash."""
     xxhash = importlib.import_module("xxhash")
     header = _header(data)
     start = header.index(b"\n" + LAST.encode() + b" ") + 1

@@ -1,4 +1,4 @@
-"""Jobs: all that a worker needs, except its part."""
+"""A job: everything that a worker needs for each part."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ from pt._scene import Scene
 class Job:
     """A picture of Python objects, rendered by the library on each worker.
 
-    settings   for all rows; first_sample is the first sample taken
-    device     each worker's, as for pt.Context; None: PT_DEVICE in its environment, else its best
+    settings   all rows; first_sample is the first sample of the picture
+    device     device of each worker, as in pt.Context; None: PT_DEVICE in its environment, else the best
     """
 
     scene: Scene
@@ -36,10 +36,10 @@ class Job:
 
 @dataclass(frozen=True)
 class FileJob:
-    """A picture of a scene file, read and rendered by the program pt on each worker.
+    """A picture of a scene file, rendered by the program pt on each worker.
 
-    arguments   of `pt render`, the scene first
-    files       the scene and its files, by names relative to the worker's folder
+    arguments   arguments of `pt render`, the scene first
+    files       contents of the scene and its files, by name relative to the worker's folder
     settings    size and first sample
     """
 
@@ -66,9 +66,8 @@ def name_of(data: bytes) -> str:
 
 
 def read_job(scene: str, options: list[str], device: str | None) -> FileJob:
-    """Packs all files named by strings in the scene (- for standard input) and in --set; those outside the scene's
-    folder get other names. OSError: a file cannot be read.
-    """
+    """Packs all files that strings in the scene (- for standard input) and --set name. Files outside the scene's folder
+    are renamed. Raises OSError for an unreadable file."""
     place = pathlib.Path("stdin.json" if scene == "-" else scene)
     with sys.stdin.buffer if scene == "-" else open(place, "rb", opener=regular) as file:
         text = file.read()

@@ -10,8 +10,8 @@ from pt._files import Path
 
 
 class FarmError(RuntimeError):
-    """The picture cannot be made; the message has the workers' reports, the checkpoint the returned films. result: the
-    library's, or ERROR_INTERNAL."""
+    """The picture cannot be rendered. The message has the workers' reports; the checkpoint has the returned films.
+    result: the library's error, or ERROR_INTERNAL."""
 
     def __init__(self, message: str, result: int = enums.Result.ERROR_INTERNAL) -> None:
         super().__init__(message)
@@ -23,13 +23,13 @@ class Options:
     """Only `mixed` can change the picture.
 
     part_seconds       duration of a part
-    patience           seconds beyond the expected time until another worker gets the part too
-    most_tries         failures or lost workers per part, in all
-    checkpoint         name of a file, resumed if it exists; None: none
+    patience           seconds beyond the expected time until another worker gets the part, too
+    most_tries         most failures and lost workers of a part
+    checkpoint         name of a film; rendering resumes from it if it exists; None: no checkpoint
     checkpoint_every   seconds
     wait_for_workers   seconds without a ready worker until an error
-    mixed              workers with other devices and drivers may join: the picture equals one machine's
-                       statistically, not bitwise. Needs the module xxhash
+    mixed              whether workers with other devices and drivers may join; the picture is then statistically, but
+                       not bit by bit, that of one machine. Needs the module xxhash
     """
 
     part_seconds: float = 5.0
@@ -43,25 +43,25 @@ class Options:
 
 @dataclass
 class Progress:
-    """Counts so far. issued: parts merged, dropped, failed, lost and running."""
+    """Counts so far. issued: number of merged, dropped, failed, lost and running parts."""
 
     seconds: float = 0.0
     samples: float = 0.0  # mean over all pixels
-    samples_wanted: float = 0.0  # the final mean, as far as decided
-    error: float = float("inf")  # relative; error_high: upper bound, with 95% confidence
+    samples_wanted: float = 0.0  # final mean, as far as decided
+    error: float = float("inf")  # relative error; error_high is its upper bound with 95% confidence
     error_high: float = float("inf")
     workers: int = 0
-    parts: int = 0  # merged
+    parts: int = 0  # merged parts
     issued: int = 0
     repeated: int = 0
     dropped: int = 0
     failed: int = 0
     lost: int = 0
-    forgotten: int = 0  # samples of tiles lost track of, and rendered again
-    part_bytes: int = 0  # received
-    messages: list[str] = field(default_factory=list)  # of workers
-    last_result: int = enums.Result.OK  # the library's, for the last error
-    ended_by: str = ""  # "samples", "error", "limit"; "stopped" if progress() returned True
+    forgotten: int = 0  # samples of tiles that got lost and are rendered again
+    part_bytes: int = 0  # received bytes
+    messages: list[str] = field(default_factory=list)  # reports of workers
+    last_result: int = enums.Result.OK  # library result of the last error
+    ended_by: str = ""  # "samples", "error" or "limit"; "stopped" if progress() returned True
 
     def line(self) -> str:
         error = "" if self.error == float("inf") else f", error {self.error:.3%} (to {self.error_high:.3%})"
@@ -72,12 +72,12 @@ class Progress:
 
 @dataclass(frozen=True)
 class Result:
-    """The film equals one long rendering's, byte for byte."""
+    """The film has the bytes of one long rendering."""
 
     film: Film
     progress: Progress
 
     @property
     def devices(self) -> tuple[str, ...]:
-        """Models and drivers. With several, the bits differ from one machine's."""
+        """Models and drivers. With several, the film's bits differ from those of one machine."""
         return tuple(self.film.info.device.split(" and "))

@@ -1,4 +1,4 @@
-"""Parts: some tiles with the same samples."""
+"""Parts of the work: some tiles and a range of samples."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Goals = npt.NDArray[np.uint32]
 
 @dataclass(frozen=True)
 class Part:
-    """Samples first to end - 1 of some tiles, indexed row by row."""
+    """Samples first to end - 1 of tiles, which are numbered row by row."""
 
     first: int
     end: int
@@ -27,8 +27,7 @@ class Part:
         return (self.end - self.first) * len(self.tiles)
 
     def split(self, work: int, least_tiles: int) -> tuple[Part, list[Part]]:
-        """A part of about that work, and the rest. Prefers fewer tiles, which make up a film's size, but keeps
-        least_tiles."""
+        """Returns a part of about this work, and the rest. Few tiles make small films, but a part keeps least_tiles."""
         samples = self.end - self.first
         if self.work <= work:
             return self, []
@@ -79,7 +78,7 @@ def cells_of(film: Film | None, shape: tuple[int, int]) -> Cells:
 
 
 def missing_parts(cells: Cells, first_sample: int, goals: Goals) -> list[Part]:
-    """The parts missing until each tile has its samples. Only the film decides, so checkpoints resume."""
+    """Returns the parts that are missing in the film. A checkpoint therefore suffices to resume."""
     wanted: dict[tuple[int, int], list[Indices]] = {}
     for samples, tiles in cells:
         tile_goals = goals.ravel()[tiles]

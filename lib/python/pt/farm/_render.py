@@ -1,4 +1,4 @@
-"""Renders a picture on a cluster's workers: decides the samples of tiles."""
+"""Renders a picture on a cluster's workers, and decides the samples of tiles."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from pt.farm._job import AnyJob
 from pt.farm._options import FarmError, Options, Progress, Result
 from pt.farm._part import Goals, grid_shape
 
-FIRST_LOOK = 16  # the fewest samples with a known error
+FIRST_LOOK = 16  # fewest samples with a known error
 
 
 def render(client: Any, job: AnyJob, samples: int, *, target_error: float = 0.0, sampling: Sampling = Sampling.BEST,
@@ -26,13 +26,13 @@ def render(client: Any, job: AnyJob, samples: int, *, target_error: float = 0.0,
     """Renders a picture on the workers of a Dask cluster.
 
     client         a distributed.Client
-    samples        per pixel; with a target error the most
-    target_error   0: none. Otherwise relative, with the same samples as Context.accumulate
-    progress       called some times a second with the counts and the film so far, which it must not change; True ends
-                   the rendering
+    samples        samples per pixel; with a target error, the most
+    target_error   0: none. Otherwise relative; tiles get the same samples as in Context.accumulate
+    progress       called several times a second with the counts and the film, which it must not change; it ends the
+                   rendering by returning True
 
-    FarmError: no worker can do it. Deaths of workers change no bit; if this process dies, a new one resumes from the
-    checkpoint.
+    Raises FarmError if no worker can render. Deaths of workers do not change the bits. If this process dies, another one
+    can resume from the checkpoint.
     """
     if options.mixed:
         try:
@@ -49,7 +49,7 @@ def render(client: Any, job: AnyJob, samples: int, *, target_error: float = 0.0,
 
 
 def _to_samples(coordinator: Coordinator, job: AnyJob, samples: int) -> Result:
-    """Renders in steps, so that the picture so far always has all pixels."""
+    """Renders in steps, so that the picture always covers all pixels."""
     shape = grid_shape(job.settings.width, job.settings.height)
     steps = [np.full(shape, count, np.uint32) for count in _counts_to(samples)]
     ended = True
@@ -69,8 +69,8 @@ def _counts_to(samples: int) -> Iterator[int]:
 
 def _to_error(coordinator: Coordinator, job: AnyJob, samples: int, target_error: float, sampling: Sampling) -> Result:
     def further() -> Goals | None:
-        """Decides the next samples of returned tiles while others are running: a tile's own samples decide them
-        (lib/film/adaptive_rule.h)."""
+        """Plans returned tiles while others are running. This is possible because a tile's plan depends only on its own
+        samples (lib/film/adaptive_rule.h)."""
         result, planned = coordinator.film.plan(target_error, samples)
         return planned if result == Outcome.PENDING else None
 

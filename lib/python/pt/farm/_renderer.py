@@ -18,10 +18,10 @@ from pt.farm._part import Part, grid_shape
 class Renderer(Protocol):
     @property
     def is_cpu(self) -> bool:
-        """Known after the first film."""
+        """Valid after the first film."""
 
     def film(self, part: Part) -> bytes:
-        """Error: it could not be rendered."""
+        """Raises Error if the part cannot be rendered."""
 
     def close(self) -> None:
         """Frees the device."""

@@ -1,4 +1,4 @@
-"""Progress on a terminal, and signals that end a rendering."""
+"""Progress in a terminal, and signals that end a rendering."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ SHOWN_EVERY = 1.0  # seconds
 
 
 class Signals:
-    """SIGINT, SIGTERM and SIGHUP end a rendering with the samples so far; a second one ends the process at once."""
+    """SIGINT, SIGTERM and SIGHUP end a rendering with the samples so far. A second signal ends the process at once."""
 
     def __init__(self) -> None:
         self.number = 0

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-FIRST_GUESS = 2000.0  # samples of tiles per second: a slow core
+FIRST_GUESS = 2000.0  # samples of tiles per second; a slow core
 LEAST_SECONDS = 0.1
 REMEMBERED = 5.0
-BUSY_SHARE = 0.5  # of the coordinator's time, for adding films
+BUSY_SHARE = 0.5  # fraction of the coordinator's time for adding films
 
 
 class Speed:
-    """Samples of tiles per second."""
+    """A worker's speed in samples of tiles per second."""
 
     def __init__(self) -> None:
         self.value = FIRST_GUESS
@@ -26,8 +26,8 @@ class Speed:
         return work / self.value
 
     def share(self, part_seconds: float, least_seconds: float, remaining: int, all_speeds: float) -> int:
-        """A part's work: part_seconds; towards the end half of the work after which all would end together (guided
-        self-scheduling: Polychronopoulos and Kuck 1987)."""
+        """Returns the work of a part that takes part_seconds. Near the end it is half of the worker's fraction of the
+        remaining work (guided self-scheduling: Polychronopoulos and Kuck 1987)."""
         together = 0.5 * remaining / all_speeds
         return max(int(self.value * max(min(part_seconds, together), least_seconds)), 1)
 

@@ -1,4 +1,4 @@
-"""The picture so far: the exact sum of returned parts, and its file."""
+"""The exact sum of returned parts, and its file."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from pt.farm._identity import Identity, identity_of, with_models
 from pt.farm._workers import now
 
 PIXEL_BYTES = 112
-# Parts are first added to each other, up to this share of a film, because a film's tiles cost time.
+# Parts are first added to one another, up to this fraction of a film, because adding to a film takes time for each tile.
 BATCH_SHARE = 1 / 32
-SHOW_SHARE = 0.02  # of the time, for early additions that keep the picture recent
+SHOW_SHARE = 0.02  # fraction of the time for early additions, which keep the picture recent
 
 
 class Sum:
@@ -50,7 +50,7 @@ class Sum:
         return self._bytes >= self._most_bytes or now() - self._merged > self._cost / SHOW_SHARE
 
     def merge(self) -> None:
-        """Adds parts to each other first, because sums of few tiles are cheap."""
+        """Adds parts to one another first, because sums of few tiles are cheap."""
         if not self._parts:
             return
         start, sums = now(), deque(self._parts)
@@ -73,8 +73,8 @@ class Sum:
 
 
 def _give_back() -> None:
-    """Returns freed memory: glibc keeps some per thread, together more than a film."""
-    with contextlib.suppress(AttributeError, OSError):  # not glibc
+    """Returns freed memory to the system. glibc keeps some for each thread, together more than a film."""
+    with contextlib.suppress(AttributeError, OSError):  # The C library is not glibc.
         ctypes.CDLL(None).malloc_trim(0)
 
 

@@ -18,7 +18,7 @@ from pt.farm._job import AnyJob, name_of, unpacked
 from pt.farm._part import Part
 from pt.farm._renderer import Renderer, renderer_of
 
-CLOCKS = 1.01  # how much faster one machine's clock may run than another's
+CLOCKS = 1.01  # largest assumed ratio of two machines' clock rates
 PERMANENT = (InvalidSceneError, InvalidArgumentError, IncompatibleError)
 
 
@@ -33,7 +33,7 @@ class Outcome:
 
 
 def fault_of(value: object, seconds: float) -> str:
-    """Empty if the value has no fault; a worker may send anything. seconds: since it was given out."""
+    """Checks a value, because a worker may send anything. Returns "" for a good value. seconds: time since submission."""
     if not isinstance(value, Outcome):
         return f"a value of type {type(value).__name__}"
     for name, kind in (("data", bytes), ("seconds", float), ("is_cpu", bool), ("error", str),
@@ -46,7 +46,7 @@ def fault_of(value: object, seconds: float) -> str:
 
 
 def first_part(job: AnyJob) -> Part:
-    """The part whose film shows a worker's device, driver and kernel."""
+    """A small part whose film shows the worker's device, driver and kernel."""
     first = job.settings.first_sample
     return Part(first, first + 1, np.zeros(1, np.uint32))
 
@@ -59,7 +59,7 @@ class _Ready:
     has_failed: bool = False
 
 
-_lock = threading.Lock()  # a worker has one renderer for all of its threads
+_lock = threading.Lock()  # All threads of a worker share one renderer.
 _ready: _Ready | None = None
 
 
@@ -89,7 +89,7 @@ def render_part(name: str, part: Part, codecs: frozenset[str]) -> Outcome:
         try:
             if _ready is None or _ready.name != name:
                 raise RuntimeError("this worker has another job")
-            if _ready.has_failed:  # a lost device needs a new context or process
+            if _ready.has_failed:  # After a lost device a new context or process is necessary.
                 _ready.renderer.close()
                 _ready.renderer, _ready.has_failed = renderer_of(_ready.job), False
             start = time.monotonic()
@@ -111,7 +111,7 @@ def pack(data: bytes, theirs: frozenset[str]) -> bytes:
 
 
 def unpack(data: bytes) -> bytes:
-    """ValueError: the bytes are damaged."""
+    """Raises ValueError if the bytes are damaged."""
     try:
         return bytes(_zstd.module().decompress(data)) if data.startswith(_zstd.MAGIC) else zlib.decompress(data)
     except Exception as error:

@@ -1,4 +1,4 @@
-"""A Dask cluster's workers."""
+"""Workers of a Dask cluster."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ MOST_FETCHED = 16
 
 _fetching = threading.BoundedSemaphore(MOST_FETCHED)
 
-Done = Callable[[Any, "Outcome | None"], None]  # future, and its outcome; None: its worker died
+Done = Callable[[Any, "Outcome | None"], None]  # takes a future and its outcome, or None if the worker died
 
 
 @dataclass
@@ -42,7 +42,7 @@ class Member:
     tries: dict[Any, Try] = field(default_factory=dict)
     introduction: Any = None
     failures: int = 0
-    is_late: bool = False  # gets nothing until it returns something
+    is_late: bool = False  # A late worker gets nothing until it returns something.
     is_banned: bool = False
 
     @property
@@ -58,18 +58,18 @@ class Member:
 
 
 def addresses(client: Any) -> set[str]:
-    """OSError: the scheduler is gone."""
+    """Raises OSError if the scheduler is gone."""
     if client.status not in ("running", "connecting"):
         raise OSError("the connection to the scheduler has ended")
     return set(client.nthreads())
 
 
 def submit(client: Any, address: str, done: Done, function: Callable[..., Any], *arguments: Any) -> Any:
-    """Runs a function on one worker and fetches the result from it. Threads call done."""
+    """Runs a function on one worker and fetches the result from it. Calls done in another thread."""
     start = now()
     future = client.submit(function, *arguments, workers=[address], allow_other_workers=False, pure=False, retries=0)
 
-    # A thread per result: fetching from a stopped worker would never end.
+    # Each result has a thread, because fetching from a stopped worker may never end.
     def fetch(ended: Any) -> None:
         threading.Thread(target=fetch_one, args=(ended, now() - start), daemon=True).start()
 
@@ -82,13 +82,13 @@ def submit(client: Any, address: str, done: Done, function: Callable[..., Any], 
 
 
 async def _gathered(client: Any, future: Any) -> object:
-    """Dask fetches five at a time, so a few stopped workers would block all."""
+    """Limits the waiting time. Dask fetches only five results at a time, so a few stopped workers would block all."""
     results = await asyncio.wait_for(client.gather([future], direct=True, asynchronous=True), FETCH_SECONDS)
     return results[0]
 
 
 def _fetched(client: Any, future: Any, seconds: float) -> Outcome | None:
-    """Any fault of a living worker becomes an outcome that counts against it."""
+    """Converts any fault of a living worker to an outcome that counts against it."""
     if future.status not in ("finished", "error"):
         return None
     try:

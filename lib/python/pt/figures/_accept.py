@@ -1,4 +1,4 @@
-"""Turns files, arrays, tables and objects of other packages into particles."""
+"""Converts files, arrays, tables and objects of other packages to particles."""
 
 from __future__ import annotations
 
@@ -24,22 +24,20 @@ ROLES = ("x", "y", "z", "radius", "diameter", "element", "type", "red", "green",
 def load(data: Any, *, frame: int | None = None, model_number: int | None = None, columns: Columns = None,
          format: str | None = None, topology: str | None = None, atom_style: str | None = None,
          drop_nonfinite: bool = False) -> Particles:
-    """Particles of one frame.
+    """Returns the particles of one frame. Arrays of float32 and float64 are read in place. Raises DataError.
 
-    data            the name of a file, "-" for standard input; an array of shape (n, 3), (n, 2) or, with frames, (t, n,
-                    3); a dict of columns; a frame of pandas or polars; ASE's Atoms or a list of them; a universe or a
-                    group of atoms of MDAnalysis; a data collection of OVITO; or Particles
-    frame           from 0, or from -1 backwards, without empty frames; None: the last one, for MDAnalysis the current
-                    one, and the first of several models
-    model_number    of PDB and mmCIF, the file's number
-    columns         names to use: {"x": "lon", "y": "lat"} or "x=lon,y=lat", for
+    data            name of a file, "-" for standard input; an array of shape (n, 3), (n, 2) or, with frames, (t, n, 3);
+                    a dict of columns; a pandas or polars frame; ASE's Atoms or a list of them; an MDAnalysis universe or
+                    group of atoms; an OVITO data collection; or Particles
+    frame           index without empty frames; negative numbers count from the end. None: the last frame, with
+                    MDAnalysis the current frame, with several models the first
+    model_number    number of a model in a PDB or mmCIF file
+    columns         names of columns, such as {"x": "lon", "y": "lat"} or "x=lon,y=lat", for
                     x, y, z, radius, diameter, element, type, red, green, blue
-    format          of a file, instead of the detected one
-    topology        file of atoms for a trajectory (XTC, TRR, DCD, ...)
-    atom_style      of LAMMPS data files that do not state it, if columns leave more than one
-    drop_nonfinite  leaves out particles whose position or radius is not finite, instead of refusing them
-
-    Arrays of float32 and float64 are read in place. Raises DataError.
+    format          format of a file, instead of the detected one
+    topology        file with the atoms of a trajectory (XTC, TRR, DCD, ...)
+    atom_style      atom style of a LAMMPS data file, if it is neither stated nor clear from the columns
+    drop_nonfinite  whether particles whose position or radius is not finite are left out, not refused
     """
     if isinstance(data, Particles):
         return data
@@ -60,7 +58,7 @@ def load(data: Any, *, frame: int | None = None, model_number: int | None = None
 def frames(data: Any, first: int = 0, last: int = -1, *, columns: Columns = None, format: str | None = None,
            topology: str | None = None, atom_style: str | None = None, drop_nonfinite: bool = False
            ) -> Iterator[Particles]:
-    """Frames from first to last, inclusive; a file is read once."""
+    """Yields the frames from first to last, inclusive. A file is read once."""
     if isinstance(data, Particles):
         yield data
         return

@@ -1,4 +1,4 @@
-"""Makes particles of a table: finds what its columns mean, and refuses what cannot be drawn."""
+"""Converts a table to particles: finds the meaning of columns, and refuses what cannot be drawn."""
 
 from __future__ import annotations
 
@@ -26,13 +26,13 @@ _COLORS: Final = (("red", "green", "blue", "alpha"), ("r", "g", "b", "a"),
                   ("diffuse_red", "diffuse_green", "diffuse_blue", "diffuse_alpha"),
                   *(tuple(f"{name}[{i}]" for i in range(4)) for name in ("color", "colors", "rgb", "rgba")),
                   *(tuple(f"{name}:{i}" for i in range(4)) for name in ("color", "rgb")))
-_HARMONICS: Final = ("f_dc_0", "f_dc_1", "f_dc_2")  # Gaussian splats: spherical harmonics of degree 0
+_HARMONICS: Final = ("f_dc_0", "f_dc_1", "f_dc_2")  # Gaussian splats have spherical harmonics of degree 0.
 _HARMONIC: Final = 0.5 / np.sqrt(np.pi)
 _SHAPES: Final = (("shapex", "shapey", "shapez"), ("c_shape[1]", "c_shape[2]", "c_shape[3]"))  # diameters, in LAMMPS
 
 
 def assembled(name: str, given: Table, mapping: Mapping[str, str], drop_nonfinite: bool) -> Particles:
-    """Columns are found by their names, or by those in a mapping: {"x": "pos_x", "radius": "r"}."""
+    """Finds columns by their names, unless a mapping has them: {"x": "pos_x", "radius": "r"}."""
     notes = list(given.notes)
     parts, table = split_columns(name, given.columns)
     chosen = {role: column_name(parts, source, name) for role, source in mapping.items()}
@@ -97,7 +97,7 @@ def _common_table(columns: list[Array]) -> Array | None:
 
 
 def _flushed(positions: Array) -> Array:
-    """Numbers such as 3e-19 that rounding leaves become 0."""
+    """Replaces rounding residues such as 3e-19 by 0."""
     least, largest = np.inf, 0.0
     for rows in chunks(len(positions)):
         sizes = np.abs(positions[rows])
@@ -131,8 +131,8 @@ def _finite(particles: Particles, drop: bool) -> Particles:
 
 
 def _note_coinciding(particles: Particles) -> None:
-    """Notes coinciding particles. Compares projections in which different places differ; of many particles, only those
-    whose hash begins with zeros."""
+    """Notes coinciding particles. Compares only projections that tell different positions apart. Of many particles,
+    only those whose hash begins with zeros are compared."""
     count, bits = len(particles), (len(particles) // MOST_SORTED).bit_length()
     if count > MOST_COMPARED:
         return
@@ -176,7 +176,7 @@ def _put_radii(particles: Particles, chosen: dict[str, str]) -> None:
 
 
 def _with_extent(particles: Particles) -> Particles:
-    """Drops particles of radius 0. If all have it, the radii count as unknown."""
+    """Drops particles of radius 0. If all radii are 0, they count as unknown."""
     if particles.radii is None or (particles.radii != 0).all():
         return particles
     count = int((particles.radii == 0).sum())
@@ -189,7 +189,7 @@ def _with_extent(particles: Particles) -> Particles:
 
 
 def _put_labels(particles: Particles, chosen: dict[str, str]) -> None:
-    """Fills in elements or, failing that, types. Types whose words are mostly known symbols are elements."""
+    """Fills in elements, else types. A column `type` has elements if most of its words are known symbols."""
     columns = particles.columns
     element, kind = (chosen.get(role) or first_of(columns, names) for role, names in
                      (("element", ELEMENTS), ("type", TYPES)))
@@ -210,7 +210,7 @@ def _are_numbers(labels: Array) -> bool:
 
 
 def _colors(columns: Mapping[str, Array], chosen: dict[str, str], is_text: bool, notes: list[str]) -> Array | None:
-    """Numbers' type decides the scale; the largest number does for other integers and text."""
+    """The number type decides the scale, except for signed integers and text, where the largest number does."""
     choices = (tuple(chosen.get(key, key) for key in _COLORS[0]), *_COLORS)
     found = next((names for names in ([first_of(columns, (name,)) for name in choice] for choice in choices)
                   if None not in names[:3]), None)

@@ -1,4 +1,4 @@
-"""Bonds by covalent radii, by a cutoff or given; each is drawn as two halves."""
+"""Bonds from covalent radii, from a cutoff, or from the data. Each is drawn as two halves."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from pt.figures._particles import Bonds, Particles
 from pt.figures._rods import Rods
 from pt.figures._templates import agreeing, free_ions, known_residues
 
-# O'Boyle et al. 2011, "Open Babel: An open chemical toolbox", Journal of Cheminformatics 3:33: atoms are bonded within
-# the sum of their covalent radii and this tolerance, but beyond the least distance (alternative places of one atom).
-# Angstroms.
+# O'Boyle et al. 2011, "Open Babel: An open chemical toolbox", Journal of Cheminformatics 3:33: atoms are bonded if their
+# distance is at most the sum of their covalent radii and a tolerance. A smaller distance than the least means alternative
+# positions of one atom. Angstroms.
 TOLERANCE: Final = 0.45
 LEAST_DISTANCE: Final = 0.4
-BALL_SHARE: Final = 0.5  # ball radius with a stick over that alone; by taste
+BALL_SHARE: Final = 0.5  # radius of a ball with sticks, relative to the full radius; by taste
 STICK_SHARES: Final = {"space-filling": 0.07, "ball-and-stick": 0.07, "sticks": 0.14}
 
 
@@ -74,7 +74,7 @@ def _of_pairs(particles: Particles, pairs: Array) -> Bonds:
 
 
 def _with_images(particles: Particles, bonds: Bonds) -> Bonds:
-    """Leads each bond to the nearest image, valid below half of the cell's thickness."""
+    """Leads each bond to the nearest image. Valid for bonds shorter than half of the cell's thickness."""
     if particles.cell is None or bonds.images is not None:
         return bonds
     first, second = bonds.pairs.T
@@ -135,16 +135,13 @@ def _guessed(particles: Particles, notes: list[str]) -> Bonds:
 
 
 def stick_radius(ways: Doubles, model: str, radii: Array) -> float:
-    """The default radius of sticks: a share of the median bond or, without bonds, ball diameter."""
+    """The default radius of sticks is proportional to the median bond length or, without bonds, ball diameter."""
     lengths = 2.0 * np.linalg.norm(ways, axis=1)
     return STICK_SHARES[model] * float(np.median(lengths if len(lengths) else 2.0 * radii))
 
 
 def meeting_in_sight(halves: Rods, balls: Array) -> Rods:
-    """Halves that meet in the middle of the visible bond.
-
-    balls   radii, in shape (n,) or (1,)
-    """
+    """Divides bonds where the visible part, between the balls, has its middle. balls: radii, shape (n,) or (1,)."""
     if len(balls) == 1:
         return halves
     lengths = 2.0 * np.linalg.norm(halves.ways, axis=1)

@@ -16,12 +16,12 @@ FLAT: Final = 1e-10
 
 @dataclass(frozen=True)
 class Cell:
-    """A cell, triclinic or not, left-handed or not.
+    """A cell. It may be triclinic, left-handed or flat.
 
-    origin    shape (3,): where the edges begin
-    vectors   shape (3, 3): a row for each edge; zeros if it does not exist
+    origin    shape (3,): corner at which the edges begin
+    vectors   shape (3, 3): an edge in each row; zeros for a missing edge
     periodic  shape (3,): whether the cell repeats along each existing edge
-    is_crystal_of_macromolecule   whether it is a protein's or a nucleic acid's crystal cell
+    is_crystal_of_macromolecule   whether it is the crystal cell of a protein or a nucleic acid
     """
 
     origin: Array
@@ -32,7 +32,7 @@ class Cell:
     @staticmethod
     def of(vectors: npt.ArrayLike, origin: npt.ArrayLike = (0, 0, 0), periodic: npt.ArrayLike = True,
            is_crystal_of_macromolecule: bool = False) -> Cell | None:
-        """None if the vectors are not finite, all 0, or not independent."""
+        """Returns None if the vectors are not finite, all 0, or linearly dependent."""
         rows = np.array(vectors, np.float64)
         rows = np.diag(rows) if rows.shape == (3,) else rows.reshape(3, 3)
         lengths = np.linalg.norm(rows, axis=1)
@@ -48,8 +48,8 @@ class Cell:
     @staticmethod
     def of_lengths(lengths: npt.ArrayLike, angles: npt.ArrayLike, periodic: npt.ArrayLike = True,
                    is_crystal_of_macromolecule: bool = False) -> Cell | None:
-        """The first edge lies along x, the second in the plane of x and y. angles: degrees, between edges 2 and 3, 1
-        and 3, 1 and 2. None as from of()."""
+        """Puts the first edge along x, the second into the plane of x and y. angles: degrees, between edges 2 and 3, 1
+        and 3, 1 and 2. Returns None like of()."""
         a, b, c = np.array(lengths, np.float64)
         alpha, beta, gamma = np.cos(np.radians(np.array(angles, np.float64)))
         sine = np.sqrt(1 - gamma**2)
@@ -60,12 +60,12 @@ class Cell:
         if rest < 0:
             return None
         rows = np.array([[a, 0, 0], [b * gamma, b * sine, 0], [c * beta, c * across, c * np.sqrt(rest)]])
-        rows[np.abs(rows) < FLAT * np.abs(rows).max(initial=0)] = 0  # cos(90 degrees) is no 0 in floating point
+        rows[np.abs(rows) < FLAT * np.abs(rows).max(initial=0)] = 0  # The cosine of 90 degrees is not exactly 0.
         return Cell.of(rows, periodic=periodic, is_crystal_of_macromolecule=is_crystal_of_macromolecule)
 
     @functools.cached_property
     def inverse(self) -> Array:
-        """(positions - origin) @ inverse are shares of the edges, 0 for a missing edge."""
+        """(positions - origin) @ inverse are fractional coordinates, 0 for a missing edge."""
         inverse: Array = np.linalg.pinv(self.vectors)
         return inverse
 

@@ -1,4 +1,4 @@
-"""Colors of particles: one for all, given for each, of categories, or of numbers by a map."""
+"""Colors of particles: a single color, given colors, categories, or numbers with a color map."""
 
 from __future__ import annotations
 
@@ -24,19 +24,19 @@ Bytes: TypeAlias = npt.NDArray[np.uint8]
 RGB: TypeAlias = tuple[int, ...]
 
 PLAIN: Final = "#96aabe"
-# Okabe and Ito 2008, "Color Universal Design". Our order: the first two differ most in lightness too.
+# Okabe and Ito 2008, "Color Universal Design", sorted so that the first two differ most in lightness, too.
 PALETTE: Final = ((0, 114, 178), (230, 159, 0), (0, 158, 115), (213, 94, 0), (86, 180, 233), (204, 121, 167),
                   (240, 228, 66))
 MOST_CATEGORIES: Final = 1000
-SKEW: Final = 4.0  # whole range over the 1% to 99% range; uniform: 1, normal: 2, exponential: 3
+SKEW: Final = 4.0  # full range over the 1% to 99% range; uniform: 1, normal: 2, exponential: 3
 
 
 @dataclass(frozen=True)
 class ColorBar:
-    """Colors for numbers, by matplotlib.
+    """Colors of numbers, by matplotlib.
 
-    low, high   of the first and the last color; the norm is wider if they are equal
-    no_value    color for NaN, if any
+    low, high   numbers with the first and the last color; the norm is wider if they are equal
+    no_value    color of NaN, or None without NaN
     """
 
     title: str
@@ -75,7 +75,7 @@ def srgb(name: str, color: Any) -> RGB:
 
 
 def colors_of(particles: Particles, given: Options, notes: list[str]) -> tuple[Bytes, Legend]:
-    """Shape (n, 3), or (3,) if all have the same."""
+    """Shape (n, 3), or (3,) for one color."""
     color = given.color
     count = len(particles.positions)
     if isinstance(color, str) and "=" in color:
@@ -125,7 +125,7 @@ def components(particles: Particles, name: str) -> list[str]:
 
 
 def _direct(colors: Any, notes: list[str]) -> Bytes:
-    """sRGB floats from 0 to 1, unsigned integers from 0 to their largest, other integers from 0 to 255."""
+    """Floats are sRGB in [0, 1]. Unsigned integers reach to their type's largest value, signed ones to 255."""
     array = np.asarray(colors)
     if array.dtype.kind == "i" and array.size and 0 <= array.min() and array.max() <= 255:
         array = array.astype(np.uint8)
@@ -242,7 +242,7 @@ def _of_numbers(values: Array, title: str, given: Options, notes: list[str]) -> 
 
 
 def _range(values: Array, given: Options, title: str, notes: list[str]) -> tuple[float, float]:
-    """All finite numbers' range, or 1% to 99% of them if a few are far from all others."""
+    """The range of all finite numbers, or from 1% to 99% of them if a few are far from the rest."""
     least, largest = math.inf, -math.inf
     floor = 0.0 if given.scale == "log" else -math.inf
     for rows in chunks(len(values)):

@@ -1,4 +1,4 @@
-"""Finds columns by name: the one that a user names, and positions."""
+"""Finds columns by name."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from pt.figures._errors import DataError
 
 Array = npt.NDArray[Any]
 
-# Names of columns of positions, best first: a letter with a stem before or after it, or a stem with a number.
+# Names of columns of positions, best first: a letter before or after a stem, or a stem with a number.
 _STEMS: Final = ("", "pos", "position", "positions", "point", "points", "coord", "coords", "coordinate", "coordinates",
                  "center", "centre", "centroid", "location", "loc", "xyz")
 _LAMMPS: Final = ("u", "s", "su")
@@ -57,13 +57,13 @@ def _without_objects(array: Array) -> Array:
 
 
 def plain_name(name: str) -> str:
-    """Lower case without units in brackets, separators and quotes: posx for "Pos_X [m]"."""
+    """Removes units in brackets, separators and quotes, and converts to lower case: posx for "Pos_X [m]"."""
     name = re.sub(r"\s*[\[(](?!\d+[\])])[^\])]*[\])]\s*$", "", name)
     return re.sub(r"[^a-z0-9]", "", name.lower())
 
 
 def column_name(columns: Mapping[str, Array], name: str, data: str) -> str:
-    """The column's name from a name in any case, or from a number from 1 without names."""
+    """Finds a column by its name in any case or, if columns have no names, by its number from 1."""
     if name in columns:
         return name
     similar = [each for each in columns if each.lower() == name.lower()]
@@ -83,8 +83,8 @@ def first_of(columns: Mapping[str, Array], names: tuple[str, ...]) -> str | None
 
 
 def coordinate_names(names: list[str]) -> tuple[list[str], bool]:
-    """Columns of positions (two, three or none), and whether they are fractions of the cell. If there are
-    x, y and z, a column Z holds atomic numbers."""
+    """The names of two or three columns of positions, or none, and whether they are fractional coordinates. Beside x and
+    y a column Z is the third coordinate unless there is a z; then it holds atomic numbers."""
     if all(axis in names for axis in "xyz"):
         return ["x", "y", "z"], False
     by_plain: dict[str, str] = {}

@@ -86,7 +86,7 @@ def add_option(group: Any, option: Field[Any]) -> None:
 
 
 def joined(words: list[str]) -> list[str]:
-    """Joins "--up -z" to "--up=-z": otherwise argparse takes -z for an option."""
+    """Joins "--up -z" to "--up=-z", because argparse would take -z for an option."""
     result: list[str] = []
     for word in words:
         if result and re.fullmatch(r"--[a-z-]+", result[-1]) and re.fullmatch(r"-([xyz]|[\d.][\d.,eE+%-]*)", word):
@@ -97,7 +97,7 @@ def joined(words: list[str]) -> list[str]:
 
 
 def check(given: argparse.Namespace) -> None:
-    """Checks options before a long rendering starts."""
+    """Checks the options before a long rendering starts."""
     series = given.turntable or given.frames
     pictures = [path for path in given.output if path != "-"]
     files = [(path, PICTURES) for path in pictures] + [

@@ -1,4 +1,4 @@
-"""Puts a rendered figure in front of its background, and outlines over it."""
+"""Lays a rendered figure over its background, and outlines over the figure."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ OUTLINE_LIGHT: Final = 0.01
 def compose(radiance: npt.NDArray[np.float32], stage: Any, shares: Shares, exposure: float) -> tuple[Doubles, Doubles]:
     """Returns linear light multiplied by alpha, shape (height, width, 3), and alpha, shape (height, width).
 
-    stage   radiance of the scene without its particles: a number if all pixels are alike, otherwise an image
+    stage   radiance of the scene without particles: an image, or a number if all pixels are alike
 
-    The particles' change of the scene is applied to the background (Debevec 1998, "Rendering Synthetic Objects into
-    Real Scenes", section 5). Over white a pixel with the particles' share a is T(radiance) + (1 - a) (1 - T(stage)), T:
-    the exposure. So a floor is white and has no horizon. Alpha is the smallest that gives this light over white.
+    Debevec 1998, "Rendering Synthetic Objects into Real Scenes", section 5: the change that the particles make is added
+    to the background. A pixel with coverage a has the light T(radiance) + (1 - a) (1 - T(stage)) over white, with the
+    exposure T. The floor is then white and has no horizon. Alpha is the smallest that gives this light over white.
     """
     behind = np.clip(stage * 2.0**exposure, 0.0, 1.0)
     share = shares.shapes[:, :, None]

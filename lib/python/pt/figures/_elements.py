@@ -1,4 +1,4 @@
-"""Chemical elements: which one a label names, radii and colors."""
+"""Chemical elements: recognition of labels, radii, masses and colors."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ SYMBOLS: Final = tuple(
     "Hg Tl Pb Bi Po At Rn Fr Ra Ac Th Pa U Np Pu Am Cm".split())
 """By atomic number; 0 is no known element, here and in the tables below."""
 
-# Angstroms, 0: unknown. Alvarez, Dalton Trans. 42 (2013) 8617.
+# Angstroms, 0 if unknown. Alvarez, Dalton Trans. 42 (2013) 8617.
 VAN_DER_WAALS_RADII: Final = np.array((
     0,
     1.2, 1.43, 2.12, 1.98, 1.91, 1.77, 1.66, 1.5, 1.46, 1.58, 2.5, 2.51, 2.25, 2.19, 1.9, 1.89, 1.82, 1.94, 2.73,
@@ -25,7 +25,7 @@ VAN_DER_WAALS_RADII: Final = np.array((
     2.88, 2.92, 2.95, 0, 2.9, 2.87, 2.83, 2.79, 2.87, 2.81, 2.83, 2.79, 2.8, 2.74, 2.63, 2.53, 2.57, 2.49, 2.48, 2.41,
     2.29, 2.32, 2.45, 2.47, 2.6, 2.54, 0, 0, 2.4, 0, 0, 2.8, 2.93, 2.88, 2.71, 2.82, 2.81, 2.83, 3.05), np.float32)
 
-# Angstroms: Cordero et al., Dalton Trans. (2008) 2832; of C sp3, of Mn, Fe and Co low spin.
+# Angstroms. Cordero et al., Dalton Trans. (2008) 2832: sp3 for C, low spin for Mn, Fe and Co.
 COVALENT_RADII: Final = np.array((
     0,
     0.31, 0.28, 1.28, 0.96, 0.84, 0.76, 0.71, 0.66, 0.57, 0.58, 1.66, 1.41, 1.21, 1.11, 1.07, 1.05, 1.02, 1.06, 2.03,
@@ -34,7 +34,7 @@ COVALENT_RADII: Final = np.array((
     2.03, 2.01, 1.99, 1.98, 1.98, 1.96, 1.94, 1.92, 1.92, 1.89, 1.9, 1.87, 1.87, 1.75, 1.7, 1.62, 1.51, 1.44, 1.41,
     1.36, 1.36, 1.32, 1.45, 1.46, 1.48, 1.4, 1.5, 1.5, 2.6, 2.21, 2.15, 2.06, 2, 1.96, 1.9, 1.87, 1.8, 1.69), np.float32)
 
-# Daltons: IUPAC 2016; of the longest-lived isotope where none is stable.
+# Daltons. IUPAC 2016; without a stable isotope, the mass of the longest-lived one.
 MASSES: Final = np.array((
     0,
     1.008, 4.0026, 6.94, 9.01218, 10.81, 12.011, 14.007, 15.999, 18.9984, 20.1797, 22.9898, 24.305, 26.9815,
@@ -46,7 +46,7 @@ MASSES: Final = np.array((
     195.084, 196.967, 200.592, 204.38, 207.2, 208.98, 208.982, 209.987, 222.018, 223.02, 226.025, 227.028, 232.038,
     231.036, 238.029, 237.048, 244.064, 243.061, 247.07))
 
-# sRGB, of Jmol, but hydrogen is PyMOL's: white would have no edge before white.
+# sRGB. Jmol's colors, but PyMOL's for hydrogen: white would have no edge on a white background.
 COLORS: Final = np.frombuffer(bytes.fromhex(
     "ff1493 "
     "e6e6e6 d9ffff cc80ff c2ff00 ffb5b5 909090 3050f8 ff0d0d 90e050 b3e3f5 ab5cf2 8aff00 bfa6a6 f0c8a0 ff8000 ffff30 "
@@ -60,7 +60,7 @@ COLORS: Final = np.frombuffer(bytes.fromhex(
 NUMBERS: Final = {symbol: number for number, symbol in enumerate(SYMBOLS) if number} | {"D": 1, "T": 1}
 _NUMBERS: Final = {symbol.lower(): number for symbol, number in NUMBERS.items()}
 
-# Atom names of the Protein Data Bank and of water models, not elements: beside them CA is a carbon, HG a hydrogen.
+# Atom names of the Protein Data Bank and of water models. Beside them CA is a carbon and HG a hydrogen.
 _ATOM_NAMES: Final = frozenset("CB CG CZ CM HA HB HT HW OW OT OXT NZ NH".split())
 _IONS: Final = {"NA": 11, "CL": 17, "MG": 12, "ZN": 30, "FE": 26, "MN": 25, "BR": 35, "LI": 3, "SE": 34, "SOD": 11,
                 "CLA": 17, "POT": 19, "CAL": 20}
@@ -69,11 +69,11 @@ _UNITED: Final = (13.019, 14.027, 15.035, 16.043)
 
 
 def distinct(labels: Array) -> tuple[Array, Array]:
-    """Labels in order of appearance, and each particle's index of its label."""
+    """Returns the labels in order of appearance, and each particle's index into them."""
     codes = np.full(len(labels), -1, np.int32)
     values: list[Any] = []
     while (first := int(np.argmin(codes))) < len(labels) and codes[first] < 0:
-        if len(values) == 64:  # comparing is faster than sorting up to here
+        if len(values) == 64:  # Comparing is faster than sorting up to here.
             unique, indices = np.unique(labels, return_inverse=True)
             return unique, indices.astype(np.int32).reshape(-1)
         codes[labels == labels[first]] = len(values)
@@ -82,7 +82,7 @@ def distinct(labels: Array) -> tuple[Array, Array]:
 
 
 def categories(labels: Array) -> tuple[list[str], Array]:
-    """Labels in ascending order, as text, and each particle's index of its label."""
+    """Returns the labels as text in ascending order, and each particle's index into them."""
     values, codes = distinct(labels)
     order = np.argsort(values)
     names = [f"{value:.9g}" if labels.dtype.kind == "f" else str(value) for value in values[order]]
@@ -90,7 +90,7 @@ def categories(labels: Array) -> tuple[list[str], Array]:
 
 
 def _letters(label: str) -> str:
-    """Fe for Fe2+, H for 1HB2, C for C_3."""
+    """Extracts Fe from Fe2+, H from 1HB2, C from C_3."""
     found = re.match(r"[\d\s]*([A-Za-z]*)", label)
     return found.group(1) if found else ""
 
@@ -105,14 +105,14 @@ def _number(label: str, is_atom_name: bool) -> int:
 
 
 def elements_of(labels: Array) -> tuple[Array | None, list[str]]:
-    """Atomic numbers, shape (n,), uint8, 0: no element; None if none is. And notes for the user.
+    """Returns atomic numbers, shape (n,), uint8, 0 for unknown, or None if all are unknown; and notes for the user.
 
     labels  shape (n,): symbols in any case, also with digits or charges; PDB atom names; or atomic numbers
     """
     values, codes = distinct(labels)
     names = [str(value) for value in values]
     if "A" in names and all(len(name) == 1 for name in names):
-        return None, []  # A and B are kinds of particles, as in mixtures of Lennard-Jones
+        return None, []  # A and B are kinds of particles, as in Lennard-Jones mixtures.
     is_atom_name = bool(_ATOM_NAMES.intersection(map(_letters, names)))
     numbers = [_number(name, is_atom_name) for name in names]
     if not any(numbers):
@@ -128,7 +128,7 @@ def elements_of(labels: Array) -> tuple[Array | None, list[str]]:
 
 
 def elements_of_masses(masses: Array) -> npt.NDArray[np.uint8]:
-    """Atomic numbers of masses in daltons, 0: no element; all 0 if most masses are 1. United atoms are carbon."""
+    """Returns atomic numbers for masses in daltons, 0 for unknown. All are 0 if most masses are 1. United atoms are C."""
     away = np.abs(masses[:, None] - MASSES)
     away[:, 0] = np.inf
     nearest = away.argmin(axis=1)

@@ -1,4 +1,4 @@
-"""The error for data that cannot be drawn, and imports of optional modules."""
+"""The error for unsuitable data, and imports of optional modules."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ EXTRAS: Final = {"matplotlib": "figure", "PIL": "figure", "pandas": "figure", "z
 
 
 class DataError(ValueError):
-    """Data that cannot be drawn; names the file, the line or byte, and the expectation."""
+    """Data that cannot be drawn. The message names the file, the line or byte, and the expectation."""
 
 
 def module(name: str, purpose: str) -> ModuleType:
@@ -25,6 +25,6 @@ def module(name: str, purpose: str) -> ModuleType:
         if (error.name or name).partition(".")[0] != package:
             raise
         way = f"pip install 'pt[{EXTRAS[package]}]', or {package} alone" if package in EXTRAS else f"pip install {package}"
-        if package == "chemfiles" and sys.platform == "linux" and platform.machine() != "x86_64":  # there is no wheel
+        if package == "chemfiles" and sys.platform == "linux" and platform.machine() != "x86_64":  # no wheel
             way = "CMAKE_POLICY_VERSION_MINIMUM=3.5 pip install chemfiles, which compiles it by your C++ compiler"
         raise DataError(f"{purpose} needs the module {package}: {way}") from None

@@ -1,4 +1,4 @@
-"""A picture of particles in one call."""
+"""Pictures of particles in one call."""
 
 from __future__ import annotations
 
@@ -46,12 +46,12 @@ LEGENDS: Final = ("svg", "pdf", "png")
 
 @dataclass(frozen=True)
 class Drawn:
-    """Particles as balls, in scene units: the data's, times a power of two if they are far from 1.
+    """Particles as balls in scene units. These are the data's units, times a power of two if lengths are far from 1.
 
-    colors     shape (n, 3), or (3,) if all have the same
+    colors     shape (n, 3), or (3,) for one color
     scale      scene units per unit of the data
-    settled    options that followed from the data, in its units
-    opacities  shape (n,); None: all are opaque
+    settled    options with the values that follow from the data, in its units
+    opacities  shape (n,); None if all are opaque
     """
 
     centers: Array
@@ -87,7 +87,7 @@ class Drawn:
 
 
 def prepare(particles: Particles, options: Options, scale: float | None = None, past: Sequence[Particles] = ()) -> Drawn:
-    """Makes particles into balls. Radii, ranges of colors and categories come from all particles, shown or not.
+    """Converts particles to balls. Hidden particles count for radii, color ranges and categories, too.
 
     past   earlier frames for trails
     """
@@ -249,12 +249,11 @@ class Staged:
 
 
 class Figure(Image):
-    """An Image whose picture has background, lines and color bar; its numbers are the radiance without them.
+    """An Image whose picture has a background, lines and a color bar. Its numbers do not contain them.
 
-    scene      as rendered, with camera and settings
+    scene      scene with camera and settings
     legend     meaning of the colors, or None
-    notes      sentences on choices made by the data, and on what is not shown
-    error      of the radiance, as for any Image
+    notes      sentences on choices made from the data, and on what is not shown
     """
 
     def __init__(self, image: Image, staged: Staged, stage: Any, shares: Shares) -> None:
@@ -273,8 +272,8 @@ class Figure(Image):
         return options.size or (width + _strip_width(raster(self.legend, height, INK), height), height)
 
     def to_srgb8(self, exposure: float | None = None) -> npt.NDArray[np.uint8]:
-        """Bytes of sRGB, shape (height, width, 3), or 4 channels with a transparent background. exposure: in stops, of
-        the balls; None: the figure's, or automatic."""
+        """Returns sRGB, shape (height, width, 3), or 4 channels with a transparent background. exposure: stops for the
+        balls; None: the figure's exposure, else automatic."""
         pixels: npt.NDArray[np.uint8] = self.picture(np.uint8, exposure)
         return pixels
 
@@ -306,7 +305,7 @@ class Figure(Image):
         return result
 
     def encode(self, format: str, *, exposure: float | None = None, bits: int = 8) -> bytes:
-        """A file's bytes: png, jpg, exr (linear radiance). bits: 8 or 16, for png."""
+        """Returns the contents of a png, jpg or exr file. exr has linear radiance. bits: 8 or 16, for png."""
         if format == "exr":
             return encode_exr(self.radiance)
         if format in ("jpg", "jpeg"):
@@ -318,7 +317,7 @@ class Figure(Image):
         return encode_png(self.picture(np.uint8 if bits == 8 else np.uint16, exposure))
 
     def save(self, path: Path, *, exposure: float | None = None, bits: int = 8) -> None:
-        """Writes the picture (.png, .jpg) or the linear radiance (.exr, .npy), whole or not at all. ValueError: another
+        """Writes the picture (.png, .jpg) or the linear radiance (.exr, .npy) atomically. Raises ValueError for another
         ending."""
         format = format_of(path, (*PICTURES, "npy"))
         if format == "npy":
@@ -328,12 +327,12 @@ class Figure(Image):
             write_atomically(path, lambda file: file.write(data))
 
     def save_legend(self, path: Path) -> None:
-        """Writes the legend as .svg, .pdf or .png. ValueError: the colors have no meaning, or another ending."""
+        """Writes the legend as .svg, .pdf or .png. Raises ValueError for another ending, or if colors have no meaning."""
         self._staged.save_legend(path)
 
     def save_scene(self, path: Path) -> None:
-        """Writes a scene file for `pt render` with NPY files of the particles, without background, outlines, color bar
-        or seed."""
+        """Writes a scene file for `pt render`, and the particles as NPY files. Background, outlines, color bar and seed
+        are left out."""
         self._staged.save_scene(path)
 
     def _repr_png_(self) -> bytes:

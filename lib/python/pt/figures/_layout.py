@@ -1,4 +1,4 @@
-"""Camera, light and shape of a picture, from the balls that it shows."""
+"""Camera, lights and shape of a picture, from the balls in it."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ from pt.figures._options import Direction
 from pt.figures._stage import FLOOR, FLOOR_GAP, Stage, make_stage
 from pt.figures._view import Compass, relative_height, toward_camera, up_vector, view_axes
 
-VERTICAL_FOV: Final = 20.0 * math.pi / 180.0  # narrow: wide angles make balls at the sides look like eggs
-MARGIN: Final = 0.03  # share of the picture that stays free at each side; by taste
+VERTICAL_FOV: Final = 20.0 * math.pi / 180.0  # Wide angles would distort balls at the sides.
+MARGIN: Final = 0.03  # fraction of the picture that stays free at each side; by taste
 PIXELS: Final = 1024.0 * 768.0
 MOST_ASPECT: Final = 2.0
 
 
 @dataclass(frozen=True)
 class Balls:
-    """The contents of the picture. centers: shape (n, 3). radii: shape (n,). points: shape (k, 3)."""
+    """The visible contents. centers: shape (n, 3). radii: shape (n,). points: shape (k, 3)."""
 
     centers: Array
     radii: Array
@@ -54,7 +54,7 @@ class View:
     @staticmethod
     def of(balls: Balls, view: Direction, up: Direction, projection: str, size: tuple[int, int] | None,
            turns: bool = False) -> View:
-        """Fits the balls. turns: everything that a turntable shows must be in view."""
+        """Fits the view to the balls. turns: whether a turntable's whole turn must be in view."""
         compass = Compass.of(up_vector(up))
         height = 0.0
         if view == "three-quarter":
@@ -85,7 +85,7 @@ class View:
 
 
 def _shape(extents: Doubles) -> tuple[int, int]:
-    """Width and height: some PIXELS in all, multiples of 8, their ratio the extents' up to MOST_ASPECT."""
+    """Width and height: multiples of 8 with about PIXELS in all. The ratio is the extents' up to MOST_ASPECT."""
     aspect = min(max(float(extents[0] / extents[1]), 1.0 / MOST_ASPECT), MOST_ASPECT)
     sides = [8 * math.floor(side / 8.0 + 0.5) for side in (math.sqrt(PIXELS * aspect), math.sqrt(PIXELS / aspect))]
     return sides[0], sides[1]
@@ -93,7 +93,7 @@ def _shape(extents: Doubles) -> tuple[int, int]:
 
 @dataclass(frozen=True)
 class Layout:
-    """distance: from the camera to the middle of the contents, along the view; from within, half of their extent."""
+    """distance: from the camera to the middle of the contents along the view; from within, half of their extent."""
 
     size: tuple[int, int]
     axes: Doubles
@@ -103,7 +103,7 @@ class Layout:
 
     @staticmethod
     def of(view: View, reaches: Doubles, style: str, floor: bool) -> Layout:
-        """reaches: View.reaches of everything shown. ValueError: the floor would hide it."""
+        """Uses the reaches (View.reaches) of everything shown. Raises ValueError if the floor would hide it."""
         axes, forward = view.axes, view.axes[2]
         extents = Extents.of(reaches[:6])
         middle = extents.middle

@@ -1,4 +1,4 @@
-"""The legend of a figure's colors, by matplotlib: in a file, or for a strip beside the picture."""
+"""The legend of a figure's colors, drawn by matplotlib into a file or beside the picture."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def _plain(text: str) -> str:
 
 
 def draw(legend: Legend, height: float, font: float, ink: Any) -> Any:
-    """height: of a color bar, and the most of a column of swatches, inches. font: points."""
+    """height: inches, of a color bar, and the most of a column of swatches. font: points."""
     if legend is None:
         raise ValueError("legend: there is nothing to tell, as all colors are given or alike")
     with _matplotlib().rc_context({"font.size": font, "text.color": ink, "axes.labelcolor": ink, "axes.edgecolor": ink,
@@ -65,7 +65,7 @@ def save(legend: Legend, file: Any, format: str) -> None:
 
 
 def raster(legend: Legend, height: int, ink: Any) -> npt.NDArray[np.float64]:
-    """Shape (rows, columns, 4), from 0 to 1, no higher than the picture if the text allows. height: the picture's."""
+    """Returns shape (rows, columns, 4), in [0, 1], no higher than the picture's height if the text allows."""
     font = max(9.0, 0.02 * height * POINTS_PER_INCH / PIXELS_PER_INCH)
     buffer = io.BytesIO()
     draw(legend, 0.62 * height / PIXELS_PER_INCH, font, ink).savefig(

@@ -1,4 +1,4 @@
-"""Pairs of particles that are near each other, also through the walls of a periodic cell."""
+"""Pairs of neighbouring particles, also across the walls of a periodic cell."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from pt.figures._cell import Cell
 
 Array = npt.NDArray[Any]
 
-MOST_COMPARED: Final = 400_000_000  # pairs: about a minute
+MOST_COMPARED: Final = 400_000_000  # pairs; about a minute
 MOST_FOUND: Final = 20_000_000
 COMPARED_AT_ONCE: Final = 1 << 21
-SLACK: Final = 1.0 + 2.0**-30  # so that roundings put no neighbour two cells away
-AHEAD: Final = ((0, 1), (1, -1), (1, 0), (1, 1))  # neighbouring rows of a grid's row, for each pair once
+SLACK: Final = 1.0 + 2.0**-30  # Rounding must not move a neighbour two cells away.
+AHEAD: Final = ((0, 1), (1, -1), (1, 0), (1, 1))  # neighbouring rows in a grid; each pair occurs once
 
 
 class Pairs(NamedTuple):
@@ -24,7 +24,7 @@ class Pairs(NamedTuple):
 
     first, second  shape (k,): indices
     images         shape (k, 3), int: edges by which the second particle is moved
-    squares        shape (k,): of the distances
+    squares        shape (k,): squared distances
     """
 
     first: Array
@@ -34,7 +34,7 @@ class Pairs(NamedTuple):
 
 
 def pairs_within(positions: Array, cutoff: float, cell: Cell | None, radii: Array | None = None, slack: float = 0.0) -> Pairs:
-    """Pairs at most `cutoff` apart; with radii, at most the sum of both plus `slack`. ValueError: too many."""
+    """Finds pairs at most `cutoff` apart; with radii, at most the sum of both plus `slack`. Raises ValueError if too many."""
     positions = positions.astype(np.float64)
     sources, shifts = _images(positions, cell, cutoff)
     places = positions[sources] if cell is None else positions[sources] + shifts @ cell.vectors
@@ -61,15 +61,14 @@ def pairs_within(positions: Array, cutoff: float, cell: Cell | None, radii: Arra
 
 
 def _is_first(first: Array, second: Array, steps: Array) -> Array:
-    """Exactly one of a pair and its reverse, with opposite steps, is first."""
+    """Of a pair and its reverse, which has opposite steps, exactly one is first."""
     ahead = np.sign(steps) @ (9, 3, 1)
     result: Array = (first < second) | ((first == second) & (ahead > 0))
     return result
 
 
 def _images(positions: Array, cell: Cell | None, cutoff: float) -> tuple[Array, Array]:
-    """Particles in the cell, then their images within the cutoff of it: their indices, and by how many edges each has
-    moved."""
+    """Returns the particles in the cell, then their images within the cutoff: indices, and shifts in edges."""
     sources = np.arange(len(positions))
     if cell is None:
         return sources, np.zeros((len(positions), 3))
@@ -92,7 +91,7 @@ def _images(positions: Array, cell: Cell | None, cutoff: float) -> tuple[Array, 
 
 def _candidates(places: Array, cutoff: float) -> Iterator[tuple[Array, Array]]:
     low = places.min(axis=0)
-    side = max(cutoff * SLACK, float((places.max(axis=0) - low).max()) * 2.0**-20)  # so that keys fit into 64 bits
+    side = max(cutoff * SLACK, float((places.max(axis=0) - low).max()) * 2.0**-20)  # Keys must fit into 64 bits.
     cells = np.floor((places - low) / side).astype(np.int64) + 1
     _, columns, layers = cells.max(axis=0) + 2
     keys = (cells[:, 0] * columns + cells[:, 1]) * layers + cells[:, 2]

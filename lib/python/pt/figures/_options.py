@@ -1,4 +1,4 @@
-"""A figure's options: one description for keywords, command line, help, and checks."""
+"""A figure's options. One description serves keywords, command line, help and checks."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ MOST_SAMPLES: Final = 65536
 
 
 def _option(group: str, default: Any, metavar: str, words: str, **more: Any) -> Any:
-    """more: choices; rule, the condition on its value and its words; flag, its name on the command line; read, which
-    makes its value from text."""
+    """more: choices; rule, a condition on the value with its words; flag, the name on the command line; read, which
+    converts text to the value."""
     return field(default=default, metadata={"group": group, "metavar": metavar, "words": words, **more})
 
 
@@ -163,7 +163,7 @@ class Options:
 
     @property
     def bond_rule(self) -> Bonds:
-        """None: no bonds are drawn. Models of sticks always have bonds."""
+        """None: no bonds are drawn. Models with sticks always have bonds."""
         given = not (self.bonds is None or self.bonds is False)
         return self.bonds if given else "auto" if self.drawn_model != "space-filling" else None
 

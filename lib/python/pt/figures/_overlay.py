@@ -1,5 +1,7 @@
-"""Outlines over a rendered figure, and each pixel's share of shapes, from 16 rays a pixel, or more where rays pass
-balls at random."""
+"""Outlines over a rendered figure, and the coverage of pixels by shapes.
+
+Coverage comes from 16 rays a pixel. Balls that rays pass at random need more.
+"""
 
 from __future__ import annotations
 
@@ -16,9 +18,9 @@ from pt._enums import Format, Quantity
 from pt._fit import Array, Doubles
 
 PER_SIDE: Final = 4
-MOST_PER_SIDE: Final = 32  # random shares then have a standard deviation of 0.016
+MOST_PER_SIDE: Final = 32  # The standard deviation of random coverage is then 0.016.
 MOST_RAYS: Final = 2**32 - 1
-BAND_ROWS: Final = 32  # so few that their hits take less device memory than the picture
+BAND_ROWS: Final = 32  # The hits of these rows take less device memory than the picture.
 LEAST_STEP: Final = 0.1
 LEAST_RADIUS: Final = 2.5
 
@@ -32,8 +34,8 @@ class Shares:
 @dataclass(frozen=True)
 class Overlaid:
     """first   index of the first particle among all spheres and capsules
-    count   of particles, bonds, vectors and edges of the cell, in this order
-    radii   shape (n,), without the edges, which have no outlines
+    count   number of particles, bonds, vectors and edges of the cell, in this order
+    radii   shape (n,), without edges, which have no outlines
     """
 
     first: int
@@ -43,19 +45,19 @@ class Overlaid:
 
 
 def line_width(size: tuple[int, int]) -> float:
-    """In pixels: 0.0016 of the picture's longer side, at least one."""
+    """Pixels: 0.0016 of the picture's longer side, at least one."""
     return max(1.0, 0.0016 * max(size))
 
 
 def rays_per_side(samples: float, pixels: int) -> int:
-    """As many rays as samples where opacity makes shares random."""
+    """With opacity, coverage is random and takes as many rays as samples."""
     most = min(MOST_PER_SIDE, math.isqrt(MOST_RAYS // pixels))
     return max(min(math.ceil(math.sqrt(samples)), most), PER_SIDE)
 
 
 def read_shares(context: Context, camera: Camera, settings: RenderSettings, overlaid: Overlaid, per_side: int = PER_SIDE
                 ) -> Shares:
-    """The context must have the scene and the camera; its render settings are replaced. Outlines take PER_SIDE."""
+    """Needs a context with the scene and the camera. Replaces its render settings. Outlines take PER_SIDE rays."""
     width, height = settings.width, settings.height
     shares = Shares(np.zeros((height, width)), np.zeros((height, width)))
     margin = math.ceil(0.5 * line_width((width, height))) + 1 if overlaid.outlines else 0
@@ -99,7 +101,7 @@ def pixels_per_length(camera: Camera, height: int, depths: Any) -> Any:
 
 
 def _outlines(index: Array, depths: Array, overlaid: Overlaid, pixels: Any, width: float) -> Array:
-    """Balls have outlines before other shapes, and before balls farther by a tenth of the radius."""
+    """A ball has an outline against other shapes, and against balls that are farther by a tenth of its radius."""
     has_outline, is_shape = index < len(overlaid.radii), index < overlaid.count
     radii = overlaid.radii[np.where(has_outline, index, 0) if overlaid.radii.strides[0] else np.zeros_like(index)]
     large = has_outline & (radii * pixels >= LEAST_RADIUS * width)

@@ -1,5 +1,4 @@
-"""Particles as a figure draws them, and the tables that they are made from: positions, columns, and what the data say of
-elements, types, radii and colors."""
+"""Particles as figures draw them, and the tables that become particles."""
 
 from __future__ import annotations
 
@@ -21,11 +20,11 @@ Array = npt.NDArray[Any]
 
 @dataclass(frozen=True)
 class Bonds:
-    """Bonds that the data give, each once.
+    """Bonds that the data state, each once.
 
     pairs        shape (k, 2): indices of the particles
-    images       shape (k, 3): moves the second particle by images @ cell.vectors; None: to its nearest image
-    is_complete  whether there are no others
+    images       shape (k, 3): the second particle moves by images @ cell.vectors; None: to its nearest image
+    is_complete  whether the data state all bonds
     """
 
     pairs: Array
@@ -40,8 +39,7 @@ class Bonds:
         return Bonds(rows, images, is_complete)
 
     def among(self, rows: Array, count: int) -> Bonds:
-        """Bonds between selected particles, by their new indices. count: of all. rows: the old indices, in the new
-        order."""
+        """Bonds among the selected rows, by their new indices. count: number of all particles."""
         new = np.full(count, -1, np.intp)
         new[rows] = np.arange(len(rows))
         pairs = new[self.pairs]
@@ -55,12 +53,12 @@ class Particles:
 
     positions  shape (n, 3), float32 or float64, finite
     columns    all columns of the data by name, shape (n,), numbers or str; coordinates are views
-    elements   shape (n,), uint8: atomic numbers, 0: unknown; None: the data have no elements
+    elements   shape (n,), uint8: atomic numbers, 0 if unknown; None if the data have no elements
     types      shape (n,), int or str: labels that are not elements
     radii      shape (n,): a column "radius", or half a column "diameter"
-    colors     shape (n, 3) or (n, 4): sRGB, floats from 0 to 1, uint8 or uint16
-    bonds      the data's; None: unknown
-    name       of the data, for messages
+    colors     shape (n, 3) or (n, 4): sRGB, floats in [0, 1], uint8 or uint16
+    bonds      bonds that the data state; None if unknown
+    name       name of the data in messages
     notes      warnings for the user
     """
 
@@ -82,7 +80,7 @@ class Particles:
         return self.columns[column_name(self.columns, name, self.name)]
 
     def select(self, mask: Array) -> Particles:
-        """Selects by a mask, a slice or indices, in their order. If all are kept, they are not copied."""
+        """Selects by a mask, a slice or indices, in their order. Copies nothing if all particles are selected."""
         if mask.dtype == bool and mask.all():
             return self
         chosen = {key: None if value is None else value[mask] for key, value in
@@ -113,14 +111,14 @@ class Particles:
 
 @dataclass
 class Table:
-    """The contents of a file or an object, before columns have meanings.
+    """Contents of a file or an object, before columns have a meaning.
 
-    columns   arrays of one or two dimensions; positions may also be one column of two or three components
-    is_text   numbers come from text, so their type does not tell the scale of colors
-    elements  atomic numbers, 0: unknown; None: columns may have them
-    types     labels that are not elements, though they may look so
-    rows      indices of the file's atoms that the table has; None: all
-    sites     number of the file's atoms
+    columns   arrays of one or two dimensions; one column may hold positions of two or three components
+    is_text   whether numbers come from text; then their type does not tell the scale of colors
+    elements  atomic numbers, 0 if unknown; None: columns may have them
+    types     labels that are not elements, though they may look like them
+    rows      indices of the file's atoms in this table; None: all
+    sites     number of atoms in the file
     """
 
     columns: Mapping[str, npt.ArrayLike]

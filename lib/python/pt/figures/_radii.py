@@ -1,4 +1,4 @@
-"""Radii of particles: given, from their elements or types, or from distances; and opacities."""
+"""Radii of particles, given or from elements, types or distances. Also opacities."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ PROBES: Final = 1000
 IN_CELL: Final = 8
 MOST_PAIRS: Final = 4_000_000
 TABLE_BITS: Final = 20
-COVER: Final = 0.01  # share of the picture that balls of unknown radii cover at least; by taste
-THIN: Final = 0.001  # their least radius, as a share of the picture: one pixel
-SLACK: Final = 0.225  # half of the most by which bonds exceed covalent radii, in angstroms
-MOST_FACTOR: Final = 3.0  # of covalent radii: dilute gases have to stay apart; by taste
+COVER: Final = 0.01  # least fraction of the picture that balls of unknown radii cover; by taste
+THIN: Final = 0.001  # least radius of these balls, relative to the picture: one pixel
+SLACK: Final = 0.225  # angstroms: half of the largest excess of bonds over covalent radii
+MOST_FACTOR: Final = 3.0  # largest factor of covalent radii, because dilute gases must stay apart; by taste
 STEPS: Final = np.indices((3, 3, 3)).reshape(3, 1, 27) - 1
 
 
@@ -38,7 +38,7 @@ def column(particles: Particles, name: str) -> Array:
 
 
 def radii_of(particles: Particles, radius: Radius, notes: list[str]) -> Array:
-    """Shape (n,), or one number for all. notes: receives sentences for the user."""
+    """Returns shape (n,), or one number for all. Appends sentences for the user to the notes."""
     factor = 1.0
     if isinstance(radius, str):
         product = re.fullmatch(r"\s*([-+.\deE]+)\s*\*\s*(.+?)\s*", radius)
@@ -79,7 +79,7 @@ def _unscaled(particles: Particles, radius: Radius, notes: list[str]) -> Array:
 
 
 def opacities_of(particles: Particles, opacity: Opacity) -> Array | None:
-    """Shape (n,), or (1,) for all; None: unknown."""
+    """Returns shape (n,), or (1,) for all; None: unknown."""
     if opacity is None:
         return None
     shares = _numbers("opacity", _number_or_column(particles, opacity) if isinstance(opacity, str) else opacity,
@@ -120,15 +120,15 @@ def _automatic(particles: Particles, notes: list[str]) -> Array:
 
 
 def covalent_factor(particles: Particles) -> float | None:
-    """The factor of covalent radii if no radii are known: 1 for bonded neighbours, more for noble gases and C-alphas.
-    None: distances are not in angstroms, or there are no elements."""
+    """Factor of covalent radii for unknown radii: 1 for bonded neighbours, more for noble gases and C-alphas. None if
+    distances are not in angstroms, or there are no elements."""
     if particles.elements is None:
         return None
     radii = elements.COVALENT_RADII[np.unique(particles.elements)]
     radii = radii[radii > 0]
     typical = typical_radius(particles.positions)
-    # Neighbours are two covalent radii apart in a bond, three times that in other solids, 16 times in a gas at 0
-    # degrees Celsius and 1 bar.
+    # Bonded neighbours are two covalent radii apart, in other solids up to six, in a gas at 0 degrees Celsius and 1 bar
+    # 32.
     if not len(radii) or not 0.7 * radii.min() <= typical <= 30.0 * radii.max():
         return None
     largest = float(radii.max())
@@ -177,14 +177,14 @@ def _of_types(particles: Particles, radii: Mapping[str, float]) -> Array:
 
 
 def typical_radius(positions: Array) -> float:
-    """Half of the distance between most nearest neighbours, so that most balls just touch; for random points, half of
+    """Half of the distance between most nearest neighbours, so that most balls just touch. For random points, half of
     the median distance to the fourth neighbour. Coinciding neighbours do not count."""
     first, fourth = _neighbour_distances(positions)
     if not len(first):
         return 1.0
     median = float(np.median(first))
-    # Among random points, a twentieth have their nearest neighbour within 0.27 of the median distance on a surface, and
-    # within 0.42 in space (square and cube root of log(0.95) / log(0.5)). No atoms are within half of the median.
+    # For random points on a surface, a twentieth of the nearest distances is below 0.27 times the median: the square root
+    # of log(0.95) / log(0.5); in space below 0.42, the cube root. Atoms are never that close.
     if len(fourth) and float(np.quantile(first, 0.05)) < 0.5 * median:
         median = float(np.median(fourth))
     return 0.5 * median
@@ -204,7 +204,7 @@ def _neighbour_distances(positions: Array) -> tuple[Array, Array]:
     if count <= 27 * IN_CELL:
         side = 2.0 * float(extent.max())
     sample = positions[::max(count // 50_000, 1)]
-    for _ in range(8):  # clusters need smaller cells, since their box is nearly empty
+    for _ in range(8):  # The box of a cluster is nearly empty, so cells must shrink.
         _, begin, end = _near(sample, places, low, side)
         crowd = float(np.median((end - begin).sum(axis=1))) * count / len(sample)
         if crowd <= 64 * IN_CELL:
@@ -216,7 +216,7 @@ def _neighbour_distances(positions: Array) -> tuple[Array, Array]:
     for place, *cells in zip(places, begin.tolist(), end.tolist()):
         others = np.concatenate([near[first:last] for first, last in zip(*cells) if first < last])
         distances = np.linalg.norm(others - place, axis=1)
-        # Beyond the side of a cell, a nearer neighbour may lie outside these cells.
+        # A nearer neighbour may lie outside these cells if the distance exceeds a cell's side.
         found.append(np.sort(distances[(distances > 0.0) & (distances <= side)]))
         pairs += len(others)
         if pairs > MOST_PAIRS:
@@ -226,8 +226,8 @@ def _neighbour_distances(positions: Array) -> tuple[Array, Array]:
 
 
 def _near(positions: Array, places: Doubles, low: Doubles, side: float) -> tuple[Doubles, Array, Array]:
-    """Positions in and around some places' cells, ordered by cell; and where each of a place's 27 cells begins and
-    ends."""
+    """Returns the positions in and around the cells of `places`, ordered by cell, and the begins and ends of 27 cells
+    for each place."""
     keys = _keys(_cells(places, low, side)[:, :, None] + STEPS)
     wanted = np.zeros(1 << TABLE_BITS, bool)
     wanted[keys] = True
@@ -249,8 +249,8 @@ def _cells(positions: Array, low: Doubles, side: float) -> Array:
 
 
 def _keys(cells: Array) -> Array:
-    """Teschner et al. 2003, "Optimized Spatial Hashing for Collision Detection of Deformable Objects". Collisions
-    change nothing, since distances decide."""
+    """Teschner et al. 2003, "Optimized Spatial Hashing for Collision Detection of Deformable Objects". Collisions are
+    harmless, because distances decide."""
     hashed = cells[0] * 73856093 ^ cells[1] * 19349663 ^ cells[2] * 83492791
     keys: Array = (hashed ^ hashed >> TABLE_BITS) & (1 << TABLE_BITS) - 1
     return keys

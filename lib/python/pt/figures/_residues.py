@@ -1,4 +1,4 @@
-"""Elements by the names of residues and atoms in force fields, the Protein Data Bank and AutoDock."""
+"""Elements from the names of residues and atoms in force fields, the Protein Data Bank and AutoDock."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _IONS: Final = {**{symbol: _NUMBERS[symbol] for symbol in (
     "LI NA K RB CS MG CA SR BA ZN FE MN CU NI CO CD HG AG AU AL PB TL CR V Y LA CE EU GD TB YB LU PT F CL BR I").split()},
     "SOD": 11, "CLA": 17, "POT": 19, "CAL": 20, "CES": 55, "RUB": 37, "LIT": 3, "BAR": 56, "IOD": 53, "CIO": 55, "CIM": 17,
     "CIP": 11, "IB": 35}
-_CHARGED: Final = frozenset(("ION", "IONS", "IB"))  # residues of GROMACS with ions of several kinds
+_CHARGED: Final = frozenset(("ION", "IONS", "IB"))  # residues in GROMACS with ions of several kinds
 _TWO_LETTERS: Final = frozenset("CL BR FE ZN MG MN CU SI SE LI AL AG AU PT RU RH IR TI ZR MO AS".split())
 _ONE_LETTER: Final = frozenset("HCNOPSFBID")
 _POLYMERS: Final = frozenset("HCNOPSD")
@@ -56,7 +56,7 @@ def element_of(name: str, residue: str) -> int:
         if capitals[0] in "ML":  # masses and lone pairs of force fields
             return VIRTUAL
         return _NUMBERS[capitals[0]] if capitals[0] in _POLYMERS else 0
-    if capitals == "WAT":  # in crystals
+    if capitals == "WAT":  # water in crystals
         return 8
     is_symbol = len(letters) > 1 and letters[0].isupper() and letters[1].islower() and capitals[:2] in _NUMBERS
     if is_symbol or capitals[:2] in _TWO_LETTERS:
@@ -69,7 +69,7 @@ def is_free_ion(residue: str) -> bool:
 
 
 def is_polymer(residue: str) -> bool:
-    """A protein's or nucleic acid's residue; N and C before a name mark the ends of chains (AMBER)."""
+    """Whether it is a residue of a protein or nucleic acid. AMBER marks the ends of chains with N or C."""
     return residue in AMINO_ACIDS or residue in NUCLEOTIDES or (
         len(residue) == 4 and residue[0] in "NC" and residue[1:] in AMINO_ACIDS)
 
@@ -79,7 +79,7 @@ def autodock_element(kind: str) -> int:
 
 
 def are_beads(names: Array, residues: Array) -> bool:
-    """Whether these are beads of MARTINI, each of which is several atoms."""
+    """Whether these are MARTINI beads, each of which stands for several atoms."""
     found = set(np.unique(names).tolist())
     if "GL1" in found and "PO4" in found:
         return True
@@ -90,7 +90,7 @@ def are_beads(names: Array, residues: Array) -> bool:
 
 @dataclass
 class Guess:
-    """elements  atomic numbers, shape (n,), uint8, 0 if unknown, VIRTUAL for sites that are no atoms
+    """elements  atomic numbers, shape (n,), uint8, 0 if unknown, VIRTUAL for sites that are not atoms
     notes     sentences for the user"""
 
     elements: Array
@@ -98,7 +98,7 @@ class Guess:
 
 
 def elements_by_residue(names: Array, residues: Array, wanted: Array | None = None) -> Guess:
-    """wanted: a mask; others are 0, and are not mentioned."""
+    """Particles outside the mask `wanted` get 0 and no note."""
     pairs = np.char.add(np.char.add(names, " of "), residues)
     chosen = pairs if wanted is None else pairs[wanted]
     values, codes = np.unique(chosen, return_inverse=True)

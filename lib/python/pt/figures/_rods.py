@@ -1,4 +1,4 @@
-"""Capsules: halves of bonds and vectors, which begin in particles, and the cell's edges."""
+"""Capsules: halves of bonds, vectors, and edges of the cell."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ from pt.figures._options import Vectors
 from pt.figures._particles import Particles
 from pt.figures._radii import column
 
-LONGEST: Final = 4.0  # longest vector, in median particle radii; by taste
+LONGEST: Final = 4.0  # length of the longest vector in median particle radii; by taste
 WIDTH: Final = 0.3
 
 
 @dataclass(frozen=True)
 class Rods:
-    """k capsules, each of the color of a particle.
+    """k capsules. Each has the color of a particle.
 
     atoms    shape (k,): indices of these particles
-    others   shape (k,): particles that must be shown, too
+    others   shape (k,): second particles, which must also be shown
     ways     shape (k, 3): from one end to the other
     starts   shape (k, 3): from the particle's center to the first end; None: 0
     """
@@ -67,7 +67,7 @@ def vectors_of(particles: Particles, given: Vectors, scale: float | None, radii:
 
 
 def cell_corners(cell: Cell) -> Doubles:
-    """Shape (2^k, 3) for k edges: bit i of a corner's index tells the end of edge i."""
+    """Shape (2^k, 3) for k edges. Bit i of a corner's index selects the end of edge i."""
     vectors = cell.vectors[cell.vectors.any(axis=1)]
     edges = np.arange(len(vectors))
     corners: Doubles = cell.origin + (np.arange(2**len(vectors))[:, None] >> edges & 1) @ vectors
@@ -75,7 +75,7 @@ def cell_corners(cell: Cell) -> Doubles:
 
 
 def cell_edges(cell: Cell) -> Doubles:
-    """Both ends of the twelve edges, shape (2, 12, 3); of a flat cell's four."""
+    """Both ends of the twelve edges, shape (2, 12, 3). A flat cell has four edges."""
     corners = cell_corners(cell)
     steps = [1 << edge for edge in range(len(corners).bit_length() - 1)]
     pairs = [(k, k | step) for k in range(len(corners)) for step in steps if not k & step]

@@ -22,7 +22,7 @@ from pt.figures._radii import covalent_factor
 def frames(read: Callable[[], Iterator[Particles]], options: Options, trails: int = 0) -> Iterator[Staged]:
     """Stages each frame. Reads all frames twice, first to choose one view and scale for all.
 
-    trails   through how many earlier frames a picture's trails lead
+    trails   number of earlier frames in a trail
     """
     options, view, reaches, scale = _common(read(), options)
     layout = Layout.of(view, reaches, options.style, options.floor)
@@ -67,8 +67,7 @@ def _rule(particles: Particles, drawn: Drawn, options: Options) -> Radius:
 
 
 def turntable(particles: Particles, count: int, options: Options) -> Iterator[Staged]:
-    """Stages a full turn from the view about the vertical axis, counterclockwise from above. Lamps move with the
-    camera."""
+    """Stages a full turn about the vertical axis, counterclockwise from above. Lamps move with the camera."""
     drawn = prepare(particles, options)
     view = view_of(drawn, options, turns=True)
     for k in range(count):

@@ -1,4 +1,4 @@
-"""How far most particles are spread; a few far ones do not count."""
+"""Reach of most particles. A few far ones do not count."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def middle_of(positions: Array) -> Doubles:
 
 
 def reaches_of(positions: Array, radii: Array) -> Doubles:
-    """How far each ball reaches from the middle along one of the axes, shape (n,). radii: shape (n,) or (1,)."""
+    """The largest distance of each ball from the middle along an axis, shape (n,). radii: shape (n,) or (1,)."""
     middle = middle_of(positions)[:, None]
     reaches = np.broadcast_to(radii, len(positions)).astype(np.float64)
     for rows in chunks(len(positions)):

@@ -1,4 +1,4 @@
-"""The surroundings of a figure: soft light and, if wanted, a floor. Sizes follow the data."""
+"""The surroundings of a figure: soft light and, if wanted, a floor."""
 
 from __future__ import annotations
 
@@ -9,22 +9,22 @@ from typing import Final
 from pt._fit import Doubles
 from pt._scene import Material, Plane, Sphere
 
-# A surface that faces the key lamp and sees all of the surround has its albedo as radiance, the legend's color.
-SURROUND_BRIGHTNESS: Final = 0.4375  # has few bits, so that means of it are exact
+# A surface that faces the key lamp in full view of the surround has its albedo, the legend's color, as radiance.
+SURROUND_BRIGHTNESS: Final = 0.4375  # Few bits, so that means are exact.
 KEY_BRIGHTNESS: Final = 0.75
 KEY_HALF_ANGLE: Final = math.radians(14.0)
 KEY_AZIMUTH: Final = math.radians(-35.0)
 KEY_ELEVATION: Final = math.radians(40.0)
 FLOOR: Final = Material(diffuse=0.8)
 EDGES: Final = Material(diffuse=0.09)
-FLOOR_GAP: Final = 1e-4  # relative to the radius: roundings would decide which is in front
+FLOOR_GAP: Final = 1e-4  # relative to the radius; less would be lost in rounding
 
 
 @dataclass(frozen=True)
 class Stage:
     """lamps      the surround, an evenly shining sphere, and the key, a large lamp behind the camera's left shoulder
     floor      white, below everything
-    material   of the particles; their colors multiply its diffuse
+    material   material of the particles; their colors multiply its diffuse
     """
 
     lamps: tuple[Sphere, ...]
@@ -38,10 +38,9 @@ def material_of(style: str) -> Material:
 
 
 def make_stage(style: str, axes: Doubles, distance: float, center: Doubles, radius: float, floor: Plane | None) -> Stage:
-    """axes: right, up and forward. distance: from the camera to the middle. center, radius: of a ball around
-    everything."""
+    """axes: right, up and forward. distance: from the camera to the middle. center, radius: ball around everything."""
     material = material_of(style)
-    # The lamp is farther than the camera, and nearly as strong at the far end of the data.
+    # The key lamp is farther than the camera. It is nearly as strong at the far end of the data.
     far = max(20.0 * radius, 4.0 * distance)
     occlusion = style == "ambient-occlusion"
     surround = Sphere(center, 10.0 * far, Material(emission=1.0 if occlusion else SURROUND_BRIGHTNESS))

@@ -1,4 +1,4 @@
-"""pt-tachyon: converts a scene of Tachyon to a scene file of `pt render`."""
+"""pt-tachyon: converts a Tachyon scene to a scene file of `pt render`."""
 
 from __future__ import annotations
 

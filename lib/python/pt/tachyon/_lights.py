@@ -1,4 +1,4 @@
-"""Makes lamps from Tachyon's lights, which are points and directions without a size."""
+"""Lamps for Tachyon's lights, which are points or directions."""
 
 from __future__ import annotations
 
@@ -12,29 +12,29 @@ from pt._vectors import Triple
 
 FloatArray = npt.NDArray[np.float64]
 
-DEFAULT_RADIUS = 1 / 50  # of a light without a radius, relative to its distance
-LEAST_RADIUS = 1e-6  # relative to the extent: a smaller lamp counts as on a surface
+DEFAULT_RADIUS = 1 / 50  # radius of a lamp whose light has none, relative to its distance
+LEAST_RADIUS = 1e-6  # relative to the extent: a light with a smaller lamp counts as on a surface
 SUN_DISTANCE = 100.0
-LEAST_SHARE = 1 / 3  # of lights before a bright background, so that shapes keep a lit side; by taste
+LEAST_SHARE = 1 / 3  # least remaining brightness of lights with a bright background, to keep a lit side; by taste
 
 
 @dataclass(frozen=True)
 class Light:
-    """Gives a facing white matt surface at the distance d the radiance color / (a + b d + c d^2); attenuation: (a, b,
-    c)."""
+    """A light with attenuation (a, b, c) gives a white matt surface that faces it at distance d the radiance
+    color / (a + b d + c d^2)."""
 
     file_place: str
     color: Triple
-    place: Triple  # of a directional light, the direction towards it
+    place: Triple  # position, or the direction towards a directional light
     is_directional: bool = False
     attenuation: Triple = (1.0, 0.0, 0.0)
-    radius: float = 0.0  # of the visible ball; 0 if it has none
+    radius: float = 0.0  # radius of the visible ball; 0 without one
 
 
 @dataclass(frozen=True)
 class Surroundings:
     centers: FloatArray
-    ends: FloatArray  # (n, 3): of capsules; of spheres, their centers
+    ends: FloatArray  # (n, 3): other centers of capsules; for spheres equal to centers
     radii: FloatArray
     planes: list[Plane]
     camera: FloatArray  # position, (3,)
@@ -51,7 +51,7 @@ class Surroundings:
         return float(min(gaps, default=np.inf))
 
     def extent(self, lights: list[Light]) -> float:
-        """The largest distance from the target to anything except planes; above 0."""
+        """The largest distance, above 0, of anything but a plane from the target."""
         reach = np.linalg.norm(np.array([self.centers, self.ends]) - self.target, axis=2).max(axis=0) + self.radii
         places = [np.array(light.place) for light in lights if not light.is_directional] + [self.camera]
         return float(max([float(np.linalg.norm(place - self.target)) for place in places] + reach.tolist()))
@@ -59,8 +59,8 @@ class Surroundings:
 
 def view_target(centers: FloatArray, radii: FloatArray, planes: list[Plane], position: Triple,
                 direction: Triple) -> FloatArray:
-    """The point ahead nearest to the middle of the box around all spheres; without spheres ahead, the hit on the
-    nearest plane; otherwise the point at the distance 1."""
+    """The point on the viewing ray nearest to the middle of the spheres' bounding box. Without spheres ahead, the hit on
+    the nearest plane; else the point at distance 1."""
     start = np.array(position)
     way = np.array(direction) / np.linalg.norm(direction)
     distance = 0.0
@@ -77,7 +77,7 @@ def view_target(centers: FloatArray, radii: FloatArray, planes: list[Plane], pos
 
 
 def dimmed(lights: list[Light], background: Triple) -> list[Light]:
-    """Dims the lights by the background's light, which Tachyon's does not give."""
+    """Dims the lights, because pt's background gives light and Tachyon's does not."""
     together = max(map(sum, zip(*(light.color for light in lights))), default=0.0)
     share = max(1.0 - max(background) / together, LEAST_SHARE) if together else 1.0
     return [replace(light, color=(share * light.color[0], share * light.color[1], share * light.color[2]))
@@ -85,12 +85,12 @@ def dimmed(lights: list[Light], background: Triple) -> list[Light]:
 
 
 def lamps_of(lights: list[Light], around: Surroundings) -> tuple[list[Sphere], list[str]]:
-    """A ball for each light, and warnings about lights without one.
+    """Returns a ball for each light, and warnings about lights without one.
 
-    A ball of radius r and radiance L gives a facing white surface at the distance d the radiance L (r / d)^2, the
-    light's at the camera's target. A light without a radius gets 1/50 of its distance, and is hidden from the camera. A
-    radius is at most half of the distance from the nearest surface and, if seen, from the camera. Directional lights
-    are a hundred extents away.
+    A ball of radius r and radiance L gives a facing white surface at distance d the radiance L (r / d)^2. L is chosen so
+    that the camera's target gets the light's radiance. A light without a radius gets 1/50 of its distance, hidden from
+    the camera. A radius is at most half of the distance to the nearest surface and, if visible, to the camera.
+    Directional lights are a hundred extents away.
     """
     extent = around.extent(lights)
     lamps: list[Sphere] = []
@@ -104,7 +104,7 @@ def lamps_of(lights: list[Light], around: Surroundings) -> tuple[list[Sphere], l
         else:
             center = np.array(light.place)
             distance = float(np.linalg.norm(center - around.target))
-            if distance <= LEAST_RADIUS * extent:  # the light is at the target: use the distance of the camera
+            if distance <= LEAST_RADIUS * extent:  # The target is at the light, so the camera's distance replaces the target's.
                 distance = float(np.linalg.norm(center - around.camera))
         room = around.clearance(center)
         if light.radius > 0.0:

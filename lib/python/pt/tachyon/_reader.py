@@ -1,4 +1,4 @@
-"""Tachyon's sections: camera, lights, shapes, background. Others can be left out, counted."""
+"""Tachyon's sections: camera, lights, shapes, background. Other sections can be left out."""
 
 from __future__ import annotations
 
@@ -27,17 +27,17 @@ OTHERS = {
     "START_CLIPGROUP": "a cut through shapes", "INCLUDE": "another file"}
 SECTIONS = ("CAMERA", "BACKGROUND", "FOG", "LIGHT", "DIRECTIONAL_LIGHT", "TEXDEF", "TEXALIAS", "SPHERE", "FCYLINDER",
             "POLYCYLINDER", "PLANE", "SHADER_MODE", "END_SCENE")
-SKY_RADIUS = 1e6  # relative to the extent: a floor ends less than a pixel below the horizon
+SKY_RADIUS = 1e6  # relative to the extent; the edge of a floor is then less than a pixel below the horizon
 
 
 @dataclass
 class TachyonScene:
-    """A file's contents, with a lamp for each light and a ball around everything as the background.
+    """The contents of a file. Each light is a lamp, the background a ball around everything.
 
-    scene      its spheres are one SphereArray, its cylinders another, each in the order of the file
-    camera     with a target along Tachyon's viewing direction
-    settings   the file's resolution, and defaults
-    notes      what was left out, each with its line
+    scene      one SphereArray of spheres and one of cylinders, each in the order of the file
+    camera     its target lies along Tachyon's viewing direction
+    settings   the file's resolution, otherwise defaults
+    notes      what was left out, with lines
     """
 
     scene: Scene
@@ -47,32 +47,31 @@ class TachyonScene:
 
 
 def read(path: str | os.PathLike[str], *, leave_out_others: bool = False) -> TachyonScene:
-    """Reads a scene file of Tachyon. Lengths stay as they are; the rest becomes:
+    """Reads a Tachyon scene file. Lengths stay unchanged. Other values are converted:
 
-    colors                     linear, unchanged; Tachyon shows them with the exposure 0 and the gamma 1
-    axes, left-handed          z has the other sign
+    colors                     linear, unchanged; exposure 0 and gamma 1 show them as Tachyon does
+    left-handed axes           z changes its sign
     ZOOM                       half of the height has the tangent 0.5 / ZOOM; ORTHOGRAPHIC: vertical_extent 1 / ZOOM
     DIFFUSE, SPECULAR > 0      diffuse, and a mirror: specular with the glossiness 1e6
-    PHONG p, PHONG_SIZE n,     glossiness n, specular 2 p / (n + 2), so that the highlight is as bright
+    PHONG p, PHONG_SIZE n,     glossiness n, specular 2 p / (n + 2), which gives the highlight the same brightness
       without SPECULAR
-    FCYLINDER, POLYCYLINDER    capsules, whose ends are round; VMD's flat caps (RING) are inside
-    BACKGROUND                 a ball that shines in this color and lights the scene; none if black. Lights are
-                               dimmed by as much, but not below a third
-    a light, which has no      a lamp that gives the camera's target the same light; visible with a radius RAD, hidden
-      size                     from the camera without, and then a 50th of its distance in radius
+    FCYLINDER, POLYCYLINDER    capsules with round ends; VMD's flat caps (RING) are inside them
+    BACKGROUND                 a ball of this color that lights the scene; none if black. Lights are dimmed by as much,
+                               at most to a third
+    point light                a lamp that gives the camera's target the same light; visible if it has a radius (RAD),
+                               else hidden from the camera, with a radius of a 50th of its distance
     FOG                        left out, with a note
 
-    leave_out_others   leaves out everything except these shapes, planes, lights and the camera, instead of refusing the
-                       file; `notes` count it
+    leave_out_others   whether sections of other kinds are left out and counted in `notes`; otherwise the file is refused
 
-    ValueError: the file has anything else; the message names the line. OSError: it cannot be read.
+    Raises ValueError with the line for other contents, OSError for an unreadable file.
     """
     with open(path, encoding="utf-8", errors="replace", opener=regular) as lines:
         return parse(lines, os.fspath(path), leave_out_others=leave_out_others)
 
 
 def parse(lines: Iterable[str], name: str, *, leave_out_others: bool = False) -> TachyonScene:
-    """Like read(), from lines; name is for messages."""
+    """Reads lines like read(). The name is for messages."""
     return _Reader(Words(lines, name), leave_out_others).read()
 
 
@@ -173,7 +172,6 @@ class _Reader:
         self.capsule_materials += [material] * len(ends)
 
     def fog(self) -> None:
-        """Depth cueing, which VMD has on by default."""
         words = self.words
         place, kind = words.place(), words.keyword("the kind of fog")
         if kind not in ("LINEAR", "EXP", "EXP2", "OFF"):
@@ -186,7 +184,7 @@ class _Reader:
             self.left_out["FOG"] = f"{place}: FOG: it is left out, far surfaces have their full colors"
 
     def ring(self) -> None:
-        """Leaves out a ring that closes an end of the cylinder before it, as VMD's do."""
+        """Leaves out a ring that closes an end of the preceding cylinder, as VMD writes it."""
         words = self.words
         center, _ = words.vector("CENTER"), words.direction("NORMAL")
         inner, outer = words.named("INNER"), words.named("OUTER")
@@ -225,7 +223,7 @@ class _Reader:
             words.refuse("there is a second CAMERA")
         projection = words.keyword("the projection") if words.take_if("PROJECTION") else "PERSPECTIVE"
         if projection == "PERSPECTIVE_DOF":
-            if not words.take_if("FOCALDIST"):  # VMD's name
+            if not words.take_if("FOCALDIST"):  # VMD writes FOCALDIST.
                 words.expect("FOCALLENGTH")
             words.number("the focus", positive=True)
             if words.named("APERTURE") != 0.0:

@@ -1,12 +1,12 @@
-"""The materials of a Tachyon scene, which are called textures there."""
+"""Materials of a Tachyon scene, which the format calls textures."""
 
 from __future__ import annotations
 
 from pt._scene import Material
 from pt.tachyon._words import Words
 
-MIRROR_GLOSSINESS = 1e6  # Tachyon's mirrors are perfect; this lobe is narrower than most pixels
-# The arguments of TEXFUNC's patterns 0 to 10: whether a file's name, and which vectors.
+MIRROR_GLOSSINESS = 1e6  # Tachyon's mirrors are perfect. This lobe is narrower than most pixels.
+# Arguments of TEXFUNC's patterns 0 to 10: whether there is a file name, and the names of vectors.
 PLACE = ("CENTER", "ROTATE", "SCALE")
 PATTERNS: tuple[tuple[bool, tuple[str, ...]], ...] = (
     ((False, ()),) + 6 * ((False, PLACE),) + 2 * ((True, PLACE),) +
@@ -18,11 +18,11 @@ class Textures:
         self._words = words
         self._left_out = left_out
         self._named: dict[str, int] = {}
-        self._indices: dict[Material, int] = {}  # files have a texture for each shape; equal ones are one material
+        self._indices: dict[Material, int] = {}  # Files define a texture for each shape. Equal ones become one material.
         self.materials: list[Material] = []
 
     def define(self) -> None:
-        """Reads a definition after TEXDEF. A later one of the same name replaces it."""
+        """Reads a definition after TEXDEF. A later definition of the same name replaces it."""
         name = self._words.word("the name of a TEXDEF")
         self._named[name] = self._body()
 
@@ -44,7 +44,7 @@ class Textures:
 
     def _body(self) -> int:
         words = self._words
-        words.named("AMBIENT", least=0.0)  # ignored: paths find the light between surfaces
+        words.named("AMBIENT", least=0.0)  # Indirect light replaces it.
         diffuse = words.named("DIFFUSE", least=0.0)
         mirror = words.named("SPECULAR", least=0.0)
         if words.named("OPACITY", least=0.0) < 1.0:
@@ -65,7 +65,7 @@ class Textures:
         self._skip_pattern()
         if mirror > 0.0:
             specular, exponent = (mirror, mirror, mirror), MIRROR_GLOSSINESS
-        else:  # the lobe's peak is (n + 2) / 2 times its weight; Tachyon's is the highlight
+        else:  # The lobe's peak is (n + 2) / 2 times its weight. In Tachyon the peak is the highlight.
             weight = 2.0 * highlight / (exponent + 2.0)
             red, green, blue = color if is_metal else (1.0, 1.0, 1.0)
             specular = (weight * red, weight * green, weight * blue)

@@ -1,4 +1,4 @@
-"""The words of a Tachyon file, with their lines for messages."""
+"""Words of a Tachyon file, with line numbers for messages."""
 
 from __future__ import annotations
 
@@ -10,8 +10,7 @@ from pt._vectors import Triple
 
 
 class Words:
-    """Reads words of lines taken one by one. Keywords in any case; # begins a comment. ValueErrors name file and line.
-    """
+    """Reads words lazily. Keywords may have any case; # begins a comment. ValueErrors name the file and the line."""
 
     def __init__(self, lines: Iterable[str], name: str) -> None:
         self._lines: Iterator[str] = iter(lines)
@@ -94,7 +93,7 @@ class Words:
         return self.point(keyword)
 
     def point(self, what: str) -> Triple:
-        """Tachyon's world is left-handed: z changes its sign."""
+        """Flips z, because Tachyon's world is left-handed."""
         return self.number(what), self.number(what), -self.number(what)
 
     def direction(self, keyword: str) -> Triple:

@@ -1,4 +1,4 @@
-"""pt-view: a picture in a page of the browser, as it refines."""
+"""pt-view: a refining picture in a browser page."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def kernels() -> pathlib.Path | None:
 
 
 def is_of_another(path: pathlib.Path) -> bool:
-    """Whether a folder, or the link to it, belongs to another user, who may exchange its contents."""
+    """Whether another user, who could exchange its contents, owns a folder or the link to it."""
     return hasattr(os, "geteuid") and any(status.st_uid != os.geteuid() for status in (path.lstat(), path.stat()))
 
 
@@ -87,7 +87,7 @@ def user_cache() -> pathlib.Path:
 
 
 def open_browser(address: str) -> IO[str]:
-    """Opens a file that only the user can read, since all users see a process's arguments."""
+    """Opens a file that only the user can read, because all users see the arguments of a process."""
     user_cache().mkdir(parents=True, exist_ok=True)
     file = tempfile.NamedTemporaryFile("w", suffix=".html", dir=user_cache())
     file.write(f'<meta http-equiv="refresh" content="0; url={address}">')

@@ -1,4 +1,4 @@
-"""A frame of a view: pixels, and facts shown beside them."""
+"""A frame of a view: pixels, and the facts that the page shows."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ from pt._stats import ErrorEstimate
 
 LAYERS: Final = {"mean": Quantity.RADIANCE, "standard error": Quantity.STANDARD_ERROR, "samples": Quantity.SAMPLE_COUNT,
                  "depth": Quantity.DEPTH, "normal": Quantity.NORMAL, "albedo": Quantity.ALBEDO}
-OF_SAMPLES: Final = 3  # the first layers; the others show first hits of camera rays
+OF_SAMPLES: Final = 3  # number of layers of samples, which come first; the rest show first hits of camera rays
 METHODS: Final[dict[str, Any]] = {"sampler": Sampler, "estimator": Estimator}
 
 
 @dataclass(frozen=True)
 class Frame:
-    """number   counts published frames
-    state    what the page shows beside the pixels
-    pixels   of the layer, height x width x 3; None: no picture yet
-    values   the layers of samples, for answers about single pixels
+    """number   number of published frames so far
+    state    facts for the page
+    pixels   the selected layer, height x width x 3; None: no picture yet
+    values   layers of samples, for questions about single pixels
     """
 
     number: int
@@ -34,7 +34,7 @@ class Frame:
     values: tuple[Array, ...] = ()
 
     def message(self, with_pixels: bool) -> bytes:
-        """The length of the state, the state as JSON, and the pixels as float32, aligned to 4 bytes."""
+        """Returns the length of the state, the state as JSON, and the pixels as float32, aligned to 4 bytes."""
         state = json.dumps({**self.state, "frame": self.number, "choices": CHOICES}).encode()
         state += b" " * (-len(state) % 4)
         pixels = b"" if self.pixels is None or not with_pixels else self.pixels.tobytes()
@@ -49,7 +49,7 @@ class Frame:
 
 
 def facts_of(estimate: ErrorEstimate) -> dict[str, Any]:
-    """JSON has no infinity: unknown numbers are null."""
+    """Unknown numbers are null, because JSON has no infinity."""
     numbers = {"error": estimate.relative_rmse, "low": estimate.relative_rmse_low, "high": estimate.relative_rmse_high}
     return {**{name: number if math.isfinite(number) else None for name, number in numbers.items()},
             "uncertain": [name_of(flag) for flag in Uncertain if flag in estimate.uncertain]}

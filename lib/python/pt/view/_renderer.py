@@ -1,4 +1,4 @@
-"""The thread that renders a view, and publishes it as frames."""
+"""The thread that renders a view and publishes frames."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from pt._stats import ErrorEstimate
 from pt.view._frame import LAYERS, OF_SAMPLES, Frame, facts_of, faults_of, name_of
 from pt.view._source import Shown, Source
 
-MOVING_SECONDS: Final = 0.03  # for a sample of each pixel, while the camera moves
+MOVING_SECONDS: Final = 0.03  # for a sample of each pixel while the camera moves
 STILL_SECONDS: Final = 0.25
 PUBLISHED_SHARE: Final = 0.03
 LOOK_SECONDS: Final = 0.5
@@ -27,8 +27,8 @@ SHADERS: Final = (".comp", ".glsl", ".h")
 
 
 class Renderer:
-    """shader_dir    kernels that are compiled instead of the library's
-    published     called with each frame, on the thread that renders
+    """shader_dir    folder of kernels that replace the library's
+    published     called with each frame, on the rendering thread
     """
 
     def __init__(self, source: Source, published: Callable[[Frame], None], *, shader_dir: pathlib.Path | None = None,
@@ -36,7 +36,7 @@ class Renderer:
         self._source, self._published, self._device, self._most = source, published, device, most
         self._shader_dir = shader_dir
         self._context: Context | None = None
-        self._faults: dict[str, str] = {}  # by cause
+        self._faults: dict[str, str] = {}  # messages by cause
         self._history: list[list[float]] = []
         self._guides: dict[str, Array] = {}
         self._playing, self._moving, self._layer = True, False, "mean"
@@ -58,7 +58,7 @@ class Renderer:
         self._thread.start()
 
     def change(self, **changes: Any) -> None:
-        """camera, moving, size, layer, playing, method (fields of RenderSettings), files (True: look at them now)"""
+        """Accepts camera, moving, size, layer, playing, method (fields of RenderSettings), files (True: check now)."""
         with self._condition:
             self._changes.update(changes)
             self._condition.notify()
@@ -75,10 +75,10 @@ class Renderer:
         self._thread.join()
 
     def saved(self) -> tuple[str, bytes] | None:
-        """Name and contents of the scene with the present camera, if there is a scene."""
+        """Name and contents of a file with the scene and the present camera, or None without a scene."""
         return self._source.saved(self._camera)
 
-    # Everything below runs on the thread.
+    # The following functions run on the rendering thread.
 
     def _run(self) -> None:
         while True:
@@ -100,7 +100,7 @@ class Renderer:
             self._context.close()
 
     def _runs(self) -> bool:
-        """A stopped picture also gets a sample when it begins anew."""
+        """Even a stopped picture gets one sample after a restart."""
         wanted = self._playing or self._moving or not self._count
         return wanted and self._count < self._most and "rendering" not in self._faults
 
@@ -145,7 +145,7 @@ class Renderer:
         return restarts
 
     def _restart(self, context: Context) -> None:
-        """While the camera moves, pixels are as large as the device needs."""
+        """While the camera moves, pixels are as large as the device's speed requires."""
         pixels = self._settings.width * self._settings.height
         self._scale = 1
         if self._moving and self._rate:
@@ -219,7 +219,7 @@ class Renderer:
         return restarts or bool(changed and not self._context)
 
     def _adopt(self, shown: Shown) -> None:
-        """Takes over the file's changes; choices made in the page stay."""
+        """Adopts changes of the file. Settings that the user changed in the page stay."""
         if shown.camera != self._shown.camera:
             self._camera = shown.camera
         fields = {name: value for name, value in vars(shown.settings).items()

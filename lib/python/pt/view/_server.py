@@ -1,4 +1,4 @@
-"""The page's server. It listens on 127.0.0.1 alone; anybody with the token in its address may see and steer."""
+"""The page's server. It listens only on 127.0.0.1. Everybody who knows the token in the address has full control."""
 
 from __future__ import annotations
 
@@ -28,8 +28,8 @@ TYPES: Final = {".html": "text/html", ".css": "text/css", ".js": "text/javascrip
 MOST_SOCKETS: Final = 16
 MOST_BYTES: Final = 2**20
 MOST_PIXELS: Final = 2**24
-IDLE_SECONDS: Final = 10.0  # without a page until the view counts as unwatched
-NAMES: Final = r"(?:127\.0\.0\.1|localhost|\[::1\])(?::\d{1,5})?"  # of a host; at the other end of a tunnel the port differs
+IDLE_SECONDS: Final = 10.0  # time without a page until the view counts as unwatched
+NAMES: Final = r"(?:127\.0\.0\.1|localhost|\[::1\])(?::\d{1,5})?"  # host names; through a tunnel the port may differ
 HEADERS: Final = {
     "Content-Security-Policy": "default-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' blob: data:; base-uri 'none'; "
                                "form-action 'none'",
@@ -51,7 +51,7 @@ class Server:
     """A thread that serves from construction until close().
 
     show    the picture; set before the first request
-    files   those that may be read and written in the page, by name
+    files   files that the page may read and write, by name
     """
 
     def __init__(self, files: Callable[[], dict[str, pathlib.Path]], port: int = 0) -> None:
@@ -101,7 +101,7 @@ class Server:
     @web.middleware
     async def _checked(self, request: web.Request, handler: Callable[[web.Request], Awaitable[web.StreamResponse]]
                        ) -> web.StreamResponse:
-        """Refuses requests without the token, and other sites' pages, which use another name or state their origin."""
+        """Refuses requests without the token, and pages of other sites, which have another host name or origin."""
         host, origin = request.headers.get("Host", ""), request.headers.get("Origin")
         if not re.fullmatch(NAMES, host) or origin not in (None, f"http://{host}"):
             raise web.HTTPForbidden(text="pt view: this host or origin is refused\n")
@@ -160,7 +160,7 @@ class Server:
         self._news = asyncio.Event()
 
     async def _send(self, connection: web.WebSocketResponse, wanted: asyncio.Event) -> None:
-        """Sends the newest frame whenever the page wants one, so a slow line gets fewer frames, not late ones."""
+        """Sends the newest frame when the page asks for one. A slow connection gets fewer frames, not late ones."""
         assert self.show
         number, pixels = 0, None
         try:
@@ -222,7 +222,7 @@ def _log() -> logging.Logger:
 
 
 def changes_of(message: dict[str, Any]) -> dict[str, Any]:
-    """The changes that a page asks for, checked. ValueError, TypeError, KeyError: not permitted."""
+    """Checks the changes in a message. Raises ValueError, TypeError or KeyError for a bad one."""
     changes: dict[str, Any] = {}
     for name, value in message.items():
         if name == "camera":

@@ -27,7 +27,7 @@ from pt.figures._options import Options
 class Shown:
     """settings   size and method
     display    exposure (a number or "auto"), tonemap and gamma (None: the sRGB curve)
-    files      those that it was read from
+    files      files that were read
     """
 
     scene: Scene
@@ -41,13 +41,13 @@ class Source(Protocol):
     path: pathlib.Path
 
     def read(self) -> Shown:
-        """Reads it, perhaps again. Error, ValueError, OSError: it cannot be read."""
+        """Reads or rereads the contents. Raises Error, ValueError or OSError."""
 
     def explained(self, error: Exception) -> str:
-        """The message for an error, by the file's keys."""
+        """Returns an error's message with the keys of the file."""
 
     def saved(self, camera: Camera) -> tuple[str, bytes]:
-        """Name and contents of a file with the scene and another camera."""
+        """Returns the name and contents of a file with the scene and this camera."""
 
 
 class SceneSource:

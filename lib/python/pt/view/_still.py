@@ -1,4 +1,4 @@
-"""A film without further samples."""
+"""A view of a film, without further samples."""
 
 from __future__ import annotations
 

@@ -15,18 +15,18 @@ from pt.view._still import Still
 
 
 class View:
-    """Shows a scene file, data of particles, or a film in a page of the browser, for as long as it is open.
+    """Shows a scene file, particles, or a film in a browser page until it is closed.
 
-    what         a file's name, or a Film. Scenes are read by the program pt, in the PATH or named by PT_PROGRAM
+    what         name of a file, or a Film. The program pt (from PT_PROGRAM or the PATH) reads scenes
     size         width and height in pixels; None: the scene's
-    samples      the most that a pixel gets
-    device       as of Context
-    shader_dir   kernels to use instead of the library's; they and the scene open in an editor in the page
-    port         0: a free one
-    options      of pt.figure, for particles
+    samples      most samples of a pixel
+    device       as in Context
+    shader_dir   kernels that replace the library's; the page has an editor for them and for the scene
+    port         0 for a free port
+    options      options of pt.figure, for particles
 
-    It listens on 127.0.0.1 alone; anybody with `address` may see and steer it. A notebook shows it if the browser
-    reaches that port. Error, ValueError, OSError: it cannot be shown.
+    The server listens only on 127.0.0.1. Everybody who knows `address` has full control. A notebook shows the view if
+    the browser reaches that port. Raises Error, ValueError or OSError.
     """
 
     def __init__(self, what: Path | Film, *, size: tuple[int, int] | None = None, samples: int = 65536,
@@ -59,7 +59,7 @@ class View:
         self.address = self._server.address
 
     def close(self) -> None:
-        """Ends it; the page says so. A second call does nothing."""
+        """Ends the view. The page reports this. A second call does nothing."""
         self._show.close()
         self._server.close()
 

@@ -1,4 +1,4 @@
-"""Atoms of files that name them: columns under one set of names, elements by the field's rules."""
+"""Tables of named atoms, with elements by the field's rules."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ NO_ELEMENT: Final = 0
 
 def atoms_table(positions: Array, columns: dict[str, Array], elements: Array | None = None, cell: Cell | None = None,
                 bonds: Bonds | None = None, notes: list[str] | None = None, kept: Array | None = None) -> Table:
-    """A table of atoms without virtual sites.
+    """Returns a table without virtual sites.
 
-    columns   "name" (of atoms) and "resname" (of residues), if the file has them
-    elements  the file's atomic numbers, VIRTUAL for sites that are no atoms, 0: decided by names. None: all by names
-    kept      a mask of the atoms that are drawn; None: all
+    columns   with "name" (atoms) and "resname" (residues), if the file has them
+    elements  atomic numbers, VIRTUAL for sites that are not atoms, 0 where names decide; None: names decide all
+    kept      mask of the atoms to draw; None: all
     """
     notes = notes or []
     count = len(positions)

@@ -1,4 +1,4 @@
-"""DCD whose cells have edges of length 0, which MDAnalysis writes for none and chemfiles refuses."""
+"""DCD files without a cell. MDAnalysis writes edges of length 0, which chemfiles refuses."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from typing import Any, Final
 import numpy as np
 import numpy.typing as npt
 
-_CONTROL: Final = 8  # byte of the 20 numbers after the first marker and CORD
-_TITLE: Final = 92  # byte of the next record
-_LENGTHS: Final = (0, 2, 5)  # among the numbers of a cell
+_CONTROL: Final = 8  # byte offset of the 20 numbers after the first marker and CORD
+_TITLE: Final = 92  # byte offset of the next record
+_LENGTHS: Final = (0, 2, 5)  # indices of the edge lengths among the numbers of a cell
 
 
 def frames_without_cell(path: str) -> npt.NDArray[Any] | None:
-    """Records of the frames, whose fields x, y and z are the positions. None: frames have a cell, or another layout."""
+    """Returns the frames' records with fields x, y and z. None if frames have a cell, or another layout."""
     size = os.path.getsize(path)
     with open(path, "rb") as file:
         start = file.read(_TITLE + 4)

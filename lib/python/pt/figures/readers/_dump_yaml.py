@@ -1,4 +1,4 @@
-"""LAMMPS' dumps of the style yaml, as LAMMPS writes them."""
+"""LAMMPS dumps of the style yaml."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Frames of a file, each searched for only once."""
+"""Frames of a file. The file is searched only once."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from pt.figures.readers._lines import Lines
 class Frames(Protocol):
     """The frames that have particles.
 
-    current  the default: the current one of an object that moves through its frames, or the first of several models;
-             None: the last one
-    models   the numbers of models of one structure; None: frames are no models
+    current  index of the default frame: the present one of an object with a position in its trajectory, or the first of
+             several models; None: the last frame
+    models   numbers of a structure's models; None if frames are not models
     """
 
     name: str
@@ -25,10 +25,10 @@ class Frames(Protocol):
     def count(self) -> int: ...
 
     def has(self, index: int) -> bool:
-        """index: >= 0. A file need not be read to its end."""
+        """Needs index >= 0. Reads a file only as far as necessary."""
 
     def read(self, index: int) -> Table:
-        """Reads a frame, 0 <= index < count()."""
+        """Needs 0 <= index < count()."""
 
 
 class Listed:
@@ -52,9 +52,9 @@ def one_frame(name: str, read: Callable[[], Table]) -> Listed:
 
 
 class TextFrames:
-    """Formats whose frames have a header with the number of lines that follow.
+    """A format whose frames have a header, which tells the number of particles.
 
-    lines_after  lines that end a frame, after its particles
+    lines_after  number of lines after the particles of a frame
     """
 
     lines_after = 0
@@ -67,11 +67,11 @@ class TextFrames:
         self.name = lines.name
         self.notes: list[str] = []
         self._empty = 0
-        self._places = [lines.place()]  # of the known frames, and of the end of the last one
+        self._places = [lines.place()]  # positions of the known frames, and of the end of the last one
         self._is_whole = False
 
     def head(self) -> int | None:
-        """Reads the next frame's header: its number of particles; None at the end of the file."""
+        """Reads the next header. Returns the number of particles, or None at the end of the file."""
         raise NotImplementedError
 
     def body(self, count: int) -> Table:
@@ -96,7 +96,7 @@ class TextFrames:
             count = self._next()
         except DataError:
             if index:
-                self.read(index - 1)  # names an error's line more precisely
+                self.read(index - 1)  # The error then has a more precise line.
             raise
         if count is None:
             self._is_whole = True

@@ -1,4 +1,4 @@
-"""GROMACS' GRO: columns of fixed width, with as many decimals as the writer chose."""
+"""GROMACS' GRO: columns of fixed width. The writer chose the number of decimals."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from pt.figures.readers._atoms import atoms_table
 from pt.figures.readers._frames import TextFrames
 from pt.figures.readers._rows import are_numbers, is_number, shown
 
-ANGSTROMS: Final = 10.0  # in a nanometre
+ANGSTROMS: Final = 10.0  # angstroms per nanometre
 _NAMES: Final = {"resid": slice(0, 5), "resname": slice(5, 10), "name": slice(10, 15)}
-_START: Final = 20  # of the positions
+_START: Final = 20  # column at which positions begin
 _BOX: Final = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 0), (1, 2), (2, 0), (2, 1))
 
 
@@ -68,7 +68,7 @@ class Gro(TextFrames):
                 columns[name] = words.astype(np.int64 if name == "resid" else np.float64)
             except ValueError:
                 if name not in "xyz":
-                    continue  # velocities that are not whole, and residues without numbers
+                    continue  # Some rows may lack velocities or residue numbers.
                 texts = [word.decode("utf-8", "replace").strip() for word in words]
                 row = next(row for row, text in enumerate(texts) if not text or not is_number(text))
                 raise DataError(f"{self.lines.name}:{first + row}: {name} = {texts[row]!r}: must be a number of {width} "
@@ -80,7 +80,7 @@ class Gro(TextFrames):
         points = [place for place, letter in enumerate(line) if letter == "."]
         width = points[1] - points[0] if len(points) > 1 else 0
         words = line.split()
-        if len(words) < 3 <= len(points):  # numbers that touch
+        if len(words) < 3 <= len(points):  # Numbers may touch.
             words = [line[start:start + width] for start in range(0, len(line.rstrip()), width)]
         if len(words) not in (3, 9) or not are_numbers(word.strip() for word in words):
             raise self.lines.refuse(f"{shown(line)}: the cell must have 3 or 9 numbers")

@@ -1,4 +1,4 @@
-"""HOOMD-blue's GSD, by the package gsd."""
+"""HOOMD-blue's GSD, read by the package gsd."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def _table(file: Any, index: int, frame: Any) -> Table:
     kinds = np.array(particles.types or ["A"], str)[np.asarray(particles.typeid)]
     columns["type"] = kinds
     for name in ("diameter", "charge", "mass", "body", "velocity"):
-        # The package fills in HOOMD's defaults.
+        # The package would return HOOMD's defaults for missing arrays.
         if any(file.file.chunk_exists(frame=each, name=f"particles/{name}") for each in {0, index}):
             columns[name] = np.asarray(getattr(particles, name))
     names = set(particles.types)

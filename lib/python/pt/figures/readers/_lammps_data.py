@@ -32,7 +32,7 @@ STYLES: Final = {style: columns.split() for style, columns in {
     "smd": "id type mol volume mass kernel_radius contact_radius x0 y0 z0 x y z",
     "mesont": "id mol type tube mass radius length buckling_type x y z"}.items()}
 STYLES.update(bond=STYLES["molecular"], angle=STYLES["molecular"], amoeba=STYLES["full"])
-_OF_COUNT: Final = {5: ("atomic",), 6: ("charge", "molecular"), 7: ("full", "sphere")}  # columns, without image flags
+_OF_COUNT: Final = {5: ("atomic",), 6: ("charge", "molecular"), 7: ("full", "sphere")}  # styles by number of columns, without image flags
 _SECTION: Final = re.compile(r"[A-Z][A-Za-z]+( [A-Z]?[A-Za-z]+)* ?( Coeffs)?")
 _HEADER: Final = re.compile(r"(\d+)\s+([a-z][a-z ]*)")
 _BOUNDS: Final = re.compile(r"(.+?)\s+(xlo xhi|ylo yhi|zlo zhi|xy xz yz|avec|bvec|cvec|abc origin)")
@@ -69,7 +69,7 @@ class LammpsData:
             if text[:1].isupper() and _SECTION.fullmatch(text):
                 self._section(text, hint.strip())
             elif self.columns:
-                continue  # rows of other sections
+                continue  # These are rows of other sections.
             elif found := _BOUNDS.fullmatch(text):
                 self.box[found[2]] = self._numbers(found[1], 2 if "lo" in found[2] else 3)
             elif found := _HEADER.fullmatch(text):
@@ -105,7 +105,7 @@ class LammpsData:
         return rows
 
     def _rows(self, what: str, names: list[str], least: int | None = None) -> dict[str, Array]:
-        """Numbers, except types, which may have labels, and columns after the least ones."""
+        """Columns after the `least` first ones may have words, types may have labels. All others are numbers."""
         least = least or len(names)
         rows = Rows(self.lines, Layout(names, [name for name in names[:least] if name != "type"], least=least, is_table=True,
                                        rows=what))
@@ -137,7 +137,7 @@ class LammpsData:
         self.columns = self._rows("atoms", names, least)
 
     def _style(self, some: list[list[str]], hint: str) -> str:
-        """The style given, of the hint after "Atoms", or of some rows' columns."""
+        """The style comes from the user, else from the hint after "Atoms", else from the columns of some rows."""
         hint = hint.split()[0] if hint else ""
         if self.style is None and hint in STYLES:
             self.style = hint
@@ -178,7 +178,7 @@ class LammpsData:
         return atoms_table(positions, columns, elements, self.cell(), self._pairs(columns["id"]), self.notes)
 
     def _elements(self, columns: dict[str, Array]) -> Array | None:
-        """Elements by types' masses; types get their labels."""
+        """Finds elements by the masses of types. Types get their labels."""
         types, codes = np.unique(columns["type"], return_inverse=True)
         kinds = types.astype(str).tolist()
         names = [self.names.get(kind, "") or kind for kind in kinds]

@@ -1,4 +1,4 @@
-"""A file as lines or as bytes, packed or not, from a path or a pipe."""
+"""A file's lines or bytes. The file may be packed, and may be a pipe."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from pt.figures._errors import DataError, module
 STANDARD_INPUT: Final = "-"
 PACKED_ENDINGS: Final = (".gz", ".zst", ".xz", ".bz2")
 BLOCK_BYTES: Final = 1 << 20
-LONGEST_LINE: Final = 1 << 24  # bytes; longer ones are no text
+LONGEST_LINE: Final = 1 << 24  # bytes; a file with longer lines is not text
 
 
 def _open_zstd(file: IO[bytes]) -> Any:
@@ -35,7 +35,7 @@ _UNPACK: Final[dict[bytes, Callable[[IO[bytes]], Any]]] = {
 
 
 class Lines:
-    """A file, unpacked. number: of the line read last."""
+    """An unpacked file. number: the number of the last line read."""
 
     def __init__(self, path: str) -> None:
         self.path = path
@@ -45,7 +45,7 @@ class Lines:
         except OSError as error:
             raise DataError(f"{self.name}: {error.strerror}") from None
         self.is_file = self._raw.seekable() and path != STANDARD_INPUT
-        if not self.is_file:  # pipes' frames may have to be read twice
+        if not self.is_file:  # Frames of a pipe may be read twice.
             pipe, self._raw = self._raw, tempfile.TemporaryFile()
             shutil.copyfileobj(pipe, self._raw)
             if path != STANDARD_INPUT:
@@ -60,8 +60,8 @@ class Lines:
         self.is_packed = unpack is not None
         self._file = self._raw if unpack is None else unpack(self._raw)
         self._buffer = b""
-        self._next = 0  # in the buffer
-        self._passed = 0  # bytes before it
+        self._next = 0  # position in the buffer
+        self._passed = 0  # bytes before the buffer
         self.number = 0
         self.is_ended = True
         start = self.peek(3)
@@ -72,7 +72,7 @@ class Lines:
     def close(self) -> None:
         self._raw.close()
 
-    def __del__(self) -> None:  # frames keep the file open
+    def __del__(self) -> None:  # Frames keep the file open.
         if hasattr(self, "_raw") and self._raw is not sys.stdin.buffer:
             self.close()
 
@@ -103,7 +103,6 @@ class Lines:
         return self._buffer[self._next:self._next + size]
 
     def take(self, size: int) -> bytes:
-        """Up to `size` bytes."""
         taken = bytearray(self._buffer[self._next:self._next + size])
         self._next += len(taken)
         while len(taken) < size and (more := self._read(min(size - len(taken), BLOCK_BYTES))):
@@ -112,7 +111,7 @@ class Lines:
         return bytes(taken) if size < BLOCK_BYTES else cast(bytes, taken)
 
     def line(self) -> str | None:
-        """The next line without its end; None at the end of the file."""
+        """The next line without its end, or None at the end of the file."""
         while (end := self._buffer.find(b"\n", self._next)) < 0 and self._fill():
             self._check_length()
         if self._next == len(self._buffer):
@@ -134,7 +133,7 @@ class Lines:
         return b"".join(blocks)
 
     def block(self, most: int = sys.maxsize) -> tuple[bytes, int]:
-        """Up to `most` whole lines, at most a block of them, and their number; 0 at the end."""
+        """Returns up to `most` whole lines, limited by the buffer, and their number; 0 at the end."""
         if len(self._buffer) - self._next < BLOCK_BYTES:
             self._fill()
         while (end := self._buffer.rfind(b"\n", self._next) + 1) == 0 and self._fill():
@@ -148,7 +147,7 @@ class Lines:
         return data, count
 
     def skip(self, count: int) -> int:
-        """Skips up to `count` lines; returns their number."""
+        """Skips up to `count` lines. Returns the number of skipped lines."""
         passed = 0
         while passed < count and (lines := self.block(count - passed)[1]):
             passed += lines
@@ -158,7 +157,7 @@ class Lines:
         return self.byte, self.number
 
     def go_to(self, place: tuple[int, int]) -> None:
-        """A packed file is unpacked again from its start."""
+        """Going back in a packed file unpacks it again from the start."""
         byte, number = place
         if byte != self.byte:
             if self.is_packed:
@@ -172,7 +171,7 @@ class Lines:
         self.number = number
 
     def mapped(self, dtype: npt.DTypeLike, count: int) -> npt.NDArray[Any]:
-        """Up to `count` records; in place if the file is not packed."""
+        """Returns up to `count` records, in place unless the file is packed."""
         size = np.dtype(dtype).itemsize
         if self.is_file and not self.is_packed:
             count = min(count, (Path(self.path).stat().st_size - self.byte) // size)
@@ -188,7 +187,7 @@ class Lines:
 
 
 def _after_lines(data: bytes, start: int, end: int, most: int) -> tuple[int, int]:
-    """The end of up to `most` lines before `end`, and their number."""
+    """Returns the end of up to `most` lines before `end`, and the number of lines."""
     count = 0
     while count < most and start < end:
         stop = min(end, start + 64 * (most - count))
@@ -201,6 +200,6 @@ def _after_lines(data: bytes, start: int, end: int, most: int) -> tuple[int, int
 
 
 def ending(path: str) -> str:
-    """The lower-case ending before a packer's, such as .gz."""
+    """The lower-case ending, before one of a packer such as .gz."""
     name = Path(path.lower())
     return Path(name.stem).suffix if name.suffix in PACKED_ENDINGS else name.suffix

@@ -1,4 +1,4 @@
-"""Molecules with bonds (SDF, MOL, MOL2, CML) and trajectories (XTC, TRR, DCD, ...), by chemfiles."""
+"""Molecules with bonds (SDF, MOL, MOL2, CML) and trajectories (XTC, TRR, DCD, ...), read by chemfiles."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def read_molecules(lines: Lines, format: str) -> Listed:
     chemfiles = module("chemfiles", f"{lines.name}: {format}")
     text = lines.text().decode("utf-8", "replace")
     if format == "mol2" and "@<TRIPOS>BOND" not in text:
-        text += "\n@<TRIPOS>BOND\n"  # chemfiles wants one
+        text += "\n@<TRIPOS>BOND\n"  # chemfiles requires the section.
     file = tried(lines.name, "chemfiles", lambda: chemfiles.MemoryTrajectory(text, "r", MOLECULES[format]))
     count = file.nsteps
     if not count:
@@ -61,7 +61,7 @@ def _cell(frame: Any) -> Cell | None:
 
 
 def read_trajectory(path: str, format: str, topology: Callable[[], Table]) -> Frames:
-    """topology: what its atoms are."""
+    """topology: reads the file that describes the atoms."""
     count, step = _steps(path, format)
     atoms = topology()
     positions = next(iter(atoms.columns.values()))
@@ -80,7 +80,7 @@ def read_trajectory(path: str, format: str, topology: Callable[[], Table]) -> Fr
 
 
 def _steps(path: str, format: str) -> tuple[int, Callable[[int], tuple[npt.NDArray[Any], Cell | None]]]:
-    """The number of steps, and a function that reads one: positions and cell."""
+    """Returns the number of steps, and a function that reads the positions and the cell of a step."""
     records = frames_without_cell(path) if format == "dcd" else None
     if records is not None:
         return len(records), functools.partial(_without_cell, records)

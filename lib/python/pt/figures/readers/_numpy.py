@@ -29,7 +29,7 @@ def read_npy(lines: Lines) -> Frames:
 
 
 def read_npz(lines: Lines) -> Frames:
-    """Arrays with as many rows as positions become columns."""
+    """Arrays with as many rows as the positions become columns."""
     source: Any = lines.path if lines.is_file and not lines.is_packed else io.BytesIO(lines.take(sys.maxsize))
     try:
         with np.load(source, allow_pickle=False) as file:
@@ -44,7 +44,7 @@ def _array(lines: Lines) -> Array:
     try:
         is_first = npy.read_magic(stream) == (1, 0)
         shape, is_fortran, kind = (npy.read_array_header_1_0 if is_first else npy.read_array_header_2_0)(stream)
-    except Exception as error:  # any kind: NumPy parses the header as a Python expression
+    except Exception as error:  # NumPy parses the header as a Python expression, so any exception is possible.
         raise DataError(f"{lines.name}: byte {lines.byte}: {str(error)[:200]}: the header of an NPY file is damaged or was cut "
                         "short") from None
     if kind.hasobject or not kind.itemsize or min(shape, default=0) < 0:
@@ -59,7 +59,7 @@ def _array(lines: Lines) -> Array:
 
 
 def _require_text(name: str, values: Array) -> None:
-    """Refuses arrays whose bytes are not text, which NumPy does not check."""
+    """Refuses arrays whose bytes are not text. NumPy does not check them."""
     for field in values.dtype.names or ("",):
         column = values[field] if field else values
         if column.dtype.kind == "U" and column.dtype.itemsize:
@@ -69,7 +69,7 @@ def _require_text(name: str, values: Array) -> None:
 
 
 def frames_of_arrays(name: str, arrays: Mapping[str, Any]) -> Frames:
-    """Named arrays become columns; any may have a first dimension of frames."""
+    """Named arrays become columns. Each may have a first dimension of frames."""
     columns = {key: np.asarray(values) for key, values in arrays.items() if np.ndim(values)}
     box = next((columns.pop(key) for key in list(columns) if key.lower() in _CELLS), None)
     cell = Cell.of(box) if box is not None and box.shape in ((3,), (3, 3)) else None
@@ -84,7 +84,7 @@ def frames_of_arrays(name: str, arrays: Mapping[str, Any]) -> Frames:
 
 
 def frames_of_array(name: str, array: Array) -> Frames:
-    """Shape (n, 3), (n, 2), (n, k) with columns x, y, z, 4, ..., or (t, n, 3); or a structured array."""
+    """Accepts shape (n, 3), (n, 2), (n, k) with columns x, y, z, 4, ..., (t, n, 3), or a structured array."""
     if array.dtype.names:
         return frames_of_arrays(name, {key: array[key] for key in array.dtype.names})
     if array.dtype.kind not in "fiub" or array.ndim not in (2, 3) or not 2 <= array.shape[-1]:

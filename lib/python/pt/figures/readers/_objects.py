@@ -1,4 +1,4 @@
-"""Objects of other packages, recognised by their type's name without importing the package."""
+"""Objects of other packages, recognised by the names of their types. The packages are not imported."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from pt.figures._particles import Bonds, Table
 from pt.figures.readers._atoms import atoms_table
 from pt.figures.readers._frames import Frames, Listed
 
-# Columns, and MDAnalysis' attributes.
+# Our column names, and MDAnalysis' attributes.
 _ATTRIBUTES: Final = {"element": "elements", "name": "names", "type": "types", "radius": "radii", "mass": "masses",
                       "charge": "charges", "resid": "resids", "resname": "resnames", "chain": "segids"}
 
@@ -23,7 +23,7 @@ def of_ase(atoms: Any) -> Table:
 
 
 def of_mdanalysis(group: Any, name: str) -> Frames:
-    """A universe or a group of atoms; lengths are in angstroms."""
+    """Reads a universe or a group of atoms. Lengths are in angstroms."""
     atoms = group.atoms
     trajectory = group.universe.trajectory
 
@@ -42,7 +42,7 @@ def of_mdanalysis(group: Any, name: str) -> Frames:
 
 
 def _bonds_of(group: Any) -> Bonds | None:
-    """None without a topology of bonds."""
+    """Returns None if the topology has no bonds."""
     everything = getattr(group.universe, "bonds", None)
     if everything is None:
         return None

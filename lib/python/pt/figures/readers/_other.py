@@ -14,7 +14,7 @@ from pt.figures._particles import Table
 from pt.figures.readers._frames import Frames, Listed, one_frame
 from pt.figures.readers._objects import of_ase, of_mdanalysis
 
-_CENTRED: Final = ("dlp4", "dlp-history")  # ASE's names of DL_POLY's formats, whose cells have their middle at 0
+_CENTRED: Final = ("dlp4", "dlp-history")  # ASE's names of DL_POLY's formats, whose cells are centered at 0
 _UNKNOWN: Final = "neither its name nor its first lines say the format"
 
 
@@ -79,13 +79,13 @@ def _points(positions: Any, columns: dict[str, Any], faces: int) -> Table:
 
 
 def tried(path: str, package: str, read: Callable[[], Any]) -> Any:
-    """Suppresses a package's warnings, and turns its errors into ours."""
+    """Suppresses a package's warnings, and converts its exceptions to DataError."""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             return read()
     except (DataError, KeyboardInterrupt, SystemExit, MemoryError):
         raise
-    except BaseException as error:  # each package has its own exceptions; chemfiles' are no Exception
+    except BaseException as error:  # Packages have their own exceptions. Those of chemfiles are not derived from Exception.
         words = " ".join(str(error).split()) or type(error).__name__
         raise DataError(f"{path}: {package} cannot read it: {words}") from error

@@ -28,7 +28,7 @@ def read_pcd(lines: Lines) -> Table:
     try:
         counts = map(int, head.get("COUNT", ["1"] * len(head["FIELDS"])))
         for name, kind, size, width in zip(head["FIELDS"], head["TYPE"], head["SIZE"], counts, strict=True):
-            for i in range(width):  # padding fields may share a name
+            for i in range(width):  # Several padding fields may have one name.
                 key = name if width == 1 and name not in kinds else f"{name}[{i or len(kinds)}]"
                 kinds[key] = np.dtype({"F": "f", "U": "u", "I": "i"}[kind] + size).str
         count = int(head["POINTS"][0])
@@ -43,7 +43,7 @@ def read_pcd(lines: Lines) -> Table:
 
 
 def _with_colors(columns: dict[str, npt.NDArray[Any]]) -> dict[str, npt.NDArray[Any]]:
-    """Unpacks colors: three bytes in a number of 32 bits of any type."""
+    """Unpacks colors. Three bytes are stored in any 32-bit type."""
     for name in _PACKED_COLORS:
         if name in columns and columns[name].dtype.itemsize == 4:
             packed = np.ascontiguousarray(columns.pop(name)).view(np.uint32)

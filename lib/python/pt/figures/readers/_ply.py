@@ -26,7 +26,7 @@ _ORDERS: Final = {"ascii": "", "binary_little_endian": "<", "binary_big_endian":
 class _Element:
     name: str
     count: int
-    properties: list[tuple[str, str, str]]  # name, type and, for lists, the type of their length
+    properties: list[tuple[str, str, str]]  # name, type and, for lists, the type of the length
 
 
 def read_ply(lines: Lines) -> Table:
@@ -71,7 +71,7 @@ def _ply_head(lines: Lines) -> tuple[str, list[_Element]]:
 
 
 def text_columns(lines: Lines, kinds: Mapping[str, str], count: int, notes: list[str]) -> dict[str, Array]:
-    """Numbers get the header's types, which tell the scale of colors."""
+    """Numbers get the types in the header, which determine the scale of colors."""
     rows = Rows(lines, Layout(list(kinds), list(kinds)))
     rows.read(count)
     notes += rows.notes
@@ -97,7 +97,7 @@ def binary_columns(lines: Lines, kinds: Mapping[str, str], count: int, _: list[s
 
 
 def _by_value(lines: Lines, element: _Element, order: str) -> dict[str, Array]:
-    """Reads value by value, since lists give records different lengths; as text if order is empty."""
+    """Reads single values, because lists give records different lengths. Reads text if order is empty."""
     words: list[str] = []
 
     def take(kind: str, count: int) -> Array:
@@ -121,7 +121,7 @@ def _by_value(lines: Lines, element: _Element, order: str) -> dict[str, Array]:
                     values[name].append(found[0])
         except DataError:
             raise
-        except (ValueError, OverflowError) as error:  # not a number, or a list of -1 values
+        except (ValueError, OverflowError) as error:  # The text is not a number, or a list's length is negative.
             raise lines.refuse(f"{shown(line)}: {error}") from None
         if words:
             raise lines.refuse(f"{shown(line)}: has {len(words)} more values than the header states")

@@ -1,4 +1,4 @@
-"""PSF of CHARMM, NAMD and X-PLOR: a trajectory's atoms, without positions."""
+"""PSF of CHARMM, NAMD and X-PLOR: the atoms of a trajectory, without positions."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Rows of text as columns. pandas reads many; few, and blocks with a wrong row, are read one by one."""
+"""Rows of text as columns. pandas reads large blocks. Short files and blocks with a bad row are read row by row."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from pt.figures.readers._lines import Lines
 
 Array = npt.NDArray[Any]
 
-_TABLE: Final = ""  # the key of three columns of positions, kept as one table
+_TABLE: Final = ""  # key of three columns of positions, which are stored as one table
 FEW_BYTES: Final = 1 << 16
 MISSING: Final = ("", "nan", "NaN", "NAN", "-nan", "NA", "N/A", "n/a", "null", "None", "-")
 _WHOLE: Final = re.compile(r"[+-]?\d+")
@@ -31,11 +31,11 @@ class Layout:
 
     positions  columns that must be numbers
     separator  "" for blanks
-    decimal    the decimal mark
-    least      least number of fields in a row; others are optional, further ones are ignored
-    is_table   the number of rows is unknown: blank lines and lines that begin with # are skipped, and columns of
-               numbers, except positions, may have words too
-    rows       the rows' name, for messages
+    decimal    decimal mark
+    least      least number of fields in a row; more than the names are ignored
+    is_table   whether the number of rows is unknown; then blank lines and lines that begin with # are skipped, and
+               columns except positions may mix numbers and words
+    rows       name of the rows in messages
     """
 
     names: list[str]
@@ -48,12 +48,11 @@ class Layout:
 
 
 def number(text: str, decimal: str = ".") -> float:
-    """Also reads exponents of Fortran (1.5D+02) and Mathematica (1.5*^2); NaN for a missing value. Raises ValueError.
-    """
+    """Reads also exponents of Fortran (1.5D+02) and Mathematica (1.5*^2). A missing value gives NaN. Raises ValueError."""
     if text in MISSING:
         return np.nan
     if "_" in text:
-        raise ValueError(text)  # Python would accept it
+        raise ValueError(text)  # float() would accept it.
     return float(_EXPONENT.sub(r"\1e\2", text if decimal == "." else text.replace(decimal, ".")))
 
 
@@ -66,7 +65,7 @@ def is_number(text: str, decimal: str = ".") -> bool:
 
 
 def are_numbers(words: Iterable[str]) -> bool:
-    """Missing values are no numbers."""
+    """Missing values do not count as numbers."""
     return all(word not in MISSING and is_number(word) for word in words)
 
 
@@ -75,7 +74,7 @@ def is_comment(line: str) -> bool:
 
 
 def fields_of(line: str, separator: str) -> list[str]:
-    """csv.Error: a quoted field does not end."""
+    """Raises csv.Error if a quoted field does not end."""
     if not separator:
         return [word.strip('"') for word in line.split()]
     if '"' not in line:
@@ -93,7 +92,7 @@ class Rows:
         self._are_words: list[bool] = []
 
     def read(self, count: int | None = None, marks: re.Pattern[bytes] | None = None) -> None:
-        """Reads count rows (fewer are an error), or all. Matches of marks count as blanks."""
+        """Reads exactly count rows, or all. Text that matches `marks` counts as blank."""
         lines = self.lines
         while count is None or self.count < count:
             first = lines.number + 1
@@ -120,7 +119,7 @@ class Rows:
         self.count += len(columns[0])
 
     def _put(self, key: str, piece: Array) -> None:
-        """Arrays double when they grow; the system allocates only what is written."""
+        """Doubles the capacity when needed. The system allocates only the pages that are written."""
         have, end = self._columns.get(key, piece[:0]), self.count + len(piece)
         kind = np.result_type(have, piece)
         if end > len(have) or kind != have.dtype:
@@ -137,7 +136,7 @@ class Rows:
         return result
 
     def _find_words(self, data: bytes) -> None:
-        """Columns are words if their first field is one, except positions."""
+        """A column, unless it is a position, has words if its first field is not a number."""
         layout = self.layout
         lines = (line.decode("utf-8", "replace") for line in io.BytesIO(data))
         first = next((line for line in lines if line.strip() and not (layout.is_table and is_comment(line))), "")
@@ -150,7 +149,7 @@ class Rows:
         return name not in self.layout.positions and (self.layout.is_table or name.lower() in LABELS)
 
     def _by_pandas(self, data: bytes, height: int) -> list[Array] | None:
-        """None if the block needs a closer look: pandas takes short rows for missing values and names no lines."""
+        """Returns None if the block may be bad: pandas fills up short rows and does not report line numbers."""
         layout = self.layout
         try:
             pandas = module("pandas", "fast reading of large text")
@@ -168,10 +167,10 @@ class Rows:
                 dtype={i: "category" for i in range(width) if self._are_words[i]}, keep_default_na=False,
                 na_values={i: list(MISSING) for i in range(width) if not self._are_words[i]}, low_memory=False,
                 encoding_errors="replace", engine="c",
-                **({"float_precision": "round_trip"} if pandas.__version__ < "3" else {}))  # the default from 3 on
+                **({"float_precision": "round_trip"} if pandas.__version__ < "3" else {}))  # pandas 3 has this default.
         except (ValueError, OverflowError):
             return None
-        may_skip = layout.is_table and b'"' not in data  # blank lines
+        may_skip = layout.is_table and b'"' not in data  # Blank lines may be skipped.
         if frame.shape[1] != width or len(frame) > height or (len(frame) < height and not may_skip):
             return None
         columns: list[Array] = []
@@ -188,7 +187,7 @@ class Rows:
         return columns if self._has_all_fields(last == "" if last.dtype.kind == "U" else np.isnan(last), data, height) else None
 
     def _has_all_fields(self, is_missing: Array, data: bytes, height: int) -> bool:
-        """Whether all rows with a missing last value have a field for it."""
+        """Whether the last value of every row is missing as an empty field, not as a short row."""
         rows = np.flatnonzero(is_missing)
         if not len(rows) or len(self.layout.names) == 1:
             return True

@@ -1,4 +1,4 @@
-"""Structures of macromolecules, in PDB files, PDBQT and mmCIF, by gemmi."""
+"""Macromolecules in PDB, PDBQT and mmCIF files, read by gemmi."""
 
 from __future__ import annotations
 
@@ -24,13 +24,13 @@ Array = npt.NDArray[Any]
 _ATOMS: Final = frozenset((b"ATOM  ", b"HETATM"))
 _OTHERS: Final = frozenset((b"HEADER", b"EXPDTA", b"SSBOND", b"LINK  ", b"CONECT"))
 _ELEMENT_AND_CHARGE: Final = re.compile(rb"( [A-Za-z]|[A-Za-z][A-Za-z]|[A-Za-z] )( *|[1-9][+-])")
-_DEUTERIUM: Final = 119  # in gemmi
-PART: Final = 5000  # atoms
-_OTHER_PART: Final = "\x7f"  # ends the names of every other part of a chain
+_DEUTERIUM: Final = 119  # gemmi's number
+PART: Final = 5000  # atoms in a part of a chain
+_OTHER_PART: Final = "\x7f"  # suffix of the names of every other part of a chain
 
 
 def read_pdb(lines: Lines, is_pdbqt: bool = False) -> Listed:
-    """gemmi reads each model on its own: their cells may differ, and their numbers repeat."""
+    """Lets gemmi read each model alone, because cells may differ and model numbers may repeat."""
     gemmi = module("gemmi", f"{lines.name}: PDB")
     rows = lines.text().replace(b"\r", b"").split(b"\n")
     others, models = _split(rows, _with_autodock_element if is_pdbqt else _with_element)
@@ -45,7 +45,7 @@ def read_pdb(lines: Lines, is_pdbqt: bool = False) -> Listed:
 
 
 def _split(lines: list[bytes], completed: Callable[[bytes], bytes]) -> tuple[list[bytes], list[tuple[int, list[bytes]]]]:
-    """The lines common to all models; and each model's number and lines."""
+    """Returns the lines that belong to all models, and each model's number and lines."""
     others: list[bytes] = []
     models: list[tuple[int, list[bytes]]] = []
     number, cell, atoms = 1, b"", []
@@ -72,7 +72,7 @@ def _split(lines: list[bytes], completed: Callable[[bytes], bytes]) -> tuple[lis
                 number = int(line[6:])
     cells = [model[0] for _, model in models if model[0]]
     for _, model in models:
-        model[0] = model[0] or next(iter(cells), b"")  # a cell may come after its model
+        model[0] = model[0] or next(iter(cells), b"")  # A cell may follow its model.
     return others, models
 
 
@@ -81,17 +81,17 @@ def _in_columns(line: bytes) -> bytes:
         a, b, c, alpha, beta, gamma = map(float, line[6:].split()[:6])
         return f"CRYST1{a:9.3f}{b:9.3f}{c:9.3f}{alpha:7.2f}{beta:7.2f}{gamma:7.2f}".encode() + line.rstrip()[54:]
     except ValueError:
-        return line  # numbers that touch
+        return line  # Numbers may touch.
 
 
 def _with_element(line: bytes) -> bytes:
-    """Puts X into columns 77 and 78 without an element, so gemmi does not guess, and removes wrong charges."""
+    """Writes X for a missing element, so that gemmi does not guess it, and removes bad charges (columns 77 to 80)."""
     end = _ELEMENT_AND_CHARGE.match(line[76:80].ljust(2))
     return line[:76].ljust(76) + (b" X" if end is None else end[0])
 
 
 def _with_autodock_element(line: bytes) -> bytes:
-    """AutoDock's type, which ends the line, becomes the element."""
+    """Converts AutoDock's type, the last word of a line, to an element."""
     number = autodock_element(line.split()[-1].decode("utf-8", "replace"))
     symbol = SYMBOLS[number] if 0 < number < VIRTUAL else "X"
     return line[:76].ljust(76) + f"{symbol:>2}".encode()
@@ -115,7 +115,7 @@ def frames_of(name: str, structure: Any) -> Listed:
 
 
 def divide_chains(block: Any) -> None:
-    """Gives long chains of mmCIF parts of other names: for each residue, gemmi searches all earlier ones of its chain."""
+    """Divides long chains of mmCIF into parts with different names: gemmi's search for a residue is linear in a chain."""
     gemmi = module("gemmi", block.name)
     chains = block.find_values("_atom_site.auth_asym_id") or block.find_values("_atom_site.label_asym_id")
     names: dict[str, str] = {}
@@ -128,7 +128,7 @@ def divide_chains(block: Any) -> None:
 
 
 def _named_by_number(structure: Any) -> Array:
-    """The chain of each atom. Chains get short names, which a FlatStructure needs."""
+    """Returns the chain of each atom. Gives chains the short names that a FlatStructure requires."""
     chains = [chain for model in structure for chain in model]
     names = [chain.name.removesuffix(_OTHER_PART) for chain in chains]
     for number, chain in enumerate(chains):
@@ -143,7 +143,7 @@ def _flat(structure: Any) -> Any:
         return gemmi.FlatStructure(structure)
     except RuntimeError:
         for residue in (residue for model in structure for chain in model for residue in chain):
-            residue.subchain = ""  # a long name, which no figure shows
+            residue.subchain = ""  # FlatStructure refuses long names, and figures do not show this one.
         return gemmi.FlatStructure(structure)
 
 
@@ -163,7 +163,7 @@ def _table(structure: Any, flat: Any, chains: Array, rows: slice) -> Table:
 
 
 def _words(letters: Array) -> Array:
-    """Words from rows of letters that end in zeros."""
+    """Converts rows of letters that end in zeros to words."""
     rows = np.ascontiguousarray(letters).view(np.uint8)
     width = max(1, int((rows != 0).any(axis=0).sum()))
     packed = np.ascontiguousarray(rows[:, :width]).view(f"S{width}").reshape(-1)
@@ -173,7 +173,7 @@ def _words(letters: Array) -> Array:
 
 
 def _likeliest(columns: dict[str, Array]) -> Array:
-    """Atoms of the alternative with the highest mean occupancy of their residue."""
+    """Selects the alternative with the highest mean occupancy in each residue."""
     kept = np.ones(len(columns["altloc"]), bool)
     alternatives: dict[tuple[Any, ...], dict[str, list[int]]] = {}
     for row in np.flatnonzero(columns["altloc"] != ""):
@@ -205,7 +205,7 @@ def _bonds(structure: Any, columns: dict[str, Array], notes: list[str]) -> Bonds
 
 
 def _connections(structure: Any, columns: dict[str, Array]) -> Iterator[tuple[int, int]]:
-    """struct_conn, or LINK and SSBOND, within the asymmetric unit; no hydrogen bonds."""
+    """Yields struct_conn, or LINK and SSBOND, within the asymmetric unit, without hydrogen bonds."""
     gemmi = module("gemmi", structure.name)
     wanted = [each for each in structure.connections
               if each.type != gemmi.ConnectionType.Hydrog and each.asu != gemmi.Asu.Different]
@@ -221,7 +221,7 @@ def _connections(structure: Any, columns: dict[str, Array]) -> Iterator[tuple[in
 
 
 def _conect(structure: Any, serials: Array, notes: list[str]) -> Iterator[tuple[int, int]]:
-    """CONECT, without numbers that two atoms have."""
+    """Yields CONECT records, except for serial numbers that several atoms have."""
     table = structure.conect_map
     if not table:
         return

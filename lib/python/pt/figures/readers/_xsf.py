@@ -42,7 +42,7 @@ def read_xsf(lines: Lines) -> Listed:
             steps.append((vectors, rows))
             continue
         elif word.startswith("BEGIN_BLOCK"):
-            break  # grids of numbers
+            break  # Grids of numbers follow.
         line = lines.line()
     steps = [step for step in steps if step[1]]
     if not steps:

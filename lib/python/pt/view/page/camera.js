@@ -1,4 +1,4 @@
-// How the mouse, fingers and keys move a camera, a section of a scene file. All return another one.
+// Camera movements by mouse, fingers and keys. A camera is a section of a scene file. All functions return a new one.
 
 const add = (a, b, scale = 1) => a.map((value, i) => value + scale * b[i]);
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -11,7 +11,7 @@ function axes(camera) {
   return [right, cross(right, forward), forward];
 }
 
-// look_at, the center of turns, moves to this depth. A lens without a focus of its own stays focused.
+// Moves look_at, the center of rotation, to this depth. A lens keeps its focus.
 export function turnsAbout(camera, depth) {
   const forward = axes(camera)[2];
   const moved = {...camera, look_at: add(camera.position, forward, depth)};
@@ -20,7 +20,7 @@ export function turnsAbout(camera, depth) {
   return moved;
 }
 
-// By angles: to the right about up, and upwards, short of the poles.
+// Turns by angles: to the right about up, and upwards, short of the poles.
 export function orbit(camera, toRight, upwards) {
   const up = unit(camera.up);
   const back = add(camera.position, camera.look_at, -1), distance = Math.hypot(...back);
@@ -42,7 +42,7 @@ export function pan(camera, toRight, upwards) {
   return {...camera, position: add(camera.position, way), look_at: add(camera.look_at, way)};
 }
 
-// factor < 1 is nearer.
+// A factor below 1 moves closer.
 export function zoom(camera, factor) {
   if (camera.vertical_extent)
     return {...camera, vertical_extent: camera.vertical_extent * factor};

@@ -1,4 +1,4 @@
-// What the page takes of CodeMirror. `npm ci && npm run build` in this folder makes codemirror.js of it.
+// The parts of CodeMirror that the page uses. `npm ci && npm run build` in this folder bundles them as codemirror.js.
 import {defaultKeymap, history, historyKeymap, indentWithTab} from "@codemirror/commands";
 import {bracketMatching, indentUnit} from "@codemirror/language";
 import {lintGutter} from "@codemirror/lint";
@@ -19,7 +19,7 @@ const theme = EditorView.theme({
   ".cm-cursor": {borderLeftColor: "#7fc8f8"},
 }, {dark: true});
 
-// What an editor of programs is expected to do. keys come before all others.
+// The usual functions of a program editor. `keys` have priority.
 export const basic = keys => [
   lineNumbers(), lintGutter(), history(), drawSelection(), highlightActiveLine(), bracketMatching(), highlightSelectionMatches(),
   indentUnit.of("    "), EditorState.tabSize.of(4), theme,

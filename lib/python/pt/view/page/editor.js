@@ -1,4 +1,4 @@
-// The editor of kernels and of the scene: CodeMirror, with the colors of GLSL and JSON.
+// The editor of kernels and of the scene: CodeMirror with highlighting of GLSL and JSON.
 import {EditorState, EditorView, HighlightStyle, StreamLanguage, basic, setDiagnostics, syntaxHighlighting, tags}
   from "./codemirror.js";
 
@@ -139,7 +139,7 @@ export class Editor {
     this.line = undefined;
   }
 
-  // Faults stand at their lines, and all of them below the text.
+  // Marks the lines of faults, and lists all faults below the text.
   tell(faults) {
     if (this.told !== JSON.stringify([this.name, faults])) {
       this.told = JSON.stringify([this.name, faults]);

@@ -1,4 +1,4 @@
-// The display transform of `pt tonemap`; cli/image/tone_map.cpp names the papers.
+// The display transform of `pt tonemap`. cli/image/tone_map.cpp names the papers.
 
 export const curves = {
   none() {},
@@ -63,7 +63,7 @@ function encode(light, gamma) {
   return light <= 0.0031308 ? 12.92 * light : 1.055 * Math.pow(light, 1 / 2.4) - 0.055;
 }
 
-// RGBA bytes of RGB floats. display: exposure in stops, curve, gamma (0: the sRGB curve).
+// Returns RGBA bytes. exposure: stops; gamma: 0 for the sRGB curve.
 export function toBytes(radiance, {exposure, curve, gamma}) {
   const bytes = new Uint8ClampedArray(radiance.length / 3 * 4);
   const scale = 2 ** exposure, apply = curves[curve], c = [0, 0, 0];
@@ -100,7 +100,7 @@ export function automaticExposure(radiance) {
   return Math.min(Math.max(Math.sign(hundredths) * Math.floor(Math.abs(hundredths) + 0.5) / 100, -64), 64);
 }
 
-// A grey of each pixel's first number, from the least to the greatest finite one; others are black.
+// Shows the first number of each pixel from black (least) to white (greatest). Numbers that are not finite are black.
 function toGreys(values, isNearBright) {
   let least = Infinity, greatest = -Infinity;
   for (let i = 0; i < values.length; i += 3)

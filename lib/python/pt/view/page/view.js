@@ -1,4 +1,4 @@
-// The page: shows what comes from the socket, sends what is done here.
+// The page. It shows frames from the socket and sends the user's actions.
 import {orbit, pan, turnsAbout, zoom} from "./camera.js";
 import {automaticExposure, curves, layerBytes, toBytes} from "./tone.js";
 
@@ -6,9 +6,9 @@ const $ = id => document.getElementById(id);
 
 let socket, editor;
 let state = {};
-let pixels;       // Float32Array of RGB, of the layer
-let display;      // exposure (a number), automatic, curve, gamma (0: the sRGB curve)
-let camera;       // at the server, or on its way there
+let pixels; // Float32Array with RGB of the layer
+let display; // exposure (a number), automatic, curve, gamma (0: the sRGB curve)
+let camera; // the camera that was sent last
 let pointer;
 let asks = false;
 
@@ -50,7 +50,7 @@ function paint() {
   $("exposure").value = display.exposure;
 }
 
-// Enlarges by whole factors, so that all pixels are equally large.
+// Enlarges by an integer factor, so that all pixels have the same size.
 function fit() {
   const stage = $("stage"), canvas = $("picture");
   const [width, height] = state.size;
@@ -149,7 +149,7 @@ function tellPixel(pixel) {
 }
 
 let drag;
-let settled = 0; // when the server's camera counts again: frames of older cameras may be on their way
+let settled = 0; // time from which frames have the new camera; earlier frames may show an older one
 
 function move(next) {
   camera = next;
@@ -158,7 +158,7 @@ function move(next) {
   $("camera").value = line(camera);
 }
 
-// Turns about the middle of the picture, fixed while the camera moves.
+// Rotations are about the middle of the picture. It stays fixed while the camera moves.
 function pivoted() {
   return state.pivot && camera === state.camera && !state.moving ? turnsAbout(camera, state.pivot) : camera;
 }
@@ -276,7 +276,7 @@ function begin() {
   $("back").addEventListener("click", back);
   $("copy").addEventListener("click", () => {
     $("camera").select();
-    document.execCommand("copy"); // navigator.clipboard needs a secure context
+    document.execCommand("copy"); // navigator.clipboard needs a secure context.
   });
   $("png").addEventListener("click", () => $("picture").toBlob(blob => {
     const link = Object.assign(document.createElement("a"), {href: URL.createObjectURL(blob), download: "picture.png"});
