@@ -6,8 +6,8 @@
 
 A Context takes a Scene, a Camera and RenderSettings. It accumulates samples and returns the image.
 
-The world is right-handed. Lengths are in scene units, angles in radians, times in [0, 1]. Colors are linear RGB
-radiance, unclamped. Row 0 of an image is the top row.
+World: right-handed; lengths in scene units, angles in radians, times in [0, 1]. Colors are linear RGB radiance. Row 0 of
+an image is the top row.
 
 The library comes from PT_LIBRARY, else from the installed package, else from the system (libpt.so.0.3).
 """
@@ -32,7 +32,7 @@ from pt._library import library, version_text
 from pt._scene import Material, Plane, Scene, Sphere, SphereArray
 from pt._stats import DeviceInfo, ErrorEstimate, Stats, devices
 
-if TYPE_CHECKING:  # They are imported on first use, because figures import slowly.
+if TYPE_CHECKING:  # Figures import slowly.
     from pt._render import render
     from pt.figures import Figure, figure
 

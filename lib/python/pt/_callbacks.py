@@ -21,7 +21,7 @@ Log = Callable[[LogLevel, str], object]
 
 
 class CallbackGuard:
-    """Guards one call of the library as a context manager. raise_caught() raises the caught exception."""
+    """Guards one call of the library by `with`."""
 
     def __init__(self) -> None:
         self.error: BaseException | None = None
@@ -43,7 +43,7 @@ class CallbackGuard:
         self._functions.append(function)
 
     def progress(self, function: Progress | None) -> Any:
-        """A pt_progress_fn that stops the call after an exception, or when the function returns True."""
+        """Returns a pt_progress_fn that stops the call after an exception, or when the function returns True."""
 
         def report(_: object, fraction: float) -> int:
             if self.error is not None:
@@ -84,7 +84,7 @@ def _install(guard: CallbackGuard) -> None:
 def _remove(guard: CallbackGuard) -> None:
     with _lock:
         _guards.remove(guard)
-        if not _guards and isinstance(sys.unraisablehook, _Hook):  # Another hook may have replaced ours. It still calls ours.
+        if not _guards and isinstance(sys.unraisablehook, _Hook):  # A hook that has replaced ours still calls ours.
             sys.unraisablehook = sys.unraisablehook.before
 
 

@@ -20,12 +20,12 @@ from pt._vectors import Vector, vector
 class Camera:
     """A pinhole, a thin lens (with an aperture) or parallel rays (with a vertical_extent). Lengths are in scene units.
 
-    position          the pinhole; parallel rays start on the plane through position that is parallel to the image
-    target            the point in the middle of the image; must differ from position
+    position          parallel rays start on the plane through it, across the view
+    target            middle of the image; must differ from position
     up                must not be parallel to the viewing direction
     vertical_fov      full angle in radians, in [1e-8, pi); default pi / 4; None with parallel rays
     shutter           0 <= open <= close <= 1; the image averages this interval
-    vertical_extent   full height of the view with parallel rays, in [1e-18, 1e18]; None for a perspective
+    vertical_extent   full height of the view with parallel rays, in [1e-18, 1e18]
     aperture          diameter of the lens, at most twice the focus; 0 for a pinhole
     focus             depth of the plane in focus; 0 for the distance of target
     """
@@ -77,7 +77,7 @@ class Camera:
         return Camera(position=position, target=position - distance * back, up=up, vertical_fov=vertical_fov)
 
     def axes(self) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.float64]]:
-        """Unit vectors: right in the image, up in the image, and from the target to the camera."""
+        """Unit vectors: right and up in the image, and from the target to the camera."""
         return _axes(np.subtract(self.position, self.target), self.up)
 
     @property
@@ -100,7 +100,7 @@ class Camera:
 
     @staticmethod
     def _of_section(section: dict[str, Any]) -> Camera:
-        """Reads a section of a scene file. Raises ValueError, TypeError or KeyError if it is not a camera."""
+        """Raises ValueError, TypeError or KeyError if the section of a scene file is not a camera."""
         others = {name: float(section[name]) for name in ("vertical_extent", "aperture", "focus") if name in section}
         angle = section.get("vertical_fov")
         first, last = map(float, section.get("shutter", (0.0, 1.0)))

@@ -81,7 +81,7 @@ def index_column(name: str, values: npt.ArrayLike, count: int) -> Array:
 
 
 def column_of(array: Array | None) -> structs.pt_column:
-    """The library's view of the column. The array must outlive it."""
+    """The array must outlive the column."""
     if array is None:
         return structs.pt_column()
     stride = array.strides[0] if len(array) > 1 else 0

@@ -1,5 +1,3 @@
-"""Whether two images show the same light."""
-
 from __future__ import annotations
 
 import ctypes
@@ -22,27 +20,26 @@ WORST: Final = 5  # regions in a message
 class Region:
     """A rectangle of the picture. Tuples are R, G, B."""
 
-    x: int  # first column
-    y: int  # first row
+    x: int
+    y: int
     width: int  # pixels
     height: int
     light: tuple[float, float, float]  # mean of the second image
     difference: tuple[float, float, float]  # mean of the first image minus mean of the second
     deviation: tuple[float, float, float]  # standard deviation of the difference
     probability: float  # upper bound: equal light shows such a difference in some region of this size
-    smallest_change: float  # smallest relative change of the region's light that would be found with 99%; may be infinite
+    smallest_change: float  # smallest relative change of the region's light that would be found with 99%
 
 
 @dataclass(frozen=True)
 class Comparison:
-    """The result of compare(). str() returns the summary."""
 
     light: Light
     probability: float  # upper bound: equal light shows such differences
-    smallest_change: float  # smallest relative change of all light that would be found with 99%; may be infinite
-    smallest_tile_change: float  # the same for one tile of 32 x 32 pixels: the median over these tiles
+    smallest_change: float  # smallest relative change of all light that would be found with 99%
+    smallest_tile_change: float  # the same for one tile of 32 x 32 pixels; median over these tiles
     summary: str
-    regions: tuple[Region, ...]  # the whole picture first, then tiles whose sides are halved down to 16 pixels
+    regions: tuple[Region, ...]  # the whole picture, then tiles whose sides are halved down to 16 pixels
 
     def __str__(self) -> str:
         return self.summary
@@ -53,10 +50,10 @@ def compare(first: Film | Image | npt.ArrayLike, second: Film | Image | npt.Arra
     """Tests whether two images show the same light (shaders/README.md, section 11).
 
     first, second   films, images or radiance of shape (height, width, 3), equally large. Changes are relative to the
-                    second. Images with the same seed and sampler show smaller changes
+                    second. With the same seed and sampler smaller changes are found
     rate            probability of calling equal light different
-    min_change      result is Light.UNDECIDED if a relative change of all light by this much may be missed
-    look            1, 2, ... for repeated comparisons of growing images; all together then have the rate
+    min_change      Light.UNDECIDED if a relative change of all light by this much may be missed
+    look            1, 2, ... for repeated tests of growing images; `rate` is then for all together
 
     Raises InvalidArgumentError if the tiles have different sample counts (their means are biased) or the sampler is
     HALTON (its errors are not random), and ValueError for unsuitable shapes."""
@@ -77,7 +74,7 @@ def compare(first: Film | Image | npt.ArrayLike, second: Film | Image | npt.Arra
 def assert_same_light(first: Film | Image | npt.ArrayLike, second: Film | Image | npt.ArrayLike, *,
                       min_change: float = 0.01, rate: float = 1e-6) -> None:
     """Raises AssertionError with the most different regions if the light differs, or if a relative change by min_change
-    may have been missed. The arguments are the same as in compare()."""
+    may have been missed. Arguments are those of compare()."""
     comparison = compare(first, second, rate=rate, min_change=min_change)
     if comparison.light in (Light.EQUAL_BITS, Light.SAME):
         return

@@ -1,5 +1,3 @@
-"""A renderer on a device."""
-
 from __future__ import annotations
 
 import ctypes
@@ -32,29 +30,28 @@ MOST_SAMPLES = 2**32 - 1
 class Context:
     """A renderer. Set a scene, a camera and settings, accumulate samples, read the image.
 
-    device                None: the best device. Otherwise an index into devices(), "gpu", "cpu", a UUID, or part of a
-                          name. "all" shares the samples among the devices of the best kind, a list separated by commas
-                          among its devices
-    log                   function that is called with level and line during any call
+    device                index into devices(), "gpu", "cpu", a UUID, or part of a name; None: the best. "all" shares the
+                          samples among the devices of the best kind, a list with commas among its devices
+    log                   called with level and line during any call
     validation            whether the Khronos validation layer reports to log; UnsupportedError if it is missing
     scene_kernels         whether kernels may have a scene's numbers as constants; False suits scenes that change in
                           every frame
-    submit_milliseconds   intended length of a submission, in [1, 1000]; calls can stop after each submission
-    shader_dir            folder of GLSL files that replace the library's kernels (pt/shaders.h); ShaderError if one
-                          does not compile
+    submit_milliseconds   intended length of a submission, in [1, 1000]; calls can stop after each
+    shader_dir            GLSL files that replace the library's kernels (pt/shaders.h); ShaderError if one does not
+                          compile
 
     Use `with` or close(). Otherwise the garbage collector closes the context.
 
-    Threads: contexts are independent, and calls release the interpreter's lock. A context takes one call at a time;
-    a second one, also from a callback, raises InvalidStateError. After os.fork() a child cannot use its parent's
-    contexts: start workers with multiprocessing.get_context("spawn").
+    Threads: contexts are independent, and calls release the interpreter's lock. A second concurrent call on a context,
+    also from a callback, raises InvalidStateError. After os.fork() a child cannot use its parent's contexts: start
+    workers with multiprocessing.get_context("spawn").
 
     Callbacks run on the calling thread. After an exception in a callback or a signal handler, the call stops at its
     next callback and raises the exception. The context stays usable. Progress functions get the finished fraction, in
     [0, 1]. They stop the call by returning True.
 
-    A failed call raises an Error and changes nothing, with two exceptions: a lost device stays lost, and accumulate may
-    keep some of its samples.
+    A failed call raises an Error and changes nothing, except that a lost device stays lost and accumulate may keep some
+    samples. Reading an image before the first sample raises InvalidStateError.
     """
 
     def __init__(self, device: str | None = None, *, log: Log | None = None, validation: bool = False,
@@ -88,7 +85,7 @@ class Context:
         guard.raise_caught()
 
     def close(self) -> None:
-        """Closes the context. A second call does nothing. Raises InvalidStateError if another call is running."""
+        """A second call does nothing. Raises InvalidStateError if another call is running."""
         if self._handle is None:
             return
         if self._in_call:
@@ -114,21 +111,20 @@ class Context:
         return device_of(info)
 
     def set_scene(self, scene: Scene, progress: Progress | None = None) -> Result:
-        """Sets the scene and discards all samples. Ten million spheres take some seconds.
+        """Discards all samples. Ten million spheres take some seconds.
 
-        Returns Result.CANCELLED if progress returned True; then nothing has changed. An exception after progress(1) may
-        come too late to stop the call. Raises InvalidSceneError; its message has a line for each broken rule, such as
-        "spheres[3].radius = -1: must be > 0"."""
+        Returns Result.CANCELLED if progress returned True; then nothing has changed. Raises InvalidSceneError; its
+        message has a line for each broken rule, such as "spheres[3].radius = -1: must be > 0"."""
         guard = self._guard()
         scene_struct = SceneStruct(scene, guard, progress)
         return self._call("pt_set_scene", scene_struct.struct, guard=guard)
 
     def set_camera(self, camera: Camera) -> None:
-        """Sets the camera and discards all samples. Raises InvalidArgumentError for a broken rule."""
+        """Discards all samples. Raises InvalidArgumentError for a broken rule."""
         self._call("pt_set_camera", camera._struct())
 
     def set_render(self, settings: RenderSettings) -> None:
-        """Sets the render settings and discards all samples. Takes 112 bytes a pixel of device memory.
+        """Discards all samples. Takes 112 bytes a pixel of device memory.
 
         Raises InvalidArgumentError for a broken rule. After UnsupportedError or OutOfDeviceMemoryError, render fewer
         rows at a time."""
@@ -143,8 +139,8 @@ class Context:
         self._call("pt_reload_shaders")
 
     def prepare(self) -> None:
-        """Builds the kernels that accumulate needs. Cannot be interrupted. Raises InvalidStateError if the scene, camera
-        or settings are missing."""
+        """Builds the kernels of accumulate. Cannot be interrupted. Raises InvalidStateError if scene, camera or settings
+        are missing."""
         self._call("pt_prepare")
 
     def accumulate(self, sample_count: int, *, target_error: float = 0.0, sample_limit: int = 0,
@@ -156,9 +152,9 @@ class Context:
                        ErrorEstimate.relative_rmse_high is at most this value (0.01 is 1%) and there are enough samples
                        to hit lamps smaller than a pixel
         sample_limit   with a target error, the most samples of a pixel after this and later calls; 0: after this call
-        sampling       distribution of samples; by default adaptive with a target error, else uniform
-        progress       called after each submission, about 20 times a second; if it returns True, the call returns
-                       Result.CANCELLED and keeps the complete samples
+        sampling       by default adaptive with a target error, else uniform
+        progress       called about 20 times a second; if it returns True, the call returns Result.CANCELLED and keeps
+                       the complete samples
         """
         if not 0 <= sample_count <= MOST_SAMPLES:
             raise ValueError(f"sample_count = {sample_count}: must be in [1, {MOST_SAMPLES}]")
@@ -168,11 +164,10 @@ class Context:
         return self._call("pt_accumulate", info, guard=guard)
 
     def accumulate_tiles(self, samples: npt.ArrayLike, *, progress: Progress | None = None) -> Result:
-        """Adds samples to some tiles, so that several machines can take the samples that Film.plan requests.
+        """Adds samples to some tiles, such as those that Film.plan requests.
 
-        samples    number to add to each pixel of a tile; shape (rows, columns) or flat. Tiles are 8 x 8 pixels from the
-                   top left of the rendered part, smaller at the right and lower edges
-        progress   as in accumulate
+        samples   number to add to each pixel of a tile; shape (rows, columns) or flat. Tiles are 8 x 8 pixels from the
+                  top left of the rendered part, smaller at the right and lower edges
         """
         counts = np.ascontiguousarray(samples, dtype=np.uint32).ravel()
         guard = self._guard()
@@ -185,14 +180,12 @@ class Context:
                  rectangle: Rectangle | None = None, format: Format = Format.RGB32F) -> npt.NDArray[Any]:
         """Returns the current image: shape (height, width, 3), float32, row 0 at the top, unless format says otherwise.
 
-        quantity    radiance (linear RGB), its standard error, ...; OBJECT needs the format R32UI
-        out         array that receives the pixels and is returned: float32 with 3 or 4 channels, float16 with 4 or
-                    uint32 with 1. Pixels of a row must be adjacent; rows may have any stride. ValueError if the image
-                    does not fit
+        quantity    OBJECT needs the format R32UI
+        out         receives the pixels and is returned: float32 with 3 or 4 channels, float16 with 4 or uint32 with 1.
+                    Pixels of a row must be adjacent; rows may have any stride. ValueError if the image does not fit
         rectangle   x, y, width, height in pixels, from the top left of the rendered part; None for all
         format      pixel format of a new array
-
-        Raises InvalidStateError before the first sample."""
+        """
         if self._shape is None:
             raise InvalidStateError("there is no image: set_render was not called")
         pixels = new_pixels(self._shape, rectangle, format) if out is None else out
@@ -211,13 +204,13 @@ class Context:
         return broken_rule_of(struct) if struct.subject else None
 
     def error_estimate(self) -> ErrorEstimate:
-        """Estimates the error of the image. The first call after new samples examines all pixels."""
+        """The first call after new samples examines all pixels."""
         struct = structs.pt_error_estimate()
         self._call("pt_get_error_estimate", struct)
         return error_estimate_of(struct)
 
     def film(self) -> Film:
-        """Returns the exact sums of all samples. Raises InvalidStateError before the first sample."""
+        """Returns the exact sums of all samples."""
         return Film(bytes_from(lambda data, size: self._call("pt_save_film", data, size)))
 
     def add_film(self, film: Film) -> None:
@@ -228,7 +221,7 @@ class Context:
         self._call("pt_add_film", data, len(data))
 
     def image(self) -> Image:
-        """Returns radiance, standard error, sample counts and error. Raises InvalidStateError before the first sample."""
+        """Returns radiance, standard error, sample counts and error."""
         return Image(self.readback(Quantity.RADIANCE), self.readback(Quantity.STANDARD_ERROR),
                      self.readback(Quantity.SAMPLE_COUNT), self.error_estimate(), self.stats())
 
@@ -239,8 +232,7 @@ class Context:
 
         denoise   denoises by pt.denoise, from half of the samples with each of two seeds; target_error then applies to
                   the denoised image
-
-        Raises InvalidStateError if progress ended the call before there was an image."""
+        """
         self.set_scene(scene)
         self.set_camera(camera)
         if denoise:
@@ -259,7 +251,6 @@ class Context:
         return guard
 
     def _call(self, function: str, *arguments: Any, guard: CallbackGuard | None = None) -> Result:
-        """Raises the callback's exception, else the library's error."""
         handle, guard = self._handle, guard or self._guard()
         if handle is None:
             raise InvalidStateError("the context is closed")

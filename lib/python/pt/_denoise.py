@@ -1,5 +1,3 @@
-"""Denoised images by Open Image Denoise."""
-
 from __future__ import annotations
 
 import ctypes

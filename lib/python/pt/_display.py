@@ -1,4 +1,4 @@
-"""The default conversion from linear radiance to a picture: exposure and sRGB (IEC 61966-2-1)."""
+"""The default display transform: exposure and sRGB (IEC 61966-2-1)."""
 
 from __future__ import annotations
 

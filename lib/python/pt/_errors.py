@@ -1,5 +1,3 @@
-"""The library's errors as exceptions, one class for each negative result."""
-
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -13,9 +11,9 @@ class BrokenRule:
     """A broken rule, such as `spheres[3].center[0] = nan: must be finite`."""
 
     subject: str  # "materials", "spheres", "planes", "sphere_arrays", "scene", "camera", "render", ...
-    index: int | None  # None unless the subject is an array
+    index: int | None  # for arrays
     member: str  # "center"; "" if the rule concerns the argument itself
-    component: int | None  # None unless the member has several components
+    component: int | None  # for members with several components
     joined_with: str  # other factor of the value, such as "* height" for a rule about width * height; else ""
     value: str  # "nan"
     rule: str  # "must be finite"
@@ -41,14 +39,10 @@ class Error(Exception):
 
 
 class InvalidArgumentError(Error, ValueError):
-    """A field, size or pointer breaks a rule."""
-
     result = Result.ERROR_INVALID_ARGUMENT
 
 
 class InvalidSceneError(Error, ValueError):
-    """A scene breaks a rule."""
-
     result = Result.ERROR_INVALID_SCENE
 
 
@@ -65,8 +59,6 @@ class UnsupportedError(Error, RuntimeError):
 
 
 class NoDeviceError(Error, RuntimeError):
-    """There is no Vulkan driver, or no suitable device."""
-
     result = Result.ERROR_NO_DEVICE
 
 
@@ -75,8 +67,6 @@ class OutOfHostMemoryError(Error, MemoryError):
 
 
 class OutOfDeviceMemoryError(Error, MemoryError):
-    """The device has too little memory left."""
-
     result = Result.ERROR_OUT_OF_DEVICE_MEMORY
 
 
@@ -87,14 +77,10 @@ class DeviceLostError(Error, RuntimeError):
 
 
 class ShaderError(Error, RuntimeError):
-    """The driver refused to build a kernel."""
-
     result = Result.ERROR_SHADER
 
 
 class InternalError(Error, RuntimeError):
-    """A bug in the library or in the driver."""
-
     result = Result.ERROR_INTERNAL
 
 

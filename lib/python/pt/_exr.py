@@ -1,5 +1,3 @@
-"""OpenEXR files."""
-
 from __future__ import annotations
 
 import struct

@@ -1,5 +1,3 @@
-"""Atomic writing of files, and checks of files and names."""
-
 from __future__ import annotations
 
 import errno
@@ -25,7 +23,7 @@ def format_of(path: Path, formats: Sequence[str]) -> str:
 
 
 def regular(path: Path, flags: int) -> int:
-    """An opener for open(). Raises OSError unless the file is regular: reading a pipe or a device could never end."""
+    """An opener for open(). Raises OSError unless the file is regular: a pipe or a device may have no end."""
     descriptor = os.open(path, flags | getattr(os, "O_NONBLOCK", 0))
     if stat.S_ISREG(os.fstat(descriptor).st_mode):
         return descriptor

@@ -1,5 +1,3 @@
-"""Films: exact sums of samples, which can be added."""
-
 from __future__ import annotations
 
 import ctypes
@@ -28,12 +26,12 @@ TILE_SIDE = 8  # pixels
 
 @dataclass(frozen=True)
 class FilmInfo:
-    width: int  # width of the whole image, pixels
+    width: int  # width of the whole image
     height: int
     x: int  # first column of the smallest rectangle around the film's pixels
     y: int  # first row of the rectangle
-    columns: int  # width of the rectangle, pixels
-    rows: int  # height of the rectangle, pixels
+    columns: int  # width of the rectangle
+    rows: int  # height of the rectangle
     max_path_length: int
     seed: int
     estimator: Estimator
@@ -46,8 +44,8 @@ class FilmInfo:
 class FilmTile:
     """A rectangle of pixels with the same sample indices."""
 
-    x: int  # first column
-    y: int  # first row
+    x: int
+    y: int
     width: int  # pixels
     height: int
     samples: tuple[range, ...]  # ranges of indices, ascending, never adjacent
@@ -57,10 +55,10 @@ class Film:
     """The samples of an image as exact sums. Needs neither a device nor the scene.
 
     Films with other samples or pixels of the same picture can be added by + or sum() in any order. The result has the
-    bits of one long rendering. Films can be pickled, saved and loaded. Two films are equal if their samples are equal.
+    bits of one long rendering. Films can be pickled. They are equal if their samples are equal.
 
-    Film(data) reads the bytes of another film. Damaged or untrusted bytes raise IncompatibleError at worst. A film takes
-    112 bytes a pixel. Concurrent calls wait for one another.
+    Film(data) reads the bytes of another film. Untrusted bytes are safe; damaged ones raise IncompatibleError. A film
+    takes 112 bytes a pixel. Concurrent calls wait for one another.
     """
 
     def __init__(self, data: bytes) -> None:
@@ -83,7 +81,7 @@ class Film:
 
     def stream(self, write: Callable[[bytes], object]) -> None:
         """Passes the bytes of to_bytes() to a function in pieces of at most a megabyte, without a second copy in
-        memory. An exception of the function ends the call and is raised."""
+        memory. Raises the function's exception."""
         guard = CallbackGuard()
 
         def take(_: object, data: int, size: int) -> int:
@@ -97,7 +95,7 @@ class Film:
         guard.raise_caught()
 
     def to_bytes(self) -> bytes:
-        """Returns the bytes that lib/film/FORMAT.md describes. Equal samples of equal pictures give equal bytes."""
+        """Returns the bytes that lib/film/FORMAT.md describes. Equal samples give equal bytes."""
         return bytes_from(lambda data, size: self._call("pt_write_film", data, size))
 
     @property
@@ -115,14 +113,14 @@ class Film:
         return total
 
     def __radd__(self, other: int) -> Film:
-        """Returns the film for 0 + film, because sum() begins with 0."""
+        """Accepts 0, with which sum() begins."""
         if other != 0:
             return NotImplemented
         return self
 
     def __iadd__(self, other: Film) -> Film:
-        """Adds the other film's samples. Raises IncompatibleError if it shows another picture or repeats samples of this
-        film; the message has a line for each difference, and nothing has changed."""
+        """Raises IncompatibleError if the other film shows another picture or repeats samples of this film; the message
+        has a line for each difference, and nothing has changed."""
         if not isinstance(other, Film):
             return NotImplemented
         data = other.to_bytes()
@@ -155,7 +153,7 @@ class Film:
 
     @property
     def tiles(self) -> list[FilmTile]:
-        """A single tile if all pixels have the same samples."""
+        """Returns a single tile if all pixels have the same samples."""
         with self._lock:
             info = structs.pt_film_info()
             self._call("pt_get_film_info", info)
@@ -178,13 +176,12 @@ class Film:
         return stats_of(struct)
 
     def error_estimate(self) -> ErrorEstimate:
-        """A film does not know the scene's lamps. Uncertain.UNMET is set if the estimator hits lamps only by chance."""
+        """Sets Uncertain.UNMET if the estimator hits lamps only by chance: a film does not know the scene's lamps."""
         struct = structs.pt_error_estimate()
         self._call("pt_get_film_error_estimate", struct)
         return error_estimate_of(struct)
 
     def image(self) -> Image:
-        """Returns radiance, standard error, sample counts and error."""
         with self._lock:
             return Image(self.readback(Quantity.RADIANCE), self.readback(Quantity.STANDARD_ERROR),
                          self.readback(Quantity.SAMPLE_COUNT), self.error_estimate(), self.stats())
@@ -196,9 +193,9 @@ class Film:
         target_error   > 0; 0.01 is 1%
         most           most samples of a pixel
 
-        Returns a result and the intended sample counts of the 8 x 8 pixel tiles, shape (rows, columns). The result is
-        Result.PENDING, Result.TARGET_REACHED, or Result.OK if no tile may have more samples. The film remembers its
-        plans. Raises IncompatibleError if the film's tiles are not made of such squares."""
+        Returns a result and the wanted sample counts of the 8 x 8 pixel tiles, shape (rows, columns). The result is
+        Result.PENDING, Result.TARGET_REACHED, or Result.OK if no tile may have more samples. The film keeps its plans.
+        Raises IncompatibleError if the film's tiles are not made of such squares."""
         with self._lock:
             info, count = self.info, ctypes.c_uint32()
             self._call("pt_plan_film", target_error, most, None, count)
@@ -220,7 +217,7 @@ class Film:
 
 
 def bytes_from(write: Callable[[Any, ctypes.c_uint64], object]) -> bytes:
-    """Lets `write` fill the bytes object in place, because a film may take hundreds of megabytes."""
+    """Lets `write` fill the bytes in place, because a film may take hundreds of megabytes."""
     size = ctypes.c_uint64()
     write(None, size)
     allocated = size.value

@@ -1,5 +1,3 @@
-"""Extents of balls in a view, and the nearest camera that sees all of them."""
-
 from __future__ import annotations
 
 import math
@@ -38,7 +36,7 @@ def reach(centers: Array, radii: Array, axes: Doubles, directions: Doubles, spin
     radii        shape (n,)
     axes         shape (3, 3); unit vectors in rows
     directions   shape (k, 3); unit vectors in the coordinates of the axes
-    spin         rotation, if the balls turn; the result then covers every angle
+    spin         rotation of the balls; the result covers every angle
     """
     farthest = np.full(len(directions), -np.inf)
     world = directions @ axes

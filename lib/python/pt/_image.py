@@ -1,5 +1,3 @@
-"""A finished image: its numbers, their quality, and a picture."""
-
 from __future__ import annotations
 
 from typing import Any
@@ -18,8 +16,8 @@ class Image:
     radiance         mean of the samples, linear RGB, float32, unclamped, >= 0, row 0 at the top
     standard_error   standard error of each number; a rough hint for a single pixel, infinite with up to 8 samples
     sample_count     shape (height, width), uint32
-    error_estimate   error of the whole image
-    stats            counts and costs
+    error_estimate   for the whole image
+    stats
     exposure         stops for _repr_png_ and save; None: automatic
     raw              for a denoised image the mean of the samples, to which standard_error belongs; else None
     """
@@ -71,14 +69,13 @@ class Image:
 
     def to_srgb8(self, exposure: float | None = None) -> npt.NDArray[np.uint8]:
         """Returns the sRGB picture, shape (height, width, 3), like pt: radiance times 2^exposure, clamped to [0, 1].
-        exposure defaults to the image's exposure, else to one that brings the average to middle grey, 0.18."""
+        exposure defaults to the image's exposure, else brings the average to middle grey, 0.18."""
         if exposure is None:
             exposure = self.exposure
         return to_srgb8(self.radiance, automatic_exposure(self.radiance) if exposure is None else exposure)
 
     def save(self, path: Path, *, exposure: float | None = None) -> None:
-        """Writes the picture of to_srgb8 (.png) or the radiance (.npy) atomically. Raises ValueError for another
-        ending."""
+        """Writes the picture of to_srgb8 (.png) or the radiance (.npy) atomically."""
         if format_of(path, ("png", "npy")) == "npy":
             write_atomically(path, lambda file: np.save(file, self.radiance, allow_pickle=False))
         else:

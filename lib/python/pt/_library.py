@@ -1,4 +1,4 @@
-"""Loads libpt, declares its functions, and converts results to values or exceptions."""
+"""Loads libpt and declares its functions. Results become values or exceptions."""
 
 from __future__ import annotations
 
@@ -72,8 +72,8 @@ def library_path() -> str:
 
 
 def load_library(path: str) -> ctypes.CDLL:
-    """Loads a libpt. Its functions release the interpreter's lock. Raises ImportError if it is missing or has other
-    structs. Functions that an older build lacks raise AttributeError on call."""
+    """Its functions release the interpreter's lock. Raises ImportError if the library is missing or has other structs.
+    Functions that an older build lacks raise AttributeError on call."""
     try:
         loaded = ctypes.CDLL(path)
         for name, parameters in PARAMETERS.items():
@@ -119,8 +119,8 @@ def _broken_rules(loaded: ctypes.CDLL, context: c_void_p | None) -> tuple[Broken
 
 
 def checked(loaded: ctypes.CDLL, result: int, context: c_void_p | None = None) -> Result:
-    """Returns a result >= 0, raises the error of another. The library keeps an error's message until the next call on
-    the context, or until the thread's next call without a context."""
+    """Raises a negative result as an error. The library keeps the message until the next call on the context, or until
+    the thread's next call without a context."""
     if result >= 0:
         return Result(result)
     message = _text(loaded.pt_last_error(context))

@@ -41,9 +41,9 @@ class ReadScene:
 class Program:
     """Reads and renders a scene by `pt render --parts` (cli/render/render_command.h).
 
-    files       contents of scene files that need not exist, by name relative to the working folder
-    facts       statement of pt about the job, made before it opens a device
-    is_cpu      valid after the first film
+    files     contents of files to write into the working folder, by relative name
+    facts     pt's statement about the job, made before it opens a device
+    is_cpu    valid after the first film
 
     Raises Error if pt refuses the scene or is not installed, OSError if a file cannot be read."""
 
@@ -116,7 +116,7 @@ class Program:
             self._process.stdin.write(request)
             self._process.stdin.flush()
         except OSError:
-            pass  # pt has ended with a message, which _fail reads.
+            pass  # pt has ended with a message.
 
     def _line(self) -> bytes:
         assert self._process.stdout

@@ -1,5 +1,3 @@
-"""Renders arrays of spheres in one call."""
-
 from __future__ import annotations
 
 import numpy.typing as npt

@@ -1,5 +1,3 @@
-"""Scenes: materials, spheres and planes."""
-
 from __future__ import annotations
 
 import operator

@@ -1,5 +1,3 @@
-"""Counts and costs, the quality of an image, and devices."""
-
 from __future__ import annotations
 
 import ctypes
@@ -14,17 +12,17 @@ from pt._library import checked, library
 
 @dataclass(frozen=True)
 class Stats:
-    """Counts and costs so far. Fields that only a context knows are 0 for a film."""
+    """Fields that only a context knows are 0 for a film."""
 
-    sample_count: int  # fewest samples of a pixel
-    max_sample_count: int  # most samples of a pixel (Sampling.ADAPTIVE)
-    mean_sample_count: float  # mean over all pixels
-    rejected_samples: int  # number of NaN, infinite, negative or too bright samples
+    sample_count: int  # fewest of a pixel
+    max_sample_count: int  # most of a pixel (Sampling.ADAPTIVE)
+    mean_sample_count: float
+    rejected_samples: int  # NaN, infinite, negative or too bright
     features: Feature  # features of the kernel
-    device_bytes: int  # memory on all devices of the context now
+    device_bytes: int  # present memory on all devices of the context
     device_count: int
     device_seconds: float  # sum over submissions
-    submit_count: int  # number of submissions with samples
+    submit_count: int  # submissions with samples
 
 
 def stats_of(struct: structs.pt_stats) -> Stats:
@@ -63,7 +61,7 @@ class DeviceInfo:
     memory_bytes: int  # size of the largest memory heap that kernels can access quickly
     uuid: uuid.UUID  # stable over reboots; differs between devices of one model
     suitable: bool  # whether a Context can use the device
-    reason: str  # why the device is not suitable, else empty
+    reason: str  # why not
 
 
 def device_of(struct: structs.pt_device_info) -> DeviceInfo:
@@ -74,7 +72,7 @@ def device_of(struct: structs.pt_device_info) -> DeviceInfo:
 
 
 def devices() -> list[DeviceInfo]:
-    """This machine's Vulkan devices. Context(device="0") uses the first. Raises NoDeviceError without one."""
+    """Context(device="0") uses the first. Raises NoDeviceError without a device."""
     loaded, count = library(), ctypes.c_uint32()
     checked(loaded, loaded.pt_get_devices(None, count))
     found = (structs.pt_device_info * count.value)()

@@ -1,4 +1,4 @@
-"""Safe output of foreign text: names of files and keys, messages of drivers and compilers."""
+"""Safe output of foreign text."""
 
 from __future__ import annotations
 

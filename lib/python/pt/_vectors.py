@@ -1,5 +1,3 @@
-"""Vectors and colors from numbers."""
-
 from __future__ import annotations
 
 from collections.abc import Sequence
