@@ -33,7 +33,6 @@ class Region:
 
 @dataclass(frozen=True)
 class Comparison:
-
     light: Light
     probability: float  # upper bound: equal light shows such differences
     smallest_change: float  # smallest relative change of all light that would be found with 99%

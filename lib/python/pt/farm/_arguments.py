@@ -1,5 +1,3 @@
-"""pt-farm's command line."""
-
 from __future__ import annotations
 
 import argparse

@@ -76,8 +76,8 @@ class Coordinator:
 
 
     def run(self, goals: Goals, more: Callable[[], Goals | None] = lambda: None) -> bool:
-        """Works until each tile has its samples. Returns False if progress() stopped it. `more` returns further goals for
-        tiles without running parts. It is called once all parts are distributed and some have returned."""
+        """Returns False if progress() stopped the work. `more` returns further goals for tiles without running parts. It
+        is called once all parts are distributed and some have returned."""
         first_sample, has_worked = self._job.settings.first_sample, False
         self._goals = goals
         while not self._stopped:  # The film decides completeness, not the list of parts.
@@ -113,8 +113,8 @@ class Coordinator:
         self._progress.samples_wanted = float((wanted * self._pixels).sum() / self._pixels.sum())
 
     def _seconds_to_ask(self) -> float:
-        """Seconds until asking for more work. Waits until shortly before a worker runs out, because then more tiles are
-        decided together. Asking takes at most half of the time."""
+        """Seconds until `more` is called. Shortly before a worker runs out, more tiles can be planned together. Planning
+        takes at most half of the time."""
         if self._waiting or not self._open or not self._has_only or self._progress.parts == self._asked_at:
             return float("inf")
         idle = min((member.busy_until for member in self._crew if member.can_take(SLOTS)), default=float("inf"))
@@ -213,7 +213,7 @@ class Coordinator:
             self._waiting.appendleft((each.number, each.part))
 
     def _may_try(self, member: Member, number: int) -> bool:
-        """A worker never gets a part twice at once. After a failure it gets the part again only if all others failed."""
+        """After a failure a worker gets a part again only if all others failed."""
         if any(each.number == number for each in member.tries.values()):
             return False
         tried = self._tries.get(number, [])
@@ -254,7 +254,7 @@ class Coordinator:
 
 
     def _met(self, future: Any, outcome: _task.Outcome | None) -> None:
-        """Receives a worker's introduction. Called by threads."""
+        """Called by threads."""
         self._tell_of(future, *self._opened(_task.first_part(self._job), outcome, None))
 
     def _tell_of(self, *event: Any) -> None:
@@ -266,7 +266,7 @@ class Coordinator:
 
     def _opened(self, part: Part, outcome: _task.Outcome | None, identity: Identity | None
                 ) -> tuple[_task.Outcome | None, _Opened | None]:
-        """Opens an outcome's film. Called by threads. identity: expected identity of the film."""
+        """Called by threads. identity: expected identity of the film."""
         if outcome is None or outcome.error:
             return outcome, None
         try:

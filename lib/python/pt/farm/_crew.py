@@ -1,5 +1,3 @@
-"""A job's workers. They join, introduce themselves, and leave or are refused."""
-
 from __future__ import annotations
 
 from collections.abc import Iterator
@@ -39,7 +37,7 @@ class Crew:
         return any(member.identity for member in self)
 
     def look(self) -> list[tuple[str, Try]]:
-        """Notes arrivals and departures. Returns addresses and tries of departed workers. Raises FarmError without workers."""
+        """Returns addresses and tries of departed workers. Raises FarmError if no worker is left."""
         if now() - self._looked < LOOK_SECONDS:
             return []
         try:
@@ -82,7 +80,7 @@ class Crew:
             self._compare(member, identity)
 
     def blame(self, member: Member, outcome: Outcome, most: int = MOST_FAILURES) -> None:
-        """Counts a worker's error. Raises FarmError if another worker could not do better."""
+        """Raises FarmError if another worker could not do better."""
         self._progress.failed += 1
         self._progress.last_result = outcome.result
         if not outcome.may_help_elsewhere:

@@ -25,7 +25,7 @@ class Identity:
 
 
 def identity_of(data: bytes) -> Identity:
-    """Reads a film's bytes. Raises ValueError if they are not a film."""
+    """Raises ValueError if the bytes are not a film."""
     names = dict(line.partition(" ")[::2] for line in _header(data).decode("ascii", "replace").splitlines())
     keys = list(names)
     if FIRST not in names or LAST not in names:

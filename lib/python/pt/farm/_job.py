@@ -1,5 +1,3 @@
-"""A job: everything that a worker needs for each part."""
-
 from __future__ import annotations
 
 import functools

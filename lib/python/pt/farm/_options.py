@@ -1,5 +1,3 @@
-"""A farm's options, progress and result."""
-
 from __future__ import annotations
 
 from dataclasses import dataclass, field
@@ -10,8 +8,8 @@ from pt._files import Path
 
 
 class FarmError(RuntimeError):
-    """The picture cannot be rendered. The message has the workers' reports; the checkpoint has the returned films.
-    result: the library's error, or ERROR_INTERNAL."""
+    """The message has the workers' reports; the checkpoint has the returned films. result: the library's error, or
+    ERROR_INTERNAL."""
 
     def __init__(self, message: str, result: int = enums.Result.ERROR_INTERNAL) -> None:
         super().__init__(message)
@@ -43,7 +41,7 @@ class Options:
 
 @dataclass
 class Progress:
-    """Counts so far. issued: number of merged, dropped, failed, lost and running parts."""
+    """issued: number of merged, dropped, failed, lost and running parts."""
 
     seconds: float = 0.0
     samples: float = 0.0  # mean over all pixels
@@ -58,7 +56,7 @@ class Progress:
     failed: int = 0
     lost: int = 0
     forgotten: int = 0  # samples of tiles that got lost and are rendered again
-    part_bytes: int = 0  # received bytes
+    part_bytes: int = 0
     messages: list[str] = field(default_factory=list)  # reports of workers
     last_result: int = enums.Result.OK  # library result of the last error
     ended_by: str = ""  # "samples", "error" or "limit"; "stopped" if progress() returned True

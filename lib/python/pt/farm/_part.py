@@ -1,5 +1,3 @@
-"""Parts of the work: some tiles and a range of samples."""
-
 from __future__ import annotations
 
 from collections.abc import Iterator
@@ -78,7 +76,7 @@ def cells_of(film: Film | None, shape: tuple[int, int]) -> Cells:
 
 
 def missing_parts(cells: Cells, first_sample: int, goals: Goals) -> list[Part]:
-    """Returns the parts that are missing in the film. A checkpoint therefore suffices to resume."""
+    """Reads the film alone, so a checkpoint suffices to resume."""
     wanted: dict[tuple[int, int], list[Indices]] = {}
     for samples, tiles in cells:
         tile_goals = goals.ravel()[tiles]

@@ -1,5 +1,3 @@
-"""Renders a picture on a cluster's workers, and decides the samples of tiles."""
-
 from __future__ import annotations
 
 import importlib
@@ -26,8 +24,8 @@ def render(client: Any, job: AnyJob, samples: int, *, target_error: float = 0.0,
     """Renders a picture on the workers of a Dask cluster.
 
     client         a distributed.Client
-    samples        samples per pixel; with a target error, the most
-    target_error   0: none. Otherwise relative; tiles get the same samples as in Context.accumulate
+    samples        samples of a pixel; with a target error, the most
+    target_error   relative; 0: none. Tiles get the same samples as in Context.accumulate
     progress       called several times a second with the counts and the film, which it must not change; it ends the
                    rendering by returning True
 

@@ -1,5 +1,3 @@
-"""Renders parts of a job on a worker."""
-
 from __future__ import annotations
 
 import os

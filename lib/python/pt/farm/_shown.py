@@ -1,5 +1,3 @@
-"""Progress in a terminal, and signals that end a rendering."""
-
 from __future__ import annotations
 
 import signal

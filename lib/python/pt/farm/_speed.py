@@ -1,5 +1,3 @@
-"""Speeds of workers, and sizes of their parts."""
-
 from __future__ import annotations
 
 FIRST_GUESS = 2000.0  # samples of tiles per second; a slow core
@@ -9,7 +7,7 @@ BUSY_SHARE = 0.5  # fraction of the coordinator's time for adding films
 
 
 class Speed:
-    """A worker's speed in samples of tiles per second."""
+    """Samples of tiles per second."""
 
     def __init__(self) -> None:
         self.value = FIRST_GUESS

@@ -1,5 +1,3 @@
-"""The exact sum of returned parts, and its file."""
-
 from __future__ import annotations
 
 import contextlib
@@ -16,7 +14,7 @@ from pt.farm._identity import Identity, identity_of, with_models
 from pt.farm._workers import now
 
 PIXEL_BYTES = 112
-# Parts are first added to one another, up to this fraction of a film, because adding to a film takes time for each tile.
+# Parts are first added to one another, up to this fraction of a film: an addition to a film takes time for each tile.
 BATCH_SHARE = 1 / 32
 SHOW_SHARE = 0.02  # fraction of the time for early additions, which keep the picture recent
 
@@ -50,7 +48,6 @@ class Sum:
         return self._bytes >= self._most_bytes or now() - self._merged > self._cost / SHOW_SHARE
 
     def merge(self) -> None:
-        """Adds parts to one another first, because sums of few tiles are cheap."""
         if not self._parts:
             return
         start, sums = now(), deque(self._parts)

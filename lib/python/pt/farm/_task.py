@@ -33,7 +33,7 @@ class Outcome:
 
 
 def fault_of(value: object, seconds: float) -> str:
-    """Checks a value, because a worker may send anything. Returns "" for a good value. seconds: time since submission."""
+    """Returns "" for a good value, because a worker may send anything. seconds: time since submission."""
     if not isinstance(value, Outcome):
         return f"a value of type {type(value).__name__}"
     for name, kind in (("data", bytes), ("seconds", float), ("is_cpu", bool), ("error", str),

@@ -1,5 +1,3 @@
-"""Workers of a Dask cluster."""
-
 from __future__ import annotations
 
 import asyncio
@@ -65,7 +63,7 @@ def addresses(client: Any) -> set[str]:
 
 
 def submit(client: Any, address: str, done: Done, function: Callable[..., Any], *arguments: Any) -> Any:
-    """Runs a function on one worker and fetches the result from it. Calls done in another thread."""
+    """Fetches the result from the worker itself. Calls done in another thread."""
     start = now()
     future = client.submit(function, *arguments, workers=[address], allow_other_workers=False, pure=False, retries=0)
 

@@ -1,5 +1,3 @@
-"""Converts files, arrays, tables and objects of other packages to particles."""
-
 from __future__ import annotations
 
 import os
@@ -29,15 +27,15 @@ def load(data: Any, *, frame: int | None = None, model_number: int | None = None
     data            name of a file, "-" for standard input; an array of shape (n, 3), (n, 2) or, with frames, (t, n, 3);
                     a dict of columns; a pandas or polars frame; ASE's Atoms or a list of them; an MDAnalysis universe or
                     group of atoms; an OVITO data collection; or Particles
-    frame           index without empty frames; negative numbers count from the end. None: the last frame, with
+    frame           index among frames with particles; negative numbers count from the end. None: the last frame, with
                     MDAnalysis the current frame, with several models the first
     model_number    number of a model in a PDB or mmCIF file
     columns         names of columns, such as {"x": "lon", "y": "lat"} or "x=lon,y=lat", for
                     x, y, z, radius, diameter, element, type, red, green, blue
     format          format of a file, instead of the detected one
     topology        file with the atoms of a trajectory (XTC, TRR, DCD, ...)
-    atom_style      atom style of a LAMMPS data file, if it is neither stated nor clear from the columns
-    drop_nonfinite  whether particles whose position or radius is not finite are left out, not refused
+    atom_style      of a LAMMPS data file, if it is neither stated nor clear from the columns
+    drop_nonfinite  whether to leave out particles whose position or radius is not finite; otherwise they are refused
     """
     if isinstance(data, Particles):
         return data
@@ -58,7 +56,7 @@ def load(data: Any, *, frame: int | None = None, model_number: int | None = None
 def frames(data: Any, first: int = 0, last: int = -1, *, columns: Columns = None, format: str | None = None,
            topology: str | None = None, atom_style: str | None = None, drop_nonfinite: bool = False
            ) -> Iterator[Particles]:
-    """Yields the frames from first to last, inclusive. A file is read once."""
+    """Includes the last frame. A file is read once."""
     if isinstance(data, Particles):
         yield data
         return

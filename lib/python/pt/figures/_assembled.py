@@ -1,4 +1,4 @@
-"""Converts a table to particles: finds the meaning of columns, and refuses what cannot be drawn."""
+"""Converts a table to particles."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _COLORS: Final = (("red", "green", "blue", "alpha"), ("r", "g", "b", "a"),
                   ("diffuse_red", "diffuse_green", "diffuse_blue", "diffuse_alpha"),
                   *(tuple(f"{name}[{i}]" for i in range(4)) for name in ("color", "colors", "rgb", "rgba")),
                   *(tuple(f"{name}:{i}" for i in range(4)) for name in ("color", "rgb")))
-_HARMONICS: Final = ("f_dc_0", "f_dc_1", "f_dc_2")  # Gaussian splats have spherical harmonics of degree 0.
+_HARMONICS: Final = ("f_dc_0", "f_dc_1", "f_dc_2")  # Spherical harmonics of degree 0 color Gaussian splats.
 _HARMONIC: Final = 0.5 / np.sqrt(np.pi)
 _SHAPES: Final = (("shapex", "shapey", "shapez"), ("c_shape[1]", "c_shape[2]", "c_shape[3]"))  # diameters, in LAMMPS
 
@@ -131,8 +131,7 @@ def _finite(particles: Particles, drop: bool) -> Particles:
 
 
 def _note_coinciding(particles: Particles) -> None:
-    """Notes coinciding particles. Compares only projections that tell different positions apart. Of many particles,
-    only those whose hash begins with zeros are compared."""
+    """Compares one projection of each position. Of many particles, only those whose hash begins with zeros are compared."""
     count, bits = len(particles), (len(particles) // MOST_SORTED).bit_length()
     if count > MOST_COMPARED:
         return
@@ -210,7 +209,7 @@ def _are_numbers(labels: Array) -> bool:
 
 
 def _colors(columns: Mapping[str, Array], chosen: dict[str, str], is_text: bool, notes: list[str]) -> Array | None:
-    """The number type decides the scale, except for signed integers and text, where the largest number does."""
+    """The type of floats and unsigned integers decides the scale. For other integers and text the largest number does."""
     choices = (tuple(chosen.get(key, key) for key in _COLORS[0]), *_COLORS)
     found = next((names for names in ([first_of(columns, (name,)) for name in choice] for choice in choices)
                   if None not in names[:3]), None)

@@ -16,7 +16,7 @@ from pt.figures._rods import Rods
 from pt.figures._templates import agreeing, free_ions, known_residues
 
 # O'Boyle et al. 2011, "Open Babel: An open chemical toolbox", Journal of Cheminformatics 3:33: atoms are bonded if their
-# distance is at most the sum of their covalent radii and a tolerance. A smaller distance than the least means alternative
+# distance is at most the sum of their covalent radii and the tolerance. Below the least distance they are alternative
 # positions of one atom. Angstroms.
 TOLERANCE: Final = 0.45
 LEAST_DISTANCE: Final = 0.4
@@ -135,13 +135,12 @@ def _guessed(particles: Particles, notes: list[str]) -> Bonds:
 
 
 def stick_radius(ways: Doubles, model: str, radii: Array) -> float:
-    """The default radius of sticks is proportional to the median bond length or, without bonds, ball diameter."""
     lengths = 2.0 * np.linalg.norm(ways, axis=1)
     return STICK_SHARES[model] * float(np.median(lengths if len(lengths) else 2.0 * radii))
 
 
 def meeting_in_sight(halves: Rods, balls: Array) -> Rods:
-    """Divides bonds where the visible part, between the balls, has its middle. balls: radii, shape (n,) or (1,)."""
+    """Ends both halves in the middle of the part between the balls. balls: radii, shape (n,) or (1,)."""
     if len(balls) == 1:
         return halves
     lengths = 2.0 * np.linalg.norm(halves.ways, axis=1)

@@ -1,5 +1,3 @@
-"""The cell of a simulation or a crystal."""
-
 from __future__ import annotations
 
 import functools
@@ -17,11 +15,9 @@ FLAT: Final = 1e-10
 @dataclass(frozen=True)
 class Cell:
     """A cell. It may be triclinic, left-handed or flat.
-
     origin    shape (3,): corner at which the edges begin
     vectors   shape (3, 3): an edge in each row; zeros for a missing edge
     periodic  shape (3,): whether the cell repeats along each existing edge
-    is_crystal_of_macromolecule   whether it is the crystal cell of a protein or a nucleic acid
     """
 
     origin: Array
@@ -49,7 +45,7 @@ class Cell:
     def of_lengths(lengths: npt.ArrayLike, angles: npt.ArrayLike, periodic: npt.ArrayLike = True,
                    is_crystal_of_macromolecule: bool = False) -> Cell | None:
         """Puts the first edge along x, the second into the plane of x and y. angles: degrees, between edges 2 and 3, 1
-        and 3, 1 and 2. Returns None like of()."""
+        and 3, 1 and 2."""
         a, b, c = np.array(lengths, np.float64)
         alpha, beta, gamma = np.cos(np.radians(np.array(angles, np.float64)))
         sine = np.sqrt(1 - gamma**2)

@@ -1,5 +1,3 @@
-"""Colors of particles: a single color, given colors, categories, or numbers with a color map."""
-
 from __future__ import annotations
 
 import colorsys
@@ -33,9 +31,7 @@ SKEW: Final = 4.0  # full range over the 1% to 99% range; uniform: 1, normal: 2,
 
 @dataclass(frozen=True)
 class ColorBar:
-    """Colors of numbers, by matplotlib.
-
-    low, high   numbers with the first and the last color; the norm is wider if they are equal
+    """low, high   numbers with the first and the last color; the norm is wider if they are equal
     no_value    color of NaN, or None without NaN
     """
 
@@ -49,7 +45,7 @@ class ColorBar:
 
 @dataclass(frozen=True)
 class Swatches:
-    """Names, and sRGB of shape (k, 3)."""
+    """colors: sRGB, shape (k, 3)."""
 
     title: str
     names: tuple[str, ...]
@@ -75,7 +71,7 @@ def srgb(name: str, color: Any) -> RGB:
 
 
 def colors_of(particles: Particles, given: Options, notes: list[str]) -> tuple[Bytes, Legend]:
-    """Shape (n, 3), or (3,) for one color."""
+    """Returns shape (n, 3), or (3,) for one color."""
     color = given.color
     count = len(particles.positions)
     if isinstance(color, str) and "=" in color:
@@ -125,7 +121,7 @@ def components(particles: Particles, name: str) -> list[str]:
 
 
 def _direct(colors: Any, notes: list[str]) -> Bytes:
-    """Floats are sRGB in [0, 1]. Unsigned integers reach to their type's largest value, signed ones to 255."""
+    """Floats are in [0, 1]. Unsigned integers reach to their type's largest value, signed ones to 255."""
     array = np.asarray(colors)
     if array.dtype.kind == "i" and array.size and 0 <= array.min() and array.max() <= 255:
         array = array.astype(np.uint8)

@@ -1,5 +1,3 @@
-"""Finds columns by name."""
-
 from __future__ import annotations
 
 import re
@@ -63,7 +61,7 @@ def plain_name(name: str) -> str:
 
 
 def column_name(columns: Mapping[str, Array], name: str, data: str) -> str:
-    """Finds a column by its name in any case or, if columns have no names, by its number from 1."""
+    """Accepts a name in any case or, if columns have no names, a number from 1."""
     if name in columns:
         return name
     similar = [each for each in columns if each.lower() == name.lower()]
@@ -83,8 +81,8 @@ def first_of(columns: Mapping[str, Array], names: tuple[str, ...]) -> str | None
 
 
 def coordinate_names(names: list[str]) -> tuple[list[str], bool]:
-    """The names of two or three columns of positions, or none, and whether they are fractional coordinates. Beside x and
-    y a column Z is the third coordinate unless there is a z; then it holds atomic numbers."""
+    """Returns two, three or no names, and whether the columns are fractional coordinates. Beside x and y, Z is the third
+    coordinate unless there is a z; then Z is the atomic number."""
     if all(axis in names for axis in "xyz"):
         return ["x", "y", "z"], False
     by_plain: dict[str, str] = {}

@@ -1,5 +1,3 @@
-"""Lays a rendered figure over its background, and outlines over the figure."""
-
 from __future__ import annotations
 
 from typing import Any, Final

@@ -1,5 +1,3 @@
-"""Chemical elements: recognition of labels, radii, masses and colors."""
-
 from __future__ import annotations
 
 import re
@@ -82,7 +80,7 @@ def distinct(labels: Array) -> tuple[Array, Array]:
 
 
 def categories(labels: Array) -> tuple[list[str], Array]:
-    """Returns the labels as text in ascending order, and each particle's index into them."""
+    """Like distinct, but with the labels as text in ascending order."""
     values, codes = distinct(labels)
     order = np.argsort(values)
     names = [f"{value:.9g}" if labels.dtype.kind == "f" else str(value) for value in values[order]]
@@ -128,7 +126,7 @@ def elements_of(labels: Array) -> tuple[Array | None, list[str]]:
 
 
 def elements_of_masses(masses: Array) -> npt.NDArray[np.uint8]:
-    """Returns atomic numbers for masses in daltons, 0 for unknown. All are 0 if most masses are 1. United atoms are C."""
+    """Returns 0 for unknown masses. If most masses (daltons) are 1, all are unknown. United atoms are carbon."""
     away = np.abs(masses[:, None] - MASSES)
     away[:, 0] = np.inf
     nearest = away.argmin(axis=1)

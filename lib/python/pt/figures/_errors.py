@@ -1,5 +1,3 @@
-"""The error for unsuitable data, and imports of optional modules."""
-
 from __future__ import annotations
 
 import importlib
@@ -14,7 +12,7 @@ EXTRAS: Final = {"matplotlib": "figure", "PIL": "figure", "pandas": "figure", "z
 
 
 class DataError(ValueError):
-    """Data that cannot be drawn. The message names the file, the line or byte, and the expectation."""
+    """The message names the file, the line or byte, and the expectation."""
 
 
 def module(name: str, purpose: str) -> ModuleType:

@@ -1,5 +1,3 @@
-"""Pictures of particles in one call."""
-
 from __future__ import annotations
 
 import functools
@@ -272,8 +270,8 @@ class Figure(Image):
         return options.size or (width + _strip_width(raster(self.legend, height, INK), height), height)
 
     def to_srgb8(self, exposure: float | None = None) -> npt.NDArray[np.uint8]:
-        """Returns sRGB, shape (height, width, 3), or 4 channels with a transparent background. exposure: stops for the
-        balls; None: the figure's exposure, else automatic."""
+        """Returns sRGB, shape (height, width, 3), or 4 channels with a transparent background. exposure: stops; None:
+        the figure's exposure, else automatic."""
         pixels: npt.NDArray[np.uint8] = self.picture(np.uint8, exposure)
         return pixels
 
@@ -305,7 +303,7 @@ class Figure(Image):
         return result
 
     def encode(self, format: str, *, exposure: float | None = None, bits: int = 8) -> bytes:
-        """Returns the contents of a png, jpg or exr file. exr has linear radiance. bits: 8 or 16, for png."""
+        """Returns a png, jpg or exr file. exr has linear radiance. bits: 8 or 16, for png."""
         if format == "exr":
             return encode_exr(self.radiance)
         if format in ("jpg", "jpeg"):
@@ -317,8 +315,7 @@ class Figure(Image):
         return encode_png(self.picture(np.uint8 if bits == 8 else np.uint16, exposure))
 
     def save(self, path: Path, *, exposure: float | None = None, bits: int = 8) -> None:
-        """Writes the picture (.png, .jpg) or the linear radiance (.exr, .npy) atomically. Raises ValueError for another
-        ending."""
+        """Writes the picture (.png, .jpg) or the linear radiance (.exr, .npy) atomically."""
         format = format_of(path, (*PICTURES, "npy"))
         if format == "npy":
             super().save(path)
@@ -327,12 +324,12 @@ class Figure(Image):
             write_atomically(path, lambda file: file.write(data))
 
     def save_legend(self, path: Path) -> None:
-        """Writes the legend as .svg, .pdf or .png. Raises ValueError for another ending, or if colors have no meaning."""
+        """Writes .svg, .pdf or .png. Raises ValueError if colors have no meaning."""
         self._staged.save_legend(path)
 
     def save_scene(self, path: Path) -> None:
-        """Writes a scene file for `pt render`, and the particles as NPY files. Background, outlines, color bar and seed
-        are left out."""
+        """Writes a scene file for `pt render`, and the particles as NPY files, without background, outlines, color bar
+        and seed."""
         self._staged.save_scene(path)
 
     def _repr_png_(self) -> bytes:

@@ -1,5 +1,3 @@
-"""Files of a figure: pictures, radiance, and the scene."""
-
 from __future__ import annotations
 
 import functools

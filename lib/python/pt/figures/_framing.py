@@ -1,5 +1,3 @@
-"""Selects the balls that decide the frame, and notes pictures that show little."""
-
 from __future__ import annotations
 
 import math
@@ -15,7 +13,7 @@ from pt.figures._spread import middle_of, reaches_of, usual_reach
 
 FAR: Final = 4.0
 BEYOND: Final = 1.25
-LARGE: Final = 10.0  # distance relative to the particles' reach from which a cell is too large; by taste
+LARGE: Final = 10.0  # from this multiple of the particles' reach a cell is too large; by taste
 OUTSIDE: Final = 0.1
 WALL: Final = 0.01
 LEAST_COVER: Final = 0.1
@@ -23,8 +21,8 @@ WIDTH: Final = 8.0
 
 
 def far_away(positions: Array, radii: Array, notes: list[str]) -> Array | None:
-    """Finds balls so far away that a picture of all balls would hardly show the rest. None: there are none. A ball as
-    large as all others together is never far away."""
+    """Finds balls so far away that the rest would hardly be visible. None: there are none. A ball as large as all others
+    together is never far away."""
     reaches = reaches_of(positions, radii)
     usual = usual_reach(reaches)
     usual = max(usual, float(reaches.max(where=radii > usual, initial=0.0)))
@@ -39,8 +37,8 @@ def far_away(positions: Array, radii: Array, notes: list[str]) -> Array | None:
 
 
 def drawn_cell(particles: Particles, box: str, positions: Array, radii: Array, notes: list[str]) -> Cell | None:
-    """Returns the cell to draw, or None. By default a cell is not drawn if it belongs to a protein's crystal, or most
-    particles are outside of it or small beside it. Positions and radii are only of the particles that are drawn."""
+    """By default a cell is not drawn if it belongs to a protein's crystal, or most particles are outside of it or small
+    beside it. Positions and radii are only those of the drawn particles."""
     cell = particles.cell
     if cell is None or box == "none" or (box == "auto" and cell.is_crystal_of_macromolecule):
         return None
@@ -71,7 +69,7 @@ def _hides(cell: Cell, positions: Array, radii: Array) -> bool:
 
 
 def narrow_note(radii: Array, pixels: float, size: tuple[int, int], scale: float) -> str | None:
-    """Returns a note if balls are narrower than a pixel and together cover little of the picture.
+    """A note for balls that are narrower than a pixel and together cover little of the picture.
 
     radii    scene units
     pixels   pixels per scene unit

@@ -1,5 +1,3 @@
-"""Camera, lights and shape of a picture, from the balls in it."""
-
 from __future__ import annotations
 
 import math
@@ -23,7 +21,7 @@ MOST_ASPECT: Final = 2.0
 
 @dataclass(frozen=True)
 class Balls:
-    """The visible contents. centers: shape (n, 3). radii: shape (n,). points: shape (k, 3)."""
+    """centers: shape (n, 3). radii: shape (n,). points: shape (k, 3)."""
 
     centers: Array
     radii: Array
@@ -54,7 +52,7 @@ class View:
     @staticmethod
     def of(balls: Balls, view: Direction, up: Direction, projection: str, size: tuple[int, int] | None,
            turns: bool = False) -> View:
-        """Fits the view to the balls. turns: whether a turntable's whole turn must be in view."""
+        """turns: whether a turntable's whole turn must be in view."""
         compass = Compass.of(up_vector(up))
         height = 0.0
         if view == "three-quarter":
@@ -85,7 +83,7 @@ class View:
 
 
 def _shape(extents: Doubles) -> tuple[int, int]:
-    """Width and height: multiples of 8 with about PIXELS in all. The ratio is the extents' up to MOST_ASPECT."""
+    """Multiples of 8 with about PIXELS in all. The ratio is the extents' up to MOST_ASPECT."""
     aspect = min(max(float(extents[0] / extents[1]), 1.0 / MOST_ASPECT), MOST_ASPECT)
     sides = [8 * math.floor(side / 8.0 + 0.5) for side in (math.sqrt(PIXELS * aspect), math.sqrt(PIXELS / aspect))]
     return sides[0], sides[1]
@@ -103,7 +101,7 @@ class Layout:
 
     @staticmethod
     def of(view: View, reaches: Doubles, style: str, floor: bool) -> Layout:
-        """Uses the reaches (View.reaches) of everything shown. Raises ValueError if the floor would hide it."""
+        """Raises ValueError if the floor would hide something. reaches: View.reaches of everything shown."""
         axes, forward = view.axes, view.axes[2]
         extents = Extents.of(reaches[:6])
         middle = extents.middle

@@ -1,5 +1,3 @@
-"""Pairs of neighbouring particles, also across the walls of a periodic cell."""
-
 from __future__ import annotations
 
 from collections.abc import Iterator
@@ -16,7 +14,7 @@ MOST_COMPARED: Final = 400_000_000  # pairs; about a minute
 MOST_FOUND: Final = 20_000_000
 COMPARED_AT_ONCE: Final = 1 << 21
 SLACK: Final = 1.0 + 2.0**-30  # Rounding must not move a neighbour two cells away.
-AHEAD: Final = ((0, 1), (1, -1), (1, 0), (1, 1))  # neighbouring rows in a grid; each pair occurs once
+AHEAD: Final = ((0, 1), (1, -1), (1, 0), (1, 1))  # neighbouring rows in a grid, without their opposites
 
 
 class Pairs(NamedTuple):
@@ -34,7 +32,7 @@ class Pairs(NamedTuple):
 
 
 def pairs_within(positions: Array, cutoff: float, cell: Cell | None, radii: Array | None = None, slack: float = 0.0) -> Pairs:
-    """Finds pairs at most `cutoff` apart; with radii, at most the sum of both plus `slack`. Raises ValueError if too many."""
+    """Pairs at most `cutoff` apart; with radii, at most the sum of both plus `slack`. Raises ValueError for too many."""
     positions = positions.astype(np.float64)
     sources, shifts = _images(positions, cell, cutoff)
     places = positions[sources] if cell is None else positions[sources] + shifts @ cell.vectors
@@ -68,7 +66,7 @@ def _is_first(first: Array, second: Array, steps: Array) -> Array:
 
 
 def _images(positions: Array, cell: Cell | None, cutoff: float) -> tuple[Array, Array]:
-    """Returns the particles in the cell, then their images within the cutoff: indices, and shifts in edges."""
+    """Returns indices and shifts in edges: of the particles in the cell, then of their images within the cutoff."""
     sources = np.arange(len(positions))
     if cell is None:
         return sources, np.zeros((len(positions), 3))

@@ -1,7 +1,4 @@
-"""Outlines over a rendered figure, and the coverage of pixels by shapes.
-
-Coverage comes from 16 rays a pixel. Balls that rays pass at random need more.
-"""
+"""Outlines over a rendered figure, and the coverage of pixels by shapes."""
 
 from __future__ import annotations
 
@@ -57,7 +54,7 @@ def rays_per_side(samples: float, pixels: int) -> int:
 
 def read_shares(context: Context, camera: Camera, settings: RenderSettings, overlaid: Overlaid, per_side: int = PER_SIDE
                 ) -> Shares:
-    """Needs a context with the scene and the camera. Replaces its render settings. Outlines take PER_SIDE rays."""
+    """Replaces the context's render settings. Outlines take PER_SIDE rays."""
     width, height = settings.width, settings.height
     shares = Shares(np.zeros((height, width)), np.zeros((height, width)))
     margin = math.ceil(0.5 * line_width((width, height))) + 1 if overlaid.outlines else 0

@@ -1,5 +1,3 @@
-"""Particles as figures draw them, and the tables that become particles."""
-
 from __future__ import annotations
 
 import dataclasses
@@ -39,7 +37,7 @@ class Bonds:
         return Bonds(rows, images, is_complete)
 
     def among(self, rows: Array, count: int) -> Bonds:
-        """Bonds among the selected rows, by their new indices. count: number of all particles."""
+        """rows: old indices in the new order. count: number of all particles."""
         new = np.full(count, -1, np.intp)
         new[rows] = np.arange(len(rows))
         pairs = new[self.pairs]
@@ -80,7 +78,7 @@ class Particles:
         return self.columns[column_name(self.columns, name, self.name)]
 
     def select(self, mask: Array) -> Particles:
-        """Selects by a mask, a slice or indices, in their order. Copies nothing if all particles are selected."""
+        """Selects by a mask, a slice or indices, in their order. A mask of all particles copies nothing."""
         if mask.dtype == bool and mask.all():
             return self
         chosen = {key: None if value is None else value[mask] for key, value in

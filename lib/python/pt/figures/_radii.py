@@ -1,5 +1,3 @@
-"""Radii of particles, given or from elements, types or distances. Also opacities."""
-
 from __future__ import annotations
 
 import math
@@ -120,15 +118,15 @@ def _automatic(particles: Particles, notes: list[str]) -> Array:
 
 
 def covalent_factor(particles: Particles) -> float | None:
-    """Factor of covalent radii for unknown radii: 1 for bonded neighbours, more for noble gases and C-alphas. None if
-    distances are not in angstroms, or there are no elements."""
+    """The factor is 1 for bonded neighbours, more for noble gases and C-alphas. None if distances are not in angstroms, or
+    there are no elements."""
     if particles.elements is None:
         return None
     radii = elements.COVALENT_RADII[np.unique(particles.elements)]
     radii = radii[radii > 0]
     typical = typical_radius(particles.positions)
-    # Bonded neighbours are two covalent radii apart, in other solids up to six, in a gas at 0 degrees Celsius and 1 bar
-    # 32.
+    # Bonded neighbours are two covalent radii apart, those in other solids up to six, those in a gas at 0 degrees Celsius
+    # and 1 bar 32.
     if not len(radii) or not 0.7 * radii.min() <= typical <= 30.0 * radii.max():
         return None
     largest = float(radii.max())
@@ -183,8 +181,8 @@ def typical_radius(positions: Array) -> float:
     if not len(first):
         return 1.0
     median = float(np.median(first))
-    # For random points on a surface, a twentieth of the nearest distances is below 0.27 times the median: the square root
-    # of log(0.95) / log(0.5); in space below 0.42, the cube root. Atoms are never that close.
+    # For random points on a surface, a twentieth of the nearest distances is below 0.27 medians: the square root of
+    # log(0.95) / log(0.5). In space it is the cube root, 0.42. Atoms are never that close.
     if len(fourth) and float(np.quantile(first, 0.05)) < 0.5 * median:
         median = float(np.median(fourth))
     return 0.5 * median

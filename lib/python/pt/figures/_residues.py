@@ -1,5 +1,3 @@
-"""Elements from the names of residues and atoms in force fields, the Protein Data Bank and AutoDock."""
-
 from __future__ import annotations
 
 import re
@@ -69,7 +67,7 @@ def is_free_ion(residue: str) -> bool:
 
 
 def is_polymer(residue: str) -> bool:
-    """Whether it is a residue of a protein or nucleic acid. AMBER marks the ends of chains with N or C."""
+    """AMBER marks the ends of chains with N or C."""
     return residue in AMINO_ACIDS or residue in NUCLEOTIDES or (
         len(residue) == 4 and residue[0] in "NC" and residue[1:] in AMINO_ACIDS)
 
@@ -79,7 +77,7 @@ def autodock_element(kind: str) -> int:
 
 
 def are_beads(names: Array, residues: Array) -> bool:
-    """Whether these are MARTINI beads, each of which stands for several atoms."""
+    """A MARTINI bead stands for several atoms."""
     found = set(np.unique(names).tolist())
     if "GL1" in found and "PO4" in found:
         return True
@@ -90,8 +88,7 @@ def are_beads(names: Array, residues: Array) -> bool:
 
 @dataclass
 class Guess:
-    """elements  atomic numbers, shape (n,), uint8, 0 if unknown, VIRTUAL for sites that are not atoms
-    notes     sentences for the user"""
+    """elements: atomic numbers, shape (n,), uint8, 0 if unknown, VIRTUAL for sites that are not atoms."""
 
     elements: Array
     notes: list[str]

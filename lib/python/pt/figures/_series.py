@@ -1,5 +1,3 @@
-"""Frames of a trajectory or a turntable, with one camera, one scale of colors and one rule for radii."""
-
 from __future__ import annotations
 
 import math
@@ -20,7 +18,7 @@ from pt.figures._radii import covalent_factor
 
 
 def frames(read: Callable[[], Iterator[Particles]], options: Options, trails: int = 0) -> Iterator[Staged]:
-    """Stages each frame. Reads all frames twice, first to choose one view and scale for all.
+    """Reads all frames twice, first to choose one view and scale for all.
 
     trails   number of earlier frames in a trail
     """
@@ -67,7 +65,7 @@ def _rule(particles: Particles, drawn: Drawn, options: Options) -> Radius:
 
 
 def turntable(particles: Particles, count: int, options: Options) -> Iterator[Staged]:
-    """Stages a full turn about the vertical axis, counterclockwise from above. Lamps move with the camera."""
+    """Turns about the vertical axis, counterclockwise from above. Lamps move with the camera."""
     drawn = prepare(particles, options)
     view = view_of(drawn, options, turns=True)
     for k in range(count):

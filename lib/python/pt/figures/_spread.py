@@ -1,5 +1,3 @@
-"""Reach of most particles. A few far ones do not count."""
-
 from __future__ import annotations
 
 from typing import Final

@@ -1,5 +1,3 @@
-"""The surroundings of a figure: soft light and, if wanted, a floor."""
-
 from __future__ import annotations
 
 import math
@@ -22,10 +20,7 @@ FLOOR_GAP: Final = 1e-4  # relative to the radius; less would be lost in roundin
 
 @dataclass(frozen=True)
 class Stage:
-    """lamps      the surround, an evenly shining sphere, and the key, a large lamp behind the camera's left shoulder
-    floor      white, below everything
-    material   material of the particles; their colors multiply its diffuse
-    """
+    """lamps: an evenly shining sphere around everything, and a large lamp behind the camera's left shoulder (key)."""
 
     lamps: tuple[Sphere, ...]
     floor: Plane | None
@@ -40,7 +35,7 @@ def material_of(style: str) -> Material:
 def make_stage(style: str, axes: Doubles, distance: float, center: Doubles, radius: float, floor: Plane | None) -> Stage:
     """axes: right, up and forward. distance: from the camera to the middle. center, radius: ball around everything."""
     material = material_of(style)
-    # The key lamp is farther than the camera. It is nearly as strong at the far end of the data.
+    # The key lamp is farther than the camera, so its light is nearly as strong at the far end of the data.
     far = max(20.0 * radius, 4.0 * distance)
     occlusion = style == "ambient-occlusion"
     surround = Sphere(center, 10.0 * far, Material(emission=1.0 if occlusion else SURROUND_BRIGHTNESS))

@@ -13,7 +13,7 @@ from pt.figures._residues import WATERS, is_free_ion, is_polymer
 
 Array = npt.NDArray[Any]
 
-# Pairs of heavy atoms within a residue. Other names of one residue are not bonded.
+# Pairs of heavy atoms within a residue. Other atoms of a known residue are not bonded.
 _WITHIN: Final = (
     "N-CA CA-C C-O C-OXT C-OT1 C-OT2 C-OC1 C-OC2 C-CH3 N-CH3 CA-CB CB-CG CB-CG1 CB-CG2 CB-OG CB-OG1 CB-SG CG-CD CG-CD1 CG-CD2 "
     "CG1-CD1 CG1-CD CG-OD1 CG-OD2 CG-ND1 CG-ND2 CG-SD CG-SE CD-N CD-NE CD-CE CD-OE1 CD-OE2 CD-NE2 CD1-CE1 CD1-NE1 CD2-CE2 "
@@ -54,7 +54,7 @@ def residues_of(particles: Particles) -> Array:
 
 
 def agreeing(particles: Particles, first: Array, second: Array, squares: Array) -> Array:
-    """Which near pairs are bonds by the names of their atoms; unknown residues' pairs remain."""
+    """Keeps near pairs that are bonded by the names of their atoms, and all pairs of unknown residues."""
     names = np.char.replace(np.char.upper(particles.columns["name"].astype(str)), "*", "'")
     words, codes = np.unique(names, return_inverse=True)
     known, residues = known_residues(particles), residues_of(particles)

@@ -1,4 +1,4 @@
-"""Trails through a particle's earlier places, as capsules."""
+"""Trails through earlier positions of particles, as capsules."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ WIDTH: Final = 0.2  # radius of trails, in median radii of particles; by taste
 
 
 def trails_of(particles: Particles, past: Sequence[Particles], radii: Array) -> Rods:
-    """past: the latest first. Steps of more than half of a periodic cell are left out: they cross its walls."""
+    """past: latest frame first. Steps of more than half of a periodic cell cross its walls and are left out."""
     positions = particles.positions.astype(np.float64)
     newer, known = positions, np.ones(len(positions), bool)
     atoms, starts, ways = [], [], []

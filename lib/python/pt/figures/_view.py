@@ -1,5 +1,3 @@
-"""The direction of a figure's view, by name or by numbers, and the axes of the picture."""
-
 from __future__ import annotations
 
 import math
@@ -11,8 +9,8 @@ import numpy as np
 from pt._fit import Doubles
 from pt.figures._options import VIEWS, Direction
 
-# The three-quarter view, by taste: no edge of a box nor its diagonal lies along the line of sight. Flat data are seen
-# from higher up.
+# The three-quarter view, by taste: neither an edge of a box nor its diagonal lies along the line of sight. Flat data are
+# seen from higher up.
 AZIMUTH: Final = 30.0
 ELEVATION_OF_BODIES: Final = 22.0
 ELEVATION_OF_DISCS: Final = 50.0
@@ -20,7 +18,7 @@ BODY: Final = 0.5
 
 
 def unit(vector: Doubles) -> Doubles:
-    """Scales by the largest component first, so that squares do not overflow."""
+    """Scales by the largest component first, because squares could overflow."""
     scaled = vector / np.abs(vector).max()
     result: Doubles = scaled * (1.0 / math.sqrt(scaled[0] * scaled[0] + scaled[1] * scaled[1] + scaled[2] * scaled[2]))
     return result
@@ -61,10 +59,8 @@ class Compass:
 
 
 def relative_height(extents: Doubles) -> float:
-    """The size of data along up, relative to their size across it: 0 for a layer, 1 for a cube.
-
-    extents: of the centers along right, front and up.
-    """
+    """The size of data along up, relative to their size across it: 0 for a layer, 1 for a cube. extents: of the centers
+    along right, front and up."""
     across = math.hypot(extents[0], extents[1])
     return float(extents[2] / (across / math.sqrt(2.0))) if across > 0.0 else 1.0
 
@@ -88,7 +84,7 @@ def toward_camera(view: Direction, compass: Compass, height: float) -> Doubles:
 
 
 def view_axes(toward: Doubles, compass: Compass) -> Doubles:
-    """Right, up and forward in rows: right x up = -forward. Views along up take right from the compass."""
+    """Rows are right, up and forward; right x up = -forward. Views along up take right from the compass."""
     forward = -toward
     across = np.cross(forward, compass.up)
     right = compass.right if np.linalg.norm(across) < 1e-6 else unit(across)

@@ -1,5 +1,3 @@
-"""Conditions that choose which particles are shown."""
-
 from __future__ import annotations
 
 import operator

@@ -1,5 +1,3 @@
-"""pt-tachyon: converts a Tachyon scene to a scene file of `pt render`."""
-
 from __future__ import annotations
 
 import argparse

@@ -15,7 +15,7 @@ FloatArray = npt.NDArray[np.float64]
 DEFAULT_RADIUS = 1 / 50  # radius of a lamp whose light has none, relative to its distance
 LEAST_RADIUS = 1e-6  # relative to the extent: a light with a smaller lamp counts as on a surface
 SUN_DISTANCE = 100.0
-LEAST_SHARE = 1 / 3  # least remaining brightness of lights with a bright background, to keep a lit side; by taste
+LEAST_SHARE = 1 / 3  # lights keep this fraction beside a bright background; by taste
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,7 @@ class Surroundings:
         return float(min(gaps, default=np.inf))
 
     def extent(self, lights: list[Light]) -> float:
-        """The largest distance, above 0, of anything but a plane from the target."""
+        """Leaves out planes. Above 0."""
         reach = np.linalg.norm(np.array([self.centers, self.ends]) - self.target, axis=2).max(axis=0) + self.radii
         places = [np.array(light.place) for light in lights if not light.is_directional] + [self.camera]
         return float(max([float(np.linalg.norm(place - self.target)) for place in places] + reach.tolist()))
@@ -88,9 +88,8 @@ def lamps_of(lights: list[Light], around: Surroundings) -> tuple[list[Sphere], l
     """Returns a ball for each light, and warnings about lights without one.
 
     A ball of radius r and radiance L gives a facing white surface at distance d the radiance L (r / d)^2. L is chosen so
-    that the camera's target gets the light's radiance. A light without a radius gets 1/50 of its distance, hidden from
-    the camera. A radius is at most half of the distance to the nearest surface and, if visible, to the camera.
-    Directional lights are a hundred extents away.
+    that the camera's target gets the light's radiance. A light without a radius gets a hidden lamp of 1/50 of its
+    distance. A radius is at most half of the distance to the nearest surface and, if visible, to the camera.
     """
     extent = around.extent(lights)
     lamps: list[Sphere] = []
@@ -104,7 +103,7 @@ def lamps_of(lights: list[Light], around: Surroundings) -> tuple[list[Sphere], l
         else:
             center = np.array(light.place)
             distance = float(np.linalg.norm(center - around.target))
-            if distance <= LEAST_RADIUS * extent:  # The target is at the light, so the camera's distance replaces the target's.
+            if distance <= LEAST_RADIUS * extent:  # The light is at the target. The distance to the camera replaces 0.
                 distance = float(np.linalg.norm(center - around.camera))
         room = around.clearance(center)
         if light.radius > 0.0:

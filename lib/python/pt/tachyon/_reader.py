@@ -1,5 +1,3 @@
-"""Tachyon's sections: camera, lights, shapes, background. Other sections can be left out."""
-
 from __future__ import annotations
 
 import math
@@ -71,7 +69,6 @@ def read(path: str | os.PathLike[str], *, leave_out_others: bool = False) -> Tac
 
 
 def parse(lines: Iterable[str], name: str, *, leave_out_others: bool = False) -> TachyonScene:
-    """Reads lines like read(). The name is for messages."""
     return _Reader(Words(lines, name), leave_out_others).read()
 
 
@@ -223,7 +220,7 @@ class _Reader:
             words.refuse("there is a second CAMERA")
         projection = words.keyword("the projection") if words.take_if("PROJECTION") else "PERSPECTIVE"
         if projection == "PERSPECTIVE_DOF":
-            if not words.take_if("FOCALDIST"):  # VMD writes FOCALDIST.
+            if not words.take_if("FOCALDIST"):
                 words.expect("FOCALLENGTH")
             words.number("the focus", positive=True)
             if words.named("APERTURE") != 0.0:

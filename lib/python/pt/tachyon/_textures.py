@@ -1,4 +1,4 @@
-"""Materials of a Tachyon scene, which the format calls textures."""
+"""Materials, which Tachyon calls textures."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ class Textures:
         self._words = words
         self._left_out = left_out
         self._named: dict[str, int] = {}
-        self._indices: dict[Material, int] = {}  # Files define a texture for each shape. Equal ones become one material.
+        self._indices: dict[Material, int] = {}  # Files have a texture for each shape. Equal ones become one material.
         self.materials: list[Material] = []
 
     def define(self) -> None:
-        """Reads a definition after TEXDEF. A later definition of the same name replaces it."""
+        """A later definition of the same name replaces this one."""
         name = self._words.word("the name of a TEXDEF")
         self._named[name] = self._body()
 

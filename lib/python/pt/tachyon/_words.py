@@ -1,5 +1,3 @@
-"""Words of a Tachyon file, with line numbers for messages."""
-
 from __future__ import annotations
 
 import math

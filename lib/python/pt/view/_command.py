@@ -1,5 +1,3 @@
-"""pt-view: a refining picture in a browser page."""
-
 from __future__ import annotations
 
 import argparse

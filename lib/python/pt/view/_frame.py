@@ -1,5 +1,3 @@
-"""A frame of a view: pixels, and the facts that the page shows."""
-
 from __future__ import annotations
 
 import json

@@ -1,5 +1,3 @@
-"""The contents of a view: a scene file, particles, or a film."""
-
 from __future__ import annotations
 
 import io

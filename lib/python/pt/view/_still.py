@@ -1,5 +1,3 @@
-"""A view of a film, without further samples."""
-
 from __future__ import annotations
 
 from collections.abc import Callable

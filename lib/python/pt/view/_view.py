@@ -1,5 +1,3 @@
-"""A view: a renderer, and the server of its page."""
-
 from __future__ import annotations
 
 import pathlib

@@ -1,5 +1,3 @@
-"""Formats of particle files, and their readers."""
-
 from __future__ import annotations
 
 import os

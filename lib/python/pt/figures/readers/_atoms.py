@@ -1,5 +1,3 @@
-"""Tables of named atoms, with elements by the field's rules."""
-
 from __future__ import annotations
 
 from typing import Any, Final

@@ -83,7 +83,7 @@ def _set_symmetry(structure: Any, notes: list[str]) -> None:
 
 
 def _choose_sites(structure: Any, notes: list[str]) -> None:
-    """Keeps sites with positions and, of alternative groups, the one with the highest occupancy."""
+    """Of alternative groups, keeps the one with the highest occupancy."""
     sites = [site for site in structure.sites if np.isfinite(site.fract.tolist()).all()]
     if len(sites) < len(structure.sites):
         notes.append(f"{len(structure.sites) - len(sites):,} sites without a position are left out")

@@ -14,7 +14,7 @@ _LENGTHS: Final = (0, 2, 5)  # indices of the edge lengths among the numbers of 
 
 
 def frames_without_cell(path: str) -> npt.NDArray[Any] | None:
-    """Returns the frames' records with fields x, y and z. None if frames have a cell, or another layout."""
+    """Returns records with fields x, y and z. None if frames have a cell, or another layout."""
     size = os.path.getsize(path)
     with open(path, "rb") as file:
         start = file.read(_TITLE + 4)

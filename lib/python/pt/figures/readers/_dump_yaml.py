@@ -1,5 +1,3 @@
-"""LAMMPS dumps of the style yaml."""
-
 from __future__ import annotations
 
 import re

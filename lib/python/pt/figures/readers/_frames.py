@@ -1,5 +1,3 @@
-"""Frames of a file. The file is searched only once."""
-
 from __future__ import annotations
 
 from collections.abc import Callable
@@ -11,10 +9,9 @@ from pt.figures.readers._lines import Lines
 
 
 class Frames(Protocol):
-    """The frames that have particles.
+    """Frames without particles do not count.
 
-    current  index of the default frame: the present one of an object with a position in its trajectory, or the first of
-             several models; None: the last frame
+    current  index of the default frame; None: the last
     models   numbers of a structure's models; None if frames are not models
     """
 
@@ -52,7 +49,7 @@ def one_frame(name: str, read: Callable[[], Table]) -> Listed:
 
 
 class TextFrames:
-    """A format whose frames have a header, which tells the number of particles.
+    """A format whose frames have a header with the number of particles.
 
     lines_after  number of lines after the particles of a frame
     """

@@ -1,4 +1,4 @@
-"""GROMACS' GRO: columns of fixed width. The writer chose the number of decimals."""
+"""GROMACS' GRO: columns of fixed width. The number of decimals may vary between files."""
 
 from __future__ import annotations
 

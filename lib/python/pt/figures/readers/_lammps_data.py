@@ -69,7 +69,7 @@ class LammpsData:
             if text[:1].isupper() and _SECTION.fullmatch(text):
                 self._section(text, hint.strip())
             elif self.columns:
-                continue  # These are rows of other sections.
+                continue  # Other sections are skipped.
             elif found := _BOUNDS.fullmatch(text):
                 self.box[found[2]] = self._numbers(found[1], 2 if "lo" in found[2] else 3)
             elif found := _HEADER.fullmatch(text):
@@ -137,7 +137,7 @@ class LammpsData:
         self.columns = self._rows("atoms", names, least)
 
     def _style(self, some: list[list[str]], hint: str) -> str:
-        """The style comes from the user, else from the hint after "Atoms", else from the columns of some rows."""
+        """Uses the given style, else the hint after "Atoms", else the columns of some rows."""
         hint = hint.split()[0] if hint else ""
         if self.style is None and hint in STYLES:
             self.style = hint

@@ -1,5 +1,3 @@
-"""A file's lines or bytes. The file may be packed, and may be a pipe."""
-
 from __future__ import annotations
 
 import bz2
@@ -35,7 +33,7 @@ _UNPACK: Final[dict[bytes, Callable[[IO[bytes]], Any]]] = {
 
 
 class Lines:
-    """An unpacked file. number: the number of the last line read."""
+    """An unpacked file. number: the last line read."""
 
     def __init__(self, path: str) -> None:
         self.path = path
@@ -60,7 +58,7 @@ class Lines:
         self.is_packed = unpack is not None
         self._file = self._raw if unpack is None else unpack(self._raw)
         self._buffer = b""
-        self._next = 0  # position in the buffer
+        self._next = 0
         self._passed = 0  # bytes before the buffer
         self.number = 0
         self.is_ended = True
@@ -111,7 +109,7 @@ class Lines:
         return bytes(taken) if size < BLOCK_BYTES else cast(bytes, taken)
 
     def line(self) -> str | None:
-        """The next line without its end, or None at the end of the file."""
+        """Returns a line without its end, or None at the end of the file."""
         while (end := self._buffer.find(b"\n", self._next)) < 0 and self._fill():
             self._check_length()
         if self._next == len(self._buffer):
@@ -147,7 +145,7 @@ class Lines:
         return data, count
 
     def skip(self, count: int) -> int:
-        """Skips up to `count` lines. Returns the number of skipped lines."""
+        """Returns the number of skipped lines."""
         passed = 0
         while passed < count and (lines := self.block(count - passed)[1]):
             passed += lines
@@ -157,7 +155,7 @@ class Lines:
         return self.byte, self.number
 
     def go_to(self, place: tuple[int, int]) -> None:
-        """Going back in a packed file unpacks it again from the start."""
+        """Unpacks a packed file again to go back."""
         byte, number = place
         if byte != self.byte:
             if self.is_packed:

@@ -61,7 +61,6 @@ def _cell(frame: Any) -> Cell | None:
 
 
 def read_trajectory(path: str, format: str, topology: Callable[[], Table]) -> Frames:
-    """topology: reads the file that describes the atoms."""
     count, step = _steps(path, format)
     atoms = topology()
     positions = next(iter(atoms.columns.values()))

@@ -1,5 +1,3 @@
-"""NPY and NPZ."""
-
 from __future__ import annotations
 
 import io
@@ -59,7 +57,7 @@ def _array(lines: Lines) -> Array:
 
 
 def _require_text(name: str, values: Array) -> None:
-    """Refuses arrays whose bytes are not text. NumPy does not check them."""
+    """NumPy does not check that the bytes are text."""
     for field in values.dtype.names or ("",):
         column = values[field] if field else values
         if column.dtype.kind == "U" and column.dtype.itemsize:

@@ -1,4 +1,4 @@
-"""Objects of other packages, recognised by the names of their types. The packages are not imported."""
+"""Objects of other packages, which are recognised by their types' names, not imported."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def of_ase(atoms: Any) -> Table:
 
 
 def of_mdanalysis(group: Any, name: str) -> Frames:
-    """Reads a universe or a group of atoms. Lengths are in angstroms."""
+    """Lengths are in angstroms."""
     atoms = group.atoms
     trajectory = group.universe.trajectory
 

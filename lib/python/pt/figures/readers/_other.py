@@ -1,5 +1,3 @@
-"""Formats that other packages read: ASE and MDAnalysis for atoms, pyvista, trimesh and laspy for points."""
-
 from __future__ import annotations
 
 import dataclasses

@@ -1,4 +1,4 @@
-"""PCD files of the Point Cloud Library: a header, then records, binary or as text."""
+"""PCD files of the Point Cloud Library."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def read_pcd(lines: Lines) -> Table:
 
 
 def _with_colors(columns: dict[str, npt.NDArray[Any]]) -> dict[str, npt.NDArray[Any]]:
-    """Unpacks colors. Three bytes are stored in any 32-bit type."""
+    """Colors are three bytes in a 32-bit number of any type."""
     for name in _PACKED_COLORS:
         if name in columns and columns[name].dtype.itemsize == 4:
             packed = np.ascontiguousarray(columns.pop(name)).view(np.uint32)

@@ -1,4 +1,4 @@
-"""Points in PLY files (Stanford): a header, then records, binary or as text."""
+"""Points in PLY files (Stanford)."""
 
 from __future__ import annotations
 

@@ -1,5 +1,3 @@
-"""VASP's POSCAR and CONTCAR."""
-
 from __future__ import annotations
 
 import re

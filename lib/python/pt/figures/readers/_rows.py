@@ -1,4 +1,4 @@
-"""Rows of text as columns. pandas reads large blocks. Short files and blocks with a bad row are read row by row."""
+"""Rows of text as columns. pandas reads large blocks. Small blocks and those with a bad row are read row by row."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from pt.figures.readers._lines import Lines
 
 Array = npt.NDArray[Any]
 
-_TABLE: Final = ""  # key of three columns of positions, which are stored as one table
+_TABLE: Final = ""  # key of three columns of positions that are stored as one table
 FEW_BYTES: Final = 1 << 16
 MISSING: Final = ("", "nan", "NaN", "NAN", "-nan", "NA", "N/A", "n/a", "null", "None", "-")
 _WHOLE: Final = re.compile(r"[+-]?\d+")
@@ -32,9 +32,9 @@ class Layout:
     positions  columns that must be numbers
     separator  "" for blanks
     decimal    decimal mark
-    least      least number of fields in a row; more than the names are ignored
-    is_table   whether the number of rows is unknown; then blank lines and lines that begin with # are skipped, and
-               columns except positions may mix numbers and words
+    least      least number of fields in a row; fields without a name are ignored
+    is_table   whether the number of rows is unknown; blank lines and comments (#) are then skipped, and columns except
+               positions may mix numbers and words
     rows       name of the rows in messages
     """
 
@@ -48,7 +48,7 @@ class Layout:
 
 
 def number(text: str, decimal: str = ".") -> float:
-    """Reads also exponents of Fortran (1.5D+02) and Mathematica (1.5*^2). A missing value gives NaN. Raises ValueError."""
+    """Also reads exponents of Fortran (1.5D+02) and Mathematica (1.5*^2). A missing value gives NaN. Raises ValueError."""
     if text in MISSING:
         return np.nan
     if "_" in text:
@@ -65,7 +65,6 @@ def is_number(text: str, decimal: str = ".") -> bool:
 
 
 def are_numbers(words: Iterable[str]) -> bool:
-    """Missing values do not count as numbers."""
     return all(word not in MISSING and is_number(word) for word in words)
 
 
@@ -119,7 +118,7 @@ class Rows:
         self.count += len(columns[0])
 
     def _put(self, key: str, piece: Array) -> None:
-        """Doubles the capacity when needed. The system allocates only the pages that are written."""
+        """Doubles the capacity if necessary. The system allocates only pages that are written."""
         have, end = self._columns.get(key, piece[:0]), self.count + len(piece)
         kind = np.result_type(have, piece)
         if end > len(have) or kind != have.dtype:
@@ -136,7 +135,7 @@ class Rows:
         return result
 
     def _find_words(self, data: bytes) -> None:
-        """A column, unless it is a position, has words if its first field is not a number."""
+        """Columns except positions have words if their first field is not a number."""
         layout = self.layout
         lines = (line.decode("utf-8", "replace") for line in io.BytesIO(data))
         first = next((line for line in lines if line.strip() and not (layout.is_table and is_comment(line))), "")
@@ -187,7 +186,7 @@ class Rows:
         return columns if self._has_all_fields(last == "" if last.dtype.kind == "U" else np.isnan(last), data, height) else None
 
     def _has_all_fields(self, is_missing: Array, data: bytes, height: int) -> bool:
-        """Whether the last value of every row is missing as an empty field, not as a short row."""
+        """Whether rows with a missing last value have an empty field for it."""
         rows = np.flatnonzero(is_missing)
         if not len(rows) or len(self.layout.names) == 1:
             return True

@@ -26,7 +26,7 @@ _OTHERS: Final = frozenset((b"HEADER", b"EXPDTA", b"SSBOND", b"LINK  ", b"CONECT
 _ELEMENT_AND_CHARGE: Final = re.compile(rb"( [A-Za-z]|[A-Za-z][A-Za-z]|[A-Za-z] )( *|[1-9][+-])")
 _DEUTERIUM: Final = 119  # gemmi's number
 PART: Final = 5000  # atoms in a part of a chain
-_OTHER_PART: Final = "\x7f"  # suffix of the names of every other part of a chain
+_OTHER_PART: Final = "\x7f"  # ends the name of every other part of a chain
 
 
 def read_pdb(lines: Lines, is_pdbqt: bool = False) -> Listed:
@@ -91,7 +91,7 @@ def _with_element(line: bytes) -> bytes:
 
 
 def _with_autodock_element(line: bytes) -> bytes:
-    """Converts AutoDock's type, the last word of a line, to an element."""
+    """AutoDock's type is the last word of a line."""
     number = autodock_element(line.split()[-1].decode("utf-8", "replace"))
     symbol = SYMBOLS[number] if 0 < number < VIRTUAL else "X"
     return line[:76].ljust(76) + f"{symbol:>2}".encode()
@@ -163,7 +163,7 @@ def _table(structure: Any, flat: Any, chains: Array, rows: slice) -> Table:
 
 
 def _words(letters: Array) -> Array:
-    """Converts rows of letters that end in zeros to words."""
+    """Rows end in zeros."""
     rows = np.ascontiguousarray(letters).view(np.uint8)
     width = max(1, int((rows != 0).any(axis=0).sum()))
     packed = np.ascontiguousarray(rows[:, :width]).view(f"S{width}").reshape(-1)
@@ -205,7 +205,7 @@ def _bonds(structure: Any, columns: dict[str, Array], notes: list[str]) -> Bonds
 
 
 def _connections(structure: Any, columns: dict[str, Array]) -> Iterator[tuple[int, int]]:
-    """Yields struct_conn, or LINK and SSBOND, within the asymmetric unit, without hydrogen bonds."""
+    """Reads struct_conn, or LINK and SSBOND, within the asymmetric unit, without hydrogen bonds."""
     gemmi = module("gemmi", structure.name)
     wanted = [each for each in structure.connections
               if each.type != gemmi.ConnectionType.Hydrog and each.asu != gemmi.Asu.Different]
@@ -221,7 +221,7 @@ def _connections(structure: Any, columns: dict[str, Array]) -> Iterator[tuple[in
 
 
 def _conect(structure: Any, serials: Array, notes: list[str]) -> Iterator[tuple[int, int]]:
-    """Yields CONECT records, except for serial numbers that several atoms have."""
+    """Skips serial numbers that several atoms have."""
     table = structure.conect_map
     if not table:
         return

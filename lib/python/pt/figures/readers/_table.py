@@ -1,5 +1,3 @@
-"""Tables of text: CSV, TSV or columns between blanks. The first line may have names."""
-
 from __future__ import annotations
 
 import csv
@@ -43,7 +41,7 @@ def read_table(lines: Lines, mapping: Mapping[str, str]) -> Table:
 
 
 def _layout(line: str, comment: str, lines: Lines) -> tuple[Layout, bool]:
-    """Derives the layout from the first line that is not a comment. Also returns whether this line has names."""
+    """The first line that is not a comment decides. Also returns whether it has names."""
     separator = next((each for each in _SEPARATORS if each in line), "")
     has_comma = separator != "," and re.search(r"\d,\d", line + lines.peek(1000).decode("utf-8", "replace")) is not None
     decimal = "," if has_comma else "."

@@ -1,5 +1,3 @@
-"""XCrySDen's XSF, and AXSF with several steps."""
-
 from __future__ import annotations
 
 from typing import Any, Final
