@@ -1,4 +1,4 @@
-// Each function adds one command with its options.
+// Each function adds a command with its options.
 #pragma once
 
 #include "cli/base/options.h"

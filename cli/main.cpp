@@ -21,7 +21,7 @@ int fail(cli::ExitCode code, const std::string &message) {
 } // namespace
 
 int main(int argument_count, char **arguments) {
-    // CLI11 allocates in noexcept functions.
+    // CLI11 allocates memory in noexcept functions.
     std::set_terminate([] {
         std::fputs("pt: out of memory, or an internal error\n", stderr);
         std::_Exit(static_cast<int>(cli::ExitCode::internal));

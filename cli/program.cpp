@@ -19,7 +19,7 @@ namespace cli {
 
 namespace {
 
-// Replaces this program by `pt-NAME`, if that exists.
+// Replaces this program by `pt-NAME`, if it exists.
 std::optional<int> run_other_program(std::string_view name, char *const *arguments) {
     const std::filesystem::path program = platform::find_program("pt-" + std::string(name));
     if (program.empty())
@@ -29,13 +29,13 @@ std::optional<int> run_other_program(std::string_view name, char *const *argumen
     return code;
 }
 
-// Names of files and paths may not.
+// Refuses names that could be files or paths.
 bool may_name_program(std::string_view name) {
     constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_";
     return !name.empty() && name.front() != '-' && name.find_first_not_of(letters) == std::string_view::npos;
 }
 
-// The argument of pip install, or empty for a program outside this project.
+// Returns the argument of pip install, or an empty text for a program of another project.
 std::string_view package_of(std::string_view name) {
     return name == "figure"    ? "'./lib/python[figure]'"
            : name == "tachyon" ? "./lib/python"
@@ -50,7 +50,7 @@ int run_program(int argument_count, char **arguments) {
     CLI::App program("An offscreen path tracer for spheres and planes on any Vulkan device", "pt");
     Run chosen;
     program.require_subcommand(0, 1);
-    program.allow_windows_style_options(false); // /path is no option
+    program.allow_windows_style_options(false); // /path is not an option.
     program.formatter(help_formatter());
     program.footer("pt NAME runs the program pt-NAME, where NAME is none of these commands: figure, farm and tachyon\n"
                    "come with the Python package.\n\n" +

@@ -12,7 +12,7 @@ namespace cli {
 namespace {
 
 struct OptionName {
-    std::string_view subject; // as in pt_broken_rule, like the member
+    std::string_view subject; // subject and member as in pt_broken_rule
     std::string_view member;
     const char *option;
 };

@@ -1,4 +1,4 @@
-// A pt_context that throws Failure, and the library's errors in the user's own names.
+// A pt_context that throws Failure, with the library's errors in terms of options and scene files.
 #pragma once
 
 #include "cli/base/environment.h"
@@ -29,7 +29,7 @@ constexpr Struct sized() {
     return value;
 }
 
-// An owned pt_broken_rule.
+// An owning pt_broken_rule.
 struct BrokenRule {
     std::string subject{};
     std::optional<std::size_t> index{};
@@ -42,37 +42,37 @@ struct BrokenRule {
 
 std::string rule_text(const std::string &field, const BrokenRule &rule);
 
-// "spheres[3].center[0]".
+// For example "spheres[3].center[0]".
 std::string field_text(const BrokenRule &rule);
 
-// "--size: width"; nullptr if no option sets the field.
+// For example "--size: width"; nullptr if no option sets the field.
 const char *find_option(const BrokenRule &rule);
 
 struct LibraryError {
     std::string message;
     std::vector<BrokenRule> rules; // empty if the message concerns no field
-    std::uint64_t left_out = 0;    // broken rules beyond those in `rules`
+    std::uint64_t left_out = 0;    // number of broken rules beyond `rules`
 
-    // One line per rule; without rules the message.
+    // Returns a line for each rule or, without rules, the message.
     std::string in_words(const std::function<std::string(const BrokenRule &)> &words) const;
 };
 
 // Empty if the rule has no subject.
 std::optional<BrokenRule> broken_rule(const pt_broken_rule &rule);
 
-// "--size: width = 0: must be >= 1"
+// For example "--size: width = 0: must be >= 1".
 std::string in_words_of_options(const BrokenRule &rule);
 
-// context NULL: the thread's last error.
+// Without a context, returns the thread's last error.
 LibraryError last_error(const pt_context *context);
 
 class Context {
 public:
-    // Keeps kernels in the user's cache. Not while other threads run: it sets environment variables.
+    // Keeps kernels in the user's cache. Sets environment variables, so no other thread may run.
     explicit Context(pt_create_info info) : shader_dir_(info.shader_dir == nullptr ? "" : info.shader_dir) {
         choose_vector_width();
         kernels_.serve(info);
-        const EndAtOnce compiling; // compiling may take long
+        const EndAtOnce compiling; // Compiling may take long.
         const pt_result result = pt_create(&info, &context_);
         if (result < 0)
             fail(result, cli::last_error(nullptr));
@@ -89,7 +89,7 @@ public:
         require(pt_reload_shaders(context_));
     }
 
-    // For calls without arguments of the user.
+    // For calls that the user's input cannot break.
     void require(pt_result result) const {
         if (result < 0)
             fail(result, last_error());
@@ -153,7 +153,7 @@ private:
     }
 
     std::string shader_dir_;
-    KernelFolder kernels_{kernel_path()}; // outlives the context
+    KernelFolder kernels_{kernel_path()};
     pt_context *context_ = nullptr;
 };
 

@@ -1,4 +1,3 @@
-// Devices and versions as text.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -13,7 +12,7 @@ std::string kind_name(std::uint32_t kind);
 
 nlohmann::ordered_json device_json(const pt_device_info &device);
 
-// "7.7 GiB", "480 B"
+// For example "7.7 GiB" or "480 B".
 std::string memory_text(std::uint64_t bytes);
 
 std::string version_text();

@@ -1,17 +1,16 @@
-// Folders and variables of the environment.
 #pragma once
 
 #include <filesystem>
 
 namespace cli {
 
-// Need not exist. Empty without a home directory.
+// Returns a folder that may not exist. Empty without a home directory.
 std::filesystem::path user_cache();
 
-// Asks llvmpipe for vectors of 512 bits, unless the user chose a width. Not while other threads run.
+// Asks llvmpipe for vectors of 512 bits, unless the user chose a width. No other thread may run.
 void widen_vectors();
 
-// Does so with AVX-512 only. Call before an instance is created.
+// Calls widen_vectors() if the CPU has AVX-512. Must precede the first Vulkan instance.
 void choose_vector_width();
 
 } // namespace cli

@@ -1,4 +1,3 @@
-// Exit codes, and the exception that carries one to main.
 #pragma once
 
 #include <pt/pt.h>
@@ -18,8 +17,8 @@ enum class ExitCode {
     file = 6,
     target_missed = 7,
     images_differ = 8,
-    undecided = 9,  // too few samples to tell
-    resumable = 75, // EX_TEMPFAIL of sysexits.h: schedulers retry
+    undecided = 9,  // too few samples for a verdict
+    resumable = 75, // EX_TEMPFAIL of sysexits.h; schedulers retry
     signal = 128    // plus the signal's number
 };
 
@@ -60,7 +59,7 @@ constexpr int exit_code_of_signal(int signal) {
     return static_cast<int>(ExitCode::signal) + signal;
 }
 
-// For failed calls without arguments of the user.
+// For calls that the user's input cannot break.
 constexpr ExitCode exit_code_of(pt_result result) {
     switch (result) {
     case PT_ERROR_INVALID_ARGUMENT:

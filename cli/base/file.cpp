@@ -24,16 +24,16 @@ fs::path folder_of(const fs::path &path) {
     return path.has_parent_path() ? path.parent_path() : ".";
 }
 
-// Empty if there is no file. A terminal may be input and output at once.
+// Empty if there is no file. Input and output may be the same terminal.
 fs::path target_of(const NamedFile &file, bool is_input) {
     if (file.path != standard_stream)
         return file.path;
     if (is_input)
         return platform::regular_size(platform::standard_input) ? "/dev/stdin" : "";
-    return "/dev/stdout"; // two reports on one stream would mix
+    return "/dev/stdout"; // Two reports on one stream would mix.
 }
 
-// The same name in the same folder, or one existing file.
+// Whether both are one existing file, or one name in one folder.
 bool is_same(const fs::path &one, const fs::path &other) {
     std::error_code error;
     if (one.empty() || other.empty() || one == other)
@@ -47,7 +47,7 @@ bool is_same(const fs::path &one, const fs::path &other) {
 
 } // namespace
 
-// Short, because the target's name may already have the longest length.
+// The name is short, because the target's name may already have the maximum length.
 std::string temporary_name(int attempt) {
     return ".pt-" + std::to_string(platform::process_number()) + "-" + std::to_string(attempt) + ".tmp";
 }
@@ -69,7 +69,7 @@ AtomicFile::~AtomicFile() {
     if (!file_.is_open())
         return;
     std::error_code ignored;
-    file_.close(); // some systems remove only closed files
+    file_.close(); // Some systems cannot remove an open file.
     fs::remove(temporary_, ignored);
 }
 
@@ -176,7 +176,7 @@ void OutputFile::commit() {
     if (file_) {
         file_->commit();
     } else if (!std::cout.flush()) {
-        std::cout.clear(); // not reported again at the program's end
+        std::cout.clear(); // Prevents a second report at the program's end.
         throw Failure(ExitCode::file, "cannot write to standard output");
     }
 }

@@ -1,5 +1,5 @@
-// Reads whole files. Writes a temporary file beside the target and renames it, so outputs are whole or absent. A lock
-// marks temporary files in use.
+// Whole files. Outputs are written to a temporary file beside the target, which is then renamed. A lock marks temporary
+// files in use.
 #pragma once
 
 #include "cli/base/exit_code.h"
@@ -16,15 +16,15 @@
 
 namespace cli {
 
-// attempt: how many names were taken.
+// attempt: number of names already taken.
 std::string temporary_name(int attempt);
 
-// Removes temporary files that killed programs left.
+// Removes temporary files of killed programs.
 void remove_abandoned(const std::filesystem::path &folder);
 
 class AtomicFile {
 public:
-    // Functions throw Failure(ExitCode::file).
+    // All functions throw Failure(ExitCode::file).
     explicit AtomicFile(const std::string &path);
     AtomicFile(const AtomicFile &) = delete;
     AtomicFile &operator=(const AtomicFile &) = delete;
@@ -33,11 +33,11 @@ public:
     void write(std::span<const std::byte> bytes);
     void commit();
 
-    // Makes the constructor's checks without leaving a file.
+    // Checks like the constructor, but leaves no file.
     static void check_writable(const std::string &path);
 
     // Follows symbolic links, because a rename would replace the link. Refuses another user's link in a sticky folder
-    // writable by everybody, unless the folder's owner owns it.
+    // that everybody can write, unless the folder's owner owns the link.
     static std::filesystem::path target_of(const std::string &path);
 
 private:
@@ -51,23 +51,23 @@ private:
     platform::FileDescriptor file_;
 };
 
-// role: the option that names the file, such as "--stats".
+// role: name of the option for the file, such as "--stats".
 struct NamedFile {
     std::string role;
-    std::string path; // empty: none; "-": standard input or output
+    std::string path; // empty: no file; "-": standard input or output
 };
 
-// Throws Failure(ExitCode::usage) if an output is also an input or another output, by any path or link.
+// Throws Failure(ExitCode::usage) if an output is also an input or another output, through any path or link.
 void require_distinct_files(const std::vector<NamedFile> &inputs, const std::vector<NamedFile> &outputs);
 
-// Throws Failure(ExitCode::usage) for outputs directly in that folder.
+// Throws Failure(ExitCode::usage) for outputs directly in the folder.
 void require_outside(const NamedFile &folder, const std::vector<NamedFile> &outputs);
 
 inline constexpr std::string_view standard_stream = "-";
 
 class OutputFile {
 public:
-    // Functions throw Failure(ExitCode::file).
+    // All functions throw Failure(ExitCode::file).
     explicit OutputFile(const std::string &path) {
         if (path != standard_stream)
             file_.emplace(path);
@@ -83,12 +83,11 @@ private:
 void check_report_file(const std::string &path);
 void write_report_file(const std::string &path, std::string_view text);
 
-// Uses stderr if standard output is taken.
+// Prints to stderr if standard output is taken.
 void print_for_people(const std::string &lines, bool standard_output_is_taken);
 
 Failure unreadable(const std::string &path, const platform::InputError &error);
 
-// Throws unreadable().
 template <typename Read>
 auto read_file(const std::string &path, Read read) {
     try {
@@ -99,13 +98,13 @@ auto read_file(const std::string &path, Read read) {
     }
 }
 
-// "-": standard input. May stop at a NUL byte. Throws unreadable().
+// "-" is standard input. May stop at a NUL byte. Throws Failure like read_file.
 std::string read_text(const std::string &path);
 
-// Removes a byte order mark. Throws Failure(ExitCode::scene) at a NUL byte.
+// Removes a byte order mark. Throws Failure(ExitCode::scene) for a NUL byte.
 std::string_view require_text(std::string_view contents, const std::string &path);
 
-// "3:14": the position after this text, from 1; columns are bytes.
+// Returns the position after this text, such as "3:14". Both numbers count from 1, columns in bytes.
 std::string line_and_column(std::string_view before);
 
 } // namespace cli

@@ -10,14 +10,14 @@ namespace cli {
 namespace {
 
 std::atomic<int> noted_signal = 0;
-std::atomic<std::int64_t> noted_at = 0; // nanoseconds
+std::atomic<std::int64_t> noted_at = 0;
 std::atomic<bool> noted_picture_request = false;
 std::atomic<bool> ends_at_once = false;
 static_assert(decltype(noted_signal)::is_always_lock_free && decltype(noted_at)::is_always_lock_free &&
                   decltype(noted_picture_request)::is_always_lock_free && decltype(ends_at_once)::is_always_lock_free,
               "only lock-free atomics are safe in a signal handler");
 
-// timeout(1) signals the program and its process group: the signal comes twice at once.
+// timeout(1) signals both the program and its process group, so one cause gives two signals.
 bool note_signal(int signal) {
     constexpr std::int64_t same_cause = 1'000'000'000;
     const std::int64_t now = std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);

@@ -1,14 +1,15 @@
-// Flags set by signals: SIGINT, SIGTERM and SIGHUP end a rendering, SIGUSR1 requests a preview.
+// Signals as flags: SIGINT, SIGTERM and SIGHUP end a rendering, SIGUSR1 requests a preview.
 #pragma once
 
 #include <string>
 
 namespace cli {
 
-// Notes the first ending signal. Another one a second later ends the program at once, in case a driver hangs.
+// Notes the first ending signal. A second one, at least a second later, ends the program at once, in case a driver
+// hangs.
 void catch_signals();
 
-// While an object lives, a signal ends the program at once.
+// During its lifetime a signal ends the program at once.
 class EndAtOnce {
 public:
     EndAtOnce();
@@ -17,12 +18,12 @@ public:
     ~EndAtOnce();
 };
 
-// 0: none.
+// Returns 0 before a signal.
 int interrupt_signal();
 
 std::string interrupt_name();
 
-// Since the last forget_picture_request().
+// Whether there was a request since the last forget_picture_request().
 bool has_picture_request();
 void forget_picture_request();
 

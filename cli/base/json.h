@@ -1,4 +1,4 @@
-// JSON: paths, rules of values (for checks, refusals and JSON Schema), reports.
+// JSON: paths, rules for values (used by checks, messages and the JSON Schema), reports.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -25,12 +25,12 @@ struct JsonStep {
     bool operator==(const JsonStep &) const = default;
 };
 
-using JsonPath = std::vector<JsonStep>; // steps from the root
+using JsonPath = std::vector<JsonStep>;
 
-// spheres[3].radius, materials["blue ball"].diffuse[0]
+// For example spheres[3].radius or materials["blue ball"].diffuse[0].
 std::string path_text(const JsonPath &path);
 
-// Empty without a path at the beginning.
+// The path is empty if the text does not begin with one.
 struct ParsedPath {
     JsonPath path;
     std::string_view rest;
@@ -39,7 +39,7 @@ std::optional<ParsedPath> parse_path(std::string_view text);
 
 bool is_within(const JsonPath &path, const JsonPath &outer);
 
-// A chain towards the root; paths are built only for messages, since scenes may have millions of values.
+// A value's place as a chain to the root. Only messages need paths, and scenes may have millions of values.
 struct JsonPlace {
     const JsonPlace *parent = nullptr;
     std::string_view key; // empty at the root and in arrays
@@ -59,14 +59,14 @@ struct JsonRefusal : std::runtime_error {
         cause(std::move(place)) {}
 
     JsonPath path;
-    JsonPath cause; // the value or unknown key whose line the message gives
+    JsonPath cause; // value or unknown key whose line the message has
 };
 
 [[noreturn]] inline void refuse(const JsonPlace &place, const std::string &rule) {
     throw JsonRefusal(place.path(), rule);
 }
 
-// Invalid UTF-8 in names becomes U+FFFD.
+// Replaces invalid UTF-8 by U+FFFD.
 inline std::string json_text(const nlohmann::ordered_json &value) {
     return value.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
@@ -79,24 +79,24 @@ inline nlohmann::ordered_json number_or_null(double number) {
 struct ValueRule {
     enum class Form {
         number,
-        whole_number, // also 1e3
+        whole_number, // 1e3, too
         number_or_auto,
         boolean,
         text,
         name,
         numbers,
-        color // three numbers, or one for all; float32
+        color // float32: three numbers, or one for all
     };
     Form form = Form::number;
     double least = -std::numeric_limits<double>::infinity();
     double largest = std::numeric_limits<double>::infinity();
     bool excludes_largest = false;
-    bool may_be_negative = false; // 0 and the negative range are valid, too
-    bool is_of_library = false;   // the library checks the range
+    bool may_be_negative = false; // The negative range and 0 are valid, too.
+    bool is_of_library = false;   // The library checks the range.
     bool is_float = false;
-    bool excludes_zeros = false; // not all may be 0
+    bool excludes_zeros = false; // At least one number must not be 0.
     std::size_t count = 0;
-    std::string_view kind = {}; // of the names
+    std::string_view kind = {}; // kind of names, for messages
     std::span<const std::string_view> names = {};
     std::string_view unit = {};
 };
@@ -111,7 +111,7 @@ void check(const ValueRule &rule, const nlohmann::json &value, const JsonPlace &
 
 std::string json_kind(nlohmann::json::value_t kind);
 
-// The user's text, or its kind if long.
+// Returns the user's text, or its kind if the text is long.
 std::string shown(const nlohmann::json &value);
 
 std::uint64_t largest_whole_number(const ValueRule &rule);

@@ -31,7 +31,7 @@ void store_kernels(void *user, const char *key, const void *data, std::uint64_t 
     try {
         static_cast<const KernelFolder *>(user)->store(key, {static_cast<const std::byte *>(data), size_bytes});
     } catch (const std::exception &) {
-        return; // the next start compiles again
+        return; // The next start compiles again.
     }
 }
 
@@ -41,7 +41,7 @@ struct KeptFile {
     fs::file_time_type last_use;
 };
 
-// Also foreign files, such as a killed process's temporary file.
+// Includes foreign files, such as a killed process's temporary file.
 std::vector<KeptFile> files_in(const fs::path &folder) {
     std::vector<KeptFile> files;
     std::error_code error;
@@ -68,7 +68,7 @@ std::uint64_t KernelFolder::load(const std::string &key, std::span<std::byte> by
     std::ifstream stream(file, std::ios::binary);
     if (!stream.read(reinterpret_cast<char *>(bytes.data()), static_cast<std::streamsize>(size)))
         return 0;
-    fs::last_write_time(file, fs::file_time_type::clock::now(), error); // marks it as used
+    fs::last_write_time(file, fs::file_time_type::clock::now(), error); // The time marks the file as used.
     return size;
 }
 

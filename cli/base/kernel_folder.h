@@ -1,4 +1,4 @@
-// Caches compiled kernels in files. Without access the program silently compiles each time.
+// A cache of compiled kernels. Without write access the program compiles each time, without a message.
 #pragma once
 
 #include <pt/pt.h>
@@ -13,19 +13,19 @@ namespace cli {
 
 class KernelFolder {
 public:
-    // The least recently used makes room.
+    // The least recently used files are removed first.
     static constexpr std::size_t most_files = 32;
     static constexpr std::uint64_t most_bytes = std::uint64_t{64} << 20;
 
-    // Empty: no cache. The folder need not exist.
+    // An empty path means no cache. The folder need not exist.
     explicit KernelFolder(std::filesystem::path path) : path_(std::move(path)) {}
 
-    // Returns the data's size; fills bytes if they suffice.
+    // Returns the size of the data. Fills bytes if they are large enough.
     std::uint64_t load(const std::string &key, std::span<std::byte> bytes) const;
 
     void store(const std::string &key, std::span<const std::byte> bytes) const;
 
-    // The folder must outlive the context.
+    // The object must outlive the context.
     void serve(pt_create_info &info);
 
 private:

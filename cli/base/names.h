@@ -47,10 +47,10 @@ private:
 template <std::size_t Count>
 ValueNames(const Named<std::uint32_t> (&)[Count]) -> ValueNames<Count>;
 
-// Empty if no name is close.
+// Empty if no name is similar.
 std::string_view nearest_name(std::string_view name, std::span<const std::string_view> known);
 
-// `unknown key "raduis", did you mean "radius"?`, or a short list of all names.
+// Returns `unknown key "raduis", did you mean "radius"?`, or a short list of all names.
 std::string unknown_name(std::string_view kind, std::string_view name, std::span<const std::string_view> known);
 
 } // namespace cli

@@ -1,4 +1,4 @@
-// Numbers of options: the whole text must be a number; no octal, no overflow.
+// Numbers in options. The whole text must be a number. There are no octal numbers.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +26,7 @@ std::optional<Number> parse_number(std::string_view text) {
     return number;
 }
 
-// Shortest exact text; whole numbers below 1e15 without exponent.
+// Shortest text with the same value. Integers below 1e15 have no exponent.
 inline std::string number_text(double number) {
     if (std::abs(number) < 1e15 && number == std::trunc(number))
         return std::to_string(static_cast<std::int64_t>(number));
@@ -35,7 +35,7 @@ inline std::string number_text(double number) {
     return {text.data(), end};
 }
 
-// "0.005" or "0.5%", both 0.005.
+// Both "0.005" and "0.5%" are 0.005.
 inline std::optional<double> parse_share(std::string_view text) {
     const bool percent = text.ends_with('%');
     const auto number = parse_number<double>(percent ? text.substr(0, text.size() - 1) : text);

@@ -75,7 +75,7 @@ std::string_view command_that_reads(std::string_view name) {
                                        : "";
 }
 
-// Empty without a leftover argument.
+// Empty if all arguments are known.
 std::optional<std::string> unknown_argument(const CLI::App &command) {
     const std::vector<std::string> left_over = command.remaining();
     if (left_over.empty())
@@ -117,7 +117,7 @@ public:
         label("SUBCOMMAND", "COMMAND");
     }
 
-    // CLI11 has two empty lines between groups.
+    // CLI11 writes two empty lines between groups.
     std::string make_help(const CLI::App *command, std::string name, CLI::AppFormatMode mode) const override {
         return CLI::detail::find_and_replace(CLI::Formatter::make_help(command, std::move(name), mode), "\n\n\n",
                                              "\n\n");

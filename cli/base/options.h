@@ -1,4 +1,4 @@
-// Common options. CLI11's own conversion would read "-1" as the largest unsigned number and "010" as 8.
+// Common options. CLI11's own conversions would read "-1" as the largest unsigned number and "010" as 8.
 #pragma once
 
 #include "cli/base/json.h"
@@ -16,7 +16,7 @@ namespace cli {
 
 using Run = std::function<int()>;
 
-// The command's name on the command line sets `chosen` to `run`. notes: end of the help.
+// When the command line names the command, `chosen` becomes `run`. notes: end of the help.
 CLI::App &add_command(CLI::App &program, Run &chosen, const std::string &name, const std::string &description,
                       const std::string &notes, Run run);
 
@@ -30,13 +30,12 @@ std::pair<CLI::App &, Options &> add_command(CLI::App &program, Run &chosen, con
 
 [[noreturn]] void refuse_option(const std::string &option, const std::string &rule, const std::string &text);
 
-// Throws CLI::ValidationError.
 nlohmann::json read_value(const std::string &option, const std::string &text, const ValueRule &rule);
 
 CLI::Option *add_value(CLI::App &command, const std::string &name, const ValueRule &rule,
                        std::function<void(const nlohmann::json &)> store, const std::string &help);
 
-// target: a number or an optional one.
+// target: a number, or an optional number.
 template <typename Number, typename Target>
 CLI::Option *add_number(CLI::App &command, const std::string &name, const ValueRule &rule, Target &target,
                         const std::string &help) {
@@ -44,7 +43,7 @@ CLI::Option *add_number(CLI::App &command, const std::string &name, const ValueR
         command, name, rule, [&target](const nlohmann::json &value) { target = value.get<Number>(); }, help);
 }
 
-// find: returns a name's value, if any. kind: of names, in messages.
+// find: returns the value of a name, if known. kind: kind of names, for messages.
 template <typename Target, typename Find>
 CLI::Option *add_name(CLI::App &command, const std::string &name, Target &target, Find find, std::string_view kind,
                       std::span<const std::string_view> names, const std::string &help) {
@@ -54,7 +53,7 @@ CLI::Option *add_name(CLI::App &command, const std::string &name, Target &target
         help);
 }
 
-// value: the help's placeholder.
+// value: placeholder in the help.
 CLI::Option *add_text(CLI::App &command, const std::string &name, std::string &target, const std::string &value,
                       const std::string &help);
 
@@ -64,7 +63,7 @@ CLI::Option *add_quiet(CLI::App &command, bool &quiet);
 
 std::shared_ptr<CLI::Formatter> help_formatter();
 
-// CLI11's reason in this program's words, and where to read on.
+// Returns CLI11's message in this program's words, with a pointer to the help.
 std::string usage_reason(const CLI::App &program, const CLI::ParseError &error);
 
 std::vector<std::string> command_names(const CLI::App &program);

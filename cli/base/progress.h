@@ -13,7 +13,7 @@ namespace cli {
 
 enum class ProgressStyle { none, line, json };
 
-// 80 if unknown.
+// Returns 80 if the width is unknown.
 std::size_t terminal_columns();
 
 class Progress {
@@ -26,27 +26,27 @@ public:
     Progress &operator=(const Progress &) = delete;
     ~Progress() { erase_line(); }
 
-    // Later samples belong to this share of the work.
+    // Begins a part of the work. begin, end: fractions of the whole work.
     void enter_part(double begin, double end) {
         part_begin_ = begin;
         part_end_ = end;
     }
 
-    // Shows the share on a terminal after a tenth of a second.
+    // Shows the fraction on a terminal after a tenth of a second.
     void update_scene(double share, Clock::time_point now);
 
     // Prints at most ten times a second, and at the end. The percentage never falls.
     void update_samples(double samples_of_part, Clock::time_point now);
 
-    // Total samples per pixel.
+    // Sets the total number of samples per pixel.
     void expect(std::uint64_t sample_count) { sample_count_ = sample_count; }
 
     void begin_at(std::uint64_t sample_count) { begun_ = static_cast<double>(sample_count); }
 
-    // The work ends this long after the start at the latest.
+    // Sets the latest end of the work, in seconds after the start.
     void limit_time(double seconds) { limit_seconds_ = seconds; }
 
-    // Infinite: unknown.
+    // Infinite if unknown.
     void show_error(double relative_error) { relative_error_ = relative_error; }
 
     bool shows_error() const { return style_ == ProgressStyle::line; }
@@ -68,7 +68,7 @@ private:
     std::uint64_t sample_count_;
     double part_begin_ = 0.0;
     double part_end_ = 1.0;
-    double fraction_ = 0.0; // the largest shown
+    double fraction_ = 0.0; // largest fraction shown so far
     double begun_ = 0.0;
     double limit_seconds_ = std::numeric_limits<double>::infinity();
     double relative_error_ = std::numeric_limits<double>::infinity();

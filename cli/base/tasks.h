@@ -1,4 +1,4 @@
-// Work in the background, or on all processors.
+// Work in the background or on all processors.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace cli {
 
 class BackgroundTask {
 public:
-    // Runs work in a thread, or now if the system has none. No other work may be running.
+    // Runs work in a thread or, on a system without threads, immediately. No other work may be running.
     void start(std::function<void()> work) {
         future_ = std::async(std::launch::async | std::launch::deferred, std::move(work));
         if (future_.wait_for(std::chrono::seconds(0)) == std::future_status::deferred)
@@ -26,17 +26,18 @@ public:
 
     bool is_begun() const { return future_.valid(); }
 
-    // Waits, and rethrows.
+    // Waits for the work, and rethrows its exception.
     void finish() {
         if (future_.valid())
             future_.get();
     }
 
 private:
-    std::future<void> future_; // waits for the thread
+    std::future<void> future_; // Its destructor waits for the thread.
 };
 
-// Calls work(first, end) for parts of [0, count) with at least `grain` items. Rethrows when all have ended.
+// Calls work(first, end) for parts of [0, count) with at least `grain` items. Rethrows an exception after all have
+// ended.
 template <typename Work>
 void in_parallel(std::size_t count, std::size_t grain, const Work &work) {
     const std::size_t processors = std::max(std::thread::hardware_concurrency(), 1U);

@@ -1,4 +1,3 @@
-// Texts for people, and messages on stderr.
 #pragma once
 
 #include "lib/platform/printable.h"
@@ -47,7 +46,7 @@ std::string listed(const Texts &texts, const char *between = ", ") {
     return list;
 }
 
-// Cuts the middle: subject and rule stand at the ends.
+// Removes the middle, because the subject and the rule are at the ends.
 inline std::string shortened(const std::string &line) {
     constexpr std::size_t longest = 2000;
     constexpr std::size_t kept = 900;

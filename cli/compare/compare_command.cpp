@@ -23,19 +23,18 @@ namespace cli {
 namespace {
 
 struct ImageDifference {
-    // Means over channels of pixels that are finite in both images.
-    double mse;          // of (x - r)^2, for values x and the reference's r
-    double relative_mse; // of (x - r)^2 / (r^2 + 0.01)
+    // Means over channels of pixels that are finite in both images, for values x and reference values r.
+    double mse;          // mean of (x - r)^2
+    double relative_mse; // mean of (x - r)^2 / (r^2 + 0.01)
 
     double maximum;
-    std::size_t maximum_value; // index into the values
+    std::size_t maximum_value; // index of the value with the largest difference
 
-    std::size_t not_finite; // pixels with a channel that is not finite in either image
+    std::size_t not_finite; // pixels that are not finite in some channel of either image
 };
 
 using Values = std::span<const float>;
 
-// Channel of the layer sample-count.
 constexpr const char *counts_channel = "sample_count";
 
 constexpr double relative_offset = 0.01;
@@ -44,7 +43,7 @@ bool is_finite(Values pixel) {
     return std::all_of(pixel.begin(), pixel.end(), [](float value) { return std::isfinite(value); });
 }
 
-// Both have equally many values.
+// Both images must have the same size.
 ImageDifference compare_images(Values image, Values reference) {
     ImageDifference total{};
     for (std::size_t i = 0; i < image.size(); i += 3) {
@@ -74,10 +73,10 @@ ImageDifference compare_images(Values image, Values reference) {
 struct CompareOptions {
     std::string image;
     std::string reference;
-    std::string layer; // empty: the main one
+    std::string layer; // empty: the main layer
     std::string json;
     std::string difference;
-    KernelTask kernels; // with shader_dir, instead of the images
+    KernelTask kernels; // compares kernels instead of images if it has a shader_dir
     LightRule rule;
     bool quiet = false;
 
@@ -98,7 +97,7 @@ void check_outputs(const CompareOptions &options) {
                           : "REFERENCE is required");
 }
 
-// A film as an image with the channel of sample counts.
+// Converts a film to an image with a channel of sample counts.
 DecodedImage read_film_image(const std::string &path) {
     const FilmHandle film(path, read_film_file(path));
     const pt_film_info info = film.info();
@@ -134,7 +133,7 @@ std::string attribute_of(const DecodedImage &image, std::string_view name) {
     return found == image.attributes.end() ? "" : attribute_text(*found);
 }
 
-// The first estimators find lamps by chance.
+// The first estimators hit lamps only by chance.
 bool finds_lamps_by_chance(const DecodedImage &image) {
     const std::uint32_t estimator = estimators.find(attribute_of(image, "pt.estimator")).value_or(PT_ESTIMATOR_BEST);
     return estimator != PT_ESTIMATOR_BEST && estimator <= PT_ESTIMATOR_BSDF;
@@ -229,7 +228,7 @@ struct CompareReport {
     }
 };
 
-// Says why unless the light is the same.
+// Prints the reason, unless the light is the same.
 ExitCode exit_code_of(const LightVerdict &verdict) {
     if (verdict.is_decided() && !verdict.is_different())
         return ExitCode::done;

@@ -11,10 +11,10 @@
 namespace cli {
 namespace {
 
-constexpr std::uint32_t first_look = 16; // samples
+constexpr std::uint32_t first_look = 16; // samples per pixel
 constexpr std::uint32_t usual_samples = 65536;
 
-// Equal bits of so few samples leave rare branches untried.
+// With fewer samples rare branches may be untested, although the bits are equal.
 constexpr std::uint32_t least_equal = 256;
 
 class Rendering {

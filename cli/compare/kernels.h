@@ -1,4 +1,4 @@
-// Compares an edited kernel with the library's, by rendering until the test decides.
+// Compares an edited kernel with the library's. Renders until the test has a verdict.
 #pragma once
 
 #include "cli/compare/light.h"
@@ -18,10 +18,10 @@ struct KernelTask {
     LightRule rule;
 };
 
-// told: receives each look's verdict, with the samples so far.
+// Receives the verdict of each look.
 using TellLook = std::function<void(std::uint32_t samples, const LightVerdict &verdict)>;
 
-// Looks after 16 samples and whenever they have doubled, up to the scene's number or 65536. Throws Failure.
+// Looks after 16 samples and at each doubling, up to the scene's number or 65536. Throws Failure.
 LightVerdict compare_kernels(const KernelTask &task, const TellLook &told);
 
 } // namespace cli

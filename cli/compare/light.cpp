@@ -25,7 +25,7 @@ pt_compared_image compared_image(const TestedImage &image) {
     return compared;
 }
 
-// "max_samples = 20: must be ...", without the library's names of the two pictures.
+// For example "max_samples = 20: must be ...", without the library's names of the two pictures.
 std::string rule_of(const LibraryError &error) {
     return error.in_words([](const BrokenRule &rule) {
         return std::string(rule.subject == "second" ? "the reference: " : "") + rule_text(rule.member, rule);
@@ -59,7 +59,7 @@ nlohmann::ordered_json region_json(const LightVerdict &verdict, const pt_compare
             {"smallest_change", number_or_null(region.smallest_change)}};
 }
 
-// In deviations, of the channel where it is greatest.
+// The difference in standard deviations, in the channel with the largest one.
 double signed_difference(const pt_compared_region &region) {
     double greatest = 0.0;
     for (std::size_t channel = 0; channel < 3; ++channel) {
@@ -70,7 +70,7 @@ double signed_difference(const pt_compared_region &region) {
     return greatest;
 }
 
-// White is no difference.
+// Equal light is white.
 std::array<std::uint8_t, 3> color_of(double z) {
     constexpr double full = 8.0;
     const auto rest = static_cast<std::uint8_t>(std::lround(255.0 * (1.0 - std::min(std::abs(z) / full, 1.0))));
@@ -125,7 +125,7 @@ nlohmann::ordered_json light_json(const LightVerdict &verdict) {
             {"regions", std::move(regions)}};
 }
 
-// Later regions are smaller and overwrite those that hold them.
+// Later regions are smaller and overwrite larger ones.
 void write_difference(const std::string &path, const LightVerdict &verdict) {
     const Rectangle &part = verdict.window.part;
     std::vector<std::uint8_t> signals(3 * part.pixel_count());

@@ -17,7 +17,7 @@ namespace cli {
 namespace {
 
 struct DenoiseOptions {
-    std::string first; // film
+    std::string first;
     std::string second;
     std::string guides;
     std::string library = platform::denoiser_file;
@@ -32,7 +32,7 @@ void check(const DenoiseOptions &options) {
     require_denoiser(options.library);
 }
 
-// Requires equal sample counts: other films have no stated error.
+// Requires equal sample counts, because other films have no stated error.
 RenderReport even_report(const std::string &path, const FilmHandle &film) {
     RenderReport report = film_report(film);
     const pt_stats &stats = report.stats;
@@ -48,7 +48,7 @@ RenderedImage image_of(const FilmHandle &film, const RenderReport &report) {
     return image;
 }
 
-// Equal but for their seeds.
+// Two films that differ only in their seeds.
 struct Halves {
     RenderReport report;
     RenderedImage first;

@@ -13,7 +13,7 @@
 namespace cli {
 namespace {
 
-// For calls without arguments of the user.
+// For calls that the user's input cannot break.
 void require(pt_result result) {
     if (result < 0)
         throw Failure(exit_code_of(result), pt_last_error(nullptr));
@@ -35,23 +35,23 @@ std::string without_subject(const std::string &message) {
     return message.starts_with(subject) ? message.substr(subject.size()) : message;
 }
 
-// A line per difference: "part.ptfilm: seed = 7: must be 8, as in this context".
+// Returns a line for each difference, such as "part.ptfilm: seed = 7: must be 8, as in this context".
 std::string film_words(const std::string &path, const LibraryError &error) {
     if (error.rules.empty())
         return path + ": " + without_subject(error.message);
     return error.in_words([&](const BrokenRule &rule) { return words_of(path, rule); });
 }
 
-// For calls with a film of the user.
+// For calls with the user's film.
 void require_film(pt_result result, const std::string &path, const pt_context *context = nullptr) {
     if (result < 0)
         throw Failure(exit_code_of(result), film_words(path, last_error(context)));
 }
 
-// fast; files are 6% larger than at level 1
+// This level is fast. Files are 6% larger than at level 1.
 constexpr int compression_level = -1;
 
-// A block of at most 128 KiB takes at least 4 bytes (RFC 8878, 3.1.1.2); a higher ratio means damage.
+// A block of at most 128 KiB takes at least 4 bytes (RFC 8878, 3.1.1.2), so a higher ratio means damage.
 constexpr std::uint64_t most_ratio = 32768;
 
 [[noreturn]] void refuse(const std::string &path, const std::string &reason) {
@@ -124,7 +124,7 @@ pt_sample_range FilmHandle::hull() const {
     return hull;
 }
 
-// The library refuses to merge films of different seeds, and lists all their differences.
+// The library refuses to merge films with different seeds, and lists all differences.
 void FilmHandle::require_same_picture(const std::string &path, std::span<const std::byte> bytes) {
     constexpr std::array<std::string_view, 4> allowed{"seed", "estimator_version", "kernel", "device"};
     const pt_result result = pt_merge_film(film_, bytes.data(), bytes.size());
@@ -210,7 +210,7 @@ void write_film_file(const std::string &path, std::span<const std::byte> film) {
     file.commit();
 }
 
-// The first bytes of another file suffice for a refusal.
+// Reads only the first bytes of a file that is not a film.
 std::vector<std::byte> read_film_file(const std::string &path) {
     return read_file(path, [&](platform::InputFile &file) {
         constexpr std::string_view packed = "\x28\xb5\x2f\xfd";

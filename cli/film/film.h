@@ -1,4 +1,4 @@
-// Films whose failures are thrown as Failure.
+// Films that throw Failure.
 #pragma once
 
 #include "cli/base/context.h"
@@ -20,7 +20,7 @@ public:
     FilmHandle &operator=(const FilmHandle &) = delete;
     ~FilmHandle() { pt_close_film(film_); }
 
-    // Throws Failure(ExitCode::usage) with a line per reason if the film does not fit.
+    // Throws Failure(ExitCode::usage), with a line for each difference, if the film does not fit.
     void merge(const std::string &path, std::span<const std::byte> bytes);
 
     pt_film_info info() const;
@@ -29,7 +29,7 @@ public:
     std::vector<pt_sample_range> ranges(std::uint32_t tile) const;
     pt_sample_range hull() const;
 
-    // Throws Failure(ExitCode::usage) unless only seed, kernel, estimator version or device differ.
+    // Throws Failure(ExitCode::usage) unless the films differ only in seed, kernel, estimator version or device.
     void require_same_picture(const std::string &path, std::span<const std::byte> bytes);
 
     std::vector<float> read_image(std::uint32_t quantity) const;
@@ -40,25 +40,25 @@ private:
     pt_film *film_ = nullptr;
 };
 
-// Needs at least one sample. bytes: reused memory.
+// Needs at least one sample. Reuses the memory of bytes.
 void save_film(const Context &context, std::vector<std::byte> &bytes);
 
 // Throws like merge().
 void add_film(const Context &context, const std::string &path, std::span<const std::byte> bytes);
 
-// "[0, 64), [128, 256)", or "none".
+// Returns for example "[0, 64), [128, 256)", or "none".
 std::string ranges_text(const std::vector<pt_sample_range> &ranges);
 
 std::uint64_t sample_count_of(const std::vector<pt_sample_range> &ranges);
 
-// The part of `wanted` outside the ascending ranges `there`.
+// Returns the part of `wanted` outside the ascending ranges `there`.
 std::vector<pt_sample_range> missing_of(const pt_sample_range &wanted, const std::vector<pt_sample_range> &there);
 
-// Writes the packed film whole or not at all. Throws Failure(ExitCode::file).
+// Packs the film and writes it atomically. Throws Failure(ExitCode::file).
 void write_film_file(const std::string &path, std::span<const std::byte> film);
 
-// Unpacked; not yet checked by the library. Throws Failure: ExitCode::file if unreadable, ExitCode::usage if the
-// packing is damaged.
+// Returns an unpacked film, which the library has not checked. Throws Failure: ExitCode::file for an unreadable file,
+// ExitCode::usage for damaged packing.
 std::vector<std::byte> read_film_file(const std::string &path);
 
 } // namespace cli

@@ -78,7 +78,7 @@ void check_image_target(const ImageTarget &target, const ImageWindow &window) {
         AtomicFile::check_writable(target.path);
 }
 
-// Relative to the program, so that an installed tree can be moved.
+// The path is relative to the program, so that an installed tree can be moved.
 std::filesystem::path module_path() {
     const std::filesystem::path folder = platform::program_file().parent_path() / PT_MODULE_DIRECTORY;
     std::filesystem::path path = (folder / platform::module_file("pt-image-file")).lexically_normal();
@@ -90,7 +90,7 @@ std::filesystem::path module_path() {
     return path;
 }
 
-// Never unloaded: OpenImageIO keeps threads and static objects.
+// The module is never unloaded, because OpenImageIO keeps threads and static objects.
 void *load_symbol(const std::filesystem::path &path, const char *name) {
     void *module = platform::load_module(path);
     void *symbol = module == nullptr ? nullptr : platform::find_function(module, name);

@@ -1,4 +1,4 @@
-// Image formats, and the files of -o and --format.
+// Image formats, and files for -o and --format.
 #pragma once
 
 #include "cli/image/image_module.h"
@@ -20,19 +20,19 @@ namespace cli {
 
 struct ImageFormat {
     std::string_view name; // also the file extension
-    bool is_radiance;      // linear float32 layers; others are tone-mapped
+    bool is_radiance;      // linear float32 layers; other formats are tone-mapped
     bool has_alpha;
-    bool needs_module; // else libpng
+    bool needs_module; // otherwise libpng
 
-    // Checked before writing: libjpeg ends the process for larger images.
+    // Checked in advance, because libjpeg ends the process for larger images.
     std::uint32_t longest_side;
 };
 
 inline constexpr std::uint32_t largest_signed = 2'147'483'647;
-inline constexpr std::uint32_t libpng_limit = 1'000'000; // default
+inline constexpr std::uint32_t libpng_limit = 1'000'000; // its default
 inline constexpr std::uint32_t libjpeg_limit = 65'500;   // JPEG_MAX_DIMENSION
 
-// name, is_radiance, has_alpha, needs_module, longest_side
+// Columns: name, is_radiance, has_alpha, needs_module, longest_side.
 inline constexpr std::array<ImageFormat, 4> image_formats{{
     {"exr", true, true, true, largest_signed},
     {"png", false, true, false, libpng_limit},
@@ -53,12 +53,12 @@ inline bool is_for_displays(const ImageFormat &format) {
     return !format.is_radiance;
 }
 
-// ".exr, .png"
+// Returns for example ".exr, .png".
 std::string extensions(const std::function<bool(const ImageFormat &)> &holds, const char *between = ", ");
 
 std::optional<ImageFormat> format_of_name(std::string_view name);
 
-// The extension may be in any case.
+// The extension may have any case.
 std::optional<ImageFormat> image_format(const std::string &path);
 
 struct ImageTarget {
@@ -66,8 +66,8 @@ struct ImageTarget {
     ImageFormat format;
 };
 
-// Throws Failure(ExitCode::usage) for an unknown format, standard output on a terminal, or --format that does not go
-// with the paths.
+// Throws Failure(ExitCode::usage) for an unknown format, standard output on a terminal, or a --format that does not fit
+// the paths.
 void check_image_names(std::span<const std::string> paths, std::optional<ImageFormat> format);
 
 ImageTarget image_target(const std::string &path, std::optional<ImageFormat> format);
@@ -100,14 +100,14 @@ public:
             static_cast<void>(encode_.get());
     }
 
-    // Keeps an existing file on failure. Throws Failure(ExitCode::file).
+    // After a failure an existing file is unchanged. Throws Failure(ExitCode::file).
     void write(const ImageTarget &target, const ImageData &image);
 
 private:
     std::vector<unsigned char> encoded(const ImageTarget &target, const ImageData &image);
 
     std::atomic<bool> failed_ = false;
-    std::shared_future<EncodeImage *> encode_; // destroyed first: the thread uses failed_
+    std::shared_future<EncodeImage *> encode_; // destroyed first, because the thread uses failed_
 };
 
 // Throws Failure.

@@ -1,4 +1,3 @@
-// Images by OpenImageIO.
 #include "cli/image/image_module.h"
 
 #include <OpenImageIO/filesystem.h>
@@ -12,7 +11,7 @@ namespace {
 
 using namespace cli;
 
-// JPEG's only text is a description.
+// JPEG has only one text, a description.
 std::string description(std::span<const ImageAttribute> attributes) {
     std::vector<std::string> lines;
     for (const ImageAttribute &attribute : attributes)
@@ -20,7 +19,7 @@ std::string description(std::span<const ImageAttribute> attributes) {
     return listed(lines, "\n");
 }
 
-// "R", "G", "B" of the main layer, "layer.R" of others; the layer's name for a single channel.
+// Returns "R", "G", "B" for the main layer and "layer.R" for others. A single channel has the layer's name.
 std::vector<std::string> channel_names(std::span<const ImageLayer> layers) {
     std::vector<std::string> names;
     for (const ImageLayer &layer : layers) {
@@ -63,7 +62,7 @@ OIIO::ImageSpec describe_radiance(const ImageData &image) {
     spec.full_width = static_cast<int>(full_width);
     spec.full_height = static_cast<int>(full_height);
     add_chromaticities(spec);
-    spec.attribute("DateTime", ""); // otherwise the present date
+    spec.attribute("DateTime", ""); // Otherwise it is the present date.
     return spec;
 }
 
@@ -84,7 +83,7 @@ void add_attributes(OIIO::ImageSpec &spec, std::span<const ImageAttribute> attri
             spec.attribute(name, static_cast<float>(std::get<double>(value)));
 }
 
-// Copies all layers' channels side by side, bit by bit.
+// Copies the channels of all layers side by side, bit by bit.
 void interleave_row(const ImageData &image, std::uint32_t y, std::span<std::uint32_t> row) {
     const std::size_t width = image.window.part.width;
     const std::size_t stride = row.size() / width;
@@ -106,7 +105,7 @@ void interleave_row(const ImageData &image, std::uint32_t y, std::span<std::uint
 bool write_layers(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec, const ImageData &image) {
     std::vector<std::uint32_t> row(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.nchannels));
     const OIIO::TypeDesc type =
-        spec.channelformats.empty() ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UNKNOWN; // its own
+        spec.channelformats.empty() ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UNKNOWN; // each channel's own type
     for (std::uint32_t y = 0; y < image.window.part.height; ++y) {
         interleave_row(image, y, row);
         if (!output.write_scanline(spec.y + static_cast<int>(y), 0, type, row.data()))
@@ -115,7 +114,7 @@ bool write_layers(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec, const 
     return true;
 }
 
-// Encodes in memory, because OpenImageIO ignores failures of closing a file, as on a full disk.
+// Encodes in memory, because OpenImageIO ignores errors when it closes a file, for example on a full disk.
 std::vector<unsigned char> encode(const ImageData &image, const char *extension) {
     const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(std::string("image.") + extension);
     if (!output)

@@ -1,5 +1,5 @@
-// Interface to libpt-image-file.so, which alone links OpenImageIO (261 shared objects, 0.2 s). Built with the program,
-// so types are C++. Failures are std::runtime_error.
+// Interface to libpt-image-file.so. Only this module links OpenImageIO, which would load 261 shared objects in 0.2 s.
+// Types are C++, because the module is built with the program. Failures are std::runtime_error.
 #pragma once
 
 #include "cli/base/number.h"
@@ -18,7 +18,7 @@
 
 namespace cli {
 
-// Pixels, from the top left.
+// A rectangle of pixels; x and y count from the top left.
 struct Rectangle {
     std::uint32_t x;
     std::uint32_t y;
@@ -30,7 +30,7 @@ struct Rectangle {
     std::size_t pixel_count() const { return std::size_t{width} * height; }
 };
 
-// "10,20,640,480"
+// Reads for example "10,20,640,480".
 inline std::optional<Rectangle> parse_rectangle(std::string_view text) {
     const auto numbers = parse_numbers<4>(text, ',');
     return numbers ? std::optional(Rectangle{(*numbers)[0], (*numbers)[1], (*numbers)[2], (*numbers)[3]})
@@ -38,7 +38,7 @@ inline std::optional<Rectangle> parse_rectangle(std::string_view text) {
 }
 
 struct ImageWindow {
-    Rectangle part; // not empty
+    Rectangle part;
     std::uint32_t full_width;
     std::uint32_t full_height;
 
@@ -51,7 +51,7 @@ inline ImageWindow whole_window(std::uint32_t width, std::uint32_t height) {
     return {{0, 0, width, height}, width, height};
 }
 
-// "640x480 at 10,20 of 1920x1080"
+// Returns for example "640x480 at 10,20 of 1920x1080".
 inline std::string window_text(const ImageWindow &window) {
     const auto size = [](std::uint32_t width, std::uint32_t height) {
         return std::to_string(width) + "x" + std::to_string(height);
@@ -65,10 +65,9 @@ inline std::string window_text(const ImageWindow &window) {
 
 struct ImageAttribute {
     std::string name;
-    std::variant<std::string, std::int32_t, double> value; // float32 in a file
+    std::variant<std::string, std::int32_t, double> value; // double: float32 in a file
 };
 
-// The text for PNG and JPEG.
 inline std::string attribute_text(const ImageAttribute &attribute) {
     if (const auto *text = std::get_if<std::string>(&attribute.value))
         return *text;
@@ -84,19 +83,19 @@ enum class LayerKind {
 };
 
 struct ImageLayer {
-    std::string name; // empty for the main one
+    std::string name; // empty for the main layer
     LayerKind kind;
     std::size_t channel_count;
-    std::span<const float> values;               // by pixel, from the top left
-    std::span<const std::uint32_t> numbers = {}; // for LayerKind::numbers
+    std::span<const float> values;               // pixel by pixel, from the top left
+    std::span<const std::uint32_t> numbers = {}; // only for LayerKind::numbers
 };
 
-// Either layers of radiance or signals.
+// Has either layers of radiance or signals.
 struct ImageData {
     ImageWindow window;
     std::span<const ImageLayer> layers = {};
-    std::span<const std::uint8_t> signals = {}; // R, G, B of each pixel; or for PNG R, G, B, A, not premultiplied
-    std::optional<double> gamma = {};           // exponent from signal to light; empty: sRGB. For PNG
+    std::span<const std::uint8_t> signals = {}; // R, G, B of each pixel; for PNG also R, G, B, A, not premultiplied
+    std::optional<double> gamma = {};           // exponent from signal to light, for PNG; empty: sRGB
     std::span<const ImageAttribute> attributes = {};
 
     bool has_alpha() const { return signals.size() == 4 * window.part.pixel_count(); }
@@ -112,13 +111,13 @@ struct DecodedImage {
     std::uint32_t height;
     std::uint32_t full_width;
     std::uint32_t full_height;
-    bool is_float; // else integers scaled to [0, 1]
+    bool is_float; // otherwise integers scaled to [0, 1]
     std::vector<std::string> channels;
-    std::vector<float> values; // by pixel, from the top left
+    std::vector<float> values; // pixel by pixel, from the top left
     std::vector<ImageAttribute> attributes;
 
-    // Three values per pixel; a single channel is repeated. Empty name: the main layer. Throws Failure(ExitCode::file)
-    // if there is no such layer.
+    // Returns three values per pixel. A single channel is repeated. An empty name is the main layer. Throws
+    // Failure(ExitCode::file) if there is no such layer.
     std::vector<float> layer(const std::string &name) const;
 };
 

@@ -1,4 +1,4 @@
-// PNG by libpng: loading OpenImageIO takes 0.2 s and 200 MB.
+// PNG by libpng, because loading OpenImageIO takes 0.2 s and 200 MB.
 #include "cli/base/file.h"
 #include "cli/image/image_file.h"
 
@@ -18,7 +18,7 @@
 namespace cli {
 namespace {
 
-// No exception may cross libpng's C frames.
+// Exceptions must not cross libpng's C frames.
 [[noreturn]] void fail(png_structp png, png_const_charp reason) {
     *static_cast<std::string *>(png_get_error_ptr(png)) = reason;
     png_longjmp(png, 1);
@@ -45,7 +45,7 @@ struct Encoding {
 
     static void flush(png_structp) {}
 
-    // NOLINTNEXTLINE(readability-non-const-parameter): the type is libpng's
+    // NOLINTNEXTLINE(readability-non-const-parameter): libpng prescribes the type
     static void append(png_structp png, png_bytep bytes, std::size_t size) {
         auto &file = static_cast<Encoding *>(png_get_io_ptr(png))->file;
         bool fits = true;
@@ -59,21 +59,21 @@ struct Encoding {
     }
 };
 
-// Text chunks are Latin-1, international ones UTF-8. Points into both arguments.
+// Text chunks are Latin-1, international ones UTF-8. The result points into both arguments.
 std::vector<png_text> texts_of(const ImageData &image, std::span<std::string> values) {
     std::vector<png_text> texts;
     for (std::size_t i = 0; i < values.size(); ++i) {
         const bool is_ascii = std::ranges::all_of(values[i], [](unsigned char byte) { return byte < 0x80; });
         png_text text{};
         text.compression = is_ascii ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE;
-        text.key = const_cast<char *>(image.attributes[i].name.c_str()); // not changed
+        text.key = const_cast<char *>(image.attributes[i].name.c_str()); // libpng does not change it.
         text.text = values[i].data();
         texts.push_back(text);
     }
     return texts;
 }
 
-// sRGB, or a power with Rec. 709's primaries (ITU-R BT.709, table 1); PNG, ISO 15948, 11.3.3.
+// Sets sRGB, or a power with Rec. 709's primaries (ITU-R BT.709, table 1); PNG, ISO 15948, 11.3.3.
 void set_color_space(const Encoding &encoding, std::optional<double> gamma) {
     if (!gamma) {
         png_set_sRGB_gAMA_and_cHRM(encoding.png, encoding.info, PNG_sRGB_INTENT_PERCEPTUAL);
@@ -86,14 +86,14 @@ void set_color_space(const Encoding &encoding, std::optional<double> gamma) {
 std::vector<png_bytep> rows_of(const ImageData &image) {
     std::vector<png_bytep> rows(image.window.part.height);
     const std::size_t row_bytes = image.signals.size() / rows.size();
-    for (std::size_t y = 0; y < rows.size(); ++y) // not changed
+    for (std::size_t y = 0; y < rows.size(); ++y) // libpng does not change them.
         rows[y] = const_cast<png_bytep>(&image.signals[y * row_bytes]);
     return rows;
 }
 
-// Contains no objects with destructors, which a long jump would skip.
+// Contains no objects with destructors, because a long jump would skip them.
 bool write(Encoding &encoding, const ImageData &image, std::span<png_text> texts, png_bytepp rows) {
-    if (setjmp(png_jmpbuf(encoding.png)) != 0) // NOLINT(cert-err52-cpp): libpng's way to tell of errors
+    if (setjmp(png_jmpbuf(encoding.png)) != 0) // NOLINT(cert-err52-cpp): libpng reports errors by long jumps
         return false;
     png_set_IHDR(encoding.png, encoding.info, image.window.part.width, image.window.part.height, 8,
                  image.has_alpha() ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
@@ -135,7 +135,7 @@ struct Decoding {
 };
 
 bool read(Decoding &decoding) {
-    if (setjmp(png_jmpbuf(decoding.png)) != 0) // NOLINT(cert-err52-cpp): libpng's way to tell of errors
+    if (setjmp(png_jmpbuf(decoding.png)) != 0) // NOLINT(cert-err52-cpp): libpng reports errors by long jumps
         return false;
     png_read_png(decoding.png, decoding.info,
                  PNG_TRANSFORM_EXPAND | PNG_TRANSFORM_GRAY_TO_RGB | PNG_TRANSFORM_SWAP_ENDIAN, nullptr);
@@ -169,7 +169,7 @@ void decode_png(const std::string &path, DecodedImage &image) {
     const std::string file = read_file(path, [](platform::InputFile &input) {
         const std::string head(input.first(signature_size));
         const bool is_png = png_sig_cmp(reinterpret_cast<png_const_bytep>(head.data()), 0, head.size()) == 0;
-        return is_png ? input.all() : head; // libpng refuses it
+        return is_png ? input.all() : head; // libpng refuses the file.
     });
     Decoding decoding(std::as_bytes(std::span(file)));
     if (!read(decoding))

@@ -27,7 +27,7 @@ Color clamp(Color color) {
 }
 
 // Reinhard, Stark, Shirley, Ferwerda 2002, "Photographic Tone Reproduction for Digital Images", eq. 3: Ld = L / (1 +
-// L), on luminance, since per channel it would wash out saturated colors.
+// L). Applied to luminance, because saturated colors would be washed out if each channel were compressed alone.
 Color reinhard(Color color) {
     const double luminance = 0.2126 * color[0] + 0.7152 * color[1] + 0.0722 * color[2]; // Rec. 709
     for (double &component : color)
@@ -44,7 +44,7 @@ Color aces(Color color) {
 
 // Sobotka 2022, AgX (github.com/sobotka/AgX), base look, as in Wrensch 2023, "Minimal AgX Implementation": primaries
 // inset, logarithm of 16.5 stops about middle grey, polynomial sigmoid (mean squared error 3.7e-6), primaries outset.
-// Its gamma of 2.2 is decoded, because curves return light.
+// Curves return light, so AgX's gamma of 2.2 is decoded.
 Color agx(const Color &color) {
     static constexpr Rows inset{{{0.842479062253094, 0.0784335999999992, 0.0792237451477643},
                                  {0.0423282422610123, 0.878468636469772, 0.0791661274605434},
@@ -58,7 +58,7 @@ Color agx(const Color &color) {
 
     Color signal = multiply(inset, color);
     for (double &component : signal) {
-        const double stops = std::clamp(std::log2(component), lowest, highest); // log2(0) = -inf is clamped
+        const double stops = std::clamp(std::log2(component), lowest, highest); // clamps log2(0) = -inf, too
         const double x = (stops - lowest) / (highest - lowest);
         const auto horner = [x](double sum, double coefficient) { return sum * x + coefficient; };
         component = std::accumulate(sigmoid.rbegin(), sigmoid.rend(), 0.0, horner);
@@ -69,8 +69,8 @@ Color agx(const Color &color) {
     return light;
 }
 
-// Khronos PBR Neutral Tone Mapper 2024 (github.com/KhronosGroup/ToneMapping): subtracts Fresnel reflection of 4%,
-// compresses peaks above 0.76 and fades them towards white.
+// Khronos PBR Neutral Tone Mapper 2024 (github.com/KhronosGroup/ToneMapping): subtracts a Fresnel reflection of 4%,
+// compresses peaks above 0.76 and fades them to white.
 Color neutral(Color color) {
     constexpr double fresnel = 0.04;
     constexpr double start = 0.8 - fresnel;
@@ -78,7 +78,7 @@ Color neutral(Color color) {
     constexpr double desaturation = 0.15;
 
     const double least = *std::min_element(color.begin(), color.end());
-    // parabola with the constant's value and slope at 2 * fresnel
+    // a parabola with the constant's value and slope at 2 * fresnel
     const double offset = least < 2.0 * fresnel ? least - least * least / (4.0 * fresnel) : fresnel;
     for (double &component : color)
         component -= offset;
@@ -96,7 +96,7 @@ double encode(const ToneMap &map, double light) {
     return map.gamma ? std::pow(light, 1.0 / *map.gamma) : encode_srgb(light);
 }
 
-// Divides by alpha; 0 without coverage.
+// Divides by alpha. Without coverage the result is 0.
 std::vector<float> unassociated(std::span<const float> radiance, std::span<const float> alpha) {
     std::vector<float> colors(radiance.size());
     for (std::size_t i = 0; i < colors.size(); ++i) {
@@ -106,7 +106,7 @@ std::vector<float> unassociated(std::span<const float> radiance, std::span<const
     return colors;
 }
 
-// Alpha is linear.
+// Alpha has no gamma.
 std::vector<std::uint8_t> with_alpha(std::span<const std::uint8_t> colors, std::span<const float> alpha) {
     std::vector<std::uint8_t> pixels;
     pixels.reserve(4 * alpha.size());
@@ -142,7 +142,7 @@ double encode_srgb(double light) {
 std::vector<std::uint8_t> map_to_bytes(std::span<const float> radiance, const ToneMap &map) {
     const double scale = std::exp2(map.exposure);
     std::vector<std::uint8_t> bytes(radiance.size());
-    constexpr std::size_t grain = 20'000; // pixels: two milliseconds
+    constexpr std::size_t grain = 20'000; // pixels; two milliseconds
     in_parallel(radiance.size() / 3, grain, [&](std::size_t first, std::size_t end) {
         for (std::size_t i = 3 * first; i < 3 * end; i += 3) {
             const Color light =
@@ -156,7 +156,7 @@ std::vector<std::uint8_t> map_to_bytes(std::span<const float> radiance, const To
 
 double automatic_exposure(std::span<const float> radiance) {
     constexpr double middle_grey = 0.18;
-    constexpr double black = 1.0 / 128.0; // share of the level
+    constexpr double black = 1.0 / 128.0; // relative to the level
     std::vector<double> means;
     for (std::size_t i = 0; i + 2 < radiance.size(); i += 3)
         if (const double mean = (static_cast<double>(radiance[i]) + radiance[i + 1] + radiance[i + 2]) / 3.0;

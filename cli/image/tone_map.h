@@ -17,7 +17,7 @@ namespace cli {
 using Color = std::array<double, 3>; // linear Rec. 709
 
 enum class ToneCurve {
-    none, // clamps
+    none, // clamps only
     reinhard,
     aces,
     agx,
@@ -33,31 +33,32 @@ inline constexpr ValueNames<5, ToneCurve> tone_curves({{"none", ToneCurve::none}
 struct ToneMap {
     double exposure = 0.0; // stops
     ToneCurve curve = ToneCurve::none;
-    std::optional<double> gamma; // else the sRGB curve
+    std::optional<double> gamma; // empty: the sRGB curve
     bool is_automatic = false;
 };
 
-// Non-negative radiance to display light in [0, 1].
+// Converts non-negative radiance to display light in [0, 1].
 Color apply_curve(ToneCurve curve, const Color &radiance);
 
-// IEC 61966-2-1, in [0, 1].
+// IEC 61966-2-1. light: in [0, 1].
 double encode_srgb(double light);
 
-// 255 times the signal, halves up; without dither, so equal pictures are equal files.
+// Returns 255 times the signal. Halves round up. There is no dither, so equal pictures give equal files.
 std::vector<std::uint8_t> map_to_bytes(std::span<const float> radiance, const ToneMap &map);
 
 inline constexpr double largest_exposure = 64.0;
 
-// Stops that bring the average to middle grey, 0.18, as Reinhard, Stark, Shirley, Ferwerda 2002, eqs. 1 and 2: exp of
-// the mean logarithm. Differences: the mean of the channels replaces luminance, which would burn out blue. Pixels below
-// 1/128 of the level count less the darker they are. The level is the mean after clipping to the mean three times, so a
-// small lamp does not set it. Rounded to hundredths, so that the printed number gives the same picture. 0 for black.
+// Returns the stops that bring the average to middle grey, 0.18: Reinhard, Stark, Shirley, Ferwerda 2002, eqs. 1 and 2,
+// the exponential of the mean logarithm. Differences: the mean of the channels replaces luminance, which would burn out
+// blue. Pixels below 1/128 of the level have less weight. The level is the mean after clipping to the mean three times,
+// so a small lamp does not set it. Rounded to hundredths, so that the printed number gives the same picture. 0 for
+// black.
 double automatic_exposure(std::span<const float> radiance);
 
 struct Display {
     std::optional<double> exposure; // stops; empty: automatic
     ToneCurve curve = ToneCurve::none;
-    std::optional<double> gamma; // empty: sRGB
+    std::optional<double> gamma; // empty: the sRGB curve
 
     ToneMap tone_map(std::span<const float> radiance) const {
         return {exposure ? *exposure : automatic_exposure(radiance), curve, gamma, !exposure};
@@ -66,11 +67,11 @@ struct Display {
 
 void add_tone_map(std::vector<ImageAttribute> &attributes, const ToneMap &tone_map);
 
-// "exposure -3.13 EV (auto)" and a line end; empty for a fixed exposure.
+// Returns "exposure -3.13 EV (auto)" and a line end. Empty for a fixed exposure.
 std::string automatic_exposure_line(const std::optional<ToneMap> &tone_map);
 
-// radiance: R, G, B, non-negative, multiplied by alpha. alpha: one per pixel, or empty. Keeps an existing file on
-// failure. Throws Failure(ExitCode::file).
+// radiance: R, G, B, non-negative, multiplied by alpha. alpha: one number per pixel, or empty. After a failure an
+// existing file is unchanged. Throws Failure(ExitCode::file).
 void write_display_image(ImageWriter &writer, const ImageTarget &target, ImageData image,
                          std::span<const float> radiance, const ToneMap &tone_map, std::span<const float> alpha = {});
 

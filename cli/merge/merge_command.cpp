@@ -24,7 +24,7 @@ using Ranges = std::vector<pt_sample_range>;
 struct MergeOptions {
     std::vector<std::string> parts;
 
-    // Expected samples; default: the hull of the films'.
+    // Expected samples. By default they reach from the films' first sample to their last.
     std::optional<std::uint32_t> first_sample;
     std::optional<std::uint32_t> sample_count;
 
@@ -36,8 +36,8 @@ struct MergeReport {
     RenderReport picture;
     pt_film_info info;
     std::size_t part_count;
-    Ranges samples; // in all pixels
-    Ranges missing; // in some pixel
+    Ranges samples; // samples that all pixels have
+    Ranges missing; // samples that some pixel lacks
 };
 
 void check(const MergeOptions &options) {
@@ -50,7 +50,7 @@ void check(const MergeOptions &options) {
     check_names(output, parts);
 }
 
-// Reads all parts before failing, to report all faults.
+// Reads all parts before it fails, to report all faults.
 std::unique_ptr<FilmHandle> sum_of(const std::vector<std::string> &parts) {
     std::unique_ptr<FilmHandle> sum;
     std::optional<ExitCode> failed;
@@ -71,7 +71,7 @@ std::unique_ptr<FilmHandle> sum_of(const std::vector<std::string> &parts) {
     return sum;
 }
 
-// Ascending.
+// Returns ascending ranges.
 Ranges united(Ranges ranges) {
     std::sort(ranges.begin(), ranges.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
     Ranges all;
@@ -137,7 +137,7 @@ nlohmann::ordered_json stats_json(const MergeReport &report) {
     return stats;
 }
 
-// "8 films of 320x160 pixels: 64 spp, samples [0, 64)"
+// Returns for example "8 films of 320x160 pixels: 64 spp, samples [0, 64)".
 std::string summary_text(const MergeReport &report) {
     return concat(counted(report.part_count, "film"), " of ", report.info.columns, "x", report.info.rows,
                   " pixels: ", report.picture.stats.sample_count, " spp, samples ", ranges_text(report.samples));
@@ -149,7 +149,6 @@ std::string missing_text(const MergeReport &report) {
                                            " per pixel missing: ", ranges_text(report.missing));
 }
 
-// Returns whether all files were written.
 bool write_outputs(const FilmHandle &film, const MergeOptions &options, MergeReport &report) {
     const OutputOptions &output = options.output;
     RenderedImage image{report.picture.window.part, film.read_image(PT_QUANTITY_RADIANCE), {}};
@@ -194,7 +193,7 @@ void add_merge_command(CLI::App &program, Run &chosen) {
     command.add_option("PART", options.parts, "Films of one picture (pt render --film or --checkpoint), in any order")
         ->required()
         ->type_name("PART");
-    constexpr std::size_t film_layers = 3; // the first ones: films have no first hits
+    constexpr std::size_t film_layers = 3; // Films have no first hits.
     add_output_options(command, options.output, file_layers.names().first(film_layers));
     command.option_defaults()->group("Samples");
     add_number<std::uint32_t>(command, "--first-sample", natural_number, options.first_sample,

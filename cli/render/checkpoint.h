@@ -1,4 +1,4 @@
-// Keeps a film of the samples so far for another run.
+// Keeps a film of the samples so far, from which another run can continue.
 #pragma once
 
 #include "cli/base/context.h"
@@ -20,10 +20,10 @@ public:
 
     bool is_due() const { return Clock::now() >= due_ && !task_.is_under_way(); }
 
-    // sample_count: the pixels' mean.
+    // sample_count: mean over pixels.
     void step(std::uint32_t sample_count);
 
-    // Writes the last samples and waits. Returns whether the file has all.
+    // Writes the last samples and waits. Returns whether the file has all samples.
     bool finish(std::uint32_t sample_count);
 
 private:
@@ -41,15 +41,15 @@ private:
     Clock::time_point due_;
     Clock::time_point saved_at_;
     std::chrono::duration<double> write_time_{0};
-    std::uint32_t saved_count_ = 0;   // samples in the film being written or written last
+    std::uint32_t saved_count_ = 0;   // samples in the latest film, which may still be being written
     std::uint32_t written_count_ = 0; // samples in the file
     bool has_told_failure_ = false;
     std::vector<std::byte> film_;
-    BackgroundTask task_; // destroyed first: it uses the other members
+    BackgroundTask task_; // destroyed first, because it uses the other members
 };
 
-// Call after pt_set_render. Returns the added samples per pixel, 0 without a file. Throws Failure(ExitCode::usage),
-// naming the differences, for another picture's checkpoint or one with unwanted samples.
+// Must follow pt_set_render. Returns the added samples per pixel, 0 without a file. Throws Failure(ExitCode::usage),
+// with the differences, for a checkpoint of another picture or with unwanted samples.
 std::uint32_t resume(const Context &context, const RenderTask &task);
 
 } // namespace cli

@@ -22,7 +22,8 @@ std::chrono::steady_clock::duration clock_duration(double seconds) {
 }
 
 pt_render piece_of(const RenderTask &task, std::uint32_t half, std::uint32_t first_row, std::uint32_t rows) {
-    constexpr std::uint64_t other_seed = std::uint64_t{1} << 63; // the Python package's value, for the same bits
+    constexpr std::uint64_t other_seed = std::uint64_t{1}
+                                         << 63; // The Python package has the same value, for the same bits.
     const Rectangle &part = task.window.part;
     pt_render piece = task.render;
     piece.seed ^= half * other_seed;
@@ -31,7 +32,7 @@ pt_render piece_of(const RenderTask &task, std::uint32_t half, std::uint32_t fir
     return piece;
 }
 
-// Adds a piece's statistics. Error bounds are averaged as if fully correlated.
+// Adds a piece's statistics. Averages error bounds as if they were fully correlated.
 void join(RenderedImage &image, const pt_stats &piece, const pt_error_estimate &error, std::uint32_t rows) {
     if (image.rows_done == 0) {
         image.stats = piece;
@@ -47,7 +48,7 @@ void join(RenderedImage &image, const pt_stats &piece, const pt_error_estimate &
     whole.mean_sample_count = mean(whole.mean_sample_count, piece.mean_sample_count);
     whole.rejected_samples += piece.rejected_samples;
     whole.device_bytes = std::max(whole.device_bytes, piece.device_bytes);
-    whole.submit_count = piece.submit_count; // the context's total
+    whole.submit_count = piece.submit_count; // total of the context
     whole.device_seconds = piece.device_seconds;
     image.error.uncertain |= error.uncertain;
     using Error = pt_error_estimate;
@@ -157,22 +158,22 @@ void ImageRender::enter_piece() {
 }
 
 // Continues until the samples suffice, the target error is reached, or stop() is true. The library checks the error at
-// counts that do not depend on the steps.
+// sample counts that do not depend on the steps.
 void ImageRender::render_piece() {
-    constexpr std::uint32_t first_end = 16; // the first count with a known error
+    constexpr std::uint32_t first_end = 16; // first count with a known error
     pt_stats done = context_.stats();
     std::uint32_t wanted = first_step_length;
     bool ended = done.sample_count >= round_.end;
     while (!ended && !stops()) {
         const std::uint32_t before = done.max_sample_count;
-        std::uint32_t length = std::min(wanted, round_.end - before); // 0: complete pixels that lack samples
+        std::uint32_t length = std::min(wanted, round_.end - before); // 0 completes pixels that lack samples.
         if (has_target())
             length = std::min(length, std::max(first_end, 2 * std::bit_floor(before)) - before);
         const Clock::time_point start = Clock::now();
         const pt_result result = take(length, done.mean_sample_count);
         const double seconds = seconds_between(start, Clock::now());
         done = look(result);
-        if (done.max_sample_count > before) // otherwise the duration says nothing
+        if (done.max_sample_count > before) // Otherwise the duration says nothing.
             wanted = next_step_length(done.max_sample_count - before, seconds);
         ended = has_ended(result, done);
     }
@@ -183,7 +184,7 @@ pt_result ImageRender::take(std::uint32_t length, double done) {
     std::function<bool(double)> goes_on = [&](double fraction) {
         const double taken = fraction * std::max(length, 1U);
         progress_.update_samples((done + taken) * task_.half_count(), Clock::now());
-        const bool has_sample = taken >= 1.0; // otherwise there is nothing new to show
+        const bool has_sample = taken >= 1.0; // Otherwise there is nothing new to show.
         return !stops() && !(has_sample && pauses());
     };
     auto info = sized<pt_accumulate_info>();
@@ -202,7 +203,7 @@ bool ImageRender::has_ended(pt_result result, const pt_stats &done) const {
     return result == PT_TARGET_REACHED || (result == PT_OK && done.max_sample_count >= round_.end);
 }
 
-// Runs after a step. The error reads the whole image, so an estimate for progress alone may take 1% of the time.
+// Runs after a step. An error estimate reads the whole image, so estimates for progress alone may take 1% of the time.
 pt_stats ImageRender::look(pt_result result) {
     constexpr double share = 0.01;
     const Clock::time_point start = Clock::now();
@@ -225,7 +226,7 @@ pt_stats ImageRender::look(pt_result result) {
     return done;
 }
 
-// The expected total is corrected at each check of a target error.
+// Each check of a target error corrects the expected total.
 void ImageRender::show(const pt_stats &done, bool ended, const std::optional<pt_error_estimate> &error,
                        Clock::time_point now) {
     const auto sample_count = static_cast<std::uint32_t>(std::lround(done.mean_sample_count));
@@ -259,7 +260,7 @@ void ImageRender::preview(Clock::time_point now) {
     preview_task_.start([this] { has_preview_failed_ = !write_preview_(preview_); });
 }
 
-// Whether the step should end at its next whole sample.
+// Whether the step should end at its next complete sample.
 bool ImageRender::pauses() const {
     return wants_preview() || (checkpoint_ && checkpoint_->is_due()) || stopping_.is_due();
 }

@@ -1,5 +1,5 @@
-// Takes an image's samples in steps, with progress, previews and checkpoints between them; in pieces of rows if the
-// device lacks memory. Neither changes the image's bits.
+// Takes an image's samples in steps. Between steps are progress, previews and checkpoints. If the device lacks memory,
+// the image is rendered in pieces of rows. Neither steps nor pieces change the bits.
 #pragma once
 
 #include "cli/base/context.h"
@@ -20,11 +20,11 @@
 
 namespace cli {
 
-// Long steps divide best among devices.
+// Long steps are best for several devices.
 inline constexpr std::uint32_t first_step_length = 16;
 inline constexpr double step_seconds = 2.0;
 
-// Rather too short after the first step, which also builds the kernel.
+// The first step also builds the kernel, so the second may be too short.
 inline std::uint32_t next_step_length(std::uint32_t length, double seconds) {
     constexpr double most = 1U << 30;
     const double wanted = seconds > 0.0 ? std::floor(length * (step_seconds / seconds)) : most;
@@ -34,38 +34,38 @@ inline std::uint32_t next_step_length(std::uint32_t length, double seconds) {
 // Whether to end because of a signal or a changed source. Once true, it stays true.
 using Stop = std::function<bool()>;
 
-// Calls pt_set_render for the first piece. Returns the rows of a piece: the option's, or all, halved until the device
-// has enough memory. Throws Failure.
+// Calls pt_set_render for the first piece. Returns the rows of a piece: the option's, or all, halved until they fit
+// into the device's memory. Throws Failure.
 std::uint32_t fit_pieces(const Context &context, const RenderTask &task);
 
 ProgressStyle progress_style(const RenderOptions &options);
 
 class ImageRender {
 public:
-    // Called in a thread. After false only SIGUSR1 requests previews.
+    // Called in a thread. After it returns false, only SIGUSR1 requests previews.
     using WritePreview = std::function<bool(const RenderedImage &)>;
 
-    // rows: from fit_pieces(). The time limit begins now.
+    // rows: result of fit_pieces(). The time limit begins now.
     ImageRender(const Context &context, const RenderTask &task, std::uint32_t rows, Stop stop,
                 WritePreview write_preview);
 
     struct Result {
         RenderedImage image;
         std::optional<std::string> ended_by;
-        bool has_checkpoint; // the checkpoint has all samples
+        bool has_checkpoint;
     };
 
-    // One picture, or a denoised picture's half in one round.
+    // A whole picture, or one half of a denoised picture in one round.
     struct Round {
-        std::uint32_t half; // only the second half's first round reads layers
-        std::uint32_t end;  // samples of the half at the end
-        std::uint32_t other;
-        std::uint32_t expected;                // samples of a half, after all rounds
-        std::vector<std::byte> *film{nullptr}; // of the half: read before, updated after
+        std::uint32_t half;                    // index of the half; only the second half's first round reads layers
+        std::uint32_t end;                     // samples of this half at the end of the round
+        std::uint32_t other;                   // samples of the other half
+        std::uint32_t expected;                // samples of a half after all rounds
+        std::vector<std::byte> *film{nullptr}; // the half's film: read before the round, updated after it
     };
 
-    // Renders whole rows and reads the window's columns. The context's samples belong to the first piece. All writing
-    // has ended on return. Throws Failure.
+    // Renders whole rows and reads the window's columns. The context's samples belong to the first piece. All files are
+    // complete on return. Throws Failure.
     Result run(const Round &round);
 
 private:
@@ -89,18 +89,18 @@ private:
     const RenderTask &task_;
     std::uint32_t rows_;
     Stop stop_;
-    WritePreview write_preview_; // empty for halves and for frames, whose files mark them as done
+    WritePreview write_preview_; // empty for halves, and for frames, whose files mark them as done
     Clock::time_point start_ = Clock::now();
     Progress progress_;
     Round round_{};
     RenderedImage image_{};
     std::uint32_t piece_rows_ = 0;
 
-    Clock::time_point next_error_; // when to compute the error for progress
-    StoppingTest stopping_;        // without rules for a half
+    Clock::time_point next_error_; // time of the next error estimate for progress
+    StoppingTest stopping_;        // no rules for a half
     Clock::time_point last_preview_ = start_;
     std::atomic<bool> has_preview_failed_ = false;
-    RenderedImage preview_{}; // being written
+    RenderedImage preview_{};
     BackgroundTask preview_task_;
     std::optional<Checkpoint> checkpoint_;
 };

@@ -1,4 +1,4 @@
-// The layers of --layers and --alpha beside the radiance.
+// Layers beside the radiance, for --layers and --alpha.
 #pragma once
 
 #include "cli/base/context.h"
@@ -19,7 +19,7 @@ struct FileLayer {
     LayerKind kind;
 };
 
-// Z, N and id are OpenEXR's names.
+// OpenEXR prescribes the names Z, N and id.
 inline constexpr ValueNames<7, FileLayer> file_layers({
     {"mean", {PT_QUANTITY_RADIANCE, "", 3, LayerKind::color}},
     {"standard-error", {PT_QUANTITY_STANDARD_ERROR, "standard_error", 3, LayerKind::color}},
@@ -30,31 +30,31 @@ inline constexpr ValueNames<7, FileLayer> file_layers({
     {"object-id", {PT_QUANTITY_OBJECT, "id", 1, LayerKind::numbers}},
 });
 
-// A layer of the rendered part.
+// A layer of the rendered rectangle.
 struct PictureLayer {
     std::uint32_t quantity;             // PT_QUANTITY_*
     std::vector<float> values;          // from the top left; empty for objects
-    std::vector<std::uint32_t> numbers; // objects, one per pixel
+    std::vector<std::uint32_t> numbers; // object indices, one per pixel
 
     PictureLayer(std::uint32_t of_quantity, std::size_t pixel_count);
 
-    // Copies the library's triples.
+    // Converts the library's three values per pixel.
     void take(std::span<const float> triples, std::size_t first_pixel);
 
-    // Reads rows of the part from first_row on.
+    // Reads rows of the rectangle from first_row on.
     void read(const Context &context, const Rectangle &part, std::uint32_t first_row, std::uint32_t rows);
 
-    // Refers to this object.
+    // The result refers to this object.
     ImageLayer in_file() const;
 };
 
 struct RenderedImage {
     Rectangle part;
     std::vector<float> radiance{}; // black below rows_done
-    std::vector<float> raw{};      // mean of the samples, if the picture is denoised
+    std::vector<float> raw{};      // mean of the samples, for denoised pictures
     std::vector<PictureLayer> layers{};
     std::uint32_t rows_done = 0; // rows with samples
-    pt_stats stats{};            // statistics of these rows; sample_count is the least
+    pt_stats stats{};            // statistics of these rows
     pt_error_estimate error{};   // error of these rows
 };
 

@@ -42,7 +42,7 @@ RenderOptions options_of_frame(const RenderOptions &options, std::uint32_t frame
     return numbered;
 }
 
-// Files are written whole or not at all, so an existing file is complete.
+// Files are written atomically, so an existing file is complete.
 bool is_done(const OutputOptions &frame) {
     return std::ranges::all_of(outputs_of(frame), [](const NamedFile &file) {
         std::error_code ignored;
@@ -85,7 +85,7 @@ public:
     }
 
 private:
-    // Seeds differ: equal noise in all frames would look like a screen before them.
+    // Each frame has its own seed. Equal noise in all frames would look like a pattern on the screen.
     RenderTask task_of(const RenderOptions &options, std::uint32_t frame) const {
         std::vector<SceneOverride> overrides = overrides_of_frame(scene_, frame);
         overrides.insert(overrides.end(), options.overrides.begin(), options.overrides.end());

@@ -14,7 +14,7 @@
 
 namespace cli {
 
-// signal: 0 if none came.
+// signal: 0 without a signal.
 constexpr int exit_code_of(ExitCode outcome, int signal) {
     if (outcome != ExitCode::done && outcome != ExitCode::signal)
         return static_cast<int>(outcome);
@@ -26,15 +26,15 @@ struct RenderTimes {
     std::chrono::steady_clock::time_point create_start{};
 };
 
-// Renders and writes files. A signal ends it early and keeps the samples; superseded() ends it without writing. Throws
-// Failure.
+// Renders and writes files. A signal ends the rendering early and keeps the samples. superseded() ends it without
+// writing. Throws Failure.
 ExitCode render_picture(const Context &context, const RenderTask &task, const RenderTimes &times,
                         const Stop &superseded);
 
-// Return the exit code. Throw Failure.
+// Returns the exit code. Throws Failure.
 int run_render(const RenderOptions &options);
 
-// Counts validation messages: each shows a mistake of program or library.
+// Counts validation messages. Each shows a mistake of the program or the library.
 struct ValidationLog {
     std::uint64_t count = 0;
 
@@ -48,19 +48,19 @@ struct ValidationLog {
 
 pt_create_info render_create_info(const RenderOptions &options, ValidationLog &log);
 
-// Renders parts for another program that shares a picture among machines, such as pt-farm.
+// Renders parts for another program that distributes a picture among machines, such as pt-farm.
 //
-// Writes a line of JSON: what decides the parts (width, height, first_sample, samples, target_error, sampling as
-// PT_SAMPLING_*) and the display (exposure or "auto"; tonemap; gamma or null). Then answers requests until standard
-// input ends; the first one starts the device.
+// Writes a line of JSON: the numbers that decide the parts (width, height, first_sample, samples, target_error,
+// sampling as PT_SAMPLING_*) and the display (exposure or "auto"; tonemap; gamma or null). Then answers requests until
+// standard input ends. The first request starts the device.
 //
 // A request has 32-bit words: first sample, end, number of tiles, and their indices as in
 // pt_accumulate_info.tile_samples. The answer is a line with the kind of device (PT_DEVICE_*) and the size of the film,
-// which follows. Three words of 0 ask for the scene as write_scene writes it. An invalid request ends the program with
-// ExitCode::usage.
+// followed by the film. Three words of 0 request the scene in the form of write_scene. An invalid request ends the
+// program with ExitCode::usage.
 int render_parts(const RenderTask &task, ValidationLog &log);
 
-// Renders again on one context whenever a source changes, until a signal; returns 0 if that came while waiting. Throws
+// Renders again on one context whenever a source changes, until a signal. Returns 0 for a signal during a wait. Throws
 // Failure if no edit of a source could help.
 int render_watched(const RenderOptions &options, ValidationLog &log);
 

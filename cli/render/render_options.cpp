@@ -18,7 +18,7 @@
 namespace cli {
 namespace {
 
-// "depth,normal"; leaves out radiance.
+// Reads for example "depth,normal". Leaves out radiance.
 std::vector<std::uint32_t> parse_layers(const std::string &text, std::span<const std::string_view> known) {
     const ValueRule rule{.form = ValueRule::Form::name, .kind = "layer", .names = known};
     std::vector<std::uint32_t> quantities;
@@ -34,7 +34,7 @@ std::vector<std::uint32_t> parse_layers(const std::string &text, std::span<const
     return quantities;
 }
 
-// parse: returns an optional. rule: for messages.
+// parse: returns an optional. rule: text for messages.
 template <typename Target, typename Parse>
 CLI::Option *add_parsed(CLI::App &command, const std::string &name, Target &target, Parse parse,
                         const std::string &rule, const std::string &help) {
@@ -97,7 +97,7 @@ void add_lasting_options(CLI::App &command, RenderOptions &options) {
                               "Index of the first sample, for parts of one picture (default: 0)");
 }
 
-// Refuses outputs: they are up to the other program.
+// The other program writes the outputs, so output options are refused.
 void add_parts_option(CLI::App &command, RenderOptions &options) {
     command.option_defaults()->group("Checkpoints and parts");
     CLI::Option *parts = command.add_flag("--parts", options.parts,

@@ -23,10 +23,10 @@ namespace cli {
 
 struct FrameRange {
     std::uint32_t first;
-    std::uint32_t last; // >= first
+    std::uint32_t last;
 };
 
-// "0-23" or "5".
+// Accepts "0-23" or "5".
 inline std::optional<FrameRange> parse_frames(std::string_view text) {
     const std::size_t dash = text.find('-');
     const auto first = parse_number<std::uint32_t>(text.substr(0, dash));
@@ -34,7 +34,7 @@ inline std::optional<FrameRange> parse_frames(std::string_view text) {
     return first && last && *first <= *last ? std::optional(FrameRange{*first, *last}) : std::nullopt;
 }
 
-// Replaces the last run of # by the number with leading zeros. Empty without a #.
+// Replaces the last group of # by the number with leading zeros. Empty without a #.
 inline std::optional<std::string> numbered_name(const std::string &pattern, std::uint32_t frame) {
     const std::size_t last = pattern.rfind('#');
     if (last == std::string::npos)
@@ -48,9 +48,9 @@ inline std::optional<std::string> numbered_name(const std::string &pattern, std:
 
 struct OutputOptions {
     std::vector<std::string> images;
-    std::optional<ImageFormat> format; // standard output's format
-    std::vector<std::uint32_t> layers; // PT_QUANTITY_*, in .exr files beside the radiance
-    std::string film;                  // empty: none
+    std::optional<ImageFormat> format; // for standard output
+    std::vector<std::uint32_t> layers; // PT_QUANTITY_* beside the radiance in .exr files
+    std::string film;                  // empty: no film
     std::string stats;
     bool quiet = false;
 
@@ -70,7 +70,7 @@ void for_each_output(Options &options, Use use) {
 
 void add_image_outputs(CLI::App &command, OutputOptions &options);
 
-// layers: which names are allowed.
+// layers: names of the permitted layers.
 void add_output_options(CLI::App &command, OutputOptions &options, std::span<const std::string_view> layers);
 
 void add_format(CLI::App &command, std::optional<ImageFormat> &format, std::span<const std::string_view> names);
@@ -80,7 +80,7 @@ struct RenderOptions {
     std::vector<SceneOverride> overrides;
     OutputOptions output;
     bool alpha = false;
-    std::string denoiser; // library's file; empty: not denoised
+    std::string denoiser; // file of the library; empty: no denoising
     std::optional<Rectangle> crop;
 
     StoppingRules stopping;
@@ -88,24 +88,24 @@ struct RenderOptions {
     std::uint32_t first_sample = 0;
 
     bool parts = false;
-    std::string checkpoint; // empty: none
+    std::string checkpoint; // empty: no checkpoint
     bool resume = false;
-    std::optional<double> checkpoint_seconds; // empty: 30
-    std::optional<double> preview_seconds;    // empty: only after SIGUSR1
+    std::optional<double> checkpoint_seconds; // default: 30
+    std::optional<double> preview_seconds;    // empty: previews only after SIGUSR1
 
     std::optional<FrameRange> frames;
     bool skip_existing = false;
 
     std::string device;
-    std::uint32_t submit_milliseconds = 0; // 0: default
+    std::uint32_t submit_milliseconds = 0; // 0: the library's default
     std::uint32_t piece_rows = 0;          // 0: as many as fit
     bool validation = false;
 
-    std::string shader_dir; // empty: built-in kernels
+    std::string shader_dir; // empty: the library's kernels
     bool watch = false;
     std::string progress = "auto";
 
-    // PT_QUANTITY_* for layers, alpha and denoising.
+    // Returns PT_QUANTITY_* for layers, alpha and denoising.
     std::vector<std::uint32_t> wanted_layers() const;
 };
 

@@ -22,12 +22,12 @@ void check_names(const RenderOptions &options);
 
 void check_names(const OutputOptions &options, const std::vector<NamedFile> &sources);
 
-// Throws Failure for an image too large for its format or, if already known, an unwritable file.
+// Throws Failure for an image too large for its format and, if names are known, for an unwritable file.
 void check_files(const OutputOptions &options, const ImageWindow &window);
 
 void check_outputs(const RenderTask &task);
 
-// Reports failures on stderr and returns the written paths.
+// Reports failures on stderr. Returns the written paths.
 std::vector<std::string> write_images(ImageWriter &writer, const OutputOptions &options, const RenderReport &report,
                                       const RenderedImage &image);
 

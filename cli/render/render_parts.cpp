@@ -43,10 +43,10 @@ bool read_words(std::span<std::uint32_t> words) {
 
 struct Part {
     std::uint32_t first_sample;
-    std::vector<std::uint32_t> tile_samples; // as in pt_accumulate_info; empty: the scene is requested
+    std::vector<std::uint32_t> tile_samples; // as in pt_accumulate_info; empty for a request of the scene
 };
 
-// Empty at the end of input.
+// Empty at the end of the input.
 std::optional<Part> read_part(std::size_t all_tiles) {
     std::array<std::uint32_t, 3> header{};
     if (!read_words(header))

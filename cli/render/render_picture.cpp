@@ -38,7 +38,7 @@ bool take_scene(const Context &context, const RenderTask &task, const Stop &supe
     });
 }
 
-// A film belongs to one piece.
+// A film holds only one piece, so the outputs that need a film need a single piece.
 void require_one_piece(const RenderTask &task, std::uint32_t rows) {
     const RenderOptions &options = task.options;
     const std::string option = !options.checkpoint.empty()    ? "--checkpoint"
@@ -63,12 +63,13 @@ void resume_if_asked(const Context &context, const RenderTask &task) {
     }
 }
 
-// A target error may be reached although another rule ended the rendering.
+// The target error may be reached although another rule ended the rendering.
 std::string ending_of(const RenderReport &report, const ImageRender::Result &rendered, bool interrupted) {
     return interrupted ? "signal" : rendered.ended_by.value_or(report.target_reached() ? "error" : "samples");
 }
 
-// Applies if no signal came. A missing file outweighs missing samples, which a checkpoint can supply.
+// For a rendering without a signal. A missing file takes precedence over missing samples, which a checkpoint can
+// supply.
 ExitCode outcome_of(const RenderReport &report, const ImageRender::Result &rendered, bool all_written) {
     if (!all_written)
         return ExitCode::file;
@@ -113,7 +114,7 @@ std::optional<ToneMap> tone_map_of(const RenderTask &task, std::span<const float
     return needs_tone_map(task.options.output) ? std::optional(task.scene.display.tone_map(radiance)) : std::nullopt;
 }
 
-// The second half has albedo and normal, which are kept only if wanted.
+// The second half has albedo and normal. They are kept only if wanted.
 RenderedImage denoised_halves(const RenderOptions &options, const RenderedImage &first, RenderedImage second) {
     const auto guide = [&](std::uint32_t quantity) -> std::span<const float> {
         return std::ranges::find(second.layers, quantity, &PictureLayer::quantity)->values;
@@ -127,8 +128,8 @@ RenderedImage denoised_halves(const RenderOptions &options, const RenderedImage 
     return image;
 }
 
-// Both halves grow by a half in each round if a rule may end the rendering, as in the Python package. Denoising each
-// round gives its error. A stop leaves the last round's picture.
+// If a rule may end the rendering, both halves grow by a half in each round, as in the Python package. Denoising each
+// round gives its error. After a stop the last round's picture remains.
 ImageRender::Result render_halves(const RenderTask &task, ImageRender &render, const Stop &stop) {
     constexpr double growth = 1.5;
     const Clock::time_point start = Clock::now();
@@ -208,7 +209,7 @@ ExitCode render_picture(const Context &context, const RenderTask &task, const Re
         print_pieces(context, task, rows);
     report.create_seconds = seconds_since(times.create_start);
 
-    // Drivers would wait for the module's loading.
+    // Drivers would wait while the module is loading.
     ImageWriter writer;
     if (needs_module(options.output))
         writer.load_module();
@@ -219,7 +220,7 @@ ExitCode render_picture(const Context &context, const RenderTask &task, const Re
         so_far.error = image.error;
         so_far.tone_map = tone_map_of(task, image.radiance);
         writer.wait();
-        const OutputOptions files = without_standard_output(options.output); // takes one image only
+        const OutputOptions files = without_standard_output(options.output); // Standard output takes only one image.
         return write_images(writer, files, so_far, image).size() == files.images.size();
     };
     const Stop stop = [&] { return interrupt_signal() != 0 || writer.failed() || superseded(); };

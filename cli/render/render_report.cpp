@@ -33,11 +33,11 @@ nlohmann::ordered_json crop_json(const ImageWindow &window) {
 }
 
 double samples_per_second(const RenderReport &report) {
-    const double pixels = static_cast<double>(report.render.width) * report.window.part.height; // of whole rows
+    const double pixels = static_cast<double>(report.render.width) * report.window.part.height; // whole rows
     return report.accumulate_seconds > 0.0 ? pixels * report.stats.mean_sample_count / report.accumulate_seconds : 0.0;
 }
 
-// Why the relative error may be far off, if so.
+// Says why the relative error may be far off. Empty if there is no reason.
 std::string uncertainty_text(std::uint32_t uncertain) {
     if ((uncertain & PT_UNCERTAIN_UNMET) != 0)
         return ", uncertain: few samples meet small lamps, take more";
@@ -59,7 +59,7 @@ std::string estimate_text(const RenderReport &report) {
            percent_text(error.relative_rmse_high) + ")" + uncertainty_text(error.uncertain);
 }
 
-// "64", or "37.3 (16 to 256)" if pixels differ.
+// Returns "64", or "37.3 (16 to 256)" if pixels differ.
 std::string samples_text(const pt_stats &stats) {
     if (stats.sample_count == stats.max_sample_count)
         return std::to_string(stats.sample_count);
@@ -169,7 +169,8 @@ std::string error_text(const RenderReport &report) {
     return estimate_text(report) + (report.target_error > 0.0 ? "; " + target_text(report) : "");
 }
 
-// No date: equal runs give equal files. samplesPerPixel is pbrt's. Numbers beyond OpenEXR's int32 are texts.
+// There is no date, so equal runs give equal files. The name samplesPerPixel is pbrt's. Numbers beyond OpenEXR's int32
+// are texts.
 std::vector<ImageAttribute> image_metadata(const RenderReport &report, const ToneMap *tone_map) {
     std::vector<ImageAttribute> attributes;
     const auto add = [&](const char *name, auto value) { attributes.push_back({name, std::move(value)}); };

@@ -1,4 +1,4 @@
-// Facts of a rendering for files and people.
+// Facts of a rendering, for files and people.
 #pragma once
 
 #include "cli/film/film.h"
@@ -31,14 +31,14 @@ struct RenderReport {
     double create_seconds;
     double accumulate_seconds;
     double total_seconds;
-    std::optional<ToneMap> tone_map; // if an output has one
-    std::string ended_by;            // "samples", "error", "signal", or StoppingTest's
+    std::optional<ToneMap> tone_map; // tone mapping of an output, if any
+    std::string ended_by;            // "samples", "error", "signal", or a result of StoppingTest
     std::vector<std::string> warnings;
 
     bool target_reached() const { return target_error > 0.0 && error.relative_rmse_high <= target_error; }
 };
 
-// Has no times and no name of the scene.
+// A film has no times and no scene name.
 RenderReport film_report(const FilmHandle &film);
 
 nlohmann::ordered_json stats_json(const RenderReport &report);
@@ -48,7 +48,7 @@ nlohmann::ordered_json tone_map_json(const RenderReport &report);
 
 std::string summary_text(const RenderReport &report);
 
-// "error 0.42% (0.40% to 0.44%); target reached after 64 samples"
+// Returns for example "error 0.42% (0.40% to 0.44%); target reached after 64 samples".
 std::string error_text(const RenderReport &report);
 
 // tone_map: nullptr for radiance.

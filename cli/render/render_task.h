@@ -10,36 +10,35 @@ namespace cli {
 
 struct RenderTask {
     RenderOptions options;
-    SceneFile scene;            // before load() without files of columns
+    SceneFile scene;            // without files of columns until load()
     pt_render render;           // settings of the whole picture
-    ImageWindow window;         // the part to be rendered
+    ImageWindow window;         // part to render
     std::uint32_t sample_count; // samples of each half; the most if a rule may end the rendering
 
-    // Throws Failure for an impossible crop or impossible samples.
+    // Throws Failure for an impossible crop or number of samples.
     RenderTask(RenderOptions chosen, SceneFile file);
 
-    // Reads files of columns. Throws Failure, also if one is an output.
+    // Reads files of columns. Throws Failure, also if such a file is an output.
     void load();
 
-    // Whether denoised halves grow until a rule is met.
+    // Whether denoised halves grow until a rule is satisfied.
     bool has_rounds() const { return half_count() > 1 && options.stopping.has_any(); }
 
     std::uint32_t half_count() const { return options.denoiser.empty() ? 1 : 2; }
 };
 
-// Throws Failure if the images exceed the memory of any process here.
+// Throws Failure if the images exceed the memory of any process on this machine.
 void require_host_memory(const RenderTask &task);
 
-// Bytes of the images in memory.
 std::uint64_t image_bytes(const RenderTask &task);
 
-// Throws the library's refusal of an argument, blaming the option or the place in the file that set it.
+// Throws Failure for a refused argument and names the option, or the place in the file, that set it.
 void require(const Context &context, const RenderTask &task, pt_result result);
 
-// A pt_progress_fn whose user is a std::function<bool(double)>.
+// A pt_progress_fn. user: a std::function<bool(double)>.
 std::int32_t call_listener(void *user, double share);
 
-// Sets scene and camera. Returns false, with the context unchanged, once goes_on(share) does. Throws Failure.
+// Sets scene and camera. Returns false, with an unchanged context, when goes_on(share) returns false. Throws Failure.
 bool describe_scene(const Context &context, const SceneFile &file, const std::function<bool(double)> &goes_on);
 
 } // namespace cli

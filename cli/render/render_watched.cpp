@@ -55,11 +55,11 @@ public:
     }
 
 private:
-    // Ending a watch while it waits is success.
+    // The end of a waiting watch is a success.
     int exit_code() const { return exit_code_of(outcome_, outcome_ == ExitCode::signal ? interrupt_signal() : 0); }
 
-    // Waits for an edit after a failure that one can repair. Edited shaders may lose the device, so the next picture
-    // gets a new context.
+    // Waits for an edit after a failure that an edit can repair. Edited shaders may lose the device, so the next
+    // picture gets a new context.
     void render_or_tell() {
         outcome_ = ExitCode::done;
         try {
@@ -94,7 +94,7 @@ private:
             edited_.clear();
     }
 
-    // Kept for all pictures: creating it takes longer than most renderings.
+    // All pictures share it, because its creation takes longer than most renderings.
     void refresh_context() {
         if (!context_) {
             context_.emplace(render_create_info(options_, log_));
@@ -132,7 +132,7 @@ private:
     ValidationLog &log_;
     SourceWatch sources_;
     std::optional<Context> context_;
-    ExitCode outcome_ = ExitCode::done; // kept after failures
+    ExitCode outcome_ = ExitCode::done;
     std::set<std::string> edited_;
     bool is_first_ = true;
     bool is_told_ = false;

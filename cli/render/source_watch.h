@@ -1,4 +1,4 @@
-// Watches scene, data and kernels for changes.
+// Watches the scene, data files and kernels for changes.
 #pragma once
 
 #include <chrono>
@@ -11,27 +11,26 @@
 
 namespace cli {
 
-// Subfolders included. Empty without a name.
+// Includes subfolders. Empty without a folder name.
 std::set<std::filesystem::path> shader_files(const std::filesystem::path &shader_dir);
 
-// Empty contents: a missing file.
+// The contents of a missing file are empty.
 using SourceFiles = std::map<std::filesystem::path, std::optional<std::string>>;
 
-// Polls ten times a second, which also sees other machines' writes.
+// Polls ten times a second, which also finds changes by other machines.
 class SourceWatch {
 public:
     SourceWatch(std::filesystem::path scene, std::filesystem::path shader_dir);
 
-    // Call before using the files.
+    // Must precede the first use of the files.
     void begin();
 
-    // Also watches data files. They may exceed memory, so only their state is kept.
+    // Watches data files, too. They may exceed the memory, so only their state is kept.
     void follow(const std::set<std::filesystem::path> &data);
 
     bool has_data() const { return !data_.empty(); }
 
-    // Waits for contents that differ from begin()'s and are stable (saving takes several steps), a signal, or the
-    // timeout.
+    // Waits for changed and stable contents (saving takes several steps), a signal, or the timeout.
     bool changed(std::chrono::milliseconds timeout);
 
     std::vector<std::string> changed_names() const;

@@ -1,4 +1,4 @@
-// Rules that end a rendering early. A new rule is a field of StoppingRules, its test in StoppingTest, and its option in
+// Rules that end a rendering early. A new rule needs a field of StoppingRules, a test in StoppingTest, and an option in
 // render_options.cpp.
 #pragma once
 
@@ -15,13 +15,13 @@
 namespace cli {
 
 struct StoppingRules {
-    double target_error = 0.0;        // 0: none; tested by the library
+    double target_error = 0.0;        // 0: none; the library tests it
     std::optional<double> time_limit; // seconds per frame
 
     bool has_target() const { return target_error > 0.0; }
     bool has_any() const { return has_target() || time_limit; }
 
-    // Default samples per pixel.
+    // Default number of samples per pixel.
     std::uint32_t usual_samples() const { return has_any() ? 65536 : 64; }
 
     double growth_left(double seconds) const {
@@ -32,8 +32,8 @@ struct StoppingRules {
 inline constexpr const char *stopping_options = "--error or --time";
 inline constexpr const char *ended_by_time = "time";
 
-// Total samples for a target error. `error` may be infinite. Independent errors fall as n^-1/2, stratified ones faster,
-// so the estimate falls. At least the next check's count, so that progress does not reach 100% too early.
+// Forecasts the samples for a target error. `error` may be infinite. Independent errors fall as n^-1/2, stratified ones
+// faster, so the forecast falls. It is at least the next check's count, so that progress does not reach 100% too early.
 inline std::uint32_t forecast_sample_count(std::uint32_t sample_count, double error, double target_error,
                                            std::uint32_t most) {
     const double ratio = error / target_error;
@@ -42,7 +42,7 @@ inline std::uint32_t forecast_sample_count(std::uint32_t sample_count, double er
     return static_cast<std::uint32_t>(std::min(std::max(std::ceil(guess), least), static_cast<double>(most)));
 }
 
-// Consulted between steps.
+// Is asked between steps.
 class StoppingTest {
 public:
     using Clock = std::chrono::steady_clock;
@@ -51,7 +51,7 @@ public:
 
     const StoppingRules &rules() const { return rules_; }
 
-    // end: share of the image after the piece. Earlier pieces' unused time is passed on.
+    // end: finished fraction of the image after the piece. Later pieces may use the time that earlier ones saved.
     void enter_piece(double end) {
         if (rules_.time_limit)
             end_ = start_ +
@@ -59,7 +59,7 @@ public:
         is_over_ = false;
     }
 
-    // Whether the step should end at its next whole sample.
+    // Whether the step should end at its next complete sample.
     bool is_due() const { return Clock::now() >= end_; }
 
     void look(Clock::time_point now) {

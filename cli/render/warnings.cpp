@@ -21,7 +21,7 @@ bool is_lit(const SceneFile &scene) {
     return std::ranges::any_of(scene.used_materials, [&](std::uint32_t i) { return emits(scene.materials[i]); });
 }
 
-// The largest of three channels. A lobe reflects all its weight at normal incidence.
+// Returns the largest of three channels. A lobe reflects its whole weight at normal incidence.
 float reflected_share(const pt_material &material) {
     float largest = 0.0F;
     for (std::size_t i = 0; i < 3; ++i)
@@ -50,7 +50,7 @@ std::string byte_color_text(const pt_material &material) {
 }
 
 std::optional<std::string> brightening_materials(const SceneFile &scene) {
-    constexpr float tolerance = 1e-6F; // 0.1 + 0.9 may pass 1
+    constexpr float tolerance = 1e-6F; // In floats 0.1 + 0.9 may exceed 1.
     constexpr std::size_t most_names = 3;
     std::vector<std::string> names;
     std::string hint;
@@ -77,10 +77,10 @@ bool is_black(std::span<const float> radiance) {
     return !radiance.empty() && std::ranges::all_of(radiance, [](float value) { return value == 0.0F; });
 }
 
-// Relative errors count light below 0.1 as 0.1 (pt_error_estimate), so any noise satisfies them in a dark picture.
-// Scaling all emission scales picture and noise.
+// Relative errors count light below 0.1 as 0.1 (pt_error_estimate), so a dark picture satisfies them with any noise.
+// Scaling all emission scales the picture and its noise.
 std::optional<std::string> picture_below_its_target(const RenderReport &report, std::span<const float> radiance) {
-    // Average 0.18 / 2^4.5 = 0.008: a target of 1% allows noise of 0.001.
+    // The average 0.18 / 2^4.5 is 0.008. A target of 1% then permits noise of 0.001.
     constexpr double most_stops = 4.5;
     if (report.target_error <= 0.0 || is_black(radiance))
         return std::nullopt;
@@ -120,8 +120,7 @@ std::vector<std::string> image_warnings(const RenderReport &report, std::span<co
     std::vector<std::string> warnings;
     const pt_stats &stats = report.stats;
     if (stats.rejected_samples > 0) {
-        const double pixel_count =
-            static_cast<double>(report.render.width) * report.window.part.height; // of whole rows
+        const double pixel_count = static_cast<double>(report.render.width) * report.window.part.height; // whole rows
         const double sample_count = pixel_count * stats.sample_count;
         const double share = static_cast<double>(stats.rejected_samples) / sample_count;
         warnings.push_back(counted(stats.rejected_samples, "sample") + " (" + percent_text(share) +

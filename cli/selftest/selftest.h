@@ -1,4 +1,4 @@
-// The scenes of `pt selftest`, whose light is known exactly.
+// Scenes of `pt selftest`. Their light is known exactly.
 #pragma once
 
 #include "cli/scene/scene_file.h"
@@ -26,14 +26,14 @@ struct SelftestScene {
     std::string name;
     SceneFile scene;
     double expected;     // mean of radiance^power; the image is grey
-    double relative_std; // bound of a sample's standard deviation / expected; 0: equal samples
+    double relative_std; // bound of a sample's standard deviation / expected; 0 if all samples are equal
     double rounding;     // largest relative float32 error of a sample
-    int power = 1;       // 0: expected is the share of pixels that are not black
+    int power = 1;       // 0: expected is the fraction of pixels that are not black
 
-    // Largest relative error that passes.
+    // Returns the largest relative error that passes.
     double bound() const;
 
-    // Judges every number without noise, else each channel's mean.
+    // Judges each number if there is no noise, otherwise the mean of each channel.
     SelftestCheck judge(std::span<const float> radiance) const;
 };
 
@@ -41,11 +41,11 @@ std::vector<SelftestScene> selftest_scenes();
 
 SelftestScene lamp_in_a_ball();
 
-// Each way of finding the light contributes much: an error of 2% in a weight of multiple importance sampling moves the
-// mean by at least twice the bound.
+// Each technique of multiple importance sampling contributes much: an error of 2% in a weight moves the mean by at
+// least twice the bound.
 std::vector<SelftestScene> weight_scenes();
 
-// Samples are cosines of sampled directions. Checks means, second moments, and the share on each side.
+// Samples are cosines of sampled directions. Checks means, second moments, and the fraction on each side.
 std::vector<SelftestScene> direction_scenes();
 
 struct SelftestReport {

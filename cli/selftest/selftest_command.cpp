@@ -70,7 +70,7 @@ std::vector<SelftestCheck> check_functions(const Context &context) {
     return checks;
 }
 
-// One call of pt_accumulate per count.
+// Calls pt_accumulate once for each count.
 std::vector<float> render(const Context &context, const SceneFile &scene,
                           const std::vector<std::uint32_t> &sample_counts) {
     describe_scene(context, scene, [](double) { return true; });
@@ -92,7 +92,7 @@ double differing_values(std::span<const float> a, std::span<const float> b) {
     });
 }
 
-// Sums are exact, so the split into calls may not change a bit.
+// Sums are exact, so a division into several calls must not change a bit.
 SelftestCheck check_splits(const Context &context) {
     const SelftestScene ball = lamp_in_a_ball();
     const std::uint32_t count = ball.scene.sample_count.value();
@@ -103,7 +103,7 @@ SelftestCheck check_splits(const Context &context) {
     return {"invariance", "samples split over calls", differing, 0.0, "values", "that differ in \"" + ball.name + "\""};
 }
 
-// Also checks that the library left out no sample.
+// Also checks that the library rejected no sample.
 std::vector<SelftestCheck> check_scenes(const Context &context, const std::vector<SelftestScene> &scenes,
                                         const std::string &group) {
     std::vector<SelftestCheck> checks;

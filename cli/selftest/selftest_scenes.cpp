@@ -11,13 +11,13 @@
 namespace cli {
 namespace {
 
-// Probability that one check fails on a correct device; about 1e-6 for all checks.
+// Probability that one check fails on a correct device. For all checks it is about 1e-6.
 constexpr double false_alarm = 1e-7;
 
 // Bernstein (Boucheron, Lugosi, Massart, Concentration Inequalities, 2013, section 2.8), solved for t: P(|error| > t)
 // <= 2 exp(-n t^2 / (2 s^2 + 2 m t / 3)) for n independent samples of variance s^2 and deviations up to m. Samples that
 // are nonzero with probability p have s^2 = (1 - p) / p and m = max(s^2, 1) <= s^2 + 6 s for p <= 0.97. Stratified
-// samples are less noisy.
+// samples have less noise.
 double noise_bound(double relative_std, double sample_count) {
     const double log_probability = std::log(2.0 / false_alarm);
     const double variance = relative_std * relative_std;
@@ -25,7 +25,7 @@ double noise_bound(double relative_std, double sample_count) {
     return (linear + std::sqrt(linear * linear + 2.0 * sample_count * variance * log_probability)) / sample_count;
 }
 
-// power 0: the share of nonzero values.
+// power 0: returns the fraction of nonzero values.
 double channel_mean(std::span<const float> radiance, std::size_t channel, int power) {
     double sum = 0.0;
     for (std::size_t i = channel; i < radiance.size(); i += 3)
@@ -33,27 +33,27 @@ double channel_mean(std::span<const float> radiance, std::size_t channel, int po
     return sum / (static_cast<double>(radiance.size()) / 3.0);
 }
 
-constexpr double unit_roundoff = 0x1p-24; // of float32
+constexpr double unit_roundoff = 0x1p-24; // float32
 
-// 50 operations; Vulkan permits 2.5 ulp = 5 roundoffs for the worst, division.
+// 50 operations. Vulkan permits an error of 2.5 ulp = 5 roundoffs for the least exact one, division.
 constexpr double sample_rounding = 50 * 5 * unit_roundoff;
 
-// members: the scene without sizes.
+// members: parts of the scene without the sizes.
 SceneFile scene_of(std::uint32_t side, std::uint32_t sample_count, const std::string &members) {
     return parse_scene(concat(R"({"film": {"width": )", side, R"(, "height": )", side, R"(}, "render": {"spp": )",
                               sample_count, members, "}"),
                        "");
 }
 
-// Emission enters an exact sum unchanged and is rounded once.
+// The emission is added to an exact sum and rounded once.
 SelftestScene inside_a_lamp() {
     const SceneFile scene = scene_of(16, 16, R"(, "max_path_length": 3}, "materials": {"lamp": {"emission": 0.1}},
         "spheres": [{"center": [0, 0, 2], "radius": 50, "material": "lamp"}])");
     return {"inside a lamp", scene, double{scene.materials[0].emission[0]}, 0.0, unit_roundoff};
 }
 
-// A white ball in a black lamp of radiance 1: each path ends on the lamp after at most one reflection. Its weight
-// (albedo / pi * cos) / (cos / pi) has two products and three divisions; the emission is a third product.
+// A white ball in a black lamp of radiance 1. Each path ends on the lamp after at most one reflection. Its weight
+// (albedo / pi * cos) / (cos / pi) has two products and three divisions. The emission is a third product.
 SelftestScene white_furnace() {
     const SceneFile scene = scene_of(16, 16, R"(, "max_path_length": 3, "estimator": "bsdf"},
         "materials": {"lamp": {"emission": 1}, "white": {"diffuse": 1}},
@@ -62,7 +62,7 @@ SelftestScene white_furnace() {
     return {"white furnace", scene, 1.0, 0.0, (3 * 1 + 3 * 5) * unit_roundoff};
 }
 
-// The view is so narrow that light varies by 1e-8.
+// The view is so narrow that the light varies by 1e-8.
 SceneFile floor_scene(const std::string &members, std::uint32_t side = 32, std::uint32_t sample_count = 64,
                       std::uint32_t max_path_length = 2) {
     return scene_of(side, sample_count, concat(R"(, "max_path_length": )", max_path_length, R"(},
@@ -70,11 +70,10 @@ SceneFile floor_scene(const std::string &members, std::uint32_t side = 32, std::
 }
 
 struct SeenLamp {
-    double cosine; // of the direction to the center
-    double sine;   // of its radius
+    double cosine; // cosine of the direction to the center
+    double sine;   // sine of the angular radius
 };
 
-// Seen from the camera's target.
 SeenLamp lamp_seen(const pt_sphere &lamp, const pt_camera &camera) {
     std::array<double, 3> way{};
     for (std::size_t i = 0; i < 3; ++i)
@@ -83,9 +82,9 @@ SeenLamp lamp_seen(const pt_sphere &lamp, const pt_camera &camera) {
     return {way[1] / distance, lamp.radius / distance};
 }
 
-// Radiance A L (r / d)^2 cos for a sphere above a plane, as for a point (Snyder 1996). Deviation: by solid angle, with
-// sin a = r / d, below sin a tan + 1 - cos a; directions by the cosine hit with probability p = sin^2 a cos and weigh
-// at most p^2.
+// A sphere above a plane gives the radiance A L (r / d)^2 cos, as a point would (Snyder 1996). The relative deviation
+// by solid angle, with sin a = r / d, is below sin a tan + 1 - cos a. Directions by the cosine hit the lamp with
+// probability p = sin^2 a cos and weigh at most p^2.
 SelftestScene floor_under_lamp(const std::string &name, const std::string &members) {
     const SceneFile scene = floor_scene(members);
     const auto [cosine, sine] = lamp_seen(scene.spheres[0], scene.camera);
@@ -108,7 +107,7 @@ SelftestScene tiny_far_lamp() {
         "planes": [{"normal": [0, 1, 0], "offset": 1, "material": "floor"}])");
 }
 
-// Within the view ball and plane differ by 1e-18.
+// Within the view, ball and plane differ by 1e-18.
 SelftestScene huge_ball_as_floor() {
     return floor_under_lamp("floor is a ball of 1e7", R"(
         "materials": {"lamp": {"emission": 10}, "floor": {"diffuse": 0.8}},
@@ -116,21 +115,21 @@ SelftestScene huge_ball_as_floor() {
                     {"center": [0, -10000001, -2], "radius": 1e7, "material": "floor"}])");
 }
 
-// A glossy floor in a dome of radiance 1. The integral of (n + 2) / (2 pi) cos^n g cos, g from the mirror direction r,
-// is r's cosine, since only components along r count. The horizon does not cut the lobe. Its variance 1 / n in the
-// plane of incidence changes the cosine by tan / sqrt(n).
+// A glossy floor in a dome of radiance 1. The integral of (n + 2) / (2 pi) cos^n g cos, with g from the mirror
+// direction r, is the cosine of r, because only components along r contribute. The horizon does not clip the lobe. In
+// the plane of incidence its variance 1 / n changes the cosine by tan / sqrt(n).
 SelftestScene sharp_lobe() {
     const SceneFile scene = floor_scene(R"(
         "materials": {"dome": {"emission": 1}, "floor": {"specular": 1, "glossiness": 1e6}},
         "spheres": [{"center": [0, 0, 0], "radius": 1e4, "material": "dome"}],
         "planes": [{"normal": [0, 1, 0], "offset": 1, "material": "floor"}])");
-    constexpr double tangent = 2.0; // of the angle of incidence
+    constexpr double tangent = 2.0; // tangent of the angle of incidence
     return {"lobe of 1e-3 radians", scene, 1.0 / std::sqrt(1.0 + tangent * tangent),
             tangent / std::sqrt(double{scene.materials[1].glossiness}), sample_rounding};
 }
 
-// A unit lamp recedes along the axis from a to b. It covers pi / (z^2 - 1) of the image plane, on average pi / (b - a)
-// times the integral log((z - 1) / (z + 1)) / 2. It is wholly in view: 2 tan(fov / 2) > 2 / sqrt(a^2 - 1).
+// A unit lamp moves along the axis from a to b. It covers pi / (z^2 - 1) of the image plane, on average pi / (b - a)
+// times the integral log((z - 1) / (z + 1)) / 2. It is always fully in view: 2 tan(fov / 2) > 2 / sqrt(a^2 - 1).
 SelftestScene receding_lamp() {
     const SceneFile scene = scene_of(64, 64, R"(, "max_path_length": 1}, "materials": {"lamp": {"emission": 1}},
         "camera": {"position": [0, 0, 0], "look_at": [0, 0, -1], "vertical_fov": 29.2},
@@ -144,11 +143,11 @@ SelftestScene receding_lamp() {
     return {"receding lamp", scene, share, std::sqrt((1.0 - share) / share), sample_rounding};
 }
 
-// Standard deviations of the next three scenes are by quadrature, rounded up. Their bounds are below 1% of the smallest
-// share that one weight carries.
+// The standard deviations of the next three scenes are from quadrature, rounded up. Their bounds are below 1% of the
+// smallest contribution of a weight.
 
-// The lamp fills a cone of 30 degrees, where four directions have nearly the density of the lamp's sample, so each has
-// half of the value.
+// The lamp fills a cone of 30 degrees. There, four directions together have nearly the density of the lamp's sample, so
+// each technique contributes half of the value.
 SelftestScene weights_of_a_lamp() {
     const SceneFile scene = floor_scene(R"(
         "materials": {"lamp": {"emission": 4}, "floor": {"diffuse": 1}},
@@ -159,7 +158,7 @@ SelftestScene weights_of_a_lamp() {
     return {"weights of a lamp", scene, 4.0 * sine * sine, 0.45, sample_rounding};
 }
 
-// The floor chooses one of five lamps in a ring. Directions have 27% of the value.
+// The floor chooses one of five lamps in a ring. Directions contribute 27% of the value.
 SelftestScene weights_of_a_chosen_lamp() {
     constexpr int lamp_count = 5;
     constexpr double polar = 50.0 / 180.0 * std::numbers::pi;
@@ -184,9 +183,9 @@ SelftestScene weights_of_a_chosen_lamp() {
 }
 
 // A lamp of radiance L and radius r hangs h below a ceiling of albedo A, H above the floor. Straight below, the floor
-// gets L r^2 / (H - h)^2 from the lamp and L r^2 A 2 h H^2 int_h^inf dv / (v^2 (v^2 + a^2)^2), a^2 = H^2 - h^2, from
-// the ceiling at distances v from the lamp. The ray to the glow carries 71% of the ceiling's light, two directions 29%;
-// the lamp gives 5% of all.
+// gets L r^2 / (H - h)^2 from the lamp. The ceiling gives L r^2 A 2 h H^2 int_h^inf dv / (v^2 (v^2 + a^2)^2) with a^2 =
+// H^2 - h^2, from points at distances v from the lamp. The ray to the glow finds 71% of the ceiling's light, two
+// directions 29%. The lamp gives 5% of all light.
 SelftestScene weights_of_a_glow() {
     constexpr double albedo = 20.0;
     constexpr double h = 1.0;
@@ -206,13 +205,13 @@ SelftestScene weights_of_a_glow() {
 struct DirectionKind {
     const char *name;
     const char *estimator;
-    const char *floor; // its material's members
-    double power;      // density c^power, c = cosine to the normal
-    double scale;      // a sample is scale * c
+    const char *floor; // members of its material
+    double power;      // The density is c^power, with the cosine c to the normal.
+    double scale;      // A sample is scale * c.
 };
 
 // A floor under a sky of radiance 1, seen from above by parallel rays, with one independent sample per pixel.
-// more_planes leave this share of the directions at any cosine.
+// more_planes leave this fraction of the directions at any cosine.
 SelftestScene direction_scene(const DirectionKind &kind, const std::string &what, int exponent,
                               const std::string &more_planes, double share) {
     const auto moment = [&](int e) {
@@ -260,7 +259,7 @@ SelftestCheck SelftestScene::judge(std::span<const float> radiance) const {
 }
 
 // A wall of albedo rho and radius R around a black lamp of radius r. Directions by the cosine hit the lamp with
-// probability q = (r / R)^2: paths of L vertices carry rho Le q sum_{j <= L - 2} (rho (1 - q))^j. A path that ends on
+// probability q = (r / R)^2. Paths of L vertices carry rho Le q sum_{j <= L - 2} (rho (1 - q))^j. A path that ends on
 // the lamp lacks the rest, less than sqrt(q) of the value.
 SelftestScene lamp_in_a_ball() {
     constexpr double rho = 0.5;

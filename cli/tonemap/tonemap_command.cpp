@@ -1,4 +1,4 @@
-// `pt tonemap`: a displayable picture from a file of radiance.
+// `pt tonemap`: converts radiance to a displayable picture.
 #include "cli/base/devices.h"
 #include "cli/base/exit_code.h"
 #include "cli/base/file.h"
@@ -18,7 +18,7 @@ namespace {
 struct TonemapOptions {
     std::string input;
     std::string output;
-    std::optional<ImageFormat> format; // of standard output
+    std::optional<ImageFormat> format; // for standard output
     std::vector<SceneOverride> display;
     bool quiet = false;
 };
@@ -30,7 +30,7 @@ void check(const TonemapOptions &options) {
     require_distinct_files({{"the image", options.input}}, {{"the output", options.output}});
 }
 
-// Other programs' pixels may lie outside the picture; they become a picture of their own.
+// Other programs' pixels may lie outside the picture. They then become a whole picture.
 ImageWindow window_of(const DecodedImage &image) {
     const auto inside = [](std::int32_t first, std::uint32_t count, std::uint32_t full) {
         return first >= 0 && static_cast<std::uint64_t>(first) + count <= full;
@@ -60,7 +60,7 @@ std::vector<float> radiance_of(const DecodedImage &image) {
     return radiance;
 }
 
-// Empty without channel A, or if the format has no alpha.
+// Empty without a channel A, or if the format has no alpha.
 std::vector<float> alpha_of(const DecodedImage &image, const ImageFormat &format) {
     const auto channel = std::find(image.channels.begin(), image.channels.end(), "A");
     if (channel == image.channels.end() || !format.has_alpha)
@@ -70,14 +70,14 @@ std::vector<float> alpha_of(const DecodedImage &image, const ImageFormat &format
     for (auto i = static_cast<std::size_t>(channel - image.channels.begin()); i < image.values.size();
          i += image.channels.size()) {
         const float share = image.values[i];
-        if (!(share >= 0.0F && share <= 1.0F)) // also for NaN
+        if (!(share >= 0.0F && share <= 1.0F)) // also refuses NaN
             refuse(image, alpha.size(), ": A is " + std::to_string(share) + ", not in [0, 1]");
         alpha.push_back(share);
     }
     return alpha;
 }
 
-// The file's facts about its rendering, with the new tone mapping.
+// Keeps the file's facts about its rendering, with the new tone mapping.
 std::vector<ImageAttribute> attributes_of(const DecodedImage &image, const ToneMap &tone_map) {
     std::vector<ImageAttribute> attributes{{"software", "pt " + version_text()}};
     for (const ImageAttribute &each : image.attributes) {
