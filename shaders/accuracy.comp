@@ -1,4 +1,4 @@
-// Elementary functions for pt_get_accuracy: one function and argument per invocation.
+// Evaluates elementary functions for pt_get_accuracy, one function and argument per invocation.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -7,7 +7,7 @@
 
 layout(local_size_x = WORKGROUP_SIZE) in;
 
-// Functions have the order of elementary_functions() in lib/kernel/accuracy.cpp.
+// Functions are numbered as in elementary_functions() of lib/kernel/accuracy.cpp.
 layout(push_constant) uniform Push { uint arguments_per_function; };
 layout(set = 0, binding = 0) readonly buffer Arguments { float arguments[]; };
 layout(set = 0, binding = 1) writeonly buffer Values { float values[]; };

@@ -1,4 +1,4 @@
-// Adds another film's sums, part by part: one invocation per pixel.
+// Adds another film's sums. Each invocation has one pixel.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -10,7 +10,7 @@ layout(push_constant) uniform Push { AddConstants add; };
 
 #include "film.glsl"
 
-layout(set = 0, binding = BINDING_ADDED) readonly buffer Added { uint words[]; } added; // planes as in a film
+layout(set = 0, binding = BINDING_ADDED) readonly buffer Added { uint words[]; } added; // the same planes as a film's
 
 void main()
 {

@@ -1,14 +1,14 @@
-// Balls, which may move, and capsules, balls swept along a segment. KINDS and TREE_KINDS have a bit per kind. Part of
-// scene.glsl.
+// Ray tests for balls and capsules. A capsule is a ball swept along a segment. KINDS and TREE_KINDS have a bit per
+// kind. Included by scene.glsl.
 #ifndef BALL_GLSL
 #define BALL_GLSL
 
 #include "maths.glsl"
 
-// Vulkan does not promise infinities.
+// Finite, because Vulkan does not promise infinities.
 const float NO_HIT = 3.0e38;
 
-// A ball at a time, or a capsule's first end. axis: to its other end; 1 / length.
+// A ball at one moment, or a capsule's first end. axis has the vector to the capsule's other end and 1 / its length.
 struct Ball {
     vec4 centre_radius;
     vec4 axis;
@@ -18,7 +18,6 @@ const vec4 NO_AXIS = vec4(0.0);
 
 const bool HAS_WAYS = MOTION == 1u || KINDS > KIND_BALL;
 
-// Arguments are words of gpu_layout.h.
 Ball ball_from(vec4 centre_radius, vec4 way, float time, uint kinds)
 {
     bool is_capsule = (kinds & KIND_CAPSULE) != 0u && way.w > 0.0;
@@ -27,7 +26,7 @@ Ball ball_from(vec4 centre_radius, vec4 way, float time, uint kinds)
     return Ball(centre_radius, is_capsule ? way : NO_AXIS);
 }
 
-// Center of the swept ball nearest to a point. to_first: from the point to the first center.
+// The center on a capsule's axis nearest to a point. to_first leads from the point to the first center.
 vec3 nearest_centre(Ball ball, vec3 centre, vec3 to_first, uint kinds)
 {
     if ((kinds & KIND_CAPSULE) == 0u)
@@ -36,19 +35,19 @@ vec3 nearest_centre(Ball ball, vec3 centre, vec3 to_first, uint kinds)
     return centre + clamp(-dot(to_first, axis.xyz * axis.w) * axis.w, 0.0, 1.0) * axis.xyz;
 }
 
-// sphere_distance() where no path enters spheres.
+// sphere_distance() if paths never enter a sphere.
 float distance_from_outside(vec3 to_centre, float radius, vec3 direction, bool leaving)
 {
     float b = dot(to_centre, direction);
     vec3 across = to_centre - b * direction;
     float squared_half_chord = radius * radius - dot(across, across);
-    float nearer = b - sqrt(squared_half_chord); // arbitrary without a root
+    float nearer = b - sqrt(squared_half_chord); // arbitrary if there is no root
     return !leaving && squared_half_chord >= 0.0 && b > 0.0 ? nearer : NO_HIT;
 }
 
-// Distance along a unit vector to a sphere, or NO_HIT (shaders/README.md, section 3). to_centre: from the origin;
-// leaving: the ray starts on the sphere; outside: other rays start outside. These decide, because rounding may flip the
-// sign of the distance.
+// Distance along a unit vector to a sphere, or NO_HIT (shaders/README.md, section 3). `leaving`: the ray starts on the
+// sphere, on the side given by `inside`. Otherwise `outside` gives the side. The sign of the distance does not decide,
+// because rounding may flip it.
 float sphere_distance(vec3 to_centre, float radius, vec3 direction, bool leaving, bool inside, bool outside)
 {
     if (INSIDE == 0)
@@ -64,8 +63,8 @@ float sphere_distance(vec3 to_centre, float radius, vec3 direction, bool leaving
     return met ? distance : NO_HIT;
 }
 
-// Whether the sphere blocks a shadow ray from outside all spheres: b - sqrt(r^2 - l^2) < distance, without the root.
-// at_end: the ray starts or ends on it.
+// Whether the sphere blocks a shadow ray from outside all spheres. This is b - sqrt(r^2 - l^2) < distance, without the
+// root. at_end: the ray starts or ends on the sphere.
 bool sphere_blocks(vec3 to_centre, float radius, vec3 direction, bool at_end, float distance)
 {
     float b = dot(to_centre, direction);
@@ -75,16 +74,17 @@ bool sphere_blocks(vec3 to_centre, float radius, vec3 direction, bool at_end, fl
     return !at_end && b > 0.0 && met_before;
 }
 
-// Vector from a capsule's first center to the center of the ball that a ray meets first, or leaves last.
+// Returns the vector from a capsule's first center to the center of the ball that a ray enters first, or leaves last.
 //
-// Let u be the axis's unit vector, L its length, c = u . direction, p and l the parts of u and to_first across the ray.
-// The ball at s is met at b + s c - sqrt(r^2 - |l + s p|^2). This is least at s = (n - c h) / |p|, with n = -l . p /
-// |p| and h^2 = r^2 - |l + n p / |p||^2; the last ball has the other sign of h. Both are convex in s, so s is clamped
-// to [0, L]. For |p| = 0 the sign of c h decides.
+// The axis has the unit vector u and the length L. Let c = u . direction. Let p and l be the parts of u and to_first
+// across the ray. The ray enters the ball at s of the axis at the distance b + s c - sqrt(r^2 - |l + s p|^2). This is
+// least at s = (n - c h) / |p|, with n = -l . p / |p| and h^2 = r^2 - |l + n p / |p||^2. For the last ball, h has the
+// other sign. The first distance is convex in s and the last one concave, so s is clamped to [0, L]. For |p| = 0 the
+// sign of c h decides.
 //
-// Rounding shifts the ends across the ray by d <= 2^-22 (|to_first| + L), so s by e = d / |p| and the hit distance by
-// e^2 / (2 h |p|). If |p|^2 < 2 d / h, the ray might miss the ball, so h - d replaces h. The hit distance is then too
-// large by at most d / |p|.
+// Rounding shifts the ends across the ray by d <= 2^-22 (|to_first| + L). This shifts s by e = d / |p| and the hit
+// distance by e^2 / (2 h |p|). If |p|^2 < 2 d / h, the ray might miss the ball, so h - d replaces h. The hit distance
+// is then too large by at most d / |p|.
 vec3 swept_to(vec3 to_first, vec4 axis, float radius, vec3 direction, bool to_last)
 {
     vec3 unit = axis.xyz * axis.w;
@@ -103,7 +103,6 @@ vec3 swept_to(vec3 to_first, vec4 axis, float radius, vec3 direction, bool to_la
     return (share >= sine ? 1.0 : share > 0.0 ? share / sine : 0.0) * axis.xyz;
 }
 
-// Vector from a ray's origin to the center of that ball.
 vec3 to_met(Ball ball, vec3 to_first, vec3 direction, bool to_last, uint kinds)
 {
     if ((kinds & KIND_CAPSULE) == 0u)
@@ -111,8 +110,8 @@ vec3 to_met(Ball ball, vec3 to_first, vec3 direction, bool to_last, uint kinds)
     return to_first + swept_to(to_first, ball.axis, ball.centre_radius.w, direction, to_last);
 }
 
-// Whether a ray that starts on another surface is outside of a sphere. Where rays pass surfaces, both may coincide, as
-// an atom and the end of its bond: within `rounding` of the sphere a ray that leads outwards is outside.
+// Whether a ray from another surface starts outside a sphere. Where rays pass surfaces, both may coincide, such as an
+// atom and the end of its bond. Within `rounding` of the sphere, a ray that leads outwards is outside.
 bool is_outside(vec3 to_centre, float radius, vec3 direction, float rounding)
 {
     float squared = dot(to_centre, to_centre);
@@ -123,8 +122,8 @@ bool is_outside(vec3 to_centre, float radius, vec3 direction, float rounding)
     return above > nearly || (above > -nearly && dot(to_centre, direction) < 0.0);
 }
 
-// sphere_distance() for a ball. from_side: its position relative to where the side is decided. From inside, a capsule's
-// last ball counts; a ray that leaves inwards usually starts on another one.
+// sphere_distance() for a ball or capsule. from_side leads from the point that decides the side to the first center.
+// From inside, a ray hits a capsule's last ball.
 float ball_distance(Ball ball, vec3 to_first, vec3 from_side, vec3 direction, bool leaving, bool inside, float rounding,
                     uint kinds)
 {
@@ -139,7 +138,6 @@ float ball_distance(Ball ball, vec3 to_first, vec3 from_side, vec3 direction, bo
                            !to_last);
 }
 
-// sphere_blocks() for a ball.
 bool ball_blocks(Ball ball, vec3 to_first, vec3 direction, bool at_end, float distance, uint kinds)
 {
     vec3 to_centre = to_met(ball, to_first, direction, false, kinds);

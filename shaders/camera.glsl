@@ -1,4 +1,4 @@
-// Camera at or behind the origin: a pinhole, or parallel rays (ORTHOGRAPHIC).
+// A camera at or behind the origin: a pinhole, or parallel rays (ORTHOGRAPHIC).
 #ifndef CAMERA_GLSL
 #define CAMERA_GLSL
 
@@ -8,11 +8,11 @@
 struct CameraRay {
     vec3 origin;
     vec3 direction;
-    float time; // in [0, 1], from shutter open to closed
+    float time; // [0, 1] from shutter open to closed
 };
 
-// Offset from the image's middle in pixels, right and down. place: in [0, 1)^2 within the pixel. The offset of the
-// pixel is a multiple of 1/2, hence exact.
+// Offset from the image's middle in pixels, right and down. place is in [0, 1)^2 within the pixel. The pixel's corner
+// has multiples of 1/2, which are exact.
 vec2 image_place(CameraView camera, uvec2 pixel, vec2 place)
 {
     return 0.5 * vec2(ivec2(2u * pixel) - ivec2(camera.width, camera.height)) + place;
@@ -25,8 +25,8 @@ vec3 camera_direction(CameraView camera, vec2 from_middle)
     return normalize(camera.forward + from_middle.x * camera.right - from_middle.y * camera.up);
 }
 
-// The pinhole or, with STARTS_AHEAD, a point of the plane through the origin across the view. Nothing in view is nearer
-// (lib/kernel/ray_start.h).
+// Rays start at the pinhole or, with STARTS_AHEAD, on the plane through the origin across the view. Nothing in view is
+// nearer than this plane (lib/kernel/ray_start.h).
 vec3 camera_origin(CameraView camera, vec2 from_middle)
 {
     if (STARTS_AHEAD == 0)
@@ -35,7 +35,6 @@ vec3 camera_origin(CameraView camera, vec2 from_middle)
     return start.x * camera.right - start.y * camera.up;
 }
 
-// numbers: place in the pixel; time.
 CameraRay ray_through(CameraView camera, uvec2 pixel, vec3 numbers)
 {
     vec2 from_middle = image_place(camera, pixel, numbers.xy);

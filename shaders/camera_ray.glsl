@@ -1,4 +1,4 @@
-// A sample's camera ray. With LENS it starts on a thin lens.
+// The camera ray of a sample. With LENS it starts on a thin lens.
 #ifndef CAMERA_RAY_GLSL
 #define CAMERA_RAY_GLSL
 
@@ -6,10 +6,9 @@
 #include "dimensions.glsl"
 #include "sampling.glsl"
 
-// disc: point of the lens in the unit disc, right and down. All rays of an image place meet in the plane of focus: with
-// F the length of forward and f the plane's distance, a ray that starts a beside the pinhole meets the pinhole's ray if
-// its image place changes by -a F / f. lens_blur is F / f times the lens's radius; lens_radius is the part of it where
-// rays start.
+// All rays of an image place intersect in the plane of focus (shaders/README.md, section 2). disc is a point of the
+// unit disc, right and down. lens_blur is the lens's radius times the length of forward over the plane's distance.
+// lens_radius is the radius of the disc where rays start.
 CameraRay ray_through_lens(CameraView camera, uvec2 pixel, vec3 numbers, vec2 disc)
 {
     vec2 from_middle = image_place(camera, pixel, numbers.xy);
@@ -18,7 +17,6 @@ CameraRay ray_through_lens(CameraView camera, uvec2 pixel, vec3 numbers, vec2 di
     return CameraRay(origin, camera_direction(camera, from_middle - camera.lens_blur * disc), numbers.z);
 }
 
-// Box filter.
 CameraRay camera_ray(CameraView camera, uvec2 pixel, SampleKey key)
 {
     if (LENS == 1)

@@ -1,4 +1,4 @@
-// The first hit of a camera ray, for paths and first_hit.comp.
+// Finds the first hit of a camera ray.
 #ifndef CAMERA_WALK_GLSL
 #define CAMERA_WALK_GLSL
 
@@ -7,7 +7,7 @@
 #include "tree_walk.glsl"
 #include "vertex.glsl"
 
-// opacity_number: of vertex 0.
+// opacity_number belongs to vertex 0, the camera.
 Walk walk_from_camera(CameraRay ray, uint opacity_number)
 {
     Hit hit = closest_hit(ray.origin, ray.direction, ray.time);

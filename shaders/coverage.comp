@@ -1,4 +1,4 @@
-// Counts a pixel's samples whose camera rays meet a surface, by tracing these rays again: one invocation per pixel.
+// Counts the samples whose camera rays hit a surface, by tracing these rays again. Each invocation has one pixel.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -12,7 +12,7 @@ layout(push_constant) uniform Push { CoverageConstants view; };
 
 layout(set = 0, binding = BINDING_COVERED) buffer Covered { uint lost_rays; uint counts[]; } covered;
 
-// First and last sample of each tile; none if last < first.
+// The first and the last sample of each tile. Tiles without samples have last < first.
 layout(set = 0, binding = BINDING_TILES) readonly buffer TileSamples { uvec2 ranges[]; } tile_samples;
 
 uint tile_of(uvec2 pixel)
@@ -50,7 +50,7 @@ void main()
     bool done;
     do {
         count += meets_something(pixel, current) ? 1u : 0u;
-        done = current == last; // may be the largest number
+        done = current == last; // before ++current, which may overflow
         ++current;
     } while (!done);
     if (TREE == 1u && walk_was_cut)

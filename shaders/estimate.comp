@@ -1,5 +1,4 @@
-// Sums pixels' errors, one workgroup for adjacent tiles. The order of sums is fixed, so a film always gives the same
-// bits.
+// Sums the errors of pixels. The order of additions is fixed, so a film always gives the same bits.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -16,8 +15,8 @@ layout(push_constant) uniform Push { EstimateConstants estimate; };
 
 layout(set = 0, binding = BINDING_RESOLVED) writeonly buffer Groups { TileErrors groups[]; } estimated;
 
-// Values of tiles: samples in the older and newer part, if tiles differ; on request squared relative errors, from
-// samples and from unseen light.
+// `counts` has each tile's samples in the older and the newer part. `squares` gets each tile's squared relative errors
+// from samples and from unseen light.
 layout(set = 0, binding = BINDING_TILE_COUNTS) readonly buffer TileCounts { uvec2 counts[]; } tile_samples;
 layout(set = 0, binding = BINDING_TILE_SQUARES) writeonly buffer TileSquares { vec2 squares[]; } tile_squares;
 
@@ -25,8 +24,8 @@ const uint TILES = ESTIMATE_WORKGROUP_SIZE / TILE_SIZE;
 
 struct Findings {
     uvec2 rejected; // low and high word
-    uint unknown;   // without a sample in either part
-    uint lost;      // with unexpected sample counts
+    uint unknown;   // pixels without samples in one of the parts
+    uint lost;      // pixels with unexpected sample counts
 };
 
 const uint SQUARE = 0u;
@@ -37,10 +36,10 @@ const uint SQUARE_KINDS = 4u;
 
 struct Squares {
     float sum;
-    float shares; // sum of squared shares
+    float shares; // sum of (value / sum)^2
 };
 
-// Sums of a tile's column, later of a tile.
+// Sums over a column of a tile, later over the tile.
 struct Errors {
     Squares squares[SQUARE_KINDS];
     uint met_again;
@@ -48,15 +47,15 @@ struct Errors {
     Findings findings;
 };
 
-// A column of a tile per invocation makes memory reads adjacent.
+// Each invocation has one column of a tile, so that memory reads are adjacent.
 shared float means[TILE_SIZE][ESTIMATE_WORKGROUP_SIZE]; // of one channel
 shared ValueSet column_sets[ESTIMATE_WORKGROUP_SIZE];
 shared Errors errors[ESTIMATE_WORKGROUP_SIZE];
 
-// Fetched ahead, for speed on GPUs.
+// Pixels fetched together, which is faster on GPUs.
 const uint PIXELS_ASKED_FOR = 4u;
 
-// number: in units of 2^-60.
+// number is in units of 2^-60.
 float as_float(WholeNumber number)
 {
     return float(number.words[0]) * exp2(-60.0) + float(number.words[1]) * exp2(-28.0)
@@ -69,14 +68,13 @@ float as_float(uvec4 sum)
     return as_float(whole_number(sum));
 }
 
-// One channel of a pixel.
 struct Shown {
     float mean;
     float standard_error;
-    float lesser; // of the parts' means
+    float lesser; // lesser mean of the two parts
 };
 
-// The scale of cross-multiplied sums is in quotient.h.
+// quotient.h derives the scale of the difference.
 Shown shown_by(uvec4 sum_a, uvec4 sum_b, uvec2 counts)
 {
     bool first_is_less;
@@ -108,7 +106,7 @@ Findings findings_of(PartCount older, PartCount newer, uvec2 expected)
                     uvec2(older.done, newer.done) != expected ? 1u : 0u);
 }
 
-// The pixel with its neighbors left and right in the tile.
+// Sorts the pixel and its neighbors left and right in the tile.
 Sorted row_about(uint y, uint column, uint first, uint last)
 {
     float left = column > first ? means[y][max(column, 1u) - 1u] : BELOW_ALL;
@@ -116,13 +114,13 @@ Sorted row_about(uint y, uint column, uint first, uint last)
     return sorted(left, means[y][column], right);
 }
 
-// part / sum, but exactly 1 for the whole sum, where division may err: the host subtracts shares. sum != 0.
+// part / sum for sum != 0. The whole sum gives exactly 1 although division may err, because the host subtracts
+// fractions.
 float share_of(float part, float sum)
 {
     return part == sum ? 1.0 : part / sum;
 }
 
-// Shares are squared, because squares of values may leave float32's range.
 Squares squares_of(float values[TILE_SIZE])
 {
     Squares all = Squares(0.0, 0.0);
@@ -140,7 +138,6 @@ Squares united(Squares a, Squares b)
                                   : 0.0);
 }
 
-// Also each tile's part of a whole tile.
 ErrorSquares squares_of_tiles(uint kind, uvec2 size)
 {
     ErrorSquares all = ErrorSquares(0.0, 0.0, 0.0, 0.0);
@@ -157,7 +154,6 @@ ErrorSquares squares_of_tiles(uint kind, uvec2 size)
     return all;
 }
 
-// One invocation per kind of squares; the first writes the rest.
 void write_errors(uint group, uint invocation, uvec2 size)
 {
     if (invocation < SQUARE_KINDS) {
@@ -197,7 +193,7 @@ void main()
     const uint first_tile = estimate.first_tile + corner.x / TILE_SIZE
                           + gl_WorkGroupID.y * ((estimate.film_width + TILE_SIZE - 1u) / TILE_SIZE);
 
-    // A column; its first pixel replaces those outside the film.
+    // This invocation's column. Reads outside the film are moved inside.
     const uint pixels = invocation < size.x ? size.y : 0u;
     const uint first_pixel = corner.y * estimate.film_width + corner.x + (pixels > 0u ? invocation : 0u);
     const uint last = size.y - 1u;
@@ -224,7 +220,7 @@ void main()
     }
 
     const float offset_square = squared(estimate.relative_offset);
-    float squares[SQUARE_KINDS][TILE_SIZE]; // of all channels
+    float squares[SQUARE_KINDS][TILE_SIZE]; // summed over channels
     [[unroll]] for (uint kind = 0u; kind < SQUARE_KINDS; ++kind)
         [[unroll]] for (uint i = 0u; i < TILE_SIZE; ++i)
             squares[kind][i] = 0.0;
@@ -250,7 +246,7 @@ void main()
         }
         barrier();
 
-        // Averages of columns, then tiles. Reads means back: recomputed, they may round differently.
+        // Averages over columns, then tiles. Means are read back, because recomputed ones may round differently.
         ValueSet column_set = empty_set();
         for (uint i = 0u; i < pixels; ++i)
             column_set = with_value(column_set, means[i][invocation]);
@@ -260,7 +256,6 @@ void main()
         [[unroll]] for (uint i = 0u; i < TILE_SIZE; ++i)
             tile_set = united(tile_set, column_sets[first_column + i]);
 
-        // Expected errors. Rows around a pixel are kept for the next.
         const bool is_row = size.y == 1u;
         const bool is_column = first_column == last_column;
         const bool is_beside_edge = invocation == first_column || invocation == last_column;
@@ -295,14 +290,13 @@ void main()
         barrier();
     }
 
-    // Sums columns, then tiles, then all.
     [[unroll]] for (uint kind = 0u; kind < SQUARE_KINDS; ++kind)
         errors[invocation].squares[kind] = squares_of(squares[kind]);
     errors[invocation].met_again = met_again;
     errors[invocation].unseen = unseen;
     errors[invocation].findings = findings;
     barrier();
-    // One kind of squares of a tile per invocation; one per tile sums the rest.
+    // Each invocation sums one kind of squares of a tile. One invocation per tile sums the rest.
     const uint tile = invocation % TILES;
     const uint kind = min(invocation / TILES, SQUARE_KINDS - 1u);
     const uint first = tile * TILE_SIZE;
@@ -327,7 +321,7 @@ void main()
     barrier();
     write_errors(gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x, invocation, size);
 
-    // Writes host-visible memory. Infinite if a pixel lacks samples in a part.
+    // A tile's error is infinite if one of its pixels lacks samples in a part.
     if (estimate.by_tile == 1u && invocation < TILES && first < size.x)
         tile_squares.squares[first_tile + tile] =
             of_tile.findings.unknown > 0u

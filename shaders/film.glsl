@@ -8,7 +8,7 @@
 
 layout(set = 0, binding = BINDING_FILM) buffer Film { uint words[]; } film;
 
-// Windows include biases.
+// Sums of an invocation's samples. Windows include the biases of windows_of().
 struct FilmPixel {
     uvec4 windows[3];
     uint accepted;
@@ -20,9 +20,9 @@ FilmPixel empty_film_pixel()
     return FilmPixel(uvec4[3](uvec4(0u), uvec4(0u), uvec4(0u)), 0u, 0u);
 }
 
-// Biases that round a value to multiples of 2^6, 2^-16, 2^-38 and 2^-60, which land in the sum's low bits (Demmel and
-// Nguyen, "Fast Reproducible Floating-Point Summation", ARITH 2013): 3/2 of a power of two, or 1 for unsigned values. A
-// window is below 2^22 units even with rounding towards zero, so 511 fit into 32 bits.
+// Biases that cut a value into windows (shaders/README.md, section 11; Demmel and Nguyen, "Fast Reproducible
+// Floating-Point Summation", ARITH 2013). A window is below 2^22 units even with rounding towards zero, so 511 windows
+// fit into 32 bits.
 const vec4 WINDOW_BIASES = vec4(536870912.0, 192.0, 4.57763671875e-5, 1.0913936421275139e-11);
 
 // Includes the biases' bits, which film_store() subtracts modulo 2^32.
@@ -38,10 +38,11 @@ uvec4 windows_of(float value)
     return floatBitsToUint(vec4(a, b, c, d));
 }
 
-// value: in film units. Counts NaN, infinite, negative and too bright samples and leaves them out.
+// Adds a sample in film units. NaN, infinite, negative and too bright samples are counted and left out.
 void film_add(inout FilmPixel pixel, vec3 value)
 {
-    // Integers, since Vulkan does not define comparisons with NaN. All unacceptable bits are above the limit.
+    // Bits are compared, because Vulkan does not define comparisons with NaN. All unacceptable values have bits above
+    // the limit.
     const uint limit = (127u + FILM_MAX_EXPONENT) << 23u;
     uvec3 bits = floatBitsToUint(value);
     bool accepted = max(max(bits.r, bits.g), bits.b) < limit;
@@ -67,7 +68,7 @@ uvec4 add_with_carry(uvec4 a, uvec4 b)
     return sum;
 }
 
-// The first window is not negative; the others are two's complement.
+// The first window is unsigned; the other windows are in two's complement.
 uvec4 fixed_point(uvec4 windows)
 {
     uvec3 sign = uvec3(ivec3(windows.yzw) >> 31);
@@ -78,7 +79,7 @@ uvec4 fixed_point(uvec4 windows)
     return add_with_carry(add_with_carry(a, b), add_with_carry(c, d));
 }
 
-// Adds to a sum's three low words and returns what the highest gets. is_first: the sum is 0 and need not be read.
+// Adds to a sum's three low words. Returns what the highest word has to add. is_first: the sum is 0 and is not read.
 uint film_store_sum(uint first, uint stride, uvec4 sum, bool is_first)
 {
     uvec4 old = uvec4(0u);
@@ -91,10 +92,10 @@ uint film_store_sum(uint first, uint stride, uvec4 sum, bool is_first)
     return new.w;
 }
 
-// Planes that rarely change: the sums' highest words, and samples left out.
+// Planes that rarely change: the sums' highest words and the number of rejected samples.
 uint rare_plane(uint i) { return i < 3u ? (i + 1u) * FILM_SUM_WORDS - 1u : FILM_REJECTED; }
 
-// pixel: its first word in a part. A loop, usually of one trip: lavapipe 22.3 executes the bodies of all ifs.
+// A loop, usually of one trip, because lavapipe 22.3 executes the bodies of all ifs.
 void film_add_rare_words(uint pixel, uint stride, uvec4 addends)
 {
     uint i = addends.x != 0u ? 0u : addends.y != 0u ? 1u : addends.z != 0u ? 2u : 3u;
@@ -106,12 +107,12 @@ void film_add_rare_words(uint pixel, uint stride, uvec4 addends)
     } while (i < 4u);
 }
 
-// Several invocations may have a pixel: words are added in any order, and one invocation sees each overflow.
+// For pixels that several invocations share. Words are added in any order. One invocation sees each overflow.
 void film_store_shared_sum(uint first, uint stride, uvec4 sum)
 {
     uint carry = 0u;
     [[unroll]] for (uint i = 0u; i < FILM_SUM_WORDS; ++i) {
-        uint addend = sum[i] + carry; // 0, with a carry, on overflow
+        uint addend = sum[i] + carry; // overflow gives 0, and the carry stays
         carry = addend < carry ? 1u : 0u;
         if (addend != 0u) {
             uint old = atomicAdd(film.words[first + i * stride], addend);
@@ -120,8 +121,8 @@ void film_store_shared_sum(uint first, uint stride, uvec4 sum)
     }
 }
 
-// shared_pixel: other invocations may add to the pixel. is_first: the part has no sample of it, and only its rare words
-// are 0.
+// shared_pixel: other invocations may add to the pixel. is_first: the part has no sample of the pixel, and only its
+// rare words are 0.
 void film_store(uint film_part, uint pixel_in_strip, uint strip_pixel_count, FilmPixel pixel, bool shared_pixel,
                 bool is_first)
 {

@@ -6,7 +6,7 @@
 
 struct PartCount {
     uint accepted;
-    uint done; // with those left out
+    uint done; // accepted or rejected
 };
 
 PartCount part_count(uint part, uint pixel_in_strip, uint strip_pixel_count)

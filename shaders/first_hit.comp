@@ -1,6 +1,6 @@
-// First hits of camera rays in a rectangle, one ray per invocation. Depth and object are of the ray through the pixel's
-// center at half the shutter's time, because means are meaningless. Normal and albedo are means over pixel and shutter,
-// because denoisers need the image's own edges.
+// First hits of camera rays. Depth and object are those of the ray through the pixel's center at half the shutter's
+// time, because their means are meaningless. Normal and albedo are means over pixel and shutter, because denoisers need
+// the edges of the image.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -17,21 +17,21 @@ const uint FLOAT_INFINITY_BITS = 0x7f800000u;
 
 shared vec3 values[WORKGROUP_SIZE];
 
-// Place in the pixel; time. A rank-1 lattice (Korobov 1959) of the largest distance between points.
+// Place in the pixel and time: the rank-1 lattice (Korobov 1959) whose points are farthest apart.
 vec3 lattice_point(uint ray)
 {
     uvec3 point = uvec3(ray, 3u * ray, 5u * ray) % FILTER_RAYS;
     return (vec3(point) + 0.5) / float(FILTER_RAYS);
 }
 
-// As in dimensions.glsl, but pixels share one lattice, whose numbers the golden ratio (0x9e3779b9 / 2^32) spreads over
-// neighbors: callers take means over pixels. The last bits are equal because opacity_generator() depends on them.
+// opacity_number() of dimensions.glsl, but with one lattice for all pixels, because callers take means over pixels. The
+// golden ratio (0x9e3779b9 / 2^32) spreads the numbers over neighbors.
 uint opacity_number(uint pixel_index, uint ray)
 {
     return ((pixel_index + 1u) * 0x9e3779b9u + bitfieldReverse(ray)) & ~TREE_OPACITY_BITS;
 }
 
-// Depth along the view. Rays start at the pinhole, or on a plane across the view.
+// Depth along the view. All rays start at the depth start_distance.
 float depth_of(CameraRay ray, Hit hit)
 {
     float cosine = dot(ray.direction, view.camera.forward) / length(view.camera.forward);

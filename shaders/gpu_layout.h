@@ -1,4 +1,4 @@
-// Bindings, buffers and push constants, shared by the GLSL sources and the host (lib/).
+// Bindings, buffers and push constants, for the GLSL sources and the host (lib/).
 #ifndef PT_GPU_LAYOUT_H
 #define PT_GPU_LAYOUT_H
 
@@ -28,25 +28,24 @@ PT_CONSTANT SCENE_IN_CONSTANTS = 2;
 PT_CONSTANT KIND_BALL = 1;
 PT_CONSTANT KIND_CAPSULE = 2;
 
-// The numbers of pt.h.
+// Enumerations of pt.h.
 #include "enumerations.h"
 
 // ---- Dimensions: the random numbers of a sample -------------------------------------------------------------------
-// Blocks hold up to four numbers. A sequence's low dimensions are its best, and go to the first blocks.
+// Blocks hold up to four random numbers. The first dimensions of a sequence are its best and go to the first blocks.
 // Blocks that all branches of a sample share:
 //   point in the pixel (2), time (1, with MOTION)
 //   point on the lens (2, with LENS)
 //   point on a lamp as seen from the first vertex (2), for each of up to EVERY_LAMP_LIMIT lamps
 //   with spots: direction (2) and spot (1); at the spot, lamp (3) and direction (2 or 3)
 // Blocks of each vertex that a branch leaves:
-//   point on a lamp (2) and which lamp (1, if there are several), unless every lamp has been sampled
+//   point on a lamp (2) and choice of the lamp (1, if there are several), unless every lamp has been sampled
 //   direction (2), specular or diffuse lobe (1, with GLOSS), survival of Russian roulette (1, for long paths)
-PT_CONSTANT EVERY_LAMP_LIMIT = 4;    // most lamps all sampled at the first vertex
-PT_CONSTANT SPOT_LIMIT = 8;          // per scene
+PT_CONSTANT EVERY_LAMP_LIMIT = 4;    // the first vertex samples every one of up to this many lamps
+PT_CONSTANT SPOT_LIMIT = 8;          // most spots of a scene
 PT_CONSTANT ROULETTE_MIN_LENGTH = 8; // least MAX_PATH_LENGTH with Russian roulette
 
 PT_FUNCTION uint camera_dimensions(uint motion) { return 2 + motion; }
-// Blocks before a spot's ray, of that ray, and of all branches together.
 PT_FUNCTION uint every_lamp_blocks(uint camera_blocks, uint lamp_count)
 {
     return camera_blocks + (lamp_count <= EVERY_LAMP_LIMIT ? lamp_count : 0);
@@ -69,7 +68,6 @@ PT_FUNCTION uint vertex_blocks(uint vertex, uint lamp_count)
     return chosen_lamp_dimensions(vertex, lamp_count) > 0 ? 2 : 1;
 }
 
-// Blocks of a sample and one branch.
 PT_FUNCTION uint path_blocks(uint max_path_length, uint camera_blocks, uint lamp_count, uint spot_count)
 {
     const uint of_sample = shared_blocks(camera_blocks, lamp_count, spot_count);
@@ -77,8 +75,8 @@ PT_FUNCTION uint path_blocks(uint max_path_length, uint camera_blocks, uint lamp
     return max_path_length < 2 ? of_sample : first + (max_path_length - 2) * vertex_blocks(2, lamp_count);
 }
 
-// Blocks of a sample in the point table: shared ones, then each branch's own. Branch b of B has the points of sample B
-// i + b for sample i.
+// Blocks of a sample in the point table: the shared ones, then those of each branch. In sample i, branch b of B has the
+// points with index B i + b.
 PT_FUNCTION uint row_blocks(uint table_blocks, uint shared_count, uint branches)
 {
     return table_blocks == 0 ? 0 : shared_count + branches * (table_blocks - shared_count);
@@ -92,74 +90,74 @@ PT_CONSTANT BINDING_POINTS = 4;
 PT_CONSTANT BINDING_TREE_NODES = 5;
 PT_CONSTANT BINDING_TREE_SPHERES = 6;
 PT_CONSTANT BINDING_TILES = 7;
-// resolve.comp and estimate.comp, with BINDING_FILM; first_hit.comp, with the scene and the tree.
+// resolve.comp, estimate.comp and first_hit.comp.
 PT_CONSTANT BINDING_RESOLVED = 3;
 PT_CONSTANT BINDING_FINDINGS = 4;
-// coverage.comp, with the scene, the tree and the points.
+// coverage.comp.
 PT_CONSTANT BINDING_COVERED = 3;
 // estimate.comp.
 PT_CONSTANT BINDING_TILE_COUNTS = 4;
 PT_CONSTANT BINDING_TILE_SQUARES = 5;
-// add.comp, with BINDING_FILM.
+// add.comp.
 PT_CONSTANT BINDING_ADDED = 3;
 
-// One pixel per invocation. A multiple of vector widths.
+// A multiple of vector widths.
 PT_CONSTANT WORKGROUP_SIZE = 64;
 
 // ---- Scene buffer: an array of vec4, positions relative to the camera -----------------------------------------------
-// Surface indices: spheres, then planes, then with TREE the tree's spheres by slot.
+// Surface indices count spheres, then planes, then with TREE the tree's spheres by slot.
 PT_CONSTANT NO_SURFACE = 0xffffffffu;
 // Consecutive blocks, with S = spheres + planes:
 //   geometry[S]       sphere: center as the shutter opens, radius; plane: unit normal, offset (lib/scene/seen_scene.h)
 //   emission[S]       radiance R, G, B; mean of the three
 //   diffuse[S]        albedo / pi; probability of choosing the specular lobe
 //   specular[S]       factor (n + 2) / (2 pi); glossiness n (with GLOSS)
-//   motion[spheres]   way of the center while the shutter is open; 0. Capsule: vector from one end to the other;
-//                     1 / its length (with HAS_WAYS)
-//   curvature[planes] curvature; way of the surface while the shutter is open (with CURVATURE)
-//   tree              the tree of lamps, if any (below); only in the storage buffer
-//   spots[SPOT_COUNT] lamp and surface: MATERIAL_INDEX_BITS + each, as the bits of floats; mean reflectance;
-//                     glossiness of a mirror image, -1 for a glow (never in the storage buffer)
+//   motion[spheres]   displacement of the center while the shutter is open; 0. Capsule: vector from one end to the
+//                     other; 1 / its length (with HAS_WAYS)
+//   curvature[planes] curvature; displacement of the surface while the shutter is open (with CURVATURE)
+//   tree              tree of lamps (below), if any; only in the storage buffer
+//   spots[SPOT_COUNT] lamp and surface, each + MATERIAL_INDEX_BITS, as the bits of floats; mean reflectance; glossiness
+//                     of a mirror image, -1 for a glow (never in the storage buffer)
 // Every Vulkan device offers 16 KiB of uniform buffer.
 PT_CONSTANT UNIFORM_SCENE_WORDS = 1024;
 // Longer scenes are in the storage buffer, where surfaces of one material share its words:
 //   geometry[S]
-//   emission[E]       of lamps, skies, and with PLANES_EMIT the planes; sampling reads it in sequence
+//   emission[E]       of lamps, skies and, with PLANES_EMIT, planes
 //   motion[spheres]
 //   curvature[planes]
 //   tree              of lamps
 //   index[S]          four to a word: MATERIAL_INDEX_BITS + index in the table, as the bits of a float
-//   tree[5]           with TREE: TreeFrame
+//   tree[5]           TreeFrame (with TREE)
 //   table             per material: diffuse and, with GLOSS, specular
-// The bits of 1.0: added to an index below 2^30 they give a finite float that is not denormal, so no device flushes it.
+// The bits of 1.0. Adding an index below 2^30 gives a finite float that is not denormal, so no device flushes it.
 PT_CONSTANT MATERIAL_INDEX_BITS = 0x3f800000;
 
 // ---- Tree buffer: texels of four integers ---------------------------------------------------------------------------
 // Texels, because lavapipe reads them faster than storage buffers and allows 2 GiB of them. Nodes and spheres have
-// bindings of their own, so that each may fill one. The nodes are padded to a multiple of TREE_ALIGNMENT words.
-// Coordinates are on an integer grid, independent of the camera (lib/tree/grid.h).
+// separate bindings, so that each may fill one. Coordinates are on an integer grid (lib/tree/grid.h). The nodes are
+// padded to a multiple of TREE_ALIGNMENT words.
 //   node[nodes][3]    the root first:
-//                     low corner of the box, x, y, z; exponents of the steps along x, y, z, five bits each; from bit 16
-//                     the number of children, from bit 20 of child nodes
+//                     low corner of the box, x, y, z; exponents of the steps along x, y, z, five bits each, then the
+//                     number of children (from bit 16) and of child nodes (from bit 20)
 //                     first child node; slot of the first child sphere (both kinds are consecutive); low sides of the
 //                     children's boxes in steps from the corner, a byte per child, along x; along y
 //                     low sides along z; high sides along x, y and z
-//   sphere[places]    center at time 0; radius as the bits of a float, its low eight bits with TREE_OPACITY the opacity
-//                     times TREE_OPACITY_STEPS
-//   motion[places]    way of the center per unit of time, as floats; 0. Capsule: as in the scene buffer (if some sphere
-//                     moves or is swept)
+//   sphere[places]    center at time 0; radius as the bits of a float, whose low eight bits are the opacity times
+//                     TREE_OPACITY_STEPS (with TREE_OPACITY)
+//   motion[places]    velocity of the center, as floats; 0. Capsule: as in the scene buffer (if some sphere moves or is
+//                     swept)
 //   surface[places]   four to a word: index in the material table, or TREE_LAMP_BIT + lamp number
-//   color[places]     four to a word: factors of the diffuse reflection, the root of each times TREE_COLOR_STEPS in ten
-//                     bits (with TREE_COLORS)
+//   color[places]     four to a word: square root of each color component times TREE_COLOR_STEPS, ten bits each (with
+//                     TREE_COLORS)
 //   lamp[tree lamps]  slot; index in the material table; 0; 0
 PT_CONSTANT TREE_WIDTH = 4;
-PT_CONSTANT TREE_STACK_SIZE = 27; // nodes on the longest way down, root included (lib/tree/sphere_order.h)
+PT_CONSTANT TREE_STACK_SIZE = 27; // most nodes from the root to a sphere
 PT_CONSTANT TREE_NODE_WORDS = 3;
 PT_CONSTANT TREE_ALIGNMENT = 16; // 256 bytes: no device asks for more (Vulkan specification, "Limits")
 PT_CONSTANT TREE_LAMP_BIT = 0x80000000u;
 PT_CONSTANT TREE_COLOR_STEPS = 1023;
 PT_CONSTANT TREE_OPACITY_STEPS = 255u;
-PT_CONSTANT TREE_OPACITY_BITS = 0xfffu; // of an opacity_number() that choose its lattice
+PT_CONSTANT TREE_OPACITY_BITS = 0xfffu; // bits of an opacity_number() that choose its lattice
 
 // Grid point p is at (p - camera) step + shift, relative to the camera.
 struct TreeFrame {
@@ -168,38 +166,37 @@ struct TreeFrame {
     vec3 shift;
     float step;         // a power of two
     vec3 middle;        // the grid's center
-    float shutter_open; // time in [0, 1]
-    uint first_motion;  // word offsets after the first sphere
+    float shutter_open; // when the shutter opens, [0, 1]
+    uint first_motion;  // offsets in words from the first sphere
     uint first_surface;
     uint first_color;
     uint first_lamp;
-    float shutter_time; // while the shutter is open
+    float shutter_time; // how long the shutter is open
     uint reserved[3];
 };
 PT_CONSTANT TREE_REACH = 0x20000000; // largest absolute coordinate on the grid, 2^29
 
 // ---- The tree of lamps (lamp_tree.glsl) -----------------------------------------------------------------------------
-// Its shape depends only on the number of lamps. Nodes come in groups of four siblings: one to four groups at the top,
-// then level by level a group of children per node. The last level's nodes are slots for lamps.
+// Its shape depends only on the number of lamps. Nodes form groups of four siblings: one to four groups at the top, and
+// in each next level a group of children per node. The nodes of the last level are slots for lamps.
 // A group has lamp_tree_group_words() words, each with a component per sibling:
 //   x, y, z    middle as the shutter opens: mean of the lamps' centers, weighted by power
 //   power      sum of radiance r^2, up to a common factor; 0: an empty slot
-//   spread     mean by power of the lamps' squared distances from the middle and of 3 r^2, at least
-//              R^2 / LAMP_TREE_BALL, R: radius of a ball about the middle that always holds the lamps. Slot: r
-//   x, y, z    way of the middle while the shutter is open (with MOTION)
-// Then each slot's lamp, and each lamp's slot, four to a word: MATERIAL_INDEX_BITS + number, as the bits of a float.
-PT_CONSTANT LAMP_TREE_TOP_GROUPS = 4; // at most
+//   spread     slot: radius r. Node: mean, weighted by power, of 3 r^2 + the squared distance from the middle; at least
+//              R^2 / LAMP_TREE_BALL, where a ball of radius R about the middle always holds the lamps
+//   x, y, z    displacement of the middle while the shutter is open (with MOTION)
+// Then come the lamp of each slot and the slot of each lamp, four to a word: MATERIAL_INDEX_BITS + number, as the bits
+// of a float.
+PT_CONSTANT LAMP_TREE_TOP_GROUPS = 4; // most groups at the top
 PT_CONSTANT LAMP_TREE_BALL = 64;
 
 PT_FUNCTION uint lamp_tree_group_words(uint motion) { return 5 + 3 * motion; }
 
-// Groups at the top, with this many levels below.
 PT_FUNCTION uint lamp_tree_top_groups(uint lamp_count, uint levels)
 {
     return (lamp_count + (4u << (2u * levels)) - 1u) >> (2u * levels + 2u);
 }
 
-// Groups of the last level, and of all.
 PT_FUNCTION uint lamp_tree_slot_groups(uint lamp_count, uint levels)
 {
     return lamp_tree_top_groups(lamp_count, levels) << (2u * levels);
@@ -210,81 +207,79 @@ PT_FUNCTION uint lamp_tree_groups(uint lamp_count, uint levels)
 }
 
 // ---- Film: two parts, each with FILM_WORDS planes of one uint per pixel of the strip ------------------------------
-// The parts have different samples (lib/film/sample_set.h): the image is their sum, and their difference shows its
+// The parts have different samples (lib/film/sample_set.h). Their sum is the image, and their difference shows its
 // error.
 PT_CONSTANT FILM_PARTS = 2;
 // Words 0 to 11 of a part are sums of R, G and B in film units (FrameConstants.film_scale): unsigned 128-bit fixed
 // point, least significant word first, with FILM_FRACTION_BITS bits of fraction.
 PT_CONSTANT FILM_SUM_WORDS = 4;
 PT_CONSTANT FILM_FRACTION_BITS = 60;
-PT_CONSTANT FILM_ACCEPTED = 12; // samples summed
-PT_CONSTANT FILM_REJECTED = 13; // samples left out
+PT_CONSTANT FILM_ACCEPTED = 12;
+PT_CONSTANT FILM_REJECTED = 13;
 PT_CONSTANT FILM_WORDS = 14;
 // Most samples of an invocation (film.glsl).
 PT_CONSTANT FILM_MAX_GATHERED = 511;
-// Accepted components are in [0, 2^28) film units, so 2^32 samples stay below 2^60.
+// Accepted components are in [0, 2^28) film units, so a sum of 2^32 samples is below 2^60.
 PT_CONSTANT FILM_MAX_EXPONENT = 28;
-// Fewer samples get no standard error: the parts' difference says little.
+// Fewer samples get no standard error.
 PT_CONSTANT FILM_MIN_ERROR_SAMPLES = 9;
 
 // ---- The error of an image -----------------------------------------------------------------------------------------
-// Side of a tile in pixels: far wider than the correlation of neighbors, yet small images have hundreds of tiles.
+// Side of a tile in pixels. Tiles are far wider than the correlation of neighbors.
 PT_CONSTANT TILE_SIZE = 8;
 PT_CONSTANT ESTIMATE_WORKGROUP_SIZE = 128; // 16 adjacent tiles; every device allows this size
 
-// Squared errors of some tiles, and their spread. Shares of the sum are squared, so that squares stay within float's
-// range.
+// Squared errors of some tiles, and their spread.
 struct ErrorSquares {
     float sum;          // over pixels and channels
-    float pixel_shares; // squared shares of pixels, summed
-    float tile_shares;  // squared shares of tiles, summed
-    float part_share;   // tiles' shares, each times its fraction of a whole tile's pixels, summed
+    float pixel_shares; // sum of (pixel's part / sum)^2
+    float tile_shares;  // sum of (tile's part / sum)^2
+    float part_share;   // sum of tile's part / sum times fraction of a whole tile
 };
 
 struct TileErrors {
     ErrorSquares square;          // of (x - r)^2, in film units
-    ErrorSquares relative_square; // of (x - r)^2 / (r^2 + offset^2), times relative_scale^2; without values met once
-    ErrorSquares met_once;        // from values met once, with r estimated without them
-    ErrorSquares as_lamps;        // the same values, with their means as r
-    float unseen;                 // square for light that no sample met, not scaled
-    uint met_again;               // number of values
-    uint unknown_pixels;          // without a sample in either part
-    uint lost_pixels;             // whose samples a driver lost
-    uvec2 rejected;               // samples: low word, high word
+    ErrorSquares relative_square; // of (x - r)^2 / (r^2 + offset^2), times relative_scale^2, of values not met once
+    ErrorSquares met_once;        // the same for values met once, with r estimated without them
+    ErrorSquares as_lamps;        // the same for values met once, with r = x
+    float unseen;                 // expected square for unmet light
+    uint met_again;               // number of values met again (pixel_error.h)
+    uint unknown_pixels;          // pixels without samples in one of the parts
+    uint lost_pixels;             // pixels that a driver lost
+    uvec2 rejected;               // low word, high word
 };
 
 // ---- Push constants ----------------------------------------------------------------------------------------------
-// The camera, for all kernels that take rays from it.
 struct CameraView {
     vec3 right;        // unit vector
-    float start_scale; // rays start at this times their pixel offset from the image's middle
+    float start_scale; // a ray's start in its plane, per pixel of offset from the image's middle
     vec3 up;           // unit vector
     uint width;        // image size in pixels
     vec3 forward;      // length: distance of the image plane in pixels, or 1 for parallel rays
     uint height;
-    float lens_radius; // where rays start (with LENS)
-    float lens_blur;   // radius in pixels of an infinitely far point's image (with LENS)
+    float lens_radius; // radius of the disc where rays start (with LENS)
+    float lens_blur;   // radius in pixels of the image of an infinitely far point (with LENS)
     uint reserved[2];
 };
 
 struct FrameConstants {
     CameraView camera;
-    uvec2 seed;             // mixed from pt_render.seed
+    uvec2 seed;             // hash of pt_render.seed
     float film_scale;       // film units per radiance, a power of two
     uint film_first_pixel;  // index in the image, row by row
     uint strip_first_pixel; // index in the film
     uint strip_pixel_count;
     uint first_entry;  // index in the list of tiles
     uint film_part;    // the part that gets the samples
-    uint is_first;     // 1: the part has no sample of these pixels; in a fold: such a dispatch follows
-    uint first_sample; // index in the sequence
-    uint sample_count; // >= 1
-    uint share;        // maximum samples per invocation; invocations along y share the samples
+    uint is_first;     // 1: the part has no sample of these pixels; in fold.comp: true of the next dispatch
+    uint first_sample;
+    uint sample_count;
+    uint share;        // most samples per invocation; invocations along y divide the samples
 };
 
 PT_CONSTANT ANY_COUNT = 0xffffffffu;
 
-// resolve.comp. Pixels are numbered row by row over the film.
+// For resolve.comp. Pixels are numbered row by row over the film.
 struct ResolveConstants {
     uvec2 sample_counts; // required in the older and the newer part; ANY_COUNT: not checked
     int exponent;        // sums are in units of 2^exponent radiance
@@ -293,13 +288,13 @@ struct ResolveConstants {
     uint strip_first_pixel;
     uint strip_pixel_count;
     uint first_pixel; // the rectangle's corner
-    uint width;       // the rectangle's width
-    uint pixel_count; // pixels of the rectangle
-    uint first_word;  // the image's start in its buffer
-    uint row_words;   // distance between rows
+    uint width;
+    uint pixel_count;
+    uint first_word;
+    uint row_words;
 };
 
-// first_hit.comp. Pixels are numbered row by row over the image.
+// For first_hit.comp. Pixels are numbered row by row over the image.
 struct FirstHitConstants {
     CameraView camera;
     float start_distance; // pinhole to the scene's origin, along the view
@@ -310,14 +305,13 @@ struct FirstHitConstants {
     uint first_of_rectangle; // first pixel of this dispatch, row by row over the rectangle
     uint pixel_count;
 };
-// Rays averaged per pixel.
 PT_CONSTANT FILTER_RAYS = 16;
 PT_FUNCTION uint rays_of_pixel(uint quantity)
 {
     return quantity == QUANTITY_NORMAL || quantity == QUANTITY_ALBEDO ? FILTER_RAYS : 1;
 }
 
-// coverage.comp. Tiles may have parts of the samples.
+// For coverage.comp.
 struct CoverageConstants {
     CameraView camera;
     uvec2 seed;
@@ -330,22 +324,22 @@ struct CoverageConstants {
     uint last_sample;
 };
 
-// estimate.comp, for a strip of whole rows.
+// For estimate.comp. The strip has whole rows.
 struct EstimateConstants {
     uint film_width;
     uint strip_pixel_count;
     uint row_count;
-    uint first_tile;       // the strip's first tile
+    uint first_tile;
     uvec2 sample_counts;   // in the older and the newer part; ANY_COUNT: tiles differ
     uint by_tile;          // 1: also writes each tile's errors
     float relative_offset; // in film units
     float relative_scale;
 };
 
-// add.comp: consecutive pixels of a strip.
+// For add.comp, which adds consecutive pixels of a strip.
 struct AddConstants {
     uint strip_pixel_count;
-    uint first_pixel; // index in the strip
+    uint first_pixel;
     uint pixel_count;
     uint added_first_pixel;
     uint added_stride; // words of a plane

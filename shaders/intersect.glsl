@@ -1,4 +1,4 @@
-// Rays against the surfaces outside the tree.
+// Intersects rays with the surfaces outside the tree.
 #ifndef INTERSECT_GLSL
 #define INTERSECT_GLSL
 
@@ -20,12 +20,11 @@ void see_plane(inout Hit hit, vec3 origin, vec3 direction, uint plane, float tim
     keep_closer(hit, plane_distance(level_at(plane, origin, time), direction, false, false, height), plane);
 }
 
-// Spheres hidden from the camera: a range of the emitting ones, and the last ones.
+// Hidden from the camera: a range of the emitting spheres, and the last spheres.
 const bool EMITTERS_HIDE = HIDDEN_LAMPS + HIDDEN_SKIES > 0u;
 const uint FIRST_HIDDEN = EMITTERS_HIDE ? WALKED_LAMPS - HIDDEN_LAMPS : 0u;
 const uint AFTER_HIDDEN = EMITTERS_HIDE ? WALKED_LAMPS + HIDDEN_SKIES : 0u;
 
-// The camera does not see hidden surfaces.
 Hit closest_hit(vec3 origin, vec3 direction, float time)
 {
     Hit hit = Hit(NO_HIT, NO_SURFACE);
@@ -62,7 +61,6 @@ void meet_plane(inout Hit hit, inout bool blocked, Start start, vec3 direction, 
         shade_plane(blocked, start, shadow, plane, level, time);
 }
 
-// A path's ray and its shadow ray in one walk.
 Hit closest_hit_and_shadow(Start start, float time, vec3 direction, ShadowRay shadow, out bool blocked)
 {
     Hit hit = Hit(NO_HIT, NO_SURFACE);
@@ -72,7 +70,7 @@ Hit closest_hit_and_shadow(Start start, float time, vec3 direction, ShadowRay sh
     return hit;
 }
 
-// A small height behind a plane is a long way back at a grazing angle.
+// Rounding may put the start behind a plane. At grazing angles the distance back is long, so it becomes 0.
 Hit ahead(Hit hit)
 {
     if (KNOWN_SIDES == 1 && PLANE_COUNT > 0u)

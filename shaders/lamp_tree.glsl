@@ -1,4 +1,4 @@
-// The tree of lamps, for scenes with many lamps. gpu_layout.h has the layout; lib/scene/lamp_tree.cpp builds it.
+// The tree of lamps, for scenes with many lamps. lib/scene/lamp_tree.cpp builds it.
 #ifndef LAMP_TREE_GLSL
 #define LAMP_TREE_GLSL
 
@@ -8,11 +8,11 @@
 
 const bool HAS_LAMP_TREE = LAMP_TREE_LEVELS > 0u;
 
-// Four siblings, a component each.
+// Four sibling nodes, one per component.
 struct Siblings {
-    vec4 x, y, z; // relative to the vertex
-    vec4 power;  // 0: no node
-    vec4 spread; // for lamps their radius
+    vec4 x, y, z;
+    vec4 power;   // 0: no node
+    vec4 spread;  // of a lamp: its radius
 };
 
 Siblings siblings_of(uint group, Vertex vertex, float time)
@@ -30,11 +30,9 @@ Siblings siblings_of(uint group, Vertex vertex, float time)
                     stored_word(word + 3u), stored_word(word + 4u));
 }
 
-// Probabilities are precise: choosing a lamp and querying its probability must round alike.
+// Probabilities are precise: choosing a lamp and computing its probability again must round alike.
 
-// Expected light, up to a common factor: power / (d^2 + s / 2) times the mean cosine, with distance d and spread s.
-// Lamps' heights over the horizon have a mean of about (h + sqrt(h^2 + s / 3)) / 2; below the horizon a quotient avoids
-// cancellation and is never 0.
+// The importance of shaders/README.md, section 6. Below the horizon a quotient avoids cancellation and is never 0.
 vec4 node_importance(Siblings nodes, vec3 normal)
 {
     precise vec4 height = nodes.x * normal.x + nodes.y * normal.y + nodes.z * normal.z;
@@ -49,7 +47,7 @@ vec4 node_importance(Siblings nodes, vec3 normal)
     return importance;
 }
 
-// The weight of view_lamp().
+// The same weight as in view_lamp().
 vec4 lamp_importance(Siblings lamps, vec3 normal)
 {
     vec4 radius = lamps.spread;
@@ -68,7 +66,6 @@ float sum_of(vec4 importance)
     return sum;
 }
 
-// Serves all choices of a vertex.
 struct LampTreeTop {
     vec4 importance[LAMP_TREE_TOP_GROUPS];
 };
@@ -89,16 +86,14 @@ LampTreeTop lamp_tree_top(Vertex vertex, float time)
 // index may differ between invocations.
 float component_of(vec4 v, uint index) { return index < 2u ? (index == 0u ? v.x : v.y) : (index == 2u ? v.z : v.w); }
 
-// A way down the tree, to a given lamp or a random one.
 struct LampWalk {
     bool chooses;
-    uint slot;         // of a given lamp
-    float u;           // remaining random number
+    uint slot;
+    float u;   // remaining random number
     uint finer;
-    float probability; // of the choices so far
+    float probability;
 };
 
-// Followed by the lamps' slots.
 uint lamp_tree_slots()
 {
     return LAMP_TREE + lamp_tree_group_words(MOTION) * lamp_tree_groups(LAMP_COUNT, LAMP_TREE_LEVELS);
@@ -112,9 +107,9 @@ LampWalk walk_to(uint lamp)
 
 LampWalk walk_by(uint number) { return LampWalk(true, 0u, float(number >> 8u) * NUMBER_STEP, number, 1.0); }
 
-// Descends to one of four children, in proportion to `importance` or, if all are 0, to `others`. Takes the last
-// positive one whose predecessors' sum does not exceed the number, so rounding never chooses importance 0. A choice of
-// probability p leaves a number 1 / p times as coarse; hash bits refill it.
+// Takes one of four children in proportion to `importance` or, if all are 0, to `others`. It is the last positive child
+// for which the sum over earlier children does not exceed the random number, so rounding never chooses importance 0. A
+// choice with probability p leaves a number 1 / p times as coarse; bits of a hash refill it.
 uint take_child(inout LampWalk walk, vec4 importance, vec4 others, uint given)
 {
     vec4 part = sum_of(importance) > 0.0 ? importance : others;
@@ -136,7 +131,6 @@ uint take_child(inout LampWalk walk, vec4 importance, vec4 others, uint given)
     return child;
 }
 
-// Returns a lamp's slot. A top group counts as the sum of its nodes.
 uint walk_down(inout LampWalk walk, LampTreeTop top, Vertex vertex, float time)
 {
     const uint groups = lamp_tree_top_groups(LAMP_COUNT, LAMP_TREE_LEVELS);
@@ -149,7 +143,7 @@ uint walk_down(inout LampWalk walk, LampTreeTop top, Vertex vertex, float time)
     vec4 importance = node < 2u ? (node == 0u ? top.importance[0] : top.importance[1])
                                 : (node == 2u ? top.importance[2] : top.importance[3]);
     node = 4u * node + take_child(walk, importance, even, (walk.slot >> shift) & 3u);
-    uint first = groups; // of the next level
+    uint first = groups; // first group of the next level
     uint count = 4u * groups;
     if (LAMP_TREE_LEVELS > 1u) {
         uint level = 1u;

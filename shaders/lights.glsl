@@ -12,12 +12,11 @@ struct LampView {
     float squared_distance;
     float inverse_distance;
     float squared_radius;
-    float squared_sine; // of half the lamp's angle; 1 inside
-    float weight;       // for choosing; 0: cannot be sampled
+    float squared_sine; // of the lamp's angular radius; 1 inside the lamp
+    float weight;       // for the choice of a lamp; 0: cannot be sampled
 };
 
-// weight times pi bounds the irradiance: radiance (r / d)^2 min(1, (n . v + r) / d). It is positive for a lamp partly
-// above the horizon. Only directions find lamps that hold or touch the vertex.
+// The weight of shaders/README.md, section 6. Only directions find lamps that contain or touch the vertex.
 LampView view_lamp(Vertex vertex, uint lamp, float time)
 {
     vec4 sphere = sphere_of_lamp(lamp, time);
@@ -33,11 +32,10 @@ LampView view_lamp(Vertex vertex, uint lamp, float time)
     return view;
 }
 
-// Share of uniform choices among lamps in sight: by weight alone, a strong but hidden lamp would leave few samples to
-// others. Raises the second moment by at most a ninth.
+// Fraction of choices that are uniform (shaders/README.md, section 6).
 const float UNIFORM_SHARE = 0.1;
 
-// The lamps as seen from a vertex. Views of few lamps are kept.
+// The lamps as seen from a vertex.
 const bool KEEP_VIEWS = LAMP_COUNT <= EVERY_LAMP_LIMIT;
 
 struct Lamps {
@@ -45,9 +43,9 @@ struct Lamps {
     float time;
     LampView views[EVERY_LAMP_LIMIT];
     float total_weight;
-    float in_sight;        // lamps of positive weight
-    float share_of_weight; // probability per weight
-    float uniform_share;   // uniform choices' probability per lamp in sight
+    float in_sight;        // number of lamps with positive weight
+    float share_of_weight;
+    float uniform_share;   // probability of each of these by uniform choices
     LampTreeTop tree;
 };
 
@@ -97,7 +95,7 @@ float lamp_probability(Lamps lamps, float weight)
     return weight > 0.0 ? (LAMP_COUNT == 1u ? 1.0 : probability) : 0.0;
 }
 
-// The uniform share covers all lamps, since lamps in sight are not counted.
+// Uniform choices take any lamp here, because the tree does not count the lamps of positive weight.
 float lamp_probability_by_tree(LampWalk walk)
 {
     precise float probability = (1.0 - UNIFORM_SHARE) * walk.probability + UNIFORM_SHARE / float(LAMP_COUNT);
@@ -110,7 +108,6 @@ struct LampChoice {
     float probability;
 };
 
-// choose()'s result for this lamp.
 LampChoice choice_of(Lamps lamps, uint lamp)
 {
     if (HAS_LAMP_TREE) {
@@ -122,7 +119,7 @@ LampChoice choice_of(Lamps lamps, uint lamp)
     return LampChoice(lamp, view, lamp_probability(lamps, view.weight));
 }
 
-// number: times 2^-32. A uniform choice may take a lamp that cannot be sampled and gives no light.
+// number is in units of 2^-32. A uniform choice may take a lamp that cannot be sampled.
 LampChoice choose_by_tree(Lamps lamps, uint number)
 {
     const uint uniform_numbers = 429496729u; // UNIFORM_SHARE 2^32
@@ -137,8 +134,8 @@ LampChoice choose_by_tree(Lamps lamps, uint number)
     return LampChoice(lamp, view_lamp(lamps.vertex, lamp, lamps.time), lamp_probability_by_tree(walk));
 }
 
-// Low numbers choose uniformly among lamps in sight, others by weight, summed in the order of the total, so that small
-// probabilities survive rounding. If rounding keeps the sum below the target, the last lamp in sight is chosen.
+// Low numbers choose uniformly among the lamps of positive weight, other numbers by weight. The sum has the total's
+// order, so that rounding does not suppress small probabilities.
 LampChoice choose(Lamps lamps, uint number)
 {
     if (HAS_LAMP_TREE)
@@ -159,13 +156,12 @@ LampChoice choose(Lamps lamps, uint number)
     return choice_of(lamps, chosen);
 }
 
-// sin^2 / (1 + cos) does not cancel.
 float one_minus_cos(LampView view)
 {
     return view.squared_sine / (1.0 + sqrt(1.0 - view.squared_sine));
 }
 
-// Density over solid angle for a chosen lamp, 1 / (2 pi (1 - cos)); 0 if it cannot be sampled.
+// Density over solid angle of a chosen lamp's sample, 1 / (2 pi (1 - cos)).
 float cone_density(LampView view)
 {
     float density = (0.5 / PI) * (1.0 + sqrt(1.0 - view.squared_sine)) / view.squared_sine;
@@ -174,11 +170,11 @@ float cone_density(LampView view)
 
 struct LampSample {
     ShadowRay shadow;
-    float density; // per solid angle, given the lamp; 0: cannot be sampled
+    float density; // over solid angle, for this lamp; 0: cannot be sampled
 };
 
-// A direction uniform in the lamp's cone, with h = 1 - cos to its axis, and the distance d cos - sqrt(r^2 - d^2 sin^2);
-// an intersection would miss tiny far lamps by rounding.
+// A direction uniform in the lamp's cone, with h = 1 - cos of the angle to its axis. The lamp's distance follows from
+// h; an intersection test would miss tiny far lamps by rounding.
 LampSample sample_lamp(LampChoice choice, vec2 u)
 {
     LampView view = choice.view;

@@ -7,14 +7,14 @@
 
 const float PI = 3.14159265358979;
 
-// Unit of random numbers.
+// Random numbers are multiples of this.
 const float NUMBER_STEP = 1.0 / 16777216.0;
 const float LARGEST_NUMBER = 1.0 - NUMBER_STEP;
 
-// 1.5 * 2^23: x + this has round(x) in its low bits for |x| < 2^22; conversion to int may be slow.
+// 1.5 * 2^23. For |x| < 2^22 the low bits of x + ROUNDING_BIAS are round(x). Conversions to int may be slow.
 const float ROUNDING_BIAS = 12582912.0;
 
-// min and max if one argument is not negative: lavapipe compares bits faster, and their order is the same.
+// min() and max() if one argument is not negative. lavapipe compares bits faster, and their order is the same.
 float at_most(float number, float limit)
 {
     if (INTEGER_ORDER == 0u)
@@ -32,7 +32,7 @@ float at_least(float number, float limit)
 // Components must be >= 0.
 float strongest_of(vec3 color) { return at_least(color.r, at_least(color.g, color.b)); }
 
-// Arguments must be <= 0; their order as integers is reversed.
+// Arguments must be <= 0, for which the order of bits is reversed.
 float nearer_to_zero(float a, float b)
 {
     if (INTEGER_ORDER == 0u)
@@ -40,9 +40,9 @@ float nearer_to_zero(float a, float b)
     return uintBitsToFloat(min(floatBitsToUint(a), floatBitsToUint(b)));
 }
 
-// sin and cos of 2 pi u for u in [0, 1], within 4.5 ulp, also near zeros. With m = min(u, 1 - u), w = m - 1/4: cos(2 pi
-// u) = -sin(2 pi w) = w p(w^2), sin(2 pi u) = +-cos(2 pi w) = (1/2 - u) m q(w^2). p and q are minimax (Remez 1934), to
-// 5.3e-9 and 1.0e-9.
+// Sine and cosine of 2 pi u for u in [0, 1], within 4.5 ulp, also near zeros. With m = min(u, 1 - u) and w = m - 1/4,
+// cos(2 pi u) = -sin(2 pi w) = w p(w^2) and sin(2 pi u) = +-cos(2 pi w) = (1/2 - u) m q(w^2). p and q are minimax
+// (Remez 1934), with errors of 5.3e-9 and 1.0e-9.
 void sin_cos_turn(float u, out float sine, out float cosine)
 {
     float m = at_most(u, 1.0 - u);
@@ -52,8 +52,8 @@ void sin_cos_turn(float u, out float sine, out float cosine)
     sine = (0.5 - u) * m * (16.0 + z * (-59.8273288 + z * (81.7913450 + z * (-58.5570666 + z * 24.7337946))));
 }
 
-// Within 18 ulp for y in [0, 1). A polynomial below 1/4 has the relative error 8e-9; above, Vulkan bounds log2 by
-// 2^-21.
+// log2(1 - y) for y in [0, 1), within 18 ulp. Below 1/4 it is a polynomial with a relative error of 8e-9. Above, Vulkan
+// bounds log2 by 2^-21.
 float log2_one_minus(float y)
 {
     float tail =
@@ -61,7 +61,7 @@ float log2_one_minus(float y)
     return y < 0.25 ? -y * (1.44269504 + y * tail) : log2(1.0 - y);
 }
 
-// Smaller lobes are 0: denormals are slow on CPUs.
+// Smaller powers become 0, because denormal numbers are slow on CPUs.
 const float EXP2_UNDERFLOW = -100.0;
 
 // 2^x for x <= 0, within 3 ulp of 1 (Vulkan: 3 + 2 |x| ulp).
@@ -70,8 +70,8 @@ float exp2_negative(float x)
     return x < EXP2_UNDERFLOW ? 0.0 : exp2(x);
 }
 
-// 1 - 2^x for x <= 0, within 2.5 ulp, also near 0. 2^x = 2^k (1 + e): k the nearest integer, r = x - k exact, e = 2^r -
-// 1; e / r is a polynomial of relative error 1.1e-8.
+// 1 - 2^x for x <= 0, within 2.5 ulp, also near 0. Let k be the integer nearest to x; r = x - k is exact. Then 2^x =
+// 2^k (1 + e) with e = 2^r - 1, and e / r is a polynomial with a relative error of 1.1e-8.
 float one_minus_exp2(float x)
 {
     x = nearer_to_zero(x, EXP2_UNDERFLOW);
@@ -83,7 +83,7 @@ float one_minus_exp2(float x)
     return (1.0 - power) - power * e;
 }
 
-// Positive if any component is, unlike a rounded luminance.
+// Positive if any component is positive; a rounded luminance may be 0.
 float mean(vec3 color)
 {
     return (color.r + color.g + color.b) * (1.0 / 3.0);

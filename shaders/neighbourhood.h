@@ -1,5 +1,5 @@
-// A pixel and its neighbors in its tile, in one channel. Values are float32 >= 0 on the host too: they are only
-// compared.
+// A pixel and its neighbors in its tile, in one channel. Values are float32 >= 0 on the host, too, because they are
+// only compared.
 #ifndef PT_NEIGHBOURHOOD_H
 #define PT_NEIGHBOURHOOD_H
 
@@ -12,7 +12,7 @@ namespace pt::gpu {
 // A neighbor outside the tile.
 PT_CONSTANT float BELOW_ALL = -1.0f;
 
-// Ascending.
+// Three values in ascending order.
 struct Sorted {
     float low;
     float middle;
@@ -39,7 +39,7 @@ PT_FUNCTION float median_of_rows(Sorted a, Sorted b, Sorted c)
         .middle;
 }
 
-// Sorts the missing value last instead of first.
+// Moves a missing value from the low end to the high end.
 PT_FUNCTION Sorted with_missing_above(Sorted row)
 {
     row.low = row.middle;
@@ -49,13 +49,12 @@ PT_FUNCTION Sorted with_missing_above(Sorted row)
 }
 
 struct Neighbourhood {
-    float median; // the lower of two middle values, so that no pixel stands for itself; 0 for a lone pixel
+    float median; // of an even number of values the lower middle one; 0 for a lone pixel
     float largest;
 };
 
-// Rows have missing values first. Of k values present, (k - 1) / 2 are below the median, which is the fifth of nine if
-// 4 - (k - 1) / 2 missing ones count as lowest and the rest as highest: two of three at an edge, three of five at a
-// corner.
+// Rows have missing values first. The median of k present values is the fifth of nine if 4 - (k - 1) / 2 missing values
+// count as lowest and the rest as highest. These are two of three at an edge and three of five at a corner.
 PT_FUNCTION Neighbourhood neighbourhood(Sorted above, Sorted row, Sorted below, bool is_first_row, bool is_last_row,
                                         bool is_beside_edge)
 {
@@ -79,7 +78,6 @@ PT_FUNCTION Neighbourhood neighbourhood(Sorted above, Sorted row, Sorted below, 
     return near;
 }
 
-// The same for a tile of a single row or column.
 PT_FUNCTION Neighbourhood neighbourhood_in_line(Sorted line)
 {
     Neighbourhood near;
@@ -88,7 +86,6 @@ PT_FUNCTION Neighbourhood neighbourhood_in_line(Sorted line)
     return near;
 }
 
-// Rows have one value each.
 PT_FUNCTION Sorted column_of(Sorted above, Sorted row, Sorted below, bool is_first_row, bool is_last_row)
 {
     return sorted(is_first_row ? BELOW_ALL : above.high, row.high, is_last_row ? BELOW_ALL : below.high);

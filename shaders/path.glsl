@@ -1,4 +1,4 @@
-// One sample's light.
+// The light of a sample.
 #ifndef PATH_GLSL
 #define PATH_GLSL
 
@@ -11,8 +11,8 @@
 #include "step.glsl"
 #include "vertex.glsl"
 
-// Light from a second vertex in a spot's direction, weighted against the branches, which also find it (Veach 1997,
-// chapter 9). Branches alone find light over more vertices.
+// Light over a second vertex in the direction of a spot, weighted against the branches, which also find it (Veach 1997,
+// chapter 9). Only branches find light over more vertices.
 vec3 light_by_way_of_spot(Vertex vertex, Material material, Spots spots, SampleKey key, float time)
 {
     vec3 numbers = spot_numbers(key);
@@ -34,7 +34,7 @@ vec3 light_by_way_of_spot(Vertex vertex, Material material, Spots spots, SampleK
     return met ? path.radiance : vec3(0.0); // may be NaN after a miss
 }
 
-// Weight of light over the branch's second vertex, which a spot's ray may find.
+// Weight of the light that a branch finds over its second vertex, because a spot's ray may find it, too.
 float share_beside_spots(Spots spots, Path path, Vertex first, float time)
 {
     float distance = dot(path.arrival.point - first.position, path.arrival.direction);
@@ -42,8 +42,8 @@ float share_beside_spots(Spots spots, Path path, Vertex first, float time)
     return density > 0.0 ? power_heuristic(arrival_density, density) : 1.0;
 }
 
-// Light of the first vertex and all paths from it. It is most of the picture, so every lamp is sampled if they are few,
-// and several branches leave.
+// Light of the first vertex and all paths from it. This is most of the picture's light, so several branches leave, and
+// every lamp is sampled if there are few.
 vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
 {
     const float directions = float(BRANCH_COUNT);
@@ -54,7 +54,7 @@ vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
     if (SAMPLE_LAMPS)
         lamps = lamps_from(vertex, time);
 
-    // Lamp b shares a walk with branch b; lamps beyond the last branch walk alone.
+    // The shadow ray to lamp b shares a walk with branch b. Lamps beyond the last branch have walks of their own.
     vec3 radiance = vec3(0.0);
     if (SAMPLE_EVERY_LAMP && LAMP_COUNT > BRANCH_COUNT) {
         Start start = Start(vertex.position, vertex.surface, vertex.inside);

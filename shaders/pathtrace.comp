@@ -1,4 +1,4 @@
-// The path tracer: each invocation takes some samples of a pixel in a tile. Invocations along y share a pixel.
+// The path tracer. Each invocation takes some samples of a pixel. Invocations along y share a pixel.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -13,9 +13,8 @@ layout(push_constant) uniform Push { FrameConstants frame; };
 #include "tile_pixel.glsl"
 #include "tree_path.glsl"
 
-// `held` copies push constants once: lavapipe 22.3 reads them for one invocation after the other.
+// `held` is a copy of the push constants, which lavapipe 22.3 reads for one invocation after the other.
 
-// number: in the slice.
 SampleKey key_of_sample(SampleKey pixel, FrameConstants held, uint number)
 {
     const uint row_length = row_blocks(TABLE_BLOCKS, blocks_of_sample(), BRANCH_COUNT);
@@ -43,7 +42,7 @@ void take_samples(uvec2 pixel, uint pixel_index, uint done, uint end, inout Film
     } while (done < end);
 }
 
-// Like take_samples(), one step of a walk at a time (tree_path.glsl).
+// take_samples() by steps of walks (tree_path.glsl).
 void take_samples_by_steps(uvec2 pixel, uint pixel_index, uint done, uint end, inout FilmPixel gathered)
 {
     FrameConstants held = frame;

@@ -1,5 +1,4 @@
-// The physically-normalised Phong model (shaders/README.md, section 4; Lafortune and Willems 1994): f = diffuse / pi +
-// specular (n + 2) / (2 pi) max(0, wo . r)^n, r the mirror direction.
+// The physically-normalised Phong model (shaders/README.md, section 4; Lafortune and Willems 1994).
 #ifndef PHONG_GLSL
 #define PHONG_GLSL
 
@@ -7,14 +6,13 @@
 #include "scene.glsl"
 #include "vertex.glsl"
 
-// Else directions follow the cosine or are uniform.
 const bool SAMPLE_LOBES = ESTIMATOR != ESTIMATOR_UNIFORM && ESTIMATOR != ESTIMATOR_COSINE;
 
 struct Material {
     vec3 diffuse;               // albedo / pi
     vec3 specular;              // factor times (n + 2) / (2 pi)
     float glossiness;           // n
-    float specular_probability; // of the lobe for a direction
+    float specular_probability; // of drawing a direction from the lobe
 };
 
 Material material_of(uint surface)
@@ -25,8 +23,8 @@ Material material_of(uint surface)
     return Material(diffuse.rgb, specular.rgb, specular.a, choose_lobe ? diffuse.a : 0.0);
 }
 
-// The lobe's share in a path's last direction if lamps are sampled too (shaders/README.md, section 5). Below 1, because
-// lamp sampling misses some light.
+// Least probability of the lobe for a path's last direction, if lamps are sampled (shaders/README.md, section 5). Below
+// 1, because lamp sampling misses some light.
 const float LAST_SPECULAR_PROBABILITY = 0.97;
 
 Material at_last_direction(Material material)
@@ -36,8 +34,8 @@ Material at_last_direction(Material material)
     return material;
 }
 
-// max(0, wo . r)^n = 2^(n log2(1 - y)), y = |wo - r|^2 / 2; n = 0: the half space about r. The chord keeps y precise
-// near r, where pow(wo . r, n) errs by 35% at n = 1e6.
+// max(0, wo . r)^n = 2^(n log2(1 - y)) with y = |wo - r|^2 / 2. The chord wo - r keeps y precise near r, where pow(wo .
+// r, n) errs by 35% at n = 1e6. n = 0 gives 1 in the half space about r.
 float lobe_power(vec3 r, vec3 wo, float n)
 {
     vec3 chord = wo - r;
@@ -46,11 +44,10 @@ float lobe_power(vec3 r, vec3 wo, float n)
     return y < 1.0 ? power : 0.0;
 }
 
-// Reflection in one direction.
 struct Reflection {
     vec3 f;
-    float cosine;  // of the direction; 0 below the horizon
-    float density; // of sample_direction(), per solid angle
+    float cosine;  // of the angle to the normal; 0 below the horizon
+    float density; // of sample_direction(), over solid angle
 };
 
 Reflection reflection(Material material, Vertex vertex, vec3 outgoing)
@@ -68,13 +65,13 @@ Reflection reflection(Material material, Vertex vertex, vec3 outgoing)
     return Reflection(f, cosine, ESTIMATOR == ESTIMATOR_UNIFORM ? 0.5 / PI : density);
 }
 
-// Polar angle about r, density (n + 1) / (2 pi) (wo . r)^n.
+// Cosine and sine of the angle to r, for the density (n + 1) / (2 pi) (wo . r)^n.
 vec2 lobe_cos_sin(float n, float u)
 {
     return narrow_cos_sin(one_minus_exp2(log2_one_minus(u) / (n + 1.0)));
 }
 
-// May lie below the horizon, with value 0: reflection() has the density of the whole lobe.
+// May be below the horizon, where the reflection is 0. reflection() has the density of the whole lobe.
 vec3 sample_direction(Material material, Vertex vertex, vec2 place, float lobe)
 {
     if (ESTIMATOR == ESTIMATOR_UNIFORM)

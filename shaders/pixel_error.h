@@ -1,5 +1,5 @@
-// Expected squared errors of a pixel (shaders/README.md, section 11), from mean, standard error, the lesser of its
-// parts' means, and neighbors. In radiance on the host, in film units in kernels.
+// Expected squared errors of a pixel (shaders/README.md, section 11). Values are radiance on the host and film units in
+// kernels.
 #ifndef PT_PIXEL_ERROR_H
 #define PT_PIXEL_ERROR_H
 
@@ -14,7 +14,6 @@ PT_FUNCTION real squared(real value)
     return value * value;
 }
 
-// Gives the mean of all values but one.
 struct ValueSet {
     real sum;
     real count;
@@ -57,36 +56,36 @@ PT_FUNCTION real mean_besides_and_without_largest(ValueSet values, real value)
     return more_of(values.sum - value - largest_of_others, 0.0) / more_of(values.count - 2.0, 1.0);
 }
 
-// The level about a pixel, from its neighbors' median and its tile; at least an eighth of a brighter neighbor, since the
-// mean of eight pixels cannot be less.
+// Brightness around a pixel, from its neighbors' median and its tile. It is at least an eighth of a brighter neighbor,
+// because the mean of eight pixels cannot be less.
 PT_FUNCTION real around(real mean, ValueSet tile, real median_beside, real largest_beside)
 {
     real of_brighter = largest_beside > mean ? 0.125 * largest_beside : 0.0;
     return more_of(more_of(median_beside, of_brighter), mean_besides_and_without_largest(tile, mean));
 }
 
-// The limit that divides squared errors must not come from the bright sample that made the error. It is the pixel's
-// mean or, if less, the greater of the darker part's mean and the level around.
+// Squared errors are divided by the estimated limit of the pixel. The limit must not come from the bright sample that
+// made the error. It is the pixel's mean or, if less, the greater of the darker part's mean and the brightness around.
 //
-// At an edge the level around is bright, but at least half of the samples are dark. A share p of samples has value M,
-// so far one of N: the mean is T = M / N, the squared error about T^2. If the prior of p is uniform, y = N p has the
-// density y e^-y, and the limit is M p. The expectation of T^2 / (M^2 p^2 + k^2), k^2 = known, is the integral of y
-// e^-y / (y^2 + k^2 / T^2): ln(T / k) less about 1, depending on the prior. Leaving out the constant fits the
-// calibration scenes.
+// At an edge the surroundings are bright, but at least half of the samples are dark. Let a fraction p of all samples
+// have the value M, and one of N samples so far. Then the mean is T = M / N, the squared error about T^2, and the limit
+// M p. If the prior of p is uniform, y = N p has the density y e^-y. The expectation of T^2 / (M^2 p^2 + k^2), with k^2
+// = known, is the integral of y e^-y / (y^2 + k^2 / T^2). This is ln(T / k) less about 1. The constant depends on the
+// prior, and without it the result fits the calibration scenes.
 struct Limit {
-    real square;       // of the limit, plus offset^2
-    real known;        // of the darker part's mean, plus offset^2
-    real light_beyond; // > 0: an edge; the logarithm applies
-    real alone;        // > 0: brighter than the level around
+    real square;       // limit^2 + offset^2
+    real known;        // (mean of the darker part)^2 + offset^2
+    real light_beyond; // > 0 at an edge, where the logarithm applies
+    real alone;        // > 0 if the pixel is brighter than its surroundings
 };
 
-PT_CONSTANT real E_SQUARED = 7.39; // from where an edge's logarithm passes 1, and a pixel stands out
+PT_CONSTANT real E_SQUARED = 7.39; // ratio from which an edge's logarithm exceeds 1, and a pixel stands out
 
-// standard_error / (mean - lesser) = sqrt(f / (1 - f)) if the darker part has a share f of the samples: 1 for halves,
-// but for rounding.
+// If the darker part has a fraction f of the samples, standard_error / (mean - lesser) = sqrt(f / (1 - f)). For halves
+// this is 1, up to rounding.
 PT_CONSTANT real OF_HALVES = 0.99;
 
-// offset_square: bounds the relative errors of black pixels.
+// offset_square bounds the relative errors of black pixels.
 PT_FUNCTION Limit limit_of(real standard_error, real mean, real lesser, real around, real offset_square)
 {
     Limit limit;
@@ -99,22 +98,20 @@ PT_FUNCTION Limit limit_of(real standard_error, real mean, real lesser, real aro
     return limit;
 }
 
-// The part of the error that samples show.
 PT_FUNCTION real relative_square(real standard_error, Limit limit)
 {
     real square = square_of_quotient(standard_error, limit.square);
     return limit.light_beyond > 0.0 ? square * (0.5 * log(limit.square / limit.known)) : square;
 }
 
-// Relative to the value's own mean.
 PT_FUNCTION real square_as_lamp(real standard_error, real mean, real offset_square)
 {
     return square_of_quotient(standard_error, squared(mean) + offset_square);
 }
 
-// A pixel that stands out is a lamp or highlight, which many samples hit, or one rare bright sample. Light in one part
-// alone was met once, and may be either; light in both was met again. lib/film/error_estimate.cpp compares their
-// numbers.
+// A pixel that stands out shows a lamp or highlight, which many samples hit, or one rare bright sample. Light in only
+// one part was met once and may be either. Light in both parts was met again. lib/film/error_estimate.cpp compares the
+// numbers of both.
 PT_FUNCTION bool is_met_once(real standard_error, real mean, real lesser)
 {
     return lesser <= 0.02 * mean && standard_error >= OF_HALVES * (mean - lesser);
@@ -125,13 +122,13 @@ PT_FUNCTION bool is_met_again(real mean, real lesser)
     return lesser >= 0.25 * mean;
 }
 
-// A neighbor's light M may fill a share p of this pixel that none of N samples met, if the mean is below M / N. A
-// random edge cuts off a corner with area as the square of its height, so a share below p has the probability c
+// A neighbor's light M may fill a fraction p of this pixel that none of N samples met, if the mean is below M / N. A
+// random edge cuts off a corner whose area is the square of its height. So the fraction is below p with probability c
 // sqrt(p). Let a^2 = (T^2 + offset) / M^2 and b = 1 / (N a). The squared error p M^2 / N has the relative expectation
 //
-// integral from 0 to 1 / N of c / (2 sqrt(p)) p / N / (a^2 + p^2) dp = c sqrt(b / N) G(sqrt(b)),
+// integral from 0 to 1 / N of c / (2 sqrt(p)) p / N / (a^2 + p^2) dp = c sqrt(b / N) G(sqrt(b)).
 //
-// where G(t), the integral of u^2 / (1 + u^4) from 0 to t, is approximated by t^3 / (3 + 0.81 t^2 + 0.9 t^3), at most a
+// G(t) is the integral of u^2 / (1 + u^4) from 0 to t. The approximation t^3 / (3 + 0.81 t^2 + 0.9 t^3) is at most a
 // seventh less. c = 0.055 is calibrated (shaders/README.md, section 11).
 PT_FUNCTION real unseen_square(real mean, real largest_beside, real sample_count, real offset_square)
 {

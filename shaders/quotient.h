@@ -1,5 +1,5 @@
-// Quotients of exact sums and counts as float32 bits, computed with integers, so equal everywhere: Vulkan permits
-// errors of float division and flushed small results.
+// Quotients of exact sums and counts, as the bits of float32. Integers make them equal everywhere: Vulkan permits
+// errors of float division and may flush small results to 0.
 #ifndef PT_QUOTIENT_H
 #define PT_QUOTIENT_H
 
@@ -24,7 +24,8 @@ PT_FUNCTION WholeNumber whole_number(uvec4 sum)
     return number;
 }
 
-// (high 2^32 + low) 2^exponent, or more by less than 2^exponent if inexact. high has its top bit set, unless all is 0.
+// The number (high 2^32 + low) 2^exponent. If inexact, the true number is larger by less than 2^exponent. The top bit
+// of high is set unless the number is 0.
 struct LeadingBits {
     uint high;
     uint low;
@@ -32,7 +33,7 @@ struct LeadingBits {
     bool inexact;
 };
 
-// Upper word after a shift of both; bits < 32.
+// The upper word after a shift of both; bits < 32.
 PT_FUNCTION uint shifted_left(uint upper, uint lower, int bits)
 {
     return upper << bits | (lower >> 1) >> (31 - bits);
@@ -57,12 +58,12 @@ PT_FUNCTION LeadingBits leading_bits(WholeNumber number)
     return leading;
 }
 
-// Rounds quotient 2^exponent, or slightly more if inexact, to nearest, ties to even. quotient has at least 25 bits.
-// Overflow gives infinity.
+// Rounds quotient 2^exponent to nearest, ties to even. If inexact, the true number is slightly larger. quotient has at
+// least 25 bits. Overflow gives infinity.
 PT_FUNCTION uint rounded(uint quotient, int exponent, bool inexact)
 {
     int top = findMSB(quotient);
-    int magnitude = top + exponent; // in [2^magnitude, 2^(magnitude + 1))
+    int magnitude = top + exponent; // the number is in [2^magnitude, 2^(magnitude + 1))
     if (magnitude > 127)
         return 0x7f800000u;
     // Below 2^-126 a float's last bit is 2^-149.
@@ -72,12 +73,12 @@ PT_FUNCTION uint rounded(uint quotient, int exponent, bool inexact)
     uint rest = quotient & ((1u << dropped) - 1u);
     uint half_of_last = 1u << (dropped - 1);
     bool up = rest > half_of_last || (rest == half_of_last && (inexact || (kept & 1u) == 1u));
-    // The leading one increments the exponent; so does a carry.
+    // The leading one increments the exponent, and so does a carry.
     return (uint(float_exponent + 126) << 23) + kept + (up ? 1u : 0u);
 }
 
 // dividend 2^exponent / divisor, rounded once; divisor >= 1. Long division of numbers with top bits set: the quotient
-// is in (1/2, 2) and has 26 bits, the first perhaps 0.
+// is in (1/2, 2) and has 26 bits, of which the first may be 0.
 PT_FUNCTION uint quotient_bits(LeadingBits dividend, uint divisor, int exponent)
 {
     if (dividend.high == 0u)
@@ -90,7 +91,7 @@ PT_FUNCTION uint quotient_bits(LeadingBits dividend, uint divisor, int exponent)
     const int places = 25;
     int place = 0;
     do {
-        bool beyond = rest >= 0x80000000u; // doubling gives 33 bits
+        bool beyond = rest >= 0x80000000u; // doubling would give 33 bits
         rest = rest << 1 | next >> 31;
         next <<= 1;
         bool fits = beyond || rest >= normal_divisor;
@@ -137,7 +138,7 @@ PT_FUNCTION WholeNumber product(uvec4 sum, uint count)
     return number;
 }
 
-// a - b modulo 2^160. borrow: 1 if a < b.
+// a - b modulo 2^160. borrow is 1 if a < b.
 PT_FUNCTION WholeNumber difference(WholeNumber a, WholeNumber b, PT_OUT(uint) borrow)
 {
     borrow = 0u;
@@ -150,7 +151,7 @@ PT_FUNCTION WholeNumber difference(WholeNumber a, WholeNumber b, PT_OUT(uint) bo
     return a;
 }
 
-// |A b - B a| for sums A of a samples and B of b. first_is_less: A / a < B / b.
+// Returns |A b - B a| for the sums A of a samples and B of b samples. first_is_less: A / a < B / b.
 PT_FUNCTION WholeNumber weighted_difference(uvec4 sum_a, uint a, uvec4 sum_b, uint b, PT_OUT(bool) first_is_less)
 {
     uint borrow;
@@ -164,16 +165,16 @@ PT_FUNCTION WholeNumber weighted_difference(uvec4 sum_a, uint a, uvec4 sum_b, ui
     return number;
 }
 
-// Standard error of the mean of both parts, with sums A, B of a, b >= 1 samples (shaders/README.md, section 11):
+// The standard error of the mean of both parts, with sums A and B of a, b >= 1 samples (shaders/README.md, section 11),
+// is
 //
-// s = |A / a - B / b| sqrt(a b) / (a + b) = |A b - B a| / ((a + b) sqrt(a b))
+// s = |A / a - B / b| sqrt(a b) / (a + b) = |A b - B a| / ((a + b) sqrt(a b)).
 //
-// For samples of variance v, (A / a - B / b)^2 has the expectation v / a + v / b, and the mean of all the variance v /
-// (a + b). The numerator is exact. Root and divisor are cut to 32 bits, each by less than 2^-31, so the result is
-// within .52 of its last place.
+// The numerator is exact. Root and divisor are cut to 32 bits, each by less than 2^-31, so the result is within .52 of
+// its last place.
 struct ErrorDivisor {
     uint divisor; // its top bit is set
-    int exponent; // times 2^exponent
+    int exponent; // the value is divisor 2^exponent
 };
 
 PT_FUNCTION ErrorDivisor error_divisor(uint a, uint b)
@@ -199,7 +200,7 @@ PT_FUNCTION ErrorDivisor error_divisor(uint a, uint b)
     return result;
 }
 
-// times 2^exponent
+// Returns the bits of numerator 2^exponent / divisor.
 PT_FUNCTION uint standard_error_bits(WholeNumber numerator, ErrorDivisor divisor, int exponent)
 {
     return quotient_bits(leading_bits(numerator), divisor.divisor, exponent + divisor.exponent);

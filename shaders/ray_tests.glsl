@@ -1,4 +1,4 @@
-// Rays against surfaces, without epsilons (shaders/README.md, section 3).
+// Intersects rays with surfaces, without epsilons (shaders/README.md, section 3).
 #ifndef RAY_TESTS_GLSL
 #define RAY_TESTS_GLSL
 
@@ -6,19 +6,18 @@
 #include "scene.glsl"
 #include "tree.glsl"
 
-// The camera decides with KNOWN_SIDES on which side of each surface paths are: rounding may put a vertex on the wrong
-// side of a close surface, where paths end or leak.
+// With KNOWN_SIDES paths stay on the camera's side of each surface. Rounding may put a vertex on the wrong side of a
+// close surface, where paths would end or leak.
 
-// A ray's start.
 struct Start {
     vec3 origin;
-    uint surface; // NO_SURFACE from the camera
+    uint surface; // NO_SURFACE for camera rays
     bool inside;
 };
 
-// Distance along a unit vector to a plane, or NO_HIT: 2 |h| / q or q / k of shaders/README.md, section 3. level: at the
-// origin; leaving: the ray starts on the plane. side: the camera's height over a flat plane; if it decides, a ray
-// towards the plane hits it, at a negative distance from an origin behind it.
+// Distance along a unit vector to a plane, or NO_HIT: 2 |h| / q or q / k of shaders/README.md, section 3. level is that
+// of the origin, side the camera's height. With KNOWN_SIDES a ray towards the plane always hits it. The distance is
+// negative if rounding has put the origin behind it.
 float plane_distance(Level level, vec3 direction, bool leaving, bool inside, float side)
 {
     float slope = dot(level.gradient, direction);
@@ -44,7 +43,7 @@ float plane_distance(Level level, vec3 direction, bool leaving, bool inside, flo
 }
 
 struct Hit {
-    float distance; // NO_HIT, or negative if rounding has put the start beyond the surface
+    float distance; // or NO_HIT; negative if rounding has put the start beyond the surface
     uint surface;   // or NO_SURFACE
 };
 
@@ -55,23 +54,22 @@ void keep_closer(inout Hit hit, float distance, uint surface)
     hit.surface = closer ? surface : hit.surface;
 }
 
-// Any earlier hit blocks the lamp.
+// Any hit at a smaller distance blocks the lamp.
 struct ShadowRay {
     vec3 direction;
     float distance; // 0: no lamp
-    uint lamp;      // its surface; never blocks itself
+    uint lamp;      // the lamp's surface, which never blocks the ray
 };
 
 const ShadowRay NO_SHADOW_RAY = ShadowRay(vec3(0.0), 0.0, NO_SURFACE);
 
-// By how far a ray that starts on a surface may miss another that coincides with it: a vertex is off by 2^-22 of its
-// distance at most, and an atom's sticks, one grid step apart, are within 16 steps (lib/tree/coincident_spheres.h).
+// How far a ray's start may be from another surface that coincides with its own. Rounding moves a vertex by at most
+// 2^-22 of its distance. The sticks of an atom are within 16 grid steps (lib/tree/coincident_spheres.h).
 float rounding_of(Start start)
 {
     return 2.3841858e-7 * dot(abs(start.origin), vec3(1.0)) + (TREE_OPACITY == 1 ? 16.0 * tree_step() : 0.0);
 }
 
-// A walk fetches each surface once.
 float distance_to_sphere(Start start, vec3 direction, uint sphere, Ball ball)
 {
     vec3 to_first = ball.centre_radius.xyz - start.origin;
@@ -80,7 +78,6 @@ float distance_to_sphere(Start start, vec3 direction, uint sphere, Ball ball)
                          KINDS);
 }
 
-// A lamp is a plain ball.
 float distance_to_lamp(Start start, vec3 direction, uint surface, vec4 centre_radius)
 {
     return distance_to_sphere(start, direction, surface, Ball(centre_radius, NO_AXIS));
@@ -91,7 +88,7 @@ float distance_to_plane(Start start, vec3 direction, uint plane, Level level, fl
     return plane_distance(level, direction, plane == start.surface, start.inside, camera_height(plane, time));
 }
 
-// The first surface is seen at equal distances.
+// At equal distances the first surface is seen.
 bool blocks(ShadowRay shadow, float distance, uint surface)
 {
     bool before = distance < shadow.distance || (CLOSE_LAMPS == 1 && distance == shadow.distance && surface < shadow.lamp);
@@ -116,9 +113,9 @@ void shade_plane(inout bool blocked, Start start, ShadowRay shadow, uint plane, 
     blocked = blocked || blocks(shadow, distance_to_plane(start, shadow.direction, plane, level, time), plane);
 }
 
-// The shadow ray to a lamp that nearly coincides with another sphere ends at its own intersection. Both distances then
-// come from one formula, so exactly one is less, and light that both emit counts once. After a miss by rounding it ends
-// at the sampled point.
+// A shadow ray to a lamp that nearly coincides with another sphere ends where an intersection test finds the lamp. One
+// formula then gives the distances of both spheres, so exactly one is less, and light that both emit counts once. If
+// the test misses by rounding, the ray ends at the sampled point.
 ShadowRay ended_as_met(ShadowRay shadow, Start start, float time)
 {
     if (CLOSE_LAMPS == 1 && shadow.distance > 0.0 && is_walked_lamp(shadow.lamp)) {

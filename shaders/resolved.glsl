@@ -1,5 +1,5 @@
-// Pixels that are read back, in each format. Float16 is computed with integers, as on the host
-// (lib/film/pixel_format.h): Vulkan leaves packHalf2x16's rounding and small numbers to the device.
+// Pixels for reading back, in each format. Float16 is computed with integers, as on the host (lib/film/pixel_format.h),
+// because Vulkan leaves packHalf2x16's rounding and small numbers to the device.
 #ifndef RESOLVED_GLSL
 #define RESOLVED_GLSL
 
@@ -8,13 +8,13 @@
 #include "gpu_layout.h"
 
 layout(set = 0, binding = BINDING_RESOLVED) writeonly buffer Resolved { uint words[]; } resolved;
-layout(set = 0, binding = BINDING_FINDINGS) buffer Findings { uint lost_pixels; } findings; // cut short by the driver
+layout(set = 0, binding = BINDING_FINDINGS) buffer Findings { uint lost_pixels; } findings; // by the driver
 
 const uint SIGN_BIT = 0x80000000u;
 const uint HALF_INFINITY_BITS = 0x7c00u;
 const uint HALF_ONE_BITS = 0x3c00u;
 
-// Rounds a float32 >= 0 to nearest, ties to even; infinity from 65520 on.
+// Rounds a float32 >= 0 to the nearest float16, ties to even. Values from 65520 on become infinity.
 uint half_bits(uint float_bits)
 {
     const uint smallest_normal = 0x38800000u; // 2^-14
@@ -31,7 +31,6 @@ uint half_bits(uint float_bits)
     return min(kept + (up ? 1u : 0u), HALF_INFINITY_BITS);
 }
 
-// Takes either sign.
 uint signed_half_bits(uint float_bits)
 {
     return half_bits(float_bits & ~SIGN_BIT) | ((float_bits & SIGN_BIT) >> 16u);
@@ -42,7 +41,7 @@ uint words_of_pixel(uint format)
     return format == FORMAT_R32UI ? 1u : format == FORMAT_RGBA16F ? 2u : format == FORMAT_RGBA32F ? 4u : 3u;
 }
 
-// value: three floats' bits, or a whole number first.
+// value has three floats' bits, or a whole number first.
 void write_pixel(uint first_word, uint format, uvec3 value)
 {
     if (format == FORMAT_R32UI) {

@@ -1,26 +1,27 @@
-// A sample's numbers in [0, 1): a pure function of seed, pixel, sample and dimension (shaders/README.md, section 8).
+// A sample's random numbers in [0, 1): a pure function of seed, pixel, sample and dimension (shaders/README.md, section
+// 8).
 #ifndef SAMPLER_GLSL
 #define SAMPLER_GLSL
 
 #include "maths.glsl"
 #include "scene.glsl"
 
-// The sequence's points in units of 2^-32, a row of blocks per sample, the same for every pixel. Uniform, since all
-// invocations read one block at a time.
+// The sequence's points in units of 2^-32, a row of blocks per sample. The buffer is uniform, because all invocations
+// read one block at a time.
 layout(set = 0, binding = BINDING_POINTS) uniform Points { uvec4 blocks[POINT_BLOCKS]; } points;
 
 struct SampleKey {
     uvec2 seed;
     uint pixel; // in the image, row by row
     uint sample_index;
-    uint row;    // of block 0 in `points`
-    uvec4 shift; // of the pixel; blocks use multiples
+    uint row;    // index of block 0 in `points`
+    uvec4 shift; // hash of the pixel
 };
 
-// Blocks of all branches together.
 uint blocks_of_sample() { return shared_blocks(CAMERA_BLOCKS, LAMP_COUNT, SPOT_COUNT); }
 
-// A branch's own blocks are of sample B i + b. Past 2^32 the seed changes, so numbers do not repeat.
+// Branch b has the blocks of the sample with index B i + b. The seed changes where this index passes 2^32, so that
+// numbers do not repeat.
 SampleKey branch_key(SampleKey key, uint branch)
 {
     uint high, low;
@@ -45,13 +46,12 @@ uvec4 pcg4d(uvec4 v)
     return v;
 }
 
-// Still without index and row.
 SampleKey key_of_pixel(uvec2 seed, uint pixel)
 {
     return SampleKey(seed, pixel, 0u, 0u, pcg4d(uvec4(pixel, 0u, seed)));
 }
 
-// The pixel's hash times this shifts a block (shaders/README.md, section 8); cheaper than a hash of pixel and block.
+// Times the pixel's hash this shifts a block (shaders/README.md, section 8).
 uint odd_number(uint block)
 {
     uint odd = block * 0x9e3779b9u + 0xc2b2ae35u;
@@ -65,8 +65,8 @@ bool all_in_table()
     return path_blocks(MAX_PATH_LENGTH, CAMERA_BLOCKS, LAMP_COUNT, SPOT_COUNT) <= TABLE_BLOCKS;
 }
 
-// Units of 2^-32. An exclusive or with the shift makes another Owen scrambling of the table's; Halton points are
-// rotated modulo 1 (Cranley and Patterson 1976).
+// Numbers in units of 2^-32. The exclusive or with a shift turns the table's Owen scrambling into another one. Halton
+// points are rotated modulo 1 (Cranley and Patterson 1976).
 uvec4 sample_words(SampleKey key, uint block)
 {
     bool in_table = SAMPLER != SAMPLER_RANDOM && (all_in_table() || block < TABLE_BLOCKS);
@@ -77,7 +77,7 @@ uvec4 sample_words(SampleKey key, uint block)
     return SAMPLER == SAMPLER_SOBOL ? point ^ shift : SAMPLER == SAMPLER_HALTON_CP ? point + shift : point;
 }
 
-// Multiples of 2^-24: rounding never yields 1.
+// Multiples of 2^-24, so that rounding never yields 1.
 vec4 sample_block(SampleKey key, uint block) { return vec4(sample_words(key, block) >> 8u) * NUMBER_STEP; }
 
 #endif

@@ -4,7 +4,7 @@
 
 #include "maths.glsl"
 
-// Angles about the z axis. The polar angle itself is not needed; Vulkan allows acos 4096 ulp.
+// Angles about the z axis. Cosine and sine hold the polar angle, because Vulkan allows acos 4096 ulp.
 struct SphericalAngles {
     float cos_polar;
     float sin_polar;
@@ -24,15 +24,15 @@ vec3 spherical_direction(SphericalAngles angles)
     return vec3(angles.sin_polar * cosine, angles.sin_polar * sine, angles.cos_polar);
 }
 
-// Density 1 / (2 pi) about the unit vector axis.
+// Density 1 / (2 pi) on the hemisphere about a unit vector.
 vec3 uniform_hemisphere_direction(vec3 axis, vec2 u)
 {
     vec3 direction = spherical_direction(uniform_spherical_angles(u));
     return dot(direction, axis) < 0.0 ? -direction : direction;
 }
 
-// Uniform on the unit disc (Shirley and Chiu, "A Low Distortion Map Between Disk and Square", Journal of Graphics Tools
-// 2(3), 1997).
+// A uniform point of the unit disc (Shirley and Chiu, "A Low Distortion Map Between Disk and Square", Journal of
+// Graphics Tools 2(3), 1997).
 vec2 concentric_disc(vec2 u)
 {
     vec2 place = 2.0 * u - 1.0;
@@ -45,8 +45,9 @@ vec2 concentric_disc(vec2 u)
     return radius * sign(place) * (along_x ? vec2(cosine, sine) : vec2(sine, cosine));
 }
 
-// Turns z to the unit vector axis by the basis of Duff et al., "Building an Orthonormal Basis, Revisited" (JCGT 6(1),
-// 2017): s = sign(z), a = -1 / (s + z), vectors (1 + s a x^2, s a x y, -s x), (a x y, s + a y^2, -y), (x, y, z).
+// Turns v so that the z axis becomes the unit vector axis = (x, y, z). The basis (Duff et al., "Building an Orthonormal
+// Basis, Revisited", JCGT 6(1), 2017) has the vectors (1 + s a x^2, s a x y, -s x), (a x y, s + a y^2, -y) and (x, y,
+// z), with s = sign(z) and a = -1 / (s + z).
 vec3 rotate_to_axis(vec3 axis, vec3 v)
 {
     float s = axis.z < 0.0 ? -1.0 : 1.0;
@@ -55,25 +56,25 @@ vec3 rotate_to_axis(vec3 axis, vec3 v)
     return vec3(v.x + axis.x * along, s * v.y + axis.y * along, v.z * axis.z - q);
 }
 
-// cos_sin_polar: to the axis; azimuth: in turns.
 vec3 direction_about(vec3 axis, vec2 cos_sin_polar, float azimuth)
 {
     return rotate_to_axis(axis, spherical_direction(SphericalAngles(cos_sin_polar.x, cos_sin_polar.y, azimuth)));
 }
 
-// Density cos(theta) / pi (Malley). sqrt(1 - x^2 - y^2) would cancel near the horizon.
+// Cosine and sine for density cos(theta) / pi (Malley). sqrt(1 - x^2 - y^2) would cancel near the horizon.
 vec2 cosine_hemisphere_cos_sin(float u)
 {
     return vec2(sqrt(1.0 - u), sqrt(u));
 }
 
-// h = 1 - cos: sqrt(h (2 - h)) does not cancel in narrow cones.
+// With h = 1 - cos the sine is sqrt(h (2 - h)), which does not cancel in narrow cones.
 vec2 narrow_cos_sin(float one_minus_cos)
 {
     return vec2(1.0 - one_minus_cos, sqrt(one_minus_cos * (2.0 - one_minus_cos)));
 }
 
-// Exponent 2, a > 0 against b >= 0 (Veach 1997, chapter 9). Squares overflow only where the weight is 0.
+// Weight of density a > 0 against b >= 0, with exponent 2 (Veach 1997, chapter 9). The square overflows only where the
+// weight is 0.
 float power_heuristic(float a, float b)
 {
     float ratio = b / a;

@@ -1,4 +1,4 @@
-// Access to the scene buffer, laid out in gpu_layout.h.
+// Access to the scene buffer of gpu_layout.h.
 #ifndef SCENE_GLSL
 #define SCENE_GLSL
 
@@ -16,7 +16,7 @@ layout(set = 0, binding = BINDING_SCENE_STORAGE) readonly buffer SceneStorage { 
 
 const uint SURFACE_COUNT = SPHERE_COUNT + PLANE_COUNT;
 
-// Runs a statement for constants first to end - 1. Short loops are unrolled (DevicePolicy::unrolled).
+// Runs a statement for each index from first to end - 1. Short loops are unrolled (DevicePolicy::unrolled).
 #define FOR_EACH(index, first, end, statement)                                                                         \
     if ((end) > (first)) {                                                                                             \
         uint index = (first);                                                                                          \
@@ -33,13 +33,13 @@ const uint SURFACE_COUNT = SPHERE_COUNT + PLANE_COUNT;
         }                                                                                                              \
     }
 
-// index may differ between invocations.
+// `index` may differ between invocations.
 vec4 stored_word(uint index)
 {
     return UNIFORM_READS == 1u ? scene_uniform.words[index] : scene_storage.words[index];
 }
 
-// index is constant once loops are unrolled.
+// `index` is constant once loops are unrolled.
 vec4 scene_word(uint index)
 {
     if (SCENE_SOURCE == SCENE_IN_CONSTANTS)
@@ -47,8 +47,8 @@ vec4 scene_word(uint index)
     return SCENE_SOURCE == SCENE_IN_UNIFORM ? scene_uniform.words[index] : stored_word(index);
 }
 
-// Word first + index; index < count may differ between invocations. Constants have no addresses, so all are compared. A
-// branch never taken stops constant folding, so all scene sources round alike.
+// Word first + index, where index < count may differ between invocations. Constants have no addresses, so all are
+// compared. A branch that is never taken prevents constant folding, so that all scene sources round alike.
 vec4 scene_word_among(uint first, uint count, uint index)
 {
     if (SCENE_SOURCE != SCENE_IN_CONSTANTS)
@@ -67,7 +67,7 @@ vec4 scene_word_among(uint first, uint count, uint index)
 // Whether surfaces share material words, which is slower in small scenes.
 const bool HAS_TABLE = SCENE_SOURCE == SCENE_IN_STORAGE;
 
-// Blocks' first words ...
+// First words of the blocks.
 const uint EMISSION = SURFACE_COUNT;
 const uint EMITTING_SPHERES = LAMP_COUNT + SKY_COUNT;
 const uint DIFFUSE = 2u * SURFACE_COUNT;
@@ -75,7 +75,7 @@ const uint SPECULAR = 3u * SURFACE_COUNT;
 const uint MOTIONS = HAS_TABLE ? EMISSION + EMITTING_SPHERES + PLANES_EMIT * PLANE_COUNT : (3u + GLOSS) * SURFACE_COUNT;
 const uint CURVATURES = MOTIONS + (HAS_WAYS ? SPHERE_COUNT : 0u);
 const uint LAMP_TREE = CURVATURES + CURVATURE * PLANE_COUNT;
-// ... SPOTS only in the uniform buffer, the others only in the storage buffer.
+// SPOTS is only in the uniform buffer, the blocks below only in the storage buffer.
 const uint SPOTS = LAMP_TREE + LAMP_TREE_WORDS;
 const uint INDICES = LAMP_TREE + LAMP_TREE_WORDS;
 const uint TREE_FRAME = INDICES + (SURFACE_COUNT + 3u) / 4u;
@@ -88,17 +88,17 @@ uint stored_index(uint block, uint index)
     return floatBitsToUint(stored_word(block + index / 4u)[index % 4u]) - MATERIAL_INDEX_BITS;
 }
 
-// First word in the storage buffer.
+// First word of a surface's material, in the storage buffer.
 uint material_words(uint surface)
 {
     bool in_tree = TREE == 1u && surface >= SURFACE_COUNT;
     return TABLE + (1u + GLOSS) * (in_tree ? tree_material(surface - SURFACE_COUNT) : stored_index(INDICES, surface));
 }
 
-// Lamps outside the tree come first, numbered like surfaces.
+// Lamps outside the tree come first, with the same numbers as surfaces.
 const uint WALKED_LAMPS = LAMP_COUNT - TREE_LAMPS;
 
-// The lamp's number; at least LAMP_COUNT for other surfaces.
+// The lamp's number, or at least LAMP_COUNT for other surfaces.
 uint lamp_of(uint surface)
 {
     if (TREE_LAMPS == 0u)
@@ -121,7 +121,7 @@ bool may_emit(uint surface)
     return surface < WALKED_LAMPS + SKY_COUNT || (PLANES_EMIT == 1u && is_plane) || is_lamp;
 }
 
-// rgb: radiance; a: the mean of its channels.
+// rgb is the radiance, a the mean of its channels.
 vec4 emission_of(uint surface)
 {
     if (!HAS_TABLE)
@@ -134,7 +134,7 @@ vec4 emission_of(uint surface)
 
 vec4 emission_of_lamp(uint lamp) { return scene_word_among(EMISSION, LAMP_COUNT, lamp); }
 
-// albedo / pi, and the probability of choosing the specular lobe.
+// rgb is albedo / pi, a the probability of choosing the specular lobe.
 vec4 diffuse_of(uint surface)
 {
     if (TREE_COLORS == 1u && surface >= SURFACE_COUNT) {
@@ -144,7 +144,7 @@ vec4 diffuse_of(uint surface)
     return HAS_TABLE ? scene_word(material_words(surface)) : scene_word_among(DIFFUSE, SURFACE_COUNT, surface);
 }
 
-// Factor times (n + 2) / (2 pi), and glossiness n.
+// rgb is the factor times (n + 2) / (2 pi), a the glossiness n.
 vec4 specular_of(uint surface)
 {
     if (GLOSS == 0)
@@ -152,13 +152,13 @@ vec4 specular_of(uint surface)
     return HAS_TABLE ? scene_word(material_words(surface) + 1u) : scene_word_among(SPECULAR, SURFACE_COUNT, surface);
 }
 
-// A sphere at a time in [0, 1], open to closed. The index is a loop's.
+// The sphere at a time in [0, 1], for the index of a loop.
 Ball ball_at(uint sphere, float time)
 {
     return ball_from(scene_word(sphere), HAS_WAYS ? scene_word(MOTIONS + sphere) : vec4(0.0), time, KINDS);
 }
 
-// The same for an index below count, which may differ between invocations.
+// ball_at() for an index below count that may differ between invocations.
 Ball ball_among(uint count, uint sphere, float time)
 {
     vec4 way = HAS_WAYS ? scene_word_among(MOTIONS, count, sphere) : vec4(0.0);
@@ -170,7 +170,6 @@ bool is_sphere(uint surface)
     return surface < SPHERE_COUNT || (TREE == 1u && surface >= SURFACE_COUNT);
 }
 
-// Any surface that is a sphere.
 Ball ball_of(uint surface, float time)
 {
     if (TREE == 1u && surface >= SURFACE_COUNT)
@@ -178,7 +177,6 @@ Ball ball_of(uint surface, float time)
     return ball_among(SPHERE_COUNT, surface, time);
 }
 
-// A lamp's sphere by the lamp's number.
 vec4 sphere_of_lamp(uint lamp, float time)
 {
     if (TREE_LAMPS > 0u && lamp >= WALKED_LAMPS)
@@ -189,14 +187,13 @@ vec4 sphere_of_lamp(uint lamp, float time)
 bool is_walked_lamp(uint surface) { return TREE_LAMPS == 0u || surface < WALKED_LAMPS; }
 
 struct Level {
-    float height;    // on the side of the normal
-    vec3 gradient;   // gradient of the height; on the plane the normal
+    float height;  // positive on the normal's side
+    vec3 gradient; // of the height; on the plane the normal
     float curvature;
 };
 
-// A sphere far larger than its distance is a plane of curvature k = 1 / R (shaders/README.md, section 3). With p =
-// -offset n its nearest point to the camera, n its outward normal there and y = x - p, the height is (|x - center|^2 -
-// R^2) / (2 R) = n . y + k / 2 |y|^2, its gradient n + k y. Motion by m replaces x by x - t m.
+// A sphere far larger than its distance is held as a plane with a curvature (shaders/README.md, section 3). This is the
+// height h(x) there, with its gradient. Motion by m replaces x by x - t m.
 Level level_of(vec4 normal_offset, vec4 curvature_motion, vec3 point, float time)
 {
     vec4 n = normal_offset;
@@ -219,7 +216,7 @@ Level level_at(uint plane, vec3 point, float time)
     return level_of(scene_word(plane), curvature, point, time);
 }
 
-// level_at() for any plane.
+// level_at() for an index that may differ between invocations.
 Level level_among(uint plane, vec3 point, float time)
 {
     uint index = plane - SPHERE_COUNT;

@@ -1,5 +1,4 @@
-// Specialization constants of kernels that trace rays: name, constant_id, default. Included by GLSL and by lib/, where
-// Features has the values.
+// Specialization constants of kernels that trace rays: name, constant_id, default. Features in lib/ has their values.
 #ifndef PT_SPECIALIZATION_H
 #define PT_SPECIALIZATION_H
 
@@ -12,49 +11,50 @@ namespace pt::gpu {
 #define PT_SPECIALIZED(name, id, initial) layout(constant_id = id) const uint name = initial;
 #endif
 
-PT_SPECIALIZED(SPHERE_COUNT, 0, 1)        // outside the tree; emitting ones first
-PT_SPECIALIZED(PLANE_COUNT, 1, 0)         // and spheres held as curved planes (seen_scene.h)
-PT_SPECIALIZED(LAMP_COUNT, 2, 0)          // emitting spheres that can be sampled
-PT_SPECIALIZED(MAX_PATH_LENGTH, 3, 2)     // vertices after the camera
+PT_SPECIALIZED(SPHERE_COUNT, 0, 1)    // spheres outside the tree; emitting ones first
+PT_SPECIALIZED(PLANE_COUNT, 1, 0)     // planes, and spheres held as curved planes (seen_scene.h)
+PT_SPECIALIZED(LAMP_COUNT, 2, 0)      // emitting spheres that can be sampled
+PT_SPECIALIZED(MAX_PATH_LENGTH, 3, 2) // vertices after the camera
 PT_SPECIALIZED(ESTIMATOR, 4, ESTIMATOR_MIS)
 PT_SPECIALIZED(GLOSS, 5, 1)               // 1: some material has a lobe
 PT_SPECIALIZED(MOTION, 6, 1)              // 1: some sphere moves
 PT_SPECIALIZED(SCENE_SOURCE, 7, SCENE_IN_UNIFORM)
 PT_SPECIALIZED(SAMPLER, 8, SAMPLER_RANDOM)
-PT_SPECIALIZED(TABLE_BLOCKS, 9, 0)        // blocks of a sample and one branch, in the point table
-PT_SPECIALIZED(BRANCH_COUNT, 10, 1)       // branches at a path's first vertex
-PT_SPECIALIZED(CURVATURE, 11, 0)          // 1: some plane is curved
-PT_SPECIALIZED(INSIDE, 13, 1)             // 1: paths may be inside a sphere, like the camera
-PT_SPECIALIZED(PLANES_BLOCK, 14, 1)       // 1: a plane may block a lamp
-PT_SPECIALIZED(PLANES_EMIT, 16, 1)        // 1: a plane emits
-PT_SPECIALIZED(SKY_COUNT, 17, 0)          // emitting spheres around the camera
-PT_SPECIALIZED(KNOWN_SIDES, 18, 0)        // 1: the camera, on no plane, decides sides
-PT_SPECIALIZED(CLOSE_LAMPS, 20, 1)        // 1: a lamp nearly coincides with a sphere (twins.h)
-PT_SPECIALIZED(STARTS_AHEAD, 21, 1)       // 1: camera rays start on a plane (ray_start.h), ...
-PT_SPECIALIZED(ORTHOGRAPHIC, 29, 0)       // 1: ... and are parallel
-PT_SPECIALIZED(LENS, 39, 0)               // 1: ... or start on a lens
-PT_SPECIALIZED(LAMP_TREE_LEVELS, 25, 0)   // below the top; 0: no tree of lamps
-PT_SPECIALIZED(LAMP_TREE_WORDS, 26, 0)    // words of the lamp tree
-PT_SPECIALIZED(OVERLAP, 15, 0)            // 1: several invocations may add to a pixel at once
-PT_SPECIALIZED(TREE, 22, 0)               // 1: most spheres are in a tree
-PT_SPECIALIZED(TREE_LAMPS, 23, 0)         // the last of LAMP_COUNT
-PT_SPECIALIZED(TREE_COLORS, 24, 0)        // 1: tree spheres have own colors
-PT_SPECIALIZED(TREE_LEVELS, 35, 0)        // at least the nodes on the longest way down
-PT_SPECIALIZED(TREE_INSIDE, 34, 1)        // 1: paths may be inside a sphere of the tree
-PT_SPECIALIZED(POINT_BLOCKS, 12, 1024)    // blocks in the point table's binding
-PT_SPECIALIZED(WALK_TRIPS, 27, 0)         // trips before finished walks are left; 0: each walk is ended
-PT_SPECIALIZED(SPOT_COUNT, 28, 0)         // spots with a ray of their own (spots.glsl)
-// Surfaces hidden from the camera: last lamps outside the tree, first skies, last other spheres, first planes.
+PT_SPECIALIZED(TABLE_BLOCKS, 9, 0)      // blocks in the point table of a sample with one branch
+PT_SPECIALIZED(BRANCH_COUNT, 10, 1)     // branches at a path's first vertex
+PT_SPECIALIZED(CURVATURE, 11, 0)        // 1: some plane is curved
+PT_SPECIALIZED(INSIDE, 13, 1)           // 1: paths may be inside a sphere, like the camera
+PT_SPECIALIZED(PLANES_BLOCK, 14, 1)
+PT_SPECIALIZED(PLANES_EMIT, 16, 1)
+PT_SPECIALIZED(SKY_COUNT, 17, 0)        // emitting spheres around the camera
+PT_SPECIALIZED(KNOWN_SIDES, 18, 0)      // 1: paths stay on the camera's side of each surface
+PT_SPECIALIZED(CLOSE_LAMPS, 20, 1)      // 1: a lamp nearly coincides with a sphere (twins.h)
+PT_SPECIALIZED(STARTS_AHEAD, 21, 1)     // 1: camera rays start on a plane (ray_start.h)
+PT_SPECIALIZED(ORTHOGRAPHIC, 29, 0)
+PT_SPECIALIZED(LENS, 39, 0)
+PT_SPECIALIZED(LAMP_TREE_LEVELS, 25, 0) // levels below the top; 0: no lamp tree
+PT_SPECIALIZED(LAMP_TREE_WORDS, 26, 0)
+PT_SPECIALIZED(OVERLAP, 15, 0)         // 1: several invocations may add to a pixel at once
+PT_SPECIALIZED(TREE, 22, 0)            // 1: most spheres are in a tree
+PT_SPECIALIZED(TREE_LAMPS, 23, 0)      // lamps in the tree, the last of LAMP_COUNT
+PT_SPECIALIZED(TREE_COLORS, 24, 0)     // 1: tree spheres have colors of their own
+PT_SPECIALIZED(TREE_LEVELS, 35, 0)     // at least the nodes from the root to a sphere
+PT_SPECIALIZED(TREE_INSIDE, 34, 1)     // 1: paths may be inside a sphere of the tree
+PT_SPECIALIZED(POINT_BLOCKS, 12, 1024) // size of the point table in blocks
+PT_SPECIALIZED(WALK_TRIPS, 27, 0)      // most trips of a step (tree_path.glsl); 0: each walk runs to its end
+PT_SPECIALIZED(SPOT_COUNT, 28, 0)
+// Surfaces hidden from the camera: the last lamps outside the tree, the first skies, the last other spheres, the first
+// planes.
 PT_SPECIALIZED(HIDDEN_LAMPS, 30, 0)
 PT_SPECIALIZED(HIDDEN_SKIES, 31, 0)
 PT_SPECIALIZED(HIDDEN_OTHERS, 32, 0)
 PT_SPECIALIZED(HIDDEN_PLANES, 33, 0)
-PT_SPECIALIZED(UNIFORM_READS, 38, 0)      // 1: the scene buffer is a short uniform
-PT_SPECIALIZED(KINDS, 40, 1)              // KIND_BALL and others
-PT_SPECIALIZED(TREE_KINDS, 41, 1)         // kinds in the tree
-PT_SPECIALIZED(TREE_OPACITY, 19, 0)       // 1: rays pass through tree spheres at random
-PT_SPECIALIZED(UNROLLED, 36, 112)         // most surfaces of unrolled loops
-PT_SPECIALIZED(INTEGER_ORDER, 37, 0)      // 1: integer comparisons are faster (maths.glsl)
+PT_SPECIALIZED(UNIFORM_READS, 38, 0) // 1: the scene buffer is a short uniform
+PT_SPECIALIZED(KINDS, 40, 1)         // bits of the spheres' kinds
+PT_SPECIALIZED(TREE_KINDS, 41, 1)    // bits of the kinds in the tree
+PT_SPECIALIZED(TREE_OPACITY, 19, 0)  // 1: rays pass through tree spheres at random
+PT_SPECIALIZED(UNROLLED, 36, 112)    // most surfaces of unrolled loops
+PT_SPECIALIZED(INTEGER_ORDER, 37, 0) // 1: integer comparisons are faster (maths.glsl)
 const uint CONSTANT_COUNT = 42;
 // Component i of scene word w is constant_id CONSTANT_COUNT + 4 w + i.
 const uint CONSTANT_SCENE_WORDS = 64;
@@ -65,7 +65,7 @@ const uint CONSTANT_SCENE_WORDS = 64;
 #undef PT_SPECIALIZED
 
 #ifndef __cplusplus
-const bool STARTS_ON_DISC = ORTHOGRAPHIC + LENS > 0; // not at or near one point
+const bool STARTS_ON_DISC = ORTHOGRAPHIC + LENS > 0; // camera rays start far apart
 const uint CAMERA_BLOCKS = 1u + LENS;                // blocks of a camera ray
 #endif
 

@@ -1,6 +1,5 @@
-// Spots: small and far brighter than their surroundings (README.md, section 7). A glow is where a lamp is close to a
-// plane; an image is where a polished surface mirrors a lamp. lib/kernel/light_spots.h finds them; path.glsl sends one
-// ray more towards a spot.
+// Spots are small and far brighter than their surroundings (README.md, section 7). A glow is where a lamp is close to a
+// plane. An image is where a polished surface mirrors a lamp. lib/kernel/light_spots.h finds spots.
 #ifndef SPOTS_GLSL
 #define SPOTS_GLSL
 
@@ -11,7 +10,7 @@ struct SpotWord {
     uint lamp;
     uint surface;
     float reflectance; // mean over channels
-    float glossiness;  // of a mirror image; negative: a glow
+    float glossiness;  // of the mirroring surface; negative: a glow
 };
 
 SpotWord spot_word(uint spot)
@@ -27,10 +26,9 @@ vec4 plane_word(uint surface) { return scene_word_among(SPHERE_COUNT, max(PLANE_
 
 bool is_glow(SpotWord word) { return GLOSS == 0u || word.glossiness < 0.0; }
 
-// Seen from a vertex.
 struct Spot {
-    vec4 place;   // image: unit vector, exponent of its lobe; glow: the lamp's middle, squared height over the plane
-    float weight; // of the choice; 0: the spot cannot be seen
+    vec4 place;   // image: unit vector, exponent of its lobe; glow: the lamp's center, squared height over the plane
+    float weight; // for the choice of a spot; 0: the spot cannot be seen
 };
 
 struct Spots {
@@ -38,7 +36,7 @@ struct Spots {
     float total_weight;
 };
 
-// Possible irradiance, less what directions find anyway. The factor is empirical.
+// Possible irradiance, lowered if directions find it anyway. The factor is empirical.
 float spot_weight(float irradiance, float found_anyway)
 {
     return irradiance / (1.0 + 10.0 * found_anyway);
@@ -59,7 +57,7 @@ Spot view_glow(Vertex vertex, vec4 lamp, float radiance, SpotWord word)
     return Spot(vec4(lamp.xyz, squared_height), seen ? spot_weight(irradiance, squared_height * form) : 0.0);
 }
 
-// Where a surface mirrors a lamp.
+// The point of a surface that mirrors a lamp.
 struct MirrorPoint {
     vec3 position;
     vec3 normal;
@@ -78,8 +76,9 @@ MirrorPoint mirror_point_of_plane(Vertex vertex, vec4 lamp, uint surface)
     return MirrorPoint(position, height > 0.0 ? plane.xyz : -plane.xyz, 0.0, height * lamp_height > 0.0);
 }
 
-// Alhazen's problem: the normal bisects the angle between the ways a to the vertex and b to the lamp. Iterates from a
-// start that is right for far points (bisector) and near ones (ratio of heights). An error costs variance, not bias.
+// Alhazen's problem: the normal bisects the angle between the directions to the vertex and the lamp. The iteration
+// starts from a normal that is right for far points (the bisector) and near ones (the ratio of heights). Its error
+// costs variance, not bias.
 MirrorPoint mirror_point_of_sphere(Vertex vertex, vec4 lamp, uint surface, float time)
 {
     vec4 sphere = ball_of(surface, time).centre_radius;
@@ -103,7 +102,7 @@ MirrorPoint mirror_point_of_sphere(Vertex vertex, vec4 lamp, uint surface, float
     return MirrorPoint(sphere.xyz + radius * normal, normal, 1.0 / radius, exists);
 }
 
-// Narrower lobes would show float32's rounding of directions.
+// In narrower lobes the rounding of directions would show.
 const float LARGEST_SPOT_EXPONENT = 1e6;
 
 Spot view_image(Vertex vertex, vec4 lamp, float radiance, SpotWord word, float time)
@@ -150,7 +149,7 @@ Spots spots_from(Vertex vertex, float time)
     return spots;
 }
 
-// The last one of positive weight whose predecessors' sum does not exceed the number.
+// The last spot of positive weight for which the sum over earlier spots does not exceed the number.
 uint choose_spot(Spots spots, float number)
 {
     float target = number * spots.total_weight;
@@ -166,7 +165,8 @@ uint choose_spot(Spots spots, float number)
     return chosen;
 }
 
-// Image: a lobe about it. Glow: where a direction of cosine density, down from the lamp's middle, meets the plane.
+// A direction to an image follows a lobe about it. A direction to a glow leads to the point where a ray from the lamp's
+// center, of cosine density about the plane's normal, hits the plane.
 vec3 direction_to_spot(Spots spots, uint spot, vec3 position, float time, vec2 place)
 {
     SpotWord word = spot_word(spot);
@@ -190,7 +190,7 @@ vec3 direction_to_spot(Spots spots, uint spot, vec3 position, float time, vec2 p
     return direction;
 }
 
-// Density over solid angle, summed over spots of the surface that the ray met.
+// Density over solid angle, summed over the spots of the surface that the ray hit.
 float spot_density(Spots spots, Arrival arrival, float distance, float time)
 {
     float density = 0.0;

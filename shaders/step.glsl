@@ -1,4 +1,4 @@
-// A path's step from a vertex to the next, with the light of both.
+// A path's step from one vertex to the next, with the light that it finds.
 #ifndef STEP_GLSL
 #define STEP_GLSL
 
@@ -9,26 +9,26 @@
 #include "tree_walk.glsl"
 #include "vertex.glsl"
 
-// Few lamps are all sampled at the first vertex; otherwise one is chosen.
+// The first vertex samples every lamp if there are few. Otherwise a vertex chooses one lamp.
 const bool SAMPLE_LAMPS = (ESTIMATOR == ESTIMATOR_MIS || ESTIMATOR == ESTIMATOR_LIGHT) && LAMP_COUNT > 0u;
 const bool SAMPLE_EVERY_LAMP = SAMPLE_LAMPS && LAMP_COUNT <= EVERY_LAMP_LIMIT;
 
 struct Path {
-    Arrival arrival; // at the last vertex
+    Arrival arrival;
     vec3 throughput;
     vec3 radiance;
     uint vertex_count;
     bool alive;
 };
 
-// The current path, with spots only.
-float arrival_density; // of the direction to the last vertex, times the number of directions from the vertex before
-float departure_share; // weight of light that the next departure finds; a spot's ray finds the rest
+// State of the current path, for scenes with spots only.
+float arrival_density; // density of the last direction, times the number of directions
+float departure_share; // weight of the light that the next departure finds; a spot's ray finds the rest
 
 Path path_from(Arrival first) { return Path(first, vec3(1.0), vec3(0.0), 1u, true); }
 
-// Weights of light that lamp sampling and directions find: by multiple importance sampling, or all to lamps. Densities
-// are multiplied by the vertex's number of samples (Veach 1997, section 9.2.2).
+// Weights of the light that lamp samples and directions find: multiple importance sampling, or all to lamp samples.
+// Densities are multiplied by the vertex's number of samples (Veach 1997, section 9.2.2).
 float lamp_weight_over_density(float lamp_density, float direction_density)
 {
     return ESTIMATOR == ESTIMATOR_LIGHT ? 1.0 / lamp_density
@@ -42,7 +42,6 @@ float direction_weight_against(float direction_density, float lamp_density)
     return power_heuristic(direction_density, lamp_density);
 }
 
-// light: unweighted, for an open shadow ray.
 struct LampLight {
     ShadowRay shadow;
     vec3 light;
@@ -51,7 +50,7 @@ struct LampLight {
 
 const LampLight NO_LAMP_LIGHT = LampLight(NO_SHADOW_RAY, vec3(0.0), 0.0);
 
-// samples: of this lamp; directions: from the vertex.
+// samples is the number of this lamp's samples, directions that of the vertex's directions.
 LampLight light_of_lamp(vec3 throughput, Vertex vertex, Material material, LampChoice choice, vec2 place,
                         float samples, float directions)
 {
@@ -63,7 +62,7 @@ LampLight light_of_lamp(vec3 throughput, Vertex vertex, Material material, LampC
     return LampLight(found.shadow, light, density > 0.0 ? towards.cosine * weight : 0.0);
 }
 
-// Expected samples of the lamp. choices: of the vertex; 0: every lamp once.
+// Expected samples of the lamp. choices is the number of lamps that the vertex chooses; 0: it samples every lamp once.
 float lamp_samples(LampChoice choice, float choices)
 {
     return choices > 0.0 ? choice.probability * choices : 1.0;
@@ -83,19 +82,18 @@ float lobe_number(float number, uint branch, float directions)
     return at_most((number + float(branch)) / directions, LARGEST_NUMBER);
 }
 
-// A direction, and light of a lamp.
 struct Departure {
     vec3 origin;
     vec3 direction;
-    float density;      // times the vertex's directions
-    float strongest;    // component of the throughput
+    float density;   // times the number of directions
+    float strongest; // largest component of the throughput
     bool carries_light;
-    float survival;     // for Russian roulette
+    float survival; // random number for Russian roulette
     LampLight lamp;
     float lamp_choices; // 0: every lamp is sampled
 };
 
-// The caller chooses lamp and numbers: on GPUs faster than a branch here.
+// The caller chooses lamp and numbers. A branch here would be slower on GPUs.
 Departure depart(inout Path path, Vertex vertex, Material material, LampLight lamp, float lamp_choices, vec4 numbers,
                  float directions)
 {
@@ -106,14 +104,14 @@ Departure depart(inout Path path, Vertex vertex, Material material, LampLight la
     departure.density = onwards.density * directions;
     path.throughput *= onwards.f * (departure.density > 0.0 ? onwards.cosine / departure.density : 0.0);
     departure.strongest = strongest_of(path.throughput);
-    departure.carries_light = !(departure.strongest <= 0.0); // NaN goes on, for the film to reject
+    departure.carries_light = !(departure.strongest <= 0.0); // NaN goes on, so that the film rejects it
     departure.survival = numbers.w;
     departure.lamp = lamp;
     departure.lamp_choices = lamp_choices;
     return departure;
 }
 
-// Applies the walk's results.
+// Adds the light that a walk found and moves the path to the hit.
 void arrive(inout Path path, Departure departure, Lamps lamps, Hit hit, bool blocked)
 {
     float lamp_weight = departure.lamp.weight;
@@ -121,7 +119,7 @@ void arrive(inout Path path, Departure departure, Lamps lamps, Hit hit, bool blo
         lamp_weight *= departure_share;
     path.radiance += departure.lamp.light * (blocked ? 0.0 : lamp_weight);
 
-    // Weighted against lamp sampling, if that could find the emission.
+    // Emission is weighted against lamp sampling, if that can find it.
     path.alive = hit.surface != NO_SURFACE && departure.carries_light;
     if (path.alive && may_emit(hit.surface)) {
         float weight = 1.0;
@@ -142,8 +140,8 @@ void arrive(inout Path path, Departure departure, Lamps lamps, Hit hit, bool blo
     path.arrival = Arrival(departure.origin + hit.distance * departure.direction, departure.direction, hit.surface);
     ++path.vertex_count;
 
-    // Russian roulette from the fourth vertex on, by the strongest component relative to the branch's share. The floor
-    // bounds weights, since random numbers are multiples of 2^-24.
+    // Russian roulette from the fourth vertex on, relative to a branch's initial throughput. The least survival bounds
+    // the weights.
     if (ROULETTE && path.vertex_count >= 4u) {
         float survival = at_most(at_least(departure.strongest * float(BRANCH_COUNT), 0.05), 1.0);
         path.alive = path.alive && departure.survival < survival;
@@ -151,8 +149,8 @@ void arrive(inout Path path, Departure departure, Lamps lamps, Hit hit, bool blo
     }
 }
 
-// Whether a direction may meet an emitting surface. hit: outside the tree. The last direction finds only emission, so a
-// few tests may save a walk.
+// Whether a direction may hit an emitting surface. hit is the closest one outside the tree. A path's last direction
+// finds only emission, so these tests may save a walk.
 bool may_meet_light(Start start, vec3 direction, Hit hit, float time)
 {
     const uint few_lamps = 16u;
@@ -196,7 +194,6 @@ Walk walk_onwards(Vertex vertex, Path path, inout Departure departure, float tim
     return walk;
 }
 
-// Moves the path to the next vertex, in one of the directions that leave this one.
 void leave(inout Path path, Vertex vertex, Material material, LampLight lamp, Lamps lamps, float lamp_choices,
            float time, vec4 numbers, uint opacity_number, float directions)
 {
@@ -206,7 +203,7 @@ void leave(inout Path path, Vertex vertex, Material material, LampLight lamp, La
     arrive(path, departure, lamps, ahead(walk.hit), walk.blocked);
 }
 
-// The last direction is not special where it alone finds some light: under skies and emitting planes.
+// Under skies and with emitting planes the last direction is like others, because it alone finds their light.
 Material material_to_leave(uint surface, uint vertex_count)
 {
     Material material = material_of(surface);
@@ -214,7 +211,7 @@ Material material_to_leave(uint surface, uint vertex_count)
     return SAMPLE_LAMPS && SKY_COUNT + PLANES_EMIT == 0u && last ? at_last_direction(material) : material;
 }
 
-// Moves the path on from a vertex beyond the first. as_vertex: the path length that the material assumes; begin: the
+// Moves the path on from a vertex beyond the first. as_vertex is the path length that the material assumes, begin the
 // vertex's first block.
 void extend(inout Path path, SampleKey key, uint begin, uint as_vertex, float time)
 {

@@ -1,18 +1,17 @@
-// An invocation's pixel. A workgroup has a tile of the film, from a list. Uses FrameConstants frame.
+// The pixel of an invocation. Each workgroup has a tile from a list.
 #ifndef TILE_PIXEL_GLSL
 #define TILE_PIXEL_GLSL
 
-// Tiles' first pixels in the film.
 layout(set = 0, binding = BINDING_TILES) readonly buffer Tiles { uint first_pixels[]; } tiles;
 
 struct TilePixel {
     uint in_image;
     uint in_strip;
-    bool exists; // tiles may be cut by edges of image and strip
+    bool exists; // edges of image and strip may cut tiles
 };
 
-// Pixels before the strip wrap to huge indices and fail the test. Morton's curve (1966): neighboring pixels run in
-// step, and their tree walks are alike.
+// Pixels follow Morton's curve (1966), so that invocations that run in step have similar tree walks. Pixels before the
+// strip wrap to huge indices and fail the test.
 TilePixel tile_pixel()
 {
     uint corner = tiles.first_pixels[frame.first_entry + gl_WorkGroupID.x];

@@ -13,7 +13,6 @@ uvec4 tree_word(uint index) { return texelFetch(tree_spheres, int(index)); }
 // The scene buffer as integers.
 layout(set = 0, binding = BINDING_SCENE_STORAGE) readonly buffer SceneBits { uvec4 words[]; } scene_bits;
 
-// TreeFrame.
 ivec3 tree_camera() { return ivec3(scene_bits.words[TREE_FRAME].xyz); }
 vec3 tree_shift() { return scene_storage.words[TREE_FRAME + 1u].xyz; }
 float tree_step() { return scene_storage.words[TREE_FRAME + 1u].w; }
@@ -28,7 +27,7 @@ float tree_shutter_time() { return scene_storage.words[TREE_FRAME + 4u].x; }
 // Grid coordinates of the center; radius bits.
 uvec4 tree_sphere_word(uint place) { return tree_word(place); }
 
-// Relative to a grid point (base) and an offset in steps (rest).
+// The ball relative to the grid point `base` plus `rest` steps.
 Ball tree_ball_from(uvec4 word, ivec3 base, vec3 rest, uint place, float time)
 {
     vec3 centre = (vec3(ivec3(word.xyz) - base) - rest) * tree_step();
@@ -39,7 +38,6 @@ Ball tree_ball_from(uvec4 word, ivec3 base, vec3 rest, uint place, float time)
                      TREE_KINDS);
 }
 
-// Relative to the camera.
 Ball tree_ball(uint place, float time)
 {
     return tree_ball_from(tree_sphere_word(place), tree_camera(), -tree_shift() / tree_step(), place, time);
@@ -50,7 +48,7 @@ uint tree_surface(uint place)
     return tree_word(tree_first_surface() + place / 4u)[place % 4u];
 }
 
-// The lamp's number; at least TREE_LAMPS for other spheres.
+// The lamp's number in the tree, or at least TREE_LAMPS for other spheres.
 uint tree_lamp(uint place)
 {
     uint word = tree_surface(place);
@@ -59,7 +57,6 @@ uint tree_lamp(uint place)
 
 uint tree_lamp_place(uint lamp) { return tree_word(tree_first_lamp() + lamp).x; }
 
-// Index in the table.
 uint tree_material(uint place)
 {
     uint word = tree_surface(place);

@@ -1,21 +1,20 @@
-// A node of the tree of spheres (gpu_layout.h), and the children that a ray enters.
+// The nodes of the tree, and their children that a ray enters.
 #ifndef TREE_NODE_GLSL
 #define TREE_NODE_GLSL
 
 #include "scene.glsl"
 
-// A ray on the grid. Differences from grid points are exact, so precision grows near spheres, wherever the camera is.
+// A ray on the grid. Differences from grid points are exact, so rays are precise near spheres, wherever the camera is.
 struct GridRay {
     ivec3 base;    // grid point next to the start
     vec3 rest;     // vector from base to the start, in steps
     float advance; // distance from the origin to the start
-    float margin;  // added to boxes, in steps
-    bool is_near;  // may reach the tree
+    float margin;  // by which boxes are enlarged, in steps
+    bool is_near;
 };
 
-// Rays from far away start at the ball about the grid, so the start's rounding, 2^-24 of the way, is common to all
-// spheres. A hit is rounded as if the center moved by 2^-21 of its distance (one rounding of the distance, four of dot
-// products); boxes get four times that.
+// Rays from far away start at a ball about the grid, so that the start's rounding is the same for all spheres. Boxes
+// are enlarged by four times the rounding of a hit (shaders/README.md, section 3).
 GridRay grid_ray(vec3 origin, vec3 direction)
 {
     const float reach = float(TREE_REACH);
@@ -26,7 +25,7 @@ GridRay grid_ray(vec3 origin, vec3 direction)
     vec3 to_middle = tree_middle() - origin;
     vec3 far = abs(to_middle);
     if (max(far.x, max(far.y, far.z)) > 2.0 * reach * tree_step()) {
-        float radius = 1.75 * reach * tree_step(); // above sqrt(3) reaches
+        float radius = 1.75 * reach * tree_step(); // above sqrt(3) reach
         float b = dot(to_middle, direction);
         vec3 across = to_middle - b * direction;
         ray.is_near = b > 0.0 && dot(across, across) < radius * radius;
@@ -53,27 +52,27 @@ vec3 inverse_of(vec3 direction)
 
 const uint NO_NODE = ~0u;
 
-// A group holds up to three children still to be entered, nearest first: the first child's number, never 0, above three
-// fields of two bits, the last one repeated.
+// Up to three children still to be entered, nearest first. The low bits are three fields of two bits, in which the last
+// child is repeated. The bits above are the number of the first child, never 0.
 uint next_of(uint group) { return (group >> 6) + (group & 3u); }
 bool has_one(uint group) { return ((group ^ (group >> 2)) & 3u) == 0u; }
 uint without_next(uint group) { return (group & ~15u) | ((group >> 2) & 15u); }
 
-// Returns 1 + byte / 256.
+// 1 + byte / 256 for byte i of the word.
 float byte_as_float(uint word, uint i)
 {
     uint bits = i == 0u ? word << 15 : i == 1u ? word << 7 : i == 2u ? word >> 1 : word >> 9;
     return uintBitsToFloat((bits & 0x7f8000u) | 0x3f800000u);
 }
 
-// The part of a node that a ray enters before a distance. Distances are compared as integers: negative ones lose
-// against 0.
+// The children of a node that a ray enters before a distance. Distances are compared as integers; negative ones are
+// less than 0.
 struct Entered {
-    uint node;   // nearest child
-    uint others; // a group
+    uint node;   // nearest child node, or NO_NODE
+    uint others;
     bool has_others;
     uint first_place;
-    uint spheres;     // bit i: the box of the sphere at first_place + i
+    uint spheres; // bit i: the ray enters the box of the sphere at first_place + i
 };
 
 struct NodeWords {
@@ -98,7 +97,8 @@ Entered enter_node(NodeWords words, GridRay ray, vec3 inverse, float before)
     uvec3 nearer = uvec3(backwards.x ? high.x : low.x, backwards.y ? high.y : low.y, backwards.z ? high.z : low.z);
     uvec3 farther = uvec3(backwards.x ? low.x : high.x, backwards.y ? low.y : high.y, backwards.z ? low.z : high.z);
 
-    // Lengths along the ray: 256 node steps, and the corner without the 1 of byte_as_float().
+    // Distances along the ray: `width` that of 256 node steps, `corner` that of the corner without the 1 of
+    // byte_as_float().
     uvec3 exponents = uvec3(head.w, head.w >> 5, head.w >> 10) & 31u;
     vec3 width = uintBitsToFloat((exponents + 135u) << 23) * inverse;
     vec3 corner = (vec3(ivec3(head.xyz) - ray.base) - ray.rest) * inverse - width;
@@ -109,7 +109,7 @@ Entered enter_node(NodeWords words, GridRay ray, vec3 inverse, float before)
 
     uint inner_count = (head.w >> 20) & 7u;
     uint child_count = (head.w >> 16) & 7u;
-    uint keys[TREE_WIDTH]; // entered child nodes: distance, and the child's index in the two low bits
+    uint keys[TREE_WIDTH]; // of entered child nodes: the distance, with the child's index in the two low bits
     uint entered = 0u;
     uint i = 0u;
     [[unroll]] do {

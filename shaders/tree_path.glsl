@@ -1,23 +1,22 @@
-// Paths among tree spheres, step by step. Invocations in step wait for the longest walk, so all walk some trips, then
-// finished ones go on with their path, branch or sample (Aila and Laine, "Understanding the Efficiency of Ray Traversal
-// on GPUs", HPG 2009, section 3.3). Results equal path.glsl's.
+// Paths among tree spheres, by short steps. Invocations that run in step wait for the longest walk. So all walks take
+// some trips, then finished ones go on with their path, branch or sample (Aila and Laine, "Understanding the Efficiency
+// of Ray Traversal on GPUs", HPG 2009, section 3.3). Results are those of path.glsl.
 #ifndef TREE_PATH_GLSL
 #define TREE_PATH_GLSL
 
 #include "path.glsl"
 
-// A sample whose paths follow each other.
 struct TreeSample {
     SampleKey key;
     CameraRay camera;
-    bool has_met;   // the camera ray has hit something
-    Arrival first;  // that hit
-    vec3 radiance;  // of finished paths
+    bool has_met;  // the walk of the camera ray is done
+    Arrival first; // hit of the camera ray
+    vec3 radiance; // of finished paths
     uint branch;
     Path path;
 };
 
-// One per branch, or per lamp if more. Departures beyond the branches have only their lamp's light, and come first.
+// Departures beyond the branches find only the light of their lamp. They come first.
 const uint FIRST_DEPARTURES = SAMPLE_EVERY_LAMP && LAMP_COUNT > BRANCH_COUNT ? LAMP_COUNT : BRANCH_COUNT;
 const uint FIRST_BRANCH = FIRST_DEPARTURES > BRANCH_COUNT ? BRANCH_COUNT : 0u;
 

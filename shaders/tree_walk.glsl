@@ -1,4 +1,4 @@
-// Rays against tree spheres. The hit is the same as if all spheres were tested: no box that holds a nearer sphere is
+// Intersects rays with tree spheres. The hit is the same as if all spheres were tested: no box with a nearer sphere is
 // skipped, and ties do not depend on the walk's order.
 #ifndef TREE_WALK_GLSL
 #define TREE_WALK_GLSL
@@ -6,15 +6,15 @@
 #include "ray_tests.glsl"
 #include "tree_node.glsl"
 
-// An advance rounded by 2^-24 may make a farther sphere tie with a nearer one, so boxes are entered up to 2^-22 of it
-// beyond the hit.
+// An advance rounded by 2^-24 may make a farther sphere tie with a nearer one. So boxes are entered up to 2^-22 of the
+// advance beyond the hit.
 const float ADVANCE_ROUNDED = 0.99999976; // 1 - 2^-22
 
-// Sorts before every tree sphere; for surfaces outside the tree.
+// For surfaces outside the tree. Sorts before every tree sphere.
 const uvec4 NO_SPHERE_WORD = uvec4(0u, 0u, 0u, ~0u);
 
-// Order at equal distances, independent of the tree's shape: of concentric spheres the larger, else the lower word. The
-// slot decides only between spheres that differ by motion; such trees have no fixed shape (sphere_tree.h).
+// Order at equal distances, independent of the tree's shape. Of concentric spheres the larger goes first. The slot
+// decides only between spheres that differ by motion; such trees have no fixed shape (sphere_tree.h).
 bool goes_before(uvec4 word, uint surface, uvec4 other_word, uint other_surface)
 {
     return word.x != other_word.x   ? word.x < other_word.x
@@ -33,7 +33,7 @@ void keep_closer_of_tree(inout Hit hit, inout uvec4 hit_word, float distance, ui
     hit_word = closer ? word : hit_word;
 }
 
-// Distance or NO_HIT. ball: relative to the ray's start.
+// Distance or NO_HIT. ball is relative to the ray's start.
 float distance_in_tree(Start start, GridRay ray, vec3 direction, uint surface, Ball ball, float time)
 {
     bool leaving = surface == start.surface;
@@ -47,7 +47,7 @@ float distance_in_tree(Start start, GridRay ray, vec3 direction, uint surface, B
            ball_distance(ball, to_first, from_side, direction, leaving, start.inside, rounding_of(start), TREE_KINDS);
 }
 
-// distance: where the shadow ray meets the sphere. A lamp outside the tree sorts before tree spheres.
+// A lamp outside the tree sorts before tree spheres.
 bool blocks_in_tree(Start start, GridRay ray, ShadowRay shadow, vec3 direction, float distance, uint surface,
                     uvec4 word, Ball ball)
 {
@@ -61,7 +61,6 @@ bool blocks_in_tree(Start start, GridRay ray, ShadowRay shadow, vec3 direction, 
     return ball_blocks(ball, ball.centre_radius.xyz, direction, at_end, shadow.distance - ray.advance, TREE_KINDS);
 }
 
-// See ended_as_met().
 ShadowRay ended_as_met_in_tree(ShadowRay shadow, Start start, float time)
 {
     if (CLOSE_LAMPS == 1 && TREE_LAMPS > 0u && shadow.distance > 0.0 && shadow.lamp >= SURFACE_COUNT) {
@@ -74,45 +73,46 @@ ShadowRay ended_as_met_in_tree(ShadowRay shadow, Start start, float time)
     return shadow;
 }
 
-// The vertex's shadow ray, if any, then the path's ray, if followed: an invocation whose shadow ray ends early turns to
-// its path's ray at once.
+// First the vertex's shadow ray, if any, then the path's ray, if followed. An invocation whose shadow ray ends early
+// turns to its path's ray at once.
 struct Walk {
     Start start;
     vec3 direction;
     ShadowRay shadow;
     float time;
     uint opacity_number;
-    Hit hit;      // starts with the closest surface outside the tree
-    bool blocked; // starts with surfaces outside the tree
+    Hit hit;      // at first the closest surface outside the tree
+    bool blocked; // at first by surfaces outside the tree
     uvec4 hit_word;
     GridRay path_ray;
     GridRay shadow_ray;
     vec3 path_inverse;
     vec3 shadow_inverse;
     bool follows_path;
-    bool seeks_light; // needs emission only: without lamps in the tree any of its spheres ends the ray
+    bool seeks_light; // only emission counts: without lamps in the tree any tree sphere ends the ray
     bool in_shadow;
-    uint node;        // to be entered next
+    uint node;
     uint first_place; // slot of the last node's child spheres; `spheres` marks those to be tested
     uint spheres;
     int height; // stack height, or ENDED
     bool done;
 };
 
-// Whether all invocations execute all branches, as on lavapipe; then each walk is ended.
+// Whether all invocations execute all branches, as on lavapipe.
 const bool IN_STEP = WALK_TRIPS == 0u;
 
-// Groups to be entered. Outside Walk, because functions copy arguments. IN_STEP they are in registers, last first:
-// lavapipe accesses arrays one invocation at a time. Otherwise each is at its height.
+// Groups to be entered. Functions copy arguments, so the stack is outside Walk. IN_STEP it is in registers, last group
+// first, because lavapipe accesses arrays one invocation at a time.
 const uint STACK_SIZE = TREE_LEVELS > 0u ? TREE_LEVELS : 1u;
 uint walk_stack[STACK_SIZE];
 
-// Not `done`: a driver may cut the loop while the compiler assumes that it ended.
+// The loop in go_on() ends with `done`. A driver may cut it, but compilers assume `done` after it. The height shows the
+// cut.
 const int ENDED = -1;
 
 const uint ROOT = 0u;
 
-// hit and blocked: outside the tree. Without a tree the walk ends here.
+// hit and blocked are those of surfaces outside the tree.
 Walk walk_from(Start start, vec3 direction, bool is_followed, ShadowRay shadow, float time, uint opacity_number,
                Hit hit, bool blocked)
 {
@@ -143,7 +143,7 @@ Walk walk_from(Start start, vec3 direction, bool is_followed, ShadowRay shadow, 
     return walk;
 }
 
-// Pushes a group or takes a node of the top one; all registers move.
+// Pushes a group or takes a node from the top group.
 void keep_or_take(inout Walk walk, bool keeps, uint group)
 {
     uint last = walk_stack[0];
@@ -185,7 +185,7 @@ GridRay ray_of(Walk walk, bool in_shadow)
     return ray;
 }
 
-// Enters the node up to the nearest hit so far.
+// Finds the children before the nearest hit so far.
 Entered enter(Walk walk, NodeWords words, GridRay ray, bool in_shadow)
 {
     vec3 inverse = in_shadow ? walk.shadow_inverse : walk.path_inverse;
@@ -202,9 +202,9 @@ uint next_place(inout Walk walk)
 
 bool is_in_tree(uint surface) { return surface >= SURFACE_COUNT && surface != NO_SURFACE; }
 
-// An odd hash of a sphere's word in grid steps, so independent of scale. Words differ (lib/tree/coincident_spheres.h).
-// Ends like lowbias32 (Wellons, "Prospecting for hash functions", 2018), where each input bit flips half of the output.
-// The last bits of opacity_number change two factors.
+// An odd hash of a sphere's word, with the radius in grid steps, so independent of scale. Words differ
+// (lib/tree/coincident_spheres.h). The hash ends like lowbias32 (Wellons, "Prospecting for hash functions", 2018),
+// where each input bit flips half of the output.
 uint opacity_generator(uvec4 word, uint opacity_number)
 {
     uint change = (opacity_number & TREE_OPACITY_BITS) << 1u;
@@ -216,8 +216,8 @@ uint opacity_generator(uvec4 word, uint opacity_number)
     return hash ^ (hash >> 16u) | 1u;
 }
 
-// Whether a ray passes a sphere, at random (Enderton et al. 2010, "Stochastic transparency"). Depends on sphere and
-// ray number alone, so neither the order of tests nor the split of samples matters. See opacity_number().
+// Whether a ray passes a sphere, at random (Enderton et al. 2010, "Stochastic transparency"). Only the sphere and
+// opacity_number decide, so neither the order of tests nor the split of samples matters.
 bool passes(uvec4 word, uint opacity_number)
 {
     if (TREE_OPACITY == 0)
@@ -241,8 +241,8 @@ void test_sphere(inout Walk walk, bool exists, uint place, uvec4 word, GridRay r
     keep_closer_of_tree(walk.hit, walk.hit_word, meets && !in_shadow ? distance : NO_HIT, surface, word);
 }
 
-// Takes a node and a sphere at most. The sphere is of an earlier node, so that neither waits for the other. Both are
-// fetched together, since lavapipe 22.3 spills registers around each fetch.
+// Enters at most one node and tests at most one sphere. The sphere is of an earlier node, so that neither waits for the
+// other. lavapipe 22.3 spills registers around each fetch, so both are fetched together.
 void trip_in_step(inout Walk walk, bool in_shadow)
 {
     bool tests = walk.spheres != 0u;
@@ -259,7 +259,7 @@ void trip_in_step(inout Walk walk, bool in_shadow)
     test_sphere(walk, tests, place, word, ray, in_shadow);
 }
 
-// Taking a node before the sphere's test is slower on GPUs.
+// On GPUs it is slower to take the next node before the sphere's test.
 void trip(inout Walk walk, bool in_shadow)
 {
     GridRay ray = ray_of(walk, in_shadow);
@@ -279,7 +279,7 @@ void trip(inout Walk walk, bool in_shadow)
         take(walk);
 }
 
-// Continues until the walk is done or, unless IN_STEP, for most_trips. has_shadow: false if shadow rays are impossible.
+// Continues until the walk is done or, unless IN_STEP, for most_trips.
 void go_on(inout Walk walk, uint most_trips, bool has_shadow)
 {
     uint trips = 0u;
@@ -307,7 +307,7 @@ void go_on(inout Walk walk, uint most_trips, bool has_shadow)
     } while (!walk.done && (IN_STEP || trips < most_trips));
 }
 
-// Set if a driver that limits loops has ended a walk early: the sample is lost.
+// A driver that limits loops has ended a walk early, so the sample is lost.
 bool walk_was_cut = false;
 
 void finish(inout Walk walk, bool has_shadow)

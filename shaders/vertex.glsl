@@ -9,16 +9,16 @@ struct Vertex {
     vec3 normal; // unit, on the path's side
     vec3 mirror; // unit direction of mirror reflection
     uint surface;
-    bool inside; // of the sphere; behind a plane's normal
+    bool inside; // inside the sphere, or behind the plane's normal
 };
 
 struct Arrival {
-    vec3 point;     // off the surface by the distance's rounding
-    vec3 direction; // unit vector of the ray
+    vec3 point;     // off the surface, by the rounding of the distance
+    vec3 direction;
     uint surface;
 };
 
-// Moves the hit onto the surface: the distance's rounding displaces it along the ray, up to thousands of times its own
+// Moves the hit onto the surface. The distance's rounding displaces it along the ray, up to thousands of times its own
 // rounding.
 Vertex vertex_at(Arrival arrival, float time)
 {
