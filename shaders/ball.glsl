@@ -35,7 +35,7 @@ vec3 nearest_centre(Ball ball, vec3 centre, vec3 to_first, uint kinds)
     return centre + clamp(-dot(to_first, axis.xyz * axis.w) * axis.w, 0.0, 1.0) * axis.xyz;
 }
 
-// sphere_distance() if paths never enter a sphere.
+// sphere_distance() for scenes whose paths never enter a sphere.
 float distance_from_outside(vec3 to_centre, float radius, vec3 direction, bool leaving)
 {
     float b = dot(to_centre, direction);
@@ -63,8 +63,8 @@ float sphere_distance(vec3 to_centre, float radius, vec3 direction, bool leaving
     return met ? distance : NO_HIT;
 }
 
-// Whether the sphere blocks a shadow ray from outside all spheres. This is b - sqrt(r^2 - l^2) < distance, without the
-// root. at_end: the ray starts or ends on the sphere.
+// Whether the sphere blocks a shadow ray from outside all spheres. The test is b - sqrt(r^2 - l^2) < distance, without
+// the root. at_end: the ray starts or ends on the sphere.
 bool sphere_blocks(vec3 to_centre, float radius, vec3 direction, bool at_end, float distance)
 {
     float b = dot(to_centre, direction);
@@ -79,8 +79,8 @@ bool sphere_blocks(vec3 to_centre, float radius, vec3 direction, bool at_end, fl
 // The axis has the unit vector u and the length L. Let c = u . direction. Let p and l be the parts of u and to_first
 // across the ray. The ray enters the ball at s of the axis at the distance b + s c - sqrt(r^2 - |l + s p|^2). This is
 // least at s = (n - c h) / |p|, with n = -l . p / |p| and h^2 = r^2 - |l + n p / |p||^2. For the last ball, h has the
-// other sign. The first distance is convex in s and the last one concave, so s is clamped to [0, L]. For |p| = 0 the
-// sign of c h decides.
+// other sign. The first distance is convex in s and the last one concave, so s is clamped to [0, L]. If |p| = 0, the
+// sign of c h chooses an end.
 //
 // Rounding shifts the ends across the ray by d <= 2^-22 (|to_first| + L). This shifts s by e = d / |p| and the hit
 // distance by e^2 / (2 h |p|). If |p|^2 < 2 d / h, the ray might miss the ball, so h - d replaces h. The hit distance
@@ -122,8 +122,8 @@ bool is_outside(vec3 to_centre, float radius, vec3 direction, float rounding)
     return above > nearly || (above > -nearly && dot(to_centre, direction) < 0.0);
 }
 
-// sphere_distance() for a ball or capsule. from_side leads from the point that decides the side to the first center.
-// From inside, a ray hits a capsule's last ball.
+// sphere_distance() for a ball or capsule. from_side leads from the point that decides the side to the first center. A
+// ray inside a capsule hits its last ball.
 float ball_distance(Ball ball, vec3 to_first, vec3 from_side, vec3 direction, bool leaving, bool inside, float rounding,
                     uint kinds)
 {

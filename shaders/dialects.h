@@ -28,7 +28,8 @@ using std::sqrt;
 
 inline constexpr float infinity = std::numeric_limits<float>::infinity();
 
-// Arguments are values, so that compilers vectorise loops. If one is NaN the result is the first one, as with std::min.
+// Arguments are passed by value, so that compilers vectorise loops. If one is NaN the first is returned, as by
+// std::min.
 template <typename Type>
 constexpr Type less_of(Type a, Type b) {
     return b < a ? b : a;

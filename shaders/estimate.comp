@@ -114,7 +114,7 @@ Sorted row_about(uint y, uint column, uint first, uint last)
     return sorted(left, means[y][column], right);
 }
 
-// part / sum for sum != 0. The whole sum gives exactly 1 although division may err, because the host subtracts
+// part / sum for sum != 0. The whole sum gives exactly 1 although division may err, because the host subtracts such
 // fractions.
 float share_of(float part, float sum)
 {

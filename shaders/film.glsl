@@ -79,7 +79,7 @@ uvec4 fixed_point(uvec4 windows)
     return add_with_carry(add_with_carry(a, b), add_with_carry(c, d));
 }
 
-// Adds to a sum's three low words. Returns what the highest word has to add. is_first: the sum is 0 and is not read.
+// Adds to a sum's three low words. Returns the addend of the highest word. is_first: the sum is 0 and is not read.
 uint film_store_sum(uint first, uint stride, uvec4 sum, bool is_first)
 {
     uvec4 old = uvec4(0u);
@@ -95,7 +95,7 @@ uint film_store_sum(uint first, uint stride, uvec4 sum, bool is_first)
 // Planes that rarely change: the sums' highest words and the number of rejected samples.
 uint rare_plane(uint i) { return i < 3u ? (i + 1u) * FILM_SUM_WORDS - 1u : FILM_REJECTED; }
 
-// A loop, usually of one trip, because lavapipe 22.3 executes the bodies of all ifs.
+// This is a loop, because lavapipe 22.3 executes the bodies of all ifs. It usually takes one trip.
 void film_add_rare_words(uint pixel, uint stride, uvec4 addends)
 {
     uint i = addends.x != 0u ? 0u : addends.y != 0u ? 1u : addends.z != 0u ? 2u : 3u;

@@ -41,7 +41,7 @@ PT_CONSTANT KIND_CAPSULE = 2;
 // Blocks of each vertex that a branch leaves:
 //   point on a lamp (2) and choice of the lamp (1, if there are several), unless every lamp has been sampled
 //   direction (2), specular or diffuse lobe (1, with GLOSS), survival of Russian roulette (1, for long paths)
-PT_CONSTANT EVERY_LAMP_LIMIT = 4;    // the first vertex samples every one of up to this many lamps
+PT_CONSTANT EVERY_LAMP_LIMIT = 4;    // up to this many lamps, the first vertex samples every lamp
 PT_CONSTANT SPOT_LIMIT = 8;          // most spots of a scene
 PT_CONSTANT ROULETTE_MIN_LENGTH = 8; // least MAX_PATH_LENGTH with Russian roulette
 
@@ -217,7 +217,7 @@ PT_CONSTANT FILM_FRACTION_BITS = 60;
 PT_CONSTANT FILM_ACCEPTED = 12;
 PT_CONSTANT FILM_REJECTED = 13;
 PT_CONSTANT FILM_WORDS = 14;
-// Most samples of an invocation (film.glsl).
+// The most samples that an invocation sums (film.glsl).
 PT_CONSTANT FILM_MAX_GATHERED = 511;
 // Accepted components are in [0, 2^28) film units, so a sum of 2^32 samples is below 2^60.
 PT_CONSTANT FILM_MAX_EXPONENT = 28;
@@ -225,7 +225,7 @@ PT_CONSTANT FILM_MAX_EXPONENT = 28;
 PT_CONSTANT FILM_MIN_ERROR_SAMPLES = 9;
 
 // ---- The error of an image -----------------------------------------------------------------------------------------
-// Side of a tile in pixels. Tiles are far wider than the correlation of neighbors.
+// Side of a tile in pixels. Tiles are far wider than the distance over which pixels correlate.
 PT_CONSTANT TILE_SIZE = 8;
 PT_CONSTANT ESTIMATE_WORKGROUP_SIZE = 128; // 16 adjacent tiles; every device allows this size
 
@@ -234,7 +234,7 @@ struct ErrorSquares {
     float sum;          // over pixels and channels
     float pixel_shares; // sum of (pixel's part / sum)^2
     float tile_shares;  // sum of (tile's part / sum)^2
-    float part_share;   // sum of tile's part / sum times fraction of a whole tile
+    float part_share;   // sum over tiles of (part / sum) times (pixels / pixels of a whole tile)
 };
 
 struct TileErrors {
@@ -242,7 +242,7 @@ struct TileErrors {
     ErrorSquares relative_square; // of (x - r)^2 / (r^2 + offset^2), times relative_scale^2, of values not met once
     ErrorSquares met_once;        // the same for values met once, with r estimated without them
     ErrorSquares as_lamps;        // the same for values met once, with r = x
-    float unseen;                 // expected square for unmet light
+    float unseen;                 // expected square of the error from light that no sample hit
     uint met_again;               // number of values met again (pixel_error.h)
     uint unknown_pixels;          // pixels without samples in one of the parts
     uint lost_pixels;             // pixels that a driver lost
@@ -252,7 +252,7 @@ struct TileErrors {
 // ---- Push constants ----------------------------------------------------------------------------------------------
 struct CameraView {
     vec3 right;        // unit vector
-    float start_scale; // a ray's start in its plane, per pixel of offset from the image's middle
+    float start_scale; // distance between the starts of neighboring pixels' rays
     vec3 up;           // unit vector
     uint width;        // image size in pixels
     vec3 forward;      // length: distance of the image plane in pixels, or 1 for parallel rays
@@ -269,9 +269,9 @@ struct FrameConstants {
     uint film_first_pixel;  // index in the image, row by row
     uint strip_first_pixel; // index in the film
     uint strip_pixel_count;
-    uint first_entry;  // index in the list of tiles
-    uint film_part;    // the part that gets the samples
-    uint is_first;     // 1: the part has no sample of these pixels; in fold.comp: true of the next dispatch
+    uint first_entry; // index in the list of tiles
+    uint film_part;   // the part that gets the samples
+    uint is_first;    // 1: the part has no sample of these pixels; in fold.comp this is about the next dispatch
     uint first_sample;
     uint sample_count;
     uint share;        // most samples per invocation; invocations along y divide the samples
@@ -297,7 +297,7 @@ struct ResolveConstants {
 // For first_hit.comp. Pixels are numbered row by row over the image.
 struct FirstHitConstants {
     CameraView camera;
-    float start_distance; // pinhole to the scene's origin, along the view
+    float start_distance; // distance from the pinhole to the scene's origin, along the view
     uint quantity;        // PT_QUANTITY_* of pt.h
     uint format;          // PT_FORMAT_* of pt.h
     uint first_pixel;     // the rectangle's corner

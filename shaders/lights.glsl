@@ -45,7 +45,7 @@ struct Lamps {
     float total_weight;
     float in_sight;        // number of lamps with positive weight
     float share_of_weight;
-    float uniform_share;   // probability of each of these by uniform choices
+    float uniform_share; // probability of each such lamp in uniform choices
     LampTreeTop tree;
 };
 
@@ -134,8 +134,8 @@ LampChoice choose_by_tree(Lamps lamps, uint number)
     return LampChoice(lamp, view_lamp(lamps.vertex, lamp, lamps.time), lamp_probability_by_tree(walk));
 }
 
-// Low numbers choose uniformly among the lamps of positive weight, other numbers by weight. The sum has the total's
-// order, so that rounding does not suppress small probabilities.
+// Low numbers choose uniformly among the lamps of positive weight, other numbers by weight. Weights are summed in the
+// same order as for the total, so that rounding does not suppress small probabilities.
 LampChoice choose(Lamps lamps, uint number)
 {
     if (HAS_LAMP_TREE)

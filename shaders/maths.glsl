@@ -61,10 +61,10 @@ float log2_one_minus(float y)
     return y < 0.25 ? -y * (1.44269504 + y * tail) : log2(1.0 - y);
 }
 
-// Smaller powers become 0, because denormal numbers are slow on CPUs.
+// 2^x is 0 below this x, because denormal numbers are slow on CPUs.
 const float EXP2_UNDERFLOW = -100.0;
 
-// 2^x for x <= 0, within 3 ulp of 1 (Vulkan: 3 + 2 |x| ulp).
+// 2^x for x <= 0. The error is at most 3 ulp of 1, because Vulkan allows 3 + 2 |x| ulp of the result.
 float exp2_negative(float x)
 {
     return x < EXP2_UNDERFLOW ? 0.0 : exp2(x);

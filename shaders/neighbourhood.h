@@ -54,7 +54,7 @@ struct Neighbourhood {
 };
 
 // Rows have missing values first. The median of k present values is the fifth of nine if 4 - (k - 1) / 2 missing values
-// count as lowest and the rest as highest. These are two of three at an edge and three of five at a corner.
+// count as lowest and the rest as highest. At an edge two of three count as lowest, at a corner three of five.
 PT_FUNCTION Neighbourhood neighbourhood(Sorted above, Sorted row, Sorted below, bool is_first_row, bool is_last_row,
                                         bool is_beside_edge)
 {

@@ -63,7 +63,6 @@ void take_samples_by_steps(uvec2 pixel, uint pixel_index, uint done, uint end, i
                 }
             }
 
-            // The next walk, of this sample or the next.
             if (!begins) {
                 walk = leave_last_vertex(current, departure, lamps);
             } else if (done < end) {

@@ -34,8 +34,8 @@ Material at_last_direction(Material material)
     return material;
 }
 
-// max(0, wo . r)^n = 2^(n log2(1 - y)) with y = |wo - r|^2 / 2. The chord wo - r keeps y precise near r, where pow(wo .
-// r, n) errs by 35% at n = 1e6. n = 0 gives 1 in the half space about r.
+// Returns max(0, wo . r)^n = 2^(n log2(1 - y)) with y = |wo - r|^2 / 2. The chord wo - r keeps y precise near r, where
+// pow(wo . r, n) errs by 35% at n = 1e6. For n = 0 the power is 1 in the half space about r.
 float lobe_power(vec3 r, vec3 wo, float n)
 {
     vec3 chord = wo - r;

@@ -67,11 +67,11 @@ PT_FUNCTION real around(real mean, ValueSet tile, real median_beside, real large
 // Squared errors are divided by the estimated limit of the pixel. The limit must not come from the bright sample that
 // made the error. It is the pixel's mean or, if less, the greater of the darker part's mean and the brightness around.
 //
-// At an edge the surroundings are bright, but at least half of the samples are dark. Let a fraction p of all samples
-// have the value M, and one of N samples so far. Then the mean is T = M / N, the squared error about T^2, and the limit
-// M p. If the prior of p is uniform, y = N p has the density y e^-y. The expectation of T^2 / (M^2 p^2 + k^2), with k^2
-// = known, is the integral of y e^-y / (y^2 + k^2 / T^2). This is ln(T / k) less about 1. The constant depends on the
-// prior, and without it the result fits the calibration scenes.
+// At an edge the surroundings are bright, but at least half of the samples are dark. Let samples have the value M with
+// probability p, and let one of N samples have had it. Then the mean is T = M / N, the squared error about T^2, and the
+// limit M p. If the prior of p is uniform, y = N p has the density y e^-y. The expectation of T^2 / (M^2 p^2 + k^2),
+// with k^2 = known, is the integral of y e^-y / (y^2 + k^2 / T^2). This is ln(T / k) minus about 1. The constant
+// depends on the prior, and without it the result fits the calibration scenes.
 struct Limit {
     real square;       // limit^2 + offset^2
     real known;        // (mean of the darker part)^2 + offset^2

@@ -170,8 +170,8 @@ PT_FUNCTION WholeNumber weighted_difference(uvec4 sum_a, uint a, uvec4 sum_b, ui
 //
 // s = |A / a - B / b| sqrt(a b) / (a + b) = |A b - B a| / ((a + b) sqrt(a b)).
 //
-// The numerator is exact. Root and divisor are cut to 32 bits, each by less than 2^-31, so the result is within .52 of
-// its last place.
+// The numerator is exact. Root and divisor are cut to 32 bits, with relative errors below 2^-31. So the result is
+// within .52 of its last place.
 struct ErrorDivisor {
     uint divisor; // its top bit is set
     int exponent; // the value is divisor 2^exponent
@@ -179,7 +179,7 @@ struct ErrorDivisor {
 
 PT_FUNCTION ErrorDivisor error_divisor(uint a, uint b)
 {
-    // sqrt(a b 2^(2 shift)), with one of its top two bits set.
+    // The root of a b 2^(2 shift), which has one of its top two bits set.
     uint square_high, square_low;
     umulExtended(a, b, square_high, square_low);
     int zeros = square_high != 0u ? 31 - findMSB(square_high) : 63 - findMSB(square_low);

@@ -15,9 +15,9 @@ struct Start {
     bool inside;
 };
 
-// Distance along a unit vector to a plane, or NO_HIT: 2 |h| / q or q / k of shaders/README.md, section 3. level is that
-// of the origin, side the camera's height. With KNOWN_SIDES a ray towards the plane always hits it. The distance is
-// negative if rounding has put the origin behind it.
+// Distance along a unit vector to a plane, or NO_HIT: 2 |h| / q or q / k of shaders/README.md, section 3. `level`
+// belongs to the ray's origin, `side` is the camera's height. With KNOWN_SIDES a ray towards the plane always hits it.
+// The distance is negative if rounding has put the origin behind the plane.
 float plane_distance(Level level, vec3 direction, bool leaving, bool inside, float side)
 {
     float slope = dot(level.gradient, direction);

@@ -1,5 +1,5 @@
-// Pixels for reading back, in each format. Float16 is computed with integers, as on the host (lib/film/pixel_format.h),
-// because Vulkan leaves packHalf2x16's rounding and small numbers to the device.
+// Writes pixels that are read back, in each format. Float16 is computed with integers, as on the host
+// (lib/film/pixel_format.h), because Vulkan leaves packHalf2x16's rounding and small numbers to the device.
 #ifndef RESOLVED_GLSL
 #define RESOLVED_GLSL
 

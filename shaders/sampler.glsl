@@ -30,7 +30,7 @@ SampleKey branch_key(SampleKey key, uint branch)
     return SampleKey(key.seed + uvec2(0u, high), key.pixel, low + branch, key.row + branch * branch_blocks, key.shift);
 }
 
-// pcg4d of Jarzynski and Olano, "Hash Functions for GPU Rendering" (JCGT 9(3), 2020).
+// The hash pcg4d of Jarzynski and Olano, "Hash Functions for GPU Rendering" (JCGT 9(3), 2020).
 uvec4 pcg4d(uvec4 v)
 {
     v = v * 1664525u + 1013904223u;
@@ -51,7 +51,7 @@ SampleKey key_of_pixel(uvec2 seed, uint pixel)
     return SampleKey(seed, pixel, 0u, 0u, pcg4d(uvec4(pixel, 0u, seed)));
 }
 
-// Times the pixel's hash this shifts a block (shaders/README.md, section 8).
+// The shift of a block is the pixel's hash times this number (shaders/README.md, section 8).
 uint odd_number(uint block)
 {
     uint odd = block * 0x9e3779b9u + 0xc2b2ae35u;

@@ -152,7 +152,7 @@ vec4 specular_of(uint surface)
     return HAS_TABLE ? scene_word(material_words(surface) + 1u) : scene_word_among(SPECULAR, SURFACE_COUNT, surface);
 }
 
-// The sphere at a time in [0, 1], for the index of a loop.
+// The sphere at a time in [0, 1]. The index is that of a loop.
 Ball ball_at(uint sphere, float time)
 {
     return ball_from(scene_word(sphere), HAS_WAYS ? scene_word(MOTIONS + sphere) : vec4(0.0), time, KINDS);
@@ -192,8 +192,8 @@ struct Level {
     float curvature;
 };
 
-// A sphere far larger than its distance is held as a plane with a curvature (shaders/README.md, section 3). This is the
-// height h(x) there, with its gradient. Motion by m replaces x by x - t m.
+// A sphere far larger than its distance is held as a plane with a curvature (shaders/README.md, section 3). Returns the
+// height h(x) of that section and its gradient. Motion by m replaces x by x - t m.
 Level level_of(vec4 normal_offset, vec4 curvature_motion, vec3 point, float time)
 {
     vec4 n = normal_offset;

@@ -38,7 +38,7 @@ PT_SPECIALIZED(OVERLAP, 15, 0)         // 1: several invocations may add to a pi
 PT_SPECIALIZED(TREE, 22, 0)            // 1: most spheres are in a tree
 PT_SPECIALIZED(TREE_LAMPS, 23, 0)      // lamps in the tree, the last of LAMP_COUNT
 PT_SPECIALIZED(TREE_COLORS, 24, 0)     // 1: tree spheres have colors of their own
-PT_SPECIALIZED(TREE_LEVELS, 35, 0)     // at least the nodes from the root to a sphere
+PT_SPECIALIZED(TREE_LEVELS, 35, 0)     // bound of the number of nodes from the root to a sphere
 PT_SPECIALIZED(TREE_INSIDE, 34, 1)     // 1: paths may be inside a sphere of the tree
 PT_SPECIALIZED(POINT_BLOCKS, 12, 1024) // size of the point table in blocks
 PT_SPECIALIZED(WALK_TRIPS, 27, 0)      // most trips of a step (tree_path.glsl); 0: each walk runs to its end
@@ -49,7 +49,7 @@ PT_SPECIALIZED(HIDDEN_LAMPS, 30, 0)
 PT_SPECIALIZED(HIDDEN_SKIES, 31, 0)
 PT_SPECIALIZED(HIDDEN_OTHERS, 32, 0)
 PT_SPECIALIZED(HIDDEN_PLANES, 33, 0)
-PT_SPECIALIZED(UNIFORM_READS, 38, 0) // 1: the scene buffer is a short uniform
+PT_SPECIALIZED(UNIFORM_READS, 38, 0) // 1: the scene is read from a short uniform buffer
 PT_SPECIALIZED(KINDS, 40, 1)         // bits of the spheres' kinds
 PT_SPECIALIZED(TREE_KINDS, 41, 1)    // bits of the kinds in the tree
 PT_SPECIALIZED(TREE_OPACITY, 19, 0)  // 1: rays pass through tree spheres at random
@@ -65,7 +65,7 @@ const uint CONSTANT_SCENE_WORDS = 64;
 #undef PT_SPECIALIZED
 
 #ifndef __cplusplus
-const bool STARTS_ON_DISC = ORTHOGRAPHIC + LENS > 0; // camera rays start far apart
+const bool STARTS_ON_DISC = ORTHOGRAPHIC + LENS > 0; // camera rays start at different points
 const uint CAMERA_BLOCKS = 1u + LENS;                // blocks of a camera ray
 #endif
 

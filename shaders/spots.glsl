@@ -165,8 +165,8 @@ uint choose_spot(Spots spots, float number)
     return chosen;
 }
 
-// A direction to an image follows a lobe about it. A direction to a glow leads to the point where a ray from the lamp's
-// center, of cosine density about the plane's normal, hits the plane.
+// A direction to an image follows a lobe about it. For a glow, a ray of cosine density leads from the lamp's center to
+// a point of the plane, and the direction leads to that point.
 vec3 direction_to_spot(Spots spots, uint spot, vec3 position, float time, vec2 place)
 {
     SpotWord word = spot_word(spot);

@@ -27,8 +27,9 @@ float departure_share; // weight of the light that the next departure finds; a s
 
 Path path_from(Arrival first) { return Path(first, vec3(1.0), vec3(0.0), 1u, true); }
 
-// Weights of the light that lamp samples and directions find: multiple importance sampling, or all to lamp samples.
-// Densities are multiplied by the vertex's number of samples (Veach 1997, section 9.2.2).
+// Weights of the light that lamp samples and directions find, by multiple importance sampling. With ESTIMATOR_LIGHT
+// lamp samples have all the weight. Densities are multiplied by the vertex's number of samples (Veach 1997, section
+// 9.2.2).
 float lamp_weight_over_density(float lamp_density, float direction_density)
 {
     return ESTIMATOR == ESTIMATOR_LIGHT ? 1.0 / lamp_density
@@ -85,7 +86,7 @@ float lobe_number(float number, uint branch, float directions)
 struct Departure {
     vec3 origin;
     vec3 direction;
-    float density;   // times the number of directions
+    float density;   // over solid angle, times the number of directions
     float strongest; // largest component of the throughput
     bool carries_light;
     float survival; // random number for Russian roulette

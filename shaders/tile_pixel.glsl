@@ -7,7 +7,7 @@ layout(set = 0, binding = BINDING_TILES) readonly buffer Tiles { uint first_pixe
 struct TilePixel {
     uint in_image;
     uint in_strip;
-    bool exists; // edges of image and strip may cut tiles
+    bool exists; // false beyond the edges of image and strip
 };
 
 // Pixels follow Morton's curve (1966), so that invocations that run in step have similar tree walks. Pixels before the

@@ -27,7 +27,7 @@ float tree_shutter_time() { return scene_storage.words[TREE_FRAME + 4u].x; }
 // Grid coordinates of the center; radius bits.
 uvec4 tree_sphere_word(uint place) { return tree_word(place); }
 
-// The ball relative to the grid point `base` plus `rest` steps.
+// The ball relative to the grid point `base`, moved by `rest` steps.
 Ball tree_ball_from(uvec4 word, ivec3 base, vec3 rest, uint place, float time)
 {
     vec3 centre = (vec3(ivec3(word.xyz) - base) - rest) * tree_step();

@@ -65,8 +65,7 @@ float byte_as_float(uint word, uint i)
     return uintBitsToFloat((bits & 0x7f8000u) | 0x3f800000u);
 }
 
-// The children of a node that a ray enters before a distance. Distances are compared as integers; negative ones are
-// less than 0.
+// The children of a node that a ray enters before a distance. Distances are compared by their bits as integers.
 struct Entered {
     uint node;   // nearest child node, or NO_NODE
     uint others;
@@ -97,7 +96,7 @@ Entered enter_node(NodeWords words, GridRay ray, vec3 inverse, float before)
     uvec3 nearer = uvec3(backwards.x ? high.x : low.x, backwards.y ? high.y : low.y, backwards.z ? high.z : low.z);
     uvec3 farther = uvec3(backwards.x ? low.x : high.x, backwards.y ? low.y : high.y, backwards.z ? low.z : high.z);
 
-    // Distances along the ray: `width` that of 256 node steps, `corner` that of the corner without the 1 of
+    // `width` is the distance along the ray of 256 node steps. `corner` is that of the low corner without the 1 of
     // byte_as_float().
     uvec3 exponents = uvec3(head.w, head.w >> 5, head.w >> 10) & 31u;
     vec3 width = uintBitsToFloat((exponents + 135u) << 23) * inverse;
@@ -109,7 +108,7 @@ Entered enter_node(NodeWords words, GridRay ray, vec3 inverse, float before)
 
     uint inner_count = (head.w >> 20) & 7u;
     uint child_count = (head.w >> 16) & 7u;
-    uint keys[TREE_WIDTH]; // of entered child nodes: the distance, with the child's index in the two low bits
+    uint keys[TREE_WIDTH]; // distances of entered child nodes, with the child's index in the two low bits
     uint entered = 0u;
     uint i = 0u;
     [[unroll]] do {

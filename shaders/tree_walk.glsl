@@ -10,7 +10,7 @@
 // advance beyond the hit.
 const float ADVANCE_ROUNDED = 0.99999976; // 1 - 2^-22
 
-// For surfaces outside the tree. Sorts before every tree sphere.
+// The word of surfaces outside the tree, which sorts before every tree sphere.
 const uvec4 NO_SPHERE_WORD = uvec4(0u, 0u, 0u, ~0u);
 
 // Order at equal distances, independent of the tree's shape. Of concentric spheres the larger goes first. The slot
@@ -73,7 +73,7 @@ ShadowRay ended_as_met_in_tree(ShadowRay shadow, Start start, float time)
     return shadow;
 }
 
-// First the vertex's shadow ray, if any, then the path's ray, if followed. An invocation whose shadow ray ends early
+// A walk follows the vertex's shadow ray, if any, and then the path's ray. An invocation whose shadow ray ends early
 // turns to its path's ray at once.
 struct Walk {
     Start start;
@@ -82,7 +82,7 @@ struct Walk {
     float time;
     uint opacity_number;
     Hit hit;      // at first the closest surface outside the tree
-    bool blocked; // at first by surfaces outside the tree
+    bool blocked; // whether the shadow ray is blocked, at first by surfaces outside the tree
     uvec4 hit_word;
     GridRay path_ray;
     GridRay shadow_ray;
@@ -101,13 +101,13 @@ struct Walk {
 // Whether all invocations execute all branches, as on lavapipe.
 const bool IN_STEP = WALK_TRIPS == 0u;
 
-// Groups to be entered. Functions copy arguments, so the stack is outside Walk. IN_STEP it is in registers, last group
-// first, because lavapipe accesses arrays one invocation at a time.
+// Groups to be entered. Functions copy arguments, so the stack is outside Walk. With IN_STEP it is in registers, last
+// group first, because lavapipe accesses arrays one invocation at a time.
 const uint STACK_SIZE = TREE_LEVELS > 0u ? TREE_LEVELS : 1u;
 uint walk_stack[STACK_SIZE];
 
-// The loop in go_on() ends with `done`. A driver may cut it, but compilers assume `done` after it. The height shows the
-// cut.
+// The loop in go_on() ends with `done`. A driver may cut the loop, and compilers still assume `done` after it. Only the
+// height shows the cut.
 const int ENDED = -1;
 
 const uint ROOT = 0u;
@@ -185,7 +185,7 @@ GridRay ray_of(Walk walk, bool in_shadow)
     return ray;
 }
 
-// Finds the children before the nearest hit so far.
+// Finds the children that the ray enters before the nearest hit so far.
 Entered enter(Walk walk, NodeWords words, GridRay ray, bool in_shadow)
 {
     vec3 inverse = in_shadow ? walk.shadow_inverse : walk.path_inverse;
@@ -279,7 +279,7 @@ void trip(inout Walk walk, bool in_shadow)
         take(walk);
 }
 
-// Continues until the walk is done or, unless IN_STEP, for most_trips.
+// Continues until the walk is done or, without IN_STEP, for most_trips.
 void go_on(inout Walk walk, uint most_trips, bool has_shadow)
 {
     uint trips = 0u;
