@@ -34,13 +34,12 @@ double cosine_of_turn(double u) {
 
 constexpr float turns[] = {0.125F, 0.25F, 0.375F, 0.5F, 0.625F, 0.75F, 0.875F};
 constexpr float complements[] = {0.0625F, 0.25F, 0.5F, 0.75F, 0.875F, 0.999F};
-// The nearest integer changes at these places.
 constexpr float exponents[] = {-0.5F, -1.0F, -1.5F, -24.5F, -99.5F};
 constexpr float powers_of_two[] = {1.0F, 2.0F, 4.0F};
 
 // Bounds add the errors of all steps in units u = 2^-24. An ulp is 1 to 2 u of its value. Sums and products have an
 // error of u. Vulkan allows 2.5 ulp for division and 2 ulp for inversesqrt ("Precision and Operation of SPIR-V
-// Instructions").
+// Instructions"). The lists name each step with its error.
 constexpr ElementaryFunction functions[] = {
     // sin: 1/2 - u 1, product 1, q 1.95; half an ulp. cos near 1 (p = 4): w^2 0.5, p's last sum 1, cofactor 1.2,
     // constant 0.9, remainder 0.1; half an ulp.
@@ -85,7 +84,7 @@ std::vector<float> accuracy_arguments(const ElementaryFunction &function) {
         arguments.insert(arguments.end(),
                          {std::nextafter(below, small), below, place, above, std::nextafter(above, large)});
     }
-    // Its multiples modulo 1 are evenly spread (Weyl 1916).
+    // Multiples of the golden ratio modulo 1 are evenly spread (Weyl 1916).
     constexpr std::uint32_t golden_ratio = 0x9e3779b9U;
     const std::uint32_t first_bits = magnitude_bits(function.first);
     const std::uint64_t bits_range = magnitude_bits(function.last) - first_bits;

@@ -15,20 +15,20 @@ namespace pt {
 struct ElementaryFunction {
     const char *name;
     double (*exact)(double);
-    double bound;                  // in ulp, for conforming devices
-    float first, last;             // same sign; |last| > |first|
-    std::span<const float> places; // where it switches formulas
+    double bound; // in ulp, for conforming devices
+    float first, last;
+    std::span<const float> places; // where the function switches formulas
 };
 
 std::span<const ElementaryFunction> elementary_functions();
 
-// Takes the range's ends, and `places` with their neighbors. Half of the rest is even over the range, half over its
-// exponents.
+// Arguments are the range's ends, `places` and their neighbors. Half of the others are evenly spread over the range,
+// and half over its exponents.
 constexpr std::uint32_t arguments_per_function = 16384;
 std::vector<float> accuracy_arguments(const ElementaryFunction &function);
 
-// An ulp of `exact` is 2^(e - 23) for 2^e <= |exact| < 2^(e + 1). The error is infinite for NaN, infinity, and if only
-// `exact` is 0.
+// An ulp of `exact` is 2^(e - 23) for 2^e <= |exact| < 2^(e + 1). The error is infinite for NaN, for infinity, and if
+// only `exact` is 0.
 double error_in_ulp(float value, double exact);
 
 // Unwritten values are NaN. Throws PT_ERROR_INTERNAL if the kernel writes past its values.
@@ -38,7 +38,6 @@ std::vector<float> evaluate(vulkan::Device &device, std::span<const std::uint32_
 pt_function_accuracy compare(const ElementaryFunction &function, std::span<const float> arguments,
                              std::span<const float> values);
 
-// Throws pt::Error.
 std::vector<pt_function_accuracy> measured_accuracy(vulkan::Device &device, std::span<const std::uint32_t> spirv);
 
 } // namespace pt

@@ -22,8 +22,8 @@ struct BufferTarget {
 class BufferWriter {
 public:
     struct PieceLimits {
-        std::uint64_t pixels; // >= 1, in any format
-        std::uint64_t bytes;  // including gaps between rows
+        std::uint64_t pixels; // >= 1
+        std::uint64_t bytes;  // with gaps between rows
     };
     static PieceLimits piece_limits(const vulkan::Limits &limits);
 
@@ -33,7 +33,7 @@ public:
     BufferWriter &operator=(const BufferWriter &) = delete;
 
     // Waits for the device. With a semaphore to signal, the next call waits instead. Throws PT_ERROR_INTERNAL if a
-    // driver lost work. After a loss in the previous call, nothing is written.
+    // driver lost work. If the previous call's work was lost, nothing is written.
     void write(const ImageQuery &query, const BufferTarget &target);
 
 private:
@@ -50,7 +50,7 @@ private:
     ResolvePipelines &pipelines_;
     DeviceFilm &film_;
     PieceLimits limits_;
-    PixelResults results_; // lost pixels only
+    PixelResults results_;
     std::vector<vulkan::DescriptorSet> sets_;
     std::optional<vulkan::Device::Ticket> under_way_;
 };

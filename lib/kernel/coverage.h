@@ -1,5 +1,5 @@
-// Counts the camera rays that hit a surface (shaders/coverage.comp). Tracing them again saves a fourth channel of the
-// film.
+// Counts the camera rays that hit a surface (shaders/coverage.comp). Rays are traced again, so the film needs no fourth
+// channel.
 #pragma once
 
 #include "lib/film/film_header.h"
@@ -17,7 +17,7 @@
 namespace pt {
 
 struct CoverageQuery {
-    Rectangle pixels; // at least one
+    Rectangle pixels; // >= 1
     const TileSamples &samples;
     const RenderSettings &settings;
 };
@@ -26,13 +26,13 @@ class Coverage {
 public:
     Coverage(vulkan::Device &device, std::span<const std::uint32_t> code);
 
-    // Calls receive(counts) for consecutive pieces, row by row. Throws PT_ERROR_SHADER or PT_ERROR_INTERNAL.
+    // Calls receive(counts) for consecutive pieces of the pixels, row by row.
     using Receive = std::function<void(std::span<const std::uint32_t>)>;
     void read(const BoundScene &bound, const CoverageQuery &query, double tests_per_submission, const Receive &receive);
 
 private:
     struct Buffers {
-        vulkan::Buffer covered; // lost rays, then counts
+        vulkan::Buffer covered;
         vulkan::Buffer host;
         vulkan::Buffer points;
         vulkan::Buffer tile_ranges;

@@ -17,9 +17,9 @@ namespace pt {
 
 namespace {
 
-// of length plus radius
+// Relative to length plus radius.
 constexpr double rounding_of_capsules = 0x1p-21;
-// of the radius, whose last bits hold the opacity
+// Relative to the radius, whose last bits hold the opacity.
 constexpr double rounding_of_radii = 0.5 * (gpu::TREE_OPACITY_STEPS + 1) * 0x1p-23;
 
 // Largest displacements by rounding, in scene units.
@@ -54,7 +54,8 @@ public:
     // A lower bound; infinite out of view.
     double nearest(const MovingBall &ball) const { return at(depth_(ball)); }
 
-    // A lower bound. Long ways are halved until the parts are short or far away. From inside, a ball's wall is seen.
+    // A lower bound. Long ways are halved until their parts are short or far away. Inside a ball, the camera sees its
+    // wall.
     double of_surface(const MovingBall &surface) const {
         const double depth = depth_(surface);
         const double short_way = view_ > 0.0 ? view_ : 0.25 * std::max(surface.radius, depth);
@@ -73,8 +74,8 @@ private:
     }
 
     std::function<double(const MovingBall &)> depth_;
-    double view_;        // height of parallel rays' view, or 0
-    double of_parallel_; // of parallel rays, or 0
+    double view_;        // height of an orthographic view, else 0
+    double of_parallel_; // of an orthographic view, else 0
     double at_distance_1_;
 };
 

@@ -10,8 +10,8 @@
 
 namespace pt {
 
-// Returns the visible surface that rounding moves farthest, if by more than a pixel. The rule names the cause and a
-// remedy.
+// Returns the visible surface that rounding moves farthest, if it moves by more than a pixel. The rule names the cause
+// and a remedy.
 std::optional<BrokenRule> displaced_surface(const PreparedScene &scene, const Camera &camera,
                                             const RenderSettings &settings);
 

@@ -16,11 +16,11 @@ std::uint32_t groups_in_row(const TileGrid &grid) {
     return (grid.width + gpu::ESTIMATE_WORKGROUP_SIZE - 1) / gpu::ESTIMATE_WORKGROUP_SIZE;
 }
 
-// Units in which all squared relative errors are normal floats.
+// In these units all squared relative errors are normal floats.
 struct RelativeUnits {
-    float offset;  // in film units
-    float scale;   // Errors are below 2^FILM_MAX_EXPONENT, so error * scale / offset < 2^60.
-    double factor; // corrects squares for a limited offset
+    float offset;
+    float scale; // Errors are below 2^FILM_MAX_EXPONENT, so error * scale / offset < 2^60.
+    double factor;
 
     double undone() const { return 1.0 / (static_cast<double>(scale) * static_cast<double>(scale) * factor); }
 

@@ -1,4 +1,4 @@
-// Reads the error of a film's image, summed over tiles by estimate.comp.
+// Reads the error of a film's image (estimate.comp).
 #pragma once
 
 #include "lib/film/error_estimate.h"
@@ -28,12 +28,11 @@ public:
 
     using Receive = std::function<void(const TileErrors &)>;
 
-    // Calls receive() with sums over some tiles of a row, in a fixed order. Throws PT_ERROR_INTERNAL if a driver lost
-    // work.
+    // Calls receive() with sums over some tiles of a row, in a fixed order.
     void read(const ErrorQuery &query, const Receive &receive);
 
-    // read() in two steps, for films of one strip. record() appends to commands that take samples, and collect() reads
-    // once they have ended. Only one such submission may be in flight.
+    // Both steps of read(), for films of one strip. record() adds to commands that take samples. Call collect() after
+    // their end. Only one such submission may be in flight.
     void record(const vk::raii::CommandBuffer &commands, const ErrorQuery &query);
     void collect(const ErrorQuery &query, const Receive &receive) const;
 

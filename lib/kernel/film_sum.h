@@ -27,7 +27,7 @@ public:
 
     DeviceFilm &film() { return film_; }
 
-    // Sums rows from first_row on, but only the pixels `wanted`.
+    // Sums the `wanted` pixels of the rows from first_row on.
     void gather(std::uint32_t first_row, const PixelRange &wanted);
 
 private:
@@ -52,8 +52,8 @@ private:
     std::list<Distant> others_;
     std::uint32_t piece_pixels_;
     std::vector<vulkan::Buffer> slots_;
-    std::vector<std::vector<vulkan::DescriptorSet>> slot_sets_; // by slot and strip
-    std::vector<std::vector<vulkan::DescriptorSet>> own_sets_;  // by both films' strips
+    std::vector<std::vector<vulkan::DescriptorSet>> slot_sets_;
+    std::vector<std::vector<vulkan::DescriptorSet>> own_sets_;
 };
 
 vulkan::ComputePipeline add_pipeline(vulkan::Device &device, std::span<const std::uint32_t> code);

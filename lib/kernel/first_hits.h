@@ -17,17 +17,16 @@ constexpr bool is_of_first_hits(std::uint32_t quantity) {
 }
 
 struct FirstHitQuery {
-    Rectangle pixels;       // at least one pixel
+    Rectangle pixels;
     std::uint32_t quantity; // must satisfy is_of_first_hits()
-    std::uint32_t format;   // PT_FORMAT_*
+    std::uint32_t format;
 };
 
 class FirstHits {
 public:
     FirstHits(vulkan::Device &device, std::span<const std::uint32_t> code);
 
-    // Calls receive(bytes) for consecutive pieces, row by row. Objects are the kernel's surface indices. Throws
-    // PT_ERROR_SHADER or PT_ERROR_INTERNAL.
+    // Calls receive(bytes) for consecutive pieces of the pixels, row by row. Objects are the kernel's surface indices.
     using Receive = std::function<void(std::span<const std::byte>)>;
     void read(const BoundScene &bound, const FirstHitQuery &query, double tests_per_submission, const Receive &receive);
 

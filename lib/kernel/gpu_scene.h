@@ -14,7 +14,7 @@ namespace pt {
 
 struct GpuScene {
     Features features;
-    // Positions are relative to the camera, subtracted in double. Motions are those while the shutter is open.
+    // Positions are relative to the camera, computed in double. Motions are those while the shutter is open.
     std::vector<glm::vec4> words;
     gpu::FrameConstants frame;
     std::shared_ptr<const SphereTree> tree; // may be NULL
@@ -27,7 +27,6 @@ struct GpuScene {
 // Throws PT_ERROR_UNSUPPORTED if a nearly flat sphere moves too far.
 GpuScene gpu_scene(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings);
 
-// Camera rays start at `start`.
 GpuScene gpu_scene(const DistinctScene &distinct, const PreparedScene &scene, const Camera &start,
                    const RenderSettings &settings);
 

@@ -19,11 +19,11 @@ public:
     HostFold(const HostFold &) = delete;
     HostFold &operator=(const HostFold &) = delete;
 
-    // Call it once, with the film in host memory and no submission running. Returns false and folds nothing if a rare
-    // word (film.glsl) is not 0, because the next submission expects zeros there.
+    // Call this once, with the film in host memory and no submission running. If a rare word (film.glsl) is not 0,
+    // returns false and folds nothing, because the next submission expects zeros there.
     bool fold(std::vector<PixelRange> pixels);
 
-    // Call it after the submission.
+    // Call this after the submission.
     void keep() noexcept { folded_.clear(); }
 
 private:

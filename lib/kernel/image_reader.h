@@ -1,4 +1,4 @@
-// Reads a film as an image. resolve.comp makes the pixels, so only 4 to 16 bytes of each are transferred.
+// Reads a film as an image. resolve.comp makes the pixels, so few bytes of each are transferred.
 #pragma once
 
 #include "lib/kernel/pixel_results.h"
@@ -22,7 +22,8 @@ public:
         pipelines_(pipelines),
         film_(film) {}
 
-    // Calls receive(bytes) for consecutive pieces, row by row. Throws PT_ERROR_INTERNAL if a driver lost work.
+    // Calls receive(bytes) for consecutive pieces of the pixels, row by row. Throws PT_ERROR_INTERNAL if a driver lost
+    // work.
     void read(const ImageQuery &query, const std::function<void(std::span<const std::byte>)> &receive);
 
     // Returns all pixels without gaps. The memory is valid until the next call. Throws like read().
@@ -52,7 +53,7 @@ private:
     ResolvePipelines &pipelines_;
     DeviceFilm &film_;
     std::vector<Slot> slots_;
-    std::optional<vulkan::Buffer> mapped_; // image, then lost pixels
+    std::optional<vulkan::Buffer> mapped_;
 };
 
 } // namespace pt

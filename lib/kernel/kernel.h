@@ -39,7 +39,7 @@ public:
     // For other kernels, while no work is in flight.
     BoundScene bound_scene();
 
-    // Builds pipelines in another cache. Throws PT_ERROR_SHADER if the driver rejects one.
+    // Builds pipelines in another cache.
     void build(TracePipelines &pipelines) const;
 
     // Some drivers compile only at the first dispatch. No work may be in flight.
@@ -56,7 +56,8 @@ public:
     double finish(vulkan::Device::Ticket ticket, double expected_seconds = 0.0);
 
 private:
-    // Each dispatch of a slice has a table of points, at most 4 MiB together. The film's split may add a dispatch.
+    // Each dispatch of a slice has its own table of points. Together they take at most 4 MiB. The film's split may add
+    // one dispatch.
     static constexpr std::uint32_t max_tables = 64;
 
     struct Batch {
@@ -89,7 +90,7 @@ private:
     std::uint64_t seed_;
     gpu::FrameConstants frame_;
     std::uint32_t table_bytes_;
-    std::uint32_t max_dispatch_samples_; // per pixel
+    std::uint32_t max_dispatch_samples_;
     bool overlap_;
     vulkan::Buffer scene_;
     const vulkan::Buffer *tree_;
@@ -98,7 +99,7 @@ private:
     std::vector<vulkan::DescriptorSet> sets_;
     std::uint32_t next_table_ = 0;
     bool scene_is_old_ = true;
-    double seconds_ = 0.0; // the device's, for the scene
+    double seconds_ = 0.0; // device time of the scene's slices
 };
 
 } // namespace pt

@@ -23,7 +23,7 @@ struct HiddenCounts {
 // an emitting sphere around the camera, which cannot be sampled from inside. If it is hidden and lies apart from all
 // visible surfaces, it is a lamp.
 struct KernelSurfaces {
-    std::vector<SeenSphere> spheres; // given by center and radius
+    std::vector<SeenSphere> spheres;
     std::vector<CurvedPlane> planes;
     std::uint32_t lamp_count;
     std::uint32_t sky_count;

@@ -10,7 +10,7 @@
 
 namespace pt {
 
-// From here on the tree is faster than a loop over all lamps.
+// From this many lamps on, a tree is faster than a loop.
 constexpr std::uint32_t least_tree_lamps = 32;
 
 std::uint64_t lamp_tree_words(std::uint32_t lamp_count, bool motion);
@@ -18,10 +18,10 @@ std::uint64_t lamp_tree_words(std::uint32_t lamp_count, bool motion);
 struct TreeLamp {
     SeenSphere sphere;
     double radiance;
-    std::uint32_t lamp; // index in the kernel
+    std::uint32_t lamp;
 };
 
-// `words` has lamp_tree_words(). Lamps are in the tree's order.
+// There are lamp_tree_words() words. The lamps are in the tree's order.
 void write_lamp_tree(std::span<glm::vec4> words, std::span<const TreeLamp> lamps, bool motion);
 
 } // namespace pt

@@ -12,11 +12,11 @@ namespace {
 
 // Empirical (tests/bench/NOTEBOOK.md). A glow is worth a ray if the plane is bright, and the lamp is near but does not
 // cover it.
-constexpr double largest_glow_height = 0.2; // of the height above the farthest plane
-constexpr double least_glow_height = 1.5;   // of the lamp's radius
-constexpr double least_glow_diffuse = 0.35; // mean of R, G and B
+constexpr double largest_glow_height = 0.2; // relative to the height above the farthest plane
+constexpr double least_glow_height = 1.5;   // relative to the lamp's radius
+constexpr double least_glow_diffuse = 0.35;
 // A mirror image is worth a ray if it is bright and small. Its width is 1 / glossiness plus the lamp's.
-constexpr double least_image_specular = 0.45; // mean of R, G and B
+constexpr double least_image_specular = 0.45;
 constexpr double widest_image = 0.02;
 
 double mean_of_color(const glm::vec3 &color) {

@@ -13,8 +13,8 @@ namespace pt {
 struct LightSpot {
     std::uint32_t lamp;
     std::uint32_t surface;
-    float reflectance; // mean of R, G and B
-    float glossiness;  // of a mirror image; -1 for a glow
+    float reflectance;
+    float glossiness; // of a mirror image; -1 for a glow
 };
 
 // Returns none for short paths, many lamps, or more than SPOT_LIMIT spots. Spots do not depend on the camera, so a

@@ -6,14 +6,12 @@
 namespace pt {
 
 // Such a kernel pays after a second of use. Waiting that long costs at most twice the optimum (ski rental problem). The
-// wait doubles when a kernel did not pay, and is reset when one has. Useless kernels then grow with the logarithm of
-// time.
+// wait doubles when a kernel did not pay, and is reset when one has.
 class OwnKernelClock {
 public:
     static constexpr double seconds_to_pay = 1.0;
     static constexpr double longest_wait = 32.0;
 
-    // `seconds` were spent on the scene so far.
     bool is_time(double seconds) const { return seconds > wait_; }
 
     // `seconds` were spent with the last such kernel.

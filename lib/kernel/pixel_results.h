@@ -22,7 +22,7 @@ public:
         found_(device, vulkan::BufferUse::Storage, findings_bytes + bytes, what),
         host_(device, vulkan::BufferUse::HostRead, findings_bytes + bytes, what) {}
 
-    const vulkan::Buffer &found() const { return found_; } // header, then pixels
+    const vulkan::Buffer &found() const { return found_; }
     std::uint64_t room() const { return found_.size() - findings_bytes; }
 
     vulkan::BufferRange pixels() const { return {found_.handle(), findings_bytes, room()}; }

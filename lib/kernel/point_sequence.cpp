@@ -86,7 +86,7 @@ constexpr SobolDimension joe_kuo[sequence_dimensions - 1] = {
     {637, {1, 1, 3, 13, 25, 47, 39, 87, 257}},
 };
 
-using Matrix = std::array<std::uint32_t, 32>; // for each bit of the index, least significant first
+using Matrix = std::array<std::uint32_t, 32>; // by bit of the index
 
 // v_k = m_k 2^(32 - k) by the recurrence of Bratley and Fox (ACM TOMS 14, 1988, section 2).
 constexpr Matrix direction_numbers(std::uint32_t dimension) {
@@ -118,7 +118,7 @@ constexpr std::array<Matrix, sequence_dimensions> sobol_matrices = [] {
     return matrices;
 }();
 
-// One bit's numbers in all dimensions. Combining rows is faster than combining coordinates.
+// The direction numbers of one bit in all dimensions. Combining rows is faster than combining coordinates.
 using Row = std::array<std::uint32_t, sequence_dimensions>;
 using Rows = std::array<Row, 32>;
 
@@ -171,7 +171,7 @@ std::uint32_t sobol(std::uint32_t index, std::uint32_t dimension) {
 }
 
 std::uint32_t radical_inverse(std::uint64_t index, std::uint32_t dimension) {
-    // index = sum d_k b^k with K digits; reversed = sum d_k b^(K - 1 - k); the inverse is reversed / b^K.
+    // For index = sum d_k b^k with K digits, reversed = sum d_k b^(K - 1 - k).
     const std::uint64_t base = primes[dimension];
     std::uint64_t reversed = 0;
     std::uint64_t power = 1; // b^K <= 311 * 2^35, no overflow

@@ -17,7 +17,7 @@ inline constexpr std::uint32_t sequence_dimensions = 64;
 // A multiple of 2^-32.
 std::uint32_t sobol(std::uint32_t index, std::uint32_t dimension);
 
-// Halton (1960) in the dimension-th prime base, rounded down to a multiple of 2^-32. index < 2^35.
+// Halton (1960) in the dimension-th prime base, rounded down to a multiple of 2^-32. Requires index < 2^35.
 std::uint32_t radical_inverse(std::uint64_t index, std::uint32_t dimension);
 
 // The blocks of a row in the point table (row_blocks() in gpu_layout.h).

@@ -27,7 +27,7 @@ double film_unit(const std::vector<Material> &materials) {
         brightest = std::max({brightest, material.emission.r, material.emission.g, material.emission.b});
     if (brightest == 0.0F)
         return 1.0;
-    int exponent = 0; // fraction * 2^exponent with fraction in [1/2, 1)
+    int exponent = 0;
     std::frexp(brightest, &exponent);
     // The kernel needs 1 / unit as a normal float32.
     return std::ldexp(1.0, std::clamp(exponent - 8, -120, 120));
@@ -43,8 +43,7 @@ Scene with_lamps(Scene scene, const SphereTree &tree) {
     return scene;
 }
 
-// Material numbers in the tree count only used materials. The tree's shape is left out, because it depends on earlier
-// scenes.
+// The tree counts only used materials. Its shape is left out, because it depends on earlier scenes.
 std::string digest_with_tree(const PreparedScene &prepared) {
     Digest digest;
     digest.add(digest_of(prepared.scene));

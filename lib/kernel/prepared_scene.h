@@ -16,17 +16,16 @@ namespace pt {
 
 struct PreparedScene {
     Scene scene; // without the tree's spheres
-    // Radiance of a film unit, a power of two. The brightest emission has 2^7 to 2^8 units. Samples 2^20 times as
-    // bright are accepted. Samples 2^-44 times as bright are exact.
+    // Radiance of a film unit, a power of two. The brightest emission has 2^7 to 2^8 units. Samples up to 2^20 times as
+    // bright are accepted. Samples down to 2^-44 times as bright are exact.
     double film_unit;
-    std::vector<Material> used_materials;    // in the scene's order
-    std::vector<std::uint32_t> used_indices; // by the scene's materials
+    std::vector<Material> used_materials;
+    std::vector<std::uint32_t> used_indices; // index in used_materials for each of the scene's
     bool gloss;                              // Any used material is glossy.
     std::shared_ptr<const SphereTree> tree;  // NULL if there are few spheres
     bool moves;
-    std::vector<std::uint32_t> lamp_order; // emitting spheres (lamp_tree.h)
+    std::vector<std::uint32_t> lamp_order; // see lamp_tree.h
 
-    // Makes no tree.
     explicit PreparedScene(Scene of);
 
     // Makes a tree from tree_from visible spheres on, or by default where it is faster. Reuses the tree shape of
@@ -36,7 +35,6 @@ struct PreparedScene {
 
     std::vector<Sphere> lamps() const;
 
-    // Computed on first use.
     const std::string &digest() const;
 
 private:

@@ -14,7 +14,7 @@ namespace pt {
 
 namespace {
 
-// Farther starts would overflow squared distances in float32. Spheres are nearer, because coordinates are at most 1e18.
+// Squared distances of farther starts would overflow float32. Spheres are nearer, because coordinates are at most 1e18.
 constexpr double farthest_start = 6e18;
 
 // Directions have an error of 2^-24, which exceeds 1/1024 of a narrower pixel.
@@ -25,7 +25,7 @@ struct View {
     std::array<glm::dvec3, 4> corners; // at depth 1
     glm::dvec3 forward;
     double half_angle;
-    double aside; // of lens rays from the pinhole ray
+    double aside; // largest distance of lens rays from the pinhole ray
 
     View(const Camera &camera, const RenderSettings &settings) : forward(camera.forward), aside(camera.lens_radius) {
         const double up = camera.tan_half_fov;
@@ -83,7 +83,7 @@ double depth_from_within(const glm::dvec3 &centre, double radius, const View &vi
     return (distance * std::cos(farthest) + half_chord) * std::cos(view.half_angle);
 }
 
-// The ball around the way suffices.
+// In perspective, the ball around the way gives a good bound.
 double depth_on_way(const MovingBall &, const View &) {
     return 0.0;
 }
@@ -114,8 +114,7 @@ double nearest_depth(const CurvedPlane &plane, const ParallelView &view) {
 }
 
 // The cylinder's line nearest to the center hits the ball first. With the center's depth a and its distance c from the
-// line, a - sqrt(r^2 - c^2) = (a^2 + c^2 - r^2) / (a + sqrt(r^2 - c^2)). The second form does not cancel for small
-// distant balls.
+// line, a - sqrt(r^2 - c^2) = (a^2 + c^2 - r^2) / (a + sqrt(r^2 - c^2)). The second form does not cancel.
 double depth_of_ball(const glm::dvec3 &centre, double radius, const ParallelView &view) {
     const double depth = glm::dot(centre, view.forward);
     const double across = glm::length(centre - depth * view.forward);
@@ -144,7 +143,7 @@ double depth_from_within(const glm::dvec3 &centre, double radius, const Parallel
     return glm::dot(centre, view.forward) + std::sqrt((radius - most) * (radius + most));
 }
 
-// A sphere is nearest at an end of its way. The ball around the whole way may be nearer still.
+// A sphere is nearest at an end of its way. The ball around the whole way would give a worse bound.
 double depth_on_way(const MovingBall &sphere, const ParallelView &view) {
     const double open = glm::dot(sphere.open, view.forward);
     return open + std::min(glm::dot(sphere.way, view.forward), 0.0) - sphere.radius;
@@ -166,7 +165,7 @@ double depth_of_sphere(const MovingBall &sphere, const AnyView &view, double mar
     return depth_of_region({sphere.open, sphere.way, sphere.radius * (1.0 + margin)}, view);
 }
 
-// A lower bound. Starts stay away from tree spheres, so that float32 finds their side.
+// A lower bound. Rays start away from tree spheres, so that float32 can tell the side.
 template <typename AnyView>
 double first_depth(const Scene &scene, const SphereTree *tree, const Camera &camera, const AnyView &view) {
     double depth = out_of_view;
@@ -196,7 +195,8 @@ void require_held_view(const Camera &camera, const RenderSettings &settings) {
                                        number_text(width)});
 }
 
-// Stops before the first surface by the view's width and a little more, so that no visible surface divides the disc.
+// Stops before the first surface by the view's width and a little more, so that no visible surface cuts the disc of
+// starts.
 Camera starting_in_parallel(const Scene &scene, const SphereTree *tree, const Camera &camera,
                             const RenderSettings &settings) {
     require_held_view(camera, settings);

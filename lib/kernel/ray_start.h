@@ -13,8 +13,8 @@
 namespace pt {
 
 // Moves the camera ahead to the first surface that may be in view, if the view is so narrow that rounding would show.
-// Rays start on a plane there, the origin of the kernel's coordinates. Parallel rays always start on such a plane, in a
-// disc (start_radius). Throws PT_ERROR_UNSUPPORTED if a parallel view is too wide.
+// Rays start on a plane there, whose center is the origin of the kernel's coordinates. Parallel rays always start on
+// such a plane, in a disc (start_radius). Throws PT_ERROR_UNSUPPORTED if a parallel view is too wide.
 Camera starting_ahead(const Scene &scene, const SphereTree *tree, const Camera &camera, const RenderSettings &settings);
 
 inline constexpr double out_of_view = std::numeric_limits<double>::infinity();

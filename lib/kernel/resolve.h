@@ -1,4 +1,4 @@
-// Pipelines of shaders/resolve.comp, which makes images from films.
+// Makes images from films (shaders/resolve.comp).
 #pragma once
 
 #include "lib/film/film_header.h"
@@ -16,18 +16,18 @@
 namespace pt {
 
 struct ImageQuery {
-    Rectangle pixels;                        // at least one pixel
-    std::uint32_t quantity;                  // PT_QUANTITY_*
-    double unit;                             // radiance per film unit, a power of two
-    std::optional<PartCounts> samples;       // each pixel's samples, if equal
-    std::uint32_t format = PT_FORMAT_RGB32F; // PT_FORMAT_*
+    Rectangle pixels;
+    std::uint32_t quantity;
+    double unit;                       // radiance per film unit, a power of two
+    std::optional<PartCounts> samples; // each pixel's samples, if equal
+    std::uint32_t format = PT_FORMAT_RGB32F;
 };
 
 class ResolvePipelines {
 public:
     ResolvePipelines(vulkan::Device &device, std::span<const std::uint32_t> code) : device_(device), code_(code) {}
 
-    // Builds on first use. Layouts are equal, so buffers bound for one format serve all.
+    // Builds a pipeline on first use. Layouts are equal, so buffers bound for one format serve all.
     const vulkan::ComputePipeline &of(std::uint32_t format);
 
 private:
@@ -46,7 +46,7 @@ struct ResolvedPiece {
 void resolve(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline, const DeviceFilm &film,
              std::span<const vulkan::DescriptorSet> sets, const ImageQuery &query, const ResolvedPiece &piece);
 
-// Throws PT_ERROR_INTERNAL unless 0.
+// Throws PT_ERROR_INTERNAL unless the count is 0.
 void require_no_loss(std::uint32_t lost_pixels);
 
 } // namespace pt

@@ -10,10 +10,10 @@
 
 namespace pt {
 
-// In words of four floats. 2^30 surfaces can take more than 2^32 words.
+// Units are words of four floats. 2^30 surfaces can take more than 2^32 words.
 struct SceneBlocks {
     std::uint64_t emission;
-    // Surface or table material i is at this + i * reflection_step.
+    // The diffuse word of surface or material i is at diffuse + i * reflection_step.
     std::uint64_t diffuse;
     std::uint64_t specular;
     std::uint64_t reflection_step;

@@ -15,8 +15,8 @@
 
 namespace pt {
 
-// Suffices for two rays. The longest walk of invocations in lockstep has about 100 trips for 10^6 spheres. Samples that
-// need more are lost and reported (tree_walk.glsl).
+// The trips suffice for two rays. The longest walk of invocations in lockstep has about 100 trips for 10^6 spheres.
+// Samples that need more are lost and reported (tree_walk.glsl).
 std::uint64_t loop_trips_per_walk(const Features &features) {
     constexpr std::uint64_t tree_trips = 200;
     return features.surface_count() + (features[gpu::ID_TREE] ? tree_trips : 0);
@@ -59,7 +59,7 @@ bool has_known_side(const CurvedPlane &plane) {
     return static_cast<float>(plane.offset) != 0.0F;
 }
 
-// Found by time to equal error (tests/bench/NOTEBOOK.md).
+// These counts take the least time to equal error (tests/bench/NOTEBOOK.md).
 std::uint32_t branches_among(std::size_t sphere_count, std::uint32_t max_path_length) {
     constexpr std::size_t very_many = 4096;
     if (sphere_count >= very_many && max_path_length > 3)
@@ -72,8 +72,8 @@ std::uint32_t rounded_up(std::uint32_t levels) {
     return (levels + step - 1) / step * step;
 }
 
-// Loops sum and choose over all lamps. A tree has its top groups, and the ways down to the chosen lamp and to a lamp
-// that a direction hits.
+// Without a tree, one loop sums over the lamps and one chooses. A tree has loops over its top groups, down to the
+// chosen lamp, and down to a lamp that a direction hits.
 std::uint64_t lamp_trips(const Features &features) {
     return features[gpu::ID_LAMP_TREE_LEVELS] ? gpu::LAMP_TREE_TOP_GROUPS + 2 * features[gpu::ID_LAMP_TREE_LEVELS]
                                               : 2 * std::uint64_t{features[gpu::ID_LAMP_COUNT]};
@@ -135,8 +135,8 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
     features[gpu::ID_PLANES_BLOCK] = features[gpu::ID_CURVATURE] || planes_divide || planes_are_passed ||
                                      std::ranges::any_of(lamps, is_behind_a_plane) ||
                                      (tree_lamps > 0 && !is_in_region(distinct.seen.planes, tree->bounds(), camera));
-    // Vertices give the sides faster among distinct flat planes. Sides are unknown if rays start on both sides of a
-    // surface, or pass it.
+    // For distinct flat planes, vertices give the sides faster. Sides are unknown if rays start on both sides of a
+    // surface or pass through it.
     const bool starts_divided = distinct.seen.any_surface(divides) || (tree && tree->divides_start(camera));
     const bool some_are_passed = planes_are_passed || std::ranges::any_of(distinct.seen.spheres, is_passed);
     features[gpu::ID_KNOWN_SIDES] =
@@ -176,7 +176,7 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
 std::uint32_t branch_count(const Features &features) {
     const bool spots_find_most = features[gpu::ID_SPOT_COUNT] > 0 && features[gpu::ID_MAX_PATH_LENGTH] == 3;
     const std::uint32_t branches = std::min(features.most_branches, spots_find_most ? 2U : 4U);
-    constexpr std::uint64_t max_trips = 1 << 14; // a quarter of the limit
+    constexpr std::uint64_t max_trips = 1 << 14;
     const bool affordable = branches * loop_trips_per_branch(features) <= max_trips;
     return features[gpu::ID_MAX_PATH_LENGTH] > 2 && affordable ? branches : 1;
 }
@@ -230,7 +230,6 @@ std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Fe
 }
 
 std::uint64_t loop_trips_per_sample(const Features &features) {
-    // The sample loop, walks of the camera ray and to further lamps, the choice of lamps, and branches.
     const std::uint64_t walk = loop_trips_per_walk(features);
     const std::uint32_t branches = branch_count(features);
     const std::uint64_t first_vertex = further_lamps(features, branches) * (1 + walk) + lamp_trips(features);
@@ -241,7 +240,6 @@ std::uint64_t loop_trips_per_sample(const Features &features) {
     return 1 + walk + way + first_vertex + branches * loop_trips_per_branch(features);
 }
 
-// Never 0, even for an empty scene.
 double surface_tests_per_ray(const Features &features, const SphereTree *tree) {
     constexpr double tests_of_node = 4.0; // about one per child
     const double tests = features.surface_count() + (tree ? tests_of_node * tree->cost() : 0.0);
@@ -249,10 +247,9 @@ double surface_tests_per_ray(const Features &features, const SphereTree *tree) {
 }
 
 double surface_tests_per_path(const Features &features, const SphereTree *tree) {
-    // The camera ray, rays to further lamps, two rays per vertex of a branch.
     const std::uint32_t branches = branch_count(features);
     const std::uint64_t vertices = std::uint64_t{branches} * (features[gpu::ID_MAX_PATH_LENGTH] - 1);
-    const std::uint32_t by_spot = features[gpu::ID_SPOT_COUNT] > 0 ? 3 : 0; // one to the spot, two from there
+    const std::uint32_t by_spot = features[gpu::ID_SPOT_COUNT] > 0 ? 3 : 0;
     return surface_tests_per_ray(features, tree) *
            static_cast<double>(1 + further_lamps(features, branches) + by_spot + 2 * vertices);
 }

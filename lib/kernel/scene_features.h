@@ -16,10 +16,10 @@
 namespace pt {
 
 struct Features {
-    // By gpu::ID_*, where scene, camera and settings decide.
+    // Indexed by gpu::ID_*. Constants that depend on the device are set later.
     std::array<std::uint32_t, gpu::CONSTANT_COUNT> constants{};
-    std::uint32_t most_branches = 0;   // at a path's first vertex
-    std::uint32_t table_materials = 0; // 0 for scenes in the uniform buffer
+    std::uint32_t most_branches = 0; // at a path's first vertex
+    std::uint32_t table_materials = 0;
 
     bool operator==(const Features &) const = default;
 
@@ -34,7 +34,7 @@ struct Features {
     std::uint32_t walked_lamps() const { return constants[gpu::ID_LAMP_COUNT] - constants[gpu::ID_TREE_LAMPS]; }
 };
 
-// Sets all but gpu::ID_SPOT_COUNT (light_spots.h).
+// Does not set gpu::ID_SPOT_COUNT (light_spots.h).
 Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfaces, const PreparedScene &scene,
                      const Camera &camera, const RenderSettings &render);
 
@@ -42,8 +42,9 @@ bool samples_lamps(const Features &features);
 
 std::vector<std::uint32_t> camera_blocks(const Features &features);
 
-// Branches share a path's camera ray and first vertex, because later vertices bring most of the noise. Many spheres,
-// and paths of three vertices with spots, pay with fewer. Samples near a driver's limit of 65535 loop trips have 1.
+// Branches share a path's camera ray and first vertex, because later vertices bring most of the noise. Scenes with many
+// spheres, and paths of three vertices with spots, have fewer. Samples near a driver's limit of 65535 loop trips have
+// one.
 std::uint32_t branch_count(const Features &features);
 
 PointLayout point_layout(const Features &features);
@@ -62,7 +63,6 @@ double surface_tests_per_path(const Features &features, const SphereTree *tree);
 
 double surface_tests_per_ray(const Features &features, const SphereTree *tree);
 
-// PT_FEATURE_* bits.
 std::uint32_t feature_bits(const Features &features);
 
 } // namespace pt

@@ -59,7 +59,7 @@ void SceneKernel::dispatch(const vk::raii::CommandBuffer &commands, const vulkan
 }
 
 std::uint64_t SceneKernel::pixels_at_once(std::uint64_t pixels, std::uint32_t rays_of_pixel, double rays) const {
-    constexpr std::uint64_t most = 1U << 18; // small beside the caller's image
+    constexpr std::uint64_t most = 1U << 18;
     const std::uint64_t dispatched =
         std::uint64_t{device_.limits().max_workgroup_count} * gpu::WORKGROUP_SIZE / rays_of_pixel;
     const std::uint64_t affordable = static_cast<std::uint64_t>(rays) / rays_of_pixel;

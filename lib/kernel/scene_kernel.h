@@ -1,4 +1,4 @@
-// A further kernel that reads the scene.
+// A kernel that reads the scene, besides the path tracer.
 #pragma once
 
 #include "lib/kernel/gpu_scene.h"
@@ -14,7 +14,7 @@
 
 namespace pt {
 
-// The scene's bindings come before further ones, and do not depend on a tree.
+// The scene's bindings come first. They do not depend on a tree.
 std::vector<vulkan::Binding> with_scene_bindings(std::initializer_list<vulkan::Binding> further);
 std::vector<vulkan::BufferRange> scene_ranges(const GpuScene &scene, const vulkan::Buffer &words,
                                               const vulkan::Buffer *tree);
@@ -26,11 +26,10 @@ struct BoundScene {
 
 class SceneKernel {
 public:
-    // `bindings` include the scene's.
     SceneKernel(vulkan::Device &device, std::span<const std::uint32_t> code, std::vector<vulkan::Binding> bindings,
                 std::uint32_t push_constant_bytes);
 
-    // By constant_id. Throws PT_ERROR_SHADER if the driver rejects the kernel.
+    // By constant_id.
     void fit(std::span<const std::uint32_t> constants);
 
     // `ranges` are for the further bindings.
@@ -52,7 +51,7 @@ private:
 // About this many tests, at least one ray.
 double rays_for(double tests, const GpuScene &scene);
 
-// Throws PT_ERROR_INTERNAL unless 0.
+// Throws PT_ERROR_INTERNAL unless the count is 0.
 void require_all_met(std::uint32_t lost_pixels);
 
 } // namespace pt

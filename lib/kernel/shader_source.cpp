@@ -23,8 +23,8 @@ namespace pt {
 
 namespace {
 
-// Searches beside the library, so that an installed tree can be moved, then the system's path, but never the working
-// directory. The module stays loaded, because glslang keeps tables.
+// Searches beside the library, so that an installed tree can be moved, then the system's path. Never searches the
+// working directory. The module stays loaded, because glslang keeps tables.
 pt_compile_glsl_fn load_compiler(const std::string &shader_directory) {
     const std::filesystem::path folder = platform::folder_with(reinterpret_cast<const void *>(&load_compiler));
     const std::filesystem::path name = platform::module_file("pt-glsl");
@@ -80,7 +80,6 @@ KernelCode code_of(std::vector<std::vector<std::uint32_t>> words) {
 
 } // namespace
 
-// Unpacked once, on first use.
 KernelCode embedded_code() {
     static const KernelCode code = code_of({pathtrace_spirv(), fold_spirv(), add_spirv(), resolve_spirv(),
                                             estimate_spirv(), accuracy_spirv(), first_hit_spirv(), coverage_spirv()});

@@ -60,12 +60,12 @@ bool ends_block(Opcode opcode) {
 }
 
 struct Fact {
-    std::optional<std::uint32_t> value; // of a 32-bit or Boolean constant
+    std::optional<std::uint32_t> value;
     std::optional<std::uint32_t> spec_id;
     std::uint32_t place = 0;
-    std::uint32_t taken = 0; // the only branch after a constant condition, else 0
-    bool is_reached = false; // blocks by branches, functions by calls
-    bool is_merge = false;   // A kept instruction merges there.
+    std::uint32_t taken = 0; // the only branch that is followed, else 0
+    bool is_reached = false;
+    bool is_merge = false; // A kept instruction merges there.
     bool is_there = false;
 };
 
@@ -174,8 +174,8 @@ private:
         return result_of(instruction[3], operand);
     }
 
-    // Follows a function to its first block, or a block to its calls and branches. A constant `if` has one branch.
-    // Branches that end a loop stay.
+    // Follows a function to its first block, or a block to its calls and branches. Only one branch of a constant `if`
+    // is followed. Branches that end a loop stay.
     void follow(std::uint32_t id) {
         const std::size_t place = fact(id).place;
         if (place == 0)
@@ -211,7 +211,7 @@ private:
         });
     }
 
-    // Calls use(instruction, block), with block 0 outside functions.
+    // The block is 0 outside functions.
     template <typename Use>
     void for_each_kept(Use &&use) {
         bool keeps_function = true;

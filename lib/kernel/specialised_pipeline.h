@@ -19,7 +19,7 @@ inline void set_device_constants(std::span<std::uint32_t> constants, const vulka
     constants[gpu::ID_POINT_BLOCKS] = device.limits().max_uniform_range / std::uint32_t{sizeof(PointBlock)};
 }
 
-// By constant_id. Throws PT_ERROR_SHADER if the driver rejects the kernel.
+// By constant_id.
 inline vulkan::ComputePipeline specialised_pipeline(vulkan::Device &device, std::span<const std::uint32_t> spirv,
                                                     std::span<const vulkan::Binding> bindings,
                                                     std::uint32_t push_constant_bytes,

@@ -46,7 +46,7 @@ private:
     std::uint32_t tile_count_;
     std::uint32_t slice_lists_;
     std::uint32_t next_list_ = 0;
-    vulkan::Buffer entries_; // all tiles, then slices' lists
+    vulkan::Buffer entries_;
 };
 
 } // namespace pt

@@ -9,8 +9,8 @@
 namespace pt {
 
 struct TileSlice {
-    std::span<const std::uint32_t> tiles; // ascending
-    SampleRange before;                   // hull of the tiles' samples; may be empty
+    std::span<const std::uint32_t> tiles;
+    SampleRange before; // hull of the tiles' samples; may be empty
     SampleRange samples;
     bool takes; // false if another device does
 

@@ -87,7 +87,7 @@ const vulkan::ComputePipeline &TracePipelines::trace(const Features &features, s
     if (device_.policy().scene_in_constants && features.scene_in_uniform() &&
         words.size() <= gpu::CONSTANT_SCENE_WORDS) {
         std::vector<std::uint32_t> own = with_scene(constants, words);
-        note_own(own, seconds); // own_ is now this scene's or empty.
+        note_own(own, seconds);
         if (const vulkan::ComputePipeline *const kept = find(own))
             return *kept;
         if (kept_.empty() || own_kernels_ == OwnKernels::at_once ||

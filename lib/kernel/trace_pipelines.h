@@ -18,7 +18,6 @@
 
 namespace pt {
 
-// All have the same bindings, so one descriptor set serves all.
 class TracePipelines {
 public:
     // Enough for alternating scenes. Work in flight uses at most the last two.
@@ -34,7 +33,7 @@ public:
     // the scene buffer. `seconds` were spent on the scene so far. The result is valid until the next call.
     const vulkan::ComputePipeline &trace(const Features &features, std::span<const glm::vec4> words, double seconds);
 
-    // at_once is for preparation, and never is for polls.
+    // Callers that prepare ahead use at_once. Polls use never.
     enum class OwnKernels { when_they_pay, at_once, never };
     void build_own(OwnKernels when) { own_kernels_ = when; }
 
@@ -48,8 +47,8 @@ private:
 
     struct OwnKernel {
         std::vector<std::uint32_t> constants;
-        double last_seconds; // spent on the scene
-        double used_seconds; // since it was built
+        double last_seconds;
+        double used_seconds;
     };
 
     const vulkan::ComputePipeline *find(const std::vector<std::uint32_t> &constants);

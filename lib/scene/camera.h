@@ -12,13 +12,13 @@ namespace pt {
 
 struct Camera {
     glm::dvec3 position;
-    glm::dvec3 right; // orthonormal with the next two; right x up points backwards
+    glm::dvec3 right; // orthonormal with up and forward; right x up points backwards
     glm::dvec3 up;
     glm::dvec3 forward;
     double tan_half_fov; // of half the vertical angle; 0: parallel rays
     double shutter_open; // 0 <= open <= close <= 1
     double shutter_close;
-    double vertical_extent = 0.0; // height of parallel rays' view; 0: perspective
+    double vertical_extent = 0.0; // height of an orthographic view; 0: perspective
     double start_distance = 0.0;  // from pt_camera.position (ray_start.h)
     double start_radius = 0.0;    // of the disc around position where rays start; 0: a point
     double lens_radius = 0.0;     // 0: a pinhole or parallel rays
@@ -31,7 +31,7 @@ struct Camera {
     double spread(double depth) const { return has_lens() ? lens_radius * std::abs(1.0 - depth / focus) : 0.0; }
 };
 
-// Expects a checked struct_size. Throws PT_ERROR_INVALID_ARGUMENT with all broken rules.
+// Throws PT_ERROR_INVALID_ARGUMENT with all broken rules.
 Camera validated_camera(const pt_camera &source);
 
 std::string digest_of(const Camera &camera);

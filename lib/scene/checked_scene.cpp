@@ -17,7 +17,6 @@ namespace {
 // Positions in the scene buffer have 32 bits.
 constexpr std::uint64_t max_surface_count = std::uint64_t{1} << 30;
 
-// Share of pt_set_scene's time for many spheres.
 constexpr double share_of_checks = 0.08;
 
 glm::vec3 color(const float (&components)[3]) {
@@ -108,7 +107,6 @@ private:
     std::string material_rule_;
 };
 
-// A missing array is a violation and counts as empty.
 template <typename Element>
 std::span<const Element> elements(const Element *array, std::uint32_t count, const std::string &name,
                                   Violations &violations) {

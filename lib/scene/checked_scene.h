@@ -17,7 +17,7 @@ struct CheckedScene {
     std::vector<Plane> planes;
 };
 
-// Expects a checked struct_size. Throws PT_ERROR_INVALID_SCENE with all broken rules.
+// Throws PT_ERROR_INVALID_SCENE with all broken rules.
 CheckedScene checked_scene(const pt_scene &scene, WorkProgress &progress);
 
 } // namespace pt

@@ -1,4 +1,4 @@
-// The type of a pt_column is decided once per call.
+// Reads elements of a pt_column.
 #pragma once
 
 #include "lib/scene/srgb.h"
@@ -36,7 +36,6 @@ decltype(auto) with_numbers(const pt_column &column, Use use) {
     return use([&column](std::size_t index) { return element<double>(column, index); });
 }
 
-// read(index) is a vec3 or dvec3.
 template <typename Use>
 decltype(auto) with_vectors(const pt_column &column, Use use) {
     if (column.type == PT_TYPE_FLOAT32)

@@ -35,8 +35,8 @@ private:
     std::uint32_t top_groups_;
 };
 
-// Returns emitting spheres in the order of slots, by their places at time 1/2. A camera for which some are no lamps
-// keeps the order.
+// Returns emitting spheres in the order of slots, by their places at time 1/2. If some are no lamps for a camera, the
+// others keep their order.
 std::vector<std::uint32_t> order_in_lamp_tree(const Scene &scene);
 
 } // namespace pt

@@ -19,7 +19,7 @@ class Kinds {
 public:
     void add(Kind kind) { bits_ |= static_cast<std::uint32_t>(kind); }
     std::uint32_t bits() const { return bits_; }
-    bool have_ways() const { return bits_ > gpu::KIND_BALL; } // even if nothing moves
+    bool have_ways() const { return bits_ > gpu::KIND_BALL; }
 
 private:
     std::uint32_t bits_ = 0;
@@ -103,8 +103,8 @@ inline bool lies_apart(const MovingBall &ball, const MovingBall &surface) {
     return is_beside || is_within;
 }
 
-// The word in shaders/gpu_layout.h. A capsule whose 1 / length overflows is far shorter than any radius, and becomes a
-// ball.
+// The ball's word in the kernel (shaders/gpu_layout.h). A capsule whose 1 / length overflows is far shorter than any
+// radius, and becomes a ball.
 inline glm::vec4 way_word(const MovingBall &ball) {
     const glm::vec3 rounded = glm::vec3(ball.way) + 0.0F; // -0 + 0 = +0, for twins
     if (ball.kind == Kind::ball)
@@ -113,7 +113,6 @@ inline glm::vec4 way_word(const MovingBall &ball) {
     return std::isfinite(inverse) ? glm::vec4(rounded, inverse) : glm::vec4(0.0F);
 }
 
-// Inverse of way_word().
 inline MovingBall surface_of(const glm::dvec3 &open, double radius, const glm::vec4 &way) {
     return {open, glm::dvec3(way), radius, way.w > 0.0F ? Kind::capsule : Kind::ball};
 }

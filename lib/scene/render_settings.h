@@ -13,13 +13,13 @@ struct RenderSettings {
     std::uint32_t max_path_length;
     std::uint64_t seed;
     std::uint32_t first_sample;
-    std::uint32_t estimator; // never PT_ESTIMATOR_BEST
-    std::uint32_t sampler;   // never PT_SAMPLER_BEST
+    std::uint32_t estimator;
+    std::uint32_t sampler;
     std::uint32_t first_row;
     std::uint32_t row_count; // >= 1; within the image
 };
 
-// Expects a checked struct_size. Throws PT_ERROR_INVALID_ARGUMENT with all broken rules.
+// Throws PT_ERROR_INVALID_ARGUMENT with all broken rules.
 RenderSettings validated_render(const pt_render &source);
 
 } // namespace pt

@@ -20,7 +20,7 @@ MaterialKey key_of(const Material &material) {
             emission.r, emission.g, emission.b, glossiness, hidden ? 1.0F : 0.0F};
 }
 
-// Makes a material for each sphere color. Equal ones are shared.
+// Equal colored materials are shared.
 class ColoredMaterials {
 public:
     explicit ColoredMaterials(std::vector<Material> &materials) : materials_(materials) {}

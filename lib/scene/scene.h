@@ -35,9 +35,8 @@ inline bool is_glossy(const Material &material) {
 // In steps of 1 / TREE_OPACITY_STEPS. If all spheres are opaque, they have no_opacity.
 inline constexpr std::int16_t no_opacity = -1;
 inline constexpr auto opaque = static_cast<std::int16_t>(gpu::TREE_OPACITY_STEPS);
-inline constexpr double least_opaque = 1.0 - 0.5 / gpu::TREE_OPACITY_STEPS; // rounds to opaque
+inline constexpr double least_opaque = 1.0 - 0.5 / gpu::TREE_OPACITY_STEPS;
 
-// The share of rays that pass a sphere.
 inline double passing_share(std::int16_t opacity) {
     return opacity == no_opacity ? 0.0 : 1.0 - static_cast<double>(opacity) / gpu::TREE_OPACITY_STEPS;
 }
@@ -66,8 +65,8 @@ struct Scene {
     std::vector<Material> materials; // the caller's, then those of colored spheres
     std::vector<Sphere> spheres;     // pt_scene.spheres, then the arrays
     std::vector<Plane> planes;
-    std::vector<std::uint32_t> array_starts = {}; // first spheres of pt_scene.sphere_arrays
-    std::vector<std::uint32_t> indices = {};      // in the caller's scene; empty: all are kept
+    std::vector<std::uint32_t> array_starts = {};
+    std::vector<std::uint32_t> indices = {}; // in the caller's scene; empty: all are kept
 };
 
 struct CheckedScene;
@@ -86,8 +85,8 @@ SpherePlace place_of_sphere(const Scene &scene, std::size_t position);
 
 SpherePlace place_of_index(const Scene &scene, std::size_t index);
 
-// Films distinguish scenes by this digest of surfaces, in order, and their materials. It does not depend on structs or
-// columns, unused materials, or the materials' order and repetition.
+// Films distinguish scenes by this digest of the surfaces and their materials. It depends on the surfaces' order, but
+// not on structs or columns, unused materials, or the materials' order and repetition.
 std::string digest_of(const Scene &scene);
 
 void add(Digest &digest, const Material &material);

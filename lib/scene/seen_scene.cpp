@@ -10,18 +10,18 @@ namespace pt {
 
 namespace {
 
-// Radius over distance of a nearly flat sphere. Below it, center and radius cost a hit at most 5 of 24 bits.
+// Spheres are nearly flat above this ratio of radius to distance. Below it, a hit loses at most 5 of float32's 24 bits.
 constexpr double nearly_flat = 32.0;
 
-// The ratio for lamps. Only directions find curved planes as lamps, which adds noise. Here the surface is off by 2^-24
-// R, 1/256 of the distance.
+// The ratio is larger for lamps, because curved planes cannot be sampled as lamps, which adds noise. At this ratio the
+// surface is off by 2^-24 R, 1/256 of the distance.
 constexpr double nearly_flat_lamp = 65536.0;
 
 bool is_large(const SeenSphere &sphere, double ratio) {
     return sphere.kind == Kind::ball && sphere.radius > ratio * std::abs(sphere.height());
 }
 
-// The camera sees motion like a distance.
+// Motion is relative to the camera, so it counts like a distance.
 bool moves_little(const SeenSphere &sphere) {
     return sphere.radius > nearly_flat * glm::length(sphere.way);
 }
@@ -96,8 +96,8 @@ void require_held_motions(const SeenScene &seen, const Scene &scene, const Camer
 }
 
 // Let the center be at a from the disc's plane and c from its axis. Squared distances from the disc's points are a^2 +
-// max(c - radius, 0)^2 to a^2 + (c + radius)^2. Half the way of a moving ball is added. Float32 has an error of a share
-// of the ball's size or, for a huge ball, its distance.
+// max(c - radius, 0)^2 to a^2 + (c + radius)^2. A moving ball's radius grows by half its way. Float32's error is
+// proportional to the ball's size or, for a huge ball, to its distance.
 bool divides_start(const MovingBall &ball, const Camera &camera, double slack) {
     if (camera.start_radius == 0.0 || !may_hold_origin(ball, camera.start_radius + slack))
         return false;

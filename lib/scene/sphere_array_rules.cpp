@@ -124,7 +124,6 @@ public:
     }
 
 private:
-    // A value for all spheres is checked once.
     std::size_t elements(const pt_column &column) const { return column.stride_bytes == 0 ? 1 : array_.count; }
 
     std::uint32_t material(std::size_t i) const {
@@ -180,7 +179,6 @@ std::string member(const ColumnKind &kind, const char *name) {
     return std::string(kind.name) + '.' + name;
 }
 
-// Returns whether a column can be read or may be missing.
 bool check_layout(const Subject &array, const pt_column &column, std::uint32_t count, const ColumnKind &kind) {
     const auto refuse = [&](const char *name, const std::string &value, const std::string &rule) {
         array.refuse(member(kind, name).c_str(), value, rule);

@@ -25,7 +25,6 @@ double elements_of(std::span<const pt_sphere_array> arrays);
 void check_sphere_arrays(std::span<const pt_sphere_array> arrays, std::span<const pt_material> materials,
                          Violations &violations, WorkProgress &progress);
 
-// "must be < material_count (5)"
 std::string material_rule(std::uint32_t material_count);
 
 } // namespace pt

@@ -55,7 +55,6 @@ public:
             use);
     }
 
-    // Calls use(i, sphere, color) for the spheres indices[i], in order.
     template <typename Use>
     void for_each(std::span<const std::uint32_t> indices, WorkProgress &progress, Use use) const {
         for_each_read(
@@ -66,7 +65,7 @@ public:
     std::span<const std::uint32_t> array_starts() const { return {starts_.begin() + 1, starts_.end() - 1}; }
 
 private:
-    static constexpr std::size_t chunk_size = 256; // fits into the first cache
+    static constexpr std::size_t chunk_size = 256;
 
     template <typename From, typename Use>
     void for_each_read(std::size_t all, WorkProgress &progress, From from, Use use) const {
@@ -91,8 +90,8 @@ private:
     template <typename Element, typename Read>
     void read_parts(std::span<const std::uint32_t> indices, std::span<Element> elements, Read read_part) const;
 
-    std::vector<pt_sphere_array> parts_; // structs as columns, then arrays
-    std::vector<std::uint32_t> starts_;  // first sphere of each part, then the total
+    std::vector<pt_sphere_array> parts_;
+    std::vector<std::uint32_t> starts_;
     bool has_colors_;
     bool has_opacities_;
     std::size_t others_count_ = 0;

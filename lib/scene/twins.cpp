@@ -9,14 +9,14 @@ namespace pt {
 
 namespace {
 
-// Twins differ by at most 64 roundings of the radius. A distance along a ray is off by a dozen, and paths see surfaces
-// from farther than the camera.
+// Twins differ by at most 64 roundings of the radius. A distance along a ray has an error of a dozen, and paths may be
+// farther away than the camera.
 constexpr double same_size = 0x1p-18;
 // Relative to the distance: four times the spacing of float32.
 constexpr double same_place = 0x1p-21;
-// Planes that differ by more have distinct vertices, because positions are known to 2^-22 of the distance. At this
-// angle planes are closer only in a band of 2^-14 of the distance. Parallel planes are closer only near the horizon, in
-// less than a pixel.
+// Planes that differ by more have distinct vertices, because positions have errors of 2^-22 of the distance. Planes at
+// this angle are indistinct only within 2^-14 of the distance from their intersection, less than a pixel. Parallel
+// planes are indistinct only in a strip of 2^-14 below the horizon.
 constexpr double two_planes = 0x1p-8;
 
 // Incommensurable, for spheres on a lattice: 1, sqrt(2) and sqrt(3) over sqrt(6).
@@ -26,8 +26,8 @@ double tolerance(const SeenSphere &sphere) {
     return std::min(same_size * sphere.radius + same_place * sphere.distance, two_spheres * sphere.radius);
 }
 
-// For planes equal to same_size, centers and radii are equal to three times that, if the offset is small against the
-// radius.
+// If planes are equal to same_size and the offset is small against the radius, centers and radii are equal to three
+// times that.
 double reach(const SeenSphere &sphere) {
     return sphere.is_flat ? 4.0 * same_size * sphere.radius : tolerance(sphere);
 }

@@ -9,8 +9,8 @@ namespace pt {
 // for each ray of a path, and light would count twice or never.
 struct DistinctScene {
     SeenScene seen;
-    bool close_lamps;  // A lamp and another sphere differ by under a quarter of their radii.
-    bool close_planes; // Two planes differ by under 2^-8 in direction and distance.
+    bool close_lamps;  // A lamp and another sphere differ by less than 1/4 of their radii.
+    bool close_planes; // Two planes differ by less than 2^-8 in direction and distance.
 };
 
 DistinctScene without_twins(SeenScene seen);

@@ -13,7 +13,7 @@ namespace pt {
 
 namespace {
 
-// The steps differ for up to 2^27 ranks. They are below 2^9 along each axis, 2^-21 of the grid.
+// Steps differ for up to 2^27 ranks. Along each axis they are below 2^9, which is 2^-21 of the grid.
 glm::uvec4 steps_of(std::uint32_t rank) {
     constexpr std::uint32_t side = 512;
     return {rank % side, rank / side % side, rank / (side * side), 0};

@@ -14,7 +14,7 @@ int bins_for(std::size_t spheres) {
     return spheres > 64 ? most_bins : 8;
 }
 
-// Bins of equal width along the longest axis. The other axes hardly improve large parts.
+// Bins of equal width along the longest axis. Other axes hardly help for large parts.
 class Bins {
 public:
     explicit Bins(const Part &part) :
@@ -41,7 +41,7 @@ private:
 };
 
 struct BinCut {
-    float cost = std::numeric_limits<float>::infinity(); // no cut found
+    float cost = std::numeric_limits<float>::infinity();
     int bin = 0;
     float first_surface = 0.0F;
     float second_surface = 0.0F;
@@ -103,7 +103,7 @@ BinCut best_cut(const Part &part, const Bins &bins) {
 Halves binned_halves(const Part &part) {
     const Bins bins(part);
     const BinCut cut = best_cut(part, bins);
-    std::size_t count = 0; // The first half has these items so far.
+    std::size_t count = 0;
     for (TreeItem &item : part.items) {
         const TreeItem looked_at = item;
         item = part.items[count];
@@ -124,7 +124,7 @@ Halves swept_halves(const Part &part) {
     float first_surface = 0.0F;
     float second_surface = 0.0F;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        std::array<std::uint32_t, most_swept> places{}; // positions along the axis
+        std::array<std::uint32_t, most_swept> places{};
         for (std::size_t i = 0; i < count; ++i)
             for (std::size_t other = 0; other < i; ++other) {
                 const bool is_before = part.items[other].centre_radius[axis] <= part.items[i].centre_radius[axis];

@@ -8,10 +8,10 @@
 namespace pt {
 
 // The halves with the least sum of surface times expected nodes (Wald 2007). Cuts are between bins along the longest
-// axis. The spheres must have different centers, and equal ones stay together.
+// axis. The spheres must have different centers. Equal ones stay together.
 Halves binned_halves(const Part &part);
 
-// Up to here, trying all cuts is faster than bins.
+// Up to this many spheres, trying all cuts is faster than bins.
 inline constexpr std::size_t most_swept = 12;
 
 // Tries all cuts along each axis, for at most most_swept spheres.

@@ -13,7 +13,7 @@
 namespace pt {
 
 struct Grid {
-    // Largest coordinate. Differences to a camera twice as far away do not overflow.
+    // Differences to a camera twice as far away do not overflow.
     static constexpr double reach = gpu::TREE_REACH;
 
     glm::dvec3 middle; // in scene units
@@ -36,7 +36,7 @@ struct Grid {
 private:
     // The smallest power of two for which `reach` steps cover the distance. Float32 must hold it and its inverse.
     static double step_for(double distance) {
-        int exponent = 0; // distance / reach = fraction * 2^exponent with fraction in [1/2, 1)
+        int exponent = 0;
         std::frexp(distance / reach, &exponent);
         return std::ldexp(1.0, std::clamp(exponent, -120, 120));
     }

@@ -10,7 +10,7 @@
 
 namespace pt {
 
-// Returns medians of the coordinates of about a thousand points. A few distant points do not change them.
+// Returns medians of about a thousand points. A few distant points do not change them.
 template <typename CenterOf>
 glm::dvec3 middle_of(std::uint32_t count, CenterOf center_of) {
     constexpr std::uint32_t enough = 1000;

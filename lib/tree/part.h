@@ -12,7 +12,7 @@
 
 namespace pt {
 
-using Vector = float __attribute__((vector_size(16))); // three coordinates and an unused one
+using Vector = float __attribute__((vector_size(16)));
 using Items = std::span<TreeItem>;
 
 struct Box {
@@ -76,7 +76,7 @@ void for_each_or_sample(Items items, Use use) {
     }
 }
 
-// The box of all centers, or of a sample's if these differ.
+// The box of all centers, or of a sample's centers if these differ.
 inline Box centres_of(Items items) {
     Box box;
     for_each_or_sample(items, [&](const TreeItem &item) { box.add_centre(item); });
@@ -92,7 +92,7 @@ inline Box balls_of(Items items) {
     return box;
 }
 
-// A large part has a sample's boxes.
+// The boxes of a large part are a sample's.
 struct Part {
     Items items;
     Box centres; // a point only if all centers are equal

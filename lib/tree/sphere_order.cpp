@@ -99,7 +99,8 @@ struct Children {
     std::span<Part> all() { return std::span(parts).first(count); }
 };
 
-// Larger surfaces come first. Deep in the tree more spheres come first, so no child has over a quarter of them.
+// The larger surface comes first. Deep in the tree, more spheres come first, so that no child has over a quarter of
+// them.
 bool goes_before(const Part &part, const Part &other, std::uint32_t depth) {
     return depth < free_depth ? part.surface > other.surface : part.items.size() > other.items.size();
 }
@@ -113,7 +114,7 @@ Part *next_of(std::span<Part> parts, std::uint32_t depth) {
 }
 
 // Divides a node's parts until there are enough children. Twins must be removed before a cut could separate them. Only
-// cuts of few spheres, of a single point, or by halving can.
+// cuts of few spheres, at a single point, or in the middle can separate twins.
 Children children_of(Part node, const Making &making, std::uint32_t depth) {
     Children children;
     if (node.items.size() <= tree_width || node.centres.is_point() || depth == free_depth)

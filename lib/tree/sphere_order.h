@@ -1,4 +1,4 @@
-// The shape of a tree: the children of each node.
+// The shape of a tree.
 #pragma once
 
 #include "lib/base/work_progress.h"
@@ -31,11 +31,11 @@ struct TreeLinks {
 struct TreeShape {
     std::vector<TreeLinks> nodes;       // the root first, each before its children
     std::vector<std::uint32_t> spheres; // index by slot
-    std::uint32_t depth;                // of the longest path, with the root
+    std::uint32_t depth;                // nodes on the longest path
 };
 
-// Geometry and, of translucent spheres, material and color. Spheres with equal bits are twins, of which only the first
-// is kept.
+// The geometry, and material and color of translucent spheres. Spheres with equal bits are twins, of which only the
+// first is kept.
 using SphereBits = std::array<std::uint32_t, 10>;
 using BitsOfSphere = std::function<SphereBits(std::uint32_t)>;
 

@@ -182,7 +182,6 @@ void SphereTree::write_nodes(WorkProgress &progress) {
     cost_ /= box_.surface();
 }
 
-// The node's box consists of its children's, so they are written first.
 GridBox SphereTree::write_node(std::uint32_t node, WorkProgress &progress) {
     const TreeLinks links = TreeNodeView(words_of_node(node)).links();
     TreeNode written(links);
@@ -276,7 +275,7 @@ bool SphereTree::divides_start(const Camera &camera) const {
         return false;
     const glm::dvec3 middle = (camera.position - grid_.middle) / grid_.step;
     const double radius = camera.start_radius / grid_.step + 1.0;
-    const double beyond = 2.0 * Grid::reach; // outside all boxes
+    const double beyond = 2.0 * Grid::reach;
     const glm::ivec3 low(glm::floor(glm::clamp(middle - radius, -beyond, beyond)));
     const glm::ivec3 high(glm::ceil(glm::clamp(middle + radius, -beyond, beyond)));
     return any_in({low, high}, [&](std::uint32_t place) {
@@ -284,17 +283,15 @@ bool SphereTree::divides_start(const Camera &camera) const {
     });
 }
 
-// A ball around the box, relative to the camera.
 MovingBall SphereTree::region_of(const GridBox &box, const Camera &camera) const {
     const glm::dvec3 low = grid_.point(box.low) - camera.position;
     const glm::dvec3 high = grid_.point(box.high) - camera.position;
     return {0.5 * (low + high), glm::dvec3(0.0), 0.5 * glm::length(high - low)};
 }
 
-// Visits nodes by ascending bound.
 SphereTree::Least SphereTree::least(const Camera &camera, const std::function<double(const MovingBall &)> &of_region,
                                     const std::function<double(const MovingBall &)> &of_sphere) const {
-    using Entry = std::pair<double, std::uint32_t>; // bound and node
+    using Entry = std::pair<double, std::uint32_t>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> entries;
     entries.emplace(0.0, 0);
     Least least{std::numeric_limits<double>::infinity(), nowhere, {}};
@@ -367,8 +364,8 @@ bool SphereTree::finds_close_lamps(WorkProgress &progress) const {
     return false;
 }
 
-// A camera within twice the grid's reach becomes a grid point, with exact differences. Farther away the grid's middle
-// replaces it, because rounding is small against the distance.
+// A camera within twice the grid's reach becomes a grid point, with exact differences. Farther away, the grid's middle
+// replaces the camera, because rounding is small against the distance.
 gpu::TreeFrame SphereTree::frame(const Camera &camera) const {
     gpu::TreeFrame frame{};
     frame.camera = is_far(camera) ? glm::ivec3(0) : grid_.place(camera.position);

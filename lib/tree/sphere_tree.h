@@ -40,7 +40,6 @@ public:
 
     const Grid &grid() const { return grid_; }
 
-    // The tree buffer (gpu_layout.h) and its parts.
     const std::vector<glm::uvec4> &words() const { return words_; }
     std::span<const glm::uvec4> node_words() const { return std::span(words_).first(first_sphere_); }
     std::span<const glm::uvec4> sphere_words() const { return std::span(words_).subspan(first_sphere_); }
@@ -50,10 +49,9 @@ public:
     // Adds the grid and each sphere's words, in the scene's order.
     void add_to(Digest &digest) const;
 
-    // Expected nodes that a ray through the tree visits: the sum of their surfaces over the root's.
+    // Expected number of nodes that a ray through the tree visits. It is the sum of their surfaces over the root's.
     double cost() const { return cost_; }
 
-    // The spheres without twins.
     std::uint32_t sphere_count() const { return sphere_count_; }
     std::uint32_t node_count() const { return node_count_; }
     std::uint32_t depth() const { return depth_; }
@@ -66,10 +64,8 @@ public:
     std::uint32_t scene_sphere_count() const { return scene_sphere_count_; }
     bool has_colors() const { return has_colors_; }
 
-    // In the scene's order.
     const std::vector<std::uint32_t> &lamp_materials() const { return lamp_materials_; }
 
-    // A lamp with the kernel's rounding.
     Sphere lamp(std::uint32_t number) const;
 
     // Whether the camera is ever inside a sphere, or float32 cannot tell.
@@ -105,7 +101,6 @@ public:
     bool has_close_lamps() const { return close_lamps_; }
 
 private:
-    // sphere and material are scene indices.
     struct FoundLamp {
         std::uint32_t sphere;
         std::uint32_t place;
@@ -142,8 +137,8 @@ private:
     std::uint32_t node_count_ = 0;
     std::shared_ptr<const std::vector<std::uint32_t>> spheres_; // scene indices by slot; trees may share them
     double cost_ = 0.0;
-    double cost_as_made_ = 0.0;      // of the tree for which the shape was built
-    std::uint32_t first_sphere_ = 0; // first words of the blocks
+    double cost_as_made_ = 0.0; // of the tree for which the shape was built
+    std::uint32_t first_sphere_ = 0;
     std::uint32_t first_motion_ = 0;
     std::uint32_t first_surface_ = 0;
     std::uint32_t first_color_ = 0;

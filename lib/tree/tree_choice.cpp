@@ -16,7 +16,7 @@ namespace {
 // because its boxes grow by 2^-19 of its reach.
 constexpr std::size_t most_outlying = 50;
 
-// Nearer spheres cost at most four of the 29 bits of coordinates. The rest exceeds float32's precision.
+// Nearer spheres take at most four of the coordinates' 29 bits. The others are still more than float32 has.
 constexpr double much_farther = 16.0;
 
 // Walks are faster without capsules, so a few stay outside, such as a cell's twelve edges.
@@ -28,7 +28,6 @@ std::vector<std::uint32_t> outlying_spheres(const SphereSource &spheres, WorkPro
     const glm::dvec3 middle =
         middle_of(static_cast<std::uint32_t>(spheres.size()), [&](std::uint32_t i) { return spheres[i].center; });
 
-    // The farthest spheres and one more, in descending order.
     using Reach = std::pair<double, std::uint32_t>;
     std::vector<Reach> farthest;
     spheres.for_each(progress, [&](std::size_t i, const Sphere &sphere, const glm::vec3 &) {

@@ -12,12 +12,12 @@ namespace pt {
 // From here on a tree is faster. On lavapipe, longer loops are not unrolled (DevicePolicy::unrolled).
 inline constexpr std::uint32_t default_tree_from = 113;
 
-// Capsules have tests several times slower, which lavapipe compiles for seconds.
+// With capsules. Their tests take several times as long, and lavapipe takes seconds to compile them.
 inline constexpr std::uint32_t tree_of_others_from = 24;
 
 std::uint32_t tree_pays_from(const SphereSource &spheres);
 
-// Distant spheres and few capsules, in ascending order. Each sphere is a unit of work.
+// Returns distant spheres and, if there are few, capsules. Indices are ascending. Each sphere is a unit of work.
 std::vector<std::uint32_t> spheres_beside_tree(const SphereSource &spheres, WorkProgress &progress);
 
 } // namespace pt

@@ -6,7 +6,7 @@ namespace pt {
 
 namespace {
 
-constexpr std::uint32_t most_steps = 255; // of a byte
+constexpr std::uint32_t most_steps = 255;
 
 // The smallest power-of-two step with which a byte covers the extent.
 std::uint32_t exponent_for(std::uint32_t extent) {
@@ -29,7 +29,7 @@ TreeNodeWords words_of(const TreeLinks &links) {
 
 TreeNodeWords TreeNode::words() const {
     std::uint32_t head = head_of(links_);
-    std::array<std::uint32_t, 6> sides{}; // low sides, then high sides
+    std::array<std::uint32_t, 6> sides{};
     for (int axis = 0; axis < 3; ++axis) {
         const std::uint32_t exponent = exponent_for(static_cast<std::uint32_t>(box_.high[axis] - box_.low[axis]));
         head |= exponent << (5 * axis);

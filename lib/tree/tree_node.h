@@ -24,7 +24,6 @@ public:
         box_.add(box);
     }
 
-    // The box before rounding.
     const GridBox &box() const { return box_; }
 
     // Rounds the children's boxes outwards.

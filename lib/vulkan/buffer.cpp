@@ -188,7 +188,7 @@ void Buffer::download(std::span<const BufferPiece> pieces) {
 }
 
 void Buffer::write(const vk::raii::CommandBuffer &commands, std::span<const std::byte> data) const {
-    if (!data.empty()) // Vulkan forbids 0 bytes.
+    if (!data.empty())
         commands.updateBuffer<std::byte>(handle(), 0, data);
 }
 

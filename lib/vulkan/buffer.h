@@ -13,7 +13,7 @@ namespace pt::vulkan {
 
 enum class BufferUse {
     Storage,
-    UniformOrStorage, // texels too
+    UniformOrStorage, // also for texels
     Texels,
     Streamed,    // written often by the host
     HostWritten, // in mapped memory

@@ -43,7 +43,6 @@ CallerVulkan validated_vulkan(const pt_vulkan &vulkan);
 // the result.
 vk::raii::PhysicalDevice validated_physical_device(const vk::raii::Instance &instance, const CallerVulkan &caller);
 
-// Tests call these parts without a device.
 void require_compute(std::span<const vk::QueueFamilyProperties> families, std::uint32_t queue_family);
 void require_suitable(const pt_device_info &physical_device);
 

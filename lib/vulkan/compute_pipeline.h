@@ -49,7 +49,6 @@ public:
     ComputePipeline(Device &device, std::span<const std::uint32_t> spirv, std::span<const Binding> bindings,
                     std::uint32_t push_constant_bytes, std::span<const std::uint32_t> constants);
 
-    // Binds ranges[i] to bindings[i].
     DescriptorSet bind(std::span<const BufferRange> ranges) const;
 
     // Records group_count x rows workgroups. `offsets` has the dynamic bindings' offsets in bytes.

@@ -83,7 +83,6 @@ void write_barrier(const vk::raii::CommandBuffer &commands, vk::PipelineStageFla
     commands.pipelineBarrier(device_stages, stages, {}, barrier, {}, {});
 }
 
-// Rates of the slowest devices.
 double tests_per_second(std::uint32_t kind) {
     switch (kind) {
     case PT_DEVICE_DISCRETE_GPU:
@@ -327,7 +326,7 @@ bool Device::look_at(Submission &submission, std::chrono::nanoseconds timeout) {
         }
         return ended;
     } catch (const vk::SystemError &error) {
-        // Callers may now destroy objects that running work uses.
+        // After an error, callers may destroy objects that running work uses.
         comes_to_rest();
         lose([&] { return error.what(); });
     }

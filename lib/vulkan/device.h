@@ -19,10 +19,10 @@
 namespace pt::vulkan {
 
 struct Limits {
-    std::uint64_t max_storage_buffer_range; // bytes per binding
+    std::uint64_t max_storage_buffer_range;
     std::uint64_t max_texel_count;
     std::uint64_t max_allocation_bytes;
-    std::uint32_t max_uniform_range; // bytes per binding, a multiple of 256
+    std::uint32_t max_uniform_range; // a multiple of 256
     std::uint32_t max_workgroup_count;
     std::uint64_t storage_buffer_alignment; // bytes
     std::uint64_t loop_trip_budget;         // The driver silently ends longer loops.
@@ -30,14 +30,14 @@ struct Limits {
 
 // How the library uses a device. Tests override it.
 struct DevicePolicy {
-    std::chrono::nanoseconds patience; // After a longer submission the device is lost.
-    bool share_memory;                 // The host and the device use the same memory.
-    bool scene_in_constants;           // The kernel contains the scene.
-    std::uint32_t invocations;         // enough for a busy device; 0 for any number
-    std::uint32_t queue_depth;         // running submissions; 2 if the device would idle between them
+    std::chrono::nanoseconds patience;
+    bool share_memory;
+    bool scene_in_constants;
+    std::uint32_t invocations; // enough for a busy device; 0 for any number
+    std::uint32_t queue_depth; // 2 if the device would idle between submissions
     // Active waiting before the thread sleeps.
     std::chrono::nanoseconds polling{0};
-    // All such devices achieve this. It sets the first slice's size.
+    // Every such device achieves this rate. It sets the first slice's size.
     double tests_per_second = 2.5e8;
     // Loops over up to this many surfaces are unrolled. On CPUs a tree is faster than longer loops.
     std::uint32_t unrolled = 112;
@@ -47,7 +47,7 @@ struct DevicePolicy {
     std::uint32_t walk_trips = 0; // ID_WALK_TRIPS, for scenes with a tree
     // CPUs are faster with integer comparisons (shaders/maths.glsl) and uniform buffers.
     bool compiles_for_cpu = false;
-    bool resolve_on_device = false; // The device computes images and error estimates.
+    bool resolve_on_device = false;
 };
 
 DevicePolicy default_policy(const pt_device_info &info);
@@ -149,7 +149,7 @@ private:
         vk::raii::Fence fence;
         bool pending = false; // finish() is still to come.
         Clock::time_point start{};
-        Clock::time_point last_look{}; // the last look before the end
+        Clock::time_point last_look{};
         std::optional<Moment> end{};
     };
 
@@ -182,7 +182,6 @@ private:
     bool abandoned_ = false;
 };
 
-// Makes earlier commands' writes visible.
 void barrier_between_commands(const vk::raii::CommandBuffer &commands);
 
 } // namespace pt::vulkan

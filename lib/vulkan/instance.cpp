@@ -41,7 +41,6 @@ bool contains(const std::vector<Properties> &list, Name name, const char *wanted
     return std::ranges::any_of(list, [&](const Properties &item) { return std::strcmp(item.*name, wanted) == 0; });
 }
 
-// Names environment variables that hide drivers, and what to install.
 std::string driver_advice(const vk::raii::Context &context) {
     const std::uint32_t version = context.enumerateInstanceVersion();
     std::string advice = " (Vulkan loader " + std::to_string(VK_API_VERSION_MAJOR(version)) + "." +
@@ -68,7 +67,6 @@ void throw_if_out_of_memory(const vk::SystemError &error, const std::string &wha
         throw Error(result, what_was_being_done + ": " + error.what());
 }
 
-// If `messages` is NULL, there is no validation layer.
 vk::raii::Instance create_instance(const vk::raii::Context &context,
                                    const vk::DebugUtilsMessengerCreateInfoEXT *messages) {
     std::vector<const char *> layers;
@@ -110,7 +108,7 @@ vk::raii::Instance create_instance(const vk::raii::Context &context,
 // The last instance unloads the drivers. NVIDIA's driver (580.159) leaks static thread-local storage at each load,
 // until it cannot be loaded.
 void keep_nvidia_driver_loaded() noexcept {
-    for (const char *name : {"libGLX_nvidia.so.0", "libEGL_nvidia.so.0"}) // one of them
+    for (const char *name : {"libGLX_nvidia.so.0", "libEGL_nvidia.so.0"})
         platform::keep_loaded(name);
 }
 

@@ -27,7 +27,6 @@ public:
 
     const vk::raii::Instance &handle() const { return instance_; }
 
-    // Throws PT_ERROR_NO_DEVICE if there are none.
     std::vector<vk::raii::PhysicalDevice> physical_devices() const;
 
     // Keeps the Vulkan instance alive for ever, because its devices need it.

@@ -10,7 +10,6 @@ namespace pt::vulkan {
 // Prefers a family without graphics, meant for background work.
 std::uint32_t compute_family(const vk::raii::PhysicalDevice &device);
 
-// Throws vk::SystemError.
 vk::raii::Device create_device(const vk::raii::PhysicalDevice &physical_device, std::uint32_t queue_family);
 
 } // namespace pt::vulkan

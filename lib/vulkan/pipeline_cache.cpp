@@ -28,7 +28,6 @@ struct KernelSeal {
     std::uint64_t checksum;
 };
 
-// The key has 32 characters.
 KernelSeal kernel_seal(const std::string &key, std::span<const std::byte> data) {
     KernelSeal seal{};
     std::ranges::copy(magic, seal.magic);

@@ -44,7 +44,7 @@ private:
     vk::raii::PipelineCache cache_ = nullptr;
     KernelStore store_;
     std::string key_;
-    std::uint64_t kept_checksum_ = 0; // of the caller's copy
+    std::uint64_t kept_checksum_ = 0;
     bool has_news_ = false;
 };
 

@@ -7,7 +7,7 @@ namespace pt::vulkan {
 pt_result result_of(vk::Result result) {
     switch (result) {
     case vk::Result::eErrorOutOfHostMemory:
-    case vk::Result::eErrorMemoryMapFailed: // no address space left
+    case vk::Result::eErrorMemoryMapFailed:
         return PT_ERROR_OUT_OF_HOST_MEMORY;
     case vk::Result::eErrorOutOfDeviceMemory:
     case vk::Result::eErrorFragmentation:

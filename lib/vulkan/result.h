@@ -9,7 +9,6 @@
 
 namespace pt::vulkan {
 
-// Returns PT_ERROR_INTERNAL for results without an equivalent.
 pt_result result_of(vk::Result result);
 
 [[noreturn]] void throw_translated(const vk::SystemError &error, std::string_view what_was_being_done);
