@@ -15,7 +15,7 @@ namespace pt {
 struct ElementaryFunction {
     const char *name;
     double (*exact)(double);
-    double bound; // in ulp, for conforming devices
+    double bound; // in ulp, on conforming devices
     float first, last;
     std::span<const float> places; // where the function switches formulas
 };

@@ -10,7 +10,7 @@ namespace pt {
 
 namespace {
 
-// These planes are 0 in an empty part. Their order is that one of rare_plane() (film.glsl).
+// These planes are 0 in an empty part. rare_plane() (film.glsl) has the same order.
 constexpr std::array<std::size_t, 4> rare_planes = {gpu::FILM_SUM_WORDS - 1, 2 * gpu::FILM_SUM_WORDS - 1,
                                                     3 * gpu::FILM_SUM_WORDS - 1, gpu::FILM_REJECTED};
 

@@ -20,7 +20,7 @@ struct PreparedScene {
     // bright are accepted. Samples down to 2^-44 times as bright are exact.
     double film_unit;
     std::vector<Material> used_materials;
-    std::vector<std::uint32_t> used_indices; // index in used_materials for each of the scene's
+    std::vector<std::uint32_t> used_indices; // index in used_materials of each scene material
     bool gloss;                              // Any used material is glossy.
     std::shared_ptr<const SphereTree> tree;  // NULL if there are few spheres
     bool moves;

@@ -25,7 +25,7 @@ public:
 
     explicit TracePipelines(vulkan::Device &device, KernelCode code = embedded_code());
 
-    // Takes the driver cache's key for this code and device, once.
+    // Moves out the driver cache's key. Call this once.
     std::string take_kernel_key() noexcept { return std::move(kernel_key_); }
 
     // Returns the kernel for these features or, where faster, one for this scene alone. Both compute the same bits. The

@@ -98,7 +98,8 @@ Camera validated_camera(const pt_camera &source) {
     subject.require(target != position, "target", target, "must differ from position");
     violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
 
-    // For focus >= radius, a far point's blur, radius / focus times the image plane's distance, is also a length.
+    // If focus >= radius, a far point's blur, radius / focus times the image plane's distance, is at most that
+    // distance.
     const double focus = camera.focus > 0.0 ? camera.focus : glm::distance(target, position);
     subject.require(camera.aperture <= 2.0 * focus, "aperture", camera.aperture,
                     "must be at most twice the focus (" + number_text(focus) + ")");

@@ -37,7 +37,7 @@ bool is_coordinate(double value) {
     return is_length(std::abs(value));
 }
 
-// Lamps are sampled by a ball's cone.
+// Lamps are sampled by the cone of a ball.
 const char *const dark_rule = "must be of a material without emission: capsules are no lamps";
 
 bool is_dark(const pt_material &material) {

@@ -15,8 +15,8 @@ constexpr double same_size = 0x1p-18;
 // Relative to the distance: four times the spacing of float32.
 constexpr double same_place = 0x1p-21;
 // Planes that differ by more have distinct vertices, because positions have errors of 2^-22 of the distance. Planes at
-// this angle are indistinct only within 2^-14 of the distance from their intersection, less than a pixel. Parallel
-// planes are indistinct only in a strip of 2^-14 below the horizon.
+// this angle are indistinct only near their intersection, within 2^-14 of the distance. Parallel planes are indistinct
+// only in a strip of 2^-14 below the horizon. Both are less than a pixel.
 constexpr double two_planes = 0x1p-8;
 
 // Incommensurable, for spheres on a lattice: 1, sqrt(2) and sqrt(3) over sqrt(6).

@@ -16,7 +16,7 @@ namespace {
 // because its boxes grow by 2^-19 of its reach.
 constexpr std::size_t most_outlying = 50;
 
-// Nearer spheres take at most four of the coordinates' 29 bits. The others are still more than float32 has.
+// Nearer spheres take at most four of the coordinates' 29 bits. The other 25 are more than float32 has.
 constexpr double much_farther = 16.0;
 
 // Walks are faster without capsules, so a few stay outside, such as a cell's twelve edges.

@@ -108,8 +108,8 @@ public:
 
     bool is_at_rest() const;
 
-    // Waits for a submission. Returns its seconds, from its start or the previous end, whichever is later. If only
-    // bounds are known, returns the nearest value to expected_seconds.
+    // Waits for a submission. Returns the seconds since its start or the previous submission's end, whichever is later.
+    // If only bounds are known, returns the nearest value to expected_seconds.
     double finish(Ticket ticket, double expected_seconds = 0.0);
 
     // Waits for all running work, even after finish() failed. Returns false if the patience ends first.
