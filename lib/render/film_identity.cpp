@@ -9,7 +9,6 @@ namespace pt {
 
 namespace {
 
-// Printable ASCII for a film's header.
 std::string printable(std::string text) {
     std::ranges::replace_if(
         text, [](char letter) { return letter < ' ' || letter > '~'; }, '?');

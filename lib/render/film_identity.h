@@ -1,4 +1,3 @@
-// The identity of a picture's samples: everything that decides their bits.
 #pragma once
 
 #include "lib/film/film_header.h"
@@ -13,12 +12,11 @@
 
 namespace pt {
 
-// Must rise with any change to the bits of samples, in the kernel or its input, or to the samples that a target error
-// takes.
+// Must rise when the bits of samples change, or the samples that a target error takes.
 inline constexpr std::uint32_t estimator_version = 8;
 
-// Leaves out what changes no bits: rows, ranges, submissions, the number of equal devices, kernels with the scene as
-// constants (trace_pipelines.h).
+// The identity contains everything that decides the bits of samples. Rows, ranges, submissions, the number of equal
+// devices, and kernels with the scene as constants (trace_pipelines.h) do not.
 FilmIdentity identity_of(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings,
                          const KernelCode &code, const std::vector<pt_device_info> &devices);
 

@@ -7,7 +7,7 @@ namespace pt {
 
 namespace {
 
-// 56 MiB: far more than is in transit between devices, little beside a large film.
+// 56 MiB: large beside the data in transit, small beside a large film.
 constexpr std::uint32_t most_band_pixels = 1U << 19;
 
 } // namespace
@@ -19,7 +19,7 @@ std::vector<DeviceFilm *> FilmView::films(const RenderDevices &devices) {
     return films;
 }
 
-// As few as possible, of whole rows of tiles, of equal size except the last.
+// Returns the fewest bands of whole rows of tiles. All except the last have equal sizes.
 std::vector<FilmView::Band> FilmView::bands() const {
     const TileGrid grid = home().film().grid();
     const std::uint32_t most = std::max<std::uint32_t>(most_band_pixels / gpu::TILE_SIZE / grid.width, 1);
@@ -96,12 +96,10 @@ void FilmView::read_on_host(const Image &image, const ImageQuery &query, const T
     });
 }
 
-// Device kernels need whole tiles.
 bool FilmView::reads_on_device() const {
     return home().device().policy().resolve_on_device && home().film().has_whole_tiles();
 }
 
-// Order and sums of tiles do not depend on the number of devices.
 void FilmView::estimate(ErrorEstimator &estimator, const ErrorQuery &query, bool is_recorded) {
     const auto add = [&](const TileErrors &tiles) { estimator.add(tiles); };
     if (!reads_on_device())
@@ -124,7 +122,6 @@ void FilmView::estimate_on_host(const ErrorQuery &query, const ErrorReader::Rece
         std::ranges::transform(tiles, query.by_tile.begin(), &TileErrors::own_square);
 }
 
-// Each band is a film with tiles of its own.
 void FilmView::estimate_bands(const ErrorQuery &query, const ErrorReader::Receive &receive) {
     films(devices_);
     const TileGrid &grid = query.samples.grid();

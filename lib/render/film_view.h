@@ -1,5 +1,5 @@
-// The image of a context's films together, and its error: computed on the first device if its policy says so, otherwise
-// on the host. Owned by Renderer.
+// Computes the image of a context's films, and its error, on the first device if its policy says so, otherwise on the
+// host.
 #pragma once
 
 #include "lib/film/error_estimate.h"
@@ -27,24 +27,23 @@ class FilmView {
 public:
     explicit FilmView(const RenderDevices &devices) : devices_(devices) {}
 
-    // Reads the samples in the image's format. Throws PT_ERROR_INTERNAL if a driver lost work.
+    // Throws PT_ERROR_INTERNAL if a driver lost work.
     void read(const Image &image, const ImageQuery &query, const TileSamples &samples);
 
-    // The image without gaps in the first device's memory, if that device makes images. Valid until the next call or a
-    // new film.
+    // Returns the image without gaps in device memory, or no value if the device does not make images. Valid until the
+    // next call or a new film.
     std::optional<std::span<std::byte>> map(const ImageQuery &query);
 
-    // Gives the estimator all tiles' errors, and fills in query.by_tile. is_recorded: the submission that took the
-    // samples has done the work. Throws PT_ERROR_INTERNAL if a driver lost work.
+    // Adds the errors of all tiles to the estimator, and fills query.by_tile. `is_recorded` means that the last
+    // submission of samples has computed them. Throws PT_ERROR_INTERNAL if a driver lost work.
     void estimate(ErrorEstimator &estimator, const ErrorQuery &query, bool is_recorded);
 
-    // Call when the samples have changed.
+    // Must be called when the samples have changed.
     void forget_samples() noexcept { errors_.forget(); }
 
-    // Builds its own kernels, beyond each device's.
     void prepare();
 
-    // Call before films or kernels are replaced.
+    // Must be called before films or kernels are replaced.
     void drop() noexcept { sums_.clear(); }
 
     // Brings the films up to date.
@@ -59,7 +58,7 @@ private:
         std::optional<ErrorReader> error;
     };
 
-    // Rows summed on the first device at a time.
+    // Rows that are summed together on the first device.
     struct Band {
         std::uint32_t first_row;
         std::uint32_t row_count;

@@ -13,7 +13,7 @@ namespace pt {
 
 namespace {
 
-constexpr std::uint32_t buffer_word_bytes = 4; // of a kernel's writes
+constexpr std::uint32_t buffer_word_bytes = 4;
 
 template <typename Source>
 Rectangle rectangle_of(const Source &source, std::uint32_t width, std::uint32_t height) {
@@ -31,7 +31,7 @@ bool check_extent(const Subject &image, const char *name, std::uint32_t extent, 
     return within && extent >= 1;
 }
 
-// Only object numbers are integers and have a format of their own.
+// Object numbers are the only integers, and need an integer format.
 void check_quantity(const Subject &image, std::uint32_t quantity, std::uint32_t format, ImageSource of) {
     const bool is_known = quantity <= gpu::LAST_QUANTITY;
     image.require(is_known, "quantity", quantity, "must be a PT_QUANTITY_* of pt.h");
@@ -45,7 +45,7 @@ void check_quantity(const Subject &image, std::uint32_t quantity, std::uint32_t 
                                                  : "PT_FORMAT_R32UI is for PT_QUANTITY_OBJECT alone");
 }
 
-// alignment: of rows, bytes. offset: of the image in its memory.
+// `alignment` of rows is in bytes. `offset` is the position of the image in its memory.
 template <typename Source>
 ImageLayout checked_layout(const Subject &image, const Source &source, std::uint32_t alignment, std::uint64_t offset,
                            std::uint32_t width, std::uint32_t height, ImageSource of) {
@@ -65,7 +65,8 @@ ImageLayout checked_layout(const Subject &image, const Source &source, std::uint
                   "must be a multiple of " + number_text(alignment));
     image.require(row_bytes >= width_bytes, "row_bytes", row_bytes,
                   "must be >= " + width_text + " (" + number_text(width_bytes) + ")");
-    // offset + (height - 1) * row_bytes + width_bytes <= size_bytes, by division, since the product may pass 2^64.
+    // Checks offset + (height - 1) * row_bytes + width_bytes <= size_bytes by division, since the product may exceed
+    // 2^64.
     const std::uint64_t room = source.size_bytes - std::min(source.size_bytes, offset);
     const bool large_enough = room >= width_bytes && (room - width_bytes) / row_bytes >= pixels.height - 1;
     const std::string before = offset == 0 ? "" : "offset_bytes + ";

@@ -1,4 +1,4 @@
-// A caller's image, in memory or a device's buffer, checked and filled.
+// Checks callers' images and fills them.
 #pragma once
 
 #include "lib/film/film_header.h"
@@ -13,7 +13,7 @@
 namespace pt {
 
 struct ImageLayout {
-    Rectangle pixels;        // within the rendered pixels, at least one
+    Rectangle pixels;        // at least one rendered pixel
     std::uint32_t quantity;  // PT_QUANTITY_*
     std::uint32_t format;    // PT_FORMAT_*
     std::uint64_t row_bytes; // distance between rows
@@ -32,17 +32,16 @@ struct BufferImage {
     std::uint64_t signal_semaphore; // VkSemaphore, or 0
 };
 
-// A context has all quantities, films and lent buffers only samples' quantities.
+// A context has all quantities. Films and lent buffers have only quantities of samples.
 enum class ImageSource { Context, Samples };
 
-// source.struct_size is checked already; width, height >= 1: of the rendered pixels. Throws PT_ERROR_INVALID_ARGUMENT
-// with all broken rules.
+// source.struct_size must be checked already. width and height are those of the rendered pixels. Throws
+// PT_ERROR_INVALID_ARGUMENT that names all broken rules.
 Image validated_image(const pt_image &source, std::uint32_t width, std::uint32_t height, ImageSource of);
-// For an image in the library's memory, without gaps.
+// For an image without gaps in the library's memory.
 ImageLayout validated_mapped_layout(const pt_image &source, std::uint32_t width, std::uint32_t height);
 BufferImage validated_image(const pt_buffer_image &source, std::uint32_t width, std::uint32_t height);
 
-// Fills the caller's memory, row by row.
 class ImageRows {
 public:
     explicit ImageRows(const Image &image);
@@ -50,13 +49,13 @@ public:
     void put(std::span<const std::byte> pixels);
     void put(std::span<const float> values);
 
-    // Takes R, G and B of consecutive pixels of an image of this width, and keeps those within the rectangle.
+    // Takes consecutive pixels of an image of this width, and keeps those within the rectangle.
     void put_part(std::uint64_t first_pixel, std::uint32_t width, std::span<const float> values);
 
 private:
     Image image_;
     std::size_t width_bytes_;
-    std::uint64_t done_bytes_ = 0; // without gaps
+    std::uint64_t done_bytes_ = 0;
 };
 
 } // namespace pt

@@ -13,8 +13,8 @@ namespace pt {
 
 namespace {
 
-// Roughly the share of directions in the narrowest lobe, for estimators that find lobes by chance. One of n + 1 uniform
-// directions lies within the half-width of a lobe of glossiness n.
+// One of n + 1 uniform directions is within the half-width of a lobe of glossiness n. Only some estimators find lobes
+// by chance.
 double smallest_lobe_share(const PreparedScene &scene, std::uint32_t estimator) {
     double share = 1.0;
     if (estimator == PT_ESTIMATOR_UNIFORM || estimator == PT_ESTIMATOR_COSINE)
@@ -24,7 +24,7 @@ double smallest_lobe_share(const PreparedScene &scene, std::uint32_t estimator) 
     return share;
 }
 
-// The share of directions towards a sphere: (1 - cos a) / 2 = sin^2 a / (2 (1 + cos a)), which does not cancel.
+// The fraction of directions towards a sphere. (1 - cos a) / 2 = sin^2 a / (2 (1 + cos a)) avoids cancellation.
 double share_of(const SeenSphere &sphere) {
     const double sine = sphere.radius / sphere.distance;
     const double cosine = std::sqrt((1.0 - sine) * (1.0 + sine));
@@ -34,8 +34,8 @@ double share_of(const SeenSphere &sphere) {
 } // namespace
 
 double smallest_lamp_share(std::span<const Sphere> lamps, std::span<const Material> materials, const Camera &camera) {
-    constexpr double least_light = 0.01;           // of all lamps' light; darker lamps are not missed
-    std::vector<std::pair<double, double>> shares; // with each lamp's light
+    constexpr double least_light = 0.01;           // darker lamps are ignored
+    std::vector<std::pair<double, double>> shares; // share and light of each lamp
     double all_light = 0.0;
     for (const Sphere &lamp : lamps) {
         const Material &material = materials[lamp.material];
@@ -56,28 +56,28 @@ double smallest_lamp_share(std::span<const Sphere> lamps, std::span<const Materi
 
 bool may_miss_lamps(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings,
                     std::uint64_t samples) {
-    constexpr double enough_meetings = 1000.0; // calibrated (shaders/README.md, section 11)
+    constexpr double enough_hits = 1000.0; // calibrated (shaders/README.md, section 11)
     if (!finds_lamps_by_chance(settings.estimator, settings.max_path_length))
         return false;
     const double lamp_share = smallest_lamp_share(scene.lamps(), scene.scene.materials, camera);
     const double share = std::min(lamp_share, smallest_lobe_share(scene, settings.estimator));
-    return static_cast<double>(samples) * share < enough_meetings;
+    return static_cast<double>(samples) * share < enough_hits;
 }
 
-// Fewer say too little about a lamp. Calibrated.
-constexpr double few_meetings = 6.0;
+// An estimate from fewer hits is uncertain. Calibrated.
+constexpr double few_hits = 6.0;
 
 void take_in_unmet_lamps(ErrorEstimate &error, const UnmetSquares &unmet, double value_count) {
     const auto raise = [&](const ExpectedSquares &squares, Interval &interval) {
         if (squares.sum == 0.0)
             return false;
-        const double meetings = squares.meetings();
-        const double root = std::sqrt(squares.sum / value_count) * (1.0 + share_added(meetings));
-        const bool is_uncertain = meetings < few_meetings && uncertain_factor * root > interval.estimate;
+        const double hits = squares.hits();
+        const double root = std::sqrt(squares.sum / value_count) * (1.0 + share_added(hits));
+        const bool is_uncertain = hits < few_hits && uncertain_factor * root > interval.estimate;
         if (root > interval.estimate) {
             interval.estimate = root;
             interval.high =
-                std::max(interval.high, root * spread_of_pixels(meetings) * (is_uncertain ? uncertain_factor : 1.0));
+                std::max(interval.high, root * spread_of_pixels(hits) * (is_uncertain ? uncertain_factor : 1.0));
         }
         return is_uncertain;
     };

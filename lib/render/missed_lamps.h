@@ -1,4 +1,3 @@
-// Whether an error estimate can know about all lamps.
 #pragma once
 
 #include "lib/film/error_estimate.h"
@@ -11,16 +10,17 @@
 
 namespace pt {
 
-// The share of directions from the camera that the smallest important lamp covers as the shutter opens; 1 if none can
-// be missed, since lamps around the camera do not count. Important lamps give at least a hundredth of the light there.
+// Returns the fraction of directions from the camera that the smallest important lamp covers as the shutter opens.
+// Important lamps give at least a hundredth of the light at the camera. Lamps around the camera cannot be missed. The
+// result is 1 if there are no others.
 double smallest_lamp_share(std::span<const Sphere> lamps, std::span<const Material> materials, const Camera &camera);
 
-// Whether a lamp or lobe is found only by chance and too small for these samples to have hit it often.
+// Whether the samples are too few for a lamp or lobe that they find only by chance.
 bool may_miss_lamps(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings,
                     std::uint64_t samples);
 
-// Raises the stated error of value_count values to the one expected for lamps in view with too few samples. If that
-// rests on few hits and exceeds half of the error that samples show, the error is uncertain.
+// Raises the stated error to the error expected from lamps in view with too few samples. If this rests on few hits and
+// exceeds half of the stated error, the error becomes uncertain.
 void take_in_unmet_lamps(ErrorEstimate &error, const UnmetSquares &unmet, double value_count);
 
 } // namespace pt

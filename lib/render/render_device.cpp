@@ -11,7 +11,7 @@ namespace pt {
 
 namespace {
 
-// Share of a learnt rate that is trusted for another kernel, whose tests may take longer.
+// The fraction of a measured rate that is assumed for another kernel.
 constexpr double share_assumed_of_learnt = 0.125;
 
 } // namespace
@@ -27,13 +27,13 @@ RenderDevice::RenderDevice(vulkan::Instance &instance, const vk::raii::PhysicalD
     under_way_.reserve(device_.policy().queue_depth);
 }
 
-// Waits for work under way before destroying its objects; if the device hangs, leaks them (vulkan/device_object.h).
+// If the device hangs, its objects are leaked (vulkan/device_object.h).
 RenderDevice::~RenderDevice() {
     if (!device_.comes_to_rest())
         device_.abandon();
 }
 
-// Ignores the film to be replaced, which is freed before this one is touched.
+// The present film does not count, since it is freed before the new film is touched.
 DeviceFilm RenderDevice::make_film(const RenderSettings &settings) {
     const std::uint64_t bytes = std::uint64_t{settings.width} * settings.row_count * DeviceFilm::bytes_per_pixel;
     if (!device_.has_memory(bytes))
@@ -49,7 +49,7 @@ DeviceFilm RenderDevice::make_film(const RenderSettings &settings) {
 }
 
 void RenderDevice::set_film(DeviceFilm film) {
-    drop_bound(); // to the old film
+    drop_bound();
     film_ = std::move(film);
     discard_samples();
 }
@@ -82,7 +82,7 @@ void RenderDevice::drop_bound() noexcept {
 }
 
 void RenderDevice::set_pipelines(const KernelCode &code, std::unique_ptr<TracePipelines> pipelines) noexcept {
-    drop_bound(); // to the old pipelines
+    drop_bound();
     first_hits_.reset();
     coverage_.reset();
     resolve_.reset();
@@ -102,8 +102,7 @@ void RenderDevice::save_kernels() noexcept {
         device_.pipeline_cache().save(device_.log());
 }
 
-// A kept kernel keeps its schedule, since samples cost about the same. For another kernel it starts from the device's
-// known rate.
+// A kernel that is kept keeps its schedule, since its samples cost about the same.
 void RenderDevice::prepare(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings) {
     pipelines_->build_own(TracePipelines::OwnKernels::when_they_pay);
     if (kernel_ && &kernel_->scene() == scene.get())
@@ -182,7 +181,7 @@ BufferWriter &RenderDevice::buffer_writer() {
     return *buffer_writer_;
 }
 
-// Also prepares the path tracer's kernel, which has the buffers and decides whether the scene is beyond the device.
+// The path tracer's kernel owns the buffers, and finds out whether the scene is too large for the device.
 void RenderDevice::read_first_hits(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings,
                                    const FirstHitQuery &query, const FirstHits::Receive &receive) {
     prepare(scene, settings);
@@ -228,7 +227,7 @@ ErrorReader &RenderDevice::bound_error_reader() {
     return *error_reader_;
 }
 
-// A void film needs no room. It is cleared with its first samples.
+// A void film has no parts to move. Its first samples clear it.
 void RenderDevice::start(const TileSlice &slice, const ErrorQuery *estimate) {
     if (!slice.takes && film_is_void_)
         return;

@@ -1,5 +1,4 @@
-// A device's share of the rendering: its film, kernel and slices under way. Owned by Renderer, which gives samples to
-// its devices; any device may take any sample, because films are exact sums.
+// One device of a context. Any device may take any sample, since films are exact sums.
 #pragma once
 
 #include "lib/kernel/buffer_writer.h"
@@ -28,7 +27,7 @@ namespace pt {
 
 class RenderDevice {
 public:
-    // target_seconds: aim for a slice. caller: see vulkan::Device.
+    // `target_seconds` is the aim for a slice. vulkan::Device describes `caller`.
     RenderDevice(vulkan::Instance &instance, const vk::raii::PhysicalDevice &physical_device,
                  const vulkan::DevicePolicy &policy, const KernelCode &code, double target_seconds,
                  const vulkan::CallerVulkan *caller = nullptr);
@@ -40,27 +39,27 @@ public:
     vulkan::Device &device() { return device_; }
     const vulkan::Device &device() const { return device_; }
 
-    // Only while no work is under way.
+    // Requires that no work is under way.
     DeviceFilm &film();
 
     ImageReader &image_reader();
     BufferWriter &buffer_writer();
     ErrorReader &error_reader();
 
-    // See FirstHits::read(). Only while no work is under way.
+    // Requires that no work is under way.
     void read_first_hits(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings,
                          const FirstHitQuery &query, const FirstHits::Receive &receive);
 
-    // See Coverage::read(). Only while no work is under way.
+    // Requires that no work is under way.
     void read_coverage(const std::shared_ptr<const GpuScene> &scene, const CoverageQuery &query,
                        const Coverage::Receive &receive);
 
-    // For films other than the device's own.
+    // For films of other sizes.
     ResolvePipelines &resolve_pipelines();
     const vulkan::ComputePipeline &estimate_pipeline();
     const vulkan::ComputePipeline &add_pipeline();
 
-    // Takes over kernels that the caller has kept, and hands over built ones.
+    // Exchange built kernels with the caller's store.
     void keep_kernels(const vulkan::KernelStore &store);
     void save_kernels() noexcept;
 
@@ -71,18 +70,18 @@ public:
     // The film is void from now on.
     void discard_samples() noexcept;
 
-    // Makes pipelines for other code that the present kernel needs. Throws PT_ERROR_SHADER if the driver refuses the
-    // code.
+    // Makes the pipelines that the present kernel needs, from other code. Throws PT_ERROR_SHADER if the driver refuses
+    // the code.
     std::unique_ptr<TracePipelines> make_pipelines(const KernelCode &code);
     void set_pipelines(const KernelCode &code, std::unique_ptr<TracePipelines> pipelines) noexcept;
 
-    // Makes a kernel for this scene, or shows the scene to the present one. After set_film, while no work is under way.
+    // Makes a kernel for this scene, or shows the scene to the present kernel. Requires a film and no work under way.
     void prepare(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings);
 
-    // Also builds everything that the kernel will need, in its fastest form.
+    // Also builds everything that the kernel will need.
     void prepare_ahead(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings);
 
-    // Builds everything for the scene's samples until the next prepare(), and for errors.
+    // Builds everything that start() needs until the next prepare().
     void prepare_for_polls(bool with_errors);
 
     bool has_room() const { return under_way_.size() < device_.policy().queue_depth; }
@@ -90,27 +89,25 @@ public:
 
     const Schedule &schedule() const { return *schedule_; }
 
-    // Whether a submission can take samples and estimate the error.
     bool estimates_behind() const { return device_.policy().resolve_on_device && film_->strips().size() == 1; }
 
-    // has_room() must hold. estimate: also estimates the error with these samples, for error_reader().collect();
-    // estimates_behind() must hold.
+    // Requires has_room(). With `estimate`, which requires estimates_behind(), also estimates the error for
+    // error_reader().collect().
     void start(const TileSlice &slice, const ErrorQuery *estimate = nullptr);
 
-    // Waits until then; returns whether finish() would return at once. Only while work is under way.
+    // Returns whether finish() would return at once. Requires work under way.
     bool is_done(vulkan::Device::Clock::time_point until) { return device_.is_done(under_way_.front().ticket, until); }
 
-    // Notes slices that have ended, which otherwise count as ended when looked at.
+    // Notes slices that have ended, so that their times are measured.
     void look() { device_.look(); }
 
-    // Waits for the oldest slice. seconds: estimated if nobody saw it end.
+    // Waits for the oldest slice. `seconds` is estimated if its end was not noticed in time.
     struct Finished {
         std::uint64_t tile_samples; // tiles times samples; 0 if another device took them
         double seconds;
     };
     Finished finish();
 
-    // Waits for all slices and forgets them.
     void drain() noexcept;
 
 private:
@@ -121,19 +118,19 @@ private:
 
     void plant(const std::shared_ptr<const SphereTree> &tree);
     void drop_kernel() noexcept;
-    void drop_bound() noexcept; // the kernel and everything with descriptor sets of the film
+    void drop_bound() noexcept; // the kernel and all descriptor sets of the film
     ErrorReader &bound_error_reader();
 
     vulkan::Device device_;
     KernelCode code_;
     std::unique_ptr<TracePipelines> pipelines_; // never NULL
     double target_seconds_;
-    double tests_per_second_;                 // assumed for kernels not measured yet
+    double tests_per_second_;                 // for kernels not measured yet
     std::optional<ResolvePipelines> resolve_; // made on first use
     std::optional<vulkan::ComputePipeline> estimate_;
-    std::optional<vulkan::ComputePipeline> add_; // adds films of several devices
+    std::optional<vulkan::ComputePipeline> add_;
     std::optional<DeviceFilm> film_;
-    std::optional<ImageReader> image_reader_; // made on first use
+    std::optional<ImageReader> image_reader_;
     std::optional<BufferWriter> buffer_writer_;
     std::optional<ErrorReader> error_reader_;
     std::shared_ptr<const SphereTree> tree_;
@@ -142,13 +139,13 @@ private:
     std::optional<Coverage> coverage_;
     std::optional<Kernel> kernel_;
     std::optional<Schedule> schedule_;
-    std::vector<Work> under_way_; // started in this order; has room for all
-    bool film_is_void_ = true;    // to be cleared before use
+    std::vector<Work> under_way_; // in the order of their start; never reallocated
+    bool film_is_void_ = true;    // must be cleared before use
 };
 
 using RenderDevices = std::vector<std::unique_ptr<RenderDevice>>;
 
-// Hands built kernels to the caller at the end of a call.
+// Passes built kernels to the caller at the end of a call.
 class KernelsKept {
 public:
     explicit KernelsKept(const RenderDevices &devices) : devices_(devices) {}

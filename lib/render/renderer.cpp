@@ -1,4 +1,4 @@
-// A renderer's state. renderer_samples.cpp takes samples, renderer_output.cpp reads them.
+// renderer_samples.cpp takes samples, and renderer_output.cpp reads them.
 #include "lib/render/renderer.h"
 
 #include "lib/base/error.h"
@@ -26,7 +26,7 @@ std::vector<pt_device_info> list_devices() {
     return describe_all(vulkan::Instance(Log{}, false));
 }
 
-// The code first: if it does not compile, no device is touched.
+// The code is read first, so that errors in it touch no device.
 Renderer::Renderer(const CreateSettings &settings) :
     source_(settings.shader_directory),
     code_(source_.read()),

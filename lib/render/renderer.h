@@ -1,4 +1,4 @@
-// From settings to exact sums: specialises kernels, dispatches slices, reads back. One per pt_context.
+// The work behind pt_context.
 #pragma once
 
 #include "lib/base/error.h"
@@ -38,25 +38,25 @@
 
 namespace pt {
 
-// A valid pt_create_info, with defaults applied.
+// A valid pt_create_info with defaults applied.
 struct CreateSettings {
     bool validation = false;
-    bool scene_kernels = true;    // specialized for a scene, if faster
+    bool scene_kernels = true;    // specialise for a scene where faster
     std::string device;           // empty: the best
     std::string shader_directory; // empty: the library's kernels
     Log log;
     std::uint32_t submit_milliseconds = 50;
-    std::optional<vulkan::CallerVulkan> vulkan; // empty: the library's own device; else without validation
+    std::optional<vulkan::CallerVulkan> vulkan; // no value: the library's own device
     vulkan::KernelStore kernel_store;
-    std::uint32_t devices_of_each = 1;          // render devices per named one, so that tests can share work
+    std::uint32_t devices_of_each = 1;          // lets tests share work
     bool like_gpus = false;                     // treats CPUs like GPUs, for tests
-    std::optional<std::uint32_t> tree_from{};   // tests lower it for trees over few spheres
-    std::optional<std::uint32_t> adaptive_from; // tests lower it for few samples
+    std::optional<std::uint32_t> tree_from{};   // lets tests use trees for few spheres
+    std::optional<std::uint32_t> adaptive_from; // lets tests adapt with few samples
 };
 
 std::vector<pt_device_info> list_devices();
 
-// Methods throw pt::Error. A failed method has changed nothing, except that a lost device stays lost and whole samples
+// Methods throw pt::Error. A method that fails changes nothing, except that a lost device stays lost and whole samples
 // are kept. While samples are under way, only poll(), cancel() and const methods may be called.
 class Renderer {
 public:
@@ -65,7 +65,6 @@ public:
     const Log &log() const { return instance_.log(); }
     const pt_device_info &device() const { return devices_.front()->device().info(); }
 
-    // Size of the rendered image: all columns, the settings' rows.
     std::uint32_t width() const { return settings_ ? settings_->width : 0; }
     std::uint32_t row_count() const { return settings_ ? settings_->row_count : 0; }
 
@@ -79,7 +78,7 @@ public:
     // Discards the samples if a kernel has changed.
     void reload_shaders();
 
-    // On all devices, or on none if a driver refuses.
+    // If a driver refuses the code, no device uses it.
     void set_code(const KernelCode &code);
 
     // Builds the kernels of accumulate().
@@ -88,18 +87,19 @@ public:
     // Returns PT_OK, PT_CANCELLED or PT_TARGET_REACHED.
     pt_result accumulate(const pt_accumulate_info &wanted);
 
-    // Does not wait: PT_PENDING if samples are under way, or PT_TARGET_REACHED.
+    // Does not wait. Returns PT_PENDING if samples are under way, or PT_TARGET_REACHED.
     pt_result start(const pt_accumulate_info &wanted);
 
     struct Advance {
-        pt_result result; // PT_PENDING while samples are under way, then accumulate()'s
-        double fraction;  // done share of the samples
+        pt_result result; // PT_PENDING, or accumulate()'s result
+        double fraction;  // fraction of the samples
     };
 
-    // Collects finished samples and starts the next, for at most this long. If it throws, no samples are under way.
+    // Collects finished samples and starts more, for at most this time. After an exception no samples are under way.
     Advance poll(std::uint64_t nanoseconds);
 
-    // Begins no more samples; poll() returns when the present ones have ended. False if there are none. Thread-safe.
+    // Starts no more samples. poll() returns when begun samples have ended. Returns false if none are under way.
+    // Thread-safe.
     bool cancel() noexcept { return cancellation_.ask(); }
     static constexpr const char *nothing_under_way = "no samples are under way: call pt_start first";
 
@@ -108,7 +108,7 @@ public:
     void readback(const Image &image);
     void readback(const BufferImage &image);
 
-    // Without gaps, in memory valid until the next call, set_render() or reload_shaders().
+    // The image has no gaps. It is valid until the next call, set_render() or reload_shaders().
     std::span<std::byte> map(const ImageLayout &layout);
 
     FilmHeader film_header();
@@ -117,24 +117,21 @@ public:
 
     pt_stats stats();
 
-    // About the visible scene (displacement.h); may be NULL. Valid until the next call.
+    // Describes the visible scene (displacement.h). May be NULL. Valid until the next call.
     const BrokenRule *warning();
 
-    // Includes lamps in view that samples have hardly hit. A target error is reached only once samples hit these, so
-    // films added elsewhere need no lamps.
+    // Includes lamps in view that samples have hardly hit.
     ErrorEstimate error_with_lamps();
 
-    // Accuracy of the first device's elementary functions.
     std::vector<pt_function_accuracy> accuracy();
 
 private:
-    // A call that takes samples.
     struct Job {
         double target_error; // relative; 0: none
         MostSamples counts;
-        std::uint64_t together_to;        // until all tiles have as many, they take the same samples
-        bool is_together;                 // while that lasts
-        std::vector<std::uint64_t> goals; // or wanted samples by tile, without looks at errors
+        std::uint64_t together_to;        // sample count up to which tiles are equal
+        bool is_together;                 // while below together_to
+        std::vector<std::uint64_t> goals; // by tile, without error checks; may be empty
         Accumulation accumulation;
     };
 
@@ -180,18 +177,18 @@ private:
     FilmView view_{devices_};
     std::optional<PreparedScene> scene_;
     std::optional<Camera> camera_;
-    std::optional<RenderSettings> settings_;            // if set, the devices have films
-    std::shared_ptr<const GpuScene> gpu_scene_;         // made of the three above; NULL after a change
-    TileSamples samples_;                               // taken by the films
-    AdaptiveRound round_;                               // reached by the samples
-    std::optional<ErrorEstimate> error_;                // computed on demand
-    std::optional<std::uint64_t> rejected_samples_;     // computed on demand
-    std::vector<double> tile_squares_;                  // empty until asked for
-    std::vector<std::byte> mapped_image_;               // mapped images that the host makes
+    std::optional<RenderSettings> settings_;    // if set, the devices have films
+    std::shared_ptr<const GpuScene> gpu_scene_; // from the three above; NULL after a change
+    TileSamples samples_;
+    AdaptiveRound round_;
+    std::optional<ErrorEstimate> error_; // computed on demand
+    std::optional<std::uint64_t> rejected_samples_;
+    std::vector<double> tile_squares_;
+    std::vector<std::byte> mapped_image_;
     std::optional<std::vector<LampPiece>> small_lamps_; // computed on demand
     std::optional<BrokenRule> warning_;
     DeviceWork work_;
-    Cancellation cancellation_; // cancels job_, present or about to begin
+    Cancellation cancellation_; // of job_, present or about to begin
     std::unique_ptr<Job> job_;  // set while samples are under way
 };
 

@@ -20,7 +20,7 @@ namespace pt {
 
 namespace {
 
-// quantity: must satisfy is_of_first_hits(). Translates kernels' surface numbers to callers'.
+// Requires is_of_first_hits(quantity). Translates the kernel's surface numbers to the caller's.
 void read_first_hits(const Image &image, const RenderSettings &settings, const std::shared_ptr<const GpuScene> &scene,
                      RenderDevice &device) {
     FirstHitQuery query{image.layout.pixels, image.layout.quantity, image.layout.format};
@@ -39,7 +39,7 @@ void read_first_hits(const Image &image, const RenderSettings &settings, const s
     });
 }
 
-// Quotients of numbers below 2^32 are correctly rounded, except within 2^-53 of the middle of two floats.
+// Quotients are correctly rounded, unless they are within 2^-53 of the middle of two floats.
 void read_coverage(const Image &image, const TileSamples &samples, const RenderSettings &settings,
                    const std::shared_ptr<const GpuScene> &scene, RenderDevice &device) {
     const Rectangle &pixels = image.layout.pixels;
@@ -61,7 +61,7 @@ void read_coverage(const Image &image, const TileSamples &samples, const RenderS
 
 } // namespace
 
-// Parallel rays may start far away, so lamps' sizes are judged from the origin of the kernel's coordinates.
+// Parallel rays may start far away, so the sizes of lamps are judged from the origin of the kernel's coordinates.
 Camera Renderer::ray_start() {
     Camera start = *camera_;
     if (start.is_orthographic())
@@ -77,7 +77,6 @@ const ErrorEstimate &Renderer::error() {
     return *error_;
 }
 
-// by_tile: as in ErrorQuery. is_recorded: as in FilmView.
 void Renderer::look(std::span<double> by_tile, bool is_recorded) {
     const KernelsKept kept(devices_);
     const std::uint64_t samples = samples_.total();
@@ -110,13 +109,13 @@ const std::vector<LampPiece> &Renderer::small_lamps() {
     return *small_lamps_;
 }
 
-// By tile.
+// Returns the samples per pixel that each tile needs.
 std::vector<std::uint64_t> Renderer::samples_for_lamps() {
     const TileGrid &grid = samples_.grid();
     std::vector<std::uint64_t> needed(grid.count());
     for (const LampPiece &piece : small_lamps()) {
         std::uint64_t &of_tile = needed[grid.tile_at(piece.x, piece.y)];
-        of_tile = std::max(of_tile, samples_to_meet(piece, relative_offset, settings_->sampler == PT_SAMPLER_RANDOM));
+        of_tile = std::max(of_tile, samples_to_hit(piece, relative_offset, settings_->sampler == PT_SAMPLER_RANDOM));
     }
     return needed;
 }
@@ -148,7 +147,7 @@ void Renderer::readback(const Image &image) {
     const bool is_of_hits = is_of_first_hits(image.layout.quantity);
     if (!is_of_hits)
         require_samples();
-    if (is_of_hits) // few rays per pixel, so one device
+    if (is_of_hits) // one device is enough for few rays
         read_first_hits(image, *settings_, gpu_scene_of_settings(), *devices_.front());
     else if (image.layout.quantity == PT_QUANTITY_COVERAGE)
         read_coverage(image, samples_, *settings_, gpu_scene_of_settings(), *devices_.front());
@@ -156,7 +155,7 @@ void Renderer::readback(const Image &image) {
         view_.read(image, query(image.layout), samples_);
 }
 
-// The host makes the image if no device makes it in memory that the host can read.
+// The host makes the image if no device makes it in memory that the host reads.
 std::span<std::byte> Renderer::map(const ImageLayout &layout) {
     require_settings();
     if (layout.quantity <= PT_QUANTITY_SAMPLE_COUNT) {
@@ -170,7 +169,7 @@ std::span<std::byte> Renderer::map(const ImageLayout &layout) {
     return mapped_image_;
 }
 
-// A lent device is the only one, so its film holds all samples.
+// A lent device is the only device, so its film has all samples.
 void Renderer::readback(const BufferImage &image) {
     require_alive();
     if (!is_on_lent_device())
@@ -202,7 +201,7 @@ FilmHeader Renderer::film_header() {
     require_samples();
     std::vector<LampSquare> lamps;
     for (const LampPiece &piece : small_lamps())
-        if (const auto needed = samples_to_meet(piece, relative_offset, settings_->sampler == PT_SAMPLER_RANDOM))
+        if (const auto needed = samples_to_hit(piece, relative_offset, settings_->sampler == PT_SAMPLER_RANDOM))
             lamps.push_back({piece.x / lamp_square * lamp_square,
                              (piece.y + settings_->first_row) / lamp_square * lamp_square,
                              static_cast<std::uint32_t>(needed)});
@@ -213,7 +212,7 @@ void Renderer::save_film(const FilmHeader &header, std::span<std::byte> bytes) c
     save(FilmView::films(devices_), samples_, header, pixels(), bytes);
 }
 
-// All samples are then in the first device's film.
+// Puts all samples into the first device's film.
 void Renderer::add_film(std::span<const std::byte> bytes) {
     require_settings();
     const FilmReader film(bytes);

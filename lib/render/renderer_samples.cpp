@@ -21,7 +21,6 @@ Error too_many_samples(std::uint32_t sample_count, const std::string &reason, st
                                                   .rule = reason + std::to_string(number) + ")"}};
 }
 
-// Upper bound of tiles times samples.
 std::uint64_t amount_of(const pt_accumulate_info &wanted, const TileGrid &grid) {
     return wanted.tile_samples == nullptr
                ? std::uint64_t{wanted.sample_count} * grid.count()
@@ -30,7 +29,7 @@ std::uint64_t amount_of(const pt_accumulate_info &wanted, const TileGrid &grid) 
 
 } // namespace
 
-// The next sample is the first missing one from first_sample on.
+// The first new sample is the first missing sample from first_sample on.
 void Renderer::require_room_for(std::uint32_t sample_count) const {
     const std::uint64_t first = settings_->first_sample;
     for (const SampleSet &samples : samples_.sets()) {
@@ -58,12 +57,12 @@ void Renderer::begin(const pt_accumulate_info &wanted, bool is_polled) {
     try {
         make_job(wanted, is_polled);
     } catch (...) {
-        end_job(); // nothing has been begun
+        end_job(); // nothing has begun
         throw;
     }
 }
 
-// is_polled: builds all kernels now, not on demand.
+// `is_polled` builds all kernels now instead of on demand.
 void Renderer::make_job(const pt_accumulate_info &wanted, bool is_polled) {
     require_settings();
     require_tiles(wanted);
@@ -105,7 +104,7 @@ void Renderer::end_job() noexcept {
     cancellation_.end();
 }
 
-// A look costs the time of more samples with short paths, so tiles differ later.
+// Short paths make samples cheap compared with an error check, so tiles stay equal for longer.
 std::uint64_t Renderer::adaptive_from() const {
     const std::uint64_t samples = devices_.front()->device().policy().adaptive_from;
     return settings_->max_path_length > 2 ? samples : 4 * samples;
@@ -162,7 +161,7 @@ pt_result Renderer::advance(Accumulation::Clock::time_point until) {
     }
 }
 
-// Nothing if a step has begun, otherwise the result.
+// Returns no value if a step has begun, otherwise the result.
 std::optional<pt_result> Renderer::next_step() {
     const auto unless_done = [](bool goes_on) { return goes_on ? std::nullopt : std::optional<pt_result>(PT_OK); };
     if (job_->is_together && samples_.of(0).count() < job_->together_to)
@@ -172,7 +171,7 @@ std::optional<pt_result> Renderer::next_step() {
     job_->is_together = false;
     if (!job_->goals.empty())
         return unless_done(job_->accumulation.set_goal_of_all([&](std::uint32_t tile) { return job_->goals[tile]; }));
-    // A film too small for adaptive sampling comes here if it may take no sample.
+    // The film may be too small for adaptive sampling if no samples are allowed.
     if (samples_.even() && samples_.of(0).count() < adaptive_from())
         return PT_OK;
     const AdaptivePlan plan(
@@ -184,7 +183,6 @@ std::optional<pt_result> Renderer::next_step() {
     return unless_done(job_->accumulation.set_goal(step->tiles, step->goal));
 }
 
-// Goes from one error check to the next.
 std::optional<pt_result> Renderer::next_step_together() {
     const std::uint64_t count = samples_.of(0).count();
     if (is_on_target(job_->target_error))
@@ -207,7 +205,7 @@ void Renderer::forget_error() noexcept {
     rejected_samples_.reset();
 }
 
-// Completes begun samples. If that fails too, the films are void.
+// Completes begun samples. If this also fails, the films are void.
 void Renderer::give_up() noexcept {
     try {
         if (job_->accumulation.complete())

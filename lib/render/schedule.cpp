@@ -8,10 +8,10 @@ namespace pt {
 
 namespace {
 
-// Limits growth over the largest measured submission: a wrong guess must not run into drivers' timeouts.
+// Limits growth over the largest measured submission, since drivers have timeouts.
 constexpr double max_growth = 2.0;
 
-constexpr double paths_of_tile = gpu::WORKGROUP_SIZE; // paths of one sample
+constexpr double paths_of_tile = gpu::WORKGROUP_SIZE;
 
 } // namespace
 
@@ -29,7 +29,7 @@ std::uint64_t Schedule::samples(std::size_t tile_count, std::uint64_t most) cons
                                      std::min<std::uint64_t>(most, limits_.max_samples));
 }
 
-// As few equal shares as the budget allows, since a small last share would waste a submission's overhead.
+// Divides the tiles into the fewest equal submissions, since a small last submission would mostly be overhead.
 std::size_t Schedule::tiles(std::size_t left, std::uint64_t sample_count) const {
     const auto affordable = static_cast<std::size_t>(std::clamp(budget_ / paths_of(1, sample_count), 1.0, 0x1p32));
     const std::size_t shares = (left + affordable - 1) / affordable;
@@ -40,9 +40,9 @@ double Schedule::expected_seconds(double paths) const {
     return limits_.target_seconds * paths / budget_;
 }
 
-// A submission takes an overhead o and a time 1 / r per path, which one measurement cannot tell apart. So all time
-// beyond the expected counts as overhead: exact for a submission of the whole budget; small ones hardly change it. The
-// step x -> x t / (o + x / r) has the only stable fixed point x = r (t - o), where a submission takes target_seconds.
+// A submission takes an overhead o, and a time 1 / r for each path. One measurement cannot separate them, so all time
+// beyond the expected time counts as overhead. The step x -> x t / (o + x / r) has the only stable fixed point x = r (t
+// - o), where a submission takes t = target_seconds.
 void Schedule::measured(double paths, double seconds) {
     if (!(seconds >= 0.0))
         return;

@@ -1,4 +1,4 @@
-// Sizes submissions to equal times. RenderDevice asks how much, runs it, and reports the time.
+// Sizes submissions to take equal times.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@
 namespace pt {
 
 struct ScheduleLimits {
-    double target_seconds = 0.05;       // a submission's target
-    double first_slice_paths = 16384.0; // within the target on slow devices
+    double target_seconds = 0.05;
+    double first_slice_paths = 16384.0; // short on slow devices
     std::uint32_t max_samples = 1;      // per pixel and submission
 };
 
@@ -16,18 +16,18 @@ class Schedule {
 public:
     explicit Schedule(const ScheduleLimits &limits);
 
-    // Samples of each of `tile_count` tiles in one submission, from 1 to `most`.
+    // Returns the samples of each tile in one submission, from 1 to `most`.
     std::uint64_t samples(std::size_t tile_count, std::uint64_t most) const;
 
-    // Number of remaining tiles in the next submission, with these samples each; at least 1.
+    // Returns how many of the remaining tiles the next submission takes, at least 1.
     std::size_t tiles(std::size_t left, std::uint64_t sample_count) const;
 
-    // Paths that should take the time of one submission.
+    // The paths that should take the time of one submission.
     double budget() const { return budget_; }
 
     double expected_seconds(double paths) const;
 
-    // Learns from a measured time; ignores negative ones and NaN.
+    // Learns from a measured time. Ignores negative times and NaN.
     void measured(double paths, double seconds);
 
 private:

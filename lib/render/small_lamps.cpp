@@ -12,18 +12,18 @@ namespace pt {
 
 namespace {
 
-// Sixteen samples, the fewest with a stated error, hit larger shares of a pixel often enough. Calibrated.
+// Lamps that cover more of a pixel are hit often enough by 16 samples. Calibrated.
 constexpr double largest_share = 0.5;
 
-// A lamp's disc on the image, in pixels from its top left corner.
+// In pixels from the image's top left corner.
 struct Disc {
     double x;
     double y;
-    double radius; // as seen
-    double size;   // the lamp's area, less than the disc's if a lens spreads it
+    double radius; // with the lens's blur
+    double size;   // area without the lens's blur
 
     double area() const { return std::numbers::pi * radius * radius; }
-    bool meets(std::uint32_t width, std::uint32_t height) const {
+    bool overlaps(std::uint32_t width, std::uint32_t height) const {
         return x + radius > 0.0 && x - radius < width && y + radius > 0.0 && y - radius < height;
     }
 };
@@ -36,8 +36,9 @@ double ahead(double way) {
     return never;
 }
 
-// Distance from the origin along a unit vector at which a ray enters a ball, or leaves it if it begins inside; infinite
-// for a miss. Uses the first position of a moving ball or capsule, which never hides more than the whole path.
+// Returns the distance along a unit vector at which a ray from the origin enters a ball, or leaves it if it starts
+// inside. The distance is infinite for a miss. Only the first position of a moving ball is used. It never hides more
+// than the whole path.
 double way_to(const MovingBall &ball, const glm::dvec3 &direction) {
     const double along = glm::dot(ball.open, direction);
     const double beside = glm::length(ball.open - along * direction);
@@ -54,8 +55,8 @@ double way_to(const Plane &plane, const Camera &camera, const glm::dvec3 &direct
     return ahead(-height / glm::dot(plane.normal, direction));
 }
 
-// The share of camera rays along a unit vector that pass all nearer surfaces. start: the camera or, with parallel rays,
-// where this ray begins.
+// Returns the fraction of camera rays along a unit vector that pass all nearer surfaces. `start` is the camera, moved
+// to the start of the ray.
 double transmittance(const PreparedScene &prepared, const Camera &start, const glm::dvec3 &direction, double distance) {
     const Scene &scene = prepared.scene;
     double share = 1.0;
@@ -77,7 +78,7 @@ double transmittance(const PreparedScene &prepared, const Camera &start, const g
     return share;
 }
 
-// The share of camera rays to a lamp's center that reach it. center: relative to the camera.
+// `center` is relative to the camera.
 double visible_share(const PreparedScene &scene, const Camera &camera, const glm::dvec3 &center, double radius) {
     Camera start = camera;
     if (camera.is_orthographic())
@@ -86,16 +87,15 @@ double visible_share(const PreparedScene &scene, const Camera &camera, const glm
     return transmittance(scene, start, glm::normalize(way), glm::length(way) - 2.0 * radius);
 }
 
-// The visible rows of an image.
 struct Window {
     std::uint32_t width;
-    std::uint32_t height; // of the whole image
+    std::uint32_t height; // whole image
     std::uint32_t first_row;
     std::uint32_t row_count;
 };
 
-// center: relative to the camera, ahead of it. A lens spreads each point over a disc. Variances add up, so radii add up
-// as squares.
+// `center` is relative to the camera and in front of it. A lens spreads each point over a disc. Variances add up, so
+// radii add up as squares.
 Disc disc_of(const glm::dvec3 &center, double radius, const Camera &camera, const Window &window) {
     const double depth = glm::dot(center, camera.forward);
     const double half_height = camera.is_orthographic() ? 0.5 * camera.vertical_extent : depth * camera.tan_half_fov;
@@ -106,8 +106,8 @@ Disc disc_of(const glm::dvec3 &center, double radius, const Camera &camera, cons
             std::hypot(seen_radius, scale * camera.spread(depth)), std::numbers::pi * seen_radius * seen_radius};
 }
 
-// Adds the pixels of a disc, in squares large enough that no disc has many. Thin lines of the disc are divided among
-// the squares that they cross. of_disc: with the share of the disc's samples that hit the lamp.
+// Adds the pixels of a disc. Large discs are divided into squares of several pixels, which limits the number of pieces.
+// `of_disc` has the fraction of the disc's samples that hit the lamp.
 void add_pieces(std::vector<LampPiece> &pieces, std::size_t first, Disc disc, int lines, const LampPiece &of_disc,
                 const Window &window) {
     constexpr double few = 4.0; // squares along a radius
@@ -144,13 +144,12 @@ void add_pieces(std::vector<LampPiece> &pieces, std::size_t first, Disc disc, in
     }
 }
 
-// A moving lamp is seen at several moments of the shutter. Moments more than a pixel apart also stand for the pixels in
-// between, each crossed in less time.
+// A moving lamp is seen at several moments. Moments more than a pixel apart also stand for the pixels between them.
 void add_lamp(std::vector<LampPiece> &pieces, const PreparedScene &scene, const Camera &camera, const Window &window,
               const SeenSphere &lamp, const glm::dvec3 &emission) {
     constexpr double most_moments = 64.0;
     constexpr int all_lines = 256;
-    constexpr int least_lines = 16; // of a disc
+    constexpr int least_lines = 16;
     const auto is_ahead = [&](const glm::dvec3 &center) { return glm::dot(center, camera.forward) > lamp.radius; };
     const auto seen = [&](const glm::dvec3 &center) { return disc_of(center, lamp.radius, camera, window); };
     if (!is_ahead(lamp.open) || !is_ahead(lamp.close()))
@@ -163,7 +162,7 @@ void add_lamp(std::vector<LampPiece> &pieces, const PreparedScene &scene, const 
     for (int moment = 0; moment < static_cast<int>(moments); ++moment) {
         const glm::dvec3 center = lamp.open + (moment + 0.5) / moments * lamp.way;
         const Disc disc = seen(center);
-        if (!disc.meets(window.width, window.row_count))
+        if (!disc.overlaps(window.width, window.row_count))
             continue;
         const double bare_share = disc.size / std::max(disc.area() + 2.0 * disc.radius * path, 1.0);
         if (bare_share >= largest_share && !is_veiled)
@@ -197,7 +196,7 @@ double LampPiece::enough_samples(bool is_random) const {
     return (is_random || is_spread ? 8.0 : 3.0) / lamp_share;
 }
 
-std::uint64_t samples_to_meet(const LampPiece &piece, double offset, bool is_random) {
+std::uint64_t samples_to_hit(const LampPiece &piece, double offset, bool is_random) {
     constexpr double negligible = 0.01;
     const double brightest = piece.share * std::max({piece.emission.r, piece.emission.g, piece.emission.b});
     if (brightest * brightest < negligible * (brightest * brightest + offset))
@@ -207,53 +206,52 @@ std::uint64_t samples_to_meet(const LampPiece &piece, double offset, bool is_ran
 
 namespace {
 
-// Expectations for a piece.
 struct UnmetPiece {
-    double meetings; // hits in all of its pixels
+    double hits; // in all of its pixels
     double square;
     double relative_square;
-    double lack; // the squares, if no sample meets it
+    double lack; // squares if no sample hits it
     double relative_lack;
 };
 
 UnmetPiece unmet_piece(const LampPiece &piece, double count, double offset, bool is_random) {
-    const double meetings = count * piece.share;
-    const double random_variance = meetings * (1.0 - piece.share);
+    const double hits = count * piece.share;
+    const double random_variance = hits * (1.0 - piece.share);
     const double variance =
-        is_random || piece.is_spread ? random_variance : std::min(random_variance, 0.6 * std::sqrt(meetings));
+        is_random || piece.is_spread ? random_variance : std::min(random_variance, 0.6 * std::sqrt(hits));
     const glm::dvec3 limits = piece.share * piece.emission;
     const glm::dvec3 lacks = limits * limits;
-    const glm::dvec3 expected = variance / (meetings * meetings) * lacks;
+    const glm::dvec3 expected = variance / (hits * hits) * lacks;
     const auto sum = [&](const glm::dvec3 &values) { return piece.pixels * (values.r + values.g + values.b); };
-    return {piece.pixels * meetings, sum(expected), sum(expected / (lacks + offset)), sum(lacks),
+    return {piece.pixels * hits, sum(expected), sum(expected / (lacks + offset)), sum(lacks),
             sum(lacks / (lacks + offset))};
 }
 
-void add(ExpectedSquares &to, double square, double meetings) {
+void add(ExpectedSquares &to, double square, double hits) {
     to.sum += square;
-    to.variance += square * square / meetings;
+    to.variance += square * square / hits;
 }
 
 } // namespace
 
-// The number of samples that hit a piece has a Poisson distribution. The pieces that would err most if hit, and
-// together are hardly hit once, count as missed, as in most pictures.
+// The number of hits has a Poisson distribution. The pieces with the largest errors, up to less than one expected hit
+// in total, count as missed, as in most images.
 UnmetSquares unmet_squares(const std::vector<LampPiece> &pieces, double offset, bool is_random,
                            const std::function<std::uint64_t(const LampPiece &)> &samples) {
     std::vector<UnmetPiece> unmet;
     for (const LampPiece &piece : pieces)
-        if (const std::uint64_t count = samples(piece); samples_to_meet(piece, offset, is_random) > count)
+        if (const std::uint64_t count = samples(piece); samples_to_hit(piece, offset, is_random) > count)
             unmet.push_back(unmet_piece(piece, static_cast<double>(count), offset, is_random));
     std::ranges::sort(unmet, std::greater(),
-                      [](const UnmetPiece &piece) { return piece.relative_square / piece.meetings; });
+                      [](const UnmetPiece &piece) { return piece.relative_square / piece.hits; });
     UnmetSquares all;
-    double meetings = 0.0;
+    double hits = 0.0;
     for (const UnmetPiece &piece : unmet) {
-        meetings += piece.meetings;
-        const bool is_met = meetings >= 1.0;
-        const double rests_on = is_met ? piece.meetings : 1.0;
-        add(all.square, is_met ? piece.square : piece.lack, rests_on);
-        add(all.relative_square, is_met ? piece.relative_square : piece.relative_lack, rests_on);
+        hits += piece.hits;
+        const bool is_hit = hits >= 1.0;
+        const double rests_on = is_hit ? piece.hits : 1.0;
+        add(all.square, is_hit ? piece.square : piece.lack, rests_on);
+        add(all.relative_square, is_hit ? piece.relative_square : piece.relative_lack, rests_on);
     }
     return all;
 }

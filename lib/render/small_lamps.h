@@ -1,4 +1,4 @@
-// Lamps in view that are smaller than a pixel, and the error of images whose samples have hardly met them.
+// Lamps in view that are smaller than a pixel, and the errors that they cause.
 #pragma once
 
 #include "lib/kernel/prepared_scene.h"
@@ -12,36 +12,35 @@
 
 namespace pt {
 
-// The part of a lamp in one pixel, or in each of several if a lens or the lamp's motion spreads it.
+// The part of a lamp in one pixel, or in each of several equal pixels.
 struct LampPiece {
-    std::uint32_t x; // among the rows
+    std::uint32_t x; // in the rendered rows
     std::uint32_t y;
-    double share;      // covered share of the pixel, or share of its samples that hit the lamp
-    double lamp_share; // the largest share of a pixel that the whole lamp covers
+    double share;      // fraction of the pixel's samples that hit the lamp
+    double lamp_share; // largest fraction of a pixel that the whole lamp covers
     glm::dvec3 emission;
-    double pixels = 1.0;    // number of pixels alike
-    bool is_spread = false; // a lens or motion spreads it, so samples hit it at random
+    double pixels = 1.0;    // number of equal pixels
+    bool is_spread = false; // by a lens or motion, so samples hit it at random
 
-    // Samples of a pixel after which the number of hits deviates by a third: 8 random hits, or 3 with one point per
-    // cell. From then on the samples show the lamp.
+    // The samples per pixel after which the number of hits has a relative deviation of a third: 8 random hits, or 3
+    // hits with one point per cell.
     double enough_samples(bool is_random) const;
 };
 
-// Emitting spheres in these rows that cover less than half a pixel, or that less than half of a pixel's samples hit:
-// they move, are out of focus, or shine through translucent spheres. Opaque surfaces before its center hide a lamp.
+// Returns the lamps in these rows that cover less than half a pixel, or that less than half of a pixel's samples hit
+// because of motion, a lens or translucent spheres. Lamps whose centers are behind opaque surfaces are left out.
 std::vector<LampPiece> small_lamps_in_view(const PreparedScene &scene, const Camera &camera, std::uint32_t width,
                                            std::uint32_t height, std::uint32_t first_row, std::uint32_t row_count);
 
-// Samples of a pixel that suffice for a lamp; 0 if the pixel without it has a relative square under a hundredth.
-std::uint64_t samples_to_meet(const LampPiece &piece, double offset, bool is_random);
+// Returns the samples per pixel that are enough for a lamp, or 0 if missing the lamp changes the relative square by
+// less than a hundredth.
+std::uint64_t samples_to_hit(const LampPiece &piece, double offset, bool is_random);
 
-// The expected sum of squared errors, and its variance.
 struct ExpectedSquares {
     double sum = 0.0;
     double variance = 0.0;
 
-    // Effective number of lamp hits behind the sum.
-    double meetings() const { return sum * sum / variance; }
+    double hits() const { return sum * sum / variance; }
 };
 
 // Sums over an image's values.
@@ -50,11 +49,11 @@ struct UnmetSquares {
     ExpectedSquares relative_square;
 };
 
-// For lamps that a pixel's samples(piece) are too few to show. A piece that covers a share p of the pixel is hit by n p
-// of n samples, with the variance n p (1 - p) if they are random. Quasi-random points lie one in each of n cells, so
-// chance is left only in cells at the piece's edge: some 4.5 sqrt(n p) for a disc, with 0.13 each, or 0.6 sqrt(n p) in
-// all. The mean, whose limit is p E, errs by E / n times the root of the variance. offset: as in (x - r)^2 / (r^2 +
-// offset).
+// Sums the expected errors of lamps for which samples(piece) are too few. If n samples hit a piece of emission E with
+// probability p, the number of hits has the mean n p. Its variance is n p (1 - p) for random samples. Quasi-random
+// points are one in each of n cells, so only cells at the edge of the piece are left to chance. A disc has about 4.5
+// sqrt(n p) such cells with variance 0.13 each, in total 0.6 sqrt(n p). The error of the mean is E / n times the root
+// of the variance. `offset` is as in (x - r)^2 / (r^2 + offset).
 UnmetSquares unmet_squares(const std::vector<LampPiece> &pieces, double offset, bool is_random,
                            const std::function<std::uint64_t(const LampPiece &)> &samples);
 

@@ -1,5 +1,4 @@
-// Divides the work on tiles' missing samples into slices. Accumulation asks for the next slice and has a device take
-// it.
+// Divides the missing samples of tiles into slices.
 #pragma once
 
 #include "lib/film/tile_samples.h"
@@ -16,15 +15,14 @@ namespace pt {
 
 class TileTasks {
 public:
-    // Wanted samples of a tile's pixels.
     using Goal = std::function<std::uint64_t(std::uint32_t)>;
 
-    // tiles: ascending. Tiles below their goal take the next samples that they lack, from first_sample on, so far as
-    // those are consecutive. Some may then still need a new goal.
+    // `tiles` must ascend. Tiles below their goal take the first consecutive samples that they lack from first_sample
+    // on. If further samples are needed, the caller must set a new goal.
     TileTasks(const TileSamples &present, std::uint32_t first_sample, std::span<const std::uint32_t> tiles,
               const Goal &goal);
 
-    // Needs equal samples in all tiles, and takes no longer for many.
+    // Requires equal samples in all tiles. The time does not depend on the number of tiles.
     TileTasks(const SampleSet &present, std::uint32_t first_sample, std::span<const std::uint32_t> all_tiles,
               std::uint64_t goal);
 
@@ -32,35 +30,35 @@ public:
 
     bool empty() const { return tasks_.empty(); }
 
-    // Whether only some of a chunk's tiles have begun its samples.
+    // Whether only some tiles of a chunk have begun its samples.
     bool is_within_samples() const { return !empty() && tasks_.back().next_tile > 0; }
 
-    // As large as the device's schedule allows. Must not be empty().
+    // Returns a slice as large as the schedule allows. Requires !empty().
     TileSlice next(const Schedule &schedule);
 
-    // Whether a slice of this many tiles is the last for its samples, or for all.
+    // Whether a slice of this many tiles is the last for its samples, or for all samples.
     bool ends_samples(std::size_t tile_count) const;
     bool ends_all(std::size_t tile_count) const;
 
-    // Call when the slice has been begun.
+    // Must be called when the slice has begun.
     void leave_behind(std::size_t tile_count) noexcept;
 
 private:
-    // Tiles with equal samples, which take the same ones.
+    // Tiles with equal samples, which take the same new samples.
     struct Task {
-        std::uint32_t set; // index of their samples in TileSamples
+        std::uint32_t set;
         std::uint64_t wanted;
-        SampleRange before; // hull of the samples that they have
+        SampleRange before; // hull of the present samples
         SampleRange samples;
-        SampleRange chunk{}; // part of `samples` that tiles take now
+        SampleRange chunk{}; // taken by the tiles now
         std::vector<std::uint32_t> found{};
-        std::span<const std::uint32_t> tiles{}; // ascending: these, or all
+        std::span<const std::uint32_t> tiles{}; // ascending; `found` or all
         std::size_t next_tile = 0;              // takes the chunk next
     };
 
     Task &add_task(std::uint32_t set, std::uint64_t wanted, const SampleSet &present, std::uint32_t first_sample);
 
-    std::vector<Task> tasks_; // the last one is under way
+    std::vector<Task> tasks_; // the last is under way
 };
 
 } // namespace pt

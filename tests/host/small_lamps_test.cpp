@@ -211,7 +211,7 @@ TEST(SmallLamps, AddWhatSamplesShouldHaveMet) {
     const double variance = 0.125 * 0.875;
     const pt::UnmetSquares found = with(16, 16); // of the second lamp 8 hits were expected
     EXPECT_DOUBLE_EQ(found.square.sum, variance * (64.0 + 256.0) / 16.0);
-    EXPECT_DOUBLE_EQ(found.square.meetings(), 16.0 * 0.125);
+    EXPECT_DOUBLE_EQ(found.square.hits(), 16.0 * 0.125);
     EXPECT_DOUBLE_EQ(found.relative_square.sum, variance * (64.0 / 1.01 + 256.0 / 4.01) / 16.0);
     EXPECT_EQ(with(32, 16).square.sum, 0.0);
     EXPECT_DOUBLE_EQ(with(32, 8).square.sum, 3.0 * 16.0 * 0.25 * 0.75 / 8.0);
@@ -221,13 +221,13 @@ TEST(SmallLamps, AddWhatSamplesShouldHaveMet) {
 
 TEST(SmallLamps, CountAgainstATargetIfTheirLackShows) {
     const pt::LampPiece bright{0, 0, 1e-3, 2e-3, glm::dvec3(0, 0, 11)};
-    EXPECT_EQ(pt::samples_to_meet(bright, 0.01, true), 4000U);
-    EXPECT_EQ(pt::samples_to_meet(bright, 0.01, false), 1500U);
+    EXPECT_EQ(pt::samples_to_hit(bright, 0.01, true), 4000U);
+    EXPECT_EQ(pt::samples_to_hit(bright, 0.01, false), 1500U);
     pt::LampPiece spread = bright;
     spread.is_spread = true;
-    EXPECT_EQ(pt::samples_to_meet(spread, 0.01, false), 4000U);
+    EXPECT_EQ(pt::samples_to_hit(spread, 0.01, false), 4000U);
     const pt::LampPiece dim{0, 0, 1e-3, 2e-3, glm::dvec3(0, 0, 10)}; // .01^2 / (.01^2 + .01) is below a hundredth
-    EXPECT_EQ(pt::samples_to_meet(dim, 0.01, true), 0U);
+    EXPECT_EQ(pt::samples_to_hit(dim, 0.01, true), 0U);
 }
 
 // 8 and 2 meetings; the samples show less, or more.
