@@ -11,10 +11,11 @@ from scene_file import FOLDER, read_scene  # noqa: E402
 
 SIZE = (128, 64)
 SAMPLES = [16, 64, 256]
-FEWER_SAMPLES = {"thousand-spheres": [4, 16, 64]}  # slow samples
+FEWER_SAMPLES = {"thousand-spheres": [4, 16, 64]}  # slow scenes
 REFERENCES = ROOT / "tests/reference/bench"
 
-# Another estimator checks each reference: large lamps are found by chance, others by sampling lamps alone.
+# Each reference is checked by another estimator: for large lamps, one that finds lamps by chance; otherwise, one that
+# samples only lamps.
 CHECKS = {
     "coursework": "bsdf",
     "coursework-motion": "bsdf",
@@ -43,7 +44,7 @@ def load_scene(name):
 
 
 def digest(scene):
-    """To notice a reference of another scene."""
+    """Identifies the scene of a reference."""
     text = json.dumps({key: value for key, value in scene.items() if key != "film"}, sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 

@@ -1,5 +1,5 @@
-"""Renders the benchmark's scenes with pt's default, every other sampler and estimator, and Mitsuba where it can express
-the scene; prints a table and draws error against time (benchmark.png, with matplotlib).
+"""Renders the benchmark's scenes with pt's default, with all other samplers and estimators, and with Mitsuba where it
+can express the scene. Prints a table, and draws error against time (benchmark.png, with matplotlib).
 
     PT_LIBRARY=build/lib/libpt.so python3 tests/bench/benchmark.py --mitsuba mitsuba/bin/python --json benchmark.json
 
@@ -7,12 +7,16 @@ the scene; prints a table and draws error against time (benchmark.png, with matp
 
     python3 -m venv mitsuba && mitsuba/bin/pip install mitsuba
 
-Variant llvm_ad_rgb (CPU) needs LLVM's shared library, named by DRJIT_LIBLLVM_PATH (Debian: libllvm19; libllvm15 fails
-on processors with AVX-512); cuda_ad_rgb runs on a GPU.
+Mitsuba's variant llvm_ad_rgb (CPU) needs LLVM's shared library, and DRJIT_LIBLLVM_PATH names it. In Debian this is
+libllvm19, since libllvm15 fails on processors with AVX-512. The variant cuda_ad_rgb runs on a GPU.
 
-Every round measures all in turn. Costs: median CPU seconds (GPU: wall seconds) of sampling. Errors: mean relMSE
-(README.md) against references (references.py). Targets: the default's errors at its two largest sample counts. Ratio:
-an option's cost of the target over the default's, interpolated in logarithms; "~": extrapolated with the slope -1.
+Each round measures all options in turn.
+
+cost     median CPU seconds of sampling (GPU: wall seconds)
+error    mean relMSE (README.md) against references (references.py)
+target   an error of the default at one of its two largest sample counts
+ratio    an option's cost at the target, divided by the default's cost, interpolated in logarithms; "~" marks
+         extrapolation with the slope -1
 """
 
 import argparse

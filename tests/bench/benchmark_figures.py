@@ -9,7 +9,7 @@ DEFAULT = ("sobol", "mis")
 SAMPLERS = ("sobol", "random", "halton", "halton-cp")  # with the default estimator
 ESTIMATORS = ("uniform", "cosine", "bsdf", "light")  # with the default sampler
 OPTIONS = (*SAMPLERS[1:], *ESTIMATORS, "Mitsuba")
-COARSE = 0.01  # the largest error of a reference, over the smallest error measured
+COARSE = 0.01  # limit for a reference's error, divided by the smallest measured error
 
 
 def points_of(cells, unit):
@@ -46,7 +46,7 @@ def scene_figures(rounds, unit):
 
 
 def ratio_text(figures):
-    """Two or three digits, without exponents."""
+    """A ratio with two or three digits, without an exponent."""
     def text(one):
         ratio = one["ratio"]
         if ratio > 1000:

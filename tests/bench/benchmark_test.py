@@ -1,4 +1,4 @@
-"""The benchmark's arithmetic, scenes and references, and a run. PT_LIBRARY names the library."""
+"""Tests the benchmark's arithmetic, scenes and references, and runs it. PT_LIBRARY names the library."""
 
 import contextlib
 import io

@@ -1,10 +1,10 @@
-"""Compares images by means of blocks, with the noise between independent runs."""
+"""Compares images by means of blocks. The noise is measured between independent runs."""
 
 import math
 import statistics
 
 BLOCK = 16  # pixels
-ROUNDING = 1e-5  # of a mean without noise, relative: Mitsuba sums a pixel's samples as floats
+ROUNDING = 1e-5  # relative rounding error of a mean: Mitsuba sums a pixel's samples as floats
 
 
 def block_means(pixels, width, height):
@@ -22,7 +22,7 @@ def whole_means(blocks):
 
 
 def mean_and_error(runs):
-    """Runs -> (mean, standard error) of each value."""
+    """Maps runs to the mean and standard error of each value."""
     return [(statistics.fmean(values), statistics.stdev(values) / math.sqrt(len(values))) for values in zip(*runs)]
 
 

@@ -1,12 +1,12 @@
-"""Compares the costs of equal error of two builds of libpt, in the scenes of cli/scenes.
+"""Compares the costs of equal errors between two builds of libpt, in the scenes of cli/scenes.
 
     python3 tests/bench/compare_libraries.py --library old=OLD/libpt.so --library new=build/lib/libpt.so
 
-Renders pictures of 8, 32 and 128 samples with several seeds, in turn. Error: the variance over seeds, divided by r^2 +
-0.01 with the mean r of all pictures. Cost: median CPU seconds of a picture.
+Renders pictures of 8, 32 and 128 samples with several seeds, in turn. The cost is the median CPU seconds of a picture.
+The error is the variance over seeds, divided by r^2 + 0.01 with the mean r of all pictures.
 
 time, error     relative to the first library, at 32 samples
-gain            the first library's CPU seconds at 32 samples over this library's for the same error
+gain            CPU seconds of the first library at 32 samples, divided by this library's for the same error
 z               difference of the means of all pictures of 128 samples, in standard errors
 """
 

@@ -1,10 +1,11 @@
-"""Error against CPU seconds of raw, filtered and combined (as `pt` shows them) images, and of Mitsuba's by the same
-filter: a table and a plot.
+"""Measures error and CPU seconds of raw, filtered and combined images of pt, and of Mitsuba's images with the same filter.
+`pt` shows combined images. Makes a table and a plot.
 
     PT_LIBRARY=build/lib/libpt.so python3 tests/bench/denoise_bench.py --mitsuba mitsuba/bin/python --json denoise.json
 
-Scenes, references, Mitsuba and relMSE: see benchmark.py. Needs Open Image Denoise (also in Python: pip install pyoidn)
-and matplotlib. Albedo and normals are pt's, also for Mitsuba. Costs: median CPU seconds of sampling and filtering.
+benchmark.py describes scenes, references, Mitsuba and relMSE. Needs Open Image Denoise (also in Python: pip install
+pyoidn) and matplotlib. Albedo and normals come from pt, also for Mitsuba. The cost is the median CPU seconds of sampling
+and filtering.
 """
 
 import argparse
@@ -48,7 +49,7 @@ def pixels(renderer, quantity=0):
 
 
 def pt_round(name, seed, add):
-    """Measures pt by add(option, count, seconds, image); returns the guides."""
+    """Measures pt by add(option, count, seconds, image). Returns the guides."""
     scene = load_scene(name)
     with SceneRenderer(scene) as renderer:
         def sample(count, seed):
@@ -56,7 +57,7 @@ def pt_round(name, seed, add):
             _, seconds = timed(renderer.accumulate, count)
             return pixels(renderer), seconds
 
-        for _ in range(2):  # kernels are ready then
+        for _ in range(2):  # builds the kernels
             image, _ = sample(1, seed)
             renderer.call("pt_prepare")
         guides = pixels(renderer, ALBEDO), pixels(renderer, NORMAL)

@@ -1,13 +1,13 @@
-"""Measures error and time of samplers and estimators: a table, and JSON.
+"""Measures error and time of samplers and estimators. Makes a table, and JSON.
 
     PT_LIBRARY=build/lib/libpt.so python3 tests/bench/error_and_time.py cli/scenes/coursework.json --size 64x32 \\
         --samplers random,sobol --spp 4,16 --rounds 1 --json bench.json
 
-Every round renders all in turn, with the seed + its number.
+Each round renders all combinations in turn. The round's number is added to the seed.
 
 seconds, cpu s  median wall and CPU seconds of sampling alone
 mse, rel_mse    mean of (x - r)^2 and of (x - r)^2 / (r^2 + 0.01) against the reference r, over the rounds
-slope           of log MSE against log N since the previous count; -1 for independent samples
+slope           slope of log MSE against log N since the previous count; -1 for independent samples
 """
 
 import argparse
@@ -25,7 +25,7 @@ from scene_renderer import ESTIMATORS, SAMPLERS, SceneRenderer  # finds pt
 from table import print_table
 from pt import DeviceKind
 
-REFERENCE_FACTOR = 64  # the reference's error is then an eighth of the smallest measured, if squares fall as 1 / N
+REFERENCE_FACTOR = 64  # if squares fall as 1 / N, the reference's error is an eighth of the smallest measured error
 NOISE_MARGIN = 3
 
 
@@ -85,7 +85,7 @@ def image_error(image, reference):
 
 class Bench:
     def __init__(self, options):
-        # The program does the same. Mesa's cache ignores vector widths, so it is off.
+        # The program sets this too. Mesa's cache ignores vector widths, so it is disabled.
         if "avx512vl" in pathlib.Path("/proc/cpuinfo").read_text(encoding="ascii", errors="replace"):
             os.environ.setdefault("LP_NATIVE_VECTOR_WIDTH", "512")
         os.environ.setdefault("MESA_SHADER_CACHE_DISABLE", "true")
@@ -104,7 +104,8 @@ class Bench:
         return np.array(self.renderer.image(), np.float64).reshape(*self.size[::-1], 3)
 
     def reference(self):
-        """The reference and facts about it; for a rendered one its error, from the difference of its halves."""
+        """Returns the reference and facts about it. A rendered reference has an error, from the difference of its
+        halves."""
         if self.options.reference:
             image = read_exr(self.options.reference)
             if image.shape[1::-1] != tuple(self.size):
@@ -122,7 +123,7 @@ class Bench:
         return whole, {"spp": samples, "seed": self.options.seed, "mse": mse, "rel_mse": rel_mse}
 
     def measure(self, sampler, estimator, samples, seed, reference):
-        for warm_up in True, False:  # the second set_render discards the first run's samples
+        for warm_up in True, False:  # the second set_render discards the warm-up samples
             self.set_render(SAMPLERS[sampler], ESTIMATORS[estimator], seed)
             if warm_up:
                 self.renderer.call("pt_prepare")

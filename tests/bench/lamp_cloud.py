@@ -6,13 +6,13 @@ import random
 SEED = 5
 LOW, HIGH = (-8, 0.8, -16), (8, 6, -2)  # of the cloud
 BRIGHTNESSES = 41
-POWER = 60  # emission of a lamp of radius 0.3 with the light of the whole cloud
+POWER = 60  # emission of one lamp of radius 0.3 that has the light of the whole cloud
 MATT, DARK = {"diffuse": [0.7, 0.6, 0.5]}, {"diffuse": [0.4, 0.5, 0.6]}
 
 
 class LampCloud:
-    """Columns as in SphereCloud, of constant total surface. Without `shining` all but the first are dark: the same rays
-    without a choice among lamps."""
+    """Has the columns of SphereCloud. The total surface is constant. Without `shining`, only the first lamp emits,
+    so the same rays are traced without a choice among lamps."""
 
     def __init__(self, count, shining=True):
         rng = random.Random(SEED)

@@ -2,14 +2,15 @@
 
     python3 tests/bench/latency.py --library old=OLD/libpt.so --library new=build/lib/libpt.so --sizes 1024x512
 
-Libraries are measured in one process, in turn; figures are medians. The camera moves before every new picture.
+Libraries are measured in one process, in turn. Figures are medians. The camera moves before each new picture.
 
 64 samples      pt_accumulate on a film with samples
-readback        pt_readback of the radiance into memory written before
+readback        pt_readback of the radiance into memory that was written before
 map             pt_map_image, and a read of the last pixel
 camera + 1      pt_set_camera and pt_accumulate of one sample
 picture of N    pt_set_camera, pt_accumulate of N samples, and pt_readback
-to ERROR        pt_set_camera and pt_accumulate with a target error; its samples; the same number without a target
+to ERROR        pt_set_camera and pt_accumulate with a target error; the samples that this took; the time of as many
+                samples without a target
 """
 
 import argparse
@@ -92,7 +93,7 @@ def measure_errors(contexts, arguments):
     for error in filter(None, arguments.errors.split(",")):
         for _ in range(min(arguments.rounds, 3)):
             for context in contexts:
-                context.accumulate(256)  # an idle GPU runs slowly at first
+                context.accumulate(256)  # wakes an idle GPU
                 context.measure(f"to {error}", context.move_camera, lambda: context.accumulate(1 << 16, float(error)))
                 samples = context.renderer.stats().sample_count
                 context.times[f"to {error}, samples"] = [samples]

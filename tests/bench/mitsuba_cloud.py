@@ -1,7 +1,7 @@
-"""Renders clouds of spheres with Mitsuba for scale.py: a line of JSON in, a line out.
+"""Renders clouds of spheres with Mitsuba for scale.py. Reads lines of JSON and answers each with one line.
 
-    {"count": N}                                        builds the scene; its seconds
-    {"length": L, "samples": S, "seed": I, "image": F}  renders; seconds; pixels as floats in the file F, if any
+    {"count": N}                                        builds the scene and answers the seconds
+    {"length": L, "samples": S, "seed": I, "image": F}  renders and answers the seconds; writes floats to F, if given
 """
 
 import argparse
@@ -45,7 +45,7 @@ def main():
     options = parser.parse_args()
     size, lengths = tuple(map(int, options.size.split("x"))), list(map(int, options.path_lengths.split(",")))
     answers, scene = os.fdopen(os.dup(1), "w"), None
-    os.dup2(2, 1)  # Mitsuba's output is no answer
+    os.dup2(2, 1)  # keeps Mitsuba's output out of the answers
     for line in sys.stdin:
         asked = json.loads(line)
         if "count" in asked:

@@ -1,16 +1,16 @@
-"""Scene files in Mitsuba 3. Planes are rectangles of half size 300; pt's material is phong_bsdf.py."""
+"""Translates scene files for Mitsuba 3. Planes become rectangles of half size 300. phong_bsdf.py has pt's material."""
 
 import math
 import resource
 import time
 
 SAMPLERS = ("multijitter", "independent")
-HALF_SIZE = 300  # of rectangles for planes
-SMALLEST_LAMP = 1e-6  # (radius / distance)^2; smaller lamps become too bright
+HALF_SIZE = 300  # of the rectangles that replace planes
+SMALLEST_LAMP = 1e-6  # (radius / distance)^2; Mitsuba makes smaller lamps too bright
 
 
 def obstacle(scene):
-    """Why Mitsuba cannot express a scene; None if it can."""
+    """Returns why Mitsuba cannot express a scene, or None."""
     if any(any(sphere.get("motion", [])) for sphere in scene["spheres"]):
         return "its spheres do not move"
     if any("emission" in scene["materials"][plane["material"]] for plane in scene.get("planes", [])):
@@ -62,7 +62,7 @@ class MitsubaScene:
                             for length in lengths or [scene["render"]["max_path_length"]]}
 
     def describe(self, scene):
-        """Mitsuba's surfaces have one side: a ball around the camera is inverted, planes face the camera."""
+        """Mitsuba's surfaces have one side. Balls around the camera are inverted, and planes face the camera."""
         position, shapes = scene["camera"]["position"], {}
         for i, sphere in enumerate(scene["spheres"]):
             material = scene["materials"][sphere["material"]]

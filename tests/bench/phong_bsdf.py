@@ -1,6 +1,6 @@
 """The material of pt as a BSDF of Mitsuba 3: f = diffuse / pi + specular (n + 2) / (2 pi) max(0, w_o . r)^n, with the
-mirror image r of w_i and the glossiness n (Phong 1975; Lafortune and Willems 1994). Set Mitsuba's variant before
-importing it; register() adds the plugin "pt_phong".
+mirror image r of w_i and the glossiness n (Phong 1975; Lafortune and Willems 1994). Mitsuba's variant must be set before
+this module is imported. register() adds the plugin "pt_phong".
 """
 
 import drjit as dr
@@ -8,7 +8,7 @@ import mitsuba as mi
 
 
 class Phong(mi.BSDF):
-    """One-sided. Parameters: diffuse and specular (rgb), glossiness (float)."""
+    """A surface with one side. Parameters: diffuse and specular (rgb), glossiness (float)."""
 
     def __init__(self, props):
         super().__init__(props)

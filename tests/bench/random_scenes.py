@@ -1,4 +1,4 @@
-"""Random scenes of 25 kinds, for measurements on scenes that nobody chose.
+"""Makes random scenes of 25 kinds, for measurements on scenes that nobody chose.
 
     python3 tests/bench/random_scenes.py FOLDER [--first-seed N]   # writes a hundred scene files
 
@@ -36,7 +36,7 @@ def hundred(first_seed):
 
 
 def between_powers(rng, low, high):
-    """Evenly distributed logarithm."""
+    """Returns a number with an evenly distributed logarithm."""
     return math.exp(rng.uniform(math.log(low), math.log(high)))
 
 

@@ -2,9 +2,9 @@
 
     python3 tests/bench/rates.py --pt build/bin/pt --json rates.json
 
-Every round runs all cases in turn; figures are medians.
+Each round runs all cases in turn. Figures are medians.
 
-samples/s       from the difference of two sample counts; per wall second of sampling and per CPU second (not on a GPU)
+samples/s       from the difference of two sample counts, per wall second of sampling and per CPU second (not on a GPU)
 first, cold     seconds to create the context and take the first sample without compiled kernels
 first, warm     the same with kernels compiled by an earlier process
 start to PNG    wall seconds of the whole process for 16 samples, warm

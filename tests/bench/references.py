@@ -3,13 +3,14 @@
     PT_LIBRARY=build/lib/libpt.so python3 tests/bench/references.py render made      # where a GPU is
     DRJIT_LIBLLVM_PATH=libLLVM.so.19.1 mitsuba/bin/python tests/bench/references.py check made
 
-`render` writes NAME.pfm, the mean of 16 images of different seeds by `mis` and `sobol`, and NAME.json with its own
-relMSE and block means of 64 images by another estimator with random numbers. The own error should be at most a
-hundredth of the smallest error measured against it; benchmark.py reports others.
+`render` writes NAME.pfm and NAME.json. NAME.pfm is the reference: the mean of 16 images of different seeds by `mis` and
+`sobol`. NAME.json has the relMSE of the reference, and block means of 64 images by another estimator with random numbers.
+The relMSE should be at most a hundredth of the smallest error that is measured against the reference. benchmark.py reports
+larger ones.
 
-`check` needs Mitsuba (benchmark.py). The reference and the other estimator may differ by 6 standard errors in each
-channel of blocks of 16x16 pixels, Mitsuba's mean of 16 images by as much or by half a percent. Then it writes NAME.exr
-and references.json into tests/reference/bench, or --output.
+`check` needs Mitsuba (benchmark.py). In each channel of blocks of 16x16 pixels, the reference and the other estimator may
+differ by 6 standard errors. Mitsuba's mean of 16 images may differ by 6 standard errors or half a percent. After these
+checks, writes NAME.exr and references.json into tests/reference/bench, or --output.
 """
 
 import argparse
@@ -23,11 +24,11 @@ import sys
 from bench_scenes import CHECKS, NAMES, REFERENCES, SIZE, digest, load_scene
 from block_means import block_means, compare, mean_and_error, whole_means
 
-SEEDS = range(9001, 9017)  # not the benchmark's seeds
+SEEDS = range(9001, 9017)  # different from the benchmark's seeds
 CHECK_SEEDS = range(9101, 9165)
 MITSUBA_SEEDS = range(9201, 9217)
 MOST_Z = 6
-MOST_DEVIATION = 0.005  # of Mitsuba's mean: it rounds solid angles of small lamps
+MOST_DEVIATION = 0.005  # of Mitsuba's mean, since Mitsuba rounds solid angles of small lamps
 WIDTH, HEIGHT = SIZE
 
 

@@ -1,11 +1,11 @@
-"""How often pt.compare calls equal light different, and which changes it finds.
+"""Measures how often pt.compare calls equal light different, and which changes it finds.
 
     python3 tests/bench/same_light.py [--pairs N] [--scenes NAME ...] [--changes]
 
-PT_LIBRARY names the library. Without --changes: pairs of equal light, N for each scene and kind of pair, in which the
-other image has another method or number of samples; all images have their own seeds, and each is in up to four pairs.
-The scenes are the benchmark's and ten difficult ones: lamps below a pixel, caustics, mostly black. With --changes:
-how many of the benchmark's scenes show a change of their brightest lamp, of a material or of a tile.
+PT_LIBRARY names the library. Without --changes, compares N pairs of equal light for each scene and kind of pair. The
+second image of a pair has another method or number of samples. All images have different seeds, and each image is in up to
+four pairs. The scenes are the benchmark's and ten difficult ones: lamps below a pixel, caustics, mostly black. With
+--changes, counts the benchmark's scenes that show a change of their brightest lamp, of a material or of a tile.
 """
 
 import argparse
@@ -28,7 +28,7 @@ DIFFICULT = ["stars-100", "stars-1000", "fairy-100", "street-60", "corner-ball",
              "glints", "night", "hidden-sun"]
 SIZE = WIDTH, HEIGHT = 48, 32
 SAMPLES = 16
-# Kind of pairs, and the other image's samples and method.
+# Each kind of pair with the samples and the method of the second image.
 KINDS = {"alike": {}, "light": {"estimator": "light"}, "bsdf": {"estimator": "bsdf"}, "random": {"sampler": "random"},
          "16 times": {"samples": 16 * SAMPLES}}
 RATES = (0.1, 0.01, 1e-3, 1e-6)
@@ -50,7 +50,7 @@ class Images:
         self.renderer.accumulate(samples)
         radiance = np.array(self.renderer.image(), np.float32).reshape(size[1], size[0], 3)
         counts = SimpleNamespace(sample_count=samples, max_sample_count=samples)
-        error = SimpleNamespace(uncertain=pt.Uncertain.UNMET if estimator == "bsdf" else pt.Uncertain(0))  # as of films
+        error = SimpleNamespace(uncertain=pt.Uncertain.UNMET if estimator == "bsdf" else pt.Uncertain(0))  # as for films
         return pt.Image(radiance, radiance, np.full((*radiance.shape[:2], 1), samples), error, counts)
 
 
@@ -76,7 +76,7 @@ def false_alarms(names, pairs):
 
 
 def brighter(scene, key, share):
-    """The scene with a change of the strongest material's key."""
+    """Returns the scene with another value of `key` in the material with the largest value."""
     changed = copy.deepcopy(scene)
     strongest = max(changed["materials"].values(), key=lambda each: np.sum(each.get(key, 0)))
     strongest[key] = (np.array(strongest[key]) * (1 - share)).tolist()
@@ -84,7 +84,7 @@ def brighter(scene, key, share):
 
 
 def changes(names):
-    """Counts scenes in which each change is found."""
+    """Counts the scenes in which each change is found."""
     found = {}
     for name in names:
         scene = scene_of(name)

@@ -3,20 +3,20 @@
     DRJIT_LIBLLVM_PATH=libLLVM.so.19.1 python3 tests/bench/scale.py --library old=OLD/libpt.so \\
         --library pt=build/lib/libpt.so --mitsuba mitsuba/bin/python --counts 10,1e3,1e5
 
---cloud lamps: lamps, whose brightness spans four powers of ten, with eight balls below each. dark-lamps: balls in their
-places; the difference is the cost of choosing lamps. Mitsuba: see benchmark.py. Every round measures all in turn;
-figures are medians.
+--cloud lamps has lamps whose brightness spans four powers of ten, with eight balls below each lamp. --cloud dark-lamps has
+balls in place of the lamps, so the difference is the cost of choosing lamps. benchmark.py describes Mitsuba. Each round
+measures all programs in turn. Figures are medians.
 
-scene           seconds of pt_set_scene; of building Mitsuba's scene
+scene           seconds of pt_set_scene, or of building Mitsuba's scene
 bytes           device memory per sphere: pt_stats.device_bytes with and without the cloud
 first           seconds from the scene to a picture of one sample at the first path length, including compilation
-M/s, M/CPU s    million samples per wall and per CPU second (not on a GPU). From path length 3 on a sample follows 1 to
-                4 paths from its first vertex in pt, one in Mitsuba
+M/s, M/CPU s    million samples per wall and per CPU second (not on a GPU). From path length 3 on, a sample of pt follows
+                1 to 4 paths from its first vertex, and a sample of Mitsuba follows one
 
---error-samples adds costs at equal error, at the first path length: relMSE (README.md) at this many samples (4 times as
-many in Mitsuba), against the first library's picture of 64 times as many samples and another seed, whose own error is
-included. Ratio: cost x relMSE over the first library's. "off by": difference of the mean from the reference's, relative
-and in standard errors; above 1% no ratio is stated.
+--error-samples adds costs at equal error, at the first path length. The error is the relMSE (README.md) at this many
+samples, or 4 times as many in Mitsuba. The reference is the first library's picture with 64 times as many samples and
+another seed, and its error is included. The ratio is cost x relMSE, divided by the first library's. "off by" is the
+difference of the mean from the reference's, relative and in standard errors. Above 1% no ratio is stated.
 """
 
 import argparse
@@ -45,7 +45,7 @@ from pt import DeviceKind  # noqa: E402
 CLOUDS = {"spheres": SphereCloud, "lamps": LampCloud, "dark-lamps": lambda count: LampCloud(count, shining=False)}
 FLOAT32, UINT32 = 1, 3  # PT_TYPE_*
 MOST_SAMPLES = 1 << 14
-MITSUBA_FACTOR = 4  # its sample counts for errors are this much larger
+MITSUBA_FACTOR = 4  # factor of its sample counts for errors
 REFERENCE_FACTOR, REFERENCE_SEED = 64, 1000
 ALIKE = 0.01  # pictures whose means differ by more are not compared
 
@@ -159,8 +159,8 @@ class Mitsuba:
 
 
 def choose_samples(program, length, options):
-    """A power of four (Mitsuba's sampler rounds up to these) that takes at least a quarter of the wanted time; compiles
-    too."""
+    """Returns a power of four that takes at least a quarter of the wanted time. Mitsuba's sampler rounds up to
+    powers of four. Also compiles the kernel."""
     samples = 4
     program.render(length, samples)
     while samples < MOST_SAMPLES and program.render(length, samples)[0] < options.seconds / 4:
@@ -169,7 +169,7 @@ def choose_samples(program, length, options):
 
 
 def measure_rates(programs, options):
-    """(program, path length) -> samples per wall second and per CPU second."""
+    """Maps (program, path length) to samples per wall second and per CPU second."""
     rates, samples_of_picture = {}, options.width * options.height
     for length in options.lengths:
         samples = [choose_samples(program, length, options) for program in programs]
@@ -195,7 +195,7 @@ def difference_of_means(image, reference):
 
 
 def measure_errors(programs, options):
-    """program -> samples, cost, relMSE, ratio of cost x relMSE, difference of means."""
+    """Maps each program to samples, cost, relMSE, ratio of cost x relMSE, and difference of means."""
     length, figures = options.lengths[0], {}
     count = REFERENCE_FACTOR * options.error_samples
     reference = programs[0].render(length, count, REFERENCE_SEED)[2]

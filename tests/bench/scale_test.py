@@ -1,5 +1,5 @@
-"""scale.py: arithmetic, clouds, and runs with lists and trees of spheres and lamps. No times are judged. PT_LIBRARY
-names the library."""
+"""Tests arithmetic and clouds of scale.py, and runs it with lists and trees of spheres and lamps. No times are
+judged. PT_LIBRARY names the library."""
 
 import json
 import math
@@ -55,7 +55,7 @@ class Clouds(unittest.TestCase):
 
 class RealDevice(unittest.TestCase):
     def run_scale(self, *arguments):
-        """Its report and output."""
+        """Returns the report and the output."""
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "scale.json"
             done = subprocess.run([sys.executable, "-B", FOLDER / "scale.py", "--library", f"one={LIBRARY}", "--size",

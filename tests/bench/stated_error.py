@@ -1,11 +1,11 @@
-"""How good an image's stated error and a target error are: tables over sets of scenes.
+"""Measures how good stated errors and target errors of images are. Prints tables over sets of scenes.
 
     PT_LIBRARY=build/lib/libpt.so PT_PROGRAM=build/bin/pt python3 tests/bench/stated_error.py SET ... [--jobs N]
 
 A SET is `own` (cli/scenes and tests/render/calibration_scenes.py), `random:SEED` (the hundred of random_scenes.py), or
-a folder of scene files. Errors are relative root mean squares over pixels and channels, from an image of many samples
-whose own error is at most a fifth; rms: over seeds. --keep writes the estimator's input for some seeds as NumPy's .npz,
-to try other estimators.
+a folder of scene files. Errors are relative root mean squares over pixels and channels. They are measured against an image
+of many samples, whose error is at most a fifth of the measured one. In the tables, rms is over seeds. --keep writes the
+estimator's input for some seeds as NumPy's .npz, to try other estimators.
 """
 
 import argparse
@@ -31,7 +31,7 @@ from relative_error import relative_square  # noqa: E402
 from scene_file import FOLDER, read_scene  # noqa: E402
 
 MOST_TRUTH = 1 << 17  # samples
-REFERENCE_SHARE = 0.2  # the reference's error over the picture's, at most
+REFERENCE_SHARE = 0.2  # limit for the reference's error, divided by the picture's
 FIRST_SEED, FIRST_TARGET_SEED = 100, 200
 RELATIVE_BITS = pt.Uncertain.RELATIVE_RMSE | pt.Uncertain.UNSEEN | pt.Uncertain.UNMET
 
@@ -61,7 +61,7 @@ class Stopped:
     target: float
     reached: bool
     own: float
-    brightness: float  # mean radiance over the reference's
+    brightness: float  # mean radiance divided by the reference's
     samples: float  # mean
 
 
@@ -92,7 +92,7 @@ def read(scene):
 
 
 def short(values):
-    """Floats >= 0 in 16 bits, 8 of them for the exponent: loses at most 2^-9 of each."""
+    """Rounds floats >= 0 to 16 bits, 8 of them for the exponent. The relative error is at most 2^-9."""
     return ((numpy.asarray(values, numpy.float32).view(numpy.uint32) + (1 << 14)) >> 15).astype(numpy.uint16)
 
 
