@@ -1,4 +1,4 @@
-"""A page in headless Chromium (chromedevtools.github.io/devtools-protocol)."""
+"""Controls a page in headless Chromium (chromedevtools.github.io/devtools-protocol)."""
 
 import asyncio
 import base64

@@ -1,5 +1,5 @@
-// Tests through pt.h. Warnings of the library or the validation layer fail them. PT_TEST_DEVICE: pt_create_info.device.
-// PT_TEST_NO_VALIDATION: no layer, for leak checks.
+// Tests pt.h. Warnings of the library and of the validation layer are failures. PT_TEST_DEVICE sets
+// pt_create_info.device. PT_TEST_NO_VALIDATION removes the layer, for leak checks.
 #pragma once
 
 #include "tests/support/image_target.h"
@@ -55,7 +55,7 @@ protected:
 
     using Create = std::function<pt_result(const pt_create_info *, pt_context **)>;
 
-    // Destroy it before the test ends.
+    // The context must be destroyed before the test ends.
     Context create_context(
         const std::function<void(pt_create_info &)> &adjust = [](pt_create_info &) {},
         const Create &create = &pt_create) {

@@ -38,7 +38,7 @@ struct CourseworkScene {
 
     pt_scene scene() const { return scene_of(materials, spheres, planes); }
 
-    // At (0, 0, 1), towards the origin; the image plane's distance is its height.
+    // The camera is at (0, 0, 1) and looks at the origin. The height of the image plane is its distance.
     static pt_camera camera() {
         pt_camera camera{};
         camera.struct_size = sizeof camera;

@@ -33,7 +33,7 @@ public:
                 lamps_.push_back(i);
     }
 
-    // samples: per pixel.
+    // `samples` is per pixel.
     Estimate of_rectangle(const pt_render &render, glm::uvec2 first, glm::uvec2 size, std::uint32_t samples) {
         double sum = 0.0;
         double squares = 0.0;
@@ -133,7 +133,7 @@ private:
         return vector(sphere.center) + time * vector(sphere.motion);
     }
 
-    // 1 - cos(half angle); 0 inside, where it is not sampled.
+    // Returns 1 - cos(half angle), or 0 inside the lamp, where it is not sampled.
     double cap(const pt_sphere &sphere, const glm::dvec3 &from, double time) const {
         const glm::dvec3 to = center_at(sphere, time) - from;
         const double squared_sine = sphere.radius * sphere.radius / glm::dot(to, to);
@@ -228,7 +228,7 @@ private:
         return opacity.data == nullptr || share() < *at<float>(opacity, row);
     }
 
-    // A ray enters the union of side and balls at the least distance, and leaves at the greatest.
+    // The side and the balls are entered at the smallest distance, and left at the largest.
     static void meet_capsule(Hit &nearest, const glm::dvec3 &origin, const glm::dvec3 &direction,
                              const pt_sphere_array &array, std::uint32_t row) {
         const double *const a = at<double>(array.center, row);

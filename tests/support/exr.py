@@ -31,7 +31,7 @@ def read_exr_blocks(path):
 
 
 def read_exr_channels(path):
-    """channel -> rows of numbers, for ZIP-compressed scan lines ("OpenEXR File Layout")."""
+    """Maps channels to rows of numbers. Reads ZIP-compressed scan lines ("OpenEXR File Layout")."""
     with open(path, "rb") as file:
         data = file.read()
     attributes, position = parse_exr_header(data)

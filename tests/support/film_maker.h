@@ -1,4 +1,4 @@
-// Films of invented samples, made sample by sample.
+// Films of invented samples, which are added one by one.
 #pragma once
 
 #include "lib/base/digest.h"
@@ -42,27 +42,27 @@ inline pt::SampleSet set_of(const std::set<std::uint32_t> &indices) {
     return samples;
 }
 
-// Mixes 64 bits (Steele and Vigna, 2014).
+// A hash of 64 bits (Steele and Vigna 2014).
 inline std::uint64_t mixed(std::uint64_t number) {
     number = (number ^ (number >> 30)) * 0xbf58476d1ce4e5b9U;
     number = (number ^ (number >> 27)) * 0x94d049bb133111ebU;
     return number ^ (number >> 31);
 }
 
-// One in 16.
+// One of 16 samples is rejected.
 inline bool is_rejected(const Pixel &pixel, std::uint32_t index) {
     return mixed(pixel.first * 7919U + pixel.second * 104729U + index) % 16 == 0;
 }
 
 __extension__ using Wide = unsigned __int128;
 
-// In units of 2^-60; below 2^24.
+// Values are in units of 2^-60, and below 2^24.
 inline Wide value_of(const Pixel &pixel, std::uint32_t index, std::uint32_t channel) {
     const std::uint64_t key = ((std::uint64_t{pixel.first} << 20 | pixel.second) << 34) ^ (std::uint64_t{index} << 2);
     return Wide{mixed(key | channel)} << (mixed(key + 3) % 20);
 }
 
-// at: the pixel's place in its tile.
+// `at` is the pixel's index in its tile.
 inline void set_pixel(pt::PixelSums &sums, std::size_t at, const Pixel &pixel, const std::set<std::uint32_t> &indices,
                       std::uint64_t split) {
     Wide totals[2][3] = {};
@@ -105,7 +105,7 @@ inline Bytes film_of(const pt::FilmIdentity &identity, const std::vector<pt::Rec
     return bytes;
 }
 
-// Runs in rows, then equal runs in successive rows.
+// Joins equal pixels of a row, then equal runs of successive rows.
 inline std::vector<pt::Rectangle> tiles_of(const Samples &samples) {
     std::vector<pt::Rectangle> tiles;
     const auto at = [&](std::int64_t row, std::int64_t column) -> const std::set<std::uint32_t> * {

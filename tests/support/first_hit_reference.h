@@ -1,4 +1,4 @@
-// First hits by independent formulas in long double, with float32's error.
+// First hits by independent formulas in long double, with the errors of float32.
 #pragma once
 
 #include "lib/scene/seen_scene.h"
@@ -31,34 +31,37 @@ struct Ray {
     Real time;
     Vector start;
     Vector origin{0.0L}; // relative to the camera
-    Vector spread{0.0L}; // sizes of the two terms of each component of origin
+    Vector spread{0.0L}; // sizes of both terms of `origin`, by component
 };
 
 struct Meeting {
     Real distance = nowhere;
     Real tolerance = 0.0L;        // of distance, in float32
-    bool is_uncertain = false;    // nearly touching or missing
+    bool is_uncertain = false;    // close to touching or missing
     Vector normal{0.0L};          // facing the camera
     Real normal_tolerance = 0.0L; // of each component
     std::uint32_t object = PT_NO_OBJECT;
 };
 
-// u: rounding. A direction errs by 4 u across (two products and sums per component) and in length.
+// All errors are in terms of u, the unit roundoff of float32. A direction errs by 4 u across (two products and sums for
+// each component), and in its length.
 //
-// Sphere, center c, radius r: c errs by u |c|; b d by 7 u |c|; so the ray's distance l from the center, and b, by 8 u
-// |c|. The half chord h = sqrt(r^2 - l^2) errs by (8 u |c| + 2 u r) / cosine, cosine = h / r; twice that is allowed. l
-// - r errs by 8 u |c| + 2 u r: within twice this hit or miss is undecided.
+// For a sphere with center c and radius r, c errs by u |c| and its projection b on the ray by 8 u |c|. The ray's
+// distance l from the center also errs by 8 u |c|. The half chord h = sqrt(r^2 - l^2) errs by (8 u |c| + 2 u r) /
+// cosine with cosine = h / r. The tolerance is twice this error. l - r errs by 8 u |c| + 2 u r. Within twice this error
+// it is undecided whether the ray hits.
 //
-// Curved plane k at height h: 2 h / q, q = s + sqrt(s^2 - 2 k h), slope s: u for h, 4 u for s, (4 u s + 4 u) / cosine
-// for the root; q >= cosine. 16 u / cosine^2 of the distance is allowed, and 8 u for the rest; undecided within 64 u of
-// touching (s^2 against 2 k h). The far wall is q / k; a plane has k = 0.
+// A flat sphere of curvature k at height h is hit at 2 h / q with q = s + sqrt(s^2 - 2 k h) and slope s. The errors are
+// u for h, 4 u for s, and (4 u s + 4 u) / cosine for the root, and q >= cosine. The relative tolerance is 16 u /
+// cosine^2 for the root and 8 u for the other terms. Within 64 u of touching (s^2 against 2 k h) it is undecided
+// whether the ray hits. The far side is at q / k. A plane has k = 0.
 //
-// Parallel rays: origin = a right - b up errs by 5 u of both terms' sizes (scale, place, vector, product, sum), of
-// length o. 8 u o is allowed beside 8 u |c|, and as much for the subtraction. A height n . origin + offset errs by 9 u
-// of |n| times these sizes and 2 u of the offset: 16 u o / cosine is allowed.
+// Parallel rays start at origin = a right - b up. It errs by 5 u of the sizes of both terms (scale, place, vector,
+// product, sum), in total o. The tolerance has 8 u o for the origin, and as much for the subtraction. A height n .
+// origin + offset errs by 9 u o |n| and 2 u of the offset, so its tolerance is 16 u o / cosine.
 //
-// In narrow views |c| and distances count from the rays' start. A tree's grid displaces centers by up to `astray`,
-// within which the camera's side is undecided.
+// In narrow views, |c| and distances are measured from the start of the rays. The grid of a tree displaces centers by
+// up to `astray`. If the camera is nearer than this to a sphere's surface, its side is undecided.
 inline Meeting meet_sphere(const pt_sphere &sphere, const Vector &camera, const Ray &ray, Real time, bool is_flat,
                            Real astray) {
     const Vector center = vector_of(sphere.center) + time * vector_of(sphere.motion) - camera - ray.origin;
@@ -87,7 +90,7 @@ inline Meeting meet_sphere(const pt_sphere &sphere, const Vector &camera, const 
     meeting.tolerance = is_flat ? way * rounding * (8.0L + 16.0L / (cosine * cosine))
                                 : rounding * (16.0L * reach + (16.0L * reach + 4.0L * r) / cosine) + astray / cosine;
     meeting.normal = height > 0.0L ? outward : -outward;
-    // The point's error over r, and eight roundings.
+    // The error of the point divided by r, and eight roundings.
     meeting.normal_tolerance = (meeting.tolerance + 16.0L * rounding * across) / r + 8.0L * rounding;
     return meeting;
 }
@@ -118,7 +121,7 @@ struct View {
     std::uint32_t width, height;
     Real shutter_open, shutter_close;
     Real start_distance = 0.0L;
-    Real tree_step = 0.0L; // of the spheres' grid; 0: no tree
+    Real tree_step = 0.0L; // step of the spheres' grid, 0 without a tree
 
     View(const pt_camera &camera, const pt_render &render) :
         position(vector_of(camera.position)),
@@ -135,7 +138,7 @@ struct View {
             focal_pixels = render.height / (2.0L * std::tan(static_cast<Real>(camera.vertical_fov) / 2.0L));
     }
 
-    // share: of the shutter's time.
+    // `share` is a fraction of the shutter's time.
     Ray ray(std::uint32_t column, std::uint32_t row, Real x, Real y, Real share) const {
         const Real to_right = column + x - width / 2.0L;
         const Real downwards = row + y - height / 2.0L;
@@ -149,7 +152,7 @@ struct View {
     }
 };
 
-// Applies the library's own rule. Lamps keep their centers up to a radius of 65536 times their height.
+// Uses the library's own rule. Lamps are spheres with a center up to a radius of 65536 times their height.
 inline bool is_held_as_plane(const pt_sphere &sphere, const pt_material &material, const View &view) {
     const auto vector = [](const double(&v)[3]) { return glm::dvec3(v[0], v[1], v[2]); };
     pt::Camera start{};
@@ -165,7 +168,7 @@ inline bool is_seen(const pt_scene &scene, std::uint32_t material) {
     return scene.materials[material].flags != PT_MATERIAL_HIDDEN_FROM_CAMERA;
 }
 
-// Empty if float32 may find another or none.
+// Returns no value if float32 may find another surface, or none.
 inline std::optional<Meeting> first_met(const pt_scene &scene, const View &view, const Ray &ray) {
     std::vector<Meeting> met;
     for (std::uint32_t i = 0; i < scene.sphere_count; ++i) {

@@ -1,4 +1,4 @@
-// Feeds an invented image's tiles to an error estimator.
+// Feeds the tiles of an invented image to an error estimator.
 #pragma once
 
 #include "lib/film/error_estimate.h"
@@ -13,7 +13,7 @@ namespace pt {
 struct ImageValues {
     std::vector<float> mean;
     std::vector<float> standard_error;
-    std::vector<float> lesser; // of the film's two parts
+    std::vector<float> lesser; // smaller mean of the two parts
 };
 
 inline void add_tiles(ErrorEstimator &estimator, std::size_t width, const ImageValues &image,

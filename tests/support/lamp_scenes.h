@@ -1,4 +1,4 @@
-// Scenes with many lamps that are hard to choose among.
+// Scenes with many lamps, in which choosing lamps is hard.
 #pragma once
 
 #include "lib/kernel/gpu_scene.h"
@@ -33,7 +33,7 @@ inline void add_lamp(pt::Scene &scene, const glm::dvec3 &center, double radius, 
     scene.spheres.push_back({center, radius, motion, static_cast<std::uint32_t>(scene.materials.size() - 1)});
 }
 
-// Powers span some decades.
+// The powers of the lamps span this many decades.
 inline pt::Scene in_a_box(std::uint32_t count, double decades, double motion = 0.0) {
     std::mt19937 generator(7);
     std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -67,7 +67,7 @@ inline pt::Scene nested(std::uint32_t count) {
     return scene;
 }
 
-// The others have 10^-8 of its power.
+// All other lamps have 10^-8 of its power.
 inline pt::Scene with_a_strong_one(std::uint32_t count) {
     pt::Scene scene = in_a_box(count, 1);
     scene.materials[count / 3].emission = glm::vec3(1e9F);

@@ -21,7 +21,8 @@ inline constexpr glm::uvec2 picture(24, 16);
 inline constexpr glm::uvec2 block(8, 8);
 inline constexpr std::uint32_t image_count = 12;
 inline constexpr std::uint32_t samples_of_image = 32;
-// In standard errors from 12 images; exceeded by one of 72 blocks once in 330. Seeds are fixed.
+// The limit for deviations, in standard errors from 12 images. One of 72 blocks exceeds it in one of 330 runs. Seeds
+// are fixed.
 inline constexpr double most_errors = 6.5;
 
 struct Given {
@@ -169,7 +170,7 @@ inline double mean_of_block(const std::vector<float> &image, glm::uvec2 first) {
 
 struct Deviation {
     double of_image = 0.0;
-    double largest = 0.0; // magnitude among blocks
+    double largest = 0.0; // largest magnitude of a block
 };
 
 class LightInDouble : public ContextFixture {
@@ -206,7 +207,7 @@ protected:
         return render_image(context(), given.scene(), given.camera, picture_of(PT_SAMPLER_SOBOL), samples);
     }
 
-    // Also two devices, and another unit of length. Negative control: a sample fewer.
+    // Short submissions, two devices and another unit of length must keep the bits. Negative control: one sample fewer.
     void expect_the_same_bits_of_splits_and_scale(const Given &given) {
         const Context hurried = create_context([](pt_create_info &info) { info.submit_milliseconds = 1; });
         const Context shared = create_context(
@@ -226,7 +227,7 @@ private:
         const double black = 1e-12;
         const double deviation =
             (found.mean - exact.mean) / std::sqrt(found.variance / image_count + exact.variance + black);
-        return std::isfinite(deviation) ? deviation : std::numeric_limits<double>::infinity(); // NaN must not pass
+        return std::isfinite(deviation) ? deviation : std::numeric_limits<double>::infinity(); // NaN must fail
     }
 };
 

@@ -1,4 +1,4 @@
-"""Reads the program's PNG files (ISO 15948), with checksums."""
+"""Reads the program's PNG files (ISO 15948) and checks their checksums."""
 
 import struct
 import zlib
@@ -15,7 +15,7 @@ def png_chunks(data):
 
 
 def parse_png(data):
-    """Width, height and rows of numbers of an 8-bit RGB or RGBA image."""
+    """Returns width, height and rows of numbers of an 8-bit RGB or RGBA image."""
     pixels = b""
     for kind, body in png_chunks(data):
         if kind == "IHDR":

@@ -1,4 +1,4 @@
-// Renders a scene to its image in one call.
+// Renders the image of a scene in one call.
 #pragma once
 
 #include "tests/support/image_target.h"

@@ -1,5 +1,4 @@
-"""Runs a command, and again if LeakSanitizer itself crashed ("Tracer caught signal 11" of GCC 12), up to three times.
-"""
+"""Runs a command up to three times, while LeakSanitizer itself crashes ("Tracer caught signal 11" of GCC 12)."""
 
 import subprocess
 import sys

@@ -5,7 +5,7 @@
 
 #include <span>
 
-// Points to the arrays, which must outlive it.
+// The scene points to the arrays, which must outlive it.
 inline pt_scene scene_of(std::span<const pt_material> materials, std::span<const pt_sphere> spheres,
                          std::span<const pt_plane> planes) {
     pt_scene scene{};

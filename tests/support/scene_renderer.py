@@ -1,5 +1,5 @@
-"""Renders scene files with libpt (PT_LIBRARY, or the system's) without the package's objects, so that several libraries
-can be measured."""
+"""Renders scene files with libpt (PT_LIBRARY, or the system's). Does not use the package's objects, so that several
+libraries can be measured."""
 
 import array
 import ctypes
@@ -64,7 +64,7 @@ class Renderer:
                          structs.pt_accumulate_info(sample_count=sample_count, target_error=target_error))
 
     def readback(self, values):
-        """Into a ctypes array of floats."""
+        """Fills a ctypes array of floats."""
         self.call("pt_readback", structs.pt_image(data=ctypes.addressof(values), size_bytes=ctypes.sizeof(values)))
 
     def image(self):

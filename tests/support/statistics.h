@@ -1,4 +1,4 @@
-// Every bound is stated as the probability of a false alarm.
+// Bounds are stated as probabilities of a false alarm.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace statistics {
 
-// P(N(0, 1) > z) = probability, by bisection.
+// Returns z with P(N(0, 1) > z) = probability, by bisection.
 inline double normal_quantile(double probability) {
     double low = 0.0;
     double high = 40.0;
@@ -21,8 +21,8 @@ inline double normal_quantile(double probability) {
     return low;
 }
 
-// A standard normal deviate (Wilson and Hilferty 1931: the cube root of chi^2 / k is nearly normal with mean 1 - 2 / (9
-// k) and variance 2 / (9 k)). Expected counts must be at least 10.
+// Returns a deviate with a nearly standard normal distribution: the cube root of chi^2 / k is nearly normal with mean 1
+// - 2 / (9 k) and variance 2 / (9 k) (Wilson and Hilferty 1931). Expected counts must be at least 10.
 inline double chi_square_deviate(std::span<const double> observed, std::span<const double> expected) {
     double chi_square = 0.0;
     for (std::size_t i = 0; i < observed.size(); ++i) {
