@@ -1,4 +1,4 @@
-// Pixels with exactly known radiance (tests/data/analytic/README.md).
+// Tests pixels with exactly known radiance (tests/data/analytic/README.md).
 #include "tests/analytic/analytic_fixture.h"
 #include "tests/analytic/crop.h"
 #include "tests/analytic/scenes.h"
@@ -17,7 +17,7 @@ using namespace analytic;
 
 constexpr std::uint32_t batch_count = 16;
 
-// As many as the time allows; a power of two, best for Sobol points.
+// Returns the largest power of two that the time allows. Sobol points are best at powers of two.
 std::uint32_t samples_for(const Crop &crop, const cli::SceneFile &scene) {
     const double paths = (1U << 21) / samples_for_one();
     const double surfaces = static_cast<double>(scene.spheres.size() + scene.planes.size());
@@ -52,7 +52,7 @@ bool resolves(const Measurement &measured, const Exact &exact) {
 
 class PixelFixture : public AnalyticFixture {
 protected:
-    // A piece of rows has the same bits.
+    // Some rows of an image must have the same bits as in the whole image.
     Batches render(const cli::SceneFile &scene, const Crop &crop, std::uint32_t samples, std::uint32_t first_row = 0,
                    std::uint32_t row_count = 0) {
         set_up(scene.scene(), cropped(scene.camera, scene.render.height, crop.height));
@@ -71,7 +71,7 @@ protected:
 
 class Analytic : public PixelFixture, public testing::WithParamInterface<Expectation> {
 protected:
-    // Negative control: values 3% off, and lamps 3% brighter.
+    // Negative control: values that are 3% wrong, and lamps that are 3% brighter.
     void expect_to_see_errors(cli::SceneFile scene, const Pixel &pixel, const Measurement &measured) {
         for (const double factor : {0.97, 1.03}) {
             const Exact wrong{pixel.exact.radiance * factor, pixel.exact.relative_std};
@@ -104,7 +104,7 @@ std::string test_name(std::string name) {
     return "Scene" + name;
 }
 
-// With few samples the first judge stands alone, because the measured noise may be 0.
+// Only the first judge is used, since the measured noise of few samples may be 0.
 class WholeImage : public PixelFixture, public testing::WithParamInterface<std::string> {};
 
 TEST_P(WholeImage, PixelsAreInTheirPlaces) {

@@ -1,4 +1,4 @@
-// The middle of an image.
+// Crops an image around a pixel.
 #pragma once
 
 #include <pt/pt.h>
@@ -10,8 +10,8 @@
 
 namespace analytic {
 
-// The smallest image about the same center with a pixel. The image plane's distance, height / (2 tan(fov / 2)) pixels,
-// stays, and so do the rays.
+// The smallest image that contains a pixel and has the same center as the whole image. The distance of the image plane,
+// height / (2 tan(fov / 2)) pixels, stays the same, so the rays stay the same.
 struct Crop {
     std::uint32_t width;
     std::uint32_t height;
@@ -32,7 +32,7 @@ inline Crop crop_around(std::uint32_t width, std::uint32_t height, std::uint32_t
     return {crop_width, crop_height, x - (width - crop_width) / 2, y - (height - crop_height) / 2};
 }
 
-// height: of the whole image.
+// `height` is the height of the whole image.
 inline pt_camera cropped(pt_camera camera, std::uint32_t height, std::uint32_t crop_height) {
     camera.vertical_fov = 2.0 * std::atan(std::tan(0.5 * camera.vertical_fov) * crop_height / height);
     return camera;

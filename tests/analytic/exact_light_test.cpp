@@ -1,4 +1,4 @@
-// Scenes in which all samples have the same value.
+// Tests scenes in which all samples have the same value.
 #include "tests/analytic/analytic_fixture.h"
 #include "tests/analytic/scenes.h"
 #include "tests/support/scene_of.h"
@@ -22,7 +22,7 @@ protected:
     }
 };
 
-// In units of 2^-24.
+// Returns the relative error in units of 2^-24.
 double largest_error(const Image &image, double exact) {
     double largest = 0.0;
     for (const float value : image.radiance)
@@ -32,7 +32,8 @@ double largest_error(const Image &image, double exact) {
 
 TEST_F(ExactLight, FromASphereItselfItsFarSideIsSeen) {
     for (const float emission : {0.0F, 0.5F}) {
-        // A lamp behind shows leaks; lamps and black spheres are stored differently.
+        // The lamp behind the sphere would show a leak. Both emissions are tested, since lamps and black spheres are
+        // stored differently.
         const pt_material materials[] = {{{0, 0, 0}, {0, 0, 0}, {emission, emission, emission}, 0, 0},
                                          {{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0, 0}};
         const pt_sphere spheres[] = {{{0, 0, -1}, 1, {0, 0, 0}, 0, 0}, {{0, 0, -1}, 50, {0, 0, 0}, 1, 0}};
@@ -53,8 +54,8 @@ TEST_F(ExactLight, InsideALampIsItsEmission) {
     EXPECT_GT(largest_error(render(scene, 1, PT_ESTIMATOR_BEST), 0.1F * 1.03), 0.0);
 }
 
-// Every path ends on a lamp of 1 after one reflection of weight (albedo / pi * cos) / (cos / pi): five operations of
-// 2^-24.
+// Every path ends on a lamp of emission 1 after one reflection with the weight (albedo / pi * cos) / (cos / pi). These
+// are five operations, each with an error of 2^-24.
 TEST_F(ExactLight, FurnaceIsWhite) {
     const cli::SceneFile scene = read_scene("09-furnace");
     for (const std::uint32_t estimator : {PT_ESTIMATOR_COSINE, PT_ESTIMATOR_BSDF, PT_ESTIMATOR_MIS})

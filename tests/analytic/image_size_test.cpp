@@ -1,4 +1,4 @@
-// Images of many shapes show an emitting sphere.
+// Tests images of many shapes that show an emitting sphere.
 #include "tests/analytic/analytic_fixture.h"
 #include "tests/analytic/judge.h"
 #include "tests/analytic/sphere_coverage.h"
@@ -51,7 +51,7 @@ double share_of(const Shape &shape, std::uint32_t x, std::uint32_t y) {
     return sphere_coverage.share(left, left + size, top - size, top);
 }
 
-// Full and empty pixels are exact; the quadrature decides to 1e-4.
+// Full and empty pixels must be exact. The quadrature is exact to 1e-4.
 std::uint32_t compare(const Image &image, const Shape &shape) {
     std::uint32_t found = 0;
     for (std::uint32_t y = 0; y < shape.height; ++y)

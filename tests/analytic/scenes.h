@@ -1,4 +1,4 @@
-// The scenes of tests/data/analytic and exact pixels.
+// The scenes of tests/data/analytic and their exact pixels.
 #pragma once
 
 #include "cli/scene/scene_file.h"
@@ -17,7 +17,7 @@ struct Pixel {
     Exact exact;
 };
 
-// Of expected.csv.
+// The rows of expected.csv for one scene.
 struct Expectation {
     std::string scene;
     std::vector<Pixel> pixels;

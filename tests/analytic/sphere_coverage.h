@@ -1,4 +1,4 @@
-// The exact share of each pixel that a sphere covers.
+// The exact fraction of each pixel that a sphere covers.
 #pragma once
 
 #include <algorithm>
@@ -9,18 +9,19 @@
 
 namespace analytic {
 
-// A unit sphere at c, on the plane z = -1: the ellipse (c_x x + c_y y - c_z)^2 >= (|c|^2 - 1) (x^2 + y^2 + 1).
+// The image of a unit sphere at c on the plane z = -1 is the ellipse (c_x x + c_y y - c_z)^2 >= (|c|^2 - 1) (x^2 + y^2
+// + 1).
 class SphereCoverage {
 public:
     SphereCoverage(double x, double y, double z) : x_(x), y_(y), z_(z), tangent_(x * x + y * y + z * z - 1.0) {}
 
-    // |det M| pi / |det M'|^(3/2), for the conic's matrix M and its part M' in x and y.
+    // The area is |det M| pi / |det M'|^(3/2), where M is the matrix of the conic, and M' its part in x and y.
     double area() const {
         const double minor = tangent_ * (z_ * z_ - 1.0);
         return std::numbers::pi * tangent_ * tangent_ / std::pow(minor, 1.5);
     }
 
-    // Equal ends if none.
+    // Both ends are equal if the line misses the ellipse.
     std::pair<double, double> chord(double y) const {
         const double p = y_ * y - z_; // (c_x x + p)^2 - tangent (x^2 + y^2 + 1) = 0
         const double a = x_ * x_ - tangent_;
@@ -33,7 +34,7 @@ public:
         return std::minmax((-half_b - root) / a, (-half_b + root) / a);
     }
 
-    // Midpoint rule over lines, to 3e-5.
+    // Integrates by the midpoint rule over lines, with an error of 3e-5.
     double share(double left, double right, double bottom, double top) const {
         constexpr int lines = 1024;
         double sum = 0.0;

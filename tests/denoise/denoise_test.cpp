@@ -1,4 +1,4 @@
-// Stated errors of denoised images against true ones; fake_open_image_denoise.cpp filters.
+// Compares stated errors of denoised images with true errors. fake_open_image_denoise.cpp is the filter.
 #include "tests/support/statistics.h"
 
 #include <pt/denoise.h>
@@ -28,7 +28,7 @@ double limit_at(std::size_t index) {
     return 0.6 + 0.4 * static_cast<double>(index / 3 % width / 12 % 2) + 0.1 * static_cast<double>(index % 3);
 }
 
-// Exponentially distributed, skewed as light is; deviation: relative to the mean.
+// Values have an exponential distribution, which is skewed like light. `deviation` is relative to the mean.
 Pixels noisy(std::uint64_t seed, double deviation) {
     std::mt19937_64 random(seed);
     Pixels pixels(value_count);
@@ -83,7 +83,7 @@ struct Denoising {
         return mean([&](std::size_t i) { return std::pow(0.5 * (double{first[i]} + second[i]) - limit_at(i), 2); });
     }
 
-    // rmse is 1.28 standard errors of squares above the stated square, rmse_low 1.96 below.
+    // rmse^2 is 1.28 standard errors above the stated square, and rmse_low^2 is 1.96 below it.
     double stated_square() const {
         EXPECT_GT(error.rmse_low, 0.0);
         return (1.96 * std::pow(error.rmse, 2) + 1.28 * std::pow(error.rmse_low, 2)) / (1.96 + 1.28);
@@ -120,8 +120,9 @@ Stated over_seeds(const char *wish, double deviation, int seed_count = 6) {
     return stated;
 }
 
-// A filter that does nothing has no bias. Otherwise limits know both halves, so the square is too small by at most a
-// quarter; places whose faults count for at least 0 make it too large by less than a third.
+// A filter that does nothing has no bias. For other filters the limits depend on both halves, so the stated square is
+// too small by at most a quarter. Negative estimates of faults count as 0, so the square is too large by less than a
+// third.
 TEST(Denoise, StatesTheSquareOfItsError) {
     for (const char *wish : {"identity", "", "shift", "darken"}) {
         const Stated stated = over_seeds(wish, much_noise, 24);
@@ -131,7 +132,7 @@ TEST(Denoise, StatesTheSquareOfItsError) {
         const double chosen = std::string(wish) == "identity" ? 0.0 : stated.mean_true;
         EXPECT_LT(moments.mean, bound + chosen / 3) << wish;
         EXPECT_GT(moments.mean, -bound - 0.25 * chosen) << wish;
-        EXPECT_LT(bound, 0.15 * stated.mean_true) << wish; // or the comparison says nothing
+        EXPECT_LT(bound, 0.15 * stated.mean_true) << wish; // otherwise the comparison proves nothing
         for (const double ratio : {stated.mean_ratio, stated.mean_relative_ratio}) {
             EXPECT_GT(ratio, 0.87) << wish; // the root of 1 - 1/4
             EXPECT_LT(ratio, 1.3) << wish;
@@ -139,9 +140,9 @@ TEST(Denoise, StatesTheSquareOfItsError) {
     }
 }
 
-// One value in 300 of a half is brighter by 60, which the filter cuts to 4: a loss of 0.2 everywhere. Both halves have
-// such light in 92,160 / 300^2 = 1 of a picture's values, so products of single values would state it in every second
-// picture only, and far too large.
+// One of 300 values in a half is brighter by 60. The filter cuts it to 4, which removes 0.2 from the mean. In each
+// image, 92,160 / 300^2 = 1 value has such light in both halves. Products of single values would therefore show the
+// loss in only half of the images, and far too large.
 TEST(Denoise, StatesRareLightThatItsFilterTakesAway) {
     constexpr double probability = 1.0 / 300;
     constexpr double light = 60.0;
@@ -170,9 +171,10 @@ TEST(Denoise, IsNoWorseThanTheRawImage) {
         }
 }
 
-// A ramp up in the upper half, down in the lower: a filter that shifts it by a pixel keeps the mean. The halves' noise
-// is opposite, so their mean is the ramp, and the rest of the shift shows the choice: nearly all of it at the left,
-// where noise is large, little at the right, without a step. A linear ramp over a tile of 8 pixels has steps of an 8th.
+// The image has a ramp up in the upper half and a ramp down in the lower half, so a filter that shifts it by a pixel
+// keeps the mean. The noise of both halves is opposite, so their mean is the ramp. The remaining shift is therefore the
+// share that the denoiser chose: nearly 1 at the left, where noise is large, and small at the right. The share must
+// have no steps. If it changes linearly over a tile of 8 pixels, it changes by an eighth from pixel to pixel.
 TEST(Denoise, HasNoSeams) {
     constexpr float slope = 0.02F;
     constexpr std::size_t noisy_width = 100; // ends within a tile
@@ -199,8 +201,8 @@ TEST(Denoise, HasNoSeams) {
     }
 }
 
-// Noise grows downwards from none at the top, about a lamp. Two standard errors of a half are 2 sqrt(2) s; s counts up
-// to 16 times where it is larger about a value.
+// Noise increases from 0 at the top to the bottom. Two standard errors of a half are 2 sqrt(2) s. Where neighbors have
+// a larger s, s is raised up to 16 times.
 TEST(Denoise, MovesNoValueBeyondWhatHalvesSupport) {
     Pixels halves[2] = {noisy(1, 1.0), noisy(2, 1.0)};
     for (std::size_t i = 0; i < value_count; ++i) {
@@ -237,7 +239,7 @@ TEST(Denoise, MovesNoValueBeyondWhatHalvesSupport) {
     EXPECT_GT(moved, value_count / 2);
 }
 
-// Whether the filter darkens all of the picture, or takes rare light away.
+// One filter darkens the whole image. The other removes rare light.
 TEST(Denoise, KeepsTheMeanWithinItsNoise) {
     for (const char *wish : {"darken", "cut"}) {
         Denoising denoising(3, 0.2);
@@ -251,11 +253,12 @@ TEST(Denoise, KeepsTheMeanWithinItsNoise) {
             shift += denoising.denoised[i] - 0.5 * (double{denoising.first[i]} + denoising.second[i]);
         }
         EXPECT_LE(std::abs(shift), 1.001 * std::sqrt(square)) << wish;
-        EXPECT_LT(shift, -0.9 * std::sqrt(square)) << wish; // the filter would take more
+        EXPECT_LT(shift, -0.9 * std::sqrt(square)) << wish; // the filter alone removes more
     }
 }
 
-// A value that differs between the halves, alone in its tile and the neighbouring ones, may be a lamp or noise.
+// A single value that differs between the halves may be a lamp or noise. No other value of its tile and the neighboring
+// tiles differs.
 TEST(Denoise, IsNotPersuadedByOnePixel) {
     Pixels halves[2] = {Pixels(value_count, 1.0F), Pixels(value_count, 1.0F)};
     for (std::size_t y = 4; y < height; y += 40)
@@ -267,8 +270,8 @@ TEST(Denoise, IsNotPersuadedByOnePixel) {
         ASSERT_EQ(denoising.denoised[i], 0.5F * (halves[0][i] + halves[1][i])) << i;
 }
 
-// The filter spreads a lamp by two pixels, where relative errors would be a million times the raw image's, but seem
-// small with the filter's values as limits.
+// The filter spreads a lamp by two pixels. There, relative errors would be a million times the errors of the raw image.
+// They would seem small relative to the filtered values.
 TEST(Denoise, DoesNotSpreadALamp) {
     constexpr std::size_t first = 64;
     constexpr std::size_t end = 68;
@@ -285,9 +288,9 @@ TEST(Denoise, DoesNotSpreadALamp) {
     EXPECT_LT(denoising.error.relative_rmse, 0.02);
 }
 
-// One pixel of each tile differs by the same amount in both halves of a checkerboard of mean 1. The filter blurs it, so
-// little of it is used. Where one half is dark, light may reach into the pixel by any share, and the square counts ln(1
-// / 0.1) times.
+// The image is a checkerboard of mean 1. One pixel of each tile differs between the halves, always by the same amount.
+// The filter blurs the checkerboard, so its share is small. Where one half of such a pixel is dark, a bright neighbor
+// may reach into the pixel, and the square counts ln(1 / 0.1) times.
 TEST(Denoise, KnowsLittleOfEdgesThatOneHalfDidNotMeet) {
     const auto relative_square = [](float lesser) {
         Pixels halves[2] = {Pixels(value_count), Pixels(value_count)};
@@ -366,7 +369,7 @@ TEST(Denoise, RunsOnTheCpuUnlessTold) {
     EXPECT_EQ(denoising.run("gpu"), PT_OK);
 }
 
-// Found by the system, as LD_LIBRARY_PATH may say.
+// The system finds the library, for example by LD_LIBRARY_PATH.
 TEST(Denoise, RunsTheLibraryItself) {
     Denoising denoising(0, much_noise);
     denoising.info.library = nullptr;

@@ -1,4 +1,4 @@
-// Scenes that can be moved, with their camera.
+// Scenes that can be moved together with their camera.
 #pragma once
 
 #include "tests/support/coursework_scene.h"
@@ -26,7 +26,7 @@ struct InvarianceScene {
 
     pt_scene scene() const { return scene_of(materials, spheres, planes); }
 
-    // Coordinates are multiples of 1/2, normals are axes.
+    // All coordinates are multiples of 1/2, and all normals are axes.
     static InvarianceScene coursework() {
         const CourseworkScene source;
         InvarianceScene result{{source.materials.begin(), source.materials.end()},
@@ -87,7 +87,7 @@ struct InvarianceScene {
         }
     }
 
-    // matrix: orthonormal rows, a rotation or a reflection.
+    // `matrix` has orthonormal rows. It is a rotation or a reflection.
     void turn(const double (&matrix)[3][3]) {
         const auto turned = [&](double(&vector)[3]) {
             double result[3];

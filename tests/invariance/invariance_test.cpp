@@ -1,4 +1,4 @@
-// Changes of a scene that keep every bit of its image.
+// Tests changes of a scene that must keep all bits of its image.
 #include "tests/invariance/invariance_scene.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/render_image.h"
@@ -57,8 +57,7 @@ private:
     Image original_;
 };
 
-// Powers of two change no mantissa. A length in the kernel would show the more, the farther it is from the scene's
-// size.
+// Powers of two change no mantissa. If the kernel had a fixed length, some of these scales would show it.
 TEST_P(Invariance, UnitOfLength) {
     for (const int exponent : {-50, -20, -4, 20, 50}) {
         SCOPED_TRACE(exponent);
@@ -68,7 +67,7 @@ TEST_P(Invariance, UnitOfLength) {
     }
 }
 
-// Positions relative to the camera are computed in double; exact sums stay exact.
+// Positions relative to the camera are computed in double, and exact sums stay exact.
 TEST_P(Invariance, Origin) {
     const double ways[][3] = {
         {1048576, -524288, 262144.5}, {1e6, -1e6, 1e6}, {-999999.5, 123456.25, 0.125}, {0, 3, -65536}};
@@ -80,8 +79,9 @@ TEST_P(Invariance, Origin) {
     }
 }
 
-// Sums rounded to 2^-34 at 1e6 can change a float32 by 2^-23: rays end up to 1e-6 of the scene elsewhere. A few of 2048
-// * 16 paths meet another surface, each with about 1e-5 of the light; the rest differ by about 1e-6.
+// Sums at 1e6 are rounded to 2^-34, which can change a float32 by 2^-23. Rays then end up to 1e-6 of the scene's size
+// elsewhere. A few of the 2048 * 16 paths hit another surface, and each has about 1e-5 of the light. The other paths
+// differ by about 1e-6.
 TEST_P(Invariance, OriginRounded) {
     InvarianceScene original = scene();
     original.turn({{0.36, 0.48, -0.8}, {-0.8, 0.6, 0}, {0.48, 0.64, 0.6}});

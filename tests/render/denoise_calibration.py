@@ -1,14 +1,14 @@
-"""Prints whether denoised images are worse than raw ones, and how good their stated error is.
+"""Prints whether denoised images are worse than raw images, and how good their stated errors are.
 
     python3 tests/render/denoise_calibration.py [--own] [--images FOLDER] ...
 
---own: cli/scenes and calibration_scenes.py; --hundred SEED: scenes of tests/bench/random_scenes.py. PT_LIBRARY and
-PT_PROGRAM name library and program; needs NumPy and Open Image Denoise (pip install pyoidn, or LD_LIBRARY_PATH).
---images keeps renderings in the folder and uses them again; --render renders only.
+--own takes the scenes of cli/scenes and calibration_scenes.py. --hundred SEED takes scenes of tests/bench/random_scenes.py.
+PT_LIBRARY and PT_PROGRAM name the library and the program. Needs NumPy and Open Image Denoise (pip install pyoidn, or
+LD_LIBRARY_PATH). --images keeps renderings in the folder and uses them again. --render renders only.
 
 An image has two halves of samples. Errors are differences to an image of many samples. A denoised image is worse if its
-error exceeds the raw image's by more than 2%. Light: the difference of the two images' means over the raw one's
-standard error.
+error exceeds the raw image's error by more than 2%. "light" is the difference between the means of both images, divided by
+the standard error of the raw image.
 """
 
 import argparse
@@ -37,12 +37,12 @@ TRUTH_SEED, SEED = 9, 100
 class Case:
     name: str
     count: int
-    relative: float  # over the raw image's error
+    relative: float  # divided by the raw image's error
     absolute: float
-    gain: float  # mean square of the raw image's relative error over the denoised one's
+    gain: float  # mean square of the raw image's relative error, divided by the denoised image's
     light: float
-    brighter: int  # values above every value of both halves in the 3x3 pixels about them
-    stated: float  # over the true relative error
+    brighter: int  # number of values above all values of both halves in the surrounding 3x3 pixels
+    stated: float  # divided by the true relative error
     holds: bool
     is_uncertain: bool
 
@@ -93,7 +93,7 @@ def measured(name, count, arrays):
     denoised, error = pt.denoise(first, second, arrays["albedo"], arrays["normal"])
 
     def square(image, weight):
-        return max(float((weight * (image - truth) ** 2).mean()), 1e-30)  # 0 where there is no noise
+        return max(float((weight * (image - truth) ** 2).mean()), 1e-30)  # 0 without noise
 
     relative, absolute = ([square(image, weight) for image in (raw, denoised)] for weight in (1 / (truth ** 2 + 0.01), 1))
     true = math.sqrt(relative[1])

@@ -1,10 +1,10 @@
-"""Prints the tables of shaders/README.md: stated / true error of images.
+"""Prints the tables of shaders/README.md that compare stated errors of images with true errors.
 
     python3 tests/render/error_calibration.py [--before OLD.so] ...
 
 PT_LIBRARY names the library. Scenes come from cli/scenes and calibration_scenes.py. The true error is the root mean
-squared relative error over 24 seeds (96 for at most 8192 pixels) against an image of many samples of another seed.
-Stated errors come from the first six seeds.
+squared relative error over 24 seeds (96 for at most 8192 pixels). It is measured against an image of many samples with
+another seed. Stated errors come from the first six seeds.
 """
 
 import argparse
@@ -85,7 +85,7 @@ class Calibration:
                            each.relative_rmse_low <= error <= each.relative_rmse_high)
 
     def stopped(self, target):
-        """Error / target of images taken until the target; None if not reached."""
+        """Yields error / target for images that should reach the target, or None for images that do not reach it."""
         for seed in range(200, 200 + STATED_SEEDS):
             self.start(seed)
             result = self.renderer.accumulate(MOST_SAMPLES, target)

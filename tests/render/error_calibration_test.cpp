@@ -1,4 +1,4 @@
-// Stated errors against true ones by converged references.
+// Compares stated errors with true errors from converged references.
 #include "lib/film/error_estimate.h"
 #include "lib/film/sample_set.h"
 #include "tests/render/reference_image.h"
@@ -23,7 +23,7 @@ constexpr uint32_t calibration_height = 128;
 
 using Image = std::vector<float>;
 
-// sqrt(mean((x - r)^2 / (r^2 + 0.01))).
+// Returns sqrt(mean((x - r)^2 / (r^2 + 0.01))).
 double relative_rmse(const Image &image, const Image &reference) {
     double sum = 0.0;
     for (std::size_t i = 0; i < image.size(); ++i) {
@@ -41,8 +41,9 @@ struct Judgement {
     bool accepts(double ratio) const { return ratio >= low && ratio <= high; }
 };
 
-// Calibration: shaders/README.md, section 11. The brightest few hundred random samples weigh most, so both errors
-// scatter. Sequences: errors are up to sqrt(3) larger (error_estimate.cpp), and more by denominators.
+// The calibration is in shaders/README.md, section 11. The brightest few hundred random samples have the largest
+// weights, so both errors scatter. For sequences, stated errors are up to sqrt(3) larger (error_estimate.cpp), and
+// their denominators add more.
 constexpr Judgement of_random{0.9, 1.2};
 constexpr Judgement of_sequence{0.8, 2.0};
 
@@ -79,8 +80,8 @@ protected:
     }
 };
 
-// Lamps found by chance: a bright pixel divided by its own mean would state less than half of the error; its
-// surroundings state up to 1.73 times the error here.
+// Lamps are found by chance. If bright pixels were divided by their own means, the stated error would be less than half
+// of the true error. Division by the surroundings gives up to 1.73 times the true error here.
 constexpr Judgement of_rare{0.9, 2.0};
 
 constexpr CalibrationCase calibration_cases[] = {
@@ -110,7 +111,7 @@ TEST_F(StatedError, IsThatByTheReference) {
             const pt_error_estimate stated = error();
             const double ratio = stated.relative_rmse / relative_rmse(image(), reference);
             EXPECT_TRUE(each.judgement.accepts(ratio)) << stats().sample_count << " samples: " << ratio;
-            // One truth in twenty is outside the 95% bounds.
+            // One of twenty true errors is outside the 95% bounds.
             EXPECT_GE(stated.relative_rmse_high, 0.9 * stated.relative_rmse / ratio);
             if (each.estimator == PT_ESTIMATOR_BEST) {
                 EXPECT_LE(stated.relative_rmse_low, 1.1 * stated.relative_rmse / ratio);
@@ -121,8 +122,8 @@ TEST_F(StatedError, IsThatByTheReference) {
     }
 }
 
-// 64 samples hit a lamp of a 70th of a pixel about once, often twice. If these were fireflies, the stated error would
-// be ten times too large.
+// 64 samples hit a lamp of 1/70 pixel about once, and often twice. If the estimate took these pixels for fireflies, the
+// stated error would be ten times too large.
 TEST_F(StatedError, OfLampsBelowAPixelIsThatByManySamples) {
     constexpr uint32_t width = 64;
     constexpr uint32_t height = 32;
@@ -168,7 +169,8 @@ struct RangesCase {
     Judgement judgement;
 };
 
-// A range's older part may be small: of [1000, 1500) the 24 up to 1024. Largest over six seeds: 3.05.
+// The older part of a range may be small: in [1000, 1500) it has the 24 samples below 1024. The largest ratio over six
+// seeds is 3.05.
 constexpr Judgement of_late_range{0.8, 3.2};
 
 TEST_F(StatedError, OfRangesIsThatByTheReference) {
@@ -216,7 +218,8 @@ double error_from_parts(const std::vector<Image> &samples, const PartOf &part_of
     return estimator.result().relative_rmse.estimate;
 }
 
-// Even and odd samples are the first digit of the first dimension, so each part would see one half of every pixel.
+// The first digit of the first dimension decides whether a sample is even or odd. Each part would therefore see only
+// one half of every pixel.
 TEST_F(StatedError, OfSobolFailsForEvenAndOddSamples) {
     constexpr uint32_t sample_count = 64;
     std::vector<Image> samples;

@@ -1,4 +1,4 @@
-// Converged images by other renderers.
+// Reads converged images of other renderers.
 #pragma once
 
 #include <OpenImageIO/imageio.h>
@@ -15,7 +15,7 @@ struct ReferenceImage {
     std::vector<float> radiance;
 };
 
-// From tests/reference/<name>.exr.
+// Reads tests/reference/<name>.exr.
 inline ReferenceImage read_reference(const std::string &name) {
     const std::string path = PT_TEST_REFERENCE_DIR "/" + name + ".exr";
     const auto input = OIIO::ImageInput::open(path);

@@ -1,4 +1,4 @@
-// The coursework scene against references of other renderers (tests/reference/README.md).
+// Compares the coursework scene with references of other renderers (tests/reference/README.md).
 #include "tests/render/reference_image.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
@@ -14,7 +14,7 @@ namespace {
 
 constexpr uint32_t width = 256;
 constexpr uint32_t height = 128;
-// Seeds differ, because quasi-random samples of one seed are dependent.
+// Each batch has another seed, because quasi-random samples of one seed are dependent.
 constexpr uint32_t batch_count = 16;
 constexpr uint32_t batch_samples = 16;
 constexpr uint32_t block_size = 8;
@@ -24,7 +24,7 @@ struct Case {
     bool diffuse;
     uint32_t max_path_length;
     double reference_rmse;
-    uint32_t sampler; // random like the reference's samples
+    uint32_t sampler; // random, like the reference's samples
 };
 
 using Image = std::vector<float>;
@@ -57,7 +57,7 @@ double block_mean(const Image &image, uint32_t block) {
     return sum / (block_size * block_size * 3);
 }
 
-// Noise of the batches' mean, squared.
+// Returns the squared noise of the mean of all batches.
 double noise_of_mean(const std::vector<Image> &batches) {
     double sum = 0.0;
     std::vector<double> values(batches.size());
@@ -74,7 +74,8 @@ struct Agreement {
     double largest_t;
 };
 
-// Student's t per block; the reference's noise, known in total, is distributed like ours.
+// Computes Student's t for each block. The total noise of the reference is known. Its distribution over blocks is
+// assumed to be the same as that of the batches.
 Agreement agreement(const std::vector<Image> &batches, const Image &reference, double reference_rmse) {
     const double reference_share = reference_rmse * reference_rmse / noise_of_mean(batches);
     constexpr uint32_t blocks = (width / block_size) * (height / block_size);
@@ -86,7 +87,7 @@ Agreement agreement(const std::vector<Image> &batches, const Image &reference, d
             values[b] = block_mean(batches[b], block);
         const auto [mean, variance] = statistics::moments(values);
         const double expected = block_mean(reference, block);
-        if (variance == 0.0) { // emission alone: exact but for the reference's float32 sums
+        if (variance == 0.0) { // only emission: exact except for float32 sums in the reference
             EXPECT_NEAR(mean, expected, 1e-5 * expected) << "block " << block;
             continue;
         }
@@ -100,11 +101,12 @@ Agreement agreement(const std::vector<Image> &batches, const Image &reference, d
     return result;
 }
 
-// With k = 15 degrees of freedom t^2 has mean k / (k - 2) = 1.154, deviation 1.84, over 512 blocks 0.081. 0.5 more
-// allows for sums that are not quite normal, and detects a bias of one standard error per block.
+// With k = 15 degrees of freedom, t^2 has the mean k / (k - 2) = 1.154 and the deviation 1.84. The deviation of the
+// mean over 512 blocks is 0.081. The tolerance 0.5 allows for sums that are not quite normal. It still detects a bias
+// of one standard error in each block.
 constexpr double expected_mean_square_t = 15.0 / 13.0;
 constexpr double mean_square_t_bound = expected_mean_square_t + 0.5;
-// P(|t| > 8.5) = 4e-7 with 15 degrees of freedom, 2e-4 over 512 blocks.
+// With 15 degrees of freedom, P(|t| > 8.5) is 4e-7, and 2e-4 over 512 blocks.
 constexpr double largest_t_bound = 8.5;
 
 class RenderTest : public ContextFixture {

@@ -1,4 +1,4 @@
-/* Keeps modules loaded: leak checks cannot reach the static variables of an unloaded Vulkan driver. */
+/* Keeps modules loaded, since leak checks cannot reach the static variables of an unloaded Vulkan driver. */
 int dlclose(void *handle);
 
 int dlclose(void *handle) {
