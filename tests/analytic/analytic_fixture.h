@@ -18,7 +18,7 @@ struct Image {
     double red(std::uint32_t x, std::uint32_t y) const { return radiance[3 * (std::size_t{y} * width + x)]; }
 };
 
-// PT_TEST_TREE puts all spheres into trees. It also divides sample counts by this power of two.
+// PT_TEST_TREE puts all spheres into trees, and divides sample counts by samples_for_one(), a power of two.
 bool always_tree();
 inline std::uint32_t samples_for_one() {
     return always_tree() ? 8 : 1;

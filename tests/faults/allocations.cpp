@@ -1,4 +1,4 @@
-// Global operator new with fault injection; see allocations.h.
+// The global operator new with fault injection (allocations.h).
 #include "tests/faults/allocations.h"
 
 #include <algorithm>
@@ -11,16 +11,16 @@
 namespace {
 
 thread_local bool in_library = false;
-std::size_t allocation_count = 0; // of the library, on one thread
+std::size_t allocation_count = 0; // by the library, on one thread
 std::size_t failing_number = 0;
 bool failing_goes_on = false;
 bool failed = false;
 bool threw = false;
-std::atomic<long> live{0}; // a driver's thread may free the library's memory
+std::atomic<long> live{0}; // atomic: a driver's thread may free the library's memory
 std::atomic<long> live_bytes{0};
 long most_bytes = 0;
 
-// Precedes each allocation; keeps its alignment.
+// A header before each allocation. Its size keeps the alignment.
 struct alignas(std::max_align_t) Header {
     std::size_t size;
     bool of_library;

@@ -1,4 +1,4 @@
-// Replaces the global operator new, to fail a chosen allocation.
+// Replaces the global operator new, so that a chosen allocation fails.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ public:
     InLibrary &operator=(const InLibrary &) = delete;
 };
 
-// Excludes Vulkan and callbacks.
+// Excludes Vulkan and callbacks from the library.
 class OutOfLibrary {
 public:
     OutOfLibrary();
@@ -25,10 +25,10 @@ private:
     bool was_in_library_;
 };
 
-// number: from 1; 0: none. goes_on: all later ones fail too.
+// `number` counts from 1. 0 means that none fails. With `goes_on`, all later allocations fail too.
 void fail_allocation(std::size_t number, bool goes_on);
 
-// Whether it was reached, and whether it throws; others are optional.
+// Whether the chosen allocation was reached, and whether it throws. Allocations that do not throw are optional.
 bool allocation_failed();
 bool allocation_threw();
 

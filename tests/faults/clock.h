@@ -1,4 +1,5 @@
-// The library's clock, which advances on request only: slices are reproducible, and hung devices take no time.
+// Replaces the library's clock, which then advances only on request. Slices become reproducible, and hung devices take
+// no time.
 #pragma once
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// Too little device memory, as the device states.
+// Tests devices that state too little memory.
 #include "tests/faults/vulkan_calls.h"
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"

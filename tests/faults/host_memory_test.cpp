@@ -1,4 +1,4 @@
-// Every allocation fails once: the call fails as pt.h says, changes nothing, leaks nothing.
+// Fails every allocation once. The call must fail as pt.h says, change nothing and leak nothing.
 #include "tests/faults/allocations.h"
 #include "tests/faults/sweep.h"
 
@@ -27,7 +27,7 @@ public:
         if (!failed)
             return false;
         ++failures_;
-        // Non-throwing allocations are optional.
+        // Allocations that do not throw are optional.
         if (threw && step != "pt_destroy") {
             EXPECT_EQ(pt_result_name(result), std::string("PT_ERROR_OUT_OF_HOST_MEMORY"))
                 << step << ", allocation " << number_ << ": " << message;

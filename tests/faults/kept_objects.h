@@ -1,4 +1,4 @@
-// Reuses instance, devices and pipelines, which are slow to create.
+// Keeps the instance, devices and pipelines, which are slow to create.
 #pragma once
 
 #include <vulkan/vulkan_core.h>

@@ -1,4 +1,4 @@
-// The life of a context, call by call. After a fault pt.h's contract is checked and the call repeated.
+// The calls of a context's life. After a fault, the contract of pt.h is checked and the call is repeated.
 #pragma once
 
 #include <pt/pt.h>

@@ -1,4 +1,4 @@
-// pt_start builds all pipelines; pt_poll builds none.
+// Tests that pt_start builds all pipelines and pt_poll builds none.
 #include "tests/faults/clock.h"
 #include "tests/faults/vulkan_calls.h"
 #include "tests/support/image_target.h"

@@ -1,4 +1,4 @@
-// Host memory of pt_set_scene, beside the caller's arrays.
+// Measures the host memory of pt_set_scene, in addition to the caller's arrays.
 #include "tests/faults/allocations.h"
 #include "tests/support/scene_of.h"
 
@@ -82,7 +82,7 @@ private:
     pt_context *context_ = nullptr;
 };
 
-// Device words, at most 48 bytes, and the sphere of each place.
+// A sphere takes at most 48 bytes of device words and the index of its place.
 TEST_F(SceneMemoryTest, Is64BytesASphere) {
     ManySpheres spheres;
     expect_at_most(spheres, 64, 48 + 4);

@@ -9,7 +9,7 @@ namespace faults {
 
 namespace {
 
-// A longer message made first keeps the thread's message memory unchanged.
+// The first error message is the longest, so that later messages do not change the thread's memory.
 void keep_a_long_message() {
     const std::string no_device(1000, '?');
     pt_create_info create{};

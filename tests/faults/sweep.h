@@ -1,4 +1,4 @@
-// Lives with a fault at each possible place in turn.
+// Repeats a life with a fault at each possible place.
 #pragma once
 
 #include "tests/faults/life.h"
@@ -11,7 +11,8 @@ namespace faults {
 
 using InjectionAt = std::function<std::unique_ptr<Injection>(std::size_t number)>;
 
-// One round per place, in the steps of the previous round. After each life all Vulkan objects and memory are gone.
+// Makes one round for each place, with the steps of the previous round. After each life, all Vulkan objects and memory
+// must be gone.
 void sweep(const Setting &setting, const ExpectedImages &expected, const Steps &steps, const InjectionAt &injection_at);
 
 } // namespace faults

@@ -1,4 +1,5 @@
-// Faults during adaptive sampling: the repeated call ends with undisturbed bytes.
+// Injects faults into adaptive sampling. After the call is repeated, the film must have the same bytes as without
+// faults.
 #include "tests/faults/allocations.h"
 #include "tests/faults/vulkan_calls.h"
 #include "tests/support/context_calls.h"
@@ -23,7 +24,7 @@ using FilmBytes = std::vector<char>;
 constexpr uint32_t uneven_width = 40;
 constexpr uint32_t uneven_height = 24;
 
-// Without the validation layer, whose calls and memory would be counted.
+// The validation layer is off, since its calls and memory would be counted.
 Context context_of(uint32_t device_count) {
     pt_create_info info{};
     info.struct_size = sizeof info;
@@ -46,7 +47,7 @@ pt_result take_to_target(pt_context *context) {
     return pt_accumulate(context, &info);
 }
 
-// Rounds repeat most places, so later about every eighth.
+// Rounds repeat most places, so later only every eighth place is tested.
 std::size_t place_after(std::size_t place) {
     return place + 1 + place / 8;
 }
@@ -66,7 +67,7 @@ protected:
     void TearDown() override {
         context_.reset();
         heal_devices();
-        forget_objects(); // the lost device's
+        forget_objects(); // of the lost device
     }
 
     void expect_bytes_after(pt_result disturbed) {
@@ -113,7 +114,8 @@ TEST_P(UnevenTargetTest, AnyVulkanCallMayFail) {
     std::size_t failures = 0;
     bool reached = true;
     for (std::size_t place = 1; reached && !HasFatalFailure(); place = place_after(place)) {
-        for (std::size_t error = 0; error < 2; ++error) { // memory errors; others lose the device and its film
+        for (std::size_t error = 0; error < 2;
+             ++error) { // two memory errors; other errors lose the device and its film
             SCOPED_TRACE("call " + std::to_string(place) + ", error " + std::to_string(error));
             begin_picture(context());
             fail_call(place, error);

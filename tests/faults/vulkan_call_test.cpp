@@ -1,4 +1,4 @@
-// Every Vulkan call fails once: the pt.h call fails as it says, changes nothing, leaks nothing.
+// Fails every Vulkan call once. The pt.h call must fail as it says, change nothing and leak nothing.
 #include "tests/faults/sweep.h"
 #include "tests/faults/vulkan_calls.h"
 
@@ -15,7 +15,7 @@ namespace {
 using namespace faults;
 
 pt_result expected_result(const CallFault &fault) {
-    // Unknown work, or work that does not end, loses the device.
+    // Work of unknown state, or work that does not end, loses the device.
     if (fault.function == "vkWaitForFences" && fault.result == VK_TIMEOUT)
         return PT_OK;
     if (fault.function == "vkWaitForFences" || fault.function == "vkResetFences")
@@ -72,7 +72,7 @@ public:
         if (fault.function.empty())
             return false;
         places_.push_back({step, number_, fault});
-        // The CPU has one type of memory; others may have room elsewhere.
+        // A CPU has one type of memory. Other devices may allocate elsewhere.
         const bool another_memory =
             fault.function == "vkAllocateMemory" && fault.result == VK_ERROR_OUT_OF_DEVICE_MEMORY && result == PT_OK;
         if (step != "pt_destroy" && !another_memory) {
@@ -89,8 +89,8 @@ private:
     std::vector<Place> &places_;
 };
 
-// First every call with its first error; then each function's other errors at its first place, and submissions at all
-// places.
+// First fails every call with its function's first error. Then fails the first call of each function, and all
+// submissions, with the other errors.
 void fail_every_call(const Setting &setting) {
     const ExpectedImages expected = undisturbed_images();
     std::vector<Place> places;
@@ -108,7 +108,7 @@ void fail_every_call(const Setting &setting) {
             Life life(setting, expected, {place.step});
             life.live(injection);
             heal_devices();
-            // A hung device stays with its objects. Real time decides how often work is looked at, so there may be
+            // The objects of a hung device are never freed. Real time decides how often work is polled, so there may be
             // fewer calls.
             const bool hangs = places.size() > met_before && places.back().fault.function == "vkQueueSubmit" &&
                                places.back().fault.result == VK_TIMEOUT;

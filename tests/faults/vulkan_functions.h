@@ -1,4 +1,4 @@
-// Vulkan functions, their effect on objects, their errors (Vulkan 1.3.239, "Return Codes").
+// Vulkan functions with their effects on objects and their errors (Vulkan 1.3.239, "Return Codes").
 #pragma once
 
 // X(name without vk, effect on objects, errors...)

@@ -1,4 +1,4 @@
-// The fuzzer's bytes as values; after the last byte 0, so a prefix of an input is an input.
+// Reads values from the fuzzer's bytes. After the last byte it reads 0, so each prefix of an input is an input.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ public:
         return value;
     }
 
-    // In [0, count) for count <= 256.
+    // Returns a number in [0, count), for count <= 256.
     std::uint32_t below(std::uint32_t count) { return raw<std::uint8_t>() % count; }
 
     // Byte 0 means no.

@@ -1,5 +1,5 @@
-// Checks for every input, by examine_numbers.cpp (host) or examine_image.cpp (rendered). A failed check ends the
-// process.
+// Checks each input. The variants are examine_numbers.cpp (on the host) and examine_image.cpp (renders images). A
+// failed check ends the process.
 #pragma once
 
 #include "tests/fuzz/input.h"
@@ -14,7 +14,7 @@ void examine_neighbourhood(const Input &input, std::span<const std::uint8_t> byt
 
 // -- by variant --
 
-// An input and its neighbours.
+// Checks an input and its neighbors.
 void examine(std::span<const Input> family);
 
 extern const std::uint32_t neighbour_count;

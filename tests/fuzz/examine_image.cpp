@@ -1,4 +1,4 @@
-// On a device: finite images without left-out samples, the same in any split.
+// Renders images on a device. They must be finite, without rejected samples, and the same in any split.
 #include "tests/fuzz/examine.h"
 
 #include "lib/base/error.h"
@@ -36,8 +36,9 @@ bool conserves_energy(const pt_material &material) {
     return true;
 }
 
-// A sample's expectation is at most K L (path length, brightest emission), so by Markov's inequality it exceeds 2^20 L
-// with probability K / 2^20 at most. Plain Halton's first point is 0 in all dimensions, which hits sharp lobes.
+// For path length K and brightest emission L, a sample's expectation is at most K L. By Markov's inequality it exceeds
+// 2^20 L with a probability of at most K / 2^20. The first point of plain Halton is 0 in all dimensions, which hits
+// sharp lobes.
 bool may_lose_samples(const Input &input) {
     const bool follows_lobe = input.render.estimator == PT_ESTIMATOR_BEST ||
                               input.render.estimator == PT_ESTIMATOR_BSDF || input.render.estimator == PT_ESTIMATOR_MIS;
@@ -86,7 +87,7 @@ void examine_one(const Input &input) {
             "the bits do not depend on how samples are split over calls");
 }
 
-// Repeated surfaces merge, so a neighbour may need another kernel; empty if refused.
+// Repeated surfaces merge, so a neighbor may need another kernel. Returns no value if the input is refused.
 std::optional<pt::Features> features(const Input &input) {
     try {
         return pt::gpu_scene(pt::PreparedScene(pt::owned_scene(checked_scene_of(input.scene()))),
@@ -99,7 +100,8 @@ std::optional<pt::Features> features(const Input &input) {
 
 } // namespace
 
-// A kernel takes a thousand times as long as an image, so neighbours that need another are skipped.
+// Building a kernel takes a thousand times as long as rendering an image, so neighbors that need another kernel are
+// skipped.
 const std::uint32_t neighbour_count = 255;
 
 void examine(std::span<const Input> family) {

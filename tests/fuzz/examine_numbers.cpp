@@ -1,4 +1,4 @@
-// Without a device: accepted input keeps pt.h's promises; refusals have a code and a message.
+// Checks without a device that accepted input keeps pt.h's promises, and that refusals have a code and a message.
 #include "tests/fuzz/examine.h"
 
 #include "lib/base/error.h"
@@ -62,7 +62,7 @@ bool is_color(const glm::vec3 &color) {
     return in_range(color.r) && in_range(color.g) && in_range(color.b);
 }
 
-// Squares, sum, root and quotient round once each, by 2^-53.
+// Squares, sum, root and quotient each round once by 2^-53.
 bool is_unit(const glm::dvec3 &v) {
     return std::abs(glm::length(v) - 1.0) <= 8 * 0x1p-53;
 }
@@ -86,7 +86,8 @@ void require_scene(const pt::Scene &scene) {
 }
 
 void require_camera(const pt::Camera &camera) {
-    // The least angle between up and the view leaves 5 * 2^-53 / 2^-26 (camera.cpp), twice that between two vectors.
+    // At the smallest angle between up and the view, the error is 5 * 2^-53 / 2^-26 (camera.cpp), and between two
+    // vectors it is twice as large.
     constexpr double rounding = 10 * 0x1p-27;
     require(are_lengths(camera.position), "the camera's position is made of lengths");
     require(is_unit(camera.forward) && is_unit(camera.right) && std::abs(glm::length(camera.up) - 1.0) <= rounding,
@@ -128,8 +129,8 @@ void require_features(const pt::Features &features, const pt::Scene &scene) {
             "the loop trips of a sample can be counted");
 }
 
-// Squares of lengths up to 3e18 from the pinhole, which may be 6e18 behind the rays' start. Only a lobe's peak, k_s (n
-// + 2) / (2 pi), is larger.
+// The largest numbers are squares of lengths. A length is at most 3e18 from the pinhole, and the pinhole is at most
+// 6e18 behind the start of the rays. Only the peak of a lobe, k_s (n + 2) / (2 pi), is larger.
 constexpr float largest_length = 9.0001e18F;
 constexpr float largest_peak = 1.6e26F;
 
@@ -138,7 +139,7 @@ bool is_within(const glm::vec4 &word, float largest) {
     return size.x <= largest && size.y <= largest && size.z <= largest && size.w <= largest;
 }
 
-// Lengths, powers (at most twice the scene's size) and squares of lengths (lamp_tree_words.cpp).
+// A lamp tree has lengths, powers up to twice the scene's size, and squares of lengths (lamp_tree_words.cpp).
 float largest_in_lamp_tree(std::uint64_t word, const pt::Features &features) {
     const std::uint64_t group_words = pt::gpu::lamp_tree_group_words(features[pt::gpu::ID_MOTION]);
     if (word >= group_words * pt::LampTreeShape(features[pt::gpu::ID_LAMP_COUNT]).all_groups())
@@ -164,7 +165,7 @@ void require_words(const std::vector<glm::vec4> &words, const pt::Features &feat
             "the scene fits into the buffer that it is in");
     const std::uint64_t reflections = features.scene_in_uniform() ? features.surface_count() : features.table_materials;
     const auto is_specular = [&](std::uint64_t word) {
-        const std::uint64_t from_first = word - blocks.specular; // huge for words before it
+        const std::uint64_t from_first = word - blocks.specular; // wraps around for earlier words
         return features[pt::gpu::ID_GLOSS] && from_first % blocks.reflection_step == 0 &&
                from_first / blocks.reflection_step < reflections;
     };

@@ -1,4 +1,4 @@
-// Films added to a context. The bytes follow the identity's lines, which depend on the device.
+// Adds films to a context. The input has only the bytes after the identity's lines, which depend on the device.
 #include "tests/fuzz/film_input.h"
 #include "tests/fuzz/on_device.h"
 #include "tests/support/scene_of.h"

@@ -1,4 +1,4 @@
-// Films from bytes: accepted ones are written back to the same bytes.
+// Reads films from bytes. Accepted films must be written back as the same bytes.
 #include "tests/fuzz/film_input.h"
 #include "tests/fuzz/require.h"
 

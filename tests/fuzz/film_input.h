@@ -1,4 +1,4 @@
-// Films from the fuzzer's bytes.
+// Makes films from the fuzzer's bytes.
 #pragma once
 
 #include "lib/base/digest.h"
@@ -11,7 +11,7 @@
 
 namespace fuzz {
 
-// Hardly any change is accepted without a valid checksum; the first byte decides whether to write one.
+// The first byte decides whether a valid checksum is written. Without one, hardly any changed film is accepted.
 inline std::vector<std::byte> film_input(std::span<const std::byte> before, std::span<const std::byte> bytes) {
     std::vector<std::byte> film(before.begin(), before.end());
     if (bytes.empty())

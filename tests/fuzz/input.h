@@ -1,4 +1,4 @@
-// The input of one run, from bytes or a scene file.
+// The input of one run, from bytes or from a scene file.
 #pragma once
 
 #include "tests/fuzz/byte_reader.h"
@@ -21,7 +21,7 @@ struct Input {
     pt_render render{};
     std::uint32_t sample_count = 1;
 
-    // False claims never promise more than exists, unless refused by themselves.
+    // Wrong values that replace those of the input. They either promise no more than exists, or are refused.
     struct SceneClaims {
         bool has_materials = true;
         bool has_spheres = true;
@@ -32,10 +32,10 @@ struct Input {
 
     // The last spheres may be columns that point into the structs.
     struct Columns {
-        std::uint32_t count = 0; // spheres in both
+        std::uint32_t count = 0; // spheres in columns
         bool has_colors = false;
-        std::uint32_t claimed = none; // the column of both arrays that `claim` replaces
-        pt_column claim{}; // data: NULL, or replaced by the column's place; read within the structs or refused
+        std::uint32_t claimed = none;   // index of the column that `claim` replaces
+        pt_column claim{};              // `data` is NULL, or any pointer, which is then replaced by the column's own
         std::uint32_t more_spheres = 0; // 2^27 or more
         std::uint32_t struct_size = sizeof(pt_sphere_array);
 
@@ -51,10 +51,10 @@ struct Input {
 // Any bytes are valid.
 Input decoded_input(ByteReader bytes);
 
-// Within the number's own rule; usually keeps the kernel's features.
+// The new number follows its own rule. The kernel's features usually stay the same.
 void change_one_number(Input &input, ByteReader &bytes);
 
-// In memory of exactly the given size, so that AddressSanitizer detects reads beyond.
+// Holds a struct in memory of exactly the given size, so that AddressSanitizer detects reads beyond it.
 class SizedStruct {
 public:
     template <typename T>

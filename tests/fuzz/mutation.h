@@ -1,4 +1,4 @@
-// libFuzzer's interface between a target and its runner: libFuzzer or replay.cpp.
+// The interface between a target and its runner, which is libFuzzer or replay.cpp.
 #pragma once
 
 #include <cstddef>
@@ -6,13 +6,13 @@
 
 extern "C" {
 
-// The target's. Returns 0.
+// Defined by the target. Returns 0.
 int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size);
 
-// The target's, optional. Changes `size` bytes in room for max_size; returns the new size.
+// May be defined by the target. Changes `size` bytes in memory of max_size bytes, and returns the new size.
 __attribute__((weak)) std::size_t LLVMFuzzerCustomMutator(std::uint8_t *data, std::size_t size, std::size_t max_size,
                                                           unsigned int seed);
 
-// The runner's own change.
+// Defined by the runner.
 std::size_t LLVMFuzzerMutate(std::uint8_t *data, std::size_t size, std::size_t max_size);
 }

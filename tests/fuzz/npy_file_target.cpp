@@ -1,4 +1,4 @@
-// NPY files from bytes: accepted ones have all numbers.
+// Reads NPY files from bytes. Accepted files must have all numbers.
 #include "tests/fuzz/mutation.h"
 #include "tests/fuzz/require.h"
 

@@ -1,4 +1,4 @@
-// Ordinary numbers, any magnitude, and the ends of pt.h's ranges. A wild source also breaks rules.
+// Draws ordinary numbers, numbers of any magnitude, and the ends of pt.h's ranges. A wild source also breaks rules.
 #pragma once
 
 #include "tests/fuzz/byte_reader.h"

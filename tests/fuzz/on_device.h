@@ -1,4 +1,4 @@
-// One context for all inputs. Environment: tests/support/context_fixture.h.
+// One context for all inputs. tests/support/context_fixture.h describes the environment.
 #pragma once
 
 #include "tests/fuzz/require.h"

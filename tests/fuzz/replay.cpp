@@ -1,5 +1,5 @@
-// Runs a target without libFuzzer: replay CORPUS_FOLDER COUNT runs the corpus and COUNT reproducible mutations; saves a
-// fatal input as ./failed-input.
+// Runs a target without libFuzzer. `replay CORPUS_FOLDER COUNT` runs the corpus and COUNT reproducible mutations. It
+// saves a fatal input as ./failed-input.
 #include "tests/fuzz/mutation.h"
 
 #include <algorithm>
@@ -39,7 +39,7 @@ std::vector<Bytes> read_corpus(const char *folder) {
     std::vector<std::filesystem::path> paths;
     for (const auto &entry : std::filesystem::directory_iterator(folder))
         paths.push_back(entry.path());
-    std::ranges::sort(paths); // the same order everywhere
+    std::ranges::sort(paths); // the same order on all machines
     std::vector<Bytes> corpus;
     for (const std::filesystem::path &path : paths) {
         std::ifstream file(path, std::ios::binary);

@@ -1,4 +1,4 @@
-// JSON through the program's reader to pt.h's structs.
+// Reads JSON by the program's reader into pt.h's structs.
 #include "tests/fuzz/examine.h"
 #include "tests/fuzz/mutation.h"
 
