@@ -1,5 +1,5 @@
-"""Renderings killed at any moment and resumed on any machine end with the same bytes. PT_TEST_KILLS: number of kills
-(default: 4)."""
+"""Renderings that are killed at any moment and resumed on any machine must end with the same bytes. PT_TEST_KILLS is
+the number of kills (default: 4)."""
 
 import json
 import os
@@ -13,7 +13,7 @@ from command_line import COURSEWORK, PATIENCE, PT, SCENES, CommandLineTest, defa
 
 KILLS = int(os.environ.get("PT_TEST_KILLS", "4"))
 MOST_DELAY = 0.7
-SAMPLES_A_KILL = 2000  # few renderings end before their kill
+SAMPLES_A_KILL = 2000  # few renderings end before they are killed
 
 
 class KeptRender(CommandLineTest):
@@ -30,7 +30,7 @@ class KeptRender(CommandLineTest):
         return found
 
     def samples_kept(self, name):
-        """0 without a checkpoint; an existing one must be whole."""
+        """Returns 0 without a checkpoint. An existing checkpoint must be whole."""
         if not os.path.exists(self.path(name)):
             return 0
         self.expect(0, "merge", name, "--stats", "-", "-q")
@@ -63,7 +63,7 @@ class KilledRender(KeptRender):
                 continue
             kills += 1
             now = self.samples_kept(name)
-            self.assertGreaterEqual(now, kept)  # nothing kept is lost
+            self.assertGreaterEqual(now, kept)  # no kept sample is lost
             steps += now > kept
             kept = now
         print(f"{kills} kills, {steps} of which left a checkpoint of more samples than the one before", flush=True)
@@ -79,7 +79,7 @@ class KilledRender(KeptRender):
         self.assertIn('"fraction"', process.stderr.readline())
         process.send_signal(signal.SIGTERM)
         errors = process.communicate(timeout=PATIENCE)[1]
-        self.assertIn(process.returncode, (0, 143), errors)  # 0: ended before the signal
+        self.assertIn(process.returncode, (0, 143), errors)  # 0: it ended before the signal
         self.assertEqual("--resume continues from c.ptfilm" in errors, process.returncode == 143)
         self.assertGreater(self.samples_kept("c.ptfilm"), 0)
         self.expect(0, *options, "--checkpoint", "c.ptfilm", "--resume")
@@ -105,7 +105,7 @@ class KilledRender(KeptRender):
 
 
 class Surroundings(KeptRender):
-    """Errors cost at most the checkpoint, never the picture."""
+    """Errors may cost the checkpoint, but never the picture."""
     made = []  # rendered once
 
     def setUp(self):
@@ -181,7 +181,7 @@ class Resume(CommandLineTest):
         self.assertEqual(self.contents("a.png"), self.contents("whole.png"))
 
     def test_a_crop_goes_on_too(self):
-        """Whole rows are kept: other columns may be shown, other rows are another film."""
+        """A checkpoint has whole rows. Other columns may be shown, but other rows need another film."""
         crop = ["--checkpoint", "crop.ptfilm", "--crop"]
         self.expect(0, *self.small, "-o", "half.png", "--spp", "12", *crop, "2,3,5,4")
         for part in "2,3,5,4", "0,3,16,4":

@@ -1,6 +1,5 @@
-"""Runs the program in an empty folder. Arguments of scripts: PT PT_WITH_FAKE_LIBRARY SCENES [unittest arguments]. Most
-cases use fake_library.cpp, which needs no device; classes named RealDevice use the program itself.
-"""
+"""Runs the program in an empty folder. Arguments of scripts: PT PT_WITH_FAKE_LIBRARY SCENES [unittest arguments].
+Most cases use fake_library.cpp, which needs no device. Classes named RealDevice use the program itself."""
 
 import os
 import pathlib
@@ -18,7 +17,7 @@ from png import parse_png, png_chunks, read_png  # noqa: E402, F401
 PT, FAKE_PT, SCENES = sys.argv[1:4]
 COURSEWORK = os.path.join(SCENES, "coursework-diffuse.json")  # gives no warnings
 
-# Seconds after which a program counts as hung: awaited events come soon on any machine, or never.
+# A program counts as hung after this many seconds. Expected events come much sooner on any machine, or never.
 PATIENCE = 600
 
 RESULT = {"INVALID_ARGUMENT": -1, "INVALID_SCENE": -2, "INVALID_STATE": -3, "UNSUPPORTED": -4, "NO_DEVICE": -5,
@@ -27,7 +26,7 @@ RESULT = {"INVALID_ARGUMENT": -1, "INVALID_SCENE": -2, "INVALID_STATE": -3, "UNS
 
 
 def npy(type_code, shape, numbers, version=1):
-    """As by numpy.save."""
+    """Writes a file like numpy.save."""
     head = f"{{'descr': '{type_code}', 'fortran_order': False, 'shape': {shape}, }}\n".encode()
     size = struct.pack("<H" if version == 1 else "<I", len(head))
     letter = {"<f4": "f", "<f8": "d", "|u1": "B"}[type_code]
@@ -35,7 +34,7 @@ def npy(type_code, shape, numbers, version=1):
 
 
 def default_signals():
-    """A shell's background jobs inherit an ignored SIGINT, which the program respects."""
+    """A shell's background jobs inherit an ignored SIGINT, and the program keeps it ignored."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, signal.SIG_DFL)
 
@@ -81,7 +80,7 @@ class CommandLineTest(unittest.TestCase):
         return process.returncode
 
     def expect(self, code, *arguments, error=None, **environment):
-        """Every line of a failure must begin with the program's name; `error` must be among them."""
+        """Each line of a failure must begin with the program's name. The lines must contain `error`."""
         self.assertEqual(self.run_pt(*arguments, **environment), code, self.errors)
         if code != 0:
             self.assertNotEqual(self.errors, "")

@@ -1,4 +1,4 @@
-"""The program as users meet it: exit codes, messages, files."""
+"""Tests the program as users see it: exit codes, messages, files."""
 
 import glob
 import json
@@ -142,7 +142,7 @@ class Outputs(CommandLineTest):
         self.assertEqual(sorted(stats["seconds"]), ["accumulate", "create", "device", "total"])
 
     def test_tone_mapping_reaches_the_pixels(self):
-        # The stand-in's picture: red 0, 0.5, 1 from left to right, green 0 to 1 downwards, blue 2.
+        # The stand-in's picture has red 0, 0.5, 1 from left to right, green 0 to 1 from top to bottom, and blue 2.
         def pixels(*options):
             exposure = [] if "--exposure" in options else ["--exposure", "0"]
             self.expect(0, "render", COURSEWORK, "-o", "a.png", "--size", "3x2", "--spp", "1", *exposure, *options)
@@ -152,7 +152,8 @@ class Outputs(CommandLineTest):
                                            [0, 255, 255, 188, 255, 255, 255, 255, 255]]))
         self.assertEqual(pixels("--gamma", "1")[2][0], [0, 0, 255, 128, 0, 255, 255, 0, 255])
         self.assertEqual(pixels("--gamma", "1", "--exposure", "-2")[2][0], [0, 0, 128, 32, 0, 128, 64, 0, 128])
-        # Luminance of (0, 0, 2) is 0.1444: blue is 2 / 1.1444, clipped; of (0.5, 0, 2) 0.2507: 0.5 / 1.2507.
+        # The luminance of (0, 0, 2) is 0.1444, so blue is 2 / 1.1444, which is clipped. The luminance of (0.5, 0, 2) is
+        # 0.2507, so red is 0.5 / 1.2507.
         self.assertEqual(pixels("--gamma", "1", "--tonemap", "reinhard")[2][0][:6], [0, 0, 255, 102, 0, 255])
 
     def test_the_exposure_that_is_shown_gives_the_same_picture(self):
@@ -185,7 +186,7 @@ class Outputs(CommandLineTest):
 
         def full_disk():
             default_signals()
-            signal.signal(signal.SIGXFSZ, signal.SIG_DFL)  # Python has it ignored
+            signal.signal(signal.SIGXFSZ, signal.SIG_DFL)  # Python ignores it
             resource.setrlimit(resource.RLIMIT_FSIZE, (7500, 7500))
 
         done = self.piped("render", COURSEWORK, "-o", "big.exr", "-o", "small.png", "--spp", "1", preexec_fn=full_disk, text=True)
@@ -257,7 +258,7 @@ class RealDevice(CommandLineTest):
 
 class Warnings(CommandLineTest):
     def warnings(self, *options, scene="s.json", **environment):
-        """Warnings of --stats; stderr has each once, or none with -q."""
+        """With --stats, stderr has each warning once. With -q it has none."""
         arguments = ["render", scene, "-o", "a.png", "--size", "8x4", "--stats", "stats.json", *options]
         self.expect(0, *arguments, **environment)
         told = json.loads(self.read("stats.json"))["warnings"]

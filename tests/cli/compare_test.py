@@ -1,4 +1,4 @@
-"""`pt compare`: figures, limits, tests of the light, exit codes, refusals."""
+"""Tests `pt compare`: figures, limits, tests of the light, exit codes, refusals."""
 
 import json
 import os
@@ -54,7 +54,7 @@ class Compare(CommandLineTest):
         for option, figure, name in (("--max-mse", MSE, "mse"), ("--max-relative-mse", RELATIVE_MSE, "relative_mse"),
                                      ("--max-difference", 1, "maximum")):
             with self.subTest(option=option):
-                below, above = repr(figure * (1 - 1e-12)), repr(figure * (1 + 1e-12))  # of sums of 45 numbers
+                below, above = repr(figure * (1 - 1e-12)), repr(figure * (1 + 1e-12))  # rounding of sums of 45 numbers
                 self.expect(0, "compare", "a.exr", "r.exr", option, above)
                 self.expect(8, "compare", "a.exr", "r.exr", option, below)
                 self.assertEqual(len(self.errors.splitlines()), 1)
@@ -105,7 +105,7 @@ class RealDevice(CommandLineTest):
     program = PT
 
     def test_what_is_not_finite_exceeds_every_limit(self):
-        # Fewer than 9 samples leave the second part empty.
+        # With fewer than 9 samples, the second part is empty.
         self.expect(0, "render", COURSEWORK, *SIZE, "-o", "e.exr", "--layers", "standard-error")
         compare = ("compare", "e.exr", "e.exr", "--layer", "standard_error")
         self.expect(0, *compare)
@@ -115,7 +115,7 @@ class RealDevice(CommandLineTest):
 
 
 class LightOnDevice(CommandLineTest):
-    """Films and EXR files with counts are tested for the same light."""
+    """Films, and EXR files with sample counts, are tested for the same light."""
     program = PT
     SIZE = ("--size", "64x48", "--spp", "32", "-q")
 
@@ -144,7 +144,7 @@ class LightOnDevice(CommandLineTest):
             self.assertLess(verdict["regions"][0]["difference"][0], 0)
             width, height, rows = read_png(self.path("d.png"))
             self.assertEqual((width, height), (64, 48))
-            self.assertEqual(rows[47][2::3], [255] * 64)  # blue: the floor is darker
+            self.assertEqual(rows[47][2::3], [255] * 64)  # blue is the limit: the floor is darker
             self.assertLess(max(rows[47][0::3]), 255)
 
     def test_what_cannot_be_tested(self):

@@ -1,4 +1,4 @@
-"""The steps of shaders/COURSEWORK.md: each diff applies, and its picture matches other renderers."""
+"""Tests the steps of shaders/COURSEWORK.md. Each diff must apply, and its picture must match other renderers."""
 
 import os
 import shutil
@@ -10,14 +10,14 @@ from command_line import PT, SCENES, CommandLineTest, main, read_exr_channels
 
 ROOT = os.path.join(SCENES, "..", "..")
 REFERENCES = os.path.join(ROOT, "tests", "reference")
-# Name, scene, path length, converged image.
+# Each step has name, scene, path length and converged image.
 STEPS = (("1-light", "coursework", 1, "coursework_L1"), ("2-directions", "coursework-diffuse", 2, "coursework-diffuse_L2"),
          ("3-paths", "coursework-diffuse", 6, "coursework-diffuse_L6"), ("4-gloss", "coursework", 6, "coursework_L6"),
          ("5-points", "coursework", 6, "coursework_L6"), ("6-lamps", "coursework", 6, "coursework_L6"),
          ("7-motion", "coursework-motion", 2, None))
-MOST_DEVIATION = 4.5  # standard deviations of a mean; exceeded by one of the 21 here once in 7,000 times
-MOST_OF_BLOCKS = 1.6  # root mean square of 96 deviations: 1 with a standard deviation of 0.07 if they are normal
-SIDE = 16  # of a block, pixels
+MOST_DEVIATION = 4.5  # standard deviations of a mean; one of the 21 means exceeds it in one of 7,000 runs
+MOST_OF_BLOCKS = 1.6  # root mean square of 96 deviations; normal ones have 1 with a standard deviation of 0.07
+SIDE = 16  # pixels of a block's side
 
 
 def pixels_of(path):
@@ -28,7 +28,8 @@ def pixels_of(path):
 
 
 def deviations(image, reference):
-    """In standard deviations of channel means: the largest, and the root mean square over blocks."""
+    """Returns the largest deviation of a channel's mean, and the root mean square deviation of blocks, in standard
+    deviations."""
     def of_pixels(difference):
         deviation = difference.std(axis=-2) / numpy.sqrt(difference.shape[-2])
         return difference.mean(axis=-2) / numpy.maximum(deviation, 1e-9)

@@ -1,4 +1,4 @@
-"""`pt render --denoise` and `pt denoise`, with a stand-in for Open Image Denoise (OPEN_IMAGE_DENOISE)."""
+"""Tests `pt render --denoise` and `pt denoise`, with a stand-in for Open Image Denoise (OPEN_IMAGE_DENOISE)."""
 
 import json
 import os
@@ -37,7 +37,7 @@ class Denoise(DenoiseTest):
         self.assertEqual(self.files(), [])
 
     def test_a_signal_leaves_the_last_round(self):
-        for submission in "5", "20":  # of 32, in either half
+        for submission in "5", "20":  # of 32, in one of the halves
             self.render("-o", "a.png", DENOISE, "--spp", "8", code=130, FAKE_PT_SIGNAL=f"2:{submission}",
                         error="stopped by SIGINT after 0 of 8 samples per pixel; nothing was written")
         self.assertEqual(self.files(), [])

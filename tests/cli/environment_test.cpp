@@ -1,4 +1,4 @@
-// The variables that widen_vectors() adds.
+// Tests the variables that widen_vectors() adds.
 #include "cli/base/environment.h"
 #include "cli/base/exit_code.h"
 #include "tests/cli/temporary_folder.h"

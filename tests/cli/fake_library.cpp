@@ -1,8 +1,9 @@
-// A stand-in for libpt without a device that fails on demand. Environment: FAKE_PT_FAIL=function:result fails the
-// function; name:1 makes the device's name invalid UTF-8, name:2 puts an escape into it. FAKE_PT_MESSAGE: the message
-// of failures. FAKE_PT_SAMPLE_MS: the least duration of a sample. FAKE_PT_SIGNAL=number:n sends a signal at the start
-// of the n-th submission (four per sample); FAKE_PT_SCENE_SIGNAL=number during pt_set_scene. FAKE_PT_LOG=function logs
-// a line. FAKE_PT_ALLOCATION=number fails the program's allocation.
+// A stand-in for libpt that needs no device and fails on demand. Variables: FAKE_PT_FAIL=function:result fails the
+// function. FAKE_PT_FAIL=name:1 makes the device's name invalid UTF-8, and name:2 puts an escape into it.
+// FAKE_PT_MESSAGE is the message of failures. FAKE_PT_SAMPLE_MS is the minimum duration of a sample.
+// FAKE_PT_SIGNAL=number:n sends a signal at the start of submission n, and there are four submissions per sample.
+// FAKE_PT_SCENE_SIGNAL=number sends it during pt_set_scene. FAKE_PT_LOG=function logs a line. FAKE_PT_ALLOCATION=number
+// fails an allocation of the program.
 #include <pt/accuracy.h>
 #include <pt/devices.h>
 #include <pt/errors.h>
@@ -27,7 +28,7 @@ struct pt_context {
     pt_create_info info{};
     pt_render render{};
     std::uint32_t sample_count = 0;
-    std::uint32_t call_count = 0; // of pt_accumulate since pt_set_render
+    std::uint32_t call_count = 0; // calls of pt_accumulate since pt_set_render
     bool has_too_many_rows = false;
     std::string error;
 };
@@ -78,12 +79,12 @@ void raise_wanted_signal() {
         std::raise(std::stoi(wanted));
 }
 
-// Unknown at first.
+// The error is unknown at first.
 double fake_error(std::uint32_t sample_count) {
     return sample_count < 16 ? std::numeric_limits<double>::infinity() : 1.0 / sample_count;
 }
 
-// Counts from main, which begins with a terminate handler of its own.
+// Counts allocations from main, which begins by setting a terminate handler.
 bool is_failing_allocation() {
     static const std::terminate_handler before_main = std::get_terminate();
     static const char *const wanted = std::getenv("FAKE_PT_ALLOCATION");
@@ -218,8 +219,8 @@ pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *info) {
     return PT_OK;
 }
 
-// Red grows from 0 to 1 to the right, green downwards; blue is 2, and with FAKE_PT_FAIL=split:1 depends on the calls.
-// Other quantities are places; objects are counted row by row.
+// Red increases from 0 to 1 to the right, and green downwards. Blue is 2, but with FAKE_PT_FAIL=split:1 it depends on
+// the calls. Other quantities are the pixel's position, and objects are numbered row by row.
 pt_result pt_readback(pt_context *context, const pt_image *image) {
     const pt_render &render = context->render;
     auto *object = static_cast<std::uint32_t *>(image->data);
@@ -256,7 +257,8 @@ pt_result pt_get_stats(pt_context *context, pt_stats *stats) {
 pt_result pt_get_error_estimate(pt_context *context, pt_error_estimate *error) {
     const double high = fake_error(context->sample_count);
     const double low = std::isinf(high) ? 0.0 : 0.25 * high;
-    *error = {sizeof *error, 0, high, 2.0 * low, 2.0 * high, 0.5 * high, low, high}; // relative errors are half
+    *error = {sizeof *error, 0,          high, 2.0 * low,
+              2.0 * high,    0.5 * high, low,  high}; // relative errors are half of the others
     return call(context, "error");
 }
 
@@ -274,7 +276,7 @@ pt_result pt_add_film(pt_context *context, const void *data, std::uint64_t size_
     return call(context, "add_film");
 }
 
-// One function, far better than its bound; worse with FAKE_PT_FAIL=accuracy_bound:1.
+// Returns one function, whose error is far below its bound. With FAKE_PT_FAIL=accuracy_bound:1 its error is above it.
 pt_result pt_get_accuracy(pt_context *context, pt_function_accuracy *rows, std::uint32_t *count) {
     if (rows != nullptr && *count > 0) {
         pt_function_accuracy row{};

@@ -20,7 +20,7 @@ std::span<const std::byte> bytes(std::string_view text) {
     return std::as_bytes(std::span(text));
 }
 
-// The message, or nothing.
+// Returns the message, or an empty string.
 std::string write_refusal(const std::string &path) {
     const Refusal refused = refusal_of([&] { AtomicFile::check_writable(path); });
     EXPECT_TRUE(refused.message.empty() || refused.code == cli::ExitCode::file);
@@ -65,7 +65,7 @@ TEST(AtomicFile, KeepsPermissionsAndLinks) {
     EXPECT_EQ(status.st_mode & 0777, 0640U);
 }
 
-// The table of protected_symlinks in proc_sys_fs(5). Root's links are given to another user.
+// The cases are those of protected_symlinks in proc_sys_fs(5). The links of root are given to another user.
 TEST(AtomicFile, FollowsNoOneElsesLinksWhereEverybodyMayWrite) {
     if (geteuid() != 0)
         GTEST_SKIP() << "only root can make links that belong to others";

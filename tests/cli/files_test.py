@@ -1,4 +1,4 @@
-"""Standard streams, and outputs that would overwrite inputs."""
+"""Tests standard streams, and outputs that would overwrite inputs."""
 
 import json
 import os
@@ -54,7 +54,7 @@ class StandardStreams(CommandLineTest):
 
 
 class SameFiles(CommandLineTest):
-    """Refused before a device is created, which would fail."""
+    """Files are refused before a device is created, which would fail."""
 
     def refuse(self, error, *arguments, command="render"):
         before = {name: self.contents(name) for name in self.files()}
@@ -67,7 +67,7 @@ class SameFiles(CommandLineTest):
 
     def setUp(self):
         super().setUp()
-        self.write("s.png", SCENE)  # a scene may have any name
+        self.write("s.png", SCENE)  # a scene file may have any name
         os.mkdir(self.path("folder"))
 
     def test_the_scene_is_kept(self):
@@ -117,7 +117,7 @@ class SameFiles(CommandLineTest):
         os.mkdir(self.path("a"))
         self.expect(0, "render", "s.png", "-o", "a.png", "-o", "a/a.png", "-o", "A.png", "-o", "a.exr", "--stats",
                     "a.json")
-        with open("/dev/null", encoding="utf-8") as null:  # may be all three streams
+        with open("/dev/null", encoding="utf-8") as null:  # it may be all three streams
             done = self.piped("render", "-", "-o", "-", "--format", "png", stdin=null, text=True)
         self.assertEqual((done.returncode, done.stderr[:25]), (3, "pt: standard input:1:1: s"))
 
@@ -132,7 +132,7 @@ class SameFiles(CommandLineTest):
 
 @unittest.skipUnless(os.geteuid() == 0, "needs root, for a second user")
 class LinksOfOthers(CommandLineTest):
-    """Others' links in folders like /tmp lead root nowhere."""
+    """Links of other users in folders like /tmp must not mislead root."""
     RULE = "is another user's, in a folder where everybody may write; only your own links"
 
     def test_they_are_refused_before_anything_is_rendered(self):

@@ -1,4 +1,4 @@
-"""`pt render --frames`: files, stops, and pictures equal to single scenes."""
+"""Tests `pt render --frames`: files, stops, and pictures that equal those of single scenes."""
 
 import json
 import os
@@ -61,7 +61,7 @@ class Frames(FramesTest):
         self.assertEqual(self.files(), ["0.png", "s.json"])
 
     def test_a_stop_leaves_whole_frames(self):
-        submission = 2 * 16 * 4 + 5  # the fifth of the third frame, with four per sample
+        submission = 2 * 16 * 4 + 5  # fifth submission of the third frame; a sample has four
         self.expect(130, "render", "s.json", "--frames", "4-9", "-o", "#.png", "-q",
                     error="pt: stopped by SIGINT in frame 6", FAKE_PT_SIGNAL=f"{int(signal.SIGINT)}:{submission}")
         self.assertEqual(self.files(), ["4.png", "5.png", "s.json"])

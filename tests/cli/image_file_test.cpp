@@ -1,4 +1,4 @@
-// cli/image/image_file and its module, read back by OpenImageIO.
+// Tests cli/image/image_file and its module. OpenImageIO reads the files.
 
 #include "cli/image/image_file.h"
 #include "tests/cli/refusal_of.h"
@@ -90,8 +90,7 @@ TEST(ImageFile, ALayerIsReadByItsName) {
     EXPECT_EQ(image.layer(""), std::vector<float>(main.begin(), main.end()));
     EXPECT_EQ(image.layer("error"), std::vector<float>(error.begin(), error.end()));
     EXPECT_EQ(image.layer("N"), image.layer("error"));
-    EXPECT_EQ(image.layer("id"),
-              (std::vector<float>{0.0F, 0.0F, 0.0F, 1.0F, 1.0F, 1.0F})); // whole numbers become shares
+    EXPECT_EQ(image.layer("id"), (std::vector<float>{0.0F, 0.0F, 0.0F, 1.0F, 1.0F, 1.0F})); // integers become fractions
     EXPECT_EQ(image.layer("count"), (std::vector<float>{16.0F, 16.0F, 16.0F, 32.0F, 32.0F, 32.0F}));
 }
 
@@ -119,7 +118,7 @@ TEST(ImageFile, PngTellsItsColorSpace) {
     EXPECT_NE(file.find(gamma), std::string::npos);
 }
 
-// Several megabytes of noise: libpng writes many parts.
+// Several megabytes of noise make libpng write many chunks.
 TEST(ImageFile, PngKeepsALargePicture) {
     const TemporaryFolder folder;
     std::vector<std::uint8_t> bytes(std::size_t{1000} * 700 * 3);
@@ -133,7 +132,7 @@ TEST(ImageFile, PngOfOtherProgramsIsRead) {
     const TemporaryFolder folder;
     const std::string path = folder.file("a.png");
     const std::array<std::uint16_t, 8> words{0,   1,     300,   65535,
-                                             256, 40000, 65534, 65535}; // with alpha two opaque pixels
+                                             256, 40000, 65534, 65535}; // with alpha: two opaque pixels
     for (const auto type : {OIIO::TypeDesc::UINT8, OIIO::TypeDesc::UINT16}) {
         for (const int channels : {1, 3, 4}) {
             const auto output = OIIO::ImageOutput::create(path);

@@ -1,4 +1,4 @@
-// cli/render/image_render: steps of samples.
+// Tests steps of samples in cli/render/image_render.
 #include "cli/render/image_render.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-"""Images of `pt render` and `pt tonemap`: crops, standard output, metadata."""
+"""Tests images of `pt render` and `pt tonemap`: crops, standard output, metadata."""
 
 import json
 import os
@@ -140,7 +140,7 @@ class EqualRuns(CommandLineTest):
         return [self.contents(path) for path in paths]
 
     def test_images_do_not_tell_when_they_were_rendered(self):
-        # Dates count seconds; the stand-in takes one, then two milliseconds per sample.
+        # Dates have a resolution of a second. The stand-in takes one millisecond per sample, then two.
         first = self.images("first", FAKE_PT_SAMPLE_MS=1)
         time.sleep(1.1)
         self.assertEqual(self.images("second", FAKE_PT_SAMPLE_MS=2, TZ="Pacific/Auckland"), first)
@@ -180,7 +180,7 @@ class Tonemap(ImagesTest):
                 self.assertEqual(self.scan_of("b.jpg"), self.scan_of("a.jpg"))
 
     def scan_of(self, name):
-        """A JPEG from its quantisation tables on, without metadata."""
+        """Returns a JPEG from its quantisation tables on, without metadata."""
         data = self.contents(name)
         return data[data.index(b"\xff\xdb"):]
 
@@ -228,7 +228,7 @@ class RealDevice(ImagesTest):
         self.render("-o", "crop.png", "--exposure", "-3", "--spp", "17", "--crop", CROP_TEXT)
         whole, crop = (read_png(self.path(name))[2] for name in ("whole.png", "crop.png"))
         self.assertEqual(crop, cut(whole, CROP))
-        self.assertNotEqual(crop, cut(whole, (1, 3, 5, 4)))  # crops differ by place
+        self.assertNotEqual(crop, cut(whole, (1, 3, 5, 4)))  # crops at other positions differ
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-// cli/base/kernel_folder: compiled kernels in files.
+// Tests cli/base/kernel_folder, which keeps compiled kernels in files.
 #include "cli/base/kernel_folder.h"
 
 #include "tests/cli/temporary_folder.h"
@@ -44,7 +44,7 @@ TEST(KernelFolder, KeysLeadNowhereElse) {
     EXPECT_EQ(temporary.count(), 2);
 }
 
-// Sets file times: a file system's clock may be too coarse.
+// The test sets file times, since a file system's clock may be too coarse.
 TEST(KernelFolder, WhatWasUsedLongestAgoMakesPlace) {
     const TemporaryFolder temporary;
     const KernelFolder folder(temporary.file("kernels"));

@@ -1,4 +1,4 @@
-"""Kernels kept from run to run."""
+"""Tests kernels that are kept from run to run."""
 
 import os
 import re
@@ -9,7 +9,7 @@ from command_line import COURSEWORK, PT, CommandLineTest, main
 class RealDeviceKernels(CommandLineTest):
     program = PT
 
-    # Without Mesa's cache, which prints messages.
+    # Mesa's cache is disabled, since it prints messages.
     def render(self, name="a.png", **environment):
         self.expect(0, "render", COURSEWORK, "-o", name, "--size", "32x16", "--spp", "2", "-q",
                     MESA_SHADER_CACHE_DISABLE="true", **environment)

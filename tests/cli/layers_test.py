@@ -1,4 +1,4 @@
-"""`pt render --layers` and --alpha."""
+"""Tests `pt render --layers` and --alpha."""
 
 import math
 import struct
@@ -17,7 +17,7 @@ def as_float(number):
 
 
 def row_exr(channels):
-    """One row, uncompressed ("OpenEXR File Layout"); channels: sorted by name."""
+    """Returns one uncompressed row ("OpenEXR File Layout"). `channels` must be sorted by name."""
     width = len(channels["R"])
     window = struct.pack("<4i", 0, 0, width - 1, 0)
     listed = b"".join(name.encode() + struct.pack("<x4i", 2, 0, 1, 1) for name in channels) + b"\0"
@@ -143,7 +143,7 @@ class RealDeviceLayers(LayersTest):
         self.assertEqual({pixel["sample_count"] for pixel in pixels}, {2.0})
         self.assertTrue({pixel["id"] for pixel in pixels} <= set(range(8)))
         self.assertGreater(len({pixel["id"] for pixel in pixels}), 5)
-        # The camera looks from (0, 0, 1) at the wall z = -18.5.
+        # The camera at (0, 0, 1) looks at the wall z = -18.5.
         for pixel in pixels:
             self.assertLessEqual(pixel["Z"], 19.5 + 1e-5)
             if pixel["id"] == 5:

@@ -1,4 +1,4 @@
-"""`pt NAME` runs `pt-NAME` from the PATH, and nothing else."""
+"""`pt NAME` must run `pt-NAME` from the PATH, and nothing else."""
 
 import os
 import subprocess

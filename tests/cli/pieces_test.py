@@ -1,4 +1,4 @@
-"""Images in pieces of rows, in steps, or on several devices."""
+"""Tests images in pieces of rows, in steps, or on several devices."""
 
 import json
 import resource
@@ -28,7 +28,7 @@ class Pieces(CommandLineTest):
     def test_a_device_that_is_too_small_gets_pieces(self):
         whole = self.pixels()
         self.assertEqual(self.pixels(FAKE_PT_MAX_ROWS=9), whole)
-        self.assertIn("4 pieces of up to 9 rows: ", self.errors)  # 33, 17, 9
+        self.assertIn("4 pieces of up to 9 rows: ", self.errors)  # 33 rows, then 17, then 9
         self.expect(2, "render", COURSEWORK, *SIZE, "-o", "a.png", error="more than the device has", FAKE_PT_MAX_ROWS=0)
 
     def test_statistics_are_those_of_all_pieces(self):
@@ -37,13 +37,13 @@ class Pieces(CommandLineTest):
         self.assertEqual((stats["height"], stats["spp"], stats["rejected_samples"]), (33, 2, 4 * 3))
 
     def test_what_is_left_of_an_interruption_is_black(self):
-        submission = 4 * 4 + 6  # four per sample, a piece has four samples: in the second of three
+        submission = 4 * 4 + 6  # a sample has four submissions and a piece four samples, so this is in the second piece
         code = self.run_pt("render", COURSEWORK, *SIZE, "--spp", "4", "--progress", "json", "-o", "a.png",
                            "--piece-rows", "11", FAKE_PT_SAMPLE_MS=120,
                            FAKE_PT_SIGNAL=f"{int(signal.SIGINT)}:{submission}")
         self.assertEqual(code, 130)
         shares = [json.loads(line)["fraction"] for line in self.errors.splitlines() if line.startswith("{")]
-        self.assertGreaterEqual(len(shares), 22 // 4)  # a line every tenth of a second, a submission per 30 ms or more
+        self.assertGreaterEqual(len(shares), 22 // 4)  # at most a line per 0.1 s; a submission takes at least 30 ms
         self.assertEqual(shares, sorted(shares))
         self.assertIn("stopped by SIGINT after 1 of 4 samples per pixel in 22 of 33 rows; the others are black",
                       self.errors)
@@ -59,7 +59,7 @@ class Steps(CommandLineTest):
             self.assertEqual(json.loads(self.read("s.json"))["spp"], int(count))
             return read_png(self.path("a.png"))
 
-        split = {"FAKE_PT_FAIL": "split:1"}  # the picture shows the number of calls
+        split = {"FAKE_PT_FAIL": "split:1"}  # the picture depends on the number of calls
         self.assertEqual(picture("16", **split), picture("1", **split))
         self.assertNotEqual(picture("17", **split), picture("16", **split))
         self.assertEqual(picture("17"), picture("16"))
@@ -115,7 +115,7 @@ class RealDevice(CommandLineTest):
 
         whole, pieces = stats(), stats("--piece-rows", "8")
         self.assertLess(pieces["device_bytes"], whole["device_bytes"])
-        # A piece has fewer pixels, so a larger margin.
+        # A piece has fewer pixels and therefore a larger margin.
         for key in ("rmse", "relative_rmse"):
             self.assertAlmostEqual(pieces[key], whole[key], delta=0.25 * whole[key])
 

@@ -1,4 +1,4 @@
-"""Progress in files and terminals."""
+"""Tests progress in files and terminals."""
 
 import fcntl
 import json
@@ -15,7 +15,7 @@ class ProgressOutput(CommandLineTest):
     def test_styles(self):
         arguments = ["render", COURSEWORK, "-o", "a.png", "--spp", "3"]
         self.expect(0, *arguments)
-        self.assertEqual(self.errors, "")  # stderr is no terminal
+        self.assertEqual(self.errors, "")  # stderr is not a terminal
         self.expect(0, *arguments, "--progress", "json")
         lines = [json.loads(line) for line in self.errors.splitlines()]
         self.assertEqual((lines[-1]["fraction"], lines[-1]["samples_per_pixel"]), (1.0, 3))
@@ -37,7 +37,7 @@ class ProgressOutput(CommandLineTest):
             while block := os.read(ours, 4096):
                 output += block
         except OSError:
-            pass  # Linux reports a closed terminal like this
+            pass  # Linux reports a closed terminal by this error
         os.close(ours)
         self.assertEqual(process.wait(timeout=PATIENCE), 0)
         return output

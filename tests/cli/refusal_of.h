@@ -1,4 +1,4 @@
-// Catches the failure of a refused call.
+// Catches the failure of a call.
 #pragma once
 
 #include "cli/base/exit_code.h"

@@ -1,4 +1,4 @@
-// Precedence of command line, scene file and defaults, and which is blamed.
+// Tests the precedence of command line, scene file and defaults, and which of them errors blame.
 #include "cli/render/render_task.h"
 
 #include <gtest/gtest.h>
@@ -106,7 +106,7 @@ TEST(RenderTask, WhatTheLibraryRefusesIsNamedAsItWasGiven) {
     EXPECT_EQ(explained(size_only, {size, length}, full_scene),
               std::pair(ExitCode::usage, std::string("--size: width = 0: must be >= 1\n"
                                                      "s.json:3: render.max_path_length = 2000: must be <= 1024")));
-    // neither gave it
+    // both are defaults
     EXPECT_EQ(explained({}, {{"render", none, "width", none, "* rows", "512 * 1", "too many"}}, "{}"),
               std::pair(ExitCode::usage, std::string("--size: width * rows = 512 * 1: too many")));
 }

@@ -188,7 +188,7 @@ TEST(SceneFile, AMissingCommaIsToldWhereItBelongs) {
 }
 
 TEST(SceneFile, DeepNestingIsNotDangerous) {
-    constexpr std::size_t depth = 100'000; // a hundred bytes of stack per level would overflow
+    constexpr std::size_t depth = 100'000; // with a hundred bytes per level, the stack would overflow
     const std::string open(depth, '[');
     const std::string close(depth, ']');
     EXPECT_EQ(refusal("{\"spheres\":[" + open + close + "]}"), "1: spheres[0]: must be an object, is an array");
@@ -215,7 +215,7 @@ TEST(SceneFile, WrongTypesAreNamed) {
     EXPECT_EQ(refusal(R"({"materials":{"a/b":{"diffuse":[1,2]}}})"),
               "1: materials[\"a/b\"].diffuse: must be a number or an array of 3 numbers, has 2");
     EXPECT_EQ(refusal(R"({"materials":{"a":{"glossiness":"0123456789012345678901234567890123456789"}}})"),
-              "1: materials.a.glossiness: must be a number, is a string"); // too long to show
+              "1: materials.a.glossiness: must be a number, is a string"); // too long for the message
 }
 
 TEST(SceneFile, MissingMembersAreNamed) {
@@ -281,7 +281,7 @@ TEST(SceneFile, NumbersHaveLimits) {
     EXPECT_NE(refusal(R"({"render":{"seed":-1}})"), "");
 }
 
-// Zero is pt.h's "default", but not in a file.
+// In pt.h zero means the default. In a file it does not.
 TEST(SceneFile, ZerosAreNotDefaults) {
     const auto camera = [](const std::string &member) {
         return refusal(R"({"camera":{"position":[0,0,0],"look_at":[0,0,1],)" + member + "}}");
@@ -351,7 +351,7 @@ TEST(SceneFile, AByteOrderMarkOfUtf8DoesNoHarm) {
     EXPECT_TRUE(refusal("\xef\xbb\xbf{,").starts_with("1:2: syntax error")) << refusal("\xef\xbb\xbf{,");
 }
 
-// A quadratic reader would take minutes.
+// A reader with quadratic time would take minutes.
 TEST(SceneFile, ManyItemsAreReadInLinearTime) {
     std::string text = "{\"materials\":{";
     constexpr int count = 30'000;

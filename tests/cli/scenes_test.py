@@ -1,4 +1,4 @@
-"""Every scene says its purpose, is complete, and renders without unexpected warnings."""
+"""Every scene must state its purpose, be complete, and render without unexpected warnings."""
 
 import json
 import os
@@ -7,7 +7,7 @@ import pathlib
 from command_line import PT, SCENES, CommandLineTest, main
 from scene_file import read_scene
 
-# Their materials reflect more than they receive, as in the original coursework.
+# The materials of these scenes reflect more light than they receive, as in the original coursework.
 WARNED_OF = ["coursework-motion.json", "coursework.json"]
 FILES = sorted(name for name in os.listdir(SCENES) if name.endswith(".json"))
 

@@ -1,4 +1,4 @@
-"""`pt schema` and the program agree on scenes changed in every place."""
+"""`pt schema` and the program must agree on scenes that are changed in all places."""
 
 import copy
 import json
@@ -23,7 +23,7 @@ SCENE = {
 OTHERS = (None, "zzzz", -1, 0, 0.5, 65, 1e-19, 5e9, 2e18, [], [0, 0, 0], [1, 2, -3], {"zzzz": 1})
 OTHERS_IN_ARRAYS = ("a", -1, 0, 2e18, [])
 
-# Schemas see one value at a time.
+# Schemas cannot compare values with each other.
 BEYOND_SCHEMAS = ("unknown material", "must be a later frame", "as many numbers as the one before",
                   "must be that of a key")
 
@@ -108,7 +108,7 @@ class Schema(CommandLineTest):
                 spheres = {"center": "a.npy", "radius": "r.npy", "material": "r", key: value}
                 scene = {"materials": {"r": {}}, "spheres": [spheres]}
                 is_valid = self.validator.is_valid(scene)
-                # The stand-in accepts everything.
+                # The stand-in accepts all values.
                 refused = self.refused_by(self.fake, scene, "--size", "4x2")
                 refused = refused or (not is_valid and self.refused_by(PT, scene))
                 self.assertEqual(refused, not is_valid, spheres)
@@ -125,7 +125,7 @@ class Schema(CommandLineTest):
             is_valid = self.validator.is_valid(scene)
             refused = self.refused_by(self.fake, scene, "--size", "4x2")
             kind = "valid" if is_valid else "reader"
-            # The library's rules need a device.
+            # Only a device can check the library's rules.
             if not refused and not is_valid:
                 refused = self.refused_by(PT, scene)
                 kind = "library"

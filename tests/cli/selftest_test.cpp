@@ -1,4 +1,4 @@
-// Judgement and report of cli/selftest; selftest_test.py tests the scenes.
+// Tests the judgement and report of cli/selftest. selftest_test.py tests the scenes.
 #include "cli/selftest/selftest.h"
 
 #include <gtest/gtest.h>
@@ -86,12 +86,12 @@ TEST(SelftestScene, RecedingLampByQuadrature) {
     EXPECT_NEAR(scene.expected, sum / steps, 1e-8);
 }
 
-// Light by a sample of one kind and some directions, weighted by the power heuristic.
+// Integrates light that is found by a sample of one kind and by some directions. The power heuristic weights both.
 class TwoWays {
 public:
     explicit TwoWays(int directions) : directions_(directions) {}
 
-    // A part of the integral, with the densities of the sample and of one direction there.
+    // Adds a part of the integral, with the densities of the sample and of one direction at this point.
     void add(double part, double measure, double sample_density, double direction_density) {
         const double a = sample_density;
         const double b = directions_ * direction_density;
@@ -119,7 +119,8 @@ private:
 
 constexpr double pi = std::numbers::pi;
 
-// One of `count` lamps of radiance 1 is chosen. polar: angle of their centers to the normal; sine: of their radius.
+// The sample chooses one of `count` lamps of radiance 1. `polar` is the angle between the lamps' centers and the
+// normal. `sine` is the sine of their angular radius.
 TwoWays light_of_lamps(int count, double polar, double sine, int directions) {
     constexpr int steps = 400;
     const double cap = 1.0 - std::sqrt(1.0 - sine * sine);
@@ -136,8 +137,8 @@ TwoWays light_of_lamps(int count, double polar, double sine, int directions) {
     return light;
 }
 
-// A ceiling of albedo 20 at height 6.5, lit by a lamp of power 1 below it, integrated over the share of the lamp's
-// directions.
+// A lamp of power 1 lights a ceiling of albedo 20 at height 6.5 above it. The integral is over the fraction of the
+// lamp's directions.
 TwoWays light_of_glow() {
     constexpr int steps = 1000000;
     constexpr double height = 6.5;
@@ -153,14 +154,14 @@ TwoWays light_of_glow() {
     return light;
 }
 
-// The bound of weight_scenes().
+// Tests the bound of weight_scenes().
 TEST(SelftestScene, AWeightThatIsWrongByTwoPercentMovesTheMeanByTwiceTheBound) {
     const std::vector<SelftestScene> scenes = cli::weight_scenes();
     ASSERT_EQ(scenes.size(), 3U);
     struct Light {
         TwoWays ways;
         double factor; // the lamps' radiance
-        double other;  // light with another weight
+        double other;  // light that has another weight
     };
     const std::vector<Light> lights{{light_of_lamps(1, 0.0, 0.5, 4), 4.0, 0.0},
                                     {light_of_lamps(5, pi * 50.0 / 180.0, 0.42, 1), 1.0, 0.0},

@@ -1,4 +1,4 @@
-"""`pt selftest` as users meet it."""
+"""Tests `pt selftest` as users see it."""
 
 import json
 import os
@@ -8,7 +8,7 @@ from command_line import PT, RESULT, SCENES, CommandLineTest, main
 
 
 class Selftest(CommandLineTest):
-    """Every scene fails with the image of the fake library."""
+    """With the image of the fake library, all scenes fail."""
 
     def checks(self, **environment):
         self.assertEqual(self.run_pt("selftest", "--json", "s.json", **environment), 1, self.errors)

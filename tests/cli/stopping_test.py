@@ -1,4 +1,4 @@
-"""Ends of a rendering (samples, time, target error, signals), messages about the error, and previews."""
+"""Tests how a rendering ends (samples, time, target error, signals), messages about the error, and previews."""
 
 import json
 import os
@@ -16,7 +16,7 @@ class ExitCodes(CommandLineTest):
         kept = ("--checkpoint", "c.ptfilm")
         not_kept = ("--checkpoint", "none/c.ptfilm")  # a missing folder
         table = [
-            # options, code, cause of the end: the stand-in's error is 1/16 after 16 samples
+            # options, code, cause of the end; the stand-in has error 1/16 after 16 samples
             (("--spp", "20"), 0, "samples"),
             (("--spp", "20", *kept), 0, "samples"),
             (("--spp", "20", *not_kept), 0, "samples"),
@@ -68,7 +68,7 @@ class ExitCodes(CommandLineTest):
         self.assertEqual(self.files(), ["a.png", "c.ptfilm"])
 
     def test_another_signal_later_ends_it_at_once(self):
-        """The program stops itself in a sample of an hour, so that signals come during it."""
+        """A sample takes an hour. The program stops itself in it, so that the signals come during it."""
         process = self.start("render", COURSEWORK, "-o", "a.png", "--spp", "2", "--size", "2x2",
                              FAKE_PT_SAMPLE_MS=3_600_000, FAKE_PT_SIGNAL=f"{int(signal.SIGSTOP)}:1")
         state = os.waitid(os.P_PID, process.pid, os.WSTOPPED | os.WEXITED | os.WNOWAIT)
@@ -148,8 +148,8 @@ KEYS = [name + end for name in ("rmse", "relative_rmse") for end in ("", "_low",
 
 
 class TargetError(CommandLineTest):
-    """The relative error is 0.5 / N with bounds of half and twice that, unknown below 16; the other one is twice as
-    large."""
+    """The relative error is 0.5 / N, with bounds at half and twice this error. It is unknown below 16 samples. The
+    absolute error is twice as large."""
 
     def render(self, *options, code=0):
         arguments = ["render", COURSEWORK, "-o", "a.png", "--size", "4x3", "--stats", "s.json"]
@@ -199,7 +199,7 @@ class TargetError(CommandLineTest):
             self.assertEqual((lines[-1]["fraction"], lines[-1]["samples_per_pixel"]), (1.0, samples))
 
     def test_interrupted(self):
-        submission = 4 * 17 + 1  # not in the first call, which takes the 16 samples that an error needs
+        submission = 4 * 17 + 1  # after the first call, which takes the 16 samples that an error needs
         code = self.run_pt("render", COURSEWORK, "-o", "a.png", "--size", "2x2", "--error", "0.1%", "--stats", "s.json",
                            FAKE_PT_SIGNAL=f"{int(signal.SIGINT)}:{submission}")
         self.assertEqual(code, 130, self.errors)

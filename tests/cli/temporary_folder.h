@@ -1,4 +1,4 @@
-// An empty folder for the object's lifetime.
+// An empty folder that exists as long as the object.
 #pragma once
 
 #include <filesystem>

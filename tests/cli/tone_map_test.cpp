@@ -49,12 +49,12 @@ TEST(ToneMap, SrgbAnchors) {
     EXPECT_NEAR(cli::encode_srgb(0.001), 0.01292, rounding);
 }
 
-// The standard rounds the break point to 7 decimals: the slope times half a unit.
+// The standard rounds the break point to 7 decimals, so the gap is the slope times half a unit.
 TEST(ToneMap, SrgbPiecesMeet) {
     constexpr double break_point = 0.0031308;
     const double above = cli::encode_srgb(std::nextafter(break_point, 1.0));
     EXPECT_NEAR(above, cli::encode_srgb(break_point), 12.92 * 0.5e-7);
-    EXPECT_NE(above, cli::encode_srgb(break_point)); // negative control: a plain power has no gap
+    EXPECT_NE(above, cli::encode_srgb(break_point)); // negative control: without the linear piece there is no gap
 }
 
 TEST(ToneMap, CurvesNeverFall) {
@@ -84,7 +84,7 @@ TEST(ToneMap, NoneClamps) {
 TEST(ToneMap, ReinhardIsOnTheLuminance) {
     expect_color(apply_curve(ToneCurve::reinhard, {1.0, 1.0, 1.0}), {0.5, 0.5, 0.5}, rounding);
     const Color color = apply_curve(ToneCurve::reinhard, {1.0, 0.5, 0.25});
-    EXPECT_NEAR(color[0] / color[1], 2.0, rounding); // per channel it would be 0.5 / 0.333
+    EXPECT_NEAR(color[0] / color[1], 2.0, rounding); // applied to each channel it would be 0.5 / 0.333
     EXPECT_NEAR(color[1] / color[2], 2.0, rounding);
 }
 
@@ -97,13 +97,13 @@ TEST(ToneMap, AgxAnchors) {
                  {0.21446743070720334, 0.21453266862054834, 0.21453672826813272}, rounding);
     expect_color(apply_curve(ToneCurve::agx, {1.0, 0.2, 0.05}),
                  {0.6533598827094625, 0.2536195947288043, 0.107880509867948}, rounding);
-    // Sobotka's sigmoid has half the signal at middle grey; the polynomial's root mean square error is sqrt(3.67e-6) =
-    // 0.0019.
+    // Sobotka's sigmoid maps middle grey to half the signal. The polynomial has a root mean square error of
+    // sqrt(3.67e-6) = 0.0019.
     EXPECT_NEAR(std::pow(apply_curve(ToneCurve::agx, {0.18, 0.18, 0.18})[1], 1.0 / 2.2), 0.5, 3 * 0.0019);
 }
 
 TEST(ToneMap, NeutralAnchors) {
-    // Subtracts the 4 % of Fresnel reflection, near black a share of them.
+    // The curve subtracts the 4 % of Fresnel reflection, and near black a fraction of it.
     expect_color(apply_curve(ToneCurve::neutral, {0.5, 0.3, 0.2}), {0.46, 0.26, 0.16}, rounding);
     expect_color(apply_curve(ToneCurve::neutral, {0.05, 0.05, 0.05}), {0.015625, 0.015625, 0.015625}, rounding);
     expect_color(apply_curve(ToneCurve::neutral, {1.0, 1.0, 1.0}),
@@ -149,20 +149,20 @@ TEST(Exposure, TheAverageOfLogarithmsBecomesMiddleGrey) {
     EXPECT_EQ(automatic_exposure(grey({0x1p-20F * 0.09F, 0x1p-20F * 0.36F})), 20.0) << "moves with the picture";
 }
 
-// A hundredth of the pixels is 2^20 times as bright: alone it sets the level to 2^20 / 100^4.
+// A hundredth of the pixels is 2^20 times as bright. These pixels alone set the level to 2^20 / 100^4.
 TEST(Exposure, HardlyDependsOnLamps) {
     std::vector<float> radiance = grey({0x1p20F * 0.18F});
     radiance.resize(3 * 100, 0.18F);
     EXPECT_NEAR(automatic_exposure(radiance), -20.0 / 100.0, 0.01);
 }
 
-// Half of the picture is a tail of 2^-40, which counts 128 * 2^-40 / level.
+// Half of the picture is at most 2^-40, and its weight is 128 * 2^-40 / level.
 TEST(Exposure, WhatLooksBlackDoesNotCount) {
     EXPECT_EQ(automatic_exposure(grey({0.18F, 0x1p-40F, 0.18F, 0x1p-60F})), 0.0);
 }
 
 TEST(Exposure, APixelIsTheMeanOfItsChannels) {
-    EXPECT_EQ(automatic_exposure(std::array{0.0F, 0.0F, 0.54F}), 0.0); // its luminance is 0.039
+    EXPECT_EQ(automatic_exposure(std::array{0.0F, 0.0F, 0.54F}), 0.0); // the luminance would be 0.039
     EXPECT_EQ(automatic_exposure(std::array{0.54F, 0.0F, 0.0F}), 0.0);
 }
 

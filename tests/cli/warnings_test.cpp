@@ -1,4 +1,4 @@
-// Both sides of each warning's bound.
+// Tests both sides of the bound of each warning.
 #include "cli/render/warnings.h"
 
 #include <gtest/gtest.h>
@@ -52,7 +52,7 @@ TEST(Warnings, MaterialsThatGiveOffMoreThanTheyReceive) {
             R"(}, "c": {"diffuse": 2}}, "planes": [{"normal": [0, 1, 0], "offset": 1,
                            "material": "a b"}], "spheres": [{"center": [0, 5, 0], "radius": 1, "material": "lamp"}])");
     };
-    EXPECT_EQ(with("0.1"), Texts()); // 0.1 + 0.9 in float32; c is unused
+    EXPECT_EQ(with("0.1"), Texts()); // 0.1 + 0.9 is 1 in float32; c is not used
     EXPECT_EQ(with("[0.9, 0, 0.7]"), Texts());
     EXPECT_EQ(with("0.101"),
               Texts{"s.json: materials[\"a b\"]: diffuse + specular = 1: more light is reflected than received"});

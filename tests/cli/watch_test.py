@@ -1,4 +1,4 @@
-"""`pt render --watch` with changing scenes."""
+"""Tests `pt render --watch` with changing scenes."""
 
 import json
 import os
@@ -120,7 +120,7 @@ class Scenes(WatchTest):
         self.assertNotIn("a.png", self.files())
         self.write("s.json", scene_text(4))
         pt.line_with('"fraction"')
-        self.assertEqual(pt.end(), 130)  # with the current picture
+        self.assertEqual(pt.end(), 130)  # together with the current picture
         self.assertEqual(pt.count("pt: stopped by SIGINT"), 1)
         self.assertEqual(pt.count("wrote"), int("a.png" in self.files()))
 

@@ -9,7 +9,7 @@ from command_line import PATIENCE, CommandLineTest, default_signals
 
 
 def scene_text(width, emission=1.0):
-    """A ball around the camera: every pixel has exactly its emission."""
+    """The camera is inside a ball, so every pixel has exactly its emission."""
     return json.dumps({"film": {"width": width, "height": 2, "exposure": 0}, "render": {"spp": 1, "max_path_length": 1},
                        "materials": {"light": {"emission": emission}},
                        "spheres": [{"center": [0, 0, 0], "radius": 9, "material": "light"}]})

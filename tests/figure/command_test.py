@@ -1,4 +1,4 @@
-"""pt-figure: what it writes, and what it refuses. Arguments: the program pt, which renders written scenes; or none."""
+"""Tests what pt-figure writes and refuses. Argument: the program pt, which renders written scenes, or none."""
 
 import contextlib
 import importlib.util

@@ -1,4 +1,4 @@
-"""The frame of a picture, and notes about pictures that show little."""
+"""Tests the frame of a picture, and notes about pictures that show little."""
 
 import math
 import re
@@ -32,7 +32,7 @@ class FarAway(unittest.TestCase):
         whole = Particles(np.vstack([WATERS, [1000, 0, 0]]), elements=elements)
         staged, near = Staged.of(whole, Options()), Staged.of(Particles(WATERS, elements=elements[:5]), Options())
         self.assertEqual((staged.layout.camera, len(staged.drawn.centers)), (near.layout.camera, 5))
-        # The middle is at x = 1.98. An oxygen of radius 0.66 reaches 2.64 from it, the ion of radius 1.66 reaches
+        # The center is at x = 1.98. An oxygen of radius 0.66 reaches 2.64 from it, and the ion of radius 1.66 reaches
         # 999.68.
         self.assertEqual(staged.notes, [f"1 of 6 balls is not drawn, up to {999.68 / 2.64:.3g} times as far away as the others: "
                                         "--frame-all (frame_all=True) draws all"])
@@ -148,7 +148,7 @@ class Blank(unittest.TestCase):
                 pixels = pixels_per_length(layout.camera, 300, layout.distance) * staged.drawn.scale
                 note = re.fullmatch(r"narrower than a pixel: 93 of 100 balls. --radius (\S+) \(radius=\1\) "
                                     r"makes balls 8 pixels wide", staged.notes[0])
-                self.assertLess(abs(2 * float(note[1]) * pixels / 8 - 1), 0.05)  # of two digits
+                self.assertLess(abs(2 * float(note[1]) * pixels / 8 - 1), 0.05)  # the note has two digits
         pixels = pixels_per_length(self.staged(0.01).layout.camera, 300, self.staged(0.01).layout.distance)
         for width, told in ((0.95, 1), (1.05, 0)):  # the camera hardly moves
             self.assertEqual([note[23:33] for note in self.staged(0.5 * width / pixels).notes], ["100 of 100"] * told)
@@ -184,7 +184,7 @@ class Radii(unittest.TestCase):
         self.assertEqual(self.automatic(CUBE)[1], [])
 
     def test_atoms_that_are_not_bonded_are_larger(self):
-        """An element whose covalent radius is 1.06 angstroms, on a lattice."""
+        """The covalent radius of the element is 1.06 angstroms. The atoms are on a lattice."""
         for apart, radius in ((2.5, 1.06), (2.6, 1.3), (3.8, 1.9), (20, 3.18)):
             particles = Particles(np.stack(np.meshgrid(*3 * [np.arange(4.0)]), -1).reshape(-1, 3) * apart,
                                   elements=np.full(64, 18, np.uint8))
@@ -197,7 +197,7 @@ class Radii(unittest.TestCase):
                 np.testing.assert_allclose(staged[1].drawn.radii, share * radius, rtol=1e-6)
 
     def test_few_atoms_far_apart_cover_a_hundredth_of_the_picture(self):
-        positions = np.array([[0.0, 0, 0], [4, 0, 0], [100, 0, 0], [104, 0, 0]])  # radii of 2 would touch
+        positions = np.array([[0.0, 0, 0], [4, 0, 0], [100, 0, 0], [104, 0, 0]])  # balls of radius 2 would touch
         radii = prepare(Particles(positions, elements=np.full(4, 18, np.uint8)), Options()).radii
         span = 2 * usual_reach(reaches_of(positions, np.zeros(1)))
         self.assertAlmostEqual(4 * np.pi * float(radii.max())**2 / span**2, 0.01)
@@ -208,7 +208,7 @@ class Radii(unittest.TestCase):
     def test_one_far_away_is_not_the_fourth_neighbour_of_all_others(self):
         for count in (5, 8, 11):
             cloud = CUBE[:count].copy()
-            cloud[1] = cloud[0] + 0.01  # as in random points, where the fourth neighbour decides
+            cloud[1] = cloud[0] + 0.01  # in random points too, the fourth neighbor decides
             cloud[-1] = 1000
             self.assertLess(self.automatic(cloud)[0], 2)
 

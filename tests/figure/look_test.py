@@ -1,4 +1,4 @@
-"""Colors and radii of particles, and what is before and behind them."""
+"""Tests colors and radii of particles, and composition with a background."""
 
 import unittest
 
@@ -43,7 +43,7 @@ class Numbers(unittest.TestCase):
                 rgb, legend, _ = colored(values, Particles(np.zeros((len(values), 3))), colormap=colormap, **options)
                 shares = np.clip(np.asarray(norm(values)), 0, 1)
                 expected = matplotlib.colormaps[colormap](shares, bytes=True)[:, :3]
-                # Roundings decide at the border of two colors.
+                # At the border of two colors, rounding decides.
                 differ = (rgb != expected).any(axis=1)
                 border = np.abs(shares * legend.colormap.N - np.round(shares * legend.colormap.N)) < 1e-9
                 self.assertFalse((differ & ~border).any(), (colormap, options))
@@ -163,7 +163,7 @@ class Radii(unittest.TestCase):
                                  ({"O": 3, "H": 2, "?": 1}, (3, 2, 1)), ("O=3,H=2,?=1", (3, 2, 1))):
             with self.subTest(radius=radius):
                 np.testing.assert_allclose(radii_of(water, radius, []), expected, rtol=1e-6)
-        apart = Particles(1e4 * np.eye(3), elements=labels)  # which angstroms are not
+        apart = Particles(1e4 * np.eye(3), elements=labels)  # distances that cannot be angstroms
         self.assertAlmostEqual(radii_of(apart, None, [])[0], 1e4 / 2**0.5, places=6)
 
     def test_what_is_refused(self):
@@ -186,7 +186,7 @@ class Radii(unittest.TestCase):
 
 class Background(unittest.TestCase):
     def test_light_before_a_background(self):
-        """A stage of 0.5, half of a pixel covered by a ball of 0.8, a shadow, nothing, all."""
+        """The stage has 0.5. The four pixels are half covered by a ball of 0.8, in shadow, empty, and fully covered."""
         stage, particles = 0.5, np.array([[0.5, 0, 0, 1]])
         radiance = np.float32([[0.5 * 0.75 + 0.5 * 0.5, 0.25, 0.5, 0.75]])[:, :, None].repeat(3, axis=2)
         shares = Shares(particles, np.zeros((1, 4)))

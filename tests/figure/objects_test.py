@@ -1,4 +1,5 @@
-"""Objects and files of other packages, if installed, else stand-ins with the attributes that are read."""
+"""Tests objects and files of other packages. If a package is not installed, a stand-in has the attributes that are
+read."""
 
 import io
 import pathlib
@@ -29,7 +30,7 @@ def installed(name):
         return None
 
 
-installed("gemmi")  # which cannot be imported twice
+installed("gemmi")  # gemmi cannot be imported twice
 
 
 def ase_atoms(places):
@@ -67,11 +68,11 @@ def universe():
 
 
 class Property(np.ndarray):
-    """An array with OVITO's particle types."""
+    """An array that has OVITO's particle types."""
 
 
 def ovito_data(name):
-    """Type 1 has the name, type 2 has none."""
+    """Type 1 has the name, and type 2 has no name."""
     cell = np.column_stack([EDGES.T, (1, 2, 3)])
     if installed("ovito"):
         from ovito.data import DataCollection
@@ -93,7 +94,7 @@ class Objects(unittest.TestCase):
     def check(self, found, places=PLACES, elements=(8, 1, 1)):
         np.testing.assert_allclose(found.positions, places)
         self.assertEqual(None if found.elements is None else tuple(found.elements), elements)
-        np.testing.assert_allclose(found.cell.vectors, EDGES, atol=1e-5)  # where it went through angles of float32
+        np.testing.assert_allclose(found.cell.vectors, EDGES, atol=1e-5)  # some formats have angles in float32
         return found
 
     def test_ase(self):
@@ -139,7 +140,7 @@ class Objects(unittest.TestCase):
             self.assertEqual("from 0 to 255: the largest is 255" in " ".join(found.notes), bool(more))
 
     def test_columns_of_one_array_are_read_in_place(self):
-        """Other orders are copied."""
+        """Columns in other orders are copied."""
         array = np.repeat(PLACES, 2, axis=0)
         self.assertTrue(np.shares_memory(load(dict(zip("xyz", array.T))).positions, array))
         np.testing.assert_array_equal(load(dict(zip("zyx", array.T))).positions, array[:, ::-1])
@@ -163,7 +164,7 @@ class Files(unittest.TestCase):
         for key, values in zip(records.dtype.names, [*PLACES.T, packed]):
             records[key] = values
         text = "".join(f"{x} {y} {z} {color} 0 0 0\n" for (x, y, z), color in zip(PLACES, packed))
-        for kind in "FU":  # color bytes as a float's bytes, or as a number
+        for kind in "FU":  # the color's bytes are those of a float, or of an integer
             found = self.read("a.pcd", head.format(kind, 3, "binary").encode() + records.tobytes())
             np.testing.assert_array_equal(found.positions, PLACES)
             np.testing.assert_array_equal(found.colors[1], (0x40, 0x50, 0x60))
@@ -201,7 +202,7 @@ class Files(unittest.TestCase):
         for name in ("a.pdb", "a.cif", "POSCAR", "a.gro", *(["a.data"] if installed("ase").__version__ >= "3.23" else [])):
             write(self.folder / name, ase_atoms(PLACES), **({"format": "lammps-data"} if name == "a.data" else {}))
             found = load(self.folder / name)
-            apart = np.linalg.norm(found.positions - found.positions[:1], axis=1)  # some move or turn the cell
+            apart = np.linalg.norm(found.positions - found.positions[:1], axis=1)  # some formats move or turn the cell
             np.testing.assert_allclose(np.sort(apart), np.linalg.norm(PLACES - PLACES[0], axis=1), atol=2e-3)
             self.assertIsNotNone(found.cell)
 
@@ -244,7 +245,7 @@ class Files(unittest.TestCase):
                 self.read("a.sdf", b"data", chemfiles=None)
 
     def test_standard_input(self):
-        """Our own readers only, also packed."""
+        """Only the package's own readers read standard input, also compressed."""
         program = "import sys\nfrom pt.figures import load\nprint(load('-', frame=0).positions.tolist())"
         buffer = io.BytesIO()
         np.save(buffer, PLACES)

@@ -1,5 +1,5 @@
-"""Files of independent writers and of users hold what they should, or are refused by name, line and rule. Argument: the
-folder of the files. All cloud.* hold the same particles."""
+"""Files of independent writers and of users must have the expected content, or be refused by name, line and rule.
+Argument: the folder of the files. All files cloud.* have the same particles."""
 
 import bz2
 import gzip
@@ -26,8 +26,8 @@ PLY = "ply\nformat {}\nelement vertex 2\nproperty float x\nproperty float y\npro
 HEAD = "ITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS "
 ATOMS = "ITEM: ATOMS id xs ys zs\n1 0.5 0.25 0.125\n"
 
-DAMAGES = 200  # of each kind and file
-DAMAGED = {  # whether a row shows its own end
+DAMAGES = 200  # for each kind and file
+DAMAGED = {  # whether the end of a row is visible in the row
     "cloud.csv": False, "cloud.csv.gz": True, "cloud.tsv": False, "cloud.xyz": True, "cloud.extxyz": True, "rows.npy": True,
     "records.npy": True, "stored.npz": True, "deflated.npz": True, "little.ply": True, "lists.ply": True,
     "text.ply": True, "text_lists.ply": True, "melt_plain.dump": True, "tilted.dump": True}
@@ -52,7 +52,7 @@ class Stored(unittest.TestCase):
     def test_files_of_all_writers_hold_the_same(self):
         expected = load(DATA / "cloud.csv")
         self.assertEqual(len(expected), 24)
-        # Half a unit of the last digit of positions up to 5, and of charges up to 1.
+        # Tolerances are half a unit of the last digit, for positions up to 5 and charges up to 1.
         for name, place, charge in (("cloud.csv.gz", 0, 0), ("cloud.tsv", 0, 0), ("cloud.extxyz", 0.5e-8, 0.5e-8),
                                     ("rows.npy", 0, 0), ("columns.npy", 0, 0), ("big.npy", 2**-22, 2**-24),
                                     ("records.npy", 0, 2**-25), ("stored.npz", 0, 0), ("deflated.npz", 0, 2**-25),
@@ -74,19 +74,20 @@ class Stored(unittest.TestCase):
         np.testing.assert_array_equal(first.cell.periodic, [True, False, True])
 
     def test_fractions_of_a_cell(self):
-        """7 digits; edges are no longer than 8, and a coordinate is the sum of three."""
+        """Fractions have 7 digits. Edges are at most 8 long, and a coordinate is the sum of three products."""
         for name in "melt", "tilted":
             scaled, plain = load(DATA / f"{name}.dump"), load(DATA / f"{name}_plain.dump")
             np.testing.assert_allclose(scaled.positions, plain.positions, 0, 3 * 8 * 0.5e-7)
             np.testing.assert_array_equal(scaled.types, plain.types)
-        # Made of a cell from 0 with xy 1.5, xz -0.7 and yz 0.9.
+        # The file was made from a cell at 0 with xy 1.5, xz -0.7 and yz 0.9.
         np.testing.assert_allclose(scaled.cell.origin, 0, 0, 1e-14)
         np.testing.assert_allclose(scaled.cell.vectors[np.tril_indices(3, -1)], [1.5, -0.7, 0.9], 0, 1e-14)
 
 
 class Cells(InAFolder):
     def test_cells_are_those_of_the_text(self):
-        # The edges (2, 0, 0), (1, 4, 0) and (1, -2, 8) from (1, -2, 10) are within 1 to 5, -4 to 2 and 10 to 18.
+        # The edges (2, 0, 0), (1, 4, 0) and (1, -2, 8), starting at (1, -2, 10), have the bounds 1 to 5, -4 to 2 and 10
+        # to 18.
         for name, text, vectors, periodic, position in (
                 ("a.dump", f"{HEAD}pp ff ps\n1 3\n-2 2\n10 18\n{ATOMS}", np.diag((2, 4, 8)), (1, 0, 0), (2, -1, 11)),
                 ("a.dump", f"{HEAD}xy xz yz pp pp pp\n1 5 1\n-4 2 1\n10 18 -2\n{ATOMS}",
@@ -106,7 +107,7 @@ class Cells(InAFolder):
         fractions = np.random.default_rng(1).uniform((0.01, -2, 0.01), (0.99, 3, 0.99), (50, 3))
         inside = fractions @ edges + (1, -2, 10)
         turns = np.random.default_rng(2).integers(-3, 4, (50, 3))
-        turns[:, 1] = 0  # the cell does not repeat along it, so particles stay outside
+        turns[:, 1] = 0  # the cell is not periodic along this edge, so particles stay outside
         outside = inside + turns @ edges
         data = {"positions": outside, "v": np.arange(50)}
         found = load(data)
@@ -115,7 +116,7 @@ class Cells(InAFolder):
         np.testing.assert_allclose(wrapped.positions, inside[1::2], 0, 30 * 2**-50)  # some ulps of numbers up to 30
         np.testing.assert_array_equal(wrapped.column("y"), wrapped.positions[:, 1])
         np.testing.assert_array_equal(wrapped.column("v"), np.arange(1, 50, 2))
-        np.testing.assert_array_equal(outside, data["positions"])  # is the user's own
+        np.testing.assert_array_equal(outside, data["positions"])  # the user's array must not change
 
 
 def many_frames(count):
@@ -187,7 +188,7 @@ class Rows(InAFolder):
 
 
 class Users(unittest.TestCase):
-    """Files that were misread or refused once."""
+    """These files were once misread or refused."""
 
     def test_what_they_hold(self):
         for name, count, expected in (
@@ -220,7 +221,7 @@ class Users(unittest.TestCase):
                     elif value is None:
                         self.assertIsNone(getattr(found, key))
                     else:
-                        tolerance = 2**-24 if key == "colors" else 0  # which are float32
+                        tolerance = 2**-24 if key == "colors" else 0  # colors are float32
                         np.testing.assert_allclose(getattr(found, key)[:len(value)], value, 0, tolerance)
 
     def test_what_is_said_of_them(self):
@@ -270,7 +271,7 @@ class Coinciding(unittest.TestCase):
             notes = " ".join(load(np.concatenate([places, places[::3]])).notes)
             for each in words:
                 self.assertIn(each, notes)
-        # Each of the 70,000 is among those that are compared with probability 1/4.
+        # Each of the 70,000 particles is in the compared sample with probability 1/4.
         self.assertLess(abs(int(notes.split()[1].replace(",", "")) - 70_000), 5 * 4 * (70_000 * 3 / 16)**0.5)
 
 
@@ -305,7 +306,7 @@ class Messages(InAFolder):
 
 
 class Damaged(InAFolder):
-    """Files cut short or with a wrong byte: read as they are, or refused with a message that names the file."""
+    """Files that are cut short or have a wrong byte must be read, or be refused with a message that names the file."""
 
     def particles(self, name, data):
         try:
@@ -326,7 +327,7 @@ class Damaged(InAFolder):
                     if found is None:
                         refused += 1
                         continue
-                    # All is read, or the rows before the cut; a number that may be cut is reported.
+                    # Either all rows are read, or the rows before the cut. A number that may be cut is reported.
                     is_first = name == "cloud.extxyz" and size < 3 * len(data) // 4  # of two frames
                     whole_frame = load(DATA / name, frame=0) if is_first else whole
                     kept = len(found) if found.positions[-1:].tolist() == whole_frame.positions[len(found) - 1:].tolist() \
@@ -351,12 +352,12 @@ class Damaged(InAFolder):
                     if found.positions.shape == whole.positions.shape:
                         rows = (found.positions != whole.positions).any(1).sum()
                         changed += rows > 0
-                        # After all headers one row differs, unless its number makes others negligible, or packing
-                        # spreads the fault.
+                        # Behind all headers, only one row may differ. There are two exceptions: a huge number makes all
+                        # others negligible, and compression spreads the fault.
                         if place > 2 * len(data) // 3 and np.abs(found.positions).max() < 1e10:
                             self.assertLess(rows, 2)
         self.assertGreater(refused, DAMAGES * len(DAMAGED) // 4)
-        self.assertGreater(changed, DAMAGES)  # as a digit for another is
+        self.assertGreater(changed, DAMAGES)  # for example one digit instead of another
 
 
 if __name__ == "__main__":

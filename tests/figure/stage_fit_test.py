@@ -1,4 +1,4 @@
-"""Camera, light and sizes of figures: every ball is in the picture, and some touch its margin."""
+"""Tests camera, light and sizes of figures. Every ball must be in the picture, and some must touch its margin."""
 
 import importlib.util
 import unittest
@@ -40,7 +40,7 @@ def rims(camera, size, centers, radii):
             x = sign * (ways @ axis)
             if camera.vertical_extent is not None:
                 yield (x + radii) / (0.5 * aspect * camera.vertical_extent)
-            else:  # from the pinhole a ball at x and z reaches the angle atan(x / z) + asin(r / |x, z|)
+            else:  # seen from the pinhole, a ball at x and z reaches the angle atan(x / z) + asin(r / |x, z|)
                 angle = np.arctan2(x, depth) + np.arcsin(radii / np.hypot(x, depth))
                 yield np.tan(angle) / (aspect * np.tan(VERTICAL_FOV / 2))
 
@@ -162,7 +162,7 @@ class Series(unittest.TestCase):
                 self.assertEqual(each.layout.size, staged[0].layout.size)
                 spans.append([float(rim.max()) for rim in rims(each.layout.camera, each.layout.size, centers, radii)])
             self.assertLess(np.max(spans), 1 - 2 * MARGIN + 1e-9)
-            self.assertGreater(np.max(spans), 0.995 * (1 - 2 * MARGIN))  # 40 turns miss the farthest by (pi / 40)^2 / 2
+            self.assertGreater(np.max(spans), 0.995 * (1 - 2 * MARGIN))  # between 40 turns, the farthest ball is missed by (pi / 40)^2 / 2
             axis = np.cross(np.subtract(staged[10].layout.camera.position, staged[0].layout.camera.position),
                             np.subtract(staged[20].layout.camera.position, staged[0].layout.camera.position))
             self.assertAlmostEqual(abs(axis @ staged[0].layout.stage.lamps[0].center - axis @ np.array(

@@ -1,4 +1,4 @@
-"""Coverage, the edges of cells and outlines; against rays in double precision."""
+"""Compares coverage, edges of cells and outlines with rays in double precision."""
 
 import unittest
 import unittest.mock
@@ -32,7 +32,8 @@ def staged_of(projection, size, **options):
 
 
 def rays(camera, size):
-    """Origins and unit directions, shape (rows, columns, 3), through the centers of hits."""
+    """Returns origins and unit directions of the rays through the centers of hits, with the shape (rows, columns,
+    3)."""
     right, above, back = camera.axes()
     rows, columns = np.indices((size[1] * PER_SIDE, size[0] * PER_SIDE)) + 0.5
     x, y = 2 * columns / columns.shape[1] - 1, 1 - 2 * rows / rows.shape[0]
@@ -47,7 +48,8 @@ def rays(camera, size):
 
 
 def first_hits(origins, ways, capsules=((), (), 0.0)):
-    """Index of the ball or, after those, the capsule that each ray meets first; -1: none."""
+    """Returns the index of the ball or capsule that each ray hits first, or -1. Capsules are numbered after the
+    balls."""
     begins, ends, radius = capsules
     distances = np.full((*ways.shape[:-1], len(CENTERS) + len(begins)), np.inf)
     for k, (center, size) in enumerate(zip(CENTERS, RADII)):
@@ -65,7 +67,7 @@ def first_hits(origins, ways, capsules=((), (), 0.0)):
 
 
 def to_ball(start, way, radius):
-    """Distances, from outside, to a ball at the origin; way: unit vectors."""
+    """Returns distances from outside to a ball at the origin. `way` has unit vectors."""
     along = -(start * way).sum(axis=-1)
     square = radius**2 - ((start * start).sum(axis=-1) - along**2)
     return np.where(square >= 0, along - np.sqrt(np.maximum(square, 0)), np.inf)
@@ -81,7 +83,7 @@ class Lines(unittest.TestCase):
         cls.context = cls.enterClassContext(pt.Context())
 
     def test_coverage(self):
-        """One or two hits of 16 at a border may round otherwise."""
+        """At a border, one or two hits of 16 may be rounded differently."""
         for projection in ("perspective", "orthographic"):
             staged = staged_of(projection, SIZE)
             shapes = shares_of(staged, self.context).shapes
@@ -93,8 +95,8 @@ class Lines(unittest.TestCase):
             self.assertGreater(np.abs(shapes - share(wider >= 0)).max(), 2.5 / 16)
 
     def test_edges_have_their_width_in_pixels(self):
-        """Two slanting edges in a plane across the view, along each row, within 5%, from samples a quarter of a pixel
-        apart in 60 rows. Negative control: 20% more."""
+        """Measures two slanting edges, in a plane perpendicular to the view, along 60 rows. Samples a quarter of a
+        pixel apart measure the width within 5%. Negative control: 20% more."""
         flat = Particles(np.zeros((1, 3)), cell=Cell.of([[4.5, 0, 0], [0, 1e-5, 0], [2.3, 0, 6]], (-3.4, 0, -3)))
         for size in ((1250, 100), (200, 100)):
             for projection in ("perspective", "orthographic"):
@@ -109,20 +111,20 @@ class Lines(unittest.TestCase):
             self.assertGreater(abs(width() / expected - 1.0), 0.05)
 
     def test_a_camera_among_the_particles(self):
-        """A pixel is measured half of the extent away."""
+        """A pixel's size is measured at a distance of half the extent."""
         camera = pt.Camera((0, 0, 0), (0, 0, -1), vertical_fov=np.pi / 2)
         particles = Particles(np.array([[0.0, 0, -3]]), cell=Cell.of([8, 8, 8], (-4, -4, -4)))
         edges = Staged.of(particles, Options(radius=0.1, camera=camera, size=(80, 64), box="lines")).scene.sphere_arrays[1]
         np.testing.assert_allclose(edges.radius, 0.5 * 8 / 64)
 
     def test_outlines_go_round_the_balls(self):
-        """Balls have outlines before the background and before other balls; none inside, along edges of the cell before
-        them, and elsewhere."""
+        """Balls have outlines in front of the background and of other balls. They have none inside, nor along cell
+        edges in front of them, nor elsewhere."""
         for projection in ("perspective", "orthographic"):
             size = (96, 72)
             staged = staged_of(projection, size, outlines=True)
             shares = shares_of(staged, self.context)
-            with unittest.mock.patch.object(_overlay, "BAND_ROWS", 1000):  # bands make no seams
+            with unittest.mock.patch.object(_overlay, "BAND_ROWS", 1000):  # bands must make no seams
                 whole = shares_of(staged, self.context)
             for name in ("shapes", "outlines"):
                 np.testing.assert_array_equal(getattr(shares, name), getattr(whole, name))

@@ -1,10 +1,10 @@
-"""Small files of all formats of atoms, by hand, with what they hold or the messages that refuse them."""
+"""Small files of all formats of atoms, written by hand, with their content or the messages that refuse them."""
 
 import gzip
 
 
 def atom(name, residue, x, element="", number=1, kind="ATOM", alternative="", chain="A", resid=1, occupancy=1.0):
-    """A line of a PDB file. Names are as they stand in columns 13 to 16."""
+    """Returns a line of a PDB file. Names fill columns 13 to 16 exactly."""
     return (f"{kind:<6}{number:5} {name:<4}{alternative:1}{residue:>3} {chain}{resid:4}    {x:8.3f}{0:8.3f}{0:8.3f}{occupancy:6.2f}"
             f"{0:6.2f}          {element:>2}\n")
 
@@ -114,7 +114,8 @@ data:
 {rows}...
 """
 
-# Name, text, elements or types, and what else holds: places along x, cell (its lengths), origin, bonds, words of a note.
+# Each case has name, text, elements or types, and further content: places along x, lengths of the cell, origin, bonds,
+# and words of a note.
 CASES = (
     ("ca.pdb", atom(" CA", "ALA", 0, "C") + atom("CA", "CA", 1, "CA", kind="HETATM"), "C Ca", {}),
     ("names.pdb", atom(" CA", "ALA", 0) + atom("HG11", "VAL", 1) + atom("1HB", "ALA", 2) + atom(" SD", "MET", 3) +

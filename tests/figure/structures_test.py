@@ -1,5 +1,5 @@
-"""Small files of all formats: atoms, elements, bonds and cells. Argument: the folder of files modelled on users'
-reports."""
+"""Tests atoms, elements, bonds and cells of small files of all formats. Argument: the folder of files modeled on
+users' reports."""
 
 import gzip
 import importlib.util
@@ -111,7 +111,7 @@ class Small(InAFolder):
 
 class Large(InAFolder):
     def test_sections_with_comments_blank_lines_and_labels(self):
-        """Of some blocks, so that pandas reads them."""
+        """The sections have several blocks, so that pandas reads them."""
         count = 40_000
         generator = np.random.default_rng(1)
         numbers, places = generator.permutation(count) + 1, generator.integers(-9999, 9999, (count, 3)) / 1000
@@ -131,7 +131,7 @@ class Large(InAFolder):
 
 
 class Damaged(InAFolder):
-    """Damaged files are read as they are, or refused with a message that names the file."""
+    """Damaged files must be read, or be refused with a message that names the file."""
 
     def test_damages(self):
         generator = np.random.default_rng(1)
@@ -171,7 +171,7 @@ class Binary(InAFolder):
             file.append(frame)
         found = load(path)
         self.check(found, ["A", "B"], x=[-1, 1], cell=[4, 45**0.5, 8], origin=[-3.5, -3, -4], bonds=[[0, 1]])
-        self.assertIsNone(found.radii)  # HOOMD's default diameter is not in the file
+        self.assertIsNone(found.radii)  # the file leaves out HOOMD's default diameter
 
     @unittest.skipUnless(HAS["chemfiles"], "chemfiles is not installed")
     def test_trajectories_take_their_atoms_from_the_topology(self):
@@ -186,7 +186,7 @@ class Binary(InAFolder):
                 file.write(frame)
         topology.write_text(gro(("SOL", "OW", 0), ("SOL", "HW1", 0.1), ("SOL", "MW", 0.2), ("NA", "NA", 0.3)))
         found = load(path, topology=str(topology))
-        np.testing.assert_allclose(found.positions[:, 0], [1, 2, 4], atol=0.01)  # XTC has 0.01 angstroms
+        np.testing.assert_allclose(found.positions[:, 0], [1, 2, 4], atol=0.01)  # XTC rounds to 0.01 angstroms
         self.check(found, "O H Na", cell=[20, 20, 20])
         psf = self.folder / "a.psf"
         psf.write_text("PSF\n\n       1 !NTITLE\n made up\n\n       4 !NATOM\n" + "".join(
@@ -201,7 +201,7 @@ class Binary(InAFolder):
 
 
     def test_dcd_without_a_cell(self):
-        """Written by hand, with cells like MDAnalysis's."""
+        """The file is written by hand, with cells like MDAnalysis's."""
         def record(data):
             return struct.pack("<i", len(data)) + data + struct.pack("<i", len(data))
         path, topology = self.folder / "a.dcd", self.folder / "a.gro"
