@@ -1,5 +1,5 @@
-"""libpt's exported symbols and soname: exported_symbols_test.py LIBRARY ARCHIVE HEADERS LIST C_COMPILER (HEADERS: a
-folder). A missing symbol breaks programs; a new one is a promise."""
+"""Checks libpt's exported symbols and soname: exported_symbols_test.py LIBRARY ARCHIVE HEADERS LIST C_COMPILER.
+HEADERS is a folder. A missing symbol breaks programs, and a new symbol is a promise."""
 
 import pathlib
 import re
@@ -15,7 +15,7 @@ def output(*command):
 
 
 def symbols_of(path, *options):
-    """Defined global names, by nm."""
+    """Returns the defined global names, by nm."""
     lines = output("nm", "--defined-only", "--format=posix", *options, path).splitlines()
     return {line.split()[0] for line in lines if len(line.split()) > 2}
 

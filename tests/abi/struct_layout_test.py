@@ -1,5 +1,6 @@
-"""Sizes and offsets of structs: struct_layout_test.py HEADERS TABLE ROOT C_COMPILER; with only the first and the last
-argument it prints the table. Structs grow at the tail only; ROOT/lib/python/generate.py's output is current."""
+"""Checks sizes and offsets of structs: struct_layout_test.py HEADERS TABLE ROOT C_COMPILER. With only HEADERS and
+C_COMPILER it prints the table. Structs may only grow at the end. The output of ROOT/lib/python/generate.py must be
+current."""
 
 import ctypes
 import importlib.util
@@ -11,7 +12,7 @@ import tempfile
 
 
 def loaded_file(path):
-    """The package around it needs NumPy and the library."""
+    """Loads a file without its package, which needs NumPy and the library."""
     spec = importlib.util.spec_from_file_location(path.stem, path)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
@@ -31,7 +32,7 @@ def structs_of(headers):
 
 
 def program_for(structs, includes):
-    """C that prints "struct size" and "struct.member offset size"."""
+    """Returns a C program that prints "struct size" and "struct.member offset size"."""
     lines = ["#include <stddef.h>", "#include <stdio.h>", *(f"#include <pt/{name}>" for name in includes),
              "int main(void) {"]
     for struct, members in structs:
@@ -43,7 +44,7 @@ def program_for(structs, includes):
 
 
 def layout_of(headers, compiler):
-    """headers: text by name."""
+    """`headers` maps names to texts."""
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         (folder / "pt").mkdir()
@@ -74,7 +75,7 @@ def differences(found, table):
 
 
 def check_the_check(headers, table, compiler):
-    """Negative control: members at the tail, in the middle, of another type, renamed, gone."""
+    """Negative control: members at the end, in the middle, of another type, renamed, and removed."""
     for old, new, wanted in (
         ("uint32_t row_count;", "uint32_t row_count; uint64_t more;", "+ pt_render.more 48 8"),
         ("double offset;", "double before; double offset;", "+ pt_plane.offset 32 8"),

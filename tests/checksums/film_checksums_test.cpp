@@ -1,4 +1,5 @@
-// Films of the shipped scenes against tests/data/film_checksums.txt, which only changes of radiance may change.
+// Compares films of the shipped scenes with tests/data/film_checksums.txt. Only changes of radiance may change the
+// checksums.
 #include "cli/scene/scene_file.h"
 #include "lib/base/digest.h"
 #include "tests/support/context_calls.h"
@@ -37,7 +38,7 @@ std::string checksum_of(const std::vector<Number> &numbers) {
     return hexadecimal(pt::checksum(std::as_bytes(std::span(numbers))));
 }
 
-// Without the identity, which names the kernels, and the checksum.
+// Leaves out the identity, which names the kernels, and the film's own checksum.
 std::string checksum_of_sums(const std::vector<char> &film) {
     const std::size_t first = std::string_view(film.data(), film.size()).find("\ntile ");
     return hexadecimal(pt::checksum(std::as_bytes(std::span(film).first(film.size() - 8).subspan(first))));
@@ -58,13 +59,14 @@ protected:
         ASSERT_EQ(pt_accumulate(on, &info), PT_OK) << pt_last_error(on);
     }
 
-    // Even film, then more samples in some tiles. Rows alone, and a saved and continued film, have the same bits.
+    // Takes equal samples in all tiles, then more samples in some tiles. Single rows, and a film that is saved and
+    // continued, must have the same bits.
     static std::string checksums(pt_context *on, const cli::SceneFile &file, std::uint32_t sampler) {
         const pt_scene scene = file.scene();
         pt_render render = render_of(width, height, std::min(file.render.max_path_length, 4U));
         render.sampler = sampler;
         set_picture(on, scene, file.camera, render);
-        take(on, 5); // before, across and after moves of the parts' split
+        take(on, 5); // before, across and after moves of the split
         take(on, 20);
         const std::vector<char> begun = film_of(on);
         take(on, 15);
@@ -118,7 +120,7 @@ std::vector<std::string> lines_of(const std::string &device) {
     return lines;
 }
 
-// Each way meets each sampler; PT_TEST_MANY: all ways.
+// Each way is combined with each sampler. With PT_TEST_MANY, all ways run for each scene.
 TEST_F(FilmChecksums, AreThoseOfBefore) {
     constexpr const char *samplers[] = {"random", "halton", "halton-cp", "sobol"};
     std::vector<std::filesystem::path> scenes;

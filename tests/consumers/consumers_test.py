@@ -1,5 +1,5 @@
-"""Users' programs, built from the installed library: consumers_test.py STEP, `install` first. The installation is moved
-before use."""
+"""Builds users' programs with the installed library: consumers_test.py STEP, where `install` must be the first step.
+The installation is moved before use."""
 
 import argparse
 import json
@@ -90,7 +90,7 @@ class Steps:
                     require(f"{place}/" not in text, f"{path} names {place}")
 
     def check_copyrights(self, share, packages):
-        """Every package names the holders and licenses of its code, and has the texts."""
+        """Each package must name the holders and licenses of its code, and contain the texts."""
         for package in packages:
             text = (share / "doc" / package / "copyright").read_text()
             holders = re.findall(r"^Files: .*\nCopyright: .*\nLicense: (.*)$", text, re.MULTILINE)
@@ -143,7 +143,7 @@ class Steps:
         for package in "pt", "pt-static":
             require(self.pkg_config("--modversion", package=package) == [self.options.version],
                     f"{package}.pc has another version")
-        if (self.library / "pt" / "libpt-glsl.so").exists():  # with the sources that it compiles
+        if (self.library / "pt" / "libpt-glsl.so").exists():  # the module needs the sources that it compiles
             shaders, = self.pkg_config("--variable=shaderdir")
             require((pathlib.Path(shaders) / "pathtrace.comp").is_file(), f"there are no shaders in {shaders}")
 
@@ -176,9 +176,9 @@ class Steps:
         return fast, slow
 
     def subproject(self):
-        """add_subdirectory, with objects of the library's own build (reuse.py)."""
+        """Tests add_subdirectory with objects of the library's own build (reuse.py)."""
         folder = self.folder("subproject")
-        # Only the library, and only where the project leaves that open.
+        # The library optimizes itself only, and only if the outer project does not choose a build type.
         for number, (settings, expected) in enumerate((
                 ([], ({"lib"}, {"tests"})),
                 (["-DCMAKE_BUILD_TYPE=Debug"], (set(), {"lib", "tests"})),
@@ -197,7 +197,7 @@ class Steps:
         reuse = ";".join(map(str, (sys.executable, "-B", HERE / "reuse.py", commands, self.options.build, build / "pt")))
         self.configure_subproject(build, f"-DCMAKE_CXX_COMPILER_LAUNCHER={reuse}", *(f"-D{each}" for each in settings),
                                   "-DCMAKE_INTERPROCEDURAL_OPTIMIZATION=ON", "-DCMAKE_CXX_FLAGS=-flto=auto")
-        said = run(self.options.cmake, "--build", build, "-j1")  # another test has the second core
+        said = run(self.options.cmake, "--build", build, "-j1")  # another test uses the second core
         require("warning" not in said, said)
         symbols = run("nm", "--defined-only", "--extern-only", "--format=posix", build / "pt" / "lib" / "libpt.a")
         exported = (SOURCE / "tests/abi/exported_symbols.txt").read_text().split()
@@ -270,7 +270,7 @@ class Steps:
         folder = self.folder("debian")
         run(self.options.cpack, "-G", "DEB", "-B", folder, cwd=self.options.build)
         packages = {path.name.split("_")[0]: path for path in folder.glob("*.deb")}
-        compiler = "libpt0.3-glsl"  # if its libraries existed when it was built
+        compiler = "libpt0.3-glsl"  # built only where its libraries exist
         expected = ["libpt0.3", "libpt0.3-dev", *([compiler] if compiler in packages else []), "pt", "pt-image-formats"]
         require(sorted(packages) == expected, f"the packages are {sorted(packages)}")
         exact = f"libpt0.3 (= {self.options.version})"

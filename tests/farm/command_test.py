@@ -1,4 +1,4 @@
-"""pt-farm. Argument: the program pt, whose pictures must be equal."""
+"""Tests pt-farm. Argument: the program pt, whose pictures must be equal."""
 
 import contextlib
 import io
@@ -22,7 +22,7 @@ from pt import farm
 from pt.farm import _command
 from pt.farm._job import read_job
 
-if __name__ == "__main__":  # not in worker processes, which import this file too
+if __name__ == "__main__":  # worker processes import this file too
     os.environ["PT_PROGRAM"] = os.path.abspath(sys.argv.pop(1))
 PT = os.environ["PT_PROGRAM"]
 SCENE = {"camera": {"position": [0, 1, 5], "look_at": [0, 0.8, 0]}, "film": {"width": 96, "height": 60},

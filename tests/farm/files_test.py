@@ -1,5 +1,5 @@
-"""The commands of lib/python/FARM.md give the picture of one process. Arguments: the program pt, FARM.md, and a
-stand-in for Open Image Denoise."""
+"""The commands of lib/python/FARM.md must give the picture of a single process. Arguments: the program pt, FARM.md,
+and a stand-in for Open Image Denoise."""
 
 import importlib.util
 import os

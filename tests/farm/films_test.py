@@ -1,4 +1,4 @@
-"""pt.farm: with any faults the film has the bytes of a Context of this process."""
+"""Tests that pt.farm gives the bytes of a Context of this process, with any faults."""
 
 import dataclasses
 import os
@@ -29,7 +29,7 @@ from pt.farm._part import Part
 from pt.farm._sum import Sum, write_film
 from pictures import CAMERA, GLOSSY, SCENE
 
-SETTINGS = pt.RenderSettings(136, 100)  # tiles cut at both edges
+SETTINGS = pt.RenderSettings(136, 100)  # tiles at both edges are smaller
 JOB = farm.Job(SCENE, CAMERA, SETTINGS)
 SAMPLES, ERROR = 256, 0.006
 QUICK = farm.Options(part_seconds=0.1, patience=0.5)
@@ -53,14 +53,15 @@ def waiting(path):
 
 
 class Unreadable:
-    """The coordinator cannot unpickle it."""
+    """An object that the coordinator cannot unpickle."""
 
     def __reduce__(self):
         return int, ("no number",)
 
 
 def faulty(name, part, codecs):
-    """Every other first film of a worker is faulty. Each begins elsewhere in FAULTS, so few parts show all."""
+    """Half of a worker's first films are faulty. Each worker begins at another place in FAULTS, so few parts show
+    all faults."""
     worker = distributed.get_worker()
     worker.films = getattr(worker, "films", 0) + 1
     time.sleep(0.03)
@@ -152,7 +153,7 @@ class Farm(unittest.TestCase):
             self.cluster.workers[name].process.pid
 
     def harm(self, workers, stopped=None, killed=None):
-        """Some workers are harmed when all wait with their parts. A stopped one goes on once others have its parts."""
+        """Harms some workers when all wait with their parts. A stopped worker goes on when others have its parts."""
         go = os.path.join(self.enterContext(tempfile.TemporaryDirectory()), "go")
         calls, held = [], []
 
@@ -166,7 +167,7 @@ class Farm(unittest.TestCase):
                     if killed is not None:
                         address = self.cluster.workers[killed].worker_address
                         os.kill(self.process_of(killed), signal.SIGKILL)
-                        while address in self.cluster.scheduler.workers:  # else its parts are late before they are lost
+                        while address in self.cluster.scheduler.workers:  # otherwise its parts are late before they are lost
                             time.sleep(0.01)
                         time.sleep(LOOK_SECONDS)
                     open(go, "w").close()
@@ -194,7 +195,7 @@ class Farm(unittest.TestCase):
         self.assertEqual(found.film, whole(2 * SAMPLES))
 
     def test_mixed_devices(self):
-        """Mesa compiles for two vector widths, which count as two models."""
+        """Mesa compiles for two vector widths, which count as two models of devices."""
         nannies = {width: {"cls": distributed.Nanny,
                            "options": {"nthreads": 1, "env": {"LP_NATIVE_VECTOR_WIDTH": width}}}
                    for width in ("128", "256")}
@@ -216,12 +217,12 @@ class Farm(unittest.TestCase):
             mixed.film + alone.film
         self.assertTrue((mixed.film.readback(pt.Quantity.SAMPLE_COUNT) == samples).all())
         one, both = whole(samples).readback(), mixed.film.readback()
-        # Rounding may decide which surface a path meets.
+        # Rounding may decide which surface a path hits.
         self.assertLess(abs(both - one).mean(), 1e-3 * one.mean())
 
     def test_target_error(self):
         one = whole(4096, ERROR)
-        self.assertGreater(len(one.tiles), 1)  # or nothing is compared
+        self.assertGreater(len(one.tiles), 1)  # otherwise nothing is compared
         options = dataclasses.replace(QUICK, patience=60.0)
         found = self.farm(4096, target_error=ERROR, task=render_part, options=options)
         self.assertEqual(found.progress.ended_by, "error")

@@ -1,4 +1,4 @@
-"""Parts without workers: which are missing, and how they are cut."""
+"""Tests parts without workers: which are missing, and how they are cut."""
 
 import unittest
 

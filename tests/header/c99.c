@@ -1,4 +1,4 @@
-/* pt.h in strict C99: renders an image. Exit status 0 on success. */
+/* Renders an image with pt.h in strict C99. The exit status is 0 on success. */
 #include <pt/accuracy.h>
 #include <pt/pt.h>
 

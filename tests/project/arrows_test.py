@@ -1,4 +1,4 @@
-"""Rooms include only earlier rooms: arrows_test.py ROOT."""
+"""Checks that rooms include only earlier rooms: arrows_test.py ROOT."""
 
 import pathlib
 import re
@@ -9,7 +9,7 @@ ORDERS = {"cli": ("base", "image", "film", "scene", "render", "merge", "denoise"
 
 
 def arrows(part, includes):
-    """includes: (room, text of a file)."""
+    """`includes` has pairs of a room and the text of a file."""
     order = ORDERS[part]
     found = set()
     for room, text in includes:

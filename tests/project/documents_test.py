@@ -1,4 +1,4 @@
-"""The project's pages against the code. Files named in comments must exist. Arguments: the project's folder."""
+"""Compares the project's pages with the code. Files named in comments must exist. Argument: the project's folder."""
 
 import pathlib
 import re
@@ -8,15 +8,15 @@ import unittest
 ROOT = pathlib.Path(sys.argv[1])
 PAGES = [path for folder in (".", "cli", "lib", "shaders", "tests") for path in (ROOT / folder).glob("*.md")]
 PAGES += [*(ROOT / "tests").glob("*/**/*.md"), *(ROOT / "lib").glob("*/*.md")]
-CURRENT = [page for page in PAGES if page.name not in ("CHANGELOG.md", "NOTEBOOK.md")]  # they cover the past, too
+CURRENT = [page for page in PAGES if page.name not in ("CHANGELOG.md", "NOTEBOOK.md")]  # those two describe the past too
 CODE = re.compile(r"\.(h|c|cpp|glsl|comp|py|json|csv|cmake|sh)$|^CMakeLists\.txt$")
 
-# Limits of words: of a page, and of all pages but the changes.
+# The largest number of words of a page, and of all pages except the changes.
 MOST_WORDS = {"README.md": 1230, "CONTRIBUTING.md": 1300, "cli/README.md": 5510, "shaders/README.md": 7280,
               "tests/bench/README.md": 1550}
 MOST_WORDS_IN_ALL = 26_150
 
-# A file and its text, with groups in the same order.
+# Each row has a pattern for pages, a file, and a pattern for the file. Groups are in the same order.
 NUMBERS = (
     (r"(?:[Ff]rom|scenes of) (\d+) spheres\s+o[nr]\b", "lib/tree/tree_choice.h", r"default_tree_from = (\d+);"),
     (r"[Uu]p to (\d+) (?:spheres )?that reach\s+(\d+) times as far", "lib/tree/tree_choice.cpp",
@@ -36,7 +36,8 @@ NUMBERS = (
 
 
 def anchors(text):
-    """Heading anchors as repository hosts make them: lower case, no punctuation, blanks as hyphens."""
+    """Returns the anchors that repository hosts make from headings: in lower case, without punctuation, with hyphens
+    for blanks."""
     headings = re.findall(r"^#+ (.*)$", re.sub(r"```.*?```", "", text, flags=re.DOTALL), re.MULTILINE)
     names = re.findall(r'<a name="([^"]+)">', text)
     return {re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-") for heading in headings} | set(names)
@@ -60,7 +61,7 @@ def code_files():
 
 
 def names_of_code(text):
-    """Identifiers with an underscore that stand alone as code, and names of source files and folders."""
+    """Returns identifiers with an underscore that stand alone as code, and names of source files and folders."""
     spans = re.findall(r"`([\w./]+)(?:\(\))?`", re.sub(r"```.*?```", "", text, flags=re.DOTALL))
     others = {span for span in spans if re.search(r"/|\.(h|c|cpp|glsl|comp|py|json|md|sh|exr|png)$", span)}
     identifiers = {word for span in spans if span not in others for word in span.split(".") if "_" in word}

@@ -1,6 +1,5 @@
-"""C++ sources are formatted by .clang-format: format_test.py CLANG_FORMAT ROOT. Headers in shaders are GLSL
-too, laid out by hand.
-"""
+"""Checks that C++ sources are formatted by .clang-format: format_test.py CLANG_FORMAT ROOT. Headers in shaders are
+also GLSL, and are formatted by hand."""
 
 import pathlib
 import subprocess

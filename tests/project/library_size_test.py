@@ -1,4 +1,4 @@
-"""The stripped shared library stays small. Arguments: the strip program, the library."""
+"""Checks that the stripped shared library stays small. Arguments: the strip program, the library."""
 
 import os
 import subprocess

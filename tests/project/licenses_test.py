@@ -1,5 +1,5 @@
-"""cmake/licenses/parts.txt names all code of others: headers, linked libraries, and files with a license beside them.
-Arguments: the project's folder, and a build's."""
+"""Checks that cmake/licenses/parts.txt names all code of others: headers, linked libraries, and files with a license
+beside them. Arguments: the project's folder, and a build's folder."""
 
 import pathlib
 import re
@@ -8,7 +8,7 @@ import unittest
 
 ROOT, BUILD = map(pathlib.Path, sys.argv[1:])
 LICENSES = ROOT / "cmake/licenses"
-# The system's and the compiler's, whose licenses ask nothing of programs.
+# Libraries and headers of the system and the compiler. Their licenses require nothing of programs.
 SYSTEM_LIBRARIES = {"libvulkan", "dl", "rt"}
 SYSTEM_HEADERS = set("""cpuid dlfcn emmintrin fcntl io mach-o/dyld math psapi pthread signal stdatomic stddef stdint stdio
     stdlib sys/file sys/ioctl sys/resource sys/stat sys/sysctl sys/sysinfo time unistd windows""".split())
@@ -18,7 +18,7 @@ BINARIES = {"lib/libpt.so.": "runtime", "bin/pt:": "program", "lib/pt/libpt-glsl
 
 
 def parts():
-    """(component, header or library or file) -> name."""
+    """Maps (component, header or library or file) to the name."""
     found = {}
     for line in (LICENSES / "parts.txt").read_text().splitlines():
         if not line.startswith("#"):
@@ -28,7 +28,7 @@ def parts():
 
 
 def foreign_headers(text):
-    """The first folders, or the names, of others' headers."""
+    """Returns the first folders, or the names, of headers of other projects."""
     included = re.findall(r"^#include <([\w./-]+)\.h(?:pp)?>", text, re.MULTILINE)
     return {name.split("/")[0] if "/" in name else f"{name}.h" for name in included
             if name not in SYSTEM_HEADERS and not name.startswith("pt/")}
@@ -65,7 +65,7 @@ class Licenses(unittest.TestCase):
         found = included() | linked(rules) | copied()
         self.assertGreaterEqual(len(found), 15)
         self.assertEqual(sorted(found - set(parts())), [])
-        # All rows are in use, except for wheels and for libraries of other versions of a package.
+        # All rows must be used, except for wheels and for libraries of other versions of a package.
         names = {parts()[each] for each in found}
         self.assertEqual(names ^ set(parts().values()), set())
 

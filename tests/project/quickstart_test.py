@@ -1,4 +1,5 @@
-"""The commands and exit status of cmake/quickstart.sh, with stand-ins for its programs. Arguments: the script."""
+"""Tests the commands and the exit status of cmake/quickstart.sh, with stand-ins for its programs. Argument: the
+script."""
 
 import os
 import re
@@ -11,7 +12,7 @@ import unittest
 
 SCRIPT = pathlib.Path(sys.argv[1])
 
-# Records its command line; exits with its status in FAILING.
+# The stand-in records its command line, and exits with its status in FAILING.
 STAND_IN = """#!/bin/sh
 line="$(basename "$0") $*"
 echo "$line" >> "$NOTES"

@@ -1,5 +1,6 @@
-"""The headers document everything: Doxygen with warnings as errors, each enumerator, each function's threads.
-reference_pages_test.py DOXYGEN DOXYFILE HEADERS (a folder); headers: text by name.
+"""Checks that the headers document everything: reference_pages_test.py DOXYGEN DOXYFILE HEADERS. Doxygen runs with
+warnings as errors. Each enumerator needs a comment, and each function needs its threads. HEADERS is a folder, and
+`headers` maps names to texts.
 """
 
 import pathlib
@@ -10,7 +11,7 @@ import tempfile
 
 
 def doxygen_complaints(doxygen, settings, headers):
-    """Doxygen's complaints."""
+    """Returns Doxygen's warnings."""
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name) / "pt"
         folder.mkdir()

@@ -1,4 +1,4 @@
-"""NumPy arrays as columns: all layouts have the plain one's bits."""
+"""Tests NumPy arrays as columns. All layouts must give the bits of the plain layout."""
 
 import unittest
 
@@ -6,7 +6,7 @@ import numpy as np
 import pt
 from pictures import LAMP, WHITE, cloud, radiance
 
-COUNT = 120  # from 113 spheres on they are in a tree
+COUNT = 120  # from 113 spheres on, the scene has a tree
 POSITIONS, COLORS = cloud(COUNT)
 RADII = np.linspace(0.05, 0.2, COUNT, dtype=np.float32)
 MATERIALS = [WHITE, pt.Material(diffuse=0.5, specular=0.4, glossiness=20)]
@@ -103,7 +103,7 @@ class Columns(unittest.TestCase):
         linear = np.where(signal <= 0.04045, signal / 12.92, ((signal + 0.055) / 1.055)**2.4)
         images = [radiance(self.context, scene_of(pt.SphereArray(POSITIONS, RADII, 0, color=color)))
                   for color in (srgb, linear)]
-        # Trees store colors to a thousandth, and a path meets up to six surfaces.
+        # Trees store colors to a thousandth, and a path hits up to six surfaces.
         np.testing.assert_allclose(*images, rtol=2e-3 * 6)
         self.assertGreater(np.abs(images[0] - self.plain).max(), 0.01)
 

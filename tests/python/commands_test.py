@@ -1,4 +1,4 @@
-"""--help needs no optional module, and pages have valid commands. Arguments: the project's folder."""
+"""--help must work without optional modules, and pages must have valid commands. Argument: the project's folder."""
 
 import pathlib
 import re

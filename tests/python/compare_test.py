@@ -1,4 +1,4 @@
-"""Comparisons of light: films, images and arrays; the assertion for tests."""
+"""Tests comparisons of light: films, images and arrays, and the assertion for tests."""
 
 import unittest
 

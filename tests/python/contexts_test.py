@@ -1,4 +1,4 @@
-"""Lifetimes of contexts and films: threads, processes, closing, leaks."""
+"""Tests lifetimes of contexts and films: threads, processes, closing, leaks."""
 
 import gc
 import os
@@ -119,7 +119,7 @@ class Threads(unittest.TestCase):
                 np.testing.assert_array_equal(image, expected)
 
     def test_others_run_during_calls(self):
-        """Another thread runs only if the library is called without the interpreter's lock."""
+        """Another thread can run only if the library is called without the interpreter's lock."""
         interval = sys.getswitchinterval()
         self.addCleanup(sys.setswitchinterval, interval)
         start, ran = threading.Event(), []

@@ -1,4 +1,4 @@
-"""Denoised images, with a stand-in for Open Image Denoise: denoise_test.py LIBRARY."""
+"""Tests denoised images, with a stand-in for Open Image Denoise: denoise_test.py LIBRARY."""
 
 import os
 import pathlib

@@ -1,5 +1,5 @@
-"""Images in NumPy, as pictures and in files: the program's bytes. Arguments: the program pt, and a stand-in for Open
-Image Denoise."""
+"""Images in NumPy must have the program's bytes as pictures and in files. Arguments: the program pt, and a stand-in
+for Open Image Denoise."""
 
 import json
 import pathlib

@@ -1,4 +1,4 @@
-"""The package's example and its pages' programs. Arguments: the project's folder."""
+"""Tests the package's example and the programs in its pages. Argument: the project's folder."""
 
 import contextlib
 import pathlib

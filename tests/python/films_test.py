@@ -1,4 +1,4 @@
-"""Films: sums equal one rendering's bits, also through pickles and files."""
+"""Tests that sums of films equal the bits of one rendering, also through pickles and files."""
 
 import pathlib
 import pickle
@@ -12,7 +12,7 @@ import pt
 from pictures import HEIGHT, SCENE, WHITE, WIDTH, ready
 from pt import _zstd
 
-SAMPLES = 24  # enough for an error
+SAMPLES = 24  # enough for an error estimate
 
 
 class Films(unittest.TestCase):
@@ -77,7 +77,7 @@ class Films(unittest.TestCase):
             self.assertEqual([found.name for found in pathlib.Path(folder).iterdir()], ["kept.ptfilm"])
 
     def test_packed_files(self):
-        """Written by the program; the unpacking module may be missing."""
+        """The program writes packed files. The module that unpacks them may be missing."""
         packed = _zstd.MAGIC + b"frame"
         module = mock.Mock(decompress=lambda data: self.whole.to_bytes() if data == packed else b"")
         with mock.patch.dict(sys.modules, {"compression.zstd": None, "zstandard": module}):
@@ -91,7 +91,7 @@ class Films(unittest.TestCase):
         np.testing.assert_array_equal(image.radiance, self.image.radiance)
         np.testing.assert_array_equal(image.standard_error, self.image.standard_error)
         self.assertTrue((image.sample_count == SAMPLES).all())
-        # A GPU uses float32.
+        # A GPU computes errors in float32.
         self.assertAlmostEqual(image.error, self.image.error, delta=1e-5 * image.error)
         part = np.zeros((4, 6, 4), np.float16)
         self.whole.readback(out=part, rectangle=(3, 5, 6, 4))

@@ -1,4 +1,4 @@
-"""Progress and exceptions stop a call, which leaves a usable context."""
+"""Progress and exceptions must stop a call and leave a usable context."""
 
 import signal
 import sys
@@ -8,7 +8,7 @@ import numpy as np
 import pt
 from pictures import SCENE, WHITE, cloud, ready
 
-ENDLESS = 2**20  # minutes on a CPU
+ENDLESS = 2**20  # takes minutes on a CPU
 MANY = 300_000
 
 
@@ -26,7 +26,7 @@ def ring(_signal, _frame):
 
 class Interrupts(unittest.TestCase):
     def setUp(self):
-        signal.signal(signal.SIGINT, signal.default_int_handler)  # shells start background jobs with it ignored
+        signal.signal(signal.SIGINT, signal.default_int_handler)  # shells let background jobs ignore it
         signal.signal(signal.SIGALRM, ring)
         self.context = ready(pt.Context(submit_milliseconds=1))
         self.addCleanup(self.context.close)
@@ -91,7 +91,7 @@ class Interrupts(unittest.TestCase):
             self.check_usable()
 
     def test_a_signal_while_samples_are_taken(self):
-        """No progress function raises the exception."""
+        """Without a progress function, the signal's exception must still come."""
         for _ in range(3):
             with self.assertRaises(Alarm):
                 signal.setitimer(signal.ITIMER_REAL, 0.02)

@@ -1,4 +1,4 @@
-"""Scenes read by the program for the package. Arguments: the program pt, the folder of scenes."""
+"""Tests scenes that the program reads for the package. Arguments: the program pt, the folder of scenes."""
 
 import json
 import os
@@ -12,7 +12,7 @@ import pt
 
 PROGRAM, SCENES = sys.argv.pop(1), pathlib.Path(sys.argv.pop(1))
 os.environ["PT_PROGRAM"] = PROGRAM
-os.environ.setdefault("LP_NATIVE_VECTOR_WIDTH", "256")  # of both, or films differ
+os.environ.setdefault("LP_NATIVE_VECTOR_WIDTH", "256")  # both need the same width for equal films
 
 from pt._program import Program  # noqa: E402
 

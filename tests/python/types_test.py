@@ -1,4 +1,4 @@
-"""mypy --strict accepts the package and its example. Arguments: the package's folder."""
+"""mypy --strict must accept the package and its example. Argument: the package's folder."""
 
 import os
 import pathlib

@@ -1,5 +1,5 @@
-"""The page of pt view in headless Chromium (Debian's), by hand: python3 tests/python/view_browser_test.py build/bin/pt
-[FOLDER for screenshots], with PYTHONPATH=lib/python and PT_LIBRARY=build/lib/libpt.so.0.3"""
+"""Tests the page of pt view in headless Chromium (Debian's), by hand: python3 tests/python/view_browser_test.py
+build/bin/pt [FOLDER for screenshots], with PYTHONPATH=lib/python and PT_LIBRARY=build/lib/libpt.so.0.3"""
 
 import json
 import os
@@ -134,7 +134,7 @@ class Browser(unittest.TestCase):
         self.browser.until(f"{SAMPLES} > 8 && {line} !== {json.dumps(before)}")
         self.shot("orbited")
         moved = json.loads("{" + self.browser.value(line) + "}")["camera"]
-        self.assertAlmostEqual(np.linalg.norm(np.subtract(moved["position"], moved["look_at"])), 12.0, 1)  # about the blue ball
+        self.assertAlmostEqual(np.linalg.norm(np.subtract(moved["position"], moved["look_at"])), 12.0, 1)  # distance from the blue ball
         self.assertLess(moved["position"][0], -1.0)
         for key in ("ArrowLeft", "+"):
             shown = self.browser.value(line)

@@ -1,5 +1,5 @@
-"""The server of pt view: access and answers. Arguments: the program pt, and whether kernels can be compiled at run time
-(0 or 1)."""
+"""Tests access to the server of pt view, and its answers. Arguments: the program pt, and whether kernels can be
+compiled at run time (0 or 1)."""
 
 import asyncio
 import contextlib
@@ -120,7 +120,7 @@ class Views(unittest.TestCase):
         for name in ("view.js", "tone.js", "view.css", "codemirror.js"):
             self.assertEqual(self.request(good + name)[0], 200)
         port = self.host.partition(":")[2]
-        for host in (f"localhost:{port}", "127.0.0.1:9", "localhost", "[::1]:80"):  # a tunnel's end has another port
+        for host in (f"localhost:{port}", "127.0.0.1:9", "localhost", "[::1]:80"):  # the end of a tunnel has another port
             self.assertEqual(self.request(good, Host=host)[0], 200, host)
             self.assertEqual(self.request(good, Host=host, Origin=f"http://{host}")[0], 200, host)
         for host in ("example.org", f"127.0.0.1.example.org:{port}", f"example.org:{port}", "", "127.0.0.1:1:2", "127.0.0.2"):
@@ -314,7 +314,7 @@ class Edits(unittest.TestCase):
         np.testing.assert_array_equal(page.pixels, before)
         page.send({"save": "path.glsl", "text": text.replace(sought, "radiance = vec3(1.0) + emitted_by(hit.surface);")})
         page.frame(lambda state: not state["faults"] and state["samples"] == 16)
-        more = page.pixels - before  # 1 where a surface is, and roundings
+        more = page.pixels - before  # 1 where there is a surface, except for rounding
         self.assertTrue(np.isclose(more, 1.0, atol=1e-5).any() and (more > -1e-5).all() and (more < 1.00001).all())
         page.send({"save": "path.glsl", "text": text})
         page.frame(lambda state: state["samples"] == 16 and np.array_equal(page.pixels, before))

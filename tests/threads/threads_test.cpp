@@ -1,4 +1,4 @@
-// Contexts in two threads, and cancellation from another. The preset thread adds ThreadSanitizer.
+// Tests contexts in two threads, and cancellation from another thread. The preset `thread` adds ThreadSanitizer.
 #include "tests/support/context_calls.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/image_target.h"
@@ -23,7 +23,7 @@ using Image = std::vector<float>;
 struct Progress {
     std::atomic<bool> stop{false};
     std::atomic<int> calls{0};
-    int *unguarded = nullptr; // counts too, without synchronisation
+    int *unguarded = nullptr; // counts without synchronisation
 
     static int32_t report(void *user, double /*fraction*/) {
         auto *progress = static_cast<Progress *>(user);
@@ -86,7 +86,7 @@ TEST(ThreadsTest, AnotherThreadStopsACall) {
     EXPECT_EQ(result, PT_CANCELLED);
 }
 
-// During polls and waiting calls; also too early or too late.
+// The thread cancels during polls and waiting calls, and also too early or too late.
 TEST(ThreadsTest, AnyThreadCancels) {
     pt_context *const context = ready_context(0);
     ASSERT_NE(context, nullptr);
@@ -117,7 +117,7 @@ TEST(ThreadsTest, AnyThreadCancels) {
     pt_destroy(context);
 }
 
-// Against the contract, still without a race: the second call is refused.
+// This breaks the contract, but makes no race: the second call is refused.
 TEST(ThreadsTest, ASecondThreadIsRefused) {
     pt_context *const context = ready_context(0);
     ASSERT_NE(context, nullptr);
@@ -144,7 +144,7 @@ TEST(ThreadsTest, ASecondThreadIsRefused) {
     pt_destroy(context);
 }
 
-// Negative control: the callback races, and the sanitizer must report it.
+// Negative control: the callback makes a race, and the sanitizer must report it.
 TEST(ThreadsTest, DISABLED_ARaceInACallback) {
     int unguarded = 0;
     Progress progress;

@@ -1,5 +1,5 @@
-/* A user's program in C99: inside an emitting ball every pixel has exactly its radiance. Negative control: another
- * expectation as argument. */
+/* A user's program in C99. Inside an emitting ball, every pixel must have exactly the ball's radiance. Negative
+ * control: an argument is the expected value instead. */
 #include <pt/pt.h>
 
 #include <stdio.h>

@@ -1,4 +1,4 @@
-// A user's C++ program with its own namespace pt and the library's internal names.
+// A user's C++ program that has its own namespace pt and the library's internal names.
 #include <pt/pt.h>
 
 #include <iostream>
