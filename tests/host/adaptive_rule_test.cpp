@@ -24,7 +24,7 @@ using pt::TileStep;
 constexpr TileGrid model_grid{320, 160}; // 800 whole tiles
 constexpr double pixels_of_tile = 64.0;
 
-// Spread over decades, as in pictures.
+// The variances spread over decades, as in pictures.
 std::vector<double> spread_variances(std::uint32_t seed) {
     std::mt19937 generator(seed);
     std::normal_distribution<double> exponent(0.0, 1.6);
@@ -96,8 +96,9 @@ TEST(AdaptiveRule, LevelsDouble) {
     EXPECT_TRUE(pt::is_level(std::uint64_t{1} << 31));
 }
 
-// Samples in proportion to sqrt(v): (mean of sqrt(v))^2 / mean(v) of an even film's. Counts are powers of two, which
-// costs 4%; the last round misses its end by at most 2^(1/2). Negative control: stopping at equal errors gains nothing.
+// With samples in proportion to sqrt(v), the total is (mean of sqrt(v))^2 / mean(v) of an even film's. Counts are
+// powers of two, which costs 4%. The last round misses its end by at most 2^(1/2). Negative control: equal errors in
+// all tiles gain nothing.
 TEST(AdaptiveRule, GoesWhereSamplesGainMost) {
     for (const std::uint32_t seed : {1U, 2U, 3U}) {
         const std::vector<double> variances = spread_variances(seed);
@@ -135,7 +136,7 @@ TEST(AdaptiveRule, DoesNotOvershootTheTarget) {
     }
 }
 
-// All samples may have missed their light.
+// All samples of a black tile may have missed its light.
 TEST(AdaptiveRule, BlackTilesGetHalfOfTheMean) {
     std::vector<double> variances(model_grid.count(), 0.0);
     std::fill_n(variances.begin(), variances.size() / 2, 1.0);
@@ -185,7 +186,7 @@ TEST(AdaptiveRule, WhatIsUnseenMovesNoBound) {
     EXPECT_GT(pt::round_after(before, samples, squares, gains, 1.1, true).number, before.number);
 }
 
-// mean(v) mean(1) / mean(sqrt(v))^2 of two halves: 2 (1 + r) / (1 + sqrt(r))^2 for their ratio r.
+// Two halves whose gains have the ratio r give mean(v) / mean(sqrt(v))^2 = 2 (1 + r) / (1 + sqrt(r))^2.
 TEST(AdaptiveRule, TilesThatAreAlikeStayTogether) {
     std::vector<double> gains(1000, 1.0);
     EXPECT_FALSE(pt::are_worth_telling_apart(gains));
@@ -218,7 +219,7 @@ struct ModelFilm {
     bool has_target_error = false;
 };
 
-// v / n times a random factor for each n, like the difference of a film's parts. spread: deviation of log(v).
+// A tile's squared error is v / n times a random factor for each n. `spread` is the deviation of log(v).
 class ModelErrors {
 public:
     ModelErrors(std::uint32_t seed, double spread) : seed_(seed) {
@@ -258,7 +259,7 @@ private:
     std::vector<double> variances_;
 };
 
-// stop_after: tiles; the last one gets at most half of its step.
+// Stops after `stop_after` tiles. The last one gets at most half of its step.
 void sample_plan(ModelFilm &film, const ModelErrors &errors, const pt::MostSamples &counts, std::uint64_t stop_after) {
     const AdaptivePlan plan(goal_error, counts,
                             {[&] { return errors.error_of(film); }, [&] { return errors.squares_of(film); },
@@ -293,7 +294,7 @@ ModelFilm sampled_at_once(const ModelErrors &errors, std::uint64_t most) {
     return film;
 }
 
-// Some calls just complete pixels.
+// Some calls add no samples to complete pixels.
 ModelFilm sampled_in_calls(const ModelErrors &errors, std::uint64_t most, std::mt19937 &generator) {
     ModelFilm film;
     for (int call = 0; call < 12; ++call) {
@@ -306,7 +307,7 @@ ModelFilm sampled_in_calls(const ModelErrors &errors, std::uint64_t most, std::m
     return film;
 }
 
-// Limits at a level, between levels, and beyond the target.
+// Calls end at a level, between levels, and beyond the target.
 TEST(AdaptivePlan, CallsThatEndAnywhereComeToTheSameSamples) {
     std::mt19937 generator(1);
     int with_target_error = 0;

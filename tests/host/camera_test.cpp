@@ -117,7 +117,7 @@ TEST(Camera, TakesWhatIsSet) {
     EXPECT_EQ(camera.shutter_close, 0.25);
 }
 
-// Systems differ in the angle's last bits.
+// Tangents of different systems differ in the last bits.
 TEST(Camera, IsTheSameWhereTangentsAreNearlySo) {
     pt_camera source = valid_camera();
     source.vertical_fov = 0.7;

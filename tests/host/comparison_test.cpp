@@ -1,4 +1,4 @@
-// Comparisons of light, on invented images whose means and noise are known.
+// Comparisons of invented images whose means and noise are known.
 #include <pt/compare.h>
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ constexpr std::size_t pixel_count = std::size_t{width} * height;
 using Pixels = std::vector<float>;
 using Noise = std::function<double(std::mt19937 &)>;
 
-// Grey pixels, each a draw.
+// Returns grey pixels with independent noise.
 Pixels drawn(std::mt19937 &random, const Noise &noise) {
     Pixels pixels;
     for (std::size_t i = 0; i < pixel_count; ++i)
@@ -54,17 +54,17 @@ pt_comparison compared(const pt_compare_info &info) {
     return comparison;
 }
 
-// Normal noise of the mean 1.
+// Normal noise with the mean 1.
 Noise normal(double deviation) {
     return [=](std::mt19937 &random) { return std::normal_distribution(1.0, deviation)(random); };
 }
 
-// Noise of the mean 1: events that a share of the pixels has met.
+// Rare events with the mean 1. A pixel expects `share` events.
 Noise rare_events(double share) {
     return [=](std::mt19937 &random) { return std::poisson_distribution<int>(share)(random) / share; };
 }
 
-// A share of the light is as rare.
+// Rare events bring the share `of_light` of the light.
 Noise partly_rare(double share, double of_light) {
     return [=](std::mt19937 &random) {
         return (1.0 - of_light) * normal(0.001)(random) + of_light * rare_events(share)(random);
@@ -96,7 +96,7 @@ TEST(Comparison, EqualBitsAndLightWithoutNoise) {
     EXPECT_STREQ(compared(info_of(brighter, ones)).summary, "different light: +5% +- 0.25% of the picture in R");
 }
 
-// The bound in shaders/README.md, section 11, by hand: there are three sizes of regions.
+// Computes the bound of shaders/README.md, section 11. There are three sizes of regions.
 TEST(Comparison, TheProbabilityIsThatOfSigns) {
     std::mt19937 random(1);
     const Pixels ones(3 * pixel_count, 1.0F);
@@ -114,7 +114,7 @@ TEST(Comparison, TheProbabilityIsThatOfSigns) {
     const double up = static_cast<double>(1.1F) - 1.0;
     const double down = static_cast<double>(0.9F) - 1.0;
     const double deviation = std::sqrt(plus * up * up + minus * down * down);
-    const double event = std::max(up / 1.0, -down / (1.0 + down)); // relative, of the light of 1
+    const double event = std::max(up / 1.0, -down / (1.0 + down)); // relative to the light 1
     const double excess = plus * up + minus * down - 1e-4 * pixel_count;
     const double by_noise = std::min(excess, deviation * deviation / event) / deviation;
     const double by_events = excess / event - by_noise * deviation / event;
@@ -126,10 +126,10 @@ TEST(Comparison, TheProbabilityIsThatOfSigns) {
     EXPECT_NEAR(whole.difference[1], (plus * up + minus * down) / pixel_count, 1e-12);
 }
 
-// Bentkus and Dzindzalieta's constant, against exact tails of sums of n signs.
+// Compares Bentkus and Dzindzalieta's constant with exact tails of sums of n signs.
 TEST(Comparison, TheConstantOfSignsHolds) {
     for (const int n : {2, 3, 10, 31}) {
-        double term = std::pow(0.5, n); // n signs +
+        double term = std::pow(0.5, n); // all n signs are +
         double tail = 0.0;
         for (int minus = 0; 2 * minus <= n; ++minus) {
             tail += term;
@@ -140,7 +140,7 @@ TEST(Comparison, TheConstantOfSignsHolds) {
     }
 }
 
-// A Poisson number of equal events meet a pixel each; the other image has no noise.
+// The first image has a Poisson number of equal events, each in its own pixel. The other image has no noise.
 TEST(Comparison, TheProbabilityIsAtLeastThatOfEvents) {
     constexpr double expected = 300.0;
     const Pixels ones(3 * pixel_count, 1.0F);
@@ -172,7 +172,8 @@ TEST(Comparison, EqualLightIsHardlyEverCalledDifferent) {
     EXPECT_LE(count_different(partly_rare(0.001, 0.05), partly_rare(0.016, 0.05), pairs, rate, 16.0), most);
 }
 
-// The smallest change is found with 99%: of 300 pairs all but 10 with a probability of 99.9%.
+// The smallest change is found with a probability of 99%. At most 10 of 300 pairs then miss it, with a probability of
+// 99.9%.
 TEST(Comparison, TheSmallestChangeIsFound) {
     std::mt19937 random(3);
     for (const Noise &noise : {normal(0.02), normal(0.2), rare_events(3.0)}) {
@@ -202,10 +203,10 @@ TEST(Comparison, TooFewSamplesAreToldFromTheSameLight) {
     info.min_change = smallest * 0.99;
     EXPECT_EQ(compared(info).light, PT_LIGHT_UNDECIDED);
     const Pixels black(first.size(), 0.0F);
-    EXPECT_EQ(compared(info_of(black, second)).light, PT_LIGHT_UNDECIDED); // perhaps it has not met the lamp
+    EXPECT_EQ(compared(info_of(black, second)).light, PT_LIGHT_UNDECIDED); // The black image may have missed the lamp.
 }
 
-// Unless the other image may miss it as well.
+// A lack of light counts if the other image may miss light as well.
 TEST(Comparison, LackOfLightThatMayBeMissedSaysNothing) {
     std::mt19937 random(5);
     const Pixels darker = drawn(random, normal(0.02));
@@ -219,7 +220,7 @@ TEST(Comparison, LackOfLightThatMayBeMissedSaysNothing) {
     EXPECT_EQ(compared(info).light, PT_LIGHT_DIFFERENT);
 }
 
-// The lack may be one of samples as bright as the lamp in view.
+// The image that lacks light may lack samples as bright as the visible lamp.
 TEST(Comparison, ASampleOfTheBrightestPixelMayBeMissing) {
     Pixels second(3 * pixel_count, 1.0F);
     Pixels first = times(second, 0.97);

@@ -23,7 +23,7 @@ struct Surface {
 
 constexpr float half = 0.5F;
 
-// A pixel covers a 512th of its distance, less 0.8% by the bounds of depths.
+// A pixel's side is 1/512 of its distance, less 0.8% by the bounds of depths.
 constexpr pt::RenderSettings square{64, 64, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 64};
 const pt::Camera ahead{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.0625, 0.0, 1.0};
 
@@ -69,8 +69,8 @@ std::optional<pt::BrokenRule> displaced_capsule(const glm::dvec3 &center, const 
 }
 
 TEST(Displacement, OfSpheresThatShareAGridWithADistantOne) {
-    // The grid reaches from -4 to -1e9 - 1, so its steps are 1 and centers are off by half its diagonal. The near
-    // sphere is held at -4.5; a pixel at -3.5 is 1 / 146.3.
+    // The grid reaches from -4 to -1e9 - 1. Its steps are 1, so centers are off by half its diagonal. The near sphere's
+    // center becomes -4.5, and a pixel at -3.5 has the side 1 / 146.3.
     const auto rule = displaced({{{0, 0, -5}, 1, half}, {{0, 0, -1e9}, 1, half}});
     ASSERT_TRUE(rule);
     EXPECT_EQ(rule->subject, "sphere_arrays");
@@ -86,14 +86,14 @@ TEST(Displacement, OfSpheresThatShareAGridWithADistantOne) {
     EXPECT_FALSE(displaced({{{0, 0, 5}, 1, half}, {{0, 0, 1e9}, 1, half}})) << "behind the camera";
 }
 
-// An opacity of 1 - 1/1000 is held as 1.
+// An opacity of 1 - 1/1000 is rounded to 1.
 TEST(Displacement, OpaqueSpheresAreNotInTheTree) {
     EXPECT_FALSE(displaced({{{0, 0, -5}, 1, 0.999F}, {{0, 0, -1e9}, 1, 0.999F}}));
     EXPECT_TRUE(displaced({{{0, 0, -5}, 1, 0.99F}, {{0, 0, -1e9}, 1, 0.99F}}));
     EXPECT_FALSE(displaced({{{0, 0, -5}, 1, half}, {{0, 0, -1e9}, 1, 1.0F}}));
 }
 
-// Radii err by 2^-16; a pixel at 8 is 1 / 64, which is 2^-16 of 1024.
+// Radii have an error of 2^-16. A pixel at distance 8 has the side 1 / 64, which is 2^-16 of 1024.
 TEST(Displacement, OfTranslucentRadii) {
     const auto ball = [](double radius) { return Surface{{0, 0, -radius - 8.0}, radius, half}; };
     EXPECT_FALSE(displaced({ball(1000)}));
@@ -113,13 +113,13 @@ TEST(Displacement, OfSpheresThatShareAGridWithAGround) {
     EXPECT_EQ(rule->component, 1);
 }
 
-// The capsule passes at a distance of 1, where a pixel is 1 / 512 = 2^-21 of 2^12.
+// The capsule passes at a distance of 1, where a pixel's side is 1 / 512 = 2^-21 of 2^12.
 TEST(Displacement, OfLongCapsules) {
     const auto passing = [](double length) {
         return displaced_capsule({-0.5 * length, 0, -1.5}, {0.5 * length, 0, -1.5}, 0.5);
     };
     EXPECT_FALSE(passing(1));
-    EXPECT_FALSE(passing(3200)); // its parts may be taken to be nearer by an eighth
+    EXPECT_FALSE(passing(3200)); // The bound may place its parts nearer by an eighth.
     const auto rule = passing(4200);
     ASSERT_TRUE(rule);
     EXPECT_EQ(rule->member, "end");

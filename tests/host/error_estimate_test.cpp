@@ -13,7 +13,7 @@
 
 namespace {
 
-// enough for unseen light to count as nothing
+// Unseen light counts as nothing with so large a count.
 constexpr std::uint64_t sample_count = std::uint64_t{1} << 40;
 
 pt::ImageValues pixels_of(const std::vector<float> &radiance, const std::vector<float> &standard_error) {
@@ -31,12 +31,12 @@ pt::ErrorEstimate estimate(std::uint32_t width, const std::vector<float> &radian
     return estimator.result();
 }
 
-// The margin for squares as concentrated as this many equal pixels (error_estimate.cpp).
+// Adds the margin for squares concentrated in this many equal pixels (error_estimate.cpp).
 double raised(double root, double pixel_count) {
     return root * (1.0 + 0.6 / std::sqrt(pixel_count) + 1.2 / pixel_count);
 }
 
-// 3^2 and 4^2 in two of six values: like 25^2 / (9^2 + 16^2) equal ones.
+// Two of six values have the squares 3^2 and 4^2. They are as concentrated as 25^2 / (9^2 + 16^2) equal values.
 TEST(ErrorEstimate, IsTheRootOfTheMeanOfSquares) {
     const pt::ErrorEstimate found = estimate(2, {10, 10, 10, 10, 10, 10}, {3, 0, 0, 4, 0, 0});
     const double pixel_count = 625.0 / 337.0;
@@ -65,13 +65,14 @@ TEST(ErrorEstimate, IsUncertainWhereLampsMayBeMissed) {
     EXPECT_EQ(missed.rmse.estimate, met.rmse.estimate);
     EXPECT_DOUBLE_EQ(missed.rmse.high, 2.0 * met.rmse.high);
     EXPECT_DOUBLE_EQ(missed.relative_rmse.low, 0.5 * met.relative_rmse.low);
-    // A black picture tells nothing.
+    // A black image contains no information.
     const std::vector<float> black(errors.size(), 0.0F);
     EXPECT_EQ(estimate(32, black, black).relative_rmse.high, 0.0);
     EXPECT_TRUE(std::isinf(estimate(32, black, black, PT_SAMPLER_RANDOM, true).relative_rmse.high));
 }
 
-// If most pixels were hit once, each counts by the black around it, otherwise by the expected hits, 2 ln 3.
+// If most bright pixels were hit once, each counts relative to the black around it. Otherwise it counts relative to the
+// expected hits, 2 ln 3.
 TEST(ErrorEstimate, TellsLampsFromRareSamples) {
     constexpr std::size_t side = 64;
     const auto relative_square = [](std::size_t met_once, std::size_t met_again) {
@@ -86,7 +87,7 @@ TEST(ErrorEstimate, TellsLampsFromRareSamples) {
         const pt::ErrorEstimate found = estimate(side, radiance, errors);
         const double count = static_cast<double>(met_once);
         const double square = found.relative_rmse.estimate / raised(1.0, count);
-        return square * square * side * side / count; // per pixel hit once
+        return square * square * side * side / count; // for each pixel with one hit
     };
     const auto expected = [](double met_once, double met_again) {
         const double meetings = 2.0 * std::log(1.0 + 2.0 * (met_again + 0.5) / (met_once + 1.0));
@@ -97,8 +98,8 @@ TEST(ErrorEstimate, TellsLampsFromRareSamples) {
     EXPECT_GT(expected(40, 0), 300.0);
 }
 
-// 40 pixels were hit once, 0 or 20 others again. 20 mean 20 - 1.96 sqrt(20) at least; 0 allow light of any rarity, so
-// each may count by the black around it.
+// 40 pixels have one hit each, and 0 or 20 others have several. 20 stand for at least 20 - 1.96 sqrt(20). 0 allow light
+// of any rarity, so each pixel may count relative to the black around it.
 TEST(ErrorEstimate, IsBoundedByTheRarestLightThatMeetingsAllow) {
     const double least = 20.0 - 1.96 * std::sqrt(20.0);
     const auto square = [](double met_again) {
@@ -122,7 +123,7 @@ TEST(ErrorEstimate, IsBoundedByTheRarestLightThatMeetingsAllow) {
     }
 }
 
-// With lamps found by chance, pixels hit once count by their surroundings, here 0.
+// If lamps are found by chance, pixels with one hit count relative to their surroundings, which are 0 here.
 TEST(ErrorEstimate, OfLampsFoundByChanceAsksNotWhatWasMetAgain) {
     std::vector<float> radiance(3 * 32 * 32, 0.0F);
     std::vector<float> errors(radiance.size(), 0.0F);
@@ -153,10 +154,10 @@ TEST(ErrorEstimate, CountsLightThatMayBeUnseen) {
     const pt::ErrorEstimate found = estimator.result();
     const double seen = 1.0 / (159.0 * 159.0 + 0.01);
     constexpr double b = 10.0 / 0.1;
-    constexpr double unseen = 0.055 * b * b / (4.0 * (3.0 + 0.81 * b + 0.9 * 1000.0)); // per column, of two
+    constexpr double unseen = 0.055 * b * b / (4.0 * (3.0 + 0.81 * b + 0.9 * 1000.0)); // for each of two columns
     EXPECT_DOUBLE_EQ(found.relative_rmse.estimate, raised(std::sqrt((seen + 2.0 * unseen) / 32.0), 32.0));
     EXPECT_EQ(found.uncertain, unsigned{PT_UNCERTAIN_UNSEEN});
-    EXPECT_EQ(estimate(32, radiance, errors).uncertain, 0U); // with many more samples
+    EXPECT_EQ(estimate(32, radiance, errors).uncertain, 0U); // has many more samples
 }
 
 TEST(ErrorEstimate, OfPlainHaltonIsStatedAFifthLarger) {
@@ -193,8 +194,9 @@ TEST(ErrorEstimate, IsHiddenByMoreThanOneLeftOutSampleInAMillion) {
     EXPECT_TRUE(pt::hides_error((1 << 10) + 1, std::uint64_t{1} << 30));
 }
 
-// Squares 64 * 3 * 1 and 64 * 3 * 4: mean 2.5 per value, deviations 64 * 3 * 1.5, root sum of squares 1.5 sqrt(2) / 5
-// of the sum; like (64 * 5)^2 / (64 * 17) equal pixels.
+// Two tiles have the squares 64 * 3 * 1 and 64 * 3 * 4. Their mean is 2.5 per value, and their deviations are 64 * 3 *
+// 1.5. The root of the squared deviations' sum is 1.5 sqrt(2) / 5 of the total. The squares are as concentrated as (64
+// * 5)^2 / (64 * 17) equal pixels.
 TEST(ErrorEstimate, BoundsComeFromTheSpreadOverTiles) {
     std::vector<float> errors;
     for (int pixel = 0; pixel < 8 * 16; ++pixel)
@@ -215,7 +217,7 @@ TEST(ErrorEstimate, BoundsComeFromTheSpreadOverTiles) {
     EXPECT_EQ(without_spread.estimate, without_spread.high) << "within the bounds";
 }
 
-// 1.96 / sqrt(3 n) as a logarithm, for 8 of 64 tiles with one pixel each.
+// In 8 of 64 tiles one pixel has an error, so the logarithm of the bound is 1.96 / sqrt(3 * 8).
 TEST(ErrorEstimate, BoundsOfFewPixelsAreWide) {
     std::vector<float> errors(3 * 64 * 64, 0.0F);
     for (std::size_t row = 0; row < 64; row += 8)

@@ -25,7 +25,7 @@ Bytes bytes_of(const pt::Film &film) {
     return bytes;
 }
 
-// 8x8 as in adaptive sampling, or the whole image.
+// Returns tiles of 8x8 pixels, as in adaptive sampling, or the whole image.
 std::vector<pt::Rectangle> grid(std::uint32_t width, std::uint32_t height) {
     std::vector<pt::Rectangle> tiles;
     for (std::uint32_t y = 0; y < image_height; y += height)
@@ -44,7 +44,7 @@ Bytes film_by_sample(const Samples &samples) {
     return film_maker::film_of(film_maker::identity(image_width, image_height), film_maker::tiles_of(samples), samples);
 }
 
-// One set of samples for all tiles, or one for each.
+// All tiles have one set of samples, or each has its own.
 struct Part {
     Samples samples;
     Bytes bytes;
@@ -73,7 +73,7 @@ Part random_part(std::mt19937 &random, std::uint32_t first) {
     return part;
 }
 
-// Equal tiles, and overlapping ones.
+// The films have equal tiles or overlapping ones.
 TEST(Film, SumsHaveTheBytesOfTheirSamplesInAnyOrder) {
     std::mt19937 random(1);
     for (int round = 0; round < 40; ++round) {
@@ -144,14 +144,14 @@ TEST(Film, MeansAndErrorsAreRoundedOnce) {
                   for (std::uint32_t i = 0; i < image_width; ++i)
                       for (std::uint32_t channel = 0; channel < 3; ++channel) {
                           const film_maker::Pixel pixel{y, i};
-                          long double sum = 0.0L; // twelve numbers below 2^84 are exact to 64 bits; a float has 24
+                          long double sum = 0.0L; // exact: 12 numbers below 2^84, each with 24 bits
                           int accepted = 0;
                           for (std::uint32_t index = 0; index < 12; ++index)
                               if (!film_maker::is_rejected(pixel, index)) {
                                   sum += static_cast<long double>(film_maker::value_of(pixel, index, channel));
                                   ++accepted;
                               }
-                          const auto mean = static_cast<float>(sum / accepted * 0x1p-63L); // 2^-60, in units of 2^-3
+                          const auto mean = static_cast<float>(sum / accepted * 0x1p-63L); // 2^-60 in units of 2^-3
                           ASSERT_EQ(values[3 * i + channel], mean) << y << ' ' << i;
                       }
               });

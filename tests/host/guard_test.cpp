@@ -1,4 +1,4 @@
-// Exceptions without a message, names of results, the log.
+// Exceptions without a message, the names of results, and the log.
 #include "lib/api/guard.h"
 #include "lib/base/log.h"
 

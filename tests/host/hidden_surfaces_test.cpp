@@ -1,4 +1,4 @@
-// Where hidden surfaces confine paths.
+// Regions in which hidden surfaces confine paths.
 #include "lib/kernel/gpu_scene.h"
 #include "lib/kernel/kernel_surfaces.h"
 #include "lib/kernel/scene_features.h"
@@ -154,7 +154,7 @@ TEST(HiddenSurfaces, AreNotInTheTree) {
     ASSERT_EQ(prepared.scene.indices.size(), 10U);
     for (std::uint32_t i = 0; i < 10; ++i)
         EXPECT_EQ(prepared.scene.indices[i], 10 * i + 3);
-    EXPECT_FALSE(prepared_scene_of(checked_scene_of(scene), 91).tree); // seen ones count
+    EXPECT_FALSE(prepared_scene_of(checked_scene_of(scene), 91).tree); // Only visible spheres count.
 }
 
 } // namespace

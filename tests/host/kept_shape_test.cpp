@@ -1,4 +1,4 @@
-// Trees that keep another's shape.
+// Trees that reuse another tree's shape.
 #include "tests/host/heap_tree.h"
 
 #include "lib/kernel/prepared_scene.h"
@@ -21,7 +21,7 @@ namespace {
 using namespace heap_tree;
 using Spheres = std::vector<pt_sphere>;
 
-constexpr std::size_t ball_count = 2000; // in [-1, 1]^3, a spacing of 0.16
+constexpr std::size_t ball_count = 2000; // The balls lie in [-1, 1]^3 with a spacing of 0.16.
 
 Spheres moved(Spheres spheres, double by) {
     std::mt19937 engine(29);
@@ -152,7 +152,7 @@ TEST(KeptShape, IsNotForTwins) {
     EXPECT_EQ(of_twins.sphere_count(), ball_count - 1);
     EXPECT_FALSE(kept(of_twins, spheres));
     EXPECT_FALSE(kept(of_twins, with_twins));
-    // without twins only places decide at equal distances
+    // These are no twins, but only their places decide at equal distances.
     with_twins[1500].motion[0] = 0.5;
     EXPECT_EQ(tree_of(with_twins).sphere_count(), ball_count);
     EXPECT_FALSE(kept(tree, with_twins));

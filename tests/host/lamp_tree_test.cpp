@@ -1,4 +1,4 @@
-// The lamp tree from the host: shape, order, words.
+// The host's part of the lamp tree: its shape, order and words.
 #include "lib/kernel/lamp_tree_words.h"
 #include "lib/kernel/scene_blocks.h"
 #include "lib/scene/lamp_tree.h"

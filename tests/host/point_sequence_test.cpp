@@ -1,4 +1,4 @@
-// Radical inverses against exact values, Sobol points against their net properties, and the kernel's table.
+// Compares radical inverses with exact values. Tests net properties of Sobol points, and the kernel's table.
 #include "lib/kernel/point_sequence.h"
 
 #include <gtest/gtest.h>
@@ -42,7 +42,7 @@ struct ExactInverse {
     std::uint64_t index;
     std::uint64_t base;
     double value;
-    std::uint64_t floor_of_2_to_32; // of 2^32 times the value, exactly
+    std::uint64_t floor_of_2_to_32; // floor of 2^32 times the exact value
 };
 
 std::vector<ExactInverse> exact_inverses() {
@@ -91,7 +91,7 @@ TEST(RadicalInverse, OfTheLastDimensionMatchesItsDigits) {
             place /= 311.0L;
             value += place * static_cast<long double>(rest % 311);
         }
-        // 64 bits of mantissa: the floor is off only within 2^-30 of an integer.
+        // With 64 bits of mantissa, the floor is wrong only within 2^-30 of an integer.
         const long double scaled = value * 4294967296.0L;
         EXPECT_NEAR(static_cast<double>(scaled), pt::radical_inverse(index, pt::sequence_dimensions - 1) + 0.5, 0.501)
             << "index " << index;
@@ -109,7 +109,7 @@ constexpr std::uint32_t net_digits = 10;
 constexpr std::uint32_t net_size = 1U << net_digits;
 constexpr std::uint32_t net_starts[] = {0, net_size, 77 * net_size, 0x80000000U, 0xffffffffU - net_size + 1};
 
-// A (0,1)-sequence in base 2: an aligned block of 2^k points hits each of 2^k intervals once.
+// In a (0,1)-sequence in base 2, an aligned block of 2^k points has one point in each of 2^k intervals.
 TEST(Sobol, EveryDimensionIsAZeroOneSequence) {
     for (std::uint32_t dimension = 0; dimension < pt::sequence_dimensions; ++dimension)
         for (const std::uint32_t start : net_starts)
@@ -118,7 +118,7 @@ TEST(Sobol, EveryDimensionIsAZeroOneSequence) {
                     << "dimension " << dimension << ", 2^" << digits << " points from " << start;
 }
 
-// A (0,2)-sequence in base 2: an aligned block of 2^m points hits each elementary box of volume 2^-m once.
+// In a (0,2)-sequence in base 2, an aligned block of 2^m points has one point in each elementary box of volume 2^-m.
 TEST(Sobol, TheFirstTwoDimensionsAreAZeroTwoSequence) {
     for (const std::uint32_t start : net_starts) {
         const Coordinates x = sobol_coordinates(start, net_size, 0);
@@ -158,7 +158,7 @@ std::uint32_t reversed(std::uint32_t word) {
     return result;
 }
 
-// Vegdahl's hash (2021) on the reversed word, in 64 bits.
+// Computes Vegdahl's hash (2021) of the reversed word with 64 bits.
 std::uint32_t scrambled_in_64_bits(std::uint32_t coordinate, std::uint32_t seed) {
     constexpr std::uint64_t modulus = std::uint64_t{1} << 32;
     std::uint64_t v = reversed(coordinate);
@@ -280,7 +280,7 @@ TEST(PointTable, BranchesArePointsOfTheirOwnInTheDimensionsThatTheyDoNotShare) {
     }
 }
 
-// Sample 2^30 + i has the points 2^32 + 4 i + b, which Sobol's 32 bits repeat; another scramble makes them different.
+// Sample 2^30 + i has the points 2^32 + 4 i + b. Sobol's 32 bits repeat them, so they need another scramble.
 TEST(PointTable, OfSobolRepeatsNoPoint) {
     const pt::PointLayout layout{{3, 2, 4, 4}, 2, 4};
     const auto row_of = [&](std::uint32_t index) {

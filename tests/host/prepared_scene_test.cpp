@@ -70,7 +70,7 @@ TEST(SceneDigest, DoesNotDependOnTheListOfMaterials) {
     repeated.materials[0].diffuse.r = repeated.materials[2].diffuse.r = 0.0F;
     const std::string zero = pt::digest_of(repeated);
     EXPECT_NE(zero, digest);
-    repeated.materials[2].diffuse.r = -0.0F; // equal to 0
+    repeated.materials[2].diffuse.r = -0.0F; // -0 equals 0
     EXPECT_EQ(pt::digest_of(repeated), zero);
 }
 

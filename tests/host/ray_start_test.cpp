@@ -1,4 +1,4 @@
-// Where camera rays start in narrow and parallel views.
+// The start of camera rays in narrow and parallel views.
 #include "lib/kernel/prepared_scene.h"
 #include "lib/kernel/ray_start.h"
 #include "lib/scene/checked_scene.h"
@@ -49,7 +49,7 @@ pt::Sphere ball_from_camera(const glm::dvec3 &place, double radius, const glm::d
     return {camera_position + place, radius, motion, 0};
 }
 
-// The limit is a pixel's side of 2^-14 of its distance: fov = 64 * 2^-14.
+// At the limit, a pixel's side is 2^-14 of its distance: fov = 64 * 2^-14.
 TEST(RayStart, IsThePinholeInWideViews) {
     EXPECT_EQ(start_of({ball_from_camera(1e6 * oblique, 1)}, {}, looking_along(oblique, 4.0e-3)), 0.0);
     EXPECT_GT(start_of({ball_from_camera(1e6 * oblique, 1)}, {}, looking_along(oblique, 3.8e-3)), 0.9e6);
@@ -57,7 +57,7 @@ TEST(RayStart, IsThePinholeInWideViews) {
 
 constexpr double narrow = 1e-5;
 
-// The margin is the view's half diagonal there, 7.07e-6 of the distance.
+// The margin is half the view's diagonal at that distance, 7.07e-6 of the distance.
 TEST(RayStart, IsJustBeforeTheFirstSurfaceInView) {
     const pt::Camera camera = looking_along(oblique, narrow);
     const double width = std::tan(0.5 * narrow) * std::sqrt(2.0);
@@ -106,7 +106,7 @@ TEST(RayStart, IsInsideOfWhatHoldsTheCamera) {
     EXPECT_EQ(start_of({}, {{{0, 1, 0}, -2, 0}}, camera), 0.0) << "the camera is on the plane";
 }
 
-// Five eighths of the diagonal are 1.25 of its half: for side 2, 1.25 sqrt(2).
+// Five eighths of the diagonal are 1.25 of its half. For side 2 they are 1.25 sqrt(2).
 TEST(RayStart, OfParallelRaysIsFiveEighthsOfTheDiagonalBeforeTheFirstSurface) {
     const pt::Camera camera = parallel_along(oblique, 2.0);
     const double before = 1.25 * std::sqrt(2.0);
@@ -137,7 +137,7 @@ TEST(RayStart, OfParallelRaysIsAtThePositionWhereNothingIsInView) {
     EXPECT_EQ(start_of({}, {{{0, 1, 0}, -1.5, 0}}, camera), 0.0) << "a plane divides the view";
 }
 
-// By textbook formulas.
+// Finds hits by textbook formulas.
 TEST(RayStart, NothingInViewIsBeforeIt) {
     std::mt19937 engine(5);
     const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(engine); };
@@ -197,8 +197,8 @@ TEST(RayStart, NothingInViewIsBeforeIt) {
     EXPECT_GT(near_misses[1], 1000) << "the bound is of use";
 }
 
-// Float32 decides sides within these margins: lists with spheres larger by them, or smaller around the camera, give the
-// same start.
+// Float32 decides sides within these margins. A list of spheres that are larger by the margin, or smaller around the
+// camera, gives the same start as the tree.
 TEST(RayStart, OfATreeIsThatOfItsSpheres) {
     std::mt19937 engine(7);
     const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(engine); };

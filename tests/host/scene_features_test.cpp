@@ -1,4 +1,4 @@
-// Features by geometry.
+// Features that depend on geometry.
 #include "lib/kernel/gpu_scene.h"
 #include "lib/kernel/scene_features.h"
 #include "tests/support/checked_scene_of.h"
@@ -37,7 +37,7 @@ pt::Features features_of(const std::vector<pt::Sphere> &spheres, const std::vect
         .features;
 }
 
-// center: relative to the camera.
+// The center is relative to the camera.
 pt::Sphere ball_at(const glm::dvec3 &center, double radius, const glm::dvec3 &motion = nowhere,
                    std::uint32_t material = dark) {
     return {eye + center, radius, motion, material};
@@ -115,7 +115,7 @@ TEST(FeatureInside, IsAtAnyTimeOfTheShutter) {
     EXPECT_FALSE(features_of({ball_at({-8, 0, 0}, 1, {16, 0, 0})}, {}, {0.5, 0.5})[pt::gpu::ID_MOTION]);
 }
 
-// height: relative to the camera.
+// The height is relative to the camera.
 pt::Plane floor_at(double height, bool upwards = true) {
     const double side = upwards ? 1 : -1;
     return {{0, side, 0}, -side * (eye.y + height), dark};
@@ -193,7 +193,7 @@ TEST(FeaturePlanesBlock, NeedsPlanesAndLamps) {
     EXPECT_FALSE(planes_block({}, {}));
 }
 
-// It may bulge between two points on one side of its tangent plane.
+// A curved plane may bulge between two points on one side of its tangent plane.
 TEST(FeaturePlanesBlock, IsTrueWithACurvedPlane) {
     const pt::Sphere huge = ball_at({0, -1004, 0}, 1000);
     const pt::Features features = features_of({huge, lamp_at({0, 3, -5}, 1)}, {});
@@ -215,7 +215,7 @@ TEST(FeatureSky, IsALampThatHoldsTheCamera) {
     EXPECT_EQ(counts({lamp_at({0, 3, 0}, 4, {0, 2, 0})}, {0, 0.4}), (Counts{0, 1}));
 }
 
-// heights: of floors below the camera.
+// The heights are depths of floors below the camera.
 bool known_sides(const std::vector<pt::Sphere> &spheres, const std::vector<double> &heights) {
     std::vector<pt::Plane> planes;
     for (const double height : heights)

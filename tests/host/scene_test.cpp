@@ -186,7 +186,7 @@ pt::Plane normalized(const pt_plane &plane) {
 TEST(Scene, NormalizesPlanesOfAnyScale) {
     const double denormal = std::numeric_limits<double>::denorm_min();
     const double largest = std::numeric_limits<double>::max();
-    // Square, sum, root and division: 4 roundings of 2^-53.
+    // Square, sum, root and division have 4 roundings of 2^-53.
     const double tolerance = 4 * 0x1p-53;
     for (const double scale : {1.0, 3.0, 1e300, 1e-300, 0x1p-1040, denormal, largest / 2}) {
         SCOPED_TRACE(scale);

@@ -29,7 +29,7 @@ Device constant_device(double paths_per_second) {
     return [=](double, double paths) { return overhead + paths / paths_per_second; };
 }
 
-// To a tenth.
+// The speed falls to a tenth.
 Device throttled_device(double paths_per_second, double paths_until_then) {
     return [=](double before, double paths) {
         return overhead + paths / (before < paths_until_then ? paths_per_second : 0.1 * paths_per_second);
@@ -52,7 +52,7 @@ struct Step {
     double paths() const { return pt::paths_of(tile_count, samples.count()); }
 };
 
-// As Accumulation does.
+// Runs slices in the order of Accumulation.
 std::vector<Step> simulate(std::uint32_t tile_count, std::uint64_t samples, const pt::ScheduleLimits &limits,
                            const Device &device) {
     std::vector<std::uint32_t> all(tile_count);
@@ -111,7 +111,7 @@ struct DeviceCase {
     std::uint32_t tile_count;
     std::uint64_t samples;
     Device device;
-    // Share of full slices after warm-up within a factor of 2 of the target.
+    // Least share of full slices, after warm-up, within a factor of 2 of the target.
     double on_target;
 };
 
@@ -137,7 +137,8 @@ TEST(Schedule, DoesAllWorkOnceNearTheTarget) {
                                 {"a fast GPU", full_hd, 5000, constant_device(3e9), 1.0},
                                 {"speed falls to a tenth", full_hd, 400, throttled_device(1e8, 2e8), 0.99},
                                 {"speed falls below a sample", full_hd, 100, throttled_device(1e8, 5e7), 0.99},
-                                // Two noises: beyond a factor of 2 with probability (1 - ln 2 / (2 ln 1.5))^2 = 0.02.
+                                // Two slices' noises exceed a factor of 2 with the probability (1 - ln 2 / (2 ln
+                                // 1.5))^2 = 0.02.
                                 {"a noisy clock", 25 * 10, 200000, noisy_device(1e8), 0.95}};
     for (const DeviceCase &each : cases) {
         SCOPED_TRACE(each.name);
@@ -155,7 +156,7 @@ TEST(Schedule, VerySlowDevicesGetOneTileAtATime) {
         ASSERT_EQ(steps[i].tile_count, 1U);
 }
 
-// Drivers limit the loop trips of a kernel.
+// The limit stands for a driver's limit of loop trips.
 TEST(Schedule, VeryFastDevicesGetTheLargestSlice) {
     for (const std::uint32_t most : {3U, 1024U}) {
         pt::ScheduleLimits limits = usual_limits();
@@ -176,7 +177,7 @@ TEST(Schedule, HoldsTheLargestSampleCount) {
 
 TEST(Schedule, SlicesAreLargerThanHalfOfTheBudget) {
     const pt::Schedule schedule(usual_limits());
-    EXPECT_EQ(schedule.tiles(257, 1), 129U); // a tile more than the budget
+    EXPECT_EQ(schedule.tiles(257, 1), 129U); // one tile more than the budget
     EXPECT_EQ(schedule.tiles(257 - 129, 1), 128U);
     EXPECT_EQ(schedule.samples(257, 10), 1U);
     EXPECT_EQ(schedule.samples(64, 10), 4U);
@@ -208,7 +209,7 @@ TEST(Schedule, LearnsFromASliceOfFullSizeAtOnce) {
     EXPECT_EQ(pt::Schedule({0.05, 0.25, 1}).budget(), 64.0);
 }
 
-// A slice of one tile is all overhead: the device is 78 times as fast.
+// The time of a one-tile slice is all overhead. The device is 78 times as fast.
 TEST(Schedule, SmallSlicesChangeLittle) {
     pt::ScheduleLimits limits = usual_limits();
     limits.first_slice_paths = 5e6;
@@ -225,7 +226,7 @@ TEST(Schedule, WhatWasExpectedTeachesNothing) {
     EXPECT_EQ(schedule.budget(), 16384.0);
 }
 
-// Negative controls.
+// Negative controls of the checks above.
 TEST(ScheduleJudge, SeesFaults) {
     pt::ScheduleLimits limits = usual_limits();
     limits.max_samples = 4;

@@ -1,4 +1,4 @@
-// Small lamps: their pixels, the error that no sample shows, the smallest share of directions.
+// Small lamps: their pixels, the error that no sample shows, and the smallest share of directions.
 #include "lib/render/missed_lamps.h"
 #include "lib/render/small_lamps.h"
 #include "lib/scene/camera.h"
@@ -66,7 +66,7 @@ double share_of(const std::vector<pt::LampPiece> &pieces, std::uint32_t x, std::
 
 constexpr double radius = 0.25;
 constexpr double size = std::numbers::pi * radius * radius;
-constexpr double thin = 2e-4; // 256 lines err by at most the square of their height each
+constexpr double thin = 2e-4; // Each of 256 lines has an error of at most its height's square.
 
 TEST(SmallLamps, AreSpreadOverPixels) {
     for (const pt::Camera &seen_by : {camera, parallel_camera()})
@@ -82,7 +82,7 @@ TEST(SmallLamps, AreSpreadOverPixels) {
                 for (const std::uint32_t y : {99U, 100U})
                     EXPECT_NEAR(share_of(corner, x, y), 0.25 * size, thin);
         }
-    // The segment of a disc beyond a line at half its radius.
+    // Area of the segment of a disc beyond a line at half its radius.
     const double segment = radius * radius * (std::numbers::pi / 3.0 - std::sqrt(3.0) / 4.0);
     const auto aside = pieces_of({sphere_at(0.5 * radius, 0.5, 100, radius, lamp)});
     EXPECT_NEAR(share_of(aside, 199, 99), segment, thin);
@@ -92,7 +92,7 @@ TEST(SmallLamps, AreSpreadOverPixels) {
     EXPECT_NEAR(share_of(at_the_edge, 399, 0), 0.5 * size, thin);
 }
 
-// The lens's disc, in squares of pixels: radius 30 |100 / 75 - 1| = 10, or 314 pixels.
+// The lens's disc has the radius 30 |100 / 75 - 1| = 10 pixels, or an area of 314 pixels.
 TEST(SmallLamps, AreSpreadByALens) {
     const std::vector<pt_sphere> lamps{sphere_at(0.5, 0.5, 100, radius, lamp)};
     pt::Camera lens = camera;
@@ -141,11 +141,11 @@ TEST(SmallLamps, AreThoseThatTheCameraSees) {
     EXPECT_EQ(count_of({seen}, {wall}), 0U) << "behind a plane";
 }
 
-// A pixel that the lamp crosses sees its area for the time that it takes to the next pixel.
+// A lamp crosses a pixel in the time that it takes to the next pixel. The pixel sees its area for this time.
 TEST(SmallLamps, AreSpreadByTheirMotion) {
     pt::Camera open = camera;
     open.shutter_close = 1.0;
-    for (const double way : {20.0, 300.0}) { // at every pixel, and at fewer moments
+    for (const double way : {20.0, 300.0}) { // sampled at every pixel, and at fewer moments
         pt_sphere moving = sphere_at(-0.5 * way, 0.5, 100, radius, lamp);
         moving.motion[0] = way;
         double seen = 0.0;
@@ -155,12 +155,12 @@ TEST(SmallLamps, AreSpreadByTheirMotion) {
             seen += piece.pixels * piece.share;
             largest = std::max(largest, piece.share);
         }
-        EXPECT_NEAR(seen, size, 0.01 * size) << way; // of fewer lines
+        EXPECT_NEAR(seen, size, 0.01 * size) << way; // The lamp has fewer lines.
         EXPECT_NEAR(largest, size / way, 0.01 * size / way) << way;
     }
 }
 
-// A veil lets 1 - opacity through, about a lamp or before it, small or large.
+// A veil passes 1 - opacity of the light. It may lie around the lamp or before it, and the lamp may be small or large.
 TEST(SmallLamps, ShineThroughVeils) {
     const double center[] = {1.0, 2.0, -97.0, 1.0, 2.0, -60.0, 31.0, 2.0, -60.0};
     const double radii[] = {10.0, 5.0, 5.0};
@@ -177,7 +177,7 @@ TEST(SmallLamps, ShineThroughVeils) {
     const auto small = pieces_of({sphere_at(0.5, 0.5, 100, radius, lamp)}, {}, camera, true, veils);
     ASSERT_EQ(small.size(), 1U);
     EXPECT_NEAR(small[0].share, 0.8 * 0.4 * size, thin);
-    EXPECT_NEAR(small[0].lamp_share, 0.8 * 0.4 * size, 1e-7); // of float radii
+    EXPECT_NEAR(small[0].lamp_share, 0.8 * 0.4 * size, 1e-7); // radii are float
     const auto large = pieces_of({sphere_at(0.5, 0.5, 100, 2.0, lamp)}, {}, camera, true, veils);
     EXPECT_NEAR(share_of(large, 200, 99), 0.8 * 0.4, 0.01);
     EXPECT_TRUE(pieces_of({sphere_at(50.5, 0.5, 100, radius, lamp)}, {}, camera, true, veils).empty()) << "opaque";
@@ -200,7 +200,7 @@ TEST(SmallLamps, AreSeenFromWithinACapsule) {
     EXPECT_TRUE(pieces_of({sphere_at(0.5, 0.5, 100, radius, lamp), first}).empty());
 }
 
-// Variance of a lamp that a sample hits with probability p: E^2 p (1 - p).
+// The variance of a lamp that a sample hits with probability p is E^2 p (1 - p).
 TEST(SmallLamps, AddWhatSamplesShouldHaveMet) {
     const std::vector<pt::LampPiece> pieces{{3, 4, 0.125, 0.25, glm::dvec3(8, 0, 16)},
                                             {5, 6, 0.25, 0.5, glm::dvec3(4)}};
@@ -209,7 +209,7 @@ TEST(SmallLamps, AddWhatSamplesShouldHaveMet) {
                                  [=](const auto &piece) { return piece.x == 3 ? first : second; });
     };
     const double variance = 0.125 * 0.875;
-    const pt::UnmetSquares found = with(16, 16); // of the second lamp 8 hits were expected
+    const pt::UnmetSquares found = with(16, 16); // The second lamp expects 8 hits.
     EXPECT_DOUBLE_EQ(found.square.sum, variance * (64.0 + 256.0) / 16.0);
     EXPECT_DOUBLE_EQ(found.square.hits(), 16.0 * 0.125);
     EXPECT_DOUBLE_EQ(found.relative_square.sum, variance * (64.0 / 1.01 + 256.0 / 4.01) / 16.0);
@@ -226,11 +226,11 @@ TEST(SmallLamps, CountAgainstATargetIfTheirLackShows) {
     pt::LampPiece spread = bright;
     spread.is_spread = true;
     EXPECT_EQ(pt::samples_to_hit(spread, 0.01, false), 4000U);
-    const pt::LampPiece dim{0, 0, 1e-3, 2e-3, glm::dvec3(0, 0, 10)}; // .01^2 / (.01^2 + .01) is below a hundredth
+    const pt::LampPiece dim{0, 0, 1e-3, 2e-3, glm::dvec3(0, 0, 10)}; // .01^2 / (.01^2 + .01) < .01
     EXPECT_EQ(pt::samples_to_hit(dim, 0.01, true), 0U);
 }
 
-// 8 and 2 meetings; the samples show less, or more.
+// The lamps expect 8 or 2 hits. The samples show a smaller or a larger error.
 TEST(SmallLamps, RaiseTheErrorAndLeaveItUncertainIfTheyAreHardlyMet) {
     for (const double meetings : {8.0, 2.0})
         for (const double shown : {0.1, 9.0}) {
@@ -248,7 +248,7 @@ TEST(SmallLamps, RaiseTheErrorAndLeaveItUncertainIfTheyAreHardlyMet) {
         }
 }
 
-// Variance of the number of points in a disc of a few cells, with one random point per cell.
+// Simulates the variance of the number of points in a disc of a few cells, with one random point per cell.
 TEST(SmallLamps, PointsOneToACellMeetADiscAsOftenAsStated) {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> number(0.0, 1.0);
@@ -274,7 +274,7 @@ TEST(SmallLamps, PointsOneToACellMeetADiscAsOftenAsStated) {
     }
 }
 
-// Against the area of a spherical cap.
+// The tests compare this share with the area of a spherical cap.
 double smallest_share(const std::vector<pt::Sphere> &spheres) {
     const pt::Material black{glm::vec3(0), glm::vec3(0), glm::vec3(0), 0.0F};
     const pt::Material bright{glm::vec3(0), glm::vec3(0), glm::vec3(0, 0, 5), 0.0F};

@@ -17,7 +17,7 @@ namespace {
 
 using Code = std::vector<std::uint32_t>;
 
-constexpr std::uint32_t last_about_others = 16; // names, entry points and modes
+constexpr std::uint32_t last_about_others = 16; // names, entry points and modes end at this opcode
 constexpr std::uint32_t op_spec_constant_op = 52;
 constexpr std::uint32_t op_function = 54;
 constexpr std::uint32_t op_function_call = 57;
@@ -64,7 +64,8 @@ TEST(SpecialisedCodeTest, LeavesToTheDriverWhatItDoesNotKnow) {
     EXPECT_TRUE(is_left([](Code &code) { code[5] &= 0xffffU; })) << "an instruction of no words";
 }
 
-// Calls and branches have targets, phis come from predecessors, and decorations stay, such as NoContraction.
+// Calls and branches must have targets. Phis must have values from all predecessors. Decorations such as NoContraction
+// must stay.
 void expect_whole(const Code &code, const Code &kernel) {
     const std::vector<Code> instructions = instructions_of(code);
     std::set<std::uint32_t> there;

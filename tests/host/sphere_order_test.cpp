@@ -28,7 +28,7 @@ std::vector<pt::TreeItem> items_of(std::uint32_t count, const std::function<Ball
     return items;
 }
 
-// Without twins.
+// All bits differ, so there are no twins.
 const pt::BitsOfSphere own_number = [](std::uint32_t sphere) { return pt::SphereBits{sphere}; };
 
 pt::TreeShape shape_of(std::vector<pt::TreeItem> items, const pt::BitsOfSphere &bits_of) {
@@ -130,7 +130,7 @@ TEST(SphereOrder, LeavesTheFirstOfTwins) {
     expect_well_linked(shape);
 }
 
-// Bits are slow to read: once for a hash, and again for spheres with equal hashes.
+// Bits are slow to read. They are needed once for the hash, and again for spheres with equal hashes.
 TEST(SphereOrder, ReadsTheBitsOfASphereThreeTimesAtTheMost) {
     for (const bool are_twins : {false, true})
         for (const Kind &kind : kinds()) {

@@ -1,4 +1,4 @@
-// The tree buffer: boxes, lamps, twins, and conservative facts about cameras.
+// The tree buffer: boxes, lamps, twins, and conservative statements about cameras.
 #include "tests/host/heap_tree.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ TEST(SphereTree, BoxesHoldTheirSpheresAtAllTimes) {
     }
 }
 
-// Radii and ways round by half of 2^-23 of up to 2^30 steps.
+// Radii and ways of up to 2^30 steps round by half of 2^-23.
 TEST(SphereTree, StaysWithinReach) {
     for (const double scale : {1e-18, 1.0, 1e17})
         for (const double motion : {0.0, 1.0}) {
@@ -68,7 +68,7 @@ TEST(SphereTree, NumbersLampsInTheScenesOrder) {
 
 TEST(SphereTree, KeepsTheFirstOfTwins) {
     std::vector<pt_sphere> spheres = heap(100, 0.0);
-    spheres[0].center[0] = 100; // 2^-22 of it is 2^7 steps
+    spheres[0].center[0] = 100; // 2^-22 of this distance is 2^7 steps.
     const pt_sphere forth{{5.5, 0, -3}, 0.1, {0.25, 0, 0}, 0, 0};
     const pt_sphere back{{5.75, 0, -3}, 0.1, {-0.25, -0.0, 0}, 0, 0};
     for (int i = 0; i < 5; ++i) {
@@ -166,7 +166,7 @@ TEST(SphereTree, HasWaysIfWhatIsLeftOutMoves) {
     EXPECT_TRUE(has_ways(tree_with(one, spheres, {0, 100})));
 }
 
-// 16 bytes and 4 of material; a node of 48 bytes per three spheres, or per two with empty children.
+// A sphere has 16 bytes and 4 of material. A node of 48 bytes has three spheres, or two with empty children.
 TEST(SphereTree, TakesNoMoreThan48BytesASphere) {
     std::vector<pt_sphere> spheres = heap(100'000, 0.0);
     for (pt_sphere &sphere : spheres)
@@ -189,7 +189,8 @@ TEST(SphereTree, TakesNoMoreThan48BytesASphere) {
     EXPECT_EQ(colored.sphere_words()[frame.first_color + 777].z, 723U | 723U << 10 | 723U << 20);
 }
 
-// (p - camera) step + shift: rounding of shift, about the distance of a far camera.
+// A sphere is at (p - camera) step + shift. The error is the rounding of shift, which is about the distance of a far
+// camera.
 TEST(SphereTree, FramesPutSpheresWhereTheyAre) {
     const std::vector<pt_sphere> spheres = heap(100, 0.0);
     const pt::SphereTree tree = tree_of(spheres);

@@ -1,4 +1,4 @@
-// Cuts: the best for few spheres, nearly so for many.
+// Cuts are the best ones for few spheres, and nearly the best for many.
 #include "lib/tree/cuts.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,8 @@ namespace {
 
 using Items = std::vector<pt::TreeItem>;
 
-// Sides below 4 round by 2^-23, a box's side by 2^-22, half its surface by 2^-21 times the sum of sides, below 15.
+// Coordinates below 4 round by 2^-23 and a box's side by 2^-22. Half the surface rounds by 2^-21 times the sum of
+// sides, which is below 15.
 constexpr double surface_error = 15 * 0x1p-21;
 
 pt::Part part_of(Items &items) {
@@ -92,7 +93,7 @@ TEST(TreeCuts, OfFewSpheresAreTheBest) {
         const pt::Halves halves = pt::swept_halves(part);
         expect_boxes(halves.first);
         expect_boxes(halves.second);
-        // Four nodes at most, in the chosen cut and in the best.
+        // The chosen cut and the best one have at most four nodes each.
         const double most_error = 2 * 4 * surface_error;
         const double least = least_cost(before);
         EXPECT_NEAR(cost_of(halves.first.items, halves.second.items), least, most_error) << round;
@@ -103,7 +104,8 @@ TEST(TreeCuts, OfFewSpheresAreTheBest) {
     }
 }
 
-// Some cut is within half of one of 8 bins of x = 1/2; costs go as x^2 + (1 - x)^2: a 60th more, plus chance.
+// Some cut lies within half of one of 8 bins of x = 1/2. Costs are proportional to x^2 + (1 - x)^2, so this one costs
+// 1/60 more than the best, plus chance.
 TEST(TreeCuts, OfManySpheresAreAboutTheBest) {
     std::mt19937 engine(5);
     std::uniform_real_distribution<float> share(0.0F, 1.0F);
@@ -123,7 +125,7 @@ TEST(TreeCuts, OfManySpheresAreAboutTheBest) {
         }
 }
 
-// Equidistant samples would see one heap only.
+// Equidistant samples would contain only one heap.
 TEST(TreeCuts, OfSamplesHeedNoPattern) {
     const std::uint32_t count = 4 * pt::sampled_from;
     const std::uint32_t run = count / pt::sample_size;

@@ -1,4 +1,4 @@
-// Which surfaces count as one, and which lamps as close to another sphere.
+// Finds surfaces that count as one, and lamps close to another sphere.
 #include "lib/scene/twins.h"
 
 #include <gtest/gtest.h>
@@ -46,7 +46,7 @@ std::vector<std::uint32_t> distinct_planes(const std::vector<Plane> &planes) {
     return materials;
 }
 
-// place: relative to the camera.
+// The place is relative to the camera.
 Sphere ball(const glm::dvec3 &place, double radius, const glm::dvec3 &motion = {0, 0, 0}) {
     return {viewpoint + place, radius, motion, plain};
 }
@@ -115,7 +115,7 @@ TEST(Twins, OfPlanesTheFirstStands) {
     EXPECT_EQ(distinct_planes({floor, plane({0.3, 1 + 3e-5, 0.2}, 1.5, 1)}), (Materials{0, 1}));
 }
 
-// Many share one coordinate.
+// Many spheres share one coordinate.
 TEST(Twins, AreNoneOnALattice) {
     std::vector<Sphere> lattice;
     for (int i = 0; i < 32 * 32 * 32; ++i)
