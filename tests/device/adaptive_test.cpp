@@ -1,4 +1,4 @@
-// Adaptive films: each tile has the bits of an even film with its sample count.
+// In adaptive films, each tile has the bits of an even film with its sample count.
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
@@ -18,7 +18,7 @@
 
 namespace {
 
-constexpr uint32_t uneven_width = 75; // no multiple of the tile size
+constexpr uint32_t uneven_width = 75; // not a multiple of the tile size
 constexpr uint32_t uneven_height = 44;
 constexpr double uneven_target = 0.015;
 constexpr uint32_t no_limit = 1U << 20;
@@ -38,7 +38,7 @@ protected:
         ContextFixture::TearDown();
     }
 
-    // A context whose tiles may differ from 16 samples on, on any device.
+    // A context whose tiles may differ from 16 samples on.
     pt_context *context() { return alone_.get(); }
 
     Context context_on(uint32_t device_count, uint32_t submit_milliseconds = 50, bool like_gpus = false) {
@@ -75,7 +75,7 @@ private:
     Context alone_;
 };
 
-// Films in host memory and in kernels, one device and several.
+// Covers films in host memory and in kernels, on one device and on several.
 TEST_F(AdaptiveTest, EachTileHasTheBitsOfAnEvenFilm) {
     for (const auto &[device_count, like_gpus] : {std::pair{1U, false}, {1U, true}, {3U, true}}) {
         const Context uneven = context_on(device_count, 50, like_gpus);
@@ -84,7 +84,7 @@ TEST_F(AdaptiveTest, EachTileHasTheBitsOfAnEvenFilm) {
         const Values counts = values(uneven.get(), PT_QUANTITY_SAMPLE_COUNT);
         const Values radiance = values(uneven.get());
         const Values error = values(uneven.get(), PT_QUANTITY_STANDARD_ERROR);
-        for (uint32_t y = 0; y < uneven_height; ++y) // squares have one count
+        for (uint32_t y = 0; y < uneven_height; ++y) // all pixels of a tile have one count
             for (uint32_t x = 0; x < uneven_width; ++x)
                 EXPECT_EQ(counts[3 * (y * uneven_width + x)], counts[3 * (y / 8 * 8 * uneven_width + x / 8 * 8)]);
         std::map<uint32_t, std::size_t> pixels;
@@ -186,7 +186,7 @@ TEST_F(AdaptiveTest, UnevenFilmsTakeEvenSamplesAndAddUp) {
     EXPECT_EQ(stats_of(context()).sample_count, least);
 }
 
-// A later call takes the rest.
+// A later call takes the remaining samples.
 TEST_F(AdaptiveTest, TheMostSamplesAreThoseOfAPixel) {
     const Bytes expected = film_on_target(context());
     begin(context());

@@ -1,4 +1,4 @@
-// pt_get_accuracy.
+// pt_get_accuracy() through pt.h.
 #include "lib/kernel/accuracy.h"
 #include "tests/device/api_fixture.h"
 

@@ -45,7 +45,7 @@ TEST(Api, GetDevicesWritesAtMostCount) {
     EXPECT_EQ(std::memcmp(&devices[count], &untouched, sizeof untouched), 0);
 }
 
-// "created", or "result name: message".
+// Returns "created", or "result name: message".
 std::string create_outcome(const pt_create_info *info) {
     pt_context *context = reinterpret_cast<pt_context *>(&context);
     const pt_result result = pt_create(info, &context);

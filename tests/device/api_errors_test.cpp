@@ -20,7 +20,7 @@ pt_broken_rule rule_of(const pt_context *context, uint32_t index) {
     return rule;
 }
 
-// By pt/errors.h.
+// Builds the message as pt/errors.h describes.
 std::string text_of(const pt_broken_rule &rule) {
     std::ostringstream text;
     text << rule.subject;

@@ -17,7 +17,7 @@ namespace api {
 inline constexpr uint32_t width = 12;
 inline constexpr uint32_t height = 7;
 
-// A sphere around the camera: every pixel has exactly its emission.
+// A sphere around the camera. Every pixel has exactly its emission.
 inline const pt_material material{{0, 0, 0}, {0, 0, 0}, {1, 2, 4}, 0, 0};
 inline const pt_sphere sphere{{0, 0, 0}, 9, {0, 0, 0}, 0, 0};
 inline const std::array<float, 3> radiance{1, 2, 4};

@@ -1,4 +1,4 @@
-// The growth rule of structs: fields unknown to one side count as zeros.
+// The growth rule of structs: fields that one side does not know count as zeros.
 #include "tests/device/api_fixture.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 
 using Outcome = std::pair<pt_result, std::string>;
 
-// In steps of 8 bytes, so that no pointer is split.
+// Sizes change in steps of 8 bytes, so that no pointer is split.
 template <typename T>
 std::vector<uint32_t> older_sizes() {
     std::vector<uint32_t> sizes{sizeof(uint32_t)};
@@ -55,7 +55,8 @@ Newer<T> newer_than(const T &value) {
     return newer;
 }
 
-// Accepts newer structs with a zero tail and names each nonzero byte there; refuses sizes that never were.
+// The call must accept newer structs with a zero tail and name each nonzero byte there. It must reject sizes that never
+// existed.
 template <typename T, typename Call>
 void expect_sizes_heeded(const T &value, const std::string &name, const Call &call) {
     EXPECT_EQ(call(newer_than(value).known), call(value));
@@ -185,7 +186,7 @@ TEST(StructSize, CreateInfo) {
     expect_sizes_heeded(info, "create", call);
 }
 
-// Writes exactly the caller's size; refuses sizes that never were.
+// The call must write exactly the caller's size. It must reject sizes that never existed.
 template <typename T, typename Call>
 void expect_written_sizes_heeded(const T &whole, const std::string &name, const Call &call) {
     for (const uint32_t size : older_sizes<T>()) {

@@ -51,7 +51,7 @@ public:
     struct Counts {
         int locks, submissions, submissions_without_lock, waits_for_all;
         bool held;
-        VkResult failure; // returned instead of submitting, unless VK_SUCCESS
+        VkResult failure; // if not VK_SUCCESS, returned instead of submitting
     };
     static inline Counts counts{};
 
@@ -137,8 +137,8 @@ TEST_F(BorrowedDeviceTest, ASubmissionThatLosesTheDeviceLetsGoOfTheQueue) {
     EXPECT_EQ(QueueSpy::counts.submissions, 1);
 }
 
-#ifndef __SANITIZE_ADDRESS__ // a deliberate leak stays behind
-// Running work was given up, so neither its buffers nor the device may be destroyed.
+#ifndef __SANITIZE_ADDRESS__ // deliberately leaks memory
+// The running work was given up, so neither its buffers nor the device may be destroyed.
 TEST_F(BorrowedDeviceTest, ADeviceThatHangsKeepsWhatItsWorkUses) {
     const CallerVulkan handles = this->handles(false);
     std::optional<Gate> gate(caller_->device());

@@ -1,4 +1,4 @@
-// Capsules against double; PT_TEST_MANY renders 100 random scenes.
+// Compares capsules with double. PT_TEST_MANY renders 100 random scenes.
 #include "lib/tree/tree_choice.h"
 #include "tests/support/light_in_double.h"
 
@@ -35,7 +35,7 @@ struct Nearest {
     std::size_t index = 0;
 };
 
-// The point must be outside.
+// The point must be outside all capsules.
 Nearest nearest_of(const std::vector<Given::Capsule> &capsules, const glm::dvec3 &point) {
     Nearest nearest;
     for (std::size_t i = 0; i < capsules.size(); ++i) {
@@ -108,8 +108,8 @@ protected:
             }
             const bool meets = nearest.distance < 1e-9;
             met += meets ? 1 : 0;
-            // float32 errs by 8 2^-24 at a distance of 8, by 2^-23 of the huge radius, and at grazing angles by the
-            // root.
+            // float32 has an error of 8 2^-24 at a distance of 8, and of 2^-23 of the huge radius. At grazing angles it
+            // has the root of these.
             const bool is_near = std::abs(depths[3 * i] - depth) < 2e-4 * depth;
             const bool is_object = objects[i] == seen.spheres.size() + nearest.index;
             wrong += meets != std::isfinite(depths[3 * i]) || (meets && !(is_near && is_object)) ? 1 : 0;
@@ -119,7 +119,7 @@ protected:
     }
 };
 
-// Negative control: capsules shorter by three tenths.
+// Negative control: capsules that are shorter by three tenths.
 TEST_F(Capsules, HaveTheLightOfAPathTracerInDouble) {
     std::vector<Case> cases{{"few", random_scene(1, 6, 3, 8.0)},
                             {"from inside", inside()},
@@ -153,8 +153,8 @@ double difference(const std::vector<float> &a, const std::vector<float> &b) {
     return differences / light;
 }
 
-// Equal bits beside other capsules; another kernel rounds differently within 2^-22 of the silhouettes of 100 balls: in
-// fewer than 1e-4 of the rays. A ball changes a hundredth.
+// Bits are equal if there are other capsules. Without these, another kernel rounds differently within 2^-22 of the
+// silhouettes of 100 balls, in fewer than 1e-4 of the rays. A missing ball changes a hundredth.
 TEST_F(Capsules, AreSpheresWhereTheirEndsCoincide) {
     for (const bool all : {false, true}) {
         Given given = all ? random_scene(4, 200, 100, 8.0) : random_scene(1, 6, 3, 8.0);
@@ -189,7 +189,7 @@ TEST_F(Capsules, HaveTheSameBitsOfSplitsAndScale) {
         expect_the_same_bits_of_splits_and_scale(given);
 }
 
-// Negative control: radii larger by 3%.
+// Negative control: radii that are larger by 3%.
 TEST_F(Capsules, AreMetWhereTheirDistanceIsZero) {
     Given given = random_scene(11, 40, 0, 8.0);
     given.planes.clear();

@@ -1,4 +1,4 @@
-// The coursework scene as kernels read it.
+// The coursework scene in the kernel's layout.
 #pragma once
 
 #include "lib/kernel/gpu_scene.h"

@@ -1,4 +1,4 @@
-// Error estimates on the device against the host's.
+// Compares error estimates of the device with those of the host.
 #include "lib/base/error.h"
 #include "lib/film/error_estimate.h"
 #include "lib/film/quotient.h"
@@ -22,7 +22,7 @@ constexpr std::uint32_t part_samples = 32;
 
 class Films {
 public:
-    // rejected: samples left out in the first pixel's newer part.
+    // `rejected` samples are left out in the first pixel's newer part.
     pt::PixelSums film(std::uint32_t width, std::uint32_t height, std::uint32_t rejected = 0) {
         pt::PixelSums sums;
         sums.resize(std::size_t{width} * height);
@@ -121,7 +121,7 @@ protected:
     Films films_;
 };
 
-// Also in units where squares of radiance, or their sums, leave float's range.
+// Covers units in which squares of radiance, or their sums, exceed float's range.
 TEST_F(EstimateTest, IsThatOfTheHost) {
     for (const Size &size : {Size{1, 1}, Size{7, 3}, Size{33, 32}, Size{200, 111}, Size{64, 300}})
         for (const double unit : {1.0, 0x1p-120, 0x1p-60, 0x1p30, 0x1p52}) {

@@ -37,7 +37,7 @@ pt_material lamp(float radiance) {
 
 constexpr pt_plane floor_plane{{0, 1, 0}, 1, 0, 0};
 
-// So large that every estimator has a finite variance.
+// The lamp is so large that every estimator has a finite variance.
 ListedScene large_lamp() {
     const pt_material glossy{{0.3F, 0.3F, 0.3F}, {0.5F, 0.5F, 0.5F}, {0, 0, 0}, 10, 0};
     return {{diffuse(0.8F), lamp(5), diffuse(0.6F), glossy},
@@ -97,7 +97,7 @@ TEST_P(EstimatorMeans, AgreeForAllEstimatorsAndSamplers) {
             worst_error = std::max(worst_error, means.whole.standard_error / means.whole.mean);
         }
     std::printf("largest standard error of a mean: %.2f%%\n", 100.0 * worst_error);
-    // Negative control: a lamp 25% brighter for the least precise, 1% for the most precise.
+    // Negative control: a lamp that is 25% brighter for the least precise, or 1% for the most precise estimator.
     EXPECT_GT(0.25 / worst_error, bound);
     EXPECT_GT(std::abs(deviation(reference.whole, 1.01 * reference.whole.mean)), bound);
 }

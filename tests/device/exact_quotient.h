@@ -22,7 +22,7 @@ inline int compare_shifted(pt::WideSum a, int shift, pt::WideSum b) {
     return shifted < b ? -1 : shifted > b ? 1 : 0;
 }
 
-// The midpoint between a float >= 0 and the next, mantissa * 2^exponent.
+// The midpoint between a float >= 0 and the next one, mantissa * 2^exponent.
 struct Middle {
     pt::WideSum mantissa;
     int exponent;
@@ -71,7 +71,7 @@ inline long double exact_standard_error(pt::WideSum sum_a, std::uint32_t a, pt::
     return std::ldexp(numerator / sum / std::sqrt(static_cast<long double>(a) * b), exponent);
 }
 
-// Within .52 of the last place, at both ends of float's range too.
+// Within .52 of the last place, even at both ends of float's range.
 inline bool is_close(float found, long double exact) {
     if (std::isinf(found))
         return exact >= 0x1.ffffffp127L;

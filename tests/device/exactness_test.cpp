@@ -1,4 +1,4 @@
-// The same samples give the same bits, in any split.
+// The same samples give the same bits, however they are split into calls.
 #include "lib/film/error_estimate.h"
 #include "tests/device/coursework_gpu_scene.h"
 #include "tests/device/probe.h"
@@ -18,7 +18,7 @@
 
 namespace {
 
-constexpr uint32_t width = 200; // no multiple of the workgroup size
+constexpr uint32_t width = 200; // not a multiple of the workgroup size
 constexpr uint32_t height = 75;
 
 using Image = std::vector<float>;
@@ -38,7 +38,7 @@ protected:
         return image;
     }
 
-    // Each sample is exactly the radiance.
+    // Each sample is exactly the lamp's radiance.
     Image image_inside_a_lamp(float radiance, uint32_t samples) {
         const pt_material material{{0, 0, 0}, {0, 0, 0}, {radiance, radiance, radiance}, 0, 0};
         const pt_sphere sphere{{0, 0, 0}, 50, {0, 0, 0}, 0, 0};
@@ -54,7 +54,7 @@ TEST_F(ExactnessTest, SplittingOverCallsKeepsTheBits) {
     EXPECT_NE(image_of({7, 19, 37}), at_once) << "a missing sample must show";
 }
 
-// Calls beyond the limits of a dispatch or the table of points give the bits of small calls.
+// Calls beyond the limits of a dispatch or of the table of points give the bits of small calls.
 class GatheringTest : public ExactnessTest {
 protected:
     Context create_fixtures_context() override {
@@ -103,7 +103,7 @@ protected:
     }
 };
 
-// Dispatches end at powers of two, so the largest starts there.
+// Dispatches end at powers of two, so the largest one starts there.
 TEST_F(GatheringTest, OfRandomSamplesKeepsTheBits) {
     constexpr Paths paths{PT_SAMPLER_RANDOM, 2};
     constexpr uint32_t most = pt::gpu::FILM_MAX_GATHERED;
@@ -194,12 +194,12 @@ TEST_F(ExactnessTest, StandardErrorsAreThoseOfTheFilmsParts) {
         const Image first = part_of(0, older);
         const Image last = part_of(older, newer);
         EXPECT_LE(deviation(found, first, last, older, newer), 1.01) << older << " and " << newer;
-        // Negative control: a sample less.
+        // Negative control: one sample less.
         EXPECT_GT(deviation(found, part_of(0, older - 1), last, older, newer), 1e3) << older << " and " << newer;
     }
 }
 
-// Every sample is float32(0.1). The loops exceed 65,535 trips, after which a known driver stops.
+// Every sample is float32(0.1). The loops exceed 65,535 trips, after which some drivers stop.
 TEST_F(ExactnessTest, NoSampleIsLostInLongRuns) {
     const Image image = image_inside_a_lamp(0.1F, 1U << 20);
     EXPECT_EQ(image, Image(image.size(), 0.1F));

@@ -1,4 +1,4 @@
-// Films of several devices summed on one.
+// The films of several devices are summed on one.
 #include "lib/kernel/film_sum.h"
 #include "lib/kernel/shader_source.h"
 #include "tests/device/film_words.h"

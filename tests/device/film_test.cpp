@@ -1,4 +1,4 @@
-// Sums on the device against wider integers.
+// Compares the device's sums with wider integers.
 #include "lib/kernel/device_film.h"
 
 #include "film_sums.spv.h"
@@ -113,7 +113,7 @@ TEST(Film, WindowsHoldTheMostSamplesThatAnInvocationGathers) {
     }
 }
 
-// Vulkan allows rounding towards zero; llvmpipe's threads inherit the mode.
+// Vulkan allows rounding towards zero. llvmpipe's threads inherit the host's mode.
 class FilmRoundedToZero : public VulkanFixture {
 protected:
     void SetUp() override {
@@ -157,7 +157,8 @@ protected:
     }
 };
 
-// The rest for the next window is nearly a whole unit. Negative control: as many samples as half units would allow.
+// The remainder for the next window is nearly a whole unit. Negative control: as many samples as half units would
+// allow.
 TEST_F(FilmRoundedToZero, WindowsHoldTheMostSamplesThatAnInvocationGathers) {
     if (device().info().kind != PT_DEVICE_CPU)
         GTEST_SKIP() << "a GPU does not round as this thread does";

@@ -1,4 +1,4 @@
-// The film's words, as kernels leave them, as sums.
+// Converts the film's words to sums.
 #pragma once
 
 #include "lib/film/pixel_sums.h"
@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <span>
 
-// words: the planes of part 0 (older), then of part 1.
+// `words` has the planes of part 0 (older), then of part 1.
 inline pt::PixelSums sums_of(std::span<const std::uint32_t> words, std::size_t pixel_count) {
     pt::PixelSums sums;
     sums.resize(pixel_count);

@@ -1,5 +1,5 @@
-// First hits in random scenes, in trees and lists, against long double. PT_TEST_MANY: 600 scenes; PT_TEST_FIRST_SCENE:
-// the first.
+// Compares first hits in random scenes, in trees and lists, with long double. PT_TEST_MANY renders 600 scenes, and
+// PT_TEST_FIRST_SCENE is the first one.
 #include "lib/kernel/gpu_scene.h"
 #include "tests/device/first_hit_scenes.h"
 #include "tests/device/tree_fixture.h"
@@ -31,9 +31,9 @@ struct Shot : Given {
     std::uint32_t first_column = 0;
 };
 
-constexpr std::uint32_t columns = 16; // of the crop
+constexpr std::uint32_t columns = 16; // columns of the crop
 constexpr std::uint32_t rows = 2;
-constexpr std::uint32_t lattice_size = 16; // rays of a pixel
+constexpr std::uint32_t lattice_size = 16; // rays per pixel
 
 struct Pixels {
     std::vector<std::uint32_t> objects;
@@ -112,14 +112,14 @@ protected:
         return pixels;
     }
 
-    // False if undecided.
+    // Returns false if undecided.
     static bool judge_means(const Pixels &pixels, std::uint32_t pixel, const Shot &given, const pt_scene &scene,
                             const View &view) {
         const std::optional<Means> means = means_of(given, scene, view, given.first_column + pixel % columns,
                                                     given.render.first_row + pixel / columns);
         if (!means)
             return false;
-        // Sums of 16 numbers up to 1; albedos: a dozen roundings.
+        // The sums have 16 numbers up to 1. Albedos have a dozen roundings.
         const double of_sum = 16.0 * static_cast<double>(rounding);
         for (int i = 0; i < 3; ++i) {
             const std::size_t place = 3 * pixel + static_cast<std::size_t>(i);
@@ -156,7 +156,7 @@ protected:
             EXPECT_EQ(pixels.depths[3 * pixel + 1], pixels.depths[3 * pixel]);
             EXPECT_EQ(pixels.depths[3 * pixel + 2], pixels.depths[3 * pixel]);
             const Real depth = met->distance * glm::dot(ray.direction, view.forward);
-            // Cosine to the axis and product: 8 roundings.
+            // The cosine to the axis and the product have 8 roundings.
             const Real tolerance = met->tolerance + 8.0L * rounding * met->distance;
             if (met->object == PT_NO_OBJECT)
                 EXPECT_EQ(pixels.depths[3 * pixel], std::numeric_limits<float>::infinity());

@@ -58,7 +58,7 @@ TEST_F(FirstHit, RectanglesRowsAndDevicesAgree) {
     const Given given = many(true);
     set(context(), given, picture());
     const Context hurried = create_context([](pt_create_info &info) { info.submit_milliseconds = 1; });
-    ASSERT_TRUE(hurried); // of some hundred pixels
+    ASSERT_TRUE(hurried); // pieces of some hundred pixels
     set(hurried.get(), given, picture());
     const Context shared = create_context([](pt_create_info &) {},
                                           [](auto *info, auto **made) { return create_shared(2, *info, made, true); });
@@ -167,7 +167,7 @@ TEST_F(FirstHit, TwinsHaveTheNumberOfTheFirst) {
     }
 }
 
-// Columns are numbered after structs; colors are within a thousandth in a tree.
+// Spheres in columns have numbers after structs. In a tree, colors are within a thousandth.
 TEST_F(FirstHit, ColumnsHaveNumbersAndColors) {
     Given given;
     given.materials = {{{0.8F, 0.8F, 0.8F}, {0, 0, 0}, {0, 0, 0}, 0, 0}};

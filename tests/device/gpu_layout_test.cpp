@@ -1,4 +1,4 @@
-// Host and kernel agree on push constants and the scene buffer.
+// Host and kernel have the same layout of push constants and the scene buffer.
 #include "lib/kernel/gpu_scene.h"
 #include "lib/scene/seen_scene.h"
 #include "push_layout.spv.h"
@@ -34,7 +34,7 @@ pt::Camera camera_at(glm::dvec3 position) {
     return {position, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0.25, 0.75};
 }
 
-// Order in the buffer: lamp, other spheres, planes.
+// The order in the buffer is lamp, other spheres, planes.
 pt::Scene small_scene() {
     pt::Scene scene;
     scene.materials = {{{0.5F, 0.25F, 0}, {0, 0, 0}, {0, 0, 0}, 0},
@@ -59,7 +59,7 @@ TEST(GpuLayout, WhatTheSceneDoesNotUseIsNotInTheBuffer) {
     EXPECT_EQ(gpu_scene.words.size(), 9U);
 }
 
-// Curved planes precede flat ones. A lamp 2048 times larger than its distance becomes one.
+// Curved planes precede flat ones. A lamp with a radius of 2048 times its distance becomes one.
 TEST(GpuLayout, HugeSpheresArePlanesWithACurvature) {
     pt::Scene scene = small_scene();
     scene.spheres.push_back({{0, -1026, 1}, 1024, {0, 0, 0}, 0});

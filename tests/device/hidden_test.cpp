@@ -21,7 +21,7 @@ namespace {
 constexpr std::uint32_t picture_width = 40;
 constexpr std::uint32_t picture_height = 30;
 
-// Material i + hidden is material i, hidden from the camera.
+// Material i + hidden is material i that the camera does not see.
 constexpr std::uint32_t hidden = 3;
 
 struct Hiding {
@@ -124,7 +124,7 @@ std::vector<Hiding> closed_scenes() {
     return scenes;
 }
 
-// Two roundings of each of five operations.
+// Five operations have two roundings each.
 constexpr double few_roundings = 8.0 * 0x1p-24;
 
 double largest_error(const std::vector<float> &image, const std::vector<float> &coverage, double radiance) {
@@ -153,7 +153,7 @@ TEST_F(HiddenFromCamera, ClosedScenesNeitherLeakNorLoseLight) {
     }
 }
 
-// One false alarm in a million.
+// The bound allows one false alarm in a million.
 TEST_F(HiddenFromCamera, LampsInClosedScenesAreCountedOnce) {
     constexpr std::uint32_t batch_count = 12;
     for (const Hiding &given : closed_scenes()) {

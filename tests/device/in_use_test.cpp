@@ -110,7 +110,7 @@ TEST_F(InUseTest, TheMessageIsThatOfTheLastCallThatFailed) {
     std::thread([&] { EXPECT_EQ(message(), "thrown by a callback"); }).join();
 }
 
-// A child lacks the driver's threads; calls would wait forever.
+// A child process lacks the driver's threads, so calls would wait forever.
 TEST_F(InUseTest, AChildOfForkIsRefused) {
     set_all();
     const std::string not_ours = "this context belongs to the process that this one was forked from";

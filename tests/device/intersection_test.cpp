@@ -1,4 +1,4 @@
-// Rays against a huge sphere, and from a few ulp off a sphere, compared with long double.
+// Compares rays towards a huge sphere, and rays from a few ulp off a sphere, with long double.
 #include "intersection.spv.h"
 #include "lib/kernel/gpu_scene.h"
 #include "tests/device/probe.h"
@@ -19,7 +19,7 @@ constexpr std::uint32_t nothing = 0xffffffffU;
 
 struct Ray {
     glm::vec3 origin;
-    float start; // 0: on no surface; 1: on the sphere, outside; -1: inside
+    float start; // 0: on no surface; 1: on the sphere's outside; -1: inside
     glm::vec3 direction;
     float unused = 0.0F;
 };
@@ -32,7 +32,7 @@ struct Met {
     std::uint32_t surface, blocked, inside, unused_too;
 };
 
-// Relative to the camera.
+// Positions are relative to the camera.
 struct Ball {
     glm::dvec3 center;
     double radius;
@@ -40,7 +40,7 @@ struct Ball {
 
 enum class Held { AsTheSceneNeeds, ByItsCenter };
 
-// Motion by a 32nd of the radius stores the ball by its center; it is at rest at the rays' time.
+// The kernel holds a ball that moves by a 32nd of its radius by its center. At the rays' time the ball is at rest.
 std::vector<Met> follow(const Ball &ball, const std::vector<Ray> &rays, Held held = Held::AsTheSceneNeeds) {
     pt::Scene scene;
     scene.materials = {{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0}};
@@ -62,7 +62,7 @@ std::vector<Met> follow(const Ball &ball, const std::vector<Ray> &rays, Held hel
     return probe.run<Met>(input, rays.size(), count, count);
 }
 
-// height = (|x - c|^2 - R^2) / (2 R) of the ray's origin x.
+// The ray's origin x has the height (|x - c|^2 - R^2) / (2 R).
 struct Reference {
     long double height, half_chord, to_middle;
 
@@ -75,7 +75,7 @@ struct Reference {
         half_chord = std::sqrt(std::max(0.0L, radius * radius - glm::dot(across, across)));
         height = (glm::length(from_center) - radius) * (glm::length(from_center) + radius) / (2.0L * radius);
     }
-    // Divides products, because to_middle -+ half_chord would cancel.
+    // Divides products, because the difference of middle and half_chord would cancel.
     long double near_root(long double radius) const {
         return to_middle > 0 ? 2 * radius * height / (to_middle + half_chord) : to_middle - half_chord;
     }
@@ -86,10 +86,11 @@ struct Reference {
 
 // Largest errors over their bounds.
 //
-// With y = x + o n a ray's origin x has the height n . x + o + k / 2 |y|^2; S = |x| + |o| + |y| (1 + k |y|), c the
-// cosine at the hit. Rounding n, o, k and ten operations: height 8 eps S, slope 8 eps (1 + k |y|). Distance: height
-// error / c + slope error t / c, doubled for the root: 16 eps (S + t (1 + k |y|)) / c. Point: height error there;
-// normal: k times that, and rounding.
+// Let y = x + o n. A ray's origin x has the height n . x + o + k / 2 |y|^2. Let S = |x| + |o| + |y| (1 + k |y|), and c
+// be the cosine at the hit. The rounding of n, o and k and ten operations give the height an error of 8 eps S and the
+// slope one of 8 eps (1 + k |y|). The distance has the height's error / c plus the slope's error t / c, doubled for the
+// root: 16 eps (S + t (1 + k |y|)) / c. The point has the height's error there. The normal has k times that error, and
+// rounding.
 struct Worst {
     double distance = 0, position = 0, normal = 0;
     int missed = 0, compared = 0;
@@ -214,8 +215,8 @@ TEST(Intersection, CurvedPlanesAreMetFromFarAway) {
     expect_within_bounds(worst);
 }
 
-// Outside they never hit again, inside they hit the far wall. A chord t = 2 s / k turns the slope's 8 eps into 16 eps R
-// = 8 eps t / s.
+// Rays outside never hit the sphere again, and rays inside hit the far wall. For a chord t = 2 s / k, the slope's 8 eps
+// become 16 eps R = 8 eps t / s.
 TEST(Intersection, RaysThatLeaveAHugeSphereMeetItAgainFromInsideOnly) {
     for (const double radius : {1e3, 1e6, 1e9}) {
         RandomRays random(3);
@@ -240,7 +241,7 @@ TEST(Intersection, RaysThatLeaveAHugeSphereMeetItAgainFromInsideOnly) {
     }
 }
 
-// Negative control: a hit wherever the distance is positive.
+// Negative control: every positive distance is a hit.
 bool met_by_sign(const Ball &ball, const Ray &ray) {
     const glm::vec3 to_center = glm::vec3(ball.center) - ray.origin;
     const auto radius = static_cast<float>(ball.radius);
@@ -253,7 +254,7 @@ bool met_by_sign(const Ball &ball, const Ray &ray) {
     return b + half_chord > 0.0F;
 }
 
-// Within 3 eps r float32 cannot tell the side; inward rays hit, at once or at the far side.
+// Within 3 eps r float32 cannot tell the side. Inward rays hit either at once or at the far side.
 TEST(Intersection, NothingLeaksThroughASphereNearItsSurface) {
     RandomRays random(4);
     const Ball ball{{0, 0, 0}, 3.0};

@@ -1,4 +1,4 @@
-// pt_prepare, and kernels that the caller keeps.
+// pt_prepare() and kernels that the caller keeps.
 #include "tests/device/api_fixture.h"
 #include "tests/support/context_calls.h"
 #include "tests/support/coursework_scene.h"

@@ -1,4 +1,4 @@
-// The path-tracing kernel over a small film, with the test's scene and constants.
+// Runs the path-tracing kernel on a small film, with the test's scene and constants.
 #pragma once
 
 #include "lib/film/pixel_sums.h"
@@ -50,7 +50,7 @@ public:
     const std::vector<glm::vec4> &words() const { return scene_.words; }
     Constants constants() const { return pt::specialization_constants(scene_.features); }
 
-    // source: gpu::SCENE_IN_...
+    // `source` is one of gpu::SCENE_IN_*.
     FilmWords film(std::uint32_t source, const std::vector<glm::vec4> &words) const {
         return film_of_kernel(constants(), source, words);
     }
@@ -68,7 +68,7 @@ public:
         return film_by(probe);
     }
 
-    // For several films.
+    // The probe can render several films.
     Probe probe_of_kernel(const Constants &constants, std::uint32_t source, const std::vector<glm::vec4> &words) const {
         const auto values = with_scene_source(constants, source, words);
         Probe probe(pt::specialised_code(pt::embedded_code().pathtrace, values), sizeof frame_, values);

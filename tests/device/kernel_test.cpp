@@ -1,4 +1,4 @@
-// The kernel as Renderer runs it, with unusual policies.
+// Runs the kernel like Renderer, with unusual policies.
 #include "lib/kernel/device_film.h"
 #include "lib/kernel/kernel.h"
 #include "lib/kernel/trace_pipelines.h"

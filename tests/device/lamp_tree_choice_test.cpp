@@ -1,4 +1,4 @@
-// Choices from the lamp tree against their stated probabilities.
+// Compares choices from the lamp tree with their stated probabilities.
 #include "tests/device/lamp_tree_probe.h"
 #include "tests/device/lamp_tree_reference.h"
 #include "tests/support/lamp_scenes.h"
@@ -15,7 +15,7 @@
 
 namespace {
 
-// Lamps expected fewer than 20 times share a cell.
+// Lamps with fewer than 20 expected choices share a cell.
 struct Frequencies {
     std::vector<double> observed, expected, wrong;
 };
@@ -62,7 +62,8 @@ void expect_what_is_stated(const std::vector<TreeDrawn> &drawn, const std::vecto
     }
 }
 
-// 1e-6 over 72 chi-squares: 5.6 deviations. Errors of 10% add 2^16 * 0.1^2 = 655, 15 deviations for 1000 lamps.
+// A probability of 1e-6 over 72 chi-squares is at 5.6 deviations. Errors of 10% add 2^16 * 0.1^2 = 655, which is 15
+// deviations for 1000 lamps.
 TEST(LampTreeChoice, FollowsTheStatedProbability) {
     const double bound = statistics::normal_quantile(1e-6 / 72);
     for (const auto &[name, scene] : lamp_scenes::all()) {

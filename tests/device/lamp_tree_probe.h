@@ -1,4 +1,4 @@
-// Lamps chosen by the tree from vertices all over a scene.
+// Chooses lamps by the tree from vertices all over a scene.
 #pragma once
 
 #include "lamps.spv.h"
@@ -17,7 +17,7 @@ struct TreeVertex {
     std::uint32_t surface = 0xffffffffU;
 };
 
-// lamps.comp's output.
+// The output of lamps.comp.
 struct TreeDrawn {
     glm::vec3 direction;
     float distance;

@@ -16,7 +16,7 @@
 
 inline constexpr double uniform_share = 0.1;
 
-// By gpu_layout.h's words.
+// Reads the words as gpu_layout.h describes them.
 class TreeReference {
 public:
     explicit TreeReference(const pt::GpuScene &scene) : features_(scene.features), words_(scene.words) {

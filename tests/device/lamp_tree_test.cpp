@@ -1,4 +1,4 @@
-// Stated probabilities of lamps in a tree against double, and their sharpness.
+// Compares stated probabilities of lamps in a tree with double, and with ideal ones.
 #include "tests/device/lamp_tree_probe.h"
 #include "tests/device/lamp_tree_reference.h"
 #include "tests/support/lamp_scenes.h"
@@ -14,8 +14,8 @@
 
 namespace {
 
-// Differences of positions err by up to 2^-20 of a quotient, as nothing is nearer to a vertex than a 1000th of its
-// camera distance.
+// Differences of positions change a quotient by up to 2^-20, because nothing is nearer to a vertex than a 1000th of the
+// vertex's distance from the camera.
 TEST(LampTreeProbabilities, AreThoseOfAReferenceInDouble) {
     for (const auto &[name, scene] : lamp_scenes::all()) {
         const pt::GpuScene gpu_scene = lamp_scenes::gpu_scene(scene);
@@ -38,7 +38,8 @@ TEST(LampTreeProbabilities, AreThoseOfAReferenceInDouble) {
     }
 }
 
-// sum w^2 / P over (sum w)^2, less 1: 0 for weights alone, at most 1 / 9 with the uniform share, 9 by power alone.
+// Returns sum (w^2 / P) / (sum w)^2 - 1. It is 0 for weights alone, at most 1 / 9 with the uniform share, and 9 by
+// power alone.
 double relative_variance(TreeProbe &probe, const pt::GpuScene &scene, const TreeVertex &vertex) {
     const std::vector<double> weights = lamp_weights(scene, vertex);
     const std::vector<double> probabilities = probe.probabilities(vertex);

@@ -1,4 +1,4 @@
-// Code that the kernel omits for a scene changes no picture.
+// Code that the kernel omits for a scene changes no image.
 #include "tests/device/kernel_render.h"
 #include "tests/invariance/invariance_scene.h"
 
@@ -28,8 +28,8 @@ Image image_with_other(const KernelRender &render, std::uint32_t id) {
     return image_with(render, constants);
 }
 
-// Beyond rounding along equal paths: a vertex errs by 2^-24 of its distance, each of two balls magnifies by up to 2
-// distance / radius = 30: below 1e-3.
+// Counts values that differ by more than rounding along equal paths. A vertex has an error of 2^-24 of its distance,
+// and each of two balls magnifies it by up to 2 distance / radius = 30. The result is below 1e-3.
 std::size_t differing_values(const Image &a, const Image &b) {
     const float mean = std::accumulate(a.begin(), a.end(), 0.0F) / static_cast<float>(a.size());
     std::size_t count = 0;
@@ -38,8 +38,8 @@ std::size_t differing_values(const Image &a, const Image &b) {
     return count;
 }
 
-// Rounding decides rays within 2^-20 of the scene's size from rims and contacts: on average half a sample in 3072 of
-// 20 rays and 9 surfaces each. More than 6 samples of 3 values: probability 1e-6.
+// Rounding decides rays within 2^-20 of the scene's size from rims and contacts. This concerns half a sample on average
+// in 3072 of 20 rays and 9 surfaces each. More than 6 samples of 3 values have a probability of 1e-6.
 constexpr std::size_t decided_by_rounding = 18;
 
 InvarianceScene room() {
@@ -55,7 +55,7 @@ struct Case {
     InvarianceScene scene;
     std::uint32_t id;
     std::uint32_t constant;
-    bool shows; // whether inverting it changes the picture
+    bool shows; // whether inverting the constant changes the image
 };
 
 // The last cases are negative controls.
@@ -91,7 +91,7 @@ TEST(LeftOut, ShowsWhereItIsNeededAlone) {
     }
 }
 
-// Glossy vertices choose their last direction differently where planes emit.
+// Glossy vertices choose their last direction differently if planes emit.
 TEST(LeftOut, EmissionOfPlanesWhereNoneEmits) {
     InvarianceScene scene = room();
     for (pt_material &material : scene.materials)

@@ -1,4 +1,4 @@
-// Images through a lens against a path tracer in double, and exact cases.
+// Compares images through a lens with a path tracer in double, and with exact cases.
 #include "tests/support/light_in_double.h"
 
 #include <pt/film.h>
@@ -58,8 +58,8 @@ TEST_F(Lens, ShowsWhatAPathTracerInDoubleDoes) {
     }
 }
 
-// The disc exceeds the picture, so brightness is proportional to 1 / radius^2. Negative controls: a lens 3% wider
-// (6% less light), a focus 3% farther (9%).
+// The disc is larger than the image, so brightness is proportional to 1 / radius^2. Negative controls: a lens that is
+// 3% wider (6% less light), and a focus that is 3% farther (9%).
 TEST_F(Lens, IsAsWideAndFocusedAsStated) {
     Given given;
     given.planes.clear();
@@ -92,7 +92,7 @@ TEST_F(Lens, HasTheSameBitsOfSplitsAndScale) {
     }
 }
 
-// First hits come from the pinhole at the lens's center.
+// First hits are those of the pinhole at the lens's center.
 TEST_F(Lens, WithoutADiameterIsAPinhole) {
     Given lens = random_balls(1, 7, 8.0);
     Given pinhole = lens;
@@ -114,7 +114,7 @@ TEST_F(Lens, WithoutADiameterIsAPinhole) {
         read(pinhole, first_hits);
         read(lens, through_lens);
         for (std::size_t i = 0; i < first_hits.size(); ++i) {
-            const bool is_equal = through_lens[i] == first_hits[i]; // infinite depths too
+            const bool is_equal = through_lens[i] == first_hits[i]; // true for infinite depths too
             EXPECT_TRUE(is_equal || std::abs(through_lens[i] - first_hits[i]) <= 1e-6 * std::max(1.0F, first_hits[i]))
                 << quantity << ": " << through_lens[i] << " and " << first_hits[i];
         }

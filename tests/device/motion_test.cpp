@@ -1,4 +1,4 @@
-// Huge moving spheres equal the mean of fixed times, and slow ones a static render. The shutter.
+// Huge moving spheres equal the mean of fixed times, and slow ones equal a static render. Also tests the shutter.
 #include "tests/support/batch_fixture.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/scene_of.h"
@@ -106,7 +106,8 @@ TEST_F(HugeMotion, OfALampTheOutsideIsSeen) {
         EXPECT_EQ(value, 4.0F) << "the lamp overhead fills the view";
 }
 
-// Midpoint rule: a lamp 3 above gives light with about height^-2, which changes by 1/4: (1/4)^2 * 6 / 24 / 32^2 = 2e-5.
+// Error of the midpoint rule: a lamp 3 above gives light of about height^-2, which changes by 1/4, so (1/4)^2 * 6 / 24
+// / 32^2 = 2e-5.
 TEST_F(HugeMotion, IsTheMeanOfFrozenTimes) {
     constexpr uint32_t times = 32;
     for (const FloorBall &floor : {FloorBall{1e7, {3, 0.5, -2}}, FloorBall{1e5, {1000, 0.25, 0}}}) {
@@ -146,7 +147,7 @@ TEST_F(HugeMotion, IsRefusedWhereItIsTooLong) {
     EXPECT_EQ(pt_accumulate(context(), &info), PT_OK) << "held by its center";
 }
 
-// A parallel view's width counts instead of the distance.
+// The width of a parallel view counts instead of the distance.
 TEST_F(HugeMotion, IsRefusedInNarrowParallelViews) {
     const pt_material shining{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0, 0};
     const pt_sphere globe{{0, -1e7, 0}, 1e7, {1e6, 0, 0}, 0, 0};

@@ -1,4 +1,4 @@
-// Opacity: shares in closed form, and light against a path tracer in double.
+// Compares opacities with shares in closed form, and light with a path tracer in double.
 #include "tests/support/light_in_double.h"
 
 #include <pt/stats.h>
@@ -22,7 +22,7 @@ using namespace light_in_double;
 
 class Opacity : public LightInDouble {
 protected:
-    // The share of a sky (radiance 3, 4, 5) that passes black capsules.
+    // Returns the share of a sky's light (radiance 3, 4, 5) that passes black capsules.
     double share_passed(const std::vector<Given::Capsule> &capsules) {
         return mean(image(under_sky(capsules), 256)) / 4.0;
     }
@@ -162,8 +162,8 @@ TEST_F(Opacity, OfColorsAndMotionsIsIndependent) {
     EXPECT_NEAR(passed({still, still}), 0.5, 0.008) << "duplicates";
 }
 
-// Each 16 of a pixel's 256 points fall into 16 equal parts: the share has a standard deviation of 2 rays at most, and
-// five are exceeded nowhere. Negative control: random numbers, with one of 8.
+// Each 16 of a pixel's 256 points fall into 16 equal parts. The share has a standard deviation of at most 2 rays, and
+// every pixel stays within five deviations. Negative control: random numbers, with a deviation of 8 rays.
 TEST_F(Opacity, OfOneSurfaceIsEvenlySpread) {
     Given given = under_sky({ball_at({0, 0, 1}, 1.0, 0.4F)});
     std::ranges::fill(given.materials[2].emission, 1.0F);
@@ -178,10 +178,11 @@ TEST_F(Opacity, OfOneSurfaceIsEvenlySpread) {
     EXPECT_GT(largest_error(PT_SAMPLER_RANDOM), 20.0 / 256.0);
 }
 
-// Variance of the product of two decisions over lattices (i / N, r i / N) of N = 2^m points, shifted at random, with
-// random odd r. A frequency 2^v times an odd number vanishes unless the other is one too, and then in all but 2^(v + 1)
-// of N lattices. The frequencies that are multiples of 2^v have the variance t (1 - t) / 4^v of a decision, with t the
-// fraction of 2^v times the opacity. A decision alone is left with its multiples of N.
+// Returns the variance of the product of two decisions over lattices (i / N, r i / N) of N = 2^m points, with random
+// shifts and random odd r. A frequency that is 2^v times an odd number contributes only if the other frequency is one
+// too, and then only in 2^(v + 1) of N lattices. For one decision, the frequencies that are multiples of 2^v have the
+// variance t (1 - t) / 4^v, where t is the fraction of 2^v times the opacity. A single decision keeps only its
+// multiples of N.
 double variance_of_two(double opacity, std::uint32_t count) {
     const auto of_multiples = [&](double step) {
         const double fraction = step * opacity - std::floor(step * opacity);
@@ -196,8 +197,8 @@ double variance_of_two(double opacity, std::uint32_t count) {
     return sum / count + 2.0 * clear * clear * of_multiples(count);
 }
 
-// Each 16 samples have another lattice. The mean square over 6,144 pixels is within five standard errors of its
-// expectation, and no stated error is a tenth too small. Negative control: one lattice for all pixels.
+// Each 16 samples have another lattice. The mean square over 6,144 pixels must be within five standard errors of its
+// expectation, and the stated error must not be a tenth too small. Negative control: one lattice for all pixels.
 TEST_F(Opacity, OfTwoSurfacesHasManyLattices) {
     Given given = under_sky({ball_at({0, 0, 2}, 1.0, 0.4F), ball_at({0, 0, -2}, 1.0, 0.4F)});
     std::ranges::fill(given.materials[2].emission, 1.0F);

@@ -1,4 +1,4 @@
-// Contexts on the caller's own Vulkan. Any message of its validation layer fails the test.
+// Contexts on the caller's own Vulkan. Messages of its validation layer fail the test.
 #include "tests/device/caller_vulkan.h"
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"
@@ -73,7 +73,7 @@ protected:
         return Context(created);
     }
 
-    // "result name: message".
+    // Returns "result name: message".
     static std::string refusal(const pt_create_info &info) {
         pt_context *created = nullptr;
         const pt_result result = pt_create(&info, &created);
@@ -167,7 +167,7 @@ TEST_F(OwnVulkanTest, TheQueueIsFreeWhileTheContextCallsBack) {
     EXPECT_EQ(observer.mutex.locks, observer.mutex.unlocks);
 }
 
-// An empty dispatch, because drivers may compile kernels only then.
+// Preparing submits an empty dispatch, because drivers may compile kernels only then.
 TEST_F(OwnVulkanTest, PreparingIsOneSubmission) {
     QueueMutex mutex;
     pt_vulkan vulkan = caller().handles();
@@ -179,7 +179,7 @@ TEST_F(OwnVulkanTest, PreparingIsOneSubmission) {
     EXPECT_EQ(mutex.locks, before + 1);
 }
 
-// A GPU estimates errors in the submissions of samples.
+// A GPU estimates errors in the submissions that take samples.
 TEST_F(OwnVulkanTest, LooksAtATargetAreNoSubmissions) {
     QueueMutex mutex;
     pt_vulkan vulkan = caller().handles();

@@ -15,16 +15,16 @@
 
 pt::vulkan::Device &probe_device();
 
-// ID_POINT_BLOCKS of probes: 16 KiB, which every device offers.
+// Probes have this ID_POINT_BLOCKS: 16 KiB, which every device offers.
 inline constexpr std::uint32_t probe_point_blocks = 1024;
 
 class Probe {
 public:
-    // constants[i]: bits of specialization constant i; missing ones keep the shaders' defaults.
+    // constants[i] has the bits of specialization constant i. Missing ones keep the shaders' defaults.
     Probe(std::span<const std::uint32_t> spirv, std::uint32_t push_bytes,
           std::span<const std::uint32_t> constants = {});
 
-    // The scene buffer (bindings 0 and 1), tree buffer (5), table of points (4).
+    // Sets the scene buffer (bindings 0 and 1), the tree buffer (5) and the table of points (4).
     void set_scene(std::span<const glm::vec4> words) { scene_.assign(words.begin(), words.end()); }
     void set_tree(std::span<const glm::uvec4> nodes, std::span<const glm::uvec4> spheres) {
         tree_nodes_.assign(nodes.begin(), nodes.end());
@@ -32,8 +32,8 @@ public:
     }
     void set_points(std::span<const pt::PointBlock> blocks) { points_.assign(blocks.begin(), blocks.end()); }
 
-    // One invocation per item, with input (binding 3); returns binding 2, initially zero. Guard words after it must
-    // survive.
+    // Runs one invocation per item, with the input at binding 3. Returns binding 2, which is initially zero. Guard
+    // words after it must survive.
     template <typename Output, typename Push>
     std::vector<Output> run(std::span<const glm::vec4> input, std::size_t output_count, const Push &push,
                             std::uint32_t invocations) {
@@ -43,7 +43,7 @@ public:
         return output;
     }
 
-    // The same over given output; unwritten parts stay.
+    // Like run(), but writes into the given output. Unwritten parts stay.
     void run_over(std::span<const std::byte> input, std::span<std::byte> output, std::span<const std::byte> push,
                   std::uint32_t invocations);
 

@@ -1,5 +1,5 @@
-// Random scenes against a path tracer in double. PT_TEST_SCENES: their number; by default each kind in a tree and in a
-// list.
+// Compares random scenes with a path tracer in double. PT_TEST_SCENES is their number. By default each kind has one in
+// a tree and one in a list.
 #include "tests/support/batch_fixture.h"
 #include "tests/support/light_in_double.h"
 #include "tests/support/shared_context.h"
@@ -18,7 +18,7 @@ namespace {
 
 using namespace light_in_double;
 
-constexpr std::uint32_t material_count = 4; // and each again, hidden
+constexpr std::uint32_t material_count = 4; // each also hidden
 constexpr std::uint32_t lamp = 2;
 constexpr std::uint32_t glossy = 3;
 
@@ -66,7 +66,7 @@ public:
                 {{uniform(-0.2, 0.2), uniform(-0.2, 0.2), 1}, -uniform(0, 4), material_count + 1, 0});
         set_camera(given, picture.kind);
         picture.expected = given;
-        // Narrow and parallel views, which start near a surface, and trees resolve more in float32.
+        // Narrow and parallel views start near a surface. They and trees resolve more in float32.
         const bool tells_more = picture.has_tree || given.camera.vertical_fov != 0.8;
         if (picture.kind == twins)
             add_twins(given, tells_more ? 0.0 : 1e-7);
@@ -176,8 +176,8 @@ protected:
         return deviation(picture.has_tree ? with_tree_.get() : context(), given, exact, picture.render);
     }
 
-    // Sum of deviations over the standard deviation of Student's t, 11 degrees of freedom; clamped for images without
-    // noise.
+    // Returns the sum of deviations over the standard deviation of Student's t with 11 degrees of freedom. It is
+    // clamped for images without noise.
     static double pooled(const std::vector<double> &deviations) {
         double sum = 0.0;
         for (const double deviation : deviations)
@@ -203,8 +203,9 @@ Given turned(const Picture &picture) {
     return other;
 }
 
-// One false alarm in a thousand runs for images and blocks, in ten thousand for all. Negative controls: lobes with 3%
-// more in one scene of each kind; with trees also lamps 3% brighter and another view.
+// The bounds allow one false alarm in a thousand runs for images and blocks, and one in ten thousand for all together.
+// Negative controls: lobes with 3% more in one scene of each kind. With trees there are also lamps that are 3%
+// brighter, and another view.
 TEST_F(RandomLight, IsThatOfAPathTracerInDouble) {
     const double bound = student_bound(1e-3 / (14.0 * scene_count()), image_count);
     std::vector<double> deviations;

@@ -47,7 +47,7 @@ public:
             return most;
         case 3:
         case 4:
-        case 5: { // count * (m + 1/2) 2^k or its neighbours: ties between the mantissas m and m + 1
+        case 5: { // count * (m + 1/2) 2^k or a neighbor: a tie between the mantissas m and m + 1
             const pt::WideSum half = 2 * (generator_() % (1U << 23) + (1U << 23)) + 1;
             const int shift = std::uniform_int_distribution(0, 60)(generator_);
             return (half * count << shift) + generator_() % 3 - 1;
@@ -63,7 +63,7 @@ public:
         const std::uint32_t first = count(UINT32_MAX - 1);
         const std::uint32_t second = count(UINT32_MAX - first);
         ResolvedPixel pixel{{{{sum(first), sum(first), sum(first)}, first}, {{sum(second), 0, 0}, second}}};
-        // Nearly equal means, whose difference cancels.
+        // The means are nearly equal, so their difference cancels.
         const pt::WideSum nearly = pixel.parts[0].sums[1] / first * second;
         pixel.parts[1].sums[1] = nearly + kind_(generator_) % 2;
         pixel.parts[1].sums[2] = sum(second);

@@ -1,4 +1,4 @@
-// Images in the caller's buffers have the bits of pt_readback, in time.
+// Images in the caller's buffers have the bits of pt_readback(), and arrive in order.
 #include "lib/film/pixel_format.h"
 #include "tests/device/caller_vulkan.h"
 #include "tests/device/gate.h"

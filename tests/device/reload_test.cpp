@@ -1,4 +1,4 @@
-// pt_reload_shaders replaces kernels on success only; all samples are of one kernel.
+// pt_reload_shaders() replaces kernels only on success, and all samples come from one kernel.
 #include "lib/render/renderer.h"
 #include "lib/scene/scene.h"
 #include "tests/device/api_fixture.h"
@@ -51,7 +51,7 @@ protected:
 
     static uint32_t sample_count_of(pt_context *on) { return stats_of(on).sample_count; }
 
-    // factor: of the scene's radiance.
+    // `factor` multiplies the scene's radiance.
     static void expect_samples(pt_context *on, uint32_t count, float factor) {
         EXPECT_EQ(sample_count_of(on), count);
         std::vector<float> pixels(width * height * 3, -1.0F);
@@ -66,7 +66,7 @@ protected:
         EXPECT_NE(own_message().find(part), std::string::npos) << own_message() << "\nmust contain\n" << part;
     }
 
-    // Exact: powers of two scale sums without rounding.
+    // This is exact, because powers of two scale sums without rounding.
     void double_the_radiance() const {
         shaders_.replace("pathtrace.comp", "* held.film_scale", "* (2.0 * held.film_scale)");
     }
@@ -226,7 +226,7 @@ using DriverMayLeak = __lsan::ScopedDisabler;
 struct DriverMayLeak {};
 #endif
 
-// A renamed entry point, which every driver refuses; the validation layer would complain first.
+// Every driver rejects a renamed entry point. The validation layer would complain first.
 TEST_F(ReloadTest, KernelsThatTheDriverRefusesAreNotTaken) {
     pt::CreateSettings settings;
     settings.device = std::getenv("PT_TEST_DEVICE") ? std::getenv("PT_TEST_DEVICE") : "";

@@ -1,4 +1,4 @@
-// Slices on a device, as Accumulation requests them.
+// Runs slices on a device as Accumulation requests them.
 #include "lib/render/render_device.h"
 #include "tests/device/coursework_gpu_scene.h"
 #include "tests/device/vulkan_fixture.h"
@@ -47,7 +47,7 @@ protected:
     }
 };
 
-constexpr std::array<std::uint32_t, 6> all_tiles = {0, 1, 2, 3, 4, 5}; // the last ones partial
+constexpr std::array<std::uint32_t, 6> all_tiles = {0, 1, 2, 3, 4, 5}; // the last tiles are partial
 
 std::array<double, 6> sums_of_tiles(const std::function<void(const pt::ErrorReader::Receive &)> &read) {
     std::array<double, 6> sums{};

@@ -1,4 +1,4 @@
-// Means and standard errors against exact integers and long double. PT_TEST_SUMS: the number of random sums.
+// Compares means and standard errors with exact integers and long double. PT_TEST_SUMS is the number of random sums.
 #include "lib/film/pixel_format.h"
 #include "lib/film/quotient.h"
 #include "lib/kernel/buffer_writer.h"

@@ -31,7 +31,7 @@ struct Request {
     std::uint64_t table_seed() const { return std::uint64_t{seed.x} << 32 | seed.y; }
 };
 
-// Times 2^24, pixel by pixel.
+// The numbers times 2^24, pixel by pixel.
 using Blocks = std::vector<glm::uvec4>;
 
 inline constexpr double scale = 16777216.0;
@@ -54,7 +54,7 @@ inline constexpr std::uint32_t table_blocks = 4;
 inline constexpr std::uint32_t shared_blocks = 1; // without lamps
 inline constexpr std::uint32_t most_blocks = 6000;
 
-// Rows for up to 256 samples with one branch fill the probe's table.
+// The probe's table has rows for up to 256 samples with one branch.
 inline pt::PointLayout layout_of(std::uint32_t branches) {
     return {std::vector<std::uint32_t>(table_blocks, 4), shared_blocks, branches};
 }
@@ -84,7 +84,7 @@ inline Blocks take(std::uint32_t sampler, const Request &request) {
     return take_from(in_table ? table_of(sampler, request) : Table{}, sampler, request);
 }
 
-// One false alarm in a million over at most 72 chi-squares.
+// The bound allows one false alarm in a million over at most 72 chi-squares.
 inline const double bound = statistics::normal_quantile(1e-6 / 72);
 
 inline double uniform_deviate(const std::vector<std::uint32_t> &numbers) {

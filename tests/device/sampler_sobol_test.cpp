@@ -32,8 +32,8 @@ TEST(SamplerSobol, ScramblesDifferBetweenPixelsDimensionsAndSeeds) {
     EXPECT_EQ(distinct.size(), taken);
 }
 
-// Point 0 is the origin, so its numbers are scramble and shift. Their first digits must be independent between a path's
-// blocks: otherwise Russian roulette is wrong at low sample counts.
+// Point 0 is the origin, so its numbers are only scramble and shift. Their first digits must be independent between a
+// path's blocks. Otherwise Russian roulette is wrong at low sample counts.
 std::vector<std::vector<std::uint32_t>> scrambles_of_blocks(int component_index) {
     std::vector<std::vector<std::uint32_t>> blocks;
     for (std::uint32_t block = 0; block < table_blocks; ++block) {
@@ -60,8 +60,8 @@ double triple_deviate(const std::vector<std::uint32_t> &x, const std::vector<std
     return statistics::chi_square_deviate(observed, std::vector<double>(cells, static_cast<double>(x.size()) / cells));
 }
 
-// A pixel's shifts are multiples of one word. If factors of three blocks summed to 0 with small weights, they would lie
-// on few planes.
+// A pixel's shifts are multiples of one word. If factors of three blocks summed to 0 with small weights, the shifts
+// would lie on few planes.
 TEST(SobolScrambling, IsIndependentAmongThreeBlocksOfAPath) {
     for (const int which : {0, 1, 2}) {
         const auto blocks = scrambles_of_blocks(which);

@@ -1,4 +1,4 @@
-// Range and uniformity of the device's numbers, and each sampler's promises.
+// Tests the range and uniformity of the device's numbers, and each sampler's promises.
 #include "tests/device/sample_numbers.h"
 
 #include <gtest/gtest.h>
@@ -72,7 +72,7 @@ TEST_P(Sampler, IsRandomBeyondTheTable) {
     EXPECT_EQ(take(GetParam(), request) == take(PT_SAMPLER_RANDOM, request), GetParam() == PT_SAMPLER_RANDOM);
 }
 
-// Holds without a table, and where B i + b passes 2^32.
+// This holds without a table, and if B i + b exceeds 2^32.
 TEST(SamplerRandom, BranchesAreSamplesOfTheirOwn) {
     constexpr std::uint32_t branches = 4;
     Request request;
@@ -117,7 +117,7 @@ TEST(SamplerHalton, IsTheRadicalInverseInEveryPixel) {
     }
 }
 
-// Beyond the shared blocks, branch b of sample i is sample B i + b, also where that passes 2^32.
+// After the shared blocks, branch b of sample i is sample B i + b, even if that exceeds 2^32.
 TEST(SamplerHalton, OfABranchIsTheRadicalInverseOfASampleOfItsOwn) {
     constexpr std::uint32_t branches = 4;
     Request request;
@@ -137,7 +137,7 @@ TEST(SamplerHalton, OfABranchIsTheRadicalInverseOfASampleOfItsOwn) {
         }
 }
 
-// Shifted digit by digit, or modulo 1, where truncation to 24 bits leaves a unit.
+// Numbers are shifted digit by digit, or modulo 1. Truncation to 24 bits then leaves one unit.
 bool is_shifted_in_pixels(const Table &table, const Blocks &blocks, std::uint32_t sampler, const Request &request) {
     constexpr std::uint32_t mask = (1U << 24) - 1;
     const auto shift_of = [&](std::uint32_t place, int d) {

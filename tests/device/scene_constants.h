@@ -1,4 +1,4 @@
-// Specialization constants that tell a kernel where its scene is.
+// Specialization constants that state where the kernel's scene is.
 #pragma once
 
 #include "shaders/specialization.h"

@@ -47,7 +47,7 @@ struct Comparison {
     }
 };
 
-// Few surfaces, because kernels take long to build.
+// There are few surfaces, because kernels take long to build.
 InvarianceScene scene_with_lamps(int lamp_count) {
     InvarianceScene scene = InvarianceScene::coursework();
     scene.planes.resize(1);
@@ -64,7 +64,7 @@ InvarianceScene diffuse_scene() {
     return scene;
 }
 
-// On other devices each scene has one source; another may round differently.
+// Only such devices have several sources for a scene. On others, another source may round differently.
 class SceneSource : public testing::Test {
 protected:
     void SetUp() override {
@@ -82,7 +82,7 @@ TEST_F(SceneSource, KeepsTheBitsOfADiffuseSceneWithManyLamps) {
     EXPECT_TRUE(same.holds(gpu::SCENE_IN_UNIFORM, render.words()));
     EXPECT_TRUE(same.holds_in_storage());
 
-    // Negative control: the last bit of a number.
+    // Negative control: the last bit of a radius.
     std::vector<glm::vec4> words = render.words();
     float &radius = words[render.features()[gpu::ID_LAMP_COUNT]].w; // of the first ball
     radius = std::nextafter(radius, std::numeric_limits<float>::infinity());
@@ -99,7 +99,7 @@ TEST_F(SceneSource, KeepsTheBitsOfADiffuseSceneWithManyLamps) {
     EXPECT_FALSE(same.holds(gpu::SCENE_IN_STORAGE, table));
 }
 
-// All is constant, which invites compilers to reorder products.
+// All numbers are constant, which lets compilers reorder products.
 TEST_F(SceneSource, KeepsTheBitsWithOneLampMotionGlossAndAHugeSphere) {
     InvarianceScene scene = scene_with_lamps(1);
     scene.camera.shutter_close = 1.0;

@@ -36,7 +36,7 @@ struct Cloud {
         array.radius = {&radius, 0, PT_TYPE_FLOAT32};
     }
 
-    // Points into this object.
+    // The scene points into this object.
     pt_scene scene() {
         array.center = {centers.data(), 12, PT_TYPE_FLOAT32};
         pt_scene scene = scene_of(materials, {&lamp, 1}, {});

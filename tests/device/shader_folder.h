@@ -24,7 +24,7 @@ public:
         write(name, text.replace(place, old_part.size(), new_part));
     }
 
-    // Inserts a faulty line; returns its place as the compiler names it.
+    // Inserts a faulty line. Returns its place as the compiler names it.
     std::string break_film() const {
         std::string text = read("film.glsl");
         const std::size_t place = text.find("uvec4 windows_of(");

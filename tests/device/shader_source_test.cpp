@@ -1,4 +1,4 @@
-// Run-time compilation gives the embedded words; messages about broken files.
+// Run-time compilation gives the embedded words. Broken files give messages.
 #include "lib/kernel/shader_source.h"
 
 #include "lib/base/error.h"

@@ -1,4 +1,4 @@
-// Spots: the mean of 1 / density over directions into a region is its solid angle.
+// For spots, the mean of 1 / density over directions into a region is the region's solid angle.
 #include "shaders/specialization.h"
 #include "spots.spv.h"
 #include "tests/device/probe.h"
@@ -78,7 +78,7 @@ glm::dvec3 middle_of(const std::vector<DrawnSpot> &drawn, std::uint32_t surface)
     return glm::normalize(sum);
 }
 
-// Deviate of the mean of 1 / (density density_error) over a cone within the surface.
+// Returns the normal deviate of the mean of 1 / (density density_error) over a cone within the surface.
 double solid_angle_deviate(const std::vector<DrawnSpot> &drawn, std::uint32_t surface, double radius,
                            double density_error) {
     const glm::dvec3 middle = middle_of(drawn, surface);
@@ -92,7 +92,7 @@ double solid_angle_deviate(const std::vector<DrawnSpot> &drawn, std::uint32_t su
     }
     EXPECT_GT(within, drawn.size() / 50) << "too few to tell anything";
     const statistics::Moments moments = statistics::moments(inverses);
-    const double solid_angle = std::numbers::pi * radius * radius; // of a cap by its chord (Archimedes)
+    const double solid_angle = std::numbers::pi * radius * radius; // a cap's, by its chord (Archimedes)
     return (moments.mean - solid_angle) / std::sqrt(moments.variance / static_cast<double>(drawn.size()));
 }
 
@@ -100,7 +100,7 @@ struct SpotCase {
     const char *name;
     std::vector<SpotOf> spots;
     std::uint32_t surface;
-    double radius; // of the cone, as a chord; within the surface, without very rare directions
+    double radius; // the cone's, as a chord; within the surface, without very rare directions
 };
 
 class SpotDirections : public testing::TestWithParam<SpotCase> {};

@@ -1,4 +1,4 @@
-// A small scene in the form of large ones, with a table of materials.
+// A small scene in the layout of large ones, with a table of materials.
 #pragma once
 
 #include "lib/kernel/scene_features.h"

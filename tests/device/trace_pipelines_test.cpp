@@ -1,4 +1,4 @@
-// Whether a scene gets its own kernel or a common one.
+// Decides whether a scene gets its own kernel or a common one.
 #include "lib/kernel/trace_pipelines.h"
 
 #include "tests/device/vulkan_fixture.h"
@@ -96,7 +96,7 @@ TEST_F(TracePipelinesTest, WhoPollsKeepsTheKernelThatThereIs) {
     EXPECT_NE(trace(other_ball, 100.0), any);
 }
 
-// The least recently used one is rebuilt, perhaps at a reused address.
+// The least recently used kernel is built again, perhaps at a reused address.
 TEST_F(TracePipelinesTest, AHandfulIsKept) {
     use(false);
     const auto of_lamps = [&](std::uint32_t lamp_count) {

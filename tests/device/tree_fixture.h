@@ -1,4 +1,4 @@
-// Two contexts: one has every sphere in a tree, one none.
+// Two contexts. One has every sphere in a tree, and the other has no tree.
 #pragma once
 
 #include "tests/support/context_fixture.h"

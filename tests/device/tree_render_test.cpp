@@ -29,7 +29,7 @@ struct Balls {
         for (std::uint32_t i = 0; i < count; ++i) {
             spheres.push_back(
                 {{4 * share() - 2, 3 * share() - 2, 4 * share() - 2}, 0.15 + 0.1 * share(), {0, 0, 0}, 0, 0});
-            random.discard(5); // other numbers hold to 4e-5, not 1e-5
+            random.discard(5); // for other numbers the bound is 4e-5 instead of 1e-5
         }
         spheres[60] = {{-2, 2.5, 1}, 0.3, {0, 0, 0}, 0, 0};
     }
@@ -49,7 +49,7 @@ pt_camera camera() {
 
 using TreeRender = TreeFixture;
 
-// In float32 one ray in some hundred towards the lamp meets both surfaces at the same distance.
+// In float32, about one ray in 100 towards the lamp hits both surfaces at the same distance.
 TEST_F(TreeRender, ADarkBallWithinALampTakesNoLight) {
     Balls balls;
     balls.materials.push_back({{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0, 0});

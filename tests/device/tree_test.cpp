@@ -1,4 +1,4 @@
-// Walks through a tree against tests of every sphere. PT_TEST_TREE_SCENES: the number of scenes.
+// Compares walks through a tree with tests of every sphere. PT_TEST_TREE_SCENES is the number of scenes.
 #include "tests/device/kernel_render.h"
 #include "tests/device/tree_scenes.h"
 #include "tests/support/checked_scene_of.h"
@@ -67,7 +67,7 @@ struct Compared {
 };
 
 Compared compare(const pt::PreparedScene &prepared, const pt::Camera &camera) {
-    // Some drivers allow 65,535 loop trips, which tests of every sphere use up.
+    // Tests of every sphere use up the 65,535 loop trips that some drivers allow.
     const std::size_t spheres = prepared.tree->sphere_count();
     KernelRender render(pt::gpu_scene(prepared, camera, KernelRender::settings(spheres > 100 ? 2 : 4)));
     render.take(spheres > 400 ? 2 : spheres > 40 ? 4 : 8);
@@ -89,7 +89,7 @@ Compared compare(const pt::Scene &scene, const pt::Camera &camera) {
 
 Compared compare_with_capsules(const pt::Scene &scene, const pt::Camera &camera) {
     std::vector<pt_sphere> spheres;
-    std::vector<pt_sphere> capsules; // motion is the other end
+    std::vector<pt_sphere> capsules; // `motion` is the other end
     for (const pt_sphere &sphere : caller_spheres(scene.spheres)) {
         const bool is_swept = sphere.material != 0 && spheres.size() > capsules.size();
         (is_swept ? capsules : spheres).push_back(sphere);
@@ -152,7 +152,8 @@ pt::Camera far_away(double tan_half_fov) {
     return {{0.1, 0.2, 4e5}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, tan_half_fov, 0.0, 1.0};
 }
 
-// From 10^5 times its size: a narrow view, where depths round to few values, and the horizon of a wide one.
+// The camera is 10^5 times the scene's size away. A narrow view rounds depths to few values. A wide one sees the
+// horizon.
 TEST(Tree, RaysFromFarAwayFindWhatTestingEverySphereFinds) {
     TreeScenes scenes(9);
     const pt::Scene scene = heap_on_a_floor(scenes);
@@ -160,8 +161,8 @@ TEST(Tree, RaysFromFarAwayFindWhatTestingEverySphereFinds) {
         EXPECT_TRUE(compare(scene, far_away(tan_half_fov)).same) << tan_half_fov;
 }
 
-// Against a tree shaped for the reflected spheres: equally good boxes in reverse order. Empty if the trees are equal or
-// no shape was kept.
+// Compares with a tree that has the shape for the reflected spheres. Its boxes are equally good, but in reverse order.
+// Returns nothing if the trees are equal or no shape was reused.
 std::optional<bool> is_seen_alike(const pt::Scene &scene, const pt::Camera &camera) {
     const std::vector<pt_sphere> spheres = caller_spheres(scene.spheres);
     std::vector<pt_sphere> reflected = spheres;

@@ -1,4 +1,4 @@
-// Surfaces given twice, exactly or nearly, have the light of one.
+// Surfaces that are given twice, exactly or nearly, have the light of one.
 #include "lib/scene/checked_scene.h"
 #include "tests/device/kernel_render.h"
 #include "tests/invariance/invariance_scene.h"
@@ -39,8 +39,8 @@ protected:
         return {moments.mean, std::sqrt(moments.variance / batch_count)};
     }
 
-    // tolerance: relative change of light by the geometry. Two means of n batches have the bound of one mean of 2 n -
-    // 1.
+    // `tolerance` is the relative change of light by the geometry. Two means of n batches have the bound of one mean of
+    // 2 n - 1 batches.
     void expect_light(const Estimate &expected, const InvarianceScene &scene, std::uint32_t path_length,
                       double tolerance) {
         const Estimate found = mean_of(scene, path_length, 200);
@@ -100,7 +100,7 @@ TEST_F(RenderedTwins, SendTheirLightOnce) {
             SCOPED_TRACE(share);
             InvarianceScene twice = scene_of_named(repeated);
             shift_twins(twice, share);
-            // A lamp displaced by a share of its radius sends at most that much more.
+            // A lamp that is displaced by a share of its radius sends at most that share more light.
             expect_light(once, twice, path_length, 1e-6 + 2 * share);
         }
     }
@@ -119,7 +119,7 @@ KernelRender render_with_twins(const InvarianceScene &named) {
         pt::gpu_scene({pt::seen_scene(scene.scene, camera), false, false}, scene, camera, KernelRender::settings(2)));
 }
 
-// Negative control: without the treatment of twins light is doubled or lost.
+// Negative control: if twins are not merged, light is doubled or lost.
 TEST_F(RenderedTwins, WouldOtherwiseBeSeenTwiceOrNever) {
     const auto light = [](std::initializer_list<Named> surfaces, std::uint32_t known_sides, std::uint32_t close_lamps) {
         const KernelRender render = render_with_twins(scene_of_named(surfaces));

@@ -19,7 +19,7 @@ namespace {
 constexpr uint32_t width = 32;
 constexpr uint32_t height = 32;
 
-// The floor fills the image, 100 below a lamp that covers radius^2 / 40000 of all directions.
+// The floor fills the image. It is 100 below a lamp that covers radius^2 / 40000 of all directions.
 class UncertainTest : public ContextFixture {
 protected:
     void set_up(double lamp_radius, uint32_t estimator, uint32_t max_path_length = 2,
@@ -49,7 +49,8 @@ protected:
 
 constexpr uint32_t unmet = PT_UNCERTAIN_UNMET;
 
-// A ray hits the lamp with probability 1/100: 164 hits for 16 samples of 1024 pixels, 2,620 for 256; 1,000 suffice.
+// A ray hits the lamp with the probability 1/100. 1024 pixels have 164 hits with 16 samples and 2,620 with 256. 1,000
+// are enough.
 TEST_F(UncertainTest, WhileALampIsHardlyMetByChance) {
     for (const uint32_t estimator : {PT_ESTIMATOR_UNIFORM, PT_ESTIMATOR_COSINE, PT_ESTIMATOR_BSDF}) {
         set_up(20.0, estimator);
@@ -64,7 +65,7 @@ TEST_F(UncertainTest, WhileALampIsHardlyMetByChance) {
     EXPECT_EQ(after(16) & unmet, 0U);
 }
 
-// About one direction in 1,000,000 from the floor hits its lobe.
+// About one in 1,000,000 directions from the floor hits its lobe.
 TEST_F(UncertainTest, WhileALobeIsHardlyMetByChance) {
     for (const uint32_t estimator : {PT_ESTIMATOR_UNIFORM, PT_ESTIMATOR_COSINE, PT_ESTIMATOR_BSDF}) {
         set_up(50.0, estimator, 2, {0.0, 100.0, 0.0}, 1.0, 1e6F);
@@ -72,8 +73,8 @@ TEST_F(UncertainTest, WhileALobeIsHardlyMetByChance) {
     }
 }
 
-// A lamp covering a 20th of a pixel in view is hit .8 times by 16 samples, 13 times by 256. Beside the view it does not
-// count.
+// A visible lamp that covers a 20th of a pixel is hit .8 times by 16 samples, and 13 times by 256. It does not count
+// beside the view.
 const double lamp_of_a_20th = 10.0 * 2.0 * std::tan(0.5) / height * std::sqrt(0.05 / 3.14159); // at distance 10
 
 TEST_F(UncertainTest, WhileSamplesHardlyMeetALampInView) {
@@ -84,7 +85,7 @@ TEST_F(UncertainTest, WhileSamplesHardlyMeetALampInView) {
     }
 }
 
-// A lamp of 2.5e-9 is never hit: black parts agree without evidence.
+// A lamp that covers 2.5e-9 of all directions is never hit. Two black parts agree, but this proves nothing.
 TEST_F(UncertainTest, NothingIsKnownOfAPictureThatIsBlackByChance) {
     set_up(0.01, PT_ESTIMATOR_BSDF);
     EXPECT_EQ(after(16), unmet);
@@ -94,7 +95,7 @@ TEST_F(UncertainTest, NothingIsKnownOfAPictureThatIsBlackByChance) {
     EXPECT_TRUE(std::isfinite(error().relative_rmse_high));
 }
 
-// All else is black, so any target seems reached at once.
+// Everything else is black, so any target seems to be reached at once.
 TEST_F(UncertainTest, NoTargetIsReachedBeforeALampInViewIsMet) {
     for (const uint32_t sampling : {PT_SAMPLING_UNIFORM, PT_SAMPLING_ADAPTIVE}) {
         set_up(lamp_of_a_20th, PT_ESTIMATOR_MIS, 1, {0.0, -10.0, 0.0}, 20.0);

@@ -1,4 +1,4 @@
-// Buffers: memory, transfers, bindings, and refusals.
+// Buffers: memory, transfers, bindings, and rejected requests.
 #include "lib/vulkan/buffer.h"
 #include "lib/vulkan/compute_pipeline.h"
 #include "lib/vulkan/device.h"
@@ -82,7 +82,7 @@ TEST_F(VulkanTest, ABufferLargerThanAnAllocationMayBeIsRefused) {
     EXPECT_EQ(device().allocated_bytes(), before);
 }
 
-#ifndef __SANITIZE_ADDRESS__ // its own memory exceeds any limit
+#ifndef __SANITIZE_ADDRESS__ // the sanitizer's own memory exceeds any limit
 TEST_F(VulkanTest, AnAllocationThatTheDriverRefusesIsAnErrorWithoutTrace) {
     if (device().info().kind != PT_DEVICE_CPU)
         GTEST_SKIP() << "a limit on the process's memory limits CPU devices only";

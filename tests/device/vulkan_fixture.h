@@ -1,5 +1,5 @@
-// An instance and a device, beneath pt.h. Messages of the validation layer fail the test. Environment:
-// context_fixture.h.
+// An instance and a device without pt.h. Messages of the validation layer fail the test. See context_fixture.h for
+// environment variables.
 #pragma once
 
 #include "lib/vulkan/device.h"

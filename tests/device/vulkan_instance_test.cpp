@@ -1,4 +1,4 @@
-// lib/vulkan/instance.* without a driver or a layer.
+// lib/vulkan/instance.* without drivers or layers.
 #include "lib/vulkan/instance.h"
 
 #include "lib/base/error.h"

@@ -48,7 +48,7 @@ TEST_F(VulkanTest, ADeviceThatDoesNotEndASubmissionIsLostForGood) {
                                   .invocations = 0,
                                   .queue_depth = 1});
     const Gate gate(device.handle());
-    Recurrence recurrence(device, 256); // fits into its buffer, so the first submission is the last
+    Recurrence recurrence(device, 256); // It fits into its buffer, so the first submission is the last.
     const pt::Error loss = error_of([&] { device.submit([&](const auto &commands) { gate.record(commands); }); });
     EXPECT_EQ(loss.code(), PT_ERROR_DEVICE_LOST);
     EXPECT_TRUE(device.lost());
@@ -68,7 +68,7 @@ TEST_F(VulkanTest, ADeviceThatDoesNotEndASubmissionIsLostForGood) {
     gate.open(); // unlike a hung device, this one ends the work
 }
 
-// Beyond the budget a driver may end loops without an error.
+// After more trips than the budget a driver may end loops without an error.
 TEST_F(VulkanTest, KernelsRunAllLoopTripsOfTheBudget) {
     constexpr std::uint64_t enough = 1U << 20;
     const auto steps = static_cast<std::uint32_t>(std::min(device().limits().loop_trip_budget, enough));

@@ -1,4 +1,4 @@
-// Walks by steps (tree_path.glsl) have the bits of whole walks, if the driver rounds as written.
+// Walks in steps (tree_path.glsl) have the bits of whole walks if the driver rounds as written.
 #include "tests/device/kernel_render.h"
 #include "tests/device/tree_scenes.h"
 #include "tests/support/checked_scene_of.h"
@@ -21,8 +21,8 @@ pt::PreparedScene all_in_a_tree(const pt::Scene &scene) {
     return prepared_scene_of({scene.materials, {spheres, {}}, scene.planes}, 1);
 }
 
-// One lamp, few that are each sampled, more than branches, and many; paths of one vertex, of one direction, with
-// roulette.
+// The scenes have one lamp, few lamps that are each sampled, more lamps than branches, or many. The paths have one
+// vertex, one direction, or roulette.
 TEST(WalkSteps, TakeTheSamplesOfWholeWalks) {
     TreeScenes scenes(23);
     const bool is_exact = probe_device().info().kind == PT_DEVICE_CPU;

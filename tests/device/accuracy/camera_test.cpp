@@ -1,4 +1,4 @@
-// camera.glsl against long double.
+// Compares camera.glsl with long double.
 #include "camera_items.spv.h"
 #include "tests/device/accuracy/direction.h"
 #include "tests/device/accuracy/evaluation.h"
@@ -19,7 +19,7 @@ struct Item {
     glm::vec4 forward;
     std::uint32_t column, row;
     glm::vec2 place;
-    float lens_radius, lens_blur; // (focus distance over image plane distance) = radius / blur
+    float lens_radius, lens_blur; // focus distance / image plane distance = radius / blur
     glm::vec2 disc;
 };
 
@@ -53,12 +53,12 @@ std::vector<Item> items() {
     return items;
 }
 
-// Absolute; u = 2^-24, W = forward + x right - y up. Products 2 u (|x| + |y|) <= 2.9 u |W|; sums 2 u |W|; W /
-// length(W): dot product 3 u / 2, sqrt 9 u, division 5 u.
+// An absolute bound with u = 2^-24 and W = forward + x right - y up. Products have 2 u (|x| + |y|) <= 2.9 u |W| and
+// sums 2 u |W|. For W / length(W), the dot product has 3 u / 2, sqrt 9 u and the division 5 u.
 constexpr Real bound = (2.9L + 2 + 15.5L) * half_ulp;
 
-// Distance in the plane of focus between lens ray and pinhole ray, over their length. Radius: origin 2 u, its opposite
-// in the direction 2 u, lack of unit length, position in the image 2 u: 7 u. `bound` is added.
+// The distance between lens ray and pinhole ray in the plane of focus, over their length. The radius has an error of 7
+// u: origin 2 u, its opposite in the direction 2 u, lack of unit length u, position in the image 2 u. `bound` is added.
 Real lens_bound(Real radius, Real distance) {
     return 7 * half_ulp * radius / distance + bound;
 }

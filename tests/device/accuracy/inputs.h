@@ -18,7 +18,7 @@ public:
 
     std::uint32_t word() { return static_cast<std::uint32_t>(generator_()); }
 
-    // Like the sampler's; one in sixteen is among the first or last four.
+    // Returns numbers like the sampler's. One in sixteen is among the first or last four values.
     float number() {
         const std::uint32_t bits = word() >> 8;
         const std::uint32_t choice = word();
@@ -28,7 +28,7 @@ public:
 
     double log_uniform(double low, double high) { return low * std::pow(high / low, word() * 0x1p-32); }
 
-    // One in eight is an axis, or 2^-k away from one.
+    // One direction in eight is an axis, or 2^-k away from one.
     glm::vec3 direction() {
         const std::uint32_t choice = word();
         glm::dvec3 vector(normal(), normal(), normal());
@@ -42,7 +42,7 @@ public:
     }
 
 private:
-    double normal() { // by the central limit theorem, portable
+    double normal() { // the central limit theorem is portable
         double sum = 0.0;
         for (int i = 0; i < 12; ++i)
             sum += word() * 0x1p-32;

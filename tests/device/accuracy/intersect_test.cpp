@@ -1,4 +1,4 @@
-// Distances to spheres and planes against long double.
+// Compares distances to spheres and planes with long double.
 #include "distance_items.spv.h"
 #include "shaders/specialization.h"
 #include "tests/device/accuracy/direction.h"
@@ -14,7 +14,7 @@ namespace accuracy::intersect {
 
 namespace {
 
-// Item::start.
+// A value of Item::start.
 constexpr float anywhere = 0.0F;
 constexpr float leaving_outside = 1.0F;
 constexpr float leaving_inside = 2.0F;
@@ -28,12 +28,12 @@ struct Item {
 
 struct Result {
     float sphere, plane;
-    float blocks_before, blocks_behind; // of shadow rays ending before and behind the hit
+    float blocks_before, blocks_behind; // for shadow rays that end before and behind the hit
 };
 
 constexpr float no_hit = 3.0e38F;
 
-// impact: in radii.
+// `impact` is in radii.
 Item passing_ray(Inputs &inputs, double distance, double radius, double impact, float start) {
     const glm::dvec3 direction(inputs.direction());
     const glm::dvec3 across =
@@ -64,15 +64,16 @@ std::vector<Item> items() {
     return items;
 }
 
-// met: 0, 1, or -1 where float32 cannot decide.
+// `met` is 0 or 1, or -1 if float32 cannot decide.
 struct Exact {
     int met;
     Real distance;
     Real bound;
 };
 
-// u = 2^-24, d = |center|, b = center . direction, l = |center - b direction|. b: 3 u d and lack of unit length.
-// Across: u |b| + u l; along the ray the error of b counts squared. l^2: 3 u; r^2: u; difference: u; sqrt: 9 u.
+// Let u = 2^-24, d = |center|, b = center . direction and l = |center - b direction|. b has 3 u d and the lack of unit
+// length. Across the ray, the error is u |b| + u l. Along the ray, the error of b counts squared. l^2 has 3 u, r^2 u,
+// the difference u and sqrt 9 u.
 Exact exact_sphere(const Item &item) {
     const Direction center(item.center);
     const Direction direction = glm::normalize(Direction(item.direction));
@@ -102,7 +103,7 @@ Exact exact_sphere(const Item &item) {
     return {std::abs(distance) <= bound ? -1 : static_cast<int>(met), distance, bound};
 }
 
-// -h / (n . v): dot product 2 u |n|, division 5 u.
+// For -h / (n . v), the dot product has 2 u |n| and the division 5 u.
 Exact exact_plane(const Item &item) {
     const Direction normal(item.center);
     const Real rate = glm::dot(normal, Direction(item.direction));
@@ -124,7 +125,7 @@ void compare(Comparison &comparison, const Exact &exact, float found, Real unit,
         comparison.add(found / unit, exact.distance / unit, exact.bound / unit, list(item));
 }
 
-// Negative control: radius 1.001 times larger.
+// Negative control: a radius 1.001 times as large.
 Exact exact_larger_sphere(Item item) {
     item.radius *= 1.001F;
     return exact_sphere(item);
@@ -143,7 +144,7 @@ struct Wrong {
     std::size_t shadows = 0; // wrong shadow rays
 };
 
-// Shadow rays end a tenth before or behind hits beyond 1e-4 |center|: 100 float32 errors.
+// Shadow rays end a tenth before or behind the hit. Hits nearer than 1e-4 |center|, 100 float32 errors, do not count.
 bool blocks_rightly(const Exact &exact, const Result &found, const Item &item) {
     if (exact.met == 1 && exact.distance > 1e-4L * glm::length(Direction(item.center)))
         return found.blocks_before == 0.0F && found.blocks_behind == 1.0F;
@@ -196,7 +197,7 @@ TEST(AccuracyIntersect, OfDistancesWherePathsAreNeverInside) {
     EXPECT_EQ(wrong.found, 0U);
     EXPECT_EQ(wrong.shadows, 0U);
     EXPECT_GT(wrong.of_control, 0U);
-    EXPECT_LT(wrong.undecided, outside.size() / 4); // half graze
+    EXPECT_LT(wrong.undecided, outside.size() / 4); // half of them graze
 }
 
 // Negative control: kernels without `inside` lose spheres from inside.

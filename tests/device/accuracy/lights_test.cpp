@@ -1,4 +1,4 @@
-// Samples of a lamp against long double.
+// Compares samples of a lamp with long double.
 #include "lamp_items.spv.h"
 #include "shaders/specialization.h"
 #include "tests/device/accuracy/direction.h"
@@ -13,7 +13,7 @@ namespace accuracy::lights {
 
 namespace {
 
-constexpr std::uint32_t lamp_count = 512; // fills a probe's scene
+constexpr std::uint32_t lamp_count = 512; // lamps that fill a probe's scene
 
 struct Lamp {
     glm::vec3 center;
@@ -76,7 +76,7 @@ struct View {
     Real distance;
     Real squared_sine;
     Real height;       // 1 - cos(half angle)
-    Real height_share; // its relative error
+    Real height_share; // relative error of height
     Real highest_cosine;
 
     View(const Lamp &lamp, const Item &item) {
@@ -87,14 +87,15 @@ struct View {
         const Real cosine = std::sqrt(std::max<Real>(1 - squared_sine, 0));
         height = squared_sine / (1 + cosine);
         highest_cosine = glm::dot(glm::normalize(Direction(item.normal)), axis) + Real{lamp.radius} / distance;
-        // sin^2: r^2 u, d^2 5 u, division 5 u. 1 - sin^2: that and u / 2, absolute. sqrt 9 u, sum u, division 5 u.
+        // sin^2 has u for r^2, 5 u for d^2 and 5 u for the division. 1 - sin^2 has this and u / 2, absolute. The rest
+        // has sqrt 9 u, sum u and division 5 u.
         const Real cosine_bound = root_bound(1 - squared_sine, 11.5L * half_ulp) + 9 * half_ulp * cosine;
         height_share = 16 * half_ulp + (cosine_bound + 2 * half_ulp) / (1 + cosine - cosine_bound);
     }
 };
 
-// Axis: differences u, inversesqrt of d^2 6.5 u, product u: 8.5 u, once for the direction and three times across, as
-// the basis turns. Then direction_about, and u for u.x h.
+// The axis has 8.5 u: differences u, inversesqrt of d^2 6.5 u, product u. It counts once for the direction and three
+// times across, as the basis turns. direction_about follows, and u for u.x h.
 Real direction_bound(const View &view, const glm::vec3 &axis, Real h) {
     const Real axis_bound = 8.5L * half_ulp;
     const Real sine = std::sqrt(h * (2 - h));
@@ -102,7 +103,8 @@ Real direction_bound(const View &view, const glm::vec3 &axis, Real h) {
            std::sqrt(Real{2}) * sine * (3 + 2.5L) * axis_bound + axis_bound;
 }
 
-// d: d^2 2.5 u, inversesqrt 4 u, product u. r^2 - d^2 h (2 - h): 3 u r^2; second term 18 u and h's relative error.
+// d has 7.5 u: d^2 2.5 u, inversesqrt 4 u, product u. r^2 - d^2 h (2 - h) has 3 u r^2. Its second term has 18 u and the
+// relative error of h.
 Real distance_bound(const View &view, const Lamp &lamp, Real h) {
     const Real share = view.height_share + half_ulp;
     const Real squared_radius = Real{lamp.radius} * lamp.radius;
@@ -134,8 +136,8 @@ struct AccuracyLights : testing::Test {
     }
 };
 
-// radiance sin^2 min(1, highest cosine) must not be 0 where the irradiance's bound is not. Dot product and sum 4 u,
-// factor 1 / d 7.5 u, the normal's length.
+// The stated radiance sin^2 min(1, highest cosine) must not be 0 if the irradiance's bound is not 0. Dot product and
+// sum have 4 u, and the factor 1 / d has 7.5 u. The normal's length adds to these.
 TEST_F(AccuracyLights, OfLampSamples) {
     Comparison height("one_minus_cos", "of itself");
     Comparison density("cone_density", "of itself");
@@ -165,7 +167,7 @@ TEST_F(AccuracyLights, OfLampSamples) {
             continue;
         }
         lost += result.weight > 0.0F ? 0 : 1;
-        // 1 / (2 pi h): constant u / 2, product u, division 5 u.
+        // 1 / (2 pi h) has u / 2 for the constant, u for the product and 5 u for the division.
         density.add(result.density * (2 * pi * view.height), 1, view.height_share * 1.01L + 7 * half_ulp, input);
         const Real h = item.numbers.x * view.height;
         direction.add(result.direction,

@@ -1,4 +1,4 @@
-// Whether the accuracy measurement detects errors.
+// The accuracy measurement must detect errors.
 #include "lib/kernel/accuracy.h"
 
 #include "accuracy_skips.spv.h"
@@ -53,7 +53,7 @@ TEST(AccuracyMaths, ArgumentsCoverTheRange) {
     }
 }
 
-// Negative control: a value wrong by little more than the bound.
+// Negative control: the error of one value is slightly above the bound.
 TEST(AccuracyMaths, ASingleErrorIsSeen) {
     for (const pt::ElementaryFunction &function : pt::elementary_functions()) {
         const std::vector<float> arguments = pt::accuracy_arguments(function);
@@ -85,7 +85,7 @@ TEST(AccuracyMaths, AnUnwrittenValueIsSeen) {
 
 // Negative control: a kernel that writes past its values.
 TEST(AccuracyMaths, ValuesBeyondTheEndAreAnError) {
-    const std::vector<float> arguments(4 * pt::gpu::WORKGROUP_SIZE, 2.0F); // 2: write one further
+    const std::vector<float> arguments(4 * pt::gpu::WORKGROUP_SIZE, 2.0F); // 2 makes the kernel write one more
     try {
         pt::evaluate(probe_device(), accuracy_skips_spirv(), arguments);
         FAIL() << "nothing was thrown";

@@ -1,4 +1,4 @@
-// sampling.glsl against long double.
+// Compares sampling.glsl with long double.
 #include "sampling_items.spv.h"
 #include "tests/device/accuracy/direction.h"
 #include "tests/device/accuracy/evaluation.h"
@@ -23,8 +23,8 @@ struct Result {
 std::vector<Item> items() {
     Inputs inputs(1);
     std::vector<Item> items;
-    // Caps of height 1 - cos(angle) from 5e-15, an angle of 1e-7, to 2, the whole sphere. Densities whose squares or
-    // ratios overflow, within 2^+-126, where Vulkan bounds the error of division.
+    // Caps have heights 1 - cos(angle) from 5e-15, an angle of 1e-7, to 2, the whole sphere. Squares or ratios of some
+    // densities overflow. Densities are within 2^+-126, where Vulkan bounds the error of division.
     for (std::size_t i = 0; i < random_count; ++i)
         items.push_back({inputs.direction(), static_cast<float>(inputs.log_uniform(5e-15, 2.0)),
                          glm::vec2(inputs.number(), inputs.number()),
@@ -39,18 +39,18 @@ std::vector<Item> items() {
     return items;
 }
 
-// u and 1 - u are exact; their roots err by 9 u each. Then both rotations.
+// u and 1 - u are exact, and their roots have 9 u each. Both rotations add to this.
 Real cosine_hemisphere_bound(const Item &item) {
     const Real sine = std::sqrt(Real{item.numbers.x});
     return rotation_bound(item.axis, sine) + azimuth_bound(sine) + 9 * half_ulp;
 }
 
-// 1 - 2 u is exact; the sine 2 sqrt(u (1 - u)) errs by u / 2 + 9 u.
+// 1 - 2 u is exact. The sine 2 sqrt(u (1 - u)) has u / 2 + 9 u.
 Real uniform_bound(Real sine) {
     return azimuth_bound(sine) + 9.5L * half_ulp * sine + half_ulp / 2;
 }
 
-// The nearer direction where the dot product (2 u and the lengths) cannot tell the side.
+// Returns the nearer direction if the dot product (2 u and the lengths) cannot tell the side.
 Direction mirrored_up(const Direction &direction, const Item &item, const glm::vec4 &found) {
     const Real cosine = glm::dot(direction, Direction(item.axis));
     const bool undecided = std::abs(cosine) < 4 * half_ulp + uniform_bound(1);
@@ -58,7 +58,7 @@ Direction mirrored_up(const Direction &direction, const Item &item, const glm::v
     return side < 0 ? -direction : direction;
 }
 
-// Uses the wedges between the square's diagonals, unlike the kernel.
+// Uses the wedges between the square's diagonals. The kernel does not.
 Direction concentric(const glm::vec2 &numbers) {
     const Real x = 2 * Real{numbers.x} - 1;
     const Real y = 2 * Real{numbers.y} - 1;
@@ -71,7 +71,7 @@ Direction concentric(const glm::vec2 &numbers) {
     return side * radius * Direction(std::cos(angle), std::sin(angle), 0);
 }
 
-// 2 u - 1 is exact for 24 bits. Ratio 5 u, angle 5 pi / 4 u, product u / 2 per component.
+// 2 u - 1 is exact for 24 bits. The ratio has 5 u, the angle 5 pi / 4 u and the product u / 2 per component.
 constexpr Real concentric_share = 5 * pi / 4 * half_ulp;
 
 class AccuracySampling : public testing::Test {
@@ -104,7 +104,7 @@ TEST_F(AccuracySampling, OfDirectionsAndWeights) {
         const Direction point = concentric(item.numbers);
         disc.add(glm::vec3(result.weight.z, result.weight.w, 0.0F), point,
                  glm::length(point) * (concentric_share + azimuth_bound(1)), list(item));
-        // w = 1 / (1 + q^2): q 5 u, q^2 11 u, sum u, division 2.5 ulp. Overflowing squares give 0.
+        // In w = 1 / (1 + q^2), q has 5 u, q^2 11 u, the sum u and the division 2.5 ulp. Overflowing squares give 0.
         const Real a = item.density;
         const Real b = item.other_density;
         add_in_ulp(weight, result.weight.x, a * a / (a * a + b * b), 14.5L, 0x1p-100L, list(item));
@@ -116,7 +116,7 @@ TEST_F(AccuracySampling, OfDirectionsAndWeights) {
     disc.finish();
 }
 
-// Each weight is within 14.5 ulp of at most 2^-24.
+// Each weight has an error of 14.5 ulp of at most 2^-24.
 TEST_F(AccuracySampling, WeightsOfBothTechniquesSumToOne) {
     std::vector<Item> exchanged = items_;
     for (Item &item : exchanged)

@@ -1,4 +1,4 @@
-// vertex_at for wrong distances along the ray.
+// Tests vertex_at with wrong distances along the ray.
 #include "shaders/specialization.h"
 #include "tests/device/accuracy/direction.h"
 #include "tests/device/accuracy/evaluation.h"
@@ -61,8 +61,9 @@ std::vector<Item> items(const std::vector<glm::vec4> &surfaces) {
     return items;
 }
 
-// u = 2^-24. Sphere: normalize times radius 15.5 u, product u; sum u |p|. Plane: normal . p + offset 2 u |p| + u;
-// correction 3 u of itself; difference u |p|; a normal off unit length by l leaves 2 l of the height.
+// Let u = 2^-24. For a sphere, normalize times radius has 15.5 u, the product u and the sum u |p|. For a plane, normal
+// . p + offset has 2 u |p| + u, the correction 3 u of itself, and the difference u |p|. A normal off unit length by l
+// leaves 2 l of the height.
 Real sphere_bound(const glm::vec4 &sphere, const Direction &point) {
     return half_ulp * (16.5L * sphere.w + glm::length(point));
 }
@@ -103,10 +104,10 @@ TEST(AccuracyVertex, OfPoints) {
             const Real height = glm::dot(Direction(surface), position) + surface.w;
             from_plane.add(height / scale, 0, plane_bound(surface, reached, height_before) / scale, input);
         }
-        // A dot product errs by 3 u.
+        // A dot product has an error of 3 u.
         EXPECT_LE(glm::dot(normal, Direction(item.direction)), 3 * half_ulp) << "not on the side of the ray's start";
         inside += results[i].inside == 1.0F ? 1 : 0;
-        // 2 (n . d) n: 4 u + 2 u; difference u. A ray along the surface is its own mirror image.
+        // 2 (n . d) n has 4 u + 2 u, and the difference u. A ray along the surface is its own mirror image.
         mirror.add(glm::vec3(results[i].mirror), glm::reflect(Direction(item.direction), normal), 7 * half_ulp, input);
     }
     EXPECT_TRUE(inside > 0 && inside < all.size()) << "only one side was tested";
