@@ -45,9 +45,9 @@ float distance_from_outside(vec3 to_centre, float radius, vec3 direction, bool l
     return !leaving && squared_half_chord >= 0.0 && b > 0.0 ? nearer : NO_HIT;
 }
 
-// Distance along a unit vector to a sphere, or NO_HIT (shaders/README.md, section 3). `leaving`: the ray starts on the
-// sphere, on the side given by `inside`. Otherwise `outside` gives the side. The sign of the distance does not decide,
-// because rounding may flip it.
+// Distance along a unit vector to a sphere, or NO_HIT (shaders/README.md, section 3). If `leaving`, the ray starts on
+// the sphere, on the side that `inside` gives. Otherwise `outside` gives the ray's side. Rounding may flip the sign of
+// the distance, so callers say on which side the ray is.
 float sphere_distance(vec3 to_centre, float radius, vec3 direction, bool leaving, bool inside, bool outside)
 {
     if (INSIDE == 0)
@@ -110,8 +110,8 @@ vec3 to_met(Ball ball, vec3 to_first, vec3 direction, bool to_last, uint kinds)
     return to_first + swept_to(to_first, ball.axis, ball.centre_radius.w, direction, to_last);
 }
 
-// Whether a ray from another surface starts outside a sphere. Where rays pass surfaces, both may coincide, such as an
-// atom and the end of its bond. Within `rounding` of the sphere, a ray that leads outwards is outside.
+// Whether a ray from another surface starts outside a sphere. If rays pass surfaces, the two surfaces may coincide,
+// such as an atom and the end of its bond. Within `rounding` of the sphere, a ray that leads outwards is outside.
 bool is_outside(vec3 to_centre, float radius, vec3 direction, float rounding)
 {
     float squared = dot(to_centre, to_centre);

@@ -70,7 +70,8 @@ Hit closest_hit_and_shadow(Start start, float time, vec3 direction, ShadowRay sh
     return hit;
 }
 
-// Rounding may put the start behind a plane. At grazing angles the distance back is long, so it becomes 0.
+// Rounding may put the start behind a plane. The distance is then negative, and long at grazing angles, so it becomes
+// 0.
 Hit ahead(Hit hit)
 {
     if (KNOWN_SIDES == 1 && PLANE_COUNT > 0u)

@@ -11,8 +11,8 @@ const bool HAS_LAMP_TREE = LAMP_TREE_LEVELS > 0u;
 // Four sibling nodes, one per component.
 struct Siblings {
     vec4 x, y, z;
-    vec4 power;   // 0: no node
-    vec4 spread;  // of a lamp: its radius
+    vec4 power;  // 0: no node
+    vec4 spread; // a lamp's is its radius
 };
 
 Siblings siblings_of(uint group, Vertex vertex, float time)
@@ -107,9 +107,9 @@ LampWalk walk_to(uint lamp)
 
 LampWalk walk_by(uint number) { return LampWalk(true, 0u, float(number >> 8u) * NUMBER_STEP, number, 1.0); }
 
-// Takes one of four children in proportion to `importance` or, if all are 0, to `others`. It is the last positive child
-// for which the sum over earlier children does not exceed the random number, so rounding never chooses importance 0. A
-// choice with probability p leaves a number 1 / p times as coarse; bits of a hash refill it.
+// Takes one of four children in proportion to `importance` or, if all are 0, to `others`. It is the last child of
+// positive importance for which the sum over earlier children does not exceed the random number. So rounding never
+// chooses importance 0. A choice with probability p leaves a number 1 / p times as coarse; bits of a hash refill it.
 uint take_child(inout LampWalk walk, vec4 importance, vec4 others, uint given)
 {
     vec4 part = sum_of(importance) > 0.0 ? importance : others;

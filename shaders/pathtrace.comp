@@ -42,7 +42,7 @@ void take_samples(uvec2 pixel, uint pixel_index, uint done, uint end, inout Film
     } while (done < end);
 }
 
-// take_samples() by steps of walks (tree_path.glsl).
+// The same as take_samples(), in steps of walks (tree_path.glsl).
 void take_samples_by_steps(uvec2 pixel, uint pixel_index, uint done, uint end, inout FilmPixel gathered)
 {
     FrameConstants held = frame;

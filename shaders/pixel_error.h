@@ -122,7 +122,7 @@ PT_FUNCTION bool is_met_again(real mean, real lesser)
     return lesser >= 0.25 * mean;
 }
 
-// A neighbor's light M may fill a fraction p of this pixel that none of N samples met, if the mean is below M / N. A
+// A neighbor's light M may fill a fraction p of this pixel that none of N samples hit, if the mean is below M / N. A
 // random edge cuts off a corner whose area is the square of its height. So the fraction is below p with probability c
 // sqrt(p). Let a^2 = (T^2 + offset) / M^2 and b = 1 / (N a). The squared error p M^2 / N has the relative expectation
 //

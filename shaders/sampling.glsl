@@ -4,7 +4,8 @@
 
 #include "maths.glsl"
 
-// Angles about the z axis. Cosine and sine hold the polar angle, because Vulkan allows acos 4096 ulp.
+// Angles about the z axis. The polar angle is given by cosine and sine, because Vulkan allows acos an error of 4096
+// ulp.
 struct SphericalAngles {
     float cos_polar;
     float sin_polar;

@@ -188,7 +188,7 @@ bool is_walked_lamp(uint surface) { return TREE_LAMPS == 0u || surface < WALKED_
 
 struct Level {
     float height;  // positive on the normal's side
-    vec3 gradient; // of the height; on the plane the normal
+    vec3 gradient; // of the height; on the plane it is the normal
     float curvature;
 };
 

@@ -202,9 +202,9 @@ uint next_place(inout Walk walk)
 
 bool is_in_tree(uint surface) { return surface >= SURFACE_COUNT && surface != NO_SURFACE; }
 
-// An odd hash of a sphere's word, with the radius in grid steps, so independent of scale. Words differ
-// (lib/tree/coincident_spheres.h). The hash ends like lowbias32 (Wellons, "Prospecting for hash functions", 2018),
-// where each input bit flips half of the output.
+// An odd hash of a sphere's word. The radius is in grid steps, so the hash does not depend on the scene's scale. Words
+// differ (lib/tree/coincident_spheres.h). The hash ends like lowbias32 (Wellons, "Prospecting for hash functions",
+// 2018), where each input bit flips half of the output.
 uint opacity_generator(uvec4 word, uint opacity_number)
 {
     uint change = (opacity_number & TREE_OPACITY_BITS) << 1u;
