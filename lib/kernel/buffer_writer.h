@@ -32,8 +32,8 @@ public:
     BufferWriter(const BufferWriter &) = delete;
     BufferWriter &operator=(const BufferWriter &) = delete;
 
-    // Waits for the device. With a semaphore to signal, the next call waits instead. Throws PT_ERROR_INTERNAL if a
-    // driver lost work. If the previous call's work was lost, nothing is written.
+    // Waits for the device. If there is a semaphore to signal, the next call waits instead. Throws PT_ERROR_INTERNAL if
+    // a driver lost work. If the previous call's work was lost, nothing is written.
     void write(const ImageQuery &query, const BufferTarget &target);
 
 private:

@@ -79,7 +79,6 @@ private:
     double at_distance_1_;
 };
 
-// Stored values are rounded, so a few digits suffice.
 std::string short_text(double number) {
     std::array<char, 32> text{};
     return {text.data(),

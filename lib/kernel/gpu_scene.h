@@ -14,7 +14,7 @@ namespace pt {
 
 struct GpuScene {
     Features features;
-    // Positions are relative to the camera, computed in double. Motions are those while the shutter is open.
+    // Positions are relative to the camera, computed in double. Motions last while the shutter is open.
     std::vector<glm::vec4> words;
     gpu::FrameConstants frame;
     std::shared_ptr<const SphereTree> tree; // may be NULL

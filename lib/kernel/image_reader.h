@@ -26,7 +26,7 @@ public:
     // work.
     void read(const ImageQuery &query, const std::function<void(std::span<const std::byte>)> &receive);
 
-    // Returns all pixels without gaps. The memory is valid until the next call. Throws like read().
+    // Returns all pixels without gaps. The memory is valid until the next call.
     std::span<std::byte> map(const ImageQuery &query);
 
 private:

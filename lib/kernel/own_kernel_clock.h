@@ -5,7 +5,7 @@
 
 namespace pt {
 
-// Such a kernel pays after a second of use. Waiting that long costs at most twice the optimum (ski rental problem). The
+// The kernel pays after a second of use. Waiting that long costs at most twice the optimum (ski rental problem). The
 // wait doubles when a kernel did not pay, and is reset when one has.
 class OwnKernelClock {
 public:
@@ -14,7 +14,6 @@ public:
 
     bool is_time(double seconds) const { return seconds > wait_; }
 
-    // `seconds` were spent with the last such kernel.
     void left_after(double seconds) {
         wait_ = seconds < seconds_to_pay ? std::min(2.0 * wait_, longest_wait) : seconds_to_pay;
     }

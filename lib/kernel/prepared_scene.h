@@ -21,8 +21,8 @@ struct PreparedScene {
     double film_unit;
     std::vector<Material> used_materials;
     std::vector<std::uint32_t> used_indices; // index in used_materials of each scene material
-    bool gloss;                              // Any used material is glossy.
-    std::shared_ptr<const SphereTree> tree;  // NULL if there are few spheres
+    bool gloss;
+    std::shared_ptr<const SphereTree> tree; // NULL if there are few spheres
     bool moves;
     std::vector<std::uint32_t> lamp_order; // see lamp_tree.h
 

@@ -58,7 +58,6 @@ std::uint64_t loop_trips_per_sample(const Features &features);
 // For one ray, or two rays from the same vertex.
 std::uint64_t loop_trips_per_walk(const Features &features);
 
-// An estimate for a path of full length.
 double surface_tests_per_path(const Features &features, const SphereTree *tree);
 
 double surface_tests_per_ray(const Features &features, const SphereTree *tree);

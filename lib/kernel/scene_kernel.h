@@ -32,7 +32,6 @@ public:
     // By constant_id.
     void fit(std::span<const std::uint32_t> constants);
 
-    // `ranges` are for the further bindings.
     vulkan::DescriptorSet bind(const BoundScene &bound, std::initializer_list<vulkan::BufferRange> ranges) const;
     void dispatch(const vk::raii::CommandBuffer &commands, const vulkan::DescriptorSet &set,
                   std::span<const std::byte> push_constants, std::uint64_t invocations) const;

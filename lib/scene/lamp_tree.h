@@ -1,4 +1,4 @@
-// The shape and order of the lamp tree, by which kernels choose among many lamps (gpu_layout.h).
+// The shape and order of the lamp tree (gpu_layout.h).
 #pragma once
 
 #include "lib/scene/scene.h"

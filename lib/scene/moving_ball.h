@@ -75,7 +75,7 @@ inline bool may_hold_origin(const MovingBall &ball, double slack = 0.0) {
     return !(least_distance(ball.open, ball.way) > with_margin(ball.radius) + slack);
 }
 
-// Whether both surfaces nearly coincide. For a capsule, one of its balls suffices.
+// Whether both surfaces nearly coincide. One of a capsule's balls suffices.
 inline bool nearly_coincide(const MovingBall &ball, const MovingBall &other) {
     const double apart = other.kind == Kind::capsule
                              ? std::max(least_distance(other.open - ball.open, other.way) - glm::length(ball.way), 0.0)
@@ -83,7 +83,6 @@ inline bool nearly_coincide(const MovingBall &ball, const MovingBall &other) {
     return apart + std::abs(ball.radius - other.radius) < two_spheres * std::min(ball.radius, other.radius);
 }
 
-// A ball at rest that contains a capsule.
 inline MovingBall ball_about(const MovingBall &ball) {
     if (ball.kind == Kind::ball)
         return ball;
@@ -91,8 +90,8 @@ inline MovingBall ball_about(const MovingBall &ball) {
     return {ball.open + half, glm::dvec3(0.0), ball.radius + glm::length(half)};
 }
 
-// Whether the ball never touches the surface and does not contain it. Relative motion is straight, so the greatest
-// distance is at an end.
+// Whether the ball neither touches nor contains the surface. Relative motion is straight, so the greatest distance is
+// at an end.
 inline bool lies_apart(const MovingBall &ball, const MovingBall &surface) {
     const MovingBall about = ball_about(surface);
     const glm::dvec3 from = ball.open - about.open;

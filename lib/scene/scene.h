@@ -62,7 +62,7 @@ struct Plane {
 };
 
 struct Scene {
-    std::vector<Material> materials; // the caller's, then those of colored spheres
+    std::vector<Material> materials; // the caller's, then materials of colored spheres
     std::vector<Sphere> spheres;     // pt_scene.spheres, then the arrays
     std::vector<Plane> planes;
     std::vector<std::uint32_t> array_starts = {};
@@ -74,7 +74,7 @@ struct CheckedScene;
 // Takes all spheres, or those with the ascending indices `only`.
 Scene owned_scene(CheckedScene checked, const std::vector<std::uint32_t> *only = nullptr);
 
-// A sphere in the caller's scene, for a BrokenRule.
+// For a BrokenRule.
 struct SpherePlace {
     const char *subject;
     std::int64_t index;

@@ -40,8 +40,8 @@ struct CurvedPlane {
 // Turns the normal towards the camera.
 CurvedPlane curved_plane(const Plane &plane, const Material &of_plane, const Camera &camera, std::uint32_t index = 0);
 
-// sphere.is_flat must hold. With center and radius in float32, the surface's error would be 2^-24 of the radius. As a
-// plane, it is 2^-24 of the scene's size.
+// sphere.is_flat must hold. With center and radius in float32, the surface's error would be 2^-24 of the radius. The
+// plane's error is 2^-24 of the scene's size.
 CurvedPlane curved_plane(const SeenSphere &sphere);
 
 struct SeenScene {

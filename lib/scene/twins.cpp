@@ -64,7 +64,7 @@ double reach(const CurvedPlane &) {
     return same_size;
 }
 
-// Elements sorted by places on a line. Similar ones are close.
+// Elements sorted by places on a line.
 class Line {
 public:
     template <typename Element>

@@ -12,7 +12,7 @@
 
 namespace pt {
 
-// A bounding ball in any unit. For a moving sphere it contains the whole way.
+// A bounding ball in any unit. It contains the whole way of a moving sphere.
 struct TreeItem {
     std::array<float, 4> centre_radius;
     std::uint32_t sphere;

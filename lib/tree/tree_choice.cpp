@@ -12,7 +12,7 @@ namespace pt {
 
 namespace {
 
-// Every ray tests these spheres, which at most doubles the time (default_tree_from). In the tree they cost more,
+// Every ray tests these spheres, which at most doubles the time (default_tree_from). The tree would make them slower,
 // because its boxes grow by 2^-19 of its reach.
 constexpr std::size_t most_outlying = 50;
 

@@ -1,4 +1,4 @@
-// Compares error estimates of the device with those of the host.
+// Compares the device's error estimates with the host's.
 #include "lib/base/error.h"
 #include "lib/film/error_estimate.h"
 #include "lib/film/quotient.h"

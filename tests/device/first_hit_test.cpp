@@ -167,7 +167,7 @@ TEST_F(FirstHit, TwinsHaveTheNumberOfTheFirst) {
     }
 }
 
-// Spheres in columns have numbers after structs. In a tree, colors are within a thousandth.
+// Spheres in columns have numbers after structs. Trees hold colors to a thousandth.
 TEST_F(FirstHit, ColumnsHaveNumbersAndColors) {
     Given given;
     given.materials = {{{0.8F, 0.8F, 0.8F}, {0, 0, 0}, {0, 0, 0}, 0, 0}};

@@ -40,7 +40,7 @@ struct Ball {
 
 enum class Held { AsTheSceneNeeds, ByItsCenter };
 
-// The kernel holds a ball that moves by a 32nd of its radius by its center. At the rays' time the ball is at rest.
+// The kernel holds a ball that moves by a 32nd of its radius by its center. The ball is at rest at the rays' time.
 std::vector<Met> follow(const Ball &ball, const std::vector<Ray> &rays, Held held = Held::AsTheSceneNeeds) {
     pt::Scene scene;
     scene.materials = {{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0}};
@@ -215,8 +215,8 @@ TEST(Intersection, CurvedPlanesAreMetFromFarAway) {
     expect_within_bounds(worst);
 }
 
-// Rays outside never hit the sphere again, and rays inside hit the far wall. For a chord t = 2 s / k, the slope's 8 eps
-// become 16 eps R = 8 eps t / s.
+// Rays outside never hit the sphere again, and rays inside hit the far wall. If the chord is t = 2 s / k, the slope's 8
+// eps become 16 eps R = 8 eps t / s.
 TEST(Intersection, RaysThatLeaveAHugeSphereMeetItAgainFromInsideOnly) {
     for (const double radius : {1e3, 1e6, 1e9}) {
         RandomRays random(3);

@@ -92,7 +92,7 @@ TEST_F(Lens, HasTheSameBitsOfSplitsAndScale) {
     }
 }
 
-// First hits are those of the pinhole at the lens's center.
+// First hits come from the pinhole at the lens's center.
 TEST_F(Lens, WithoutADiameterIsAPinhole) {
     Given lens = random_balls(1, 7, 8.0);
     Given pinhole = lens;

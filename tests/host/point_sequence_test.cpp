@@ -109,7 +109,7 @@ constexpr std::uint32_t net_digits = 10;
 constexpr std::uint32_t net_size = 1U << net_digits;
 constexpr std::uint32_t net_starts[] = {0, net_size, 77 * net_size, 0x80000000U, 0xffffffffU - net_size + 1};
 
-// In a (0,1)-sequence in base 2, an aligned block of 2^k points has one point in each of 2^k intervals.
+// A (0,1)-sequence in base 2 has one point of an aligned block of 2^k in each of 2^k intervals.
 TEST(Sobol, EveryDimensionIsAZeroOneSequence) {
     for (std::uint32_t dimension = 0; dimension < pt::sequence_dimensions; ++dimension)
         for (const std::uint32_t start : net_starts)
@@ -118,7 +118,7 @@ TEST(Sobol, EveryDimensionIsAZeroOneSequence) {
                     << "dimension " << dimension << ", 2^" << digits << " points from " << start;
 }
 
-// In a (0,2)-sequence in base 2, an aligned block of 2^m points has one point in each elementary box of volume 2^-m.
+// A (0,2)-sequence in base 2 has one point of an aligned block of 2^m in each elementary box of volume 2^-m.
 TEST(Sobol, TheFirstTwoDimensionsAreAZeroTwoSequence) {
     for (const std::uint32_t start : net_starts) {
         const Coordinates x = sobol_coordinates(start, net_size, 0);

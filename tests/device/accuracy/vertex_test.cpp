@@ -61,8 +61,8 @@ std::vector<Item> items(const std::vector<glm::vec4> &surfaces) {
     return items;
 }
 
-// Let u = 2^-24. For a sphere, normalize times radius has 15.5 u, the product u and the sum u |p|. For a plane, normal
-// . p + offset has 2 u |p| + u, the correction 3 u of itself, and the difference u |p|. A normal off unit length by l
+// Let u = 2^-24. The sphere's normalize times radius has 15.5 u, the product u and the sum u |p|. The plane's normal .
+// p + offset has 2 u |p| + u, the correction 3 u of itself, and the difference u |p|. A normal off unit length by l
 // leaves 2 l of the height.
 Real sphere_bound(const glm::vec4 &sphere, const Direction &point) {
     return half_ulp * (16.5L * sphere.w + glm::length(point));
