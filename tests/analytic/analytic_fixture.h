@@ -1,4 +1,3 @@
-// Renders scenes for comparison with exact values.
 #pragma once
 
 #include "tests/support/batch_fixture.h"

@@ -1,4 +1,3 @@
-// Crops an image around a pixel.
 #pragma once
 
 #include <pt/pt.h>

@@ -1,4 +1,3 @@
-// Tests images of many shapes that show an emitting sphere.
 #include "tests/analytic/analytic_fixture.h"
 #include "tests/analytic/judge.h"
 #include "tests/analytic/sphere_coverage.h"

@@ -1,4 +1,3 @@
-// Compares means of samples with exact values.
 #pragma once
 
 #include "tests/support/batch_fixture.h"

@@ -1,4 +1,3 @@
-// The scenes of tests/data/analytic and their exact pixels.
 #pragma once
 
 #include "cli/scene/scene_file.h"

@@ -1,5 +1,3 @@
-"""The scenes of the benchmark."""
-
 import hashlib
 import json
 import pathlib

@@ -1,5 +1,3 @@
-"""The benchmark's results and report."""
-
 import statistics
 
 from cost_of_error import cost_of_error

@@ -1,5 +1,3 @@
-"""The benchmark's plot: error against cost, a panel per scene."""
-
 import math
 
 import matplotlib

@@ -1,5 +1,3 @@
-"""The cost of an error, from errors at a few sample counts."""
-
 import math
 
 

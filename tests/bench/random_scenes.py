@@ -36,7 +36,6 @@ def hundred(first_seed):
 
 
 def between_powers(rng, low, high):
-    """Returns a number with an evenly distributed logarithm."""
     return math.exp(rng.uniform(math.log(low), math.log(high)))
 
 

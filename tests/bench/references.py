@@ -24,7 +24,7 @@ import sys
 from bench_scenes import CHECKS, NAMES, REFERENCES, SIZE, digest, load_scene
 from block_means import block_means, compare, mean_and_error, whole_means
 
-SEEDS = range(9001, 9017)  # different from the benchmark's seeds
+SEEDS = range(9001, 9017)
 CHECK_SEEDS = range(9101, 9165)
 MITSUBA_SEEDS = range(9201, 9217)
 MOST_Z = 6

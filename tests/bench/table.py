@@ -1,5 +1,3 @@
-"""A Markdown table with aligned columns."""
-
 
 def print_table(rows):
     widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]

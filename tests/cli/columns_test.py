@@ -1,5 +1,3 @@
-"""Tests spheres in columns of NPY files."""
-
 import json
 import os
 

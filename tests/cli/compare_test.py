@@ -1,5 +1,3 @@
-"""Tests `pt compare`: figures, limits, tests of the light, exit codes, refusals."""
-
 import json
 import os
 import shutil

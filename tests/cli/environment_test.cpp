@@ -1,4 +1,3 @@
-// Tests the variables that widen_vectors() adds.
 #include "cli/base/environment.h"
 #include "cli/base/exit_code.h"
 #include "tests/cli/temporary_folder.h"

@@ -1,5 +1,3 @@
-"""Tests all rows of exit codes in cli/README.md."""
-
 import os
 import re
 

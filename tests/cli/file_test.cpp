@@ -1,4 +1,3 @@
-// cli/base/file.
 #include "cli/base/file.h"
 #include "tests/cli/refusal_of.h"
 #include "tests/cli/temporary_folder.h"

@@ -1,5 +1,3 @@
-"""Tests standard streams, and outputs that would overwrite inputs."""
-
 import json
 import os
 import subprocess

@@ -1,4 +1,3 @@
-// Tests film files (cli/film/film.h).
 #include "cli/film/film.h"
 
 #include "tests/cli/refusal_of.h"

@@ -1,5 +1,3 @@
-"""Tests `pt render --frames`: files, stops, and pictures that equal those of single scenes."""
-
 import json
 import os
 import signal

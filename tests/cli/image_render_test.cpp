@@ -1,4 +1,3 @@
-// Tests steps of samples in cli/render/image_render.
 #include "cli/render/image_render.h"
 
 #include <gtest/gtest.h>

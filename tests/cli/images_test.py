@@ -1,5 +1,3 @@
-"""Tests images of `pt render` and `pt tonemap`: crops, standard output, metadata."""
-
 import json
 import os
 import pty

@@ -1,4 +1,3 @@
-// Tests lib/platform/input_file and printable.
 #include "lib/platform/input_file.h"
 #include "lib/platform/printable.h"
 #include "tests/cli/temporary_folder.h"

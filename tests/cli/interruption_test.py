@@ -1,5 +1,3 @@
-"""Tests signals while rendering, and the remaining files."""
-
 import fcntl
 import os
 import pty

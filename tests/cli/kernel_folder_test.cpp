@@ -1,4 +1,3 @@
-// Tests cli/base/kernel_folder, which keeps compiled kernels in files.
 #include "cli/base/kernel_folder.h"
 
 #include "tests/cli/temporary_folder.h"

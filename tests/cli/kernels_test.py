@@ -1,5 +1,3 @@
-"""Tests kernels that are kept from run to run."""
-
 import os
 import re
 

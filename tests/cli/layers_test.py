@@ -1,5 +1,3 @@
-"""Tests `pt render --layers` and --alpha."""
-
 import math
 import struct
 

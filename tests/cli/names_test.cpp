@@ -1,4 +1,3 @@
-// cli/base/names.
 #include "cli/base/enumerations.h"
 
 #include <gtest/gtest.h>

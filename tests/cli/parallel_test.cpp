@@ -1,4 +1,3 @@
-// Tests that cli/base/tasks.h runs each task once.
 #include "cli/base/tasks.h"
 
 #include <gtest/gtest.h>

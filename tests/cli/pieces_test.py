@@ -1,5 +1,3 @@
-"""Tests images in pieces of rows, in steps, or on several devices."""
-
 import json
 import resource
 import signal

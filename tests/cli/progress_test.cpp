@@ -1,4 +1,3 @@
-// cli/base/progress.
 #include "cli/base/progress.h"
 
 #include <nlohmann/json.hpp>

@@ -1,5 +1,3 @@
-"""Tests progress in files and terminals."""
-
 import fcntl
 import json
 import os

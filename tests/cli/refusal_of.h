@@ -1,4 +1,3 @@
-// Catches the failure of a call.
 #pragma once
 
 #include "cli/base/exit_code.h"

@@ -1,4 +1,3 @@
-// cli/render/render_report.
 #include "cli/base/devices.h"
 #include "cli/render/render_report.h"
 

@@ -1,4 +1,3 @@
-// cli/scene/scene_file.
 #include "cli/scene/scene_file.h"
 
 #include "tests/cli/refusal_of.h"

@@ -1,4 +1,3 @@
-// Tests replaced values and animations.
 #include "cli/base/text.h"
 #include "cli/render/render_options.h"
 #include "cli/scene/scene_file.h"

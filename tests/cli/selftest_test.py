@@ -1,5 +1,3 @@
-"""Tests `pt selftest` as users see it."""
-
 import json
 import os
 import shutil

@@ -1,5 +1,3 @@
-"""Tests `pt render --shader-dir`, with and without --watch."""
-
 import glob
 import json
 import os

@@ -1,4 +1,3 @@
-// cli/render/source_watch.
 #include "cli/render/source_watch.h"
 #include "tests/cli/temporary_folder.h"
 

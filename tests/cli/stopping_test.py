@@ -1,5 +1,3 @@
-"""Tests how a rendering ends (samples, time, target error, signals), messages about the error, and previews."""
-
 import json
 import os
 import signal

@@ -1,4 +1,3 @@
-// cli/image/tone_map.
 #include "cli/image/tone_map.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,3 @@
-"""Tests `pt render --watch` with changing scenes."""
-
 import json
 import os
 import signal

@@ -1,5 +1,3 @@
-"""Helpers for `pt render --watch`."""
-
 import json
 import os
 import signal

@@ -62,7 +62,6 @@ struct Denoising {
         return pt_denoise(&info, &error);
     }
 
-    // Over all values.
     double mean(const std::function<double(std::size_t)> &value) const {
         double sum = 0.0;
         for (std::size_t i = 0; i < value_count; ++i)

@@ -1,4 +1,3 @@
-// Tests devices that state too little memory.
 #include "tests/faults/vulkan_calls.h"
 #include "tests/support/context_calls.h"
 #include "tests/support/context_fixture.h"

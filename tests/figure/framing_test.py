@@ -1,5 +1,3 @@
-"""Tests the frame of a picture, and notes about pictures that show little."""
-
 import math
 import re
 import unittest

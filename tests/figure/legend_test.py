@@ -1,5 +1,3 @@
-"""Tests legends and color bars, as files and in the picture."""
-
 import io
 import sys
 import unittest

@@ -1,5 +1,3 @@
-"""Tests colors and radii of particles, and composition with a background."""
-
 import unittest
 
 import numpy as np

@@ -1,4 +1,3 @@
-// Ends the process if a condition fails.
 #pragma once
 
 #include <cstdio>

@@ -13,7 +13,6 @@ namespace {
 
 constexpr const char *path = "scene.json";
 
-// Limits the image's size.
 void examine_scene(const cli::SceneFile &scene, std::span<const std::uint8_t> bytes) {
     fuzz::Input input;
     input.materials = scene.materials;

@@ -1,4 +1,3 @@
-// Makes pt.h's structs from bytes.
 #include "tests/fuzz/examine.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {

@@ -1,5 +1,3 @@
-"""Tests comparisons of light: films, images and arrays, and the assertion for tests."""
-
 import unittest
 
 import numpy as np

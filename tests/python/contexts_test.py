@@ -1,5 +1,3 @@
-"""Tests lifetimes of contexts and films: threads, processes, closing, leaks."""
-
 import gc
 import os
 import pathlib

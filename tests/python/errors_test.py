@@ -1,5 +1,3 @@
-"""Tests exceptions and broken rules."""
-
 import ctypes
 import pathlib
 import re

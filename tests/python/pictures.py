@@ -1,5 +1,3 @@
-"""Small pictures for the package's tests."""
-
 import numpy as np
 import pt
 

@@ -1,5 +1,3 @@
-"""Tests pt.render, its fitted camera, images in the caller's arrays, and target errors."""
-
 import unittest
 from dataclasses import replace
 

@@ -1,4 +1,3 @@
-// Reads converged images of other renderers.
 #pragma once
 
 #include <OpenImageIO/imageio.h>

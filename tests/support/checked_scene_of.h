@@ -1,4 +1,3 @@
-// Checks and prepares a scene, without progress.
 #pragma once
 
 #include "lib/kernel/prepared_scene.h"

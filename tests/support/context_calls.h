@@ -37,7 +37,6 @@ inline std::vector<char> film_of(pt_context *of) {
     return film;
 }
 
-// The result has three values for each pixel.
 inline std::vector<float> values_of(pt_context *from, std::size_t pixel_count,
                                     std::uint32_t quantity = PT_QUANTITY_RADIANCE) {
     std::vector<float> values(3 * pixel_count, -7.0F);

@@ -1,4 +1,3 @@
-// Returns the error that a call throws.
 #pragma once
 
 #include "lib/base/error.h"

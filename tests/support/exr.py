@@ -1,5 +1,3 @@
-"""Reads the program's OpenEXR files."""
-
 import struct
 import zlib
 

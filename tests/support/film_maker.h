@@ -82,7 +82,6 @@ inline void set_pixel(pt::PixelSums &sums, std::size_t at, const Pixel &pixel, c
     }
 }
 
-// All pixels of a tile must have the same samples.
 inline Bytes film_of(const pt::FilmIdentity &identity, const std::vector<pt::Rectangle> &tiles, const Samples &samples,
                      const std::vector<pt::LampSquare> &lamps = {}) {
     pt::FilmHeader header{identity, {}, {}, lamps};

@@ -1,4 +1,3 @@
-// Compares blocks of pixels with a path tracer in double.
 #pragma once
 
 #include "tests/support/context_fixture.h"

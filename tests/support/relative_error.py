@@ -1,5 +1,3 @@
-"""The relative error of images."""
-
 import numpy
 
 

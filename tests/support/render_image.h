@@ -1,4 +1,3 @@
-// Renders the image of a scene in one call.
 #pragma once
 
 #include "tests/support/image_target.h"

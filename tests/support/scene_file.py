@@ -1,5 +1,3 @@
-"""Reads scene files."""
-
 import json
 import pathlib
 import re

@@ -1,4 +1,3 @@
-// Makes pt_scene and pt_render from parts.
 #pragma once
 
 #include <pt/pt.h>

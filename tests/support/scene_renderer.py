@@ -64,7 +64,6 @@ class Renderer:
                          structs.pt_accumulate_info(sample_count=sample_count, target_error=target_error))
 
     def readback(self, values):
-        """Fills a ctypes array of floats."""
         self.call("pt_readback", structs.pt_image(data=ctypes.addressof(values), size_bytes=ctypes.sizeof(values)))
 
     def image(self):

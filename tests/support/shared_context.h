@@ -1,4 +1,3 @@
-// pt_create with settings for tests.
 #pragma once
 
 #include "lib/api/context.h"
