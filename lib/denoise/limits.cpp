@@ -30,7 +30,7 @@ Support support_about(const Halves &halves, std::size_t x, std::size_t y, std::s
 
 float reach_at(const Halves &halves, std::size_t x, std::size_t y, std::size_t channel) {
     constexpr float most_raised = 16.0F;
-    constexpr float standard_errors = 2.0F * 1.41421356F; // a half's standard error is sqrt(2) times the mean's
+    constexpr float standard_errors = 2.0F * 1.41421356F;
     const float own = spread_at(halves, halves.index(x, y, channel));
     const float about = median_about(halves, x, y, channel, &spread_at);
     return standard_errors * std::max(own, std::min(about, most_raised * own));

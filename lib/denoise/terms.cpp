@@ -23,7 +23,7 @@ double relative_weight(const Halves &halves, std::size_t x, std::size_t y, std::
     const double mean = 0.5 * (first + second);
     const double product = std::max(double{halves.first_filtered[index]} * halves.second_filtered[index], 0.0);
     double most_square = squared(mean);
-    if (mean < 0.0 || product > most_square) // otherwise the median changes nothing
+    if (mean < 0.0 || product > most_square)
         most_square = squared(std::max(mean, most_above_median * median_about(halves, x, y, channel, &mean_at)));
     gpu::Limit limit{};
     limit.square = std::min(product, most_square) + relative_offset;

@@ -25,7 +25,7 @@ void spread(Tiles &tiles) {
 }
 
 Place::Place(std::size_t pixel, std::size_t count) {
-    const double position = (static_cast<double>(pixel) + 0.5) / Tiles::width - 0.5; // 0: center of the first tile
+    const double position = (static_cast<double>(pixel) + 0.5) / Tiles::width - 0.5; // in tile centers
     const double inside = std::clamp(position, 0.0, static_cast<double>(count - 1));
     first = static_cast<std::size_t>(inside);
     second = std::min(first + 1, count - 1);

@@ -140,7 +140,7 @@ AdaptiveRound round_after(const AdaptiveRound &round, const TileSamples &samples
         return next;
     }
     const std::int32_t content = std::max(round.number, by_round.begin()->first);
-    if (sees_too_little && excess <= 1.0) { // a lower bound finds no unseen light
+    if (sees_too_little && excess <= 1.0) { // a lower bound would not help
         next.number = content;
         return next;
     }

@@ -44,13 +44,13 @@ AdaptiveRound round_after(const AdaptiveRound &round, const TileSamples &samples
 
 struct TileStep {
     std::vector<std::uint32_t> tiles;                 // ascending
-    std::function<std::uint64_t(std::uint32_t)> goal; // a tile's new number of samples per pixel
+    std::function<std::uint64_t(std::uint32_t)> goal; // samples per pixel
 };
 
 // Each call is slow.
 struct FilmLooks {
     std::function<ErrorEstimate()> error;
-    std::function<std::vector<double>()> squares; // own_square() of each tile (tile_errors.h)
+    std::function<std::vector<double>()> squares; // own_square() by tile
 
     std::function<std::vector<std::uint64_t>()> samples_for_lamps; // lamps of wanting_tiles()
 };
@@ -58,7 +58,7 @@ struct FilmLooks {
 // Maximum samples of a pixel.
 struct MostSamples {
     std::uint64_t most;  // in this call
-    std::uint64_t limit; // in all calls, at least `most`
+    std::uint64_t limit; // in all calls
 };
 
 // While tiles have equal samples, the error is checked at fixed counts. Later, a tile's need depends only on its own

@@ -139,8 +139,8 @@ double sample_ratio(const pt_compare_info &info) {
 
 // The largest differences of single pixels. By chance, a region may have missed light of this size.
 struct Events {
-    double absolute = 0.0; // from pixels with more than twice the light, or one sample of the brightest pixel
-    double relative = 0.0; // from other pixels, as a fraction of their light, at most 1
+    double absolute = 0.0; // largest difference of pixels with more than twice the light
+    double relative = 0.0; // of other pixels, fraction of the light
 
     void add_pixel(double first, double second, double ratio) {
         const double event = ratio * std::abs(first - second);
@@ -172,8 +172,8 @@ ChannelEvents largest_events(const pt_compare_info &info) {
 // A difference that the chance absence of rare events may explain in part.
 struct Difference {
     double z;        // difference, in deviations
-    double event;    // size of one event, in deviations
-    double skewness; // against the sign of the difference, at least 0
+    double event;    // in deviations
+    double skewness; // against the difference, >= 0
 
     // Returns an upper bound for the probability of this difference in equal light. Noise explains up to 1 / event
     // deviations, absent events the rest.

@@ -59,7 +59,7 @@ bool finds_lamps_by_chance(std::uint32_t estimator, std::uint32_t max_path_lengt
 
 struct SampleConditions {
     std::uint32_t sampler;
-    bool may_miss_lamps; // few samples or none may have hit some lamps
+    bool may_miss_lamps; // some lamps may have few hits
     bool finds_lamps_by_chance = false;
 };
 

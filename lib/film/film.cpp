@@ -226,7 +226,7 @@ void Film::read(const Rectangle &pixels, std::uint32_t quantity, const ReceiveRo
 }
 
 void Film::read_rows_from(std::uint32_t first_row, PixelSums &sums) const {
-    sums.clear(); // pixels outside all tiles stay 0
+    sums.clear(); // 0 outside all tiles
     const Rectangle rows{bounds_.x, bounds_.y + first_row, bounds_.width,
                          static_cast<std::uint32_t>(sums.pixel_count() / bounds_.width)};
     for (const Tile &tile : tiles_)

@@ -15,7 +15,7 @@ namespace pt {
 
 namespace {
 
-// Above the exponents of all films.
+// A bound above the exponents of all films.
 constexpr int most_unit_exponent = 300;
 
 std::optional<std::string> value_in(const FilmIdentity &identity, const std::string &name) {

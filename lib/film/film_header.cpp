@@ -26,7 +26,7 @@ constexpr std::string_view lamps_name = "lamps";
 // More rounds than double-precision errors can need.
 constexpr std::uint64_t max_round = 10'000;
 
-// Several times the present number. Limits memory, since short lines take many times their length.
+// Several times the present number. Limits memory, since a parsed line takes many times its length.
 constexpr std::size_t max_facts = 100;
 
 [[noreturn]] void refuse(const std::string &message) {

@@ -57,7 +57,7 @@ struct AdaptiveRound {
     static constexpr std::int32_t none = std::numeric_limits<std::int32_t>::min();
 
     std::int32_t number = none; // the bound is 2^(-number / 2)
-    std::uint64_t floor = 0;    // minimum samples per pixel
+    std::uint64_t floor = 0;    // minimum per pixel
 
     bool operator==(const AdaptiveRound &) const = default;
 };
@@ -70,7 +70,7 @@ inline AdaptiveRound later_of(const AdaptiveRound &a, const AdaptiveRound &b) {
 struct LampSquare {
     std::uint32_t x; // multiples of lamp_square
     std::uint32_t y;
-    std::uint32_t samples; // needed per pixel to hit the smallest lamp
+    std::uint32_t samples; // per pixel, to hit the smallest lamp
 
     bool operator==(const LampSquare &) const = default;
 };
@@ -82,7 +82,7 @@ std::vector<LampSquare> united(std::vector<LampSquare> lamps);
 
 struct FilmHeader {
     FilmIdentity identity;
-    std::vector<FilmTile> tiles; // in the order of their sums
+    std::vector<FilmTile> tiles;
     AdaptiveRound round{};
     std::vector<LampSquare> lamps{};
 

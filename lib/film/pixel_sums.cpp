@@ -57,7 +57,7 @@ WordAndCarry difference_of(std::uint32_t a, std::uint32_t b, std::uint32_t borro
 template <typename Operation>
 void combine(const PartWords<std::uint32_t> &to, const PartWords<const std::uint32_t> &from, std::size_t pixel_count,
              const Operation &operation) noexcept {
-    constexpr std::size_t block_pixels = 256; // planes and carries fit the fastest cache
+    constexpr std::size_t block_pixels = 256; // fits the fastest cache
     std::array<std::uint32_t, block_pixels> carries;
     for (std::size_t done = 0; done < pixel_count; done += block_pixels) {
         const std::size_t block = std::min(block_pixels, pixel_count - done);

@@ -83,8 +83,8 @@ private:
 
 struct PixelValue {
     float mean;           // 0 if all samples were rejected
-    float standard_error; // of the mean; infinity if a part has no samples
-    float lesser;         // smaller mean of the two parts; 0 if a part has no samples
+    float standard_error; // infinity if a part has no samples
+    float lesser;         // smaller mean of the parts; 0 if a part has no samples
 };
 
 // Rounds as in quotient.h.

@@ -20,7 +20,7 @@ public:
 private:
     std::uint64_t normal_;     // the divisor times a power of two, in [2^31, 2^32)
     std::uint64_t reciprocal_; // 2^64 / normal_, at most 1 too small
-    double factor_;            // the unit times normal_ / divisor
+    double factor_;
 };
 
 // The two parts have a and b samples. Sums are in units of 2^exponent.
@@ -36,7 +36,7 @@ public:
     // Requires samples in both parts. gpu::ErrorDivisor derives the standard error.
     struct Difference {
         float standard_error;
-        float lesser; // smaller mean of the two parts
+        float lesser; // smaller mean of the parts
     };
     Difference difference(WideSum sum_a, WideSum sum_b) const;
 

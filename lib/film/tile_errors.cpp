@@ -130,7 +130,7 @@ std::span<const TileErrors> FilmErrors::of(const TileSamples &samples, double un
         tiles_.assign(grid.count(), {});
     }
     PixelSums rows;
-    std::uint32_t end = 0; // of the rows read
+    std::uint32_t end = 0;
     for (std::size_t tile = 0; tile < grid.count(); ++tile) {
         if (is_known && samples.of(tile) == samples_.of(tile))
             continue;

@@ -41,7 +41,7 @@ struct PixelErrors {
     Numbers met_once{};        // relative squares of light that one part hit, with r from the other part
     Numbers as_lamps{};        // relative squares of light that one part hit, with r = x
     Numbers met_again{};       // number of bright values in both parts
-    Numbers unseen{};          // relative squares of a neighbor's light that no sample hit
+    Numbers unseen{};          // relative squares of neighbors' light that no sample hit
 };
 
 PixelErrors pixel_errors(const TileValues &tile);
@@ -61,7 +61,7 @@ struct TileErrors {
     ErrorSquares square;
     ErrorSquares relative_square;
     ErrorSquares met_once;
-    ErrorSquares as_lamps; // about 1 for each value
+    ErrorSquares as_lamps;
     double met_again = 0.0;
     double unseen = 0.0;
     std::uint64_t rejected = 0;

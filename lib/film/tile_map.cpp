@@ -127,7 +127,7 @@ const TileMap::Span *TileMap::find(std::uint32_t x, std::uint32_t y) const {
 
 std::vector<TileMap::Piece> TileMap::cut(const Rectangle &pixels) const {
     std::vector<Piece> pieces;
-    std::size_t above = 0; // first piece of the rows above
+    std::size_t above = 0;
     auto band = std::ranges::upper_bound(bands_, pixels.y, {}, &Band::end);
     for (std::uint32_t y = pixels.y; y < pixels.bottom();) {
         const bool is_free = band == bands_.end() || band->first > y;

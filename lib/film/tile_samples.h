@@ -49,7 +49,7 @@ private:
 
     TileGrid grid_;
     std::vector<SampleSet> sets_{SampleSet()};
-    std::vector<std::uint32_t> set_of_; // of each tile; empty if all tiles have the first set
+    std::vector<std::uint32_t> set_of_; // by tile; empty if all tiles have sets_[0]
 };
 
 } // namespace pt

@@ -90,7 +90,7 @@ private:
     // A slice that starts on one device after another. If one fails, complete() continues from there.
     struct Begun {
         TileSlice slice;
-        const RenderDevice *taker; // takes the slice's samples
+        const RenderDevice *taker;
         TileSamples samples;
         bool is_estimated;
         std::size_t next_device = 0;
@@ -111,7 +111,7 @@ private:
     const Cancellation &cancellation_;
     std::uint64_t wanted_;
     std::uint64_t done_ = 0;
-    TileSamples samples_; // in the films or begun
+    TileSamples samples_; // in films or begun
     std::vector<std::uint32_t> all_tiles_;
     std::uint32_t first_sample_;
     TileTasks tasks_;

@@ -75,7 +75,7 @@ private:
 
     const RenderDevices &devices_;
     FilmErrors errors_;
-    std::list<Sum> sums_; // at most two, for different sizes of bands
+    std::list<Sum> sums_; // at most two sizes
 };
 
 } // namespace pt

@@ -13,7 +13,7 @@
 namespace pt {
 
 struct ImageLayout {
-    Rectangle pixels;        // at least one rendered pixel
+    Rectangle pixels;
     std::uint32_t quantity;  // PT_QUANTITY_*
     std::uint32_t format;    // PT_FORMAT_*
     std::uint64_t row_bytes; // distance between rows

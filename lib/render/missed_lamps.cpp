@@ -34,8 +34,8 @@ double share_of(const SeenSphere &sphere) {
 } // namespace
 
 double smallest_lamp_share(std::span<const Sphere> lamps, std::span<const Material> materials, const Camera &camera) {
-    constexpr double least_light = 0.01;           // darker lamps are ignored
-    std::vector<std::pair<double, double>> shares; // share and light of each lamp
+    constexpr double least_light = 0.01;
+    std::vector<std::pair<double, double>> shares;
     double all_light = 0.0;
     for (const Sphere &lamp : lamps) {
         const Material &material = materials[lamp.material];

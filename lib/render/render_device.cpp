@@ -111,7 +111,7 @@ void RenderDevice::prepare(const std::shared_ptr<const GpuScene> &scene, const R
         kernel_->show(scene, settings);
         return;
     }
-    drop_kernel(); // frees its memory first
+    drop_kernel();
     plant(scene->tree);
     kernel_.emplace(device_, *pipelines_, *film_, tree_buffer_ ? &*tree_buffer_ : nullptr, scene, settings);
     const double tests_per_path = surface_tests_per_path(kernel_->features(), scene->tree.get());

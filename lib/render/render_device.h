@@ -103,7 +103,7 @@ public:
 
     // Waits for the oldest slice. `seconds` is estimated if its end was not noticed in time.
     struct Finished {
-        std::uint64_t tile_samples; // tiles times samples; 0 if another device took them
+        std::uint64_t tile_samples; // 0 if another device took the samples
         double seconds;
     };
     Finished finish();
@@ -118,15 +118,15 @@ private:
 
     void plant(const std::shared_ptr<const SphereTree> &tree);
     void drop_kernel() noexcept;
-    void drop_bound() noexcept; // the kernel and all descriptor sets of the film
+    void drop_bound() noexcept; // drops the kernel and all descriptor sets of the film
     ErrorReader &bound_error_reader();
 
     vulkan::Device device_;
     KernelCode code_;
     std::unique_ptr<TracePipelines> pipelines_; // never NULL
     double target_seconds_;
-    double tests_per_second_;                 // for kernels not measured yet
-    std::optional<ResolvePipelines> resolve_; // made on first use
+    double tests_per_second_; // before the first measurement
+    std::optional<ResolvePipelines> resolve_;
     std::optional<vulkan::ComputePipeline> estimate_;
     std::optional<vulkan::ComputePipeline> add_;
     std::optional<DeviceFilm> film_;
@@ -139,8 +139,8 @@ private:
     std::optional<Coverage> coverage_;
     std::optional<Kernel> kernel_;
     std::optional<Schedule> schedule_;
-    std::vector<Work> under_way_; // in the order of their start; never reallocated
-    bool film_is_void_ = true;    // must be cleared before use
+    std::vector<Work> under_way_; // never reallocated
+    bool film_is_void_ = true;
 };
 
 using RenderDevices = std::vector<std::unique_ptr<RenderDevice>>;

@@ -41,17 +41,17 @@ namespace pt {
 // A valid pt_create_info with defaults applied.
 struct CreateSettings {
     bool validation = false;
-    bool scene_kernels = true;    // specialise for a scene where faster
+    bool scene_kernels = true;    // if faster
     std::string device;           // empty: the best
-    std::string shader_directory; // empty: the library's kernels
+    std::string shader_directory; // empty: built in
     Log log;
     std::uint32_t submit_milliseconds = 50;
-    std::optional<vulkan::CallerVulkan> vulkan; // no value: the library's own device
+    std::optional<vulkan::CallerVulkan> vulkan; // none: an own device
     vulkan::KernelStore kernel_store;
-    std::uint32_t devices_of_each = 1;          // lets tests share work
-    bool like_gpus = false;                     // treats CPUs like GPUs, for tests
-    std::optional<std::uint32_t> tree_from{};   // lets tests use trees for few spheres
-    std::optional<std::uint32_t> adaptive_from; // lets tests adapt with few samples
+    std::uint32_t devices_of_each = 1;          // for tests
+    bool like_gpus = false;                     // for tests on CPUs
+    std::optional<std::uint32_t> tree_from{};   // for tests
+    std::optional<std::uint32_t> adaptive_from; // for tests
 };
 
 std::vector<pt_device_info> list_devices();
@@ -91,8 +91,8 @@ public:
     pt_result start(const pt_accumulate_info &wanted);
 
     struct Advance {
-        pt_result result; // PT_PENDING, or accumulate()'s result
-        double fraction;  // fraction of the samples
+        pt_result result; // PT_PENDING while samples are under way
+        double fraction;  // of the samples
     };
 
     // Collects finished samples and starts more, for at most this time. After an exception no samples are under way.
@@ -129,9 +129,9 @@ private:
     struct Job {
         double target_error; // relative; 0: none
         MostSamples counts;
-        std::uint64_t together_to;        // sample count up to which tiles are equal
+        std::uint64_t together_to;        // tiles are equal up to this sample count
         bool is_together;                 // while below together_to
-        std::vector<std::uint64_t> goals; // by tile, without error checks; may be empty
+        std::vector<std::uint64_t> goals; // by tile; used without error checks
         Accumulation accumulation;
     };
 
@@ -178,7 +178,7 @@ private:
     std::optional<PreparedScene> scene_;
     std::optional<Camera> camera_;
     std::optional<RenderSettings> settings_;    // if set, the devices have films
-    std::shared_ptr<const GpuScene> gpu_scene_; // from the three above; NULL after a change
+    std::shared_ptr<const GpuScene> gpu_scene_; // NULL after a change
     TileSamples samples_;
     AdaptiveRound round_;
     std::optional<ErrorEstimate> error_; // computed on demand
@@ -188,8 +188,8 @@ private:
     std::optional<std::vector<LampPiece>> small_lamps_; // computed on demand
     std::optional<BrokenRule> warning_;
     DeviceWork work_;
-    Cancellation cancellation_; // of job_, present or about to begin
-    std::unique_ptr<Job> job_;  // set while samples are under way
+    Cancellation cancellation_;
+    std::unique_ptr<Job> job_; // while under way
 };
 
 } // namespace pt

@@ -8,8 +8,8 @@ namespace pt {
 
 struct ScheduleLimits {
     double target_seconds = 0.05;
-    double first_slice_paths = 16384.0; // short on slow devices
-    std::uint32_t max_samples = 1;      // per pixel and submission
+    double first_slice_paths = 16384.0;
+    std::uint32_t max_samples = 1; // per submission
 };
 
 class Schedule {

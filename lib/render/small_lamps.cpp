@@ -19,8 +19,8 @@ constexpr double largest_share = 0.5;
 struct Disc {
     double x;
     double y;
-    double radius; // with the lens's blur
-    double size;   // area without the lens's blur
+    double radius; // includes blur
+    double size;   // area without blur
 
     double area() const { return std::numbers::pi * radius * radius; }
     bool overlaps(std::uint32_t width, std::uint32_t height) const {
@@ -207,10 +207,10 @@ std::uint64_t samples_to_hit(const LampPiece &piece, double offset, bool is_rand
 namespace {
 
 struct UnmetPiece {
-    double hits; // in all of its pixels
+    double hits; // in all pixels
     double square;
     double relative_square;
-    double lack; // squares if no sample hits it
+    double lack; // squares without a hit
     double relative_lack;
 };
 
@@ -234,8 +234,8 @@ void add(ExpectedSquares &to, double square, double hits) {
 
 } // namespace
 
-// The number of hits has a Poisson distribution. The pieces with the largest errors, up to less than one expected hit
-// in total, count as missed, as in most images.
+// The number of hits has a Poisson distribution. Pieces that are together expected to be hit less than once count as
+// missed. These are the pieces with the largest errors.
 UnmetSquares unmet_squares(const std::vector<LampPiece> &pieces, double offset, bool is_random,
                            const std::function<std::uint64_t(const LampPiece &)> &samples) {
     std::vector<UnmetPiece> unmet;

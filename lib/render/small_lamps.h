@@ -14,13 +14,13 @@ namespace pt {
 
 // The part of a lamp in one pixel, or in each of several equal pixels.
 struct LampPiece {
-    std::uint32_t x; // in the rendered rows
+    std::uint32_t x; // within the rows
     std::uint32_t y;
-    double share;      // fraction of the pixel's samples that hit the lamp
+    double share;      // fraction of samples that hit the lamp
     double lamp_share; // largest fraction of a pixel that the whole lamp covers
     glm::dvec3 emission;
     double pixels = 1.0;    // number of equal pixels
-    bool is_spread = false; // by a lens or motion, so samples hit it at random
+    bool is_spread = false; // samples hit the piece at random
 
     // The samples per pixel after which the number of hits has a relative deviation of a third: 8 random hits, or 3
     // hits with one point per cell.

@@ -48,12 +48,12 @@ private:
     struct Task {
         std::uint32_t set;
         std::uint64_t wanted;
-        SampleRange before; // hull of the present samples
+        SampleRange before; // hull of present samples
         SampleRange samples;
-        SampleRange chunk{}; // taken by the tiles now
+        SampleRange chunk{}; // being taken
         std::vector<std::uint32_t> found{};
         std::span<const std::uint32_t> tiles{}; // ascending; `found` or all
-        std::size_t next_tile = 0;              // takes the chunk next
+        std::size_t next_tile = 0;
     };
 
     Task &add_task(std::uint32_t set, std::uint64_t wanted, const SampleSet &present, std::uint32_t first_sample);

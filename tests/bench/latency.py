@@ -93,7 +93,7 @@ def measure_errors(contexts, arguments):
     for error in filter(None, arguments.errors.split(",")):
         for _ in range(min(arguments.rounds, 3)):
             for context in contexts:
-                context.accumulate(256)  # wakes an idle GPU
+                context.accumulate(256)
                 context.measure(f"to {error}", context.move_camera, lambda: context.accumulate(1 << 16, float(error)))
                 samples = context.renderer.stats().sample_count
                 context.times[f"to {error}, samples"] = [samples]

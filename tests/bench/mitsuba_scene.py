@@ -5,7 +5,7 @@ import resource
 import time
 
 SAMPLERS = ("multijitter", "independent")
-HALF_SIZE = 300  # of the rectangles that replace planes
+HALF_SIZE = 300  # replaces planes
 SMALLEST_LAMP = 1e-6  # (radius / distance)^2; Mitsuba makes smaller lamps too bright
 
 

@@ -28,7 +28,7 @@ SEEDS = range(9001, 9017)
 CHECK_SEEDS = range(9101, 9165)
 MITSUBA_SEEDS = range(9201, 9217)
 MOST_Z = 6
-MOST_DEVIATION = 0.005  # of Mitsuba's mean, since Mitsuba rounds solid angles of small lamps
+MOST_DEVIATION = 0.005  # Mitsuba rounds solid angles of small lamps
 WIDTH, HEIGHT = SIZE
 
 

@@ -31,7 +31,7 @@ import sys
 import tempfile
 import time
 
-os.environ.update(MESA_SHADER_CACHE_DISABLE="true", __GL_SHADER_DISK_CACHE="0")  # before a driver is loaded
+os.environ.update(MESA_SHADER_CACHE_DISABLE="true", __GL_SHADER_DISK_CACHE="0")
 
 from lamp_cloud import LampCloud  # noqa: E402
 from sphere_cloud import SphereCloud  # noqa: E402
@@ -45,7 +45,7 @@ from pt import DeviceKind  # noqa: E402
 CLOUDS = {"spheres": SphereCloud, "lamps": LampCloud, "dark-lamps": lambda count: LampCloud(count, shining=False)}
 FLOAT32, UINT32 = 1, 3  # PT_TYPE_*
 MOST_SAMPLES = 1 << 14
-MITSUBA_FACTOR = 4  # factor of its sample counts for errors
+MITSUBA_FACTOR = 4  # factor for Mitsuba's sample counts
 REFERENCE_FACTOR, REFERENCE_SEED = 64, 1000
 ALIKE = 0.01  # pictures whose means differ by more are not compared
 

@@ -61,7 +61,7 @@ class Stopped:
     target: float
     reached: bool
     own: float
-    brightness: float  # mean radiance divided by the reference's
+    brightness: float  # divided by the reference's
     samples: float  # mean
 
 

@@ -13,7 +13,7 @@ from command_line import COURSEWORK, PATIENCE, PT, SCENES, CommandLineTest, defa
 
 KILLS = int(os.environ.get("PT_TEST_KILLS", "4"))
 MOST_DELAY = 0.7
-SAMPLES_A_KILL = 2000  # few renderings end before they are killed
+SAMPLES_A_KILL = 2000
 
 
 class KeptRender(CommandLineTest):
@@ -56,14 +56,14 @@ class KilledRender(KeptRender):
             time.sleep(moments.uniform(0.0, MOST_DELAY if kills % 2 == 0 else 0.3))
             process.kill()
             process.communicate(timeout=PATIENCE)
-            if process.returncode == 0:  # ended before the kill
+            if process.returncode == 0:
                 self.assertEqual([self.contents(file) for file in ("a.png", "a.ptfilm")], expected)
                 os.remove(self.path(name))
                 kept = 0
                 continue
             kills += 1
             now = self.samples_kept(name)
-            self.assertGreaterEqual(now, kept)  # no kept sample is lost
+            self.assertGreaterEqual(now, kept)
             steps += now > kept
             kept = now
         print(f"{kills} kills, {steps} of which left a checkpoint of more samples than the one before", flush=True)

@@ -64,7 +64,7 @@ class CommandLineTest(unittest.TestCase):
         names = {name: str(value) for name, value in environment.items()}
         process = subprocess.Popen([self.program, *arguments], cwd=self.folder, env={**os.environ, **names}, text=True,
                                    errors="replace", stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=before)
-        for undo in (process.stdout.close, process.stderr.close, process.wait, process.kill):  # run in reverse order
+        for undo in (process.stdout.close, process.stderr.close, process.wait, process.kill):
             self.addCleanup(undo)
         return process
 

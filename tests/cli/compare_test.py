@@ -52,7 +52,7 @@ class Compare(CommandLineTest):
         for option, figure, name in (("--max-mse", MSE, "mse"), ("--max-relative-mse", RELATIVE_MSE, "relative_mse"),
                                      ("--max-difference", 1, "maximum")):
             with self.subTest(option=option):
-                below, above = repr(figure * (1 - 1e-12)), repr(figure * (1 + 1e-12))  # rounding of sums of 45 numbers
+                below, above = repr(figure * (1 - 1e-12)), repr(figure * (1 + 1e-12))  # rounding of sums
                 self.expect(0, "compare", "a.exr", "r.exr", option, above)
                 self.expect(8, "compare", "a.exr", "r.exr", option, below)
                 self.assertEqual(len(self.errors.splitlines()), 1)

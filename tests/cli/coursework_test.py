@@ -15,9 +15,9 @@ STEPS = (("1-light", "coursework", 1, "coursework_L1"), ("2-directions", "course
          ("3-paths", "coursework-diffuse", 6, "coursework-diffuse_L6"), ("4-gloss", "coursework", 6, "coursework_L6"),
          ("5-points", "coursework", 6, "coursework_L6"), ("6-lamps", "coursework", 6, "coursework_L6"),
          ("7-motion", "coursework-motion", 2, None))
-MOST_DEVIATION = 4.5  # standard deviations of a mean; one of the 21 means exceeds it in one of 7,000 runs
-MOST_OF_BLOCKS = 1.6  # root mean square of 96 deviations; normal ones have 1 with a standard deviation of 0.07
-SIDE = 16  # pixels of a block's side
+MOST_DEVIATION = 4.5  # in standard deviations; one of the 21 means exceeds this once in 7,000 runs
+MOST_OF_BLOCKS = 1.6  # for 96 normal deviations, the root mean square is 1 with a standard deviation of 0.07
+SIDE = 16  # pixels
 
 
 def pixels_of(path):

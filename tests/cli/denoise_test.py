@@ -37,7 +37,7 @@ class Denoise(DenoiseTest):
         self.assertEqual(self.files(), [])
 
     def test_a_signal_leaves_the_last_round(self):
-        for submission in "5", "20":  # of 32, in one of the halves
+        for submission in "5", "20":  # of 32
             self.render("-o", "a.png", DENOISE, "--spp", "8", code=130, FAKE_PT_SIGNAL=f"2:{submission}",
                         error="stopped by SIGINT after 0 of 8 samples per pixel; nothing was written")
         self.assertEqual(self.files(), [])

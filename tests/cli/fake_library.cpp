@@ -28,7 +28,7 @@ struct pt_context {
     pt_create_info info{};
     pt_render render{};
     std::uint32_t sample_count = 0;
-    std::uint32_t call_count = 0; // calls of pt_accumulate since pt_set_render
+    std::uint32_t call_count = 0; // since pt_set_render
     bool has_too_many_rows = false;
     std::string error;
 };
@@ -257,8 +257,7 @@ pt_result pt_get_stats(pt_context *context, pt_stats *stats) {
 pt_result pt_get_error_estimate(pt_context *context, pt_error_estimate *error) {
     const double high = fake_error(context->sample_count);
     const double low = std::isinf(high) ? 0.0 : 0.25 * high;
-    *error = {sizeof *error, 0,          high, 2.0 * low,
-              2.0 * high,    0.5 * high, low,  high}; // relative errors are half of the others
+    *error = {sizeof *error, 0, high, 2.0 * low, 2.0 * high, 0.5 * high, low, high};
     return call(context, "error");
 }
 

@@ -115,7 +115,7 @@ class SameFiles(CommandLineTest):
         os.mkdir(self.path("a"))
         self.expect(0, "render", "s.png", "-o", "a.png", "-o", "a/a.png", "-o", "A.png", "-o", "a.exr", "--stats",
                     "a.json")
-        with open("/dev/null", encoding="utf-8") as null:  # it may be all three streams
+        with open("/dev/null", encoding="utf-8") as null:
             done = self.piped("render", "-", "-o", "-", "--format", "png", stdin=null, text=True)
         self.assertEqual((done.returncode, done.stderr[:25]), (3, "pt: standard input:1:1: s"))
 

@@ -59,7 +59,7 @@ class Frames(FramesTest):
         self.assertEqual(self.files(), ["0.png", "s.json"])
 
     def test_a_stop_leaves_whole_frames(self):
-        submission = 2 * 16 * 4 + 5  # fifth submission of the third frame; a sample has four
+        submission = 2 * 16 * 4 + 5  # in the third frame
         self.expect(130, "render", "s.json", "--frames", "4-9", "-o", "#.png", "-q",
                     error="pt: stopped by SIGINT in frame 6", FAKE_PT_SIGNAL=f"{int(signal.SIGINT)}:{submission}")
         self.assertEqual(self.files(), ["4.png", "5.png", "s.json"])

@@ -114,7 +114,7 @@ TEST(ImageFile, PngTellsItsColorSpace) {
     const std::string file = folder.read("gamma.png");
     EXPECT_EQ(file.find("sRGB"), std::string::npos);
     EXPECT_NE(file.find("cHRM"), std::string::npos);
-    const std::string gamma{"gAMA\0\0\xb1\x8f", 8}; // 1 / 2.2 in units of 1e-5
+    const std::string gamma{"gAMA\0\0\xb1\x8f", 8}; // 1 / 2.2 times 1e5
     EXPECT_NE(file.find(gamma), std::string::npos);
 }
 
@@ -131,8 +131,7 @@ TEST(ImageFile, PngKeepsALargePicture) {
 TEST(ImageFile, PngOfOtherProgramsIsRead) {
     const TemporaryFolder folder;
     const std::string path = folder.file("a.png");
-    const std::array<std::uint16_t, 8> words{0,   1,     300,   65535,
-                                             256, 40000, 65534, 65535}; // with alpha: two opaque pixels
+    const std::array<std::uint16_t, 8> words{0, 1, 300, 65535, 256, 40000, 65534, 65535}; // or two opaque pixels
     for (const auto type : {OIIO::TypeDesc::UINT8, OIIO::TypeDesc::UINT16}) {
         for (const int channels : {1, 3, 4}) {
             const auto output = OIIO::ImageOutput::create(path);

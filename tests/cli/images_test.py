@@ -226,7 +226,7 @@ class RealDevice(ImagesTest):
         self.render("-o", "crop.png", "--exposure", "-3", "--spp", "17", "--crop", CROP_TEXT)
         whole, crop = (read_png(self.path(name))[2] for name in ("whole.png", "crop.png"))
         self.assertEqual(crop, cut(whole, CROP))
-        self.assertNotEqual(crop, cut(whole, (1, 3, 5, 4)))  # crops at other positions differ
+        self.assertNotEqual(crop, cut(whole, (1, 3, 5, 4)))
 
 
 if __name__ == "__main__":

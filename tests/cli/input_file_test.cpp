@@ -43,7 +43,7 @@ TEST(Printable, ShowsWhatSteersTerminals) {
     EXPECT_EQ(printable("\x9b"
                         "1m"),
               "<U+009B>1m");                          // of eight-bit terminals
-    EXPECT_EQ(printable("\xc0\x9b"), "<U+001B>");     // in an overlong sequence
+    EXPECT_EQ(printable("\xc0\x9b"), "<U+001B>");     // overlong
     EXPECT_EQ(printable("\xe2\x80"), "\xe2<U+0080>"); // cut short
     EXPECT_EQ(platform::printable_lines("a\n\x1b"), "a\n<U+001B>");
 }

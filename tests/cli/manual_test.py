@@ -99,7 +99,7 @@ class RealDevice(CommandLineTest):
         for command in commands:
             smaller = ["--size", "96x48"] if command[1] == "render" and "--size" not in command else []
             words = command[1:command.index(">")] if ">" in command else command[1:]
-            if command[1] == "denoise":  # with the library's stand-in
+            if command[1] == "denoise":
                 words += ["--denoise", os.environ["OPEN_IMAGE_DENOISE"]]
             if "--watch" not in command:
                 self.expect(0, *words, *smaller)

@@ -46,7 +46,7 @@ class Merge(CommandLineTest):
         for key in "rmse", "rmse_low", "rmse_high", "relative_rmse", "relative_rmse_low", "relative_rmse_high":
             self.assertAlmostEqual(found[key], rendered[key], delta=1e-5 * rendered[key])  # GPUs sum floats
         self.assertEqual(found["uncertain"], rendered["uncertain"])
-        self.assertEqual((found["sampler"], found["estimator"]), ("sobol", "mis"))  # name of the "best" device
+        self.assertEqual((found["sampler"], found["estimator"]), ("sobol", "mis"))
 
     def test_what_is_wrong_is_told_of_all_parts_and_nothing_is_written(self):
         self.write("cut.ptfilm", self.contents(self.parts[3])[:-20])

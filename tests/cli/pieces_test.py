@@ -35,7 +35,7 @@ class Pieces(CommandLineTest):
         self.assertEqual((stats["height"], stats["spp"], stats["rejected_samples"]), (33, 2, 4 * 3))
 
     def test_what_is_left_of_an_interruption_is_black(self):
-        submission = 4 * 4 + 6  # a sample has four submissions and a piece four samples, so this is in the second piece
+        submission = 4 * 4 + 6  # in the second piece: a sample has four submissions, and a piece has four samples
         code = self.run_pt("render", COURSEWORK, *SIZE, "--spp", "4", "--progress", "json", "-o", "a.png",
                            "--piece-rows", "11", FAKE_PT_SAMPLE_MS=120,
                            FAKE_PT_SIGNAL=f"{int(signal.SIGINT)}:{submission}")

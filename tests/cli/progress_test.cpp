@@ -45,7 +45,7 @@ TEST(Progress, JsonLines) {
 
 TEST(Progress, TerminalLine) {
     const std::string output = output_of(ProgressStyle::line);
-    EXPECT_LE(std::count(output.begin(), output.end(), '\r'), 22); // ten per second, and the last erasure
+    EXPECT_LE(std::count(output.begin(), output.end(), '\r'), 22); // ten per second
     EXPECT_EQ(output.find('\n'), std::string::npos);               // one line, overwritten
     EXPECT_NE(output.find(" 50.5 %  ETA 0:00:01  50/100 spp  50.0 Msamples/s\r"), std::string::npos) << output;
     EXPECT_TRUE(output.ends_with("\r\x1b[K")); // finally empty

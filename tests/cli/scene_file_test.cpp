@@ -187,7 +187,7 @@ TEST(SceneFile, AMissingCommaIsToldWhereItBelongs) {
 }
 
 TEST(SceneFile, DeepNestingIsNotDangerous) {
-    constexpr std::size_t depth = 100'000; // with a hundred bytes per level, the stack would overflow
+    constexpr std::size_t depth = 100'000; // would overflow the stack
     const std::string open(depth, '[');
     const std::string close(depth, ']');
     EXPECT_EQ(refusal("{\"spheres\":[" + open + close + "]}"), "1: spheres[0]: must be an object, is an array");
@@ -214,7 +214,7 @@ TEST(SceneFile, WrongTypesAreNamed) {
     EXPECT_EQ(refusal(R"({"materials":{"a/b":{"diffuse":[1,2]}}})"),
               "1: materials[\"a/b\"].diffuse: must be a number or an array of 3 numbers, has 2");
     EXPECT_EQ(refusal(R"({"materials":{"a":{"glossiness":"0123456789012345678901234567890123456789"}}})"),
-              "1: materials.a.glossiness: must be a number, is a string"); // too long for the message
+              "1: materials.a.glossiness: must be a number, is a string");
 }
 
 TEST(SceneFile, MissingMembersAreNamed) {

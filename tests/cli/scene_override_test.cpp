@@ -50,7 +50,7 @@ TEST(SceneOverride, TakesThePlaceOfAValue) {
 
 TEST(SceneOverride, AddsMembers) {
     EXPECT_DOUBLE_EQ(changed({"camera.vertical_fov=90"}).camera.vertical_fov, std::numbers::pi / 2.0);
-    EXPECT_EQ(changed({"film.width=64", "film.height=32"}).render.height, 32U); // in a missing section
+    EXPECT_EQ(changed({"film.width=64", "film.height=32"}).render.height, 32U);
     EXPECT_EQ(changed({"spheres[1].motion=[1,0,0]"}).spheres[1].motion[0], 1.0);
     const SceneFile scene = changed({"materials.new.emission=5", "spheres[0].material=new"});
     EXPECT_EQ(scene.materials.at(3).emission[0], 5.0F);
@@ -241,7 +241,7 @@ TEST(FrameRange, NumbersNames) {
     EXPECT_EQ(cli::numbered_name("f-####.png", 7), "f-0007.png");
     EXPECT_EQ(cli::numbered_name("f-##.png", 12345), "f-12345.png");
     EXPECT_EQ(cli::numbered_name("#", 0), "0");
-    EXPECT_EQ(cli::numbered_name("#1/###", 12), "#1/012"); // the last run of #
+    EXPECT_EQ(cli::numbered_name("#1/###", 12), "#1/012");
     EXPECT_EQ(cli::numbered_name("a.png", 1), std::nullopt);
 }
 

@@ -161,7 +161,7 @@ TEST(SelftestScene, AWeightThatIsWrongByTwoPercentMovesTheMeanByTwiceTheBound) {
     struct Light {
         TwoWays ways;
         double factor; // the lamps' radiance
-        double other;  // light that has another weight
+        double other;  // with another weight
     };
     const std::vector<Light> lights{{light_of_lamps(1, 0.0, 0.5, 4), 4.0, 0.0},
                                     {light_of_lamps(5, pi * 50.0 / 180.0, 0.42, 1), 1.0, 0.0},

@@ -14,7 +14,7 @@ class ExitCodes(CommandLineTest):
         kept = ("--checkpoint", "c.ptfilm")
         not_kept = ("--checkpoint", "none/c.ptfilm")  # a missing folder
         table = [
-            # options, code, cause of the end; the stand-in has error 1/16 after 16 samples
+            # options, exit code, cause of the end
             (("--spp", "20"), 0, "samples"),
             (("--spp", "20", *kept), 0, "samples"),
             (("--spp", "20", *not_kept), 0, "samples"),
@@ -197,7 +197,7 @@ class TargetError(CommandLineTest):
             self.assertEqual((lines[-1]["fraction"], lines[-1]["samples_per_pixel"]), (1.0, samples))
 
     def test_interrupted(self):
-        submission = 4 * 17 + 1  # after the first call, which takes the 16 samples that an error needs
+        submission = 4 * 17 + 1  # after the first call
         code = self.run_pt("render", COURSEWORK, "-o", "a.png", "--size", "2x2", "--error", "0.1%", "--stats", "s.json",
                            FAKE_PT_SIGNAL=f"{int(signal.SIGINT)}:{submission}")
         self.assertEqual(code, 130, self.errors)

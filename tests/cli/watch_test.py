@@ -118,7 +118,7 @@ class Scenes(WatchTest):
         self.assertNotIn("a.png", self.files())
         self.write("s.json", scene_text(4))
         pt.line_with('"fraction"')
-        self.assertEqual(pt.end(), 130)  # together with the current picture
+        self.assertEqual(pt.end(), 130)
         self.assertEqual(pt.count("pt: stopped by SIGINT"), 1)
         self.assertEqual(pt.count("wrote"), int("a.png" in self.files()))
 

@@ -41,7 +41,7 @@ class WatchTest(CommandLineTest):
         process = subprocess.Popen([self.program, "render", "s.json", "--watch", "-o", "a.png", *arguments],
                                    cwd=self.folder, env={**os.environ, **names}, text=True, preexec_fn=default_signals,
                                    stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-        for undo in (process.stdout.close, process.wait, process.kill):  # run in reverse order
+        for undo in (process.stdout.close, process.wait, process.kill):
             self.addCleanup(undo)
         return Watching(process)
 

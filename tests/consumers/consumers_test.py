@@ -143,7 +143,7 @@ class Steps:
         for package in "pt", "pt-static":
             require(self.pkg_config("--modversion", package=package) == [self.options.version],
                     f"{package}.pc has another version")
-        if (self.library / "pt" / "libpt-glsl.so").exists():  # the module needs the sources that it compiles
+        if (self.library / "pt" / "libpt-glsl.so").exists():
             shaders, = self.pkg_config("--variable=shaderdir")
             require((pathlib.Path(shaders) / "pathtrace.comp").is_file(), f"there are no shaders in {shaders}")
 
@@ -270,7 +270,7 @@ class Steps:
         folder = self.folder("debian")
         run(self.options.cpack, "-G", "DEB", "-B", folder, cwd=self.options.build)
         packages = {path.name.split("_")[0]: path for path in folder.glob("*.deb")}
-        compiler = "libpt0.3-glsl"  # built only where its libraries exist
+        compiler = "libpt0.3-glsl"  # optional
         expected = ["libpt0.3", "libpt0.3-dev", *([compiler] if compiler in packages else []), "pt", "pt-image-formats"]
         require(sorted(packages) == expected, f"the packages are {sorted(packages)}")
         exact = f"libpt0.3 (= {self.options.version})"

@@ -133,7 +133,7 @@ TEST(Denoise, StatesTheSquareOfItsError) {
         EXPECT_GT(moments.mean, -bound - 0.25 * chosen) << wish;
         EXPECT_LT(bound, 0.15 * stated.mean_true) << wish; // otherwise the comparison proves nothing
         for (const double ratio : {stated.mean_ratio, stated.mean_relative_ratio}) {
-            EXPECT_GT(ratio, 0.87) << wish; // the root of 1 - 1/4
+            EXPECT_GT(ratio, 0.87) << wish; // sqrt(1 - 1/4)
             EXPECT_LT(ratio, 1.3) << wish;
         }
     }
@@ -195,7 +195,7 @@ TEST(Denoise, HasNoSeams) {
     EXPECT_GT(share(8), 0.9F);
     EXPECT_LT(share(width - 16), 0.5F);
     for (std::size_t x = 9; x < width - 8; ++x) {
-        const bool has_other_limits = x + 3 >= noisy_width && x <= noisy_width + 3; // within the filter's reach
+        const bool has_other_limits = x + 3 >= noisy_width && x <= noisy_width + 3;
         EXPECT_LT(std::abs(share(x) - share(x - 1)), has_other_limits ? 1.0 : 0.125 + 1e-3) << x;
     }
 }
@@ -242,7 +242,7 @@ TEST(Denoise, MovesNoValueBeyondWhatHalvesSupport) {
 TEST(Denoise, KeepsTheMeanWithinItsNoise) {
     for (const char *wish : {"darken", "cut"}) {
         Denoising denoising(3, 0.2);
-        for (std::size_t i = 0; i < value_count; i += 300) // in one half each
+        for (std::size_t i = 0; i < value_count; i += 300) // alternating halves
             (i % 600 == 0 ? denoising.first : denoising.second)[i] += 60.0F;
         ASSERT_EQ(denoising.run(wish), PT_OK);
         double square = 0.0;
@@ -252,7 +252,7 @@ TEST(Denoise, KeepsTheMeanWithinItsNoise) {
             shift += denoising.denoised[i] - 0.5 * (double{denoising.first[i]} + denoising.second[i]);
         }
         EXPECT_LE(std::abs(shift), 1.001 * std::sqrt(square)) << wish;
-        EXPECT_LT(shift, -0.9 * std::sqrt(square)) << wish; // the filter alone removes more
+        EXPECT_LT(shift, -0.9 * std::sqrt(square)) << wish;
     }
 }
 

@@ -29,7 +29,7 @@ from pt.farm._part import Part
 from pt.farm._sum import Sum, write_film
 from pictures import CAMERA, GLOSSY, SCENE
 
-SETTINGS = pt.RenderSettings(136, 100)  # tiles at both edges are smaller
+SETTINGS = pt.RenderSettings(136, 100)  # edge tiles are smaller
 JOB = farm.Job(SCENE, CAMERA, SETTINGS)
 SAMPLES, ERROR = 256, 0.006
 QUICK = farm.Options(part_seconds=0.1, patience=0.5)
@@ -305,7 +305,7 @@ class Farm(unittest.TestCase):
     def test_accounts_of_parts(self):
         options, wanted = dataclasses.replace(QUICK, patience=60.0), set()
         found = self.farm(task=render_part, options=options, progress=lambda now, film: wanted.add(now.samples_wanted))
-        self.assertEqual(wanted, {SAMPLES})  # also in earlier rounds
+        self.assertEqual(wanted, {SAMPLES})
         self.assertGreater(found.progress.parts, 4)
         self.assert_accounts(found.progress)
         dropped = []
@@ -320,7 +320,7 @@ class Farm(unittest.TestCase):
             found = self.farm(task=render_part, options=options)
         finally:
             Sum.add = add
-        self.assertLessEqual(dropped[0], 64 * found.progress.forgotten)  # tiles at the edges have fewer pixels
+        self.assertLessEqual(dropped[0], 64 * found.progress.forgotten)
         self.assertGreater(found.progress.forgotten, 0)
         told, = found.progress.messages
         self.assertEqual(told, f"the coordinator has lost {found.progress.forgotten} samples of tiles, which are taken "

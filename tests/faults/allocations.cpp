@@ -11,7 +11,7 @@
 namespace {
 
 thread_local bool in_library = false;
-std::size_t allocation_count = 0; // by the library, on one thread
+std::size_t allocation_count = 0; // on one thread
 std::size_t failing_number = 0;
 bool failing_goes_on = false;
 bool failed = false;

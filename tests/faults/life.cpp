@@ -233,7 +233,7 @@ void Life::accumulate_to(const std::string &step, uint32_t sample_count, double 
     info.sample_count = sample_count - state().sample_count;
     info.progress = &go_on;
     info.target_error = target_error;
-    info.sampling = PT_SAMPLING_UNIFORM; // all tiles have the same samples
+    info.sampling = PT_SAMPLING_UNIFORM; // equal samples everywhere
     const uint32_t before = state().sample_count;
     call(
         step, [&] { return info.sample_count == 0 ? PT_OK : accumulate(context_, &info); },
@@ -264,7 +264,7 @@ void Life::map_image(const std::string &step) {
     uint64_t size_bytes = 0;
     look(step, [&] { return pt_map_image(context_, &source, &data, &size_bytes); });
     if (!data)
-        return; // the step was skipped
+        return;
     const auto *const pixels = static_cast<const float *>(data);
     EXPECT_EQ(Image(pixels, pixels + size_bytes / sizeof(float)), expected_.radiance.at(state().sample_count)) << step;
 }

@@ -67,7 +67,7 @@ protected:
     void TearDown() override {
         context_.reset();
         heal_devices();
-        forget_objects(); // of the lost device
+        forget_objects();
     }
 
     void expect_bytes_after(pt_result disturbed) {
@@ -115,7 +115,7 @@ TEST_P(UnevenTargetTest, AnyVulkanCallMayFail) {
     bool reached = true;
     for (std::size_t place = 1; reached && !HasFatalFailure(); place = place_after(place)) {
         for (std::size_t error = 0; error < 2;
-             ++error) { // two memory errors; other errors lose the device and its film
+             ++error) { // only the two memory errors: the others lose the device and its film
             SCOPED_TRACE("call " + std::to_string(place) + ", error " + std::to_string(error));
             begin_picture(context());
             fail_call(place, error);

@@ -59,7 +59,7 @@ std::uint64_t largest_heap = UINT64_MAX;
 std::set<const void *> lost; // devices and queues
 std::set<VkFence> hanging;
 std::map<VkQueue, VkDevice> devices_of_queues;
-std::multiset<std::pair<const void *, Call>> live; // objects with the call that made them
+std::multiset<std::pair<const void *, Call>> live; // with their makers
 PFN_vkDeviceWaitIdle wait_idle = nullptr;
 PFN_vkGetDeviceProcAddr get_device_function = nullptr;
 
@@ -217,7 +217,7 @@ struct Hook<call, Result(VKAPI_PTR *)(A...)> {
             return result;
         } else {
             if constexpr (effects[static_cast<std::size_t>(call)] != Effect::None)
-                note_effect<call>(arguments); // before another thread can get the same handle
+                note_effect<call>(arguments);
             made<call>(real, values...);
             if constexpr (effects[static_cast<std::size_t>(call)] == Effect::None)
                 note_effect<call>(arguments);

@@ -186,14 +186,14 @@ class Looks(unittest.TestCase):
             np.testing.assert_allclose((*drawn.radii, drawn.rods[0].radius), (ball, ball, stick), rtol=1e-6)
             np.testing.assert_allclose(drawn.ends(drawn.rods[0]), np.zeros((2, 3)), atol=1e-12)
         self.assertFalse(prepare(near, Options(bonds=False)).rods)
-        far = prepare(Particles(near.positions * 1e-12), Options(bonds=2e-12, radius=1e-13))  # other units and another scale
+        far = prepare(Particles(near.positions * 1e-12), Options(bonds=2e-12, radius=1e-13))  # in other units
         np.testing.assert_allclose(far.ends(far.rods[0]), np.zeros((2, 3)), atol=1e-9)
         np.testing.assert_allclose(far.rods[0].radius / far.scale, 0.07 * 1.4e-12)
 
     def test_halves_meet_in_the_middle_of_what_is_seen(self):
         radii = np.array([0.5, 0.1])
         drawn = prepare(PAIR, Options(bonds=2.5, radius=radii))
-        np.testing.assert_allclose(drawn.ends(drawn.rods[0])[:, 0], (0.2, 0.2))  # middle of -0.5 to 0.9
+        np.testing.assert_allclose(drawn.ends(drawn.rods[0])[:, 0], (0.2, 0.2))  # middle of the range
         walled = Particles(np.array([[0.5, 0, 0], [9.5, 0, 0]]), cell=Cell.of([10, 10, 10]))
         np.testing.assert_allclose(prepare(walled, Options(bonds=2.5, radius=0.5 * radii)).rods[0].ways[:, 0], (-0.6, 0.4))
         within = prepare(PAIR, Options(bonds=2.5, radius=np.array([4.0, 0.1])))
@@ -327,7 +327,7 @@ class Trails(unittest.TestCase):
         for trails in (2, 7):
             self.assertEqual(self.steps(some, trails), [straight[0], far, straight[1]])
         self.assertEqual(self.steps(some, 2, where="id == 7"), [(*step[:2], 0) for step in straight])
-        self.assertEqual(len(self.steps(every, 2)), 4)  # no side is a wall
+        self.assertEqual(len(self.steps(every, 2)), 4)
         self.assertEqual(len(self.steps(series(True), 2)), 2)
 
     def test_wrapped_frames(self):

@@ -146,9 +146,9 @@ class Blank(unittest.TestCase):
                 pixels = pixels_per_length(layout.camera, 300, layout.distance) * staged.drawn.scale
                 note = re.fullmatch(r"narrower than a pixel: 93 of 100 balls. --radius (\S+) \(radius=\1\) "
                                     r"makes balls 8 pixels wide", staged.notes[0])
-                self.assertLess(abs(2 * float(note[1]) * pixels / 8 - 1), 0.05)  # the note has two digits
+                self.assertLess(abs(2 * float(note[1]) * pixels / 8 - 1), 0.05)  # rounded in the note
         pixels = pixels_per_length(self.staged(0.01).layout.camera, 300, self.staged(0.01).layout.distance)
-        for width, told in ((0.95, 1), (1.05, 0)):  # the camera hardly moves
+        for width, told in ((0.95, 1), (1.05, 0)):
             self.assertEqual([note[23:33] for note in self.staged(0.5 * width / pixels).notes], ["100 of 100"] * told)
 
     def test_many_that_cover_the_picture_are_not(self):
@@ -206,7 +206,7 @@ class Radii(unittest.TestCase):
     def test_one_far_away_is_not_the_fourth_neighbour_of_all_others(self):
         for count in (5, 8, 11):
             cloud = CUBE[:count].copy()
-            cloud[1] = cloud[0] + 0.01  # in random points too, the fourth neighbor decides
+            cloud[1] = cloud[0] + 0.01  # The fourth neighbor decides, as in random points.
             cloud[-1] = 1000
             self.assertLess(self.automatic(cloud)[0], 2)
 

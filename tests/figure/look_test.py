@@ -161,7 +161,7 @@ class Radii(unittest.TestCase):
                                  ({"O": 3, "H": 2, "?": 1}, (3, 2, 1)), ("O=3,H=2,?=1", (3, 2, 1))):
             with self.subTest(radius=radius):
                 np.testing.assert_allclose(radii_of(water, radius, []), expected, rtol=1e-6)
-        apart = Particles(1e4 * np.eye(3), elements=labels)  # distances that cannot be angstroms
+        apart = Particles(1e4 * np.eye(3), elements=labels)  # not in angstroms
         self.assertAlmostEqual(radii_of(apart, None, [])[0], 1e4 / 2**0.5, places=6)
 
     def test_what_is_refused(self):
@@ -184,7 +184,8 @@ class Radii(unittest.TestCase):
 
 class Background(unittest.TestCase):
     def test_light_before_a_background(self):
-        """The stage has 0.5. The four pixels are half covered by a ball of 0.8, in shadow, empty, and fully covered."""
+        """The stage's radiance is 0.5. The four pixels are half covered by a ball of 0.8, in shadow, empty, and
+        fully covered."""
         stage, particles = 0.5, np.array([[0.5, 0, 0, 1]])
         radiance = np.float32([[0.5 * 0.75 + 0.5 * 0.5, 0.25, 0.5, 0.75]])[:, :, None].repeat(3, axis=2)
         shares = Shares(particles, np.zeros((1, 4)))

@@ -112,7 +112,7 @@ class Objects(unittest.TestCase):
             found = self.check(load(data))  # its current frame
             self.assertEqual(found.columns["name"].tolist(), ["OW", "HW1", "HW2"])
             self.check(load(data, frame=1), PLACES + 1)
-            np.testing.assert_allclose(found.positions, PLACES)  # unchanged by later frames
+            np.testing.assert_allclose(found.positions, PLACES)
 
     def test_ovito(self):
         self.assertEqual(load(ovito_data("")).types.tolist(), [1, 2, 2])

@@ -26,8 +26,8 @@ PLY = "ply\nformat {}\nelement vertex 2\nproperty float x\nproperty float y\npro
 HEAD = "ITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS "
 ATOMS = "ITEM: ATOMS id xs ys zs\n1 0.5 0.25 0.125\n"
 
-DAMAGES = 200  # for each kind and file
-DAMAGED = {  # whether the end of a row is visible in the row
+DAMAGES = 200  # per file
+DAMAGED = {  # True if a cut row is noticed
     "cloud.csv": False, "cloud.csv.gz": True, "cloud.tsv": False, "cloud.xyz": True, "cloud.extxyz": True, "rows.npy": True,
     "records.npy": True, "stored.npz": True, "deflated.npz": True, "little.ply": True, "lists.ply": True,
     "text.ply": True, "text_lists.ply": True, "melt_plain.dump": True, "tilted.dump": True}
@@ -67,7 +67,7 @@ class Stored(unittest.TestCase):
 
     def test_elements_and_cell_of_extended_xyz(self):
         last, first = load(DATA / "cloud.extxyz"), load(DATA / "cloud.extxyz", frame=-2)
-        np.testing.assert_allclose(last.positions, first.positions + 1, 0, 1.1e-8)  # two numbers of 8 digits
+        np.testing.assert_allclose(last.positions, first.positions + 1, 0, 1.1e-8)
         np.testing.assert_array_equal(first.elements[:5], [8, 1, 1, 8, 1])
         self.assertIsNone(first.types)
         np.testing.assert_array_equal(first.cell.vectors, [[10, 0, 0], [1, 9, 0], [2, 3, 8]])
@@ -113,7 +113,7 @@ class Cells(InAFolder):
         found = load(data)
         found.cell = self.read("a.dump", f"{HEAD}xy xz yz pp ff pp\n1 5 1\n-4 2 1\n10 18 -2\n{ATOMS}").cell
         wrapped = found.wrapped().select(np.arange(50) % 2 == 1)
-        np.testing.assert_allclose(wrapped.positions, inside[1::2], 0, 30 * 2**-50)  # some ulps of numbers up to 30
+        np.testing.assert_allclose(wrapped.positions, inside[1::2], 0, 30 * 2**-50)  # some ulps
         np.testing.assert_array_equal(wrapped.column("y"), wrapped.positions[:, 1])
         np.testing.assert_array_equal(wrapped.column("v"), np.arange(1, 50, 2))
         np.testing.assert_array_equal(outside, data["positions"])  # the user's array must not change
@@ -357,7 +357,7 @@ class Damaged(InAFolder):
                         if place > 2 * len(data) // 3 and np.abs(found.positions).max() < 1e10:
                             self.assertLess(rows, 2)
         self.assertGreater(refused, DAMAGES * len(DAMAGED) // 4)
-        self.assertGreater(changed, DAMAGES)  # for example one digit instead of another
+        self.assertGreater(changed, DAMAGES)
 
 
 if __name__ == "__main__":

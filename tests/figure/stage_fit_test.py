@@ -167,7 +167,7 @@ class Series(unittest.TestCase):
                             np.subtract(staged[20].layout.camera.position, staged[0].layout.camera.position))
             self.assertAlmostEqual(abs(axis @ staged[0].layout.stage.lamps[0].center - axis @ np.array(
                 staged[7].layout.stage.lamps[0].center)), 0.0)
-            self.assertGreater(axis @ up_vector(up), 0)  # counterclockwise, seen from above
+            self.assertGreater(axis @ up_vector(up), 0)  # seen from above
             distances = [np.linalg.norm(np.subtract(each.layout.camera.position, each.layout.stage.lamps[0].center))
                          for each in staged]
             np.testing.assert_allclose(distances, distances[0])

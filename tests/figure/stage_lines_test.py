@@ -124,7 +124,7 @@ class Lines(unittest.TestCase):
             size = (96, 72)
             staged = staged_of(projection, size, outlines=True)
             shares = shares_of(staged, self.context)
-            with unittest.mock.patch.object(_overlay, "BAND_ROWS", 1000):  # bands must make no seams
+            with unittest.mock.patch.object(_overlay, "BAND_ROWS", 1000):
                 whole = shares_of(staged, self.context)
             for name in ("shapes", "outlines"):
                 np.testing.assert_array_equal(getattr(shares, name), getattr(whole, name))

@@ -11,7 +11,7 @@ namespace fuzz {
 namespace {
 
 constexpr std::uint32_t most_surfaces_read = 12;
-constexpr std::uint32_t most_copies = 128; // enough to exceed a uniform buffer
+constexpr std::uint32_t most_copies = 128; // exceeds a uniform buffer
 
 template <std::size_t Count>
 void read_lengths(Numbers &numbers, double (&lengths)[Count]) {

@@ -45,7 +45,7 @@ struct Input {
     std::array<std::uint32_t, 3> struct_sizes{sizeof(pt_scene), sizeof(pt_camera), sizeof(pt_render)};
     std::uint8_t tail_byte = 0;
 
-    pt_scene scene() const; // points into this object
+    pt_scene scene() const;
 };
 
 // Any bytes are valid.

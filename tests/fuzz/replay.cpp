@@ -24,7 +24,7 @@ constexpr std::size_t max_size = 4096;
 
 std::mt19937 mutation_random; // the default seed
 
-// read by the signal handler
+// for the signal handler
 const Bytes *present_input = nullptr;
 
 extern "C" void save_present_input(int signal) {
@@ -39,7 +39,7 @@ std::vector<Bytes> read_corpus(const char *folder) {
     std::vector<std::filesystem::path> paths;
     for (const auto &entry : std::filesystem::directory_iterator(folder))
         paths.push_back(entry.path());
-    std::ranges::sort(paths); // the same order on all machines
+    std::ranges::sort(paths);
     std::vector<Bytes> corpus;
     for (const std::filesystem::path &path : paths) {
         std::ifstream file(path, std::ios::binary);

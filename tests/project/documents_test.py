@@ -8,7 +8,7 @@ import unittest
 ROOT = pathlib.Path(sys.argv[1])
 PAGES = [path for folder in (".", "cli", "lib", "shaders", "tests") for path in (ROOT / folder).glob("*.md")]
 PAGES += [*(ROOT / "tests").glob("*/**/*.md"), *(ROOT / "lib").glob("*/*.md")]
-CURRENT = [page for page in PAGES if page.name not in ("CHANGELOG.md", "NOTEBOOK.md")]  # those two describe the past too
+CURRENT = [page for page in PAGES if page.name not in ("CHANGELOG.md", "NOTEBOOK.md")]  # pages without history
 CODE = re.compile(r"\.(h|c|cpp|glsl|comp|py|json|csv|cmake|sh)$|^CMakeLists\.txt$")
 
 # The largest number of words of a page, and of all pages except the changes.

@@ -12,7 +12,7 @@ import pt
 from pictures import HEIGHT, SCENE, WHITE, WIDTH, ready
 from pt import _zstd
 
-SAMPLES = 24  # enough for an error estimate
+SAMPLES = 24
 
 
 class Films(unittest.TestCase):

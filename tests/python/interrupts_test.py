@@ -8,7 +8,7 @@ import numpy as np
 import pt
 from pictures import SCENE, WHITE, cloud, ready
 
-ENDLESS = 2**20  # takes minutes on a CPU
+ENDLESS = 2**20  # minutes on CPUs
 MANY = 300_000
 
 

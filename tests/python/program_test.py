@@ -12,7 +12,7 @@ import pt
 
 PROGRAM, SCENES = sys.argv.pop(1), pathlib.Path(sys.argv.pop(1))
 os.environ["PT_PROGRAM"] = PROGRAM
-os.environ.setdefault("LP_NATIVE_VECTOR_WIDTH", "256")  # both need the same width for equal films
+os.environ.setdefault("LP_NATIVE_VECTOR_WIDTH", "256")  # equal films need equal widths
 
 from pt._program import Program  # noqa: E402
 

@@ -134,7 +134,7 @@ class Browser(unittest.TestCase):
         self.browser.until(f"{SAMPLES} > 8 && {line} !== {json.dumps(before)}")
         self.shot("orbited")
         moved = json.loads("{" + self.browser.value(line) + "}")["camera"]
-        self.assertAlmostEqual(np.linalg.norm(np.subtract(moved["position"], moved["look_at"])), 12.0, 1)  # distance from the blue ball
+        self.assertAlmostEqual(np.linalg.norm(np.subtract(moved["position"], moved["look_at"])), 12.0, 1)
         self.assertLess(moved["position"][0], -1.0)
         for key in ("ArrowLeft", "+"):
             shown = self.browser.value(line)

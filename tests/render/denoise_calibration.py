@@ -37,12 +37,12 @@ TRUTH_SEED, SEED = 9, 100
 class Case:
     name: str
     count: int
-    relative: float  # divided by the raw image's error
+    relative: float  # divided by the raw image's
     absolute: float
     gain: float  # mean square of the raw image's relative error, divided by the denoised image's
     light: float
     brighter: int  # number of values above all values of both halves in the surrounding 3x3 pixels
-    stated: float  # divided by the true relative error
+    stated: float  # divided by the true error
     holds: bool
     is_uncertain: bool
 

@@ -131,7 +131,7 @@ TEST_F(StatedError, OfLampsBelowAPixelIsThatByManySamples) {
     constexpr double fov = 0.7;
     const double pixel = 2.0 * std::tan(0.5 * fov) / height; // at distance 1
     std::vector<pt_sphere> lamps;
-    for (int i = 7; i < static_cast<int>(width * height); i += 20) { // in every twentieth pixel
+    for (int i = 7; i < static_cast<int>(width * height); i += 20) {
         const double x = i % static_cast<int>(width) + 0.5 - 0.5 * width;
         const double y = i / static_cast<int>(width) + 0.5 - 0.5 * height;
         lamps.push_back({{x * pixel, y * pixel, -1.0}, std::sqrt(1.0 / 70.0 / 3.14159) * pixel, {}, 0, 0});

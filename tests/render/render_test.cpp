@@ -24,7 +24,7 @@ struct Case {
     bool diffuse;
     uint32_t max_path_length;
     double reference_rmse;
-    uint32_t sampler; // random, like the reference's samples
+    uint32_t sampler; // like the reference
 };
 
 using Image = std::vector<float>;

@@ -18,7 +18,7 @@
 namespace {
 
 struct Memory {
-    double heap;           // in use by malloc
+    double heap;
     uint64_t device_bytes; // pt_stats.device_bytes
 };
 

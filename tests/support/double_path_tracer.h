@@ -59,7 +59,7 @@ private:
         double distance = std::numeric_limits<double>::infinity();
         glm::dvec3 normal{0.0};
         std::uint32_t material = 0;
-        std::uint32_t surface = 0; // spheres first, then planes
+        std::uint32_t surface = 0;
     };
 
     // f = kd / pi + ks (n + 2) / (2 pi) max(0, cos)^n.

@@ -30,14 +30,14 @@ struct Ray {
     Vector direction; // unit
     Real time;
     Vector start;
-    Vector origin{0.0L}; // relative to the camera
-    Vector spread{0.0L}; // sizes of both terms of `origin`, by component
+    Vector origin{0.0L}; // from the camera
+    Vector spread{0.0L}; // sizes of the terms of `origin`
 };
 
 struct Meeting {
     Real distance = nowhere;
-    Real tolerance = 0.0L;        // of distance, in float32
-    bool is_uncertain = false;    // close to touching or missing
+    Real tolerance = 0.0L;        // of the distance
+    bool is_uncertain = false;    // almost touching
     Vector normal{0.0L};          // facing the camera
     Real normal_tolerance = 0.0L; // of each component
     std::uint32_t object = PT_NO_OBJECT;
@@ -121,7 +121,7 @@ struct View {
     std::uint32_t width, height;
     Real shutter_open, shutter_close;
     Real start_distance = 0.0L;
-    Real tree_step = 0.0L; // step of the spheres' grid, 0 without a tree
+    Real tree_step = 0.0L; // of the spheres' grid
 
     View(const pt_camera &camera, const pt_render &render) :
         position(vector_of(camera.position)),

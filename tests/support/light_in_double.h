@@ -65,7 +65,7 @@ struct Given {
         return array;
     }
 
-    mutable pt_sphere_array array_{}; // scene() points to it
+    mutable pt_sphere_array array_{}; // for scene()
 };
 
 inline Given scaled(Given given, double by) {
@@ -169,7 +169,7 @@ inline double mean_of_block(const std::vector<float> &image, glm::uvec2 first) {
 
 struct Deviation {
     double of_image = 0.0;
-    double largest = 0.0; // largest magnitude of a block
+    double largest = 0.0; // largest magnitude
 };
 
 class LightInDouble : public ContextFixture {

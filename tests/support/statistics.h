@@ -38,7 +38,7 @@ inline double chi_square_deviate(std::span<const double> observed, std::span<con
 
 struct Moments {
     double mean;
-    double variance; // of one value, unbiased
+    double variance; // unbiased
 };
 
 inline Moments moments(std::span<const double> values) {
