@@ -1,4 +1,4 @@
-// A moving ball, or a capsule: a ball swept along a line. Only this file distinguishes them.
+// A ball that moves along a line, or a capsule, which fills the whole line at once. Only this file distinguishes them.
 #pragma once
 
 #include "lib/base/digest.h"
@@ -29,7 +29,7 @@ struct MovingBall {
     glm::dvec3 open; // at the beginning
     glm::dvec3 way;  // displacement until the end
     double radius;
-    Kind kind = Kind::ball; // A capsule is everywhere on its way at once.
+    Kind kind = Kind::ball;
 
     glm::dvec3 close() const { return open + way; }
     bool moves() const { return kind == Kind::ball && way != glm::dvec3(0.0); }

@@ -105,8 +105,8 @@ vk::raii::Instance create_instance(const vk::raii::Context &context,
     }
 }
 
-// The last instance unloads the drivers. NVIDIA's driver (580.159) leaks static thread-local storage at each load,
-// until it cannot be loaded.
+// The loader unloads the drivers with the last instance. NVIDIA's driver (580.159) leaks static thread-local storage at
+// each load, until it cannot be loaded.
 void keep_nvidia_driver_loaded() noexcept {
     for (const char *name : {"libGLX_nvidia.so.0", "libEGL_nvidia.so.0"})
         platform::keep_loaded(name);
