@@ -2,7 +2,8 @@
 // each round, tiles double their samples while the expected gain per added sample exceeds a bound. The bound falls from
 // round to round until the image's error is small enough.
 //
-// A round leaves each tile at the first level whose gain is at most the bound, in whatever order tiles take samples.
+// A round leaves each tile at the first level whose gain is at most the bound. The order in which tiles take samples
+// does not matter.
 #pragma once
 
 #include "lib/film/error_estimate.h"
@@ -71,8 +72,8 @@ public:
         film_(std::move(film)) {}
 
     // Returns no value if the film has the target error and enough samples for the lamps in view. Returns no tiles if
-    // none may take more samples. The goals refer to `samples`, which must outlive them. Updates `round` when it has
-    // ended.
+    // none may take more samples. The goals refer to `samples`, which must outlive them. If the round has ended,
+    // `round` becomes the next one.
     std::optional<TileStep> next(const TileSamples &samples, AdaptiveRound &round) const;
 
 private:

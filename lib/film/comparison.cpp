@@ -169,7 +169,7 @@ ChannelEvents largest_events(const pt_compare_info &info) {
     return events;
 }
 
-// A difference that the chance absence of rare events may explain in part.
+// A difference that rare events, absent by chance, may partly explain.
 struct Difference {
     double z;        // difference, in deviations
     double event;    // in deviations
@@ -286,8 +286,8 @@ std::uint32_t light_of(const pt_compare_info &info, const pt_comparison &verdict
 
 } // namespace
 
-// Bonferroni correction: the sizes of regions have equal parts of the rate, and so have the regions and channels of one
-// size.
+// The rate is divided equally among the sizes of regions, then among the regions and channels of a size (Bonferroni
+// correction).
 Comparison compare_light(const pt_compare_info &info) {
     const double look = info.look;
     const double rate = info.look > 0 ? info.rate / (look * (look + 1.0)) : info.rate;

@@ -29,7 +29,7 @@ std::size_t clearest_channel(const pt_compared_region &region) {
     return clearest;
 }
 
-// Example: "-3.1% +- 0.4% of the picture in G". The bounds have 95% confidence.
+// The bounds have 95% confidence.
 std::string change_of(const pt_compared_region &region, bool is_whole) {
     const std::size_t channel = clearest_channel(region);
     const double light = region.light[channel];

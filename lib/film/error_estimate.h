@@ -31,8 +31,8 @@ inline constexpr double normal_95 = 1.96;
 // An estimate from fewer pixels is uncertain. Calibrated.
 inline constexpr double few_pixels = 4.0;
 
-// Both refer to pixel_count pixels with equal errors: the fraction to add to the root, and the factor between the
-// estimate and its bounds.
+// Both functions take an effective number of pixels. share_added() returns the fraction to add to an estimate.
+// spread_of_pixels() returns the factor between the estimate and its bounds.
 double share_added(double pixel_count);
 double spread_of_pixels(double pixel_count);
 

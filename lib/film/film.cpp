@@ -98,8 +98,8 @@ std::vector<Film::Tile> Film::outside(const TileMap &map, std::vector<Tile> tile
     return found;
 }
 
-// Adds the pixels that both tiles have. `samples` is the union of their samples. If its split is a new one for a tile,
-// the tile has all samples on one side of it.
+// Adds the pixels that both tiles have. `samples` is the union of their samples. A tile with another split than the
+// union has all samples on one side of the union's split.
 void Film::add_to(Tile &tile, const Tile &other, SampleSet samples) noexcept {
     const std::uint64_t split = split_of(samples.hull());
     const std::uint64_t others_split = split_of(other.samples.hull());

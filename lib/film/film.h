@@ -56,7 +56,7 @@ public:
 
     std::uint64_t rejected_samples() const;
 
-    // Throws PT_ERROR_INCOMPATIBLE if pixels of a tile of the TileGrid over the bounds have different samples.
+    // Throws PT_ERROR_INCOMPATIBLE if pixels of one tile of the grid over the bounds have different samples.
     TileSamples samples_by_tile() const;
 
     // The samples per pixel that are needed to hit all small lamps in view, or 0.

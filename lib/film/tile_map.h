@@ -33,8 +33,8 @@ public:
         std::optional<std::size_t> tile;
     };
 
-    // Throws PT_ERROR_INCOMPATIBLE if tiles overlap. A tile is in at most as many bands as it has rows, which limits
-    // the memory of a map to that of its film's sums.
+    // Throws PT_ERROR_INCOMPATIBLE if tiles overlap. A tile is in at most as many bands as it has rows, so a map needs
+    // no more memory than the sums of its film.
     explicit TileMap(const std::vector<FilmTile> &tiles);
 
     // From top to bottom, without empty rows.

@@ -73,7 +73,7 @@ bool Accumulation::deal_to(RenderDevice &device) {
     if (!has_room_for(slice, device))
         return false;
     const bool is_last = tasks_.ends_all(slice.tiles.size());
-    // Nothing may fail once a device has started, since started samples must be counted.
+    // The slice is recorded before any device starts it, since started samples must be counted.
     Begun next{slice, &device, samples_,
                is_last && unit_of_error_ && devices_.size() == 1 && device.estimates_behind()};
     next.samples.add(slice.tiles, slice.samples);

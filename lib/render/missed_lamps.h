@@ -11,8 +11,8 @@
 namespace pt {
 
 // Returns the fraction of directions from the camera that the smallest important lamp covers as the shutter opens.
-// Important lamps give at least a hundredth of the light at the camera. Lamps around the camera cannot be missed. The
-// result is 1 if there are no others.
+// Important lamps give at least a hundredth of the light at the camera. Lamps around the camera do not count. The
+// result is 1 without other lamps.
 double smallest_lamp_share(std::span<const Sphere> lamps, std::span<const Material> materials, const Camera &camera);
 
 // Whether the samples are too few for a lamp or lobe that they find only by chance.

@@ -54,7 +54,7 @@ public:
     void read_coverage(const std::shared_ptr<const GpuScene> &scene, const CoverageQuery &query,
                        const Coverage::Receive &receive);
 
-    // For films of other sizes.
+    // For films other than the device's own.
     ResolvePipelines &resolve_pipelines();
     const vulkan::ComputePipeline &estimate_pipeline();
     const vulkan::ComputePipeline &add_pipeline();

@@ -171,7 +171,7 @@ std::optional<pt_result> Renderer::next_step() {
     job_->is_together = false;
     if (!job_->goals.empty())
         return unless_done(job_->accumulation.set_goal_of_all([&](std::uint32_t tile) { return job_->goals[tile]; }));
-    // The film may be too small for adaptive sampling if no samples are allowed.
+    // The film has too few samples for adaptive sampling, and may take no more.
     if (samples_.even() && samples_.of(0).count() < adaptive_from())
         return PT_OK;
     const AdaptivePlan plan(

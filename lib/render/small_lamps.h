@@ -27,8 +27,9 @@ struct LampPiece {
     double enough_samples(bool is_random) const;
 };
 
-// Returns the lamps in these rows that cover less than half a pixel, or that less than half of a pixel's samples hit
-// because of motion, a lens or translucent spheres. Lamps whose centers are behind opaque surfaces are left out.
+// Returns the lamps in these rows that less than half of a pixel's samples hit. They are smaller than half a pixel,
+// move, are out of focus, or are behind translucent spheres. Lamps whose centers are behind opaque surfaces are left
+// out.
 std::vector<LampPiece> small_lamps_in_view(const PreparedScene &scene, const Camera &camera, std::uint32_t width,
                                            std::uint32_t height, std::uint32_t first_row, std::uint32_t row_count);
 
