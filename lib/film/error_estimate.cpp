@@ -53,8 +53,8 @@ double square_by_hits(double met_once, double met_again) {
     return std::max(1.0, 1.0 / squared(hits));
 }
 
-// For values that one half hit there are two estimates: relative to the mean of the other half and the surroundings, or
-// by square_by_hits(). The smaller is used.
+// Values that one half hit have two estimates. One is relative to the other half and the surroundings. The other uses
+// square_by_hits(). The smaller estimate counts.
 ErrorSquares relative_squares(const TileErrors &all, double met_again) {
     const double factor = square_by_hits(all.as_lamps.sum / channels, met_again);
     ErrorSquares squares = all.relative_square;

@@ -43,8 +43,8 @@ ErrorEstimate unknown_error();
 
 pt_error_estimate stated(const ErrorEstimate &error);
 
-// Whether rejected samples make the error unknown. They may be 2^20 times as bright as the brightest emission
-// (FILM_MAX_EXPONENT in gpu_layout.h), so one in 2^20 may outweigh all other samples.
+// Whether rejected samples make the error unknown. Rejected samples may be 2^20 times as bright as the brightest
+// emission (FILM_MAX_EXPONENT in gpu_layout.h). One in 2^20 samples may then outweigh all others.
 bool hides_error(std::uint64_t rejected_samples, std::uint64_t samples);
 
 // The counts at which the error is checked: 16, then four per doubling.

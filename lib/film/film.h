@@ -1,4 +1,4 @@
-// The film behind pt_film. It needs no device.
+// The film behind pt_film, which needs no device.
 #pragma once
 
 #include "lib/film/adaptive_rule.h"

@@ -1,5 +1,5 @@
-// The samples of a film, as disjoint ranges of indices. A split divides them into an older and a newer part. It depends
-// only on the first and the last sample, so films of any ranges can be added in any order.
+// The samples of a film, as disjoint ranges of indices. A split divides them into an older and a newer part. The split
+// depends only on the first and the last sample, so films of any ranges can be added in any order.
 #pragma once
 
 #include "shaders/gpu_layout.h"

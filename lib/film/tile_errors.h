@@ -1,5 +1,5 @@
-// Expected squared errors of a tile's pixels (shaders/pixel_error.h), as estimate.comp computes them on devices. They
-// do not depend on other tiles.
+// Expected squared errors of a tile's pixels (shaders/pixel_error.h), as estimate.comp computes them on devices. A
+// tile's errors do not depend on other tiles.
 #pragma once
 
 #include "lib/film/pixel_sums.h"

@@ -37,7 +37,7 @@ public:
     // no more memory than the sums of its film.
     explicit TileMap(const std::vector<FilmTile> &tiles);
 
-    // From top to bottom, without empty rows.
+    // The bands from top to bottom. Rows without tiles are in no band.
     const std::vector<Band> &bands() const { return bands_; }
 
     // NULL if no tile has the pixel.

@@ -21,7 +21,7 @@ public:
     bool even() const { return set_of_.empty(); }
     const SampleSet &of(std::size_t tile) const { return even() ? sets_.front() : sets_[set_of_[tile]]; }
 
-    // Different sets. Some may be unused.
+    // All sets are different. Unused sets may remain.
     const std::vector<SampleSet> &sets() const { return sets_; }
     std::uint32_t set_of(std::size_t tile) const { return even() ? 0 : set_of_[tile]; }
 

@@ -227,7 +227,7 @@ ErrorReader &RenderDevice::bound_error_reader() {
     return *error_reader_;
 }
 
-// A void film has no parts to move. Its first samples clear it.
+// A void film has no parts to move. The first samples of a film clear it.
 void RenderDevice::start(const TileSlice &slice, const ErrorQuery *estimate) {
     if (!slice.takes && film_is_void_)
         return;

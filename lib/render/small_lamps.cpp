@@ -37,8 +37,8 @@ double ahead(double way) {
 }
 
 // Returns the distance along a unit vector at which a ray from the origin enters a ball, or leaves it if it starts
-// inside. The distance is infinite for a miss. Only the first position of a moving ball is used. It never hides more
-// than the whole path.
+// inside. The distance is infinite for a miss. A moving ball counts at its first position, which never hides more than
+// the whole path.
 double way_to(const MovingBall &ball, const glm::dvec3 &direction) {
     const double along = glm::dot(ball.open, direction);
     const double beside = glm::length(ball.open - along * direction);
@@ -234,8 +234,8 @@ void add(ExpectedSquares &to, double square, double hits) {
 
 } // namespace
 
-// The number of hits has a Poisson distribution. Pieces that are together expected to be hit less than once count as
-// missed. These are the pieces with the largest errors.
+// The number of hits has a Poisson distribution. The pieces with the largest errors count as missed, as long as less
+// than one hit of them all is expected.
 UnmetSquares unmet_squares(const std::vector<LampPiece> &pieces, double offset, bool is_random,
                            const std::function<std::uint64_t(const LampPiece &)> &samples) {
     std::vector<UnmetPiece> unmet;

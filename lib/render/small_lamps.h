@@ -27,9 +27,9 @@ struct LampPiece {
     double enough_samples(bool is_random) const;
 };
 
-// Returns the lamps in these rows that less than half of a pixel's samples hit. They are smaller than half a pixel,
-// move, are out of focus, or are behind translucent spheres. Lamps whose centers are behind opaque surfaces are left
-// out.
+// Returns the lamps in these rows that less than half of a pixel's samples hit. Such lamps are smaller than half a
+// pixel, move, are out of focus, or are behind translucent spheres. Lamps whose centers are behind opaque surfaces are
+// left out.
 std::vector<LampPiece> small_lamps_in_view(const PreparedScene &scene, const Camera &camera, std::uint32_t width,
                                            std::uint32_t height, std::uint32_t first_row, std::uint32_t row_count);
 
@@ -51,7 +51,7 @@ struct UnmetSquares {
 };
 
 // Sums the expected errors of lamps for which samples(piece) are too few. If n samples hit a piece of emission E with
-// probability p, the number of hits has the mean n p. Its variance is n p (1 - p) for random samples. Quasi-random
+// probability p, the number of hits has the mean n p. For random samples, the variance is n p (1 - p). Quasi-random
 // points are one in each of n cells, so only cells at the edge of the piece are left to chance. A disc has about 4.5
 // sqrt(n p) such cells with variance 0.13 each, in total 0.6 sqrt(n p). The error of the mean is E / n times the root
 // of the variance. `offset` is as in (x - r)^2 / (r^2 + offset).

@@ -54,8 +54,8 @@ TEST_F(ExactLight, InsideALampIsItsEmission) {
     EXPECT_GT(largest_error(render(scene, 1, PT_ESTIMATOR_BEST), 0.1F * 1.03), 0.0);
 }
 
-// Every path ends on a lamp of emission 1 after one reflection with the weight (albedo / pi * cos) / (cos / pi). These
-// are five operations, each with an error of 2^-24.
+// Every path ends on a lamp of emission 1 after one reflection with the weight (albedo / pi * cos) / (cos / pi). The
+// tolerance is five operations with an error of 2^-24 each.
 TEST_F(ExactLight, FurnaceIsWhite) {
     const cli::SceneFile scene = read_scene("09-furnace");
     for (const std::uint32_t estimator : {PT_ESTIMATOR_COSINE, PT_ESTIMATOR_BSDF, PT_ESTIMATOR_MIS})

@@ -12,8 +12,8 @@ SAMPLES = [16, 64, 256]
 FEWER_SAMPLES = {"thousand-spheres": [4, 16, 64]}  # slow scenes
 REFERENCES = ROOT / "tests/reference/bench"
 
-# Each reference is checked by another estimator: for large lamps, one that finds lamps by chance; otherwise, one that
-# samples only lamps.
+# Another estimator checks each reference. If a scene has large lamps, this estimator finds lamps by chance. Otherwise
+# it samples only lamps.
 CHECKS = {
     "coursework": "bsdf",
     "coursework-motion": "bsdf",

@@ -66,7 +66,8 @@ class ExitCodes(CommandLineTest):
         self.assertEqual(self.files(), ["a.png", "c.ptfilm"])
 
     def test_another_signal_later_ends_it_at_once(self):
-        """A sample takes an hour. The program stops itself in it, so that the signals come during it."""
+        """A sample takes an hour. The program stops itself during the first sample, so that the signals come during
+        this sample."""
         process = self.start("render", COURSEWORK, "-o", "a.png", "--spp", "2", "--size", "2x2",
                              FAKE_PT_SAMPLE_MS=3_600_000, FAKE_PT_SIGNAL=f"{int(signal.SIGSTOP)}:1")
         state = os.waitid(os.P_PID, process.pid, os.WSTOPPED | os.WEXITED | os.WNOWAIT)
@@ -146,8 +147,8 @@ KEYS = [name + end for name in ("rmse", "relative_rmse") for end in ("", "_low",
 
 
 class TargetError(CommandLineTest):
-    """The relative error is 0.5 / N, with bounds at half and twice this error. It is unknown below 16 samples. The
-    absolute error is twice as large."""
+    """The relative error is 0.5 / N, with bounds at half and twice this error. Below 16 samples the error is
+    unknown. The absolute error is twice as large."""
 
     def render(self, *options, code=0):
         arguments = ["render", COURSEWORK, "-o", "a.png", "--size", "4x3", "--stats", "s.json"]

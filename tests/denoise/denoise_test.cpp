@@ -269,8 +269,8 @@ TEST(Denoise, IsNotPersuadedByOnePixel) {
         ASSERT_EQ(denoising.denoised[i], 0.5F * (halves[0][i] + halves[1][i])) << i;
 }
 
-// The filter spreads a lamp by two pixels. There, relative errors would be a million times the errors of the raw image.
-// They would seem small relative to the filtered values.
+// The filter spreads a lamp by two pixels. In these pixels, relative errors would be a million times the errors of the
+// raw image, but relative to the filtered values they would seem small.
 TEST(Denoise, DoesNotSpreadALamp) {
     constexpr std::size_t first = 64;
     constexpr std::size_t end = 68;

@@ -20,7 +20,7 @@ std::atomic<long> live{0}; // atomic: a driver's thread may free the library's m
 std::atomic<long> live_bytes{0};
 long most_bytes = 0;
 
-// A header before each allocation. Its size keeps the alignment.
+// A header before each allocation. The header's size keeps the alignment.
 struct alignas(std::max_align_t) Header {
     std::size_t size;
     bool of_library;

@@ -188,7 +188,7 @@ class Rows(InAFolder):
 
 
 class Users(unittest.TestCase):
-    """These files were once misread or refused."""
+    """Files that were once misread or refused must be read."""
 
     def test_what_they_hold(self):
         for name, count, expected in (

@@ -118,8 +118,8 @@ class Lines(unittest.TestCase):
         np.testing.assert_allclose(edges.radius, 0.5 * 8 / 64)
 
     def test_outlines_go_round_the_balls(self):
-        """Balls have outlines in front of the background and of other balls. They have none inside, nor along cell
-        edges in front of them, nor elsewhere."""
+        """Balls have outlines in front of the background and of other balls. There are no outlines inside balls,
+        along cell edges in front of balls, or elsewhere."""
         for projection in ("perspective", "orthographic"):
             size = (96, 72)
             staged = staged_of(projection, size, outlines=True)

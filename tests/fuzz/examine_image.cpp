@@ -1,4 +1,4 @@
-// Renders images on a device. They must be finite, without rejected samples, and the same in any split.
+// Renders images on a device. The images must be finite, without rejected samples, and the same in any split.
 #include "tests/fuzz/examine.h"
 
 #include "lib/base/error.h"

@@ -1,5 +1,5 @@
-// Runs a target without libFuzzer. `replay CORPUS_FOLDER COUNT` runs the corpus and COUNT reproducible mutations. It
-// saves a fatal input as ./failed-input.
+// Runs a target without libFuzzer. `replay CORPUS_FOLDER COUNT` runs the corpus and COUNT reproducible mutations. A
+// fatal input is saved as ./failed-input.
 #include "tests/fuzz/mutation.h"
 
 #include <algorithm>

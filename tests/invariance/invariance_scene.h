@@ -87,7 +87,7 @@ struct InvarianceScene {
         }
     }
 
-    // `matrix` has orthonormal rows. It is a rotation or a reflection.
+    // `matrix` has orthonormal rows, for a rotation or a reflection.
     void turn(const double (&matrix)[3][3]) {
         const auto turned = [&](double(&vector)[3]) {
             double result[3];

@@ -34,7 +34,7 @@ struct Agreement {
     double largest_t;
 };
 
-// Computes Student's t for two means with equal noise. It has 2 * (16 - 1) degrees of freedom.
+// Computes Student's t for two means with equal noise, with 2 * (16 - 1) degrees of freedom.
 Agreement agreement(const Batches &a, const Batches &b) {
     Agreement result{0.0, 0.0};
     for (std::size_t block = 0; block < blocks; ++block) {

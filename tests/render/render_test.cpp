@@ -74,8 +74,8 @@ struct Agreement {
     double largest_t;
 };
 
-// Computes Student's t for each block. The total noise of the reference is known. Its distribution over blocks is
-// assumed to be the same as that of the batches.
+// Computes Student's t for each block. The total noise of the reference is known. The noise of the reference is assumed
+// to be distributed over blocks like the noise of the batches.
 Agreement agreement(const std::vector<Image> &batches, const Image &reference, double reference_rmse) {
     const double reference_share = reference_rmse * reference_rmse / noise_of_mean(batches);
     constexpr uint32_t blocks = (width / block_size) * (height / block_size);
@@ -102,7 +102,7 @@ Agreement agreement(const std::vector<Image> &batches, const Image &reference, d
 }
 
 // With k = 15 degrees of freedom, t^2 has the mean k / (k - 2) = 1.154 and the deviation 1.84. The deviation of the
-// mean over 512 blocks is 0.081. The tolerance 0.5 allows for sums that are not quite normal. It still detects a bias
+// mean over 512 blocks is 0.081. The tolerance 0.5 allows for sums that are not quite normal, and still detects a bias
 // of one standard error in each block.
 constexpr double expected_mean_square_t = 15.0 / 13.0;
 constexpr double mean_square_t_bound = expected_mean_square_t + 0.5;

@@ -53,8 +53,8 @@ protected:
         ASSERT_EQ(pt_set_camera(context(), &camera), PT_OK) << pt_last_error(context());
     }
 
-    // Plain Halton ignores seeds, so its batches are successive samples. Their errors partly cancel, so the standard
-    // error is an upper bound.
+    // Plain Halton ignores seeds, so its batches are successive samples. The errors of these batches partly cancel, so
+    // the standard error is an upper bound.
     Batches render_batches(pt_render render, uint32_t batch_count, uint32_t samples) {
         Batches batches;
         for (uint32_t batch = 0; batch < batch_count; ++batch) {

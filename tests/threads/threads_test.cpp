@@ -117,7 +117,7 @@ TEST(ThreadsTest, AnyThreadCancels) {
     pt_destroy(context);
 }
 
-// This breaks the contract, but makes no race: the second call is refused.
+// Two threads break the contract, but make no race: the second call is refused.
 TEST(ThreadsTest, ASecondThreadIsRefused) {
     pt_context *const context = ready_context(0);
     ASSERT_NE(context, nullptr);
