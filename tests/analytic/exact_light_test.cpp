@@ -1,4 +1,3 @@
-// Tests scenes in which all samples have the same value.
 #include "tests/analytic/analytic_fixture.h"
 #include "tests/analytic/scenes.h"
 #include "tests/support/scene_of.h"

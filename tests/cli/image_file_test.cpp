@@ -1,4 +1,3 @@
-// Tests cli/image/image_file and its module. OpenImageIO reads the files.
 
 #include "cli/image/image_file.h"
 #include "tests/cli/refusal_of.h"

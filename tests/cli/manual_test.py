@@ -1,5 +1,3 @@
-"""Compares cli/README.md with the program: examples, tables, ranges."""
-
 import json
 import os
 import re

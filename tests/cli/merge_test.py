@@ -1,5 +1,3 @@
-"""Tests that `pt merge` adds parts up to the bits of the whole."""
-
 import json
 import os
 import random

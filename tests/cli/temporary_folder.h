@@ -1,4 +1,3 @@
-// An empty folder that exists as long as the object.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,3 @@
-"""Tests the vector width that is requested from Mesa's llvmpipe."""
-
 import json
 import os
 import platform

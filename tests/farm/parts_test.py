@@ -1,5 +1,3 @@
-"""Tests parts without workers: which are missing, and how they are cut."""
-
 import unittest
 
 import numpy as np

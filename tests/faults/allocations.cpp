@@ -1,4 +1,3 @@
-// The global operator new with fault injection (allocations.h).
 #include "tests/faults/allocations.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-// Repeats a life with a fault at each possible place.
 #pragma once
 
 #include "tests/faults/life.h"

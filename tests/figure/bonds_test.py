@@ -1,5 +1,3 @@
-"""Compares bonds and vectors with known molecules and crystals, with brute force, and in the picture."""
-
 import itertools
 import unittest
 import unittest.mock

@@ -1,5 +1,3 @@
-"""Tests camera, light and sizes of figures. Every ball must be in the picture, and some must touch its margin."""
-
 import importlib.util
 import unittest
 

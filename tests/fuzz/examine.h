@@ -12,7 +12,6 @@ namespace fuzz {
 
 void examine_neighbourhood(const Input &input, std::span<const std::uint8_t> bytes);
 
-// Checks an input and its neighbors.
 void examine(std::span<const Input> family);
 
 extern const std::uint32_t neighbour_count;

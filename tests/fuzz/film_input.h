@@ -1,4 +1,3 @@
-// Makes films from the fuzzer's bytes.
 #pragma once
 
 #include "lib/base/digest.h"

@@ -1,4 +1,3 @@
-// Reads JSON by the program's reader into pt.h's structs.
 #include "tests/fuzz/examine.h"
 #include "tests/fuzz/mutation.h"
 

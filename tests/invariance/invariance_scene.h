@@ -1,4 +1,3 @@
-// Scenes that can be moved together with their camera.
 #pragma once
 
 #include "tests/support/coursework_scene.h"

@@ -1,5 +1,3 @@
-"""Tests NumPy arrays as columns. All layouts must give the bits of the plain layout."""
-
 import unittest
 
 import numpy as np

@@ -1,5 +1,3 @@
-"""Progress and exceptions must stop a call and leave a usable context."""
-
 import signal
 import sys
 import unittest

@@ -1,4 +1,3 @@
-// Compares stated errors with true errors from converged references.
 #include "lib/film/error_estimate.h"
 #include "lib/film/sample_set.h"
 #include "tests/render/reference_image.h"

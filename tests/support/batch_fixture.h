@@ -1,4 +1,3 @@
-// Batches of independent samples, for means with standard errors.
 #pragma once
 
 #include "tests/support/context_fixture.h"

@@ -1,4 +1,3 @@
-// The coursework scene, glossy or diffuse.
 #pragma once
 
 #include "tests/support/scene_of.h"

@@ -1,4 +1,3 @@
-// Feeds the tiles of an invented image to an error estimator.
 #pragma once
 
 #include "lib/film/error_estimate.h"

@@ -1,4 +1,3 @@
-// Scenes with many lamps, in which choosing lamps is hard.
 #pragma once
 
 #include "lib/kernel/gpu_scene.h"
