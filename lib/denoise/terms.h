@@ -13,7 +13,7 @@ struct Terms {
     double second_move; // q
     double first_free;  // D(A) - A
     double second_free; // D(B) - B
-    double weight;      // factor for relative squares
+    double weight;
 
     double noise_change() const { // u
         return 0.5 * (first_move - second_move);

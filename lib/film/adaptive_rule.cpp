@@ -176,7 +176,6 @@ std::vector<std::uint32_t> tiles_where(const TileSamples &samples, const Holds &
 
 } // namespace
 
-// Tiles that were interrupted between two levels come first.
 std::optional<TileStep> AdaptivePlan::next(const TileSamples &samples, AdaptiveRound &round) const {
     if (round.number == AdaptiveRound::none && samples.most() <= next_check(samples.least()))
         return next_together(samples, round);
@@ -185,8 +184,7 @@ std::optional<TileStep> AdaptivePlan::next(const TileSamples &samples, AdaptiveR
     return next_apart(samples, round);
 }
 
-// While all tiles have equal samples, the error is checked at the same counts as without adaptation. Each level first
-// checks whether different counts would save samples.
+// While all tiles have equal samples, the error is checked at the same counts as without adaptation.
 std::optional<TileStep> AdaptivePlan::next_together(const TileSamples &samples, AdaptiveRound &round) const {
     const std::uint64_t count = samples.least();
     if (samples.even() && is_level(count) && are_worth_telling_apart(tile_gains(samples, film_.squares())))

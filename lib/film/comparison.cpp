@@ -242,7 +242,7 @@ private:
     double deviation_; // of the sum
 };
 
-// `test_count` is the number of tests that together have the rate.
+// `test_count` tests share the rate.
 pt_compared_region compared(const Region &region, const ChannelEvents &events, const Knowledge &knowledge, double rate,
                             double test_count) {
     pt_compared_region result{};

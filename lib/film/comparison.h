@@ -17,7 +17,6 @@ struct Comparison {
 // `info` must be valid and must not rely on defaults.
 Comparison compare_light(const pt_compare_info &info);
 
-// Example: "different light: -3.1% +- 0.4% of the picture in G".
 std::string summary_of(const Comparison &comparison, double min_change);
 
 } // namespace pt

@@ -41,7 +41,6 @@ std::string change_of(const pt_compared_region &region, bool is_whole) {
            " in " + "RGB"[channel];
 }
 
-// Names the whole picture if its difference is significant.
 std::string clearest_change_of(const Comparison &comparison) {
     const auto &regions = comparison.regions;
     const auto clearest = std::ranges::min_element(regions, {}, &pt_compared_region::probability);

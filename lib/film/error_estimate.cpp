@@ -134,7 +134,7 @@ void ErrorEstimator::add(const TileErrors &tiles) {
 }
 
 // The variance of a sum S of n values is estimated by the sum over tiles of (s - c S / n)^2, if a tile has c values
-// with the sum s. Different expectations of tiles only increase the estimate.
+// with the sum s.
 Interval ErrorEstimator::root_mean(const ErrorSquares &squares, double other_squares, bool uncertain) const {
     const bool shows_nothing = squares.sum + other_squares == 0.0;
     if (!std::isfinite(squares.sum) || (shows_nothing && uncertain))

@@ -233,7 +233,7 @@ void Film::read_rows_from(std::uint32_t first_row, PixelSums &sums) const {
         sums.copy(rows, tile.sums, tile.pixels);
 }
 
-// If pixels of a tile have different samples, the fewest samples count for all pixels, and no errors are cached.
+// If pixels of a tile have different samples, the estimate assumes the fewest samples and caches no errors.
 ErrorEstimate Film::error() const {
     if (const std::optional<TileSamples> samples = tile_samples(header_.tiles, bounds_))
         return error(*samples, errors_);

@@ -51,7 +51,6 @@ public:
     using ReceiveRow = std::function<void(std::uint32_t x, std::uint32_t y, const std::vector<float> &values)>;
     void read(const Rectangle &pixels, std::uint32_t quantity, const ReceiveRow &receive) const;
 
-    // The error of all pixels within the bounds.
     ErrorEstimate error() const;
 
     std::uint64_t rejected_samples() const;
@@ -62,7 +61,6 @@ public:
     // The samples per pixel that are needed to hit all small lamps in view, or 0.
     std::uint32_t samples_for_lamps() const;
 
-    // Returns the next step (AdaptivePlan::next()).
     std::optional<TileStep> plan(const TileSamples &samples, double target_error, std::uint64_t most);
 
     // Tiles of the TileGrid over the bounds.

@@ -22,7 +22,6 @@ std::uint64_t part_bytes(std::uint64_t pixel_count) {
     return gpu::FILM_WORDS * pixel_count * sizeof(std::uint32_t);
 }
 
-// Includes the empty line at the end of the header.
 std::string_view header_text(std::span<const std::byte> bytes) {
     const std::string_view all(reinterpret_cast<const char *>(bytes.data()), bytes.size());
     const std::size_t end = all.find("\n\n");

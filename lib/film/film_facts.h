@@ -21,12 +21,11 @@ struct FilmFacts {
 // Throws PT_ERROR_INCOMPATIBLE if a fact is missing or invalid.
 FilmFacts facts_of(const FilmIdentity &identity);
 
-// Throws PT_ERROR_INCOMPATIBLE that names all different facts. `place` ends each message, for example "as in this
-// context".
+// Throws PT_ERROR_INCOMPATIBLE that names all different facts. `place` ends each message.
 void require_same(const FilmIdentity &film, const FilmIdentity &other, const std::string &place);
 
-// Throws PT_ERROR_INCOMPATIBLE if the sets overlap or have too many samples together. `where` names the pixels in the
-// message, or is empty.
+// Throws PT_ERROR_INCOMPATIBLE if the sets overlap or have too many samples together. `where` names the pixels, or is
+// empty.
 void require_apart(const SampleSet &added, const SampleSet &present, const std::string &where);
 
 // Throws PT_ERROR_INCOMPATIBLE.

@@ -97,7 +97,6 @@ void read_round(std::string_view value, FilmHeader &header) {
     header.round = {negative ? -number : number, (*round)[1]};
 }
 
-// The caller checks the order of lines.
 void read_lamps(std::string_view value, FilmHeader &header) {
     const auto lamps = numbers<3>(value);
     if (!lamps || std::ranges::any_of(*lamps, [](std::uint64_t number) { return number > UINT32_MAX; }) ||

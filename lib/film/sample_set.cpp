@@ -42,7 +42,7 @@ SampleRange SampleSet::hull() const {
     return empty() ? SampleRange{} : SampleRange{ranges_.front().first, ranges_.back().end};
 }
 
-// Goes through both sets once, since a film may have very many ranges.
+// A single pass, since a film may have very many ranges.
 std::optional<SampleRange> SampleSet::overlap(const SampleSet &other) const {
     auto own = ranges_.begin();
     for (const SampleRange &range : other.ranges_) {

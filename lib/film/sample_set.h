@@ -12,7 +12,6 @@
 
 namespace pt {
 
-// Exclusive limit of sample indices.
 inline constexpr std::uint64_t sample_index_end = std::uint64_t{1} << 32;
 
 struct SampleRange {
@@ -58,7 +57,6 @@ private:
     std::vector<SampleRange> ranges_;
 };
 
-// Example: "[0, 64), [128, 256)".
 std::string text_of(const SampleSet &samples);
 
 enum FilmPart : std::uint32_t { older_part, newer_part };

@@ -1,4 +1,4 @@
-// Squares of TILE_SIZE pixels, row by row. Tiles at the right and bottom edges may be smaller.
+// Squares of TILE_SIZE pixels, row by row. Edge tiles may be smaller.
 #pragma once
 
 #include "lib/film/film_header.h"

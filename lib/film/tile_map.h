@@ -1,4 +1,3 @@
-// Maps pixels to a film's tiles.
 #pragma once
 
 #include "lib/film/film_header.h"
@@ -58,7 +57,7 @@ std::vector<FilmTile> canonical_tiles(const std::vector<FilmTile> &tiles);
 
 std::vector<FilmTile> film_tiles(const TileSamples &samples, const Rectangle &pixels);
 
-// Returns the samples of each tile of a TileGrid, or no value if pixels of a tile have different samples.
+// Returns no value if pixels of a tile of the TileGrid have different samples.
 std::optional<TileSamples> tile_samples(const std::vector<FilmTile> &tiles, const Rectangle &pixels);
 
 } // namespace pt

@@ -51,7 +51,6 @@ std::uint32_t TileSamples::index_of(SampleSet samples) {
     return static_cast<std::uint32_t>(sets_.size() - 1);
 }
 
-// Extends each set once, even if many tiles have it.
 void TileSamples::add(std::span<const std::uint32_t> tiles, const SampleRange &range) {
     if (tiles.size() == grid_.count() && even()) {
         sets_.front().add(range);

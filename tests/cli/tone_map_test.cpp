@@ -83,7 +83,7 @@ TEST(ToneMap, NoneClamps) {
 TEST(ToneMap, ReinhardIsOnTheLuminance) {
     expect_color(apply_curve(ToneCurve::reinhard, {1.0, 1.0, 1.0}), {0.5, 0.5, 0.5}, rounding);
     const Color color = apply_curve(ToneCurve::reinhard, {1.0, 0.5, 0.25});
-    EXPECT_NEAR(color[0] / color[1], 2.0, rounding); // applied to each channel it would be 0.5 / 0.333
+    EXPECT_NEAR(color[0] / color[1], 2.0, rounding); // 0.5 / 0.333 if applied by channel
     EXPECT_NEAR(color[1] / color[2], 2.0, rounding);
 }
 

@@ -270,7 +270,7 @@ TEST(Denoise, IsNotPersuadedByOnePixel) {
 }
 
 // The filter spreads a lamp by two pixels. In these pixels, relative errors would be a million times the errors of the
-// raw image, but relative to the filtered values they would seem small.
+// raw image. Relative to the filtered values, the errors would seem small.
 TEST(Denoise, DoesNotSpreadALamp) {
     constexpr std::size_t first = 64;
     constexpr std::size_t end = 68;
