@@ -73,7 +73,7 @@ bool is_level(std::uint64_t sample_count) {
     return sample_count >= first_level && std::has_single_bit(sample_count);
 }
 
-// Loops by rows, since a division per tile would take longer than the rest.
+// Leaves out the constant factor 1/2. Loops by rows, since a division per tile would take longer than the rest.
 std::vector<double> tile_gains(const TileSamples &samples, std::span<const double> squares) {
     std::vector<double> shares; // by set
     for (const SampleSet &set : samples.sets())

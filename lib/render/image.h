@@ -13,7 +13,7 @@
 namespace pt {
 
 struct ImageLayout {
-    Rectangle pixels;
+    Rectangle pixels;        // not empty
     std::uint32_t quantity;  // PT_QUANTITY_*
     std::uint32_t format;    // PT_FORMAT_*
     std::uint64_t row_bytes; // distance between rows
