@@ -1,5 +1,3 @@
-"""Clouds of small lamps over a floor with balls, by count and seed."""
-
 import array
 import random
 

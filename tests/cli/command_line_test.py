@@ -1,5 +1,3 @@
-"""Tests the program as users see it: exit codes, messages, files."""
-
 import glob
 import json
 import os

@@ -113,7 +113,6 @@ class RealDevice(CommandLineTest):
 
 
 class LightOnDevice(CommandLineTest):
-    """Films, and EXR files with sample counts, are tested for the same light."""
     program = PT
     SIZE = ("--size", "64x48", "--spp", "32", "-q")
 

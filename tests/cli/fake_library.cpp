@@ -220,7 +220,7 @@ pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *info) {
 }
 
 // Red increases from 0 to 1 to the right, and green downwards. Blue is 2, but with FAKE_PT_FAIL=split:1 it depends on
-// the calls. Other quantities are the pixel's position, and objects are numbered row by row.
+// the calls. For other quantities, pixels have their position as the value. Objects are numbered row by row.
 pt_result pt_readback(pt_context *context, const pt_image *image) {
     const pt_render &render = context->render;
     auto *object = static_cast<std::uint32_t *>(image->data);

@@ -1,4 +1,3 @@
-// Tests both sides of the bound of each warning.
 #include "cli/render/warnings.h"
 
 #include <gtest/gtest.h>

@@ -178,7 +178,7 @@ class Steps:
     def subproject(self):
         """Tests add_subdirectory with objects of the library's own build (reuse.py)."""
         folder = self.folder("subproject")
-        # The library optimizes itself only, and only if the outer project does not choose a build type.
+        # The library optimizes only itself, and only if the outer project chooses no build type.
         for number, (settings, expected) in enumerate((
                 ([], ({"lib"}, {"tests"})),
                 (["-DCMAKE_BUILD_TYPE=Debug"], (set(), {"lib", "tests"})),

@@ -60,8 +60,8 @@ class Unreadable:
 
 
 def faulty(name, part, codecs):
-    """Half of a worker's first films are faulty. Each worker begins at another place in FAULTS, so few parts show
-    all faults."""
+    """Every second one of a worker's first films is faulty. Each worker begins at another place in FAULTS, so few
+    parts show all faults."""
     worker = distributed.get_worker()
     worker.films = getattr(worker, "films", 0) + 1
     time.sleep(0.03)

@@ -9,7 +9,7 @@ namespace faults {
 
 namespace {
 
-// The first error message is the longest, so that later messages do not change the thread's memory.
+// Makes a long error message first. The thread's memory for messages then no longer changes.
 void keep_a_long_message() {
     const std::string no_device(1000, '?');
     pt_create_info create{};

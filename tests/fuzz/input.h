@@ -51,7 +51,7 @@ struct Input {
 // Any bytes are valid.
 Input decoded_input(ByteReader bytes);
 
-// The new number follows its own rule. The kernel's features usually stay the same.
+// The new number obeys the rules of pt.h. The kernel's features usually stay the same.
 void change_one_number(Input &input, ByteReader &bytes);
 
 // Holds a struct in memory of exactly the given size, so that AddressSanitizer detects reads beyond it.

@@ -33,7 +33,6 @@ public:
                 lamps_.push_back(i);
     }
 
-    // `samples` is per pixel.
     Estimate of_rectangle(const pt_render &render, glm::uvec2 first, glm::uvec2 size, std::uint32_t samples) {
         double sum = 0.0;
         double squares = 0.0;

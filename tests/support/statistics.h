@@ -1,4 +1,3 @@
-// Bounds are stated as probabilities of a false alarm.
 #pragma once
 
 #include <cmath>
