@@ -35,7 +35,7 @@ struct BufferImage {
 // A context has all quantities. Films and lent buffers have only quantities of samples.
 enum class ImageSource { Context, Samples };
 
-// source.struct_size must be checked already. width and height are those of the rendered pixels. Throws
+// source.struct_size must be checked already. width and height give the rendered pixels. Throws
 // PT_ERROR_INVALID_ARGUMENT that names all broken rules.
 Image validated_image(const pt_image &source, std::uint32_t width, std::uint32_t height, ImageSource of);
 // For an image without gaps in the library's memory.

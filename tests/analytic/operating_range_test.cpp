@@ -130,7 +130,7 @@ TEST_F(DISABLED_OperatingRange, DistanceOfASphere) {
             store({0, 0, 0}, scene.camera.position);
             store(look.direction, scene.camera.target);
             scene.camera.vertical_fov = 2.0 * std::atan(2.0 / std::sqrt(gap * (2.0 + gap)));
-            // Far away the formula suffers from cancellation, and the area is that of a disc.
+            // Far away the formula suffers from cancellation, and the area equals the area of a disc.
             const double still = gap * (2.0 + gap);
             const double area = way > 0.0 && gap < 1e3 ? area_in_motion(1 + gap, way) : std::numbers::pi / still;
             measure(gap, scene, scene.camera, {1, 1, 0, 0}, area * still / 16.0, 65536);

@@ -4,7 +4,7 @@
 
 A SET is `own` (cli/scenes and tests/render/calibration_scenes.py), `random:SEED` (the hundred of random_scenes.py), or
 a folder of scene files. Errors are relative root mean squares over pixels and channels. They are measured against an image
-of many samples, whose error is at most a fifth of the measured one. In the tables, rms is over seeds. --keep writes the
+of many samples, whose error is at most a fifth of the measured one. The tables' rms is over seeds. --keep writes the
 estimator's input for some seeds as NumPy's .npz, to try other estimators.
 """
 

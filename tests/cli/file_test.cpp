@@ -64,7 +64,7 @@ TEST(AtomicFile, KeepsPermissionsAndLinks) {
     EXPECT_EQ(status.st_mode & 0777, 0640U);
 }
 
-// The cases are those of protected_symlinks in proc_sys_fs(5). The links of root are given to another user.
+// The cases come from protected_symlinks in proc_sys_fs(5). The links of root are given to another user.
 TEST(AtomicFile, FollowsNoOneElsesLinksWhereEverybodyMayWrite) {
     if (geteuid() != 0)
         GTEST_SKIP() << "only root can make links that belong to others";

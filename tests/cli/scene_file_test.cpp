@@ -280,7 +280,7 @@ TEST(SceneFile, NumbersHaveLimits) {
     EXPECT_NE(refusal(R"({"render":{"seed":-1}})"), "");
 }
 
-// In pt.h zero means the default. In a file it does not.
+// Zero means the default in pt.h, but not in a file.
 TEST(SceneFile, ZerosAreNotDefaults) {
     const auto camera = [](const std::string &member) {
         return refusal(R"({"camera":{"position":[0,0,0],"look_at":[0,0,1],)" + member + "}}");

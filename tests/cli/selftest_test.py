@@ -6,7 +6,7 @@ from command_line import PT, RESULT, SCENES, CommandLineTest, main
 
 
 class Selftest(CommandLineTest):
-    """With the image of the fake library, all scenes fail."""
+    """All scenes fail with the image of the fake library."""
 
     def checks(self, **environment):
         self.assertEqual(self.run_pt("selftest", "--json", "s.json", **environment), 1, self.errors)

@@ -230,7 +230,7 @@ class Looks(unittest.TestCase):
         self.assertGreater(through.camera.position[1] / without.camera.position[1], 1.3)
 
     def test_vectors(self):
-        """The longest vector gets a length of 4 median radii. With a given scale, vectors are multiplied by it."""
+        """The longest vector gets a length of 4 median radii. A given scale multiplies all vectors instead."""
         vectors = np.array([[0.0, 0, 3], [0, 0, 0], [4, 0, 3]])
         particles = Particles(10 * np.eye(3), dict(zip(("vx", "vy", "vz"), vectors.T)))
         for given in ("v", "vx,vy,vz", vectors):

@@ -41,7 +41,7 @@ class Numbers(unittest.TestCase):
                 rgb, legend, _ = colored(values, Particles(np.zeros((len(values), 3))), colormap=colormap, **options)
                 shares = np.clip(np.asarray(norm(values)), 0, 1)
                 expected = matplotlib.colormaps[colormap](shares, bytes=True)[:, :3]
-                # At the border of two colors, rounding decides.
+                # Rounding decides at the border of two colors.
                 differ = (rgb != expected).any(axis=1)
                 border = np.abs(shares * legend.colormap.N - np.round(shares * legend.colormap.N)) < 1e-9
                 self.assertFalse((differ & ~border).any(), (colormap, options))

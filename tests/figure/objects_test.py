@@ -164,7 +164,7 @@ class Files(unittest.TestCase):
         for key, values in zip(records.dtype.names, [*PLACES.T, packed]):
             records[key] = values
         text = "".join(f"{x} {y} {z} {color} 0 0 0\n" for (x, y, z), color in zip(PLACES, packed))
-        for kind in "FU":  # the color's bytes are those of a float, or of an integer
+        for kind in "FU":  # the bytes of a color are a float or an integer
             found = self.read("a.pcd", head.format(kind, 3, "binary").encode() + records.tobytes())
             np.testing.assert_array_equal(found.positions, PLACES)
             np.testing.assert_array_equal(found.colors[1], (0x40, 0x50, 0x60))

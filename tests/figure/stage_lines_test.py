@@ -83,7 +83,7 @@ class Lines(unittest.TestCase):
         cls.context = cls.enterClassContext(pt.Context())
 
     def test_coverage(self):
-        """At a border, one or two hits of 16 may be rounded differently."""
+        """One or two hits of 16 may be rounded differently at a border."""
         for projection in ("perspective", "orthographic"):
             staged = staged_of(projection, SIZE)
             shapes = shares_of(staged, self.context).shapes

@@ -86,8 +86,8 @@ void require_scene(const pt::Scene &scene) {
 }
 
 void require_camera(const pt::Camera &camera) {
-    // At the smallest angle between up and the view, the error is 5 * 2^-53 / 2^-26 (camera.cpp), and between two
-    // vectors it is twice as large.
+    // The error is 5 * 2^-53 / 2^-26 at the smallest angle between up and the view (camera.cpp), and twice as large
+    // between two vectors.
     constexpr double rounding = 10 * 0x1p-27;
     require(are_lengths(camera.position), "the camera's position is made of lengths");
     require(is_unit(camera.forward) && is_unit(camera.right) && std::abs(glm::length(camera.up) - 1.0) <= rounding,

@@ -21,7 +21,7 @@ struct Input {
     pt_render render{};
     std::uint32_t sample_count = 1;
 
-    // Wrong values that replace those of the input. Wrong values either promise no more than exists, or are refused.
+    // Wrong values that replace the input's. Wrong values either promise no more than exists, or are refused.
     struct SceneClaims {
         bool has_materials = true;
         bool has_spheres = true;

@@ -46,19 +46,19 @@ struct Meeting {
 // All errors are in terms of u, the unit roundoff of float32. A direction errs by 4 u across (two products and sums for
 // each component), and in its length.
 //
-// For a sphere with center c and radius r, c errs by u |c| and its projection b on the ray by 8 u |c|. The ray's
-// distance l from the center also errs by 8 u |c|. The half chord h = sqrt(r^2 - l^2) errs by (8 u |c| + 2 u r) /
-// cosine with cosine = h / r. The tolerance is twice this error. l - r errs by 8 u |c| + 2 u r. Within twice this error
-// it is undecided whether the ray hits.
+// Let a sphere have center c and radius r. The center errs by u |c|, and its projection b on the ray by 8 u |c|. The
+// ray's distance l from the center also errs by 8 u |c|. The half chord h = sqrt(r^2 - l^2) errs by (8 u |c| + 2 u r) /
+// cosine with cosine = h / r. The tolerance is twice this error. The difference l - r errs by 8 u |c| + 2 u r. Within
+// twice this error it is undecided whether the ray hits.
 //
 // A flat sphere of curvature k at height h is hit at 2 h / q with q = s + sqrt(s^2 - 2 k h) and slope s. The errors are
 // u for h, 4 u for s, and (4 u s + 4 u) / cosine for the root, and q >= cosine. The relative tolerance is 16 u /
 // cosine^2 for the root and 8 u for the other terms. Within 64 u of touching (s^2 against 2 k h) it is undecided
 // whether the ray hits. The far side is at q / k. A plane has k = 0.
 //
-// Parallel rays start at origin = a right - b up. It errs by 5 u of the sizes of both terms (scale, place, vector,
-// product, sum), in total o. The tolerance has 8 u o for the origin, and as much for the subtraction. A height n .
-// origin + offset errs by 9 u o |n| and 2 u of the offset, so its tolerance is 16 u o / cosine.
+// Parallel rays start at origin = a right - b up. The origin errs by 5 u of the sizes of both terms (scale, place,
+// vector, product, sum), in total o. The tolerance has 8 u o for the origin, and as much for the subtraction. A height
+// n . origin + offset errs by 9 u o |n| and 2 u of the offset, so its tolerance is 16 u o / cosine.
 //
 // In narrow views, |c| and distances are measured from the start of the rays. The grid of a tree displaces centers by
 // up to `astray`. If the camera is nearer than this to a sphere's surface, its side is undecided.
