@@ -173,7 +173,7 @@ ChannelEvents largest_events(const pt_compare_info &info) {
 struct Difference {
     double z;        // difference, in deviations
     double event;    // in deviations
-    double skewness; // against the difference, >= 0
+    double skewness; // towards the other sign, >= 0
 
     // Returns an upper bound for the probability of this difference in equal light. Noise explains up to 1 / event
     // deviations, absent events the rest.

@@ -37,7 +37,7 @@ struct CourseworkScene {
 
     pt_scene scene() const { return scene_of(materials, spheres, planes); }
 
-    // The camera is at (0, 0, 1) and looks at the origin. The height of the image plane is its distance.
+    // The camera is at (0, 0, 1) and looks at the origin. The image plane's height equals its distance.
     static pt_camera camera() {
         pt_camera camera{};
         camera.struct_size = sizeof camera;
