@@ -22,9 +22,9 @@ constexpr std::uint32_t material_count = 4; // each also hidden
 constexpr std::uint32_t lamp = 2;
 constexpr std::uint32_t glossy = 3;
 
-enum Kind { mixed, parallel, hidden, nested, moving, spots, twins, weak_estimators, kind_count };
-constexpr const char *kind_names[] = {"mixed",  "parallel", "hidden", "nested",
-                                      "moving", "spots",    "twins",  "estimators"};
+enum Kind { mixed, parallel, hidden, nested, moving, spots, twins, weak_estimators, veiled, kind_count };
+constexpr const char *kind_names[] = {"mixed", "parallel", "hidden",     "nested", "moving",
+                                      "spots", "twins",    "estimators", "veiled"};
 
 std::uint32_t number_from(const char *variable, std::uint32_t otherwise) {
     const char *const asked = std::getenv(variable);
@@ -58,12 +58,15 @@ public:
         Given &given = picture.given;
         set_materials(given, picture.kind);
         add_balls(given, picture.kind);
-        if (chance(picture.kind == hidden ? 1.0 : 0.4))
+        // Estimators that find lamps by chance are compared where they find one often: skewed noise fits no bound.
+        if (picture.kind == hidden || picture.kind == weak_estimators || chance(0.4))
             given.spheres.push_back({{0, 0, 0}, uniform(15, 30), {0, 0, 0}, perhaps_hidden(picture.kind, lamp), 0});
         given.planes[0].material = perhaps_hidden(picture.kind, 1);
         if (picture.kind == hidden)
             given.planes.push_back(
                 {{uniform(-0.2, 0.2), uniform(-0.2, 0.2), 1}, -uniform(0, 4), material_count + 1, 0});
+        if (picture.kind == veiled)
+            add_rods(given);
         set_camera(given, picture.kind);
         picture.expected = given;
         // Narrow and parallel views start near a surface. They and trees resolve more in float32.
@@ -101,7 +104,7 @@ private:
                            {0, 0, 0},
                            perhaps_hidden(kind, material),
                            0};
-            if (chance(kind == moving ? 0.8 : 0.1))
+            if (chance(kind == moving ? 0.8 : kind == veiled ? 0.4 : 0.1))
                 ball.motion[i % 3] = uniform(-1, 1);
             given.spheres.push_back(ball);
         }
@@ -115,6 +118,20 @@ private:
             dark.material = 0;
             given.spheres.push_back(dark);
             given.spheres.push_back({{0, 0, 0}, uniform(7, 12), {0, 0, 0}, chance(0.5) ? 1U : glossy, 0});
+        }
+    }
+
+    // Three chains of translucent rods, whose neighbours share a center.
+    void add_rods(Given &given) {
+        for (std::uint32_t i = 0; i < 12; ++i) {
+            Given::Capsule rod{{uniform(-2, 2), uniform(-1.2, 1.5), uniform(-2, 2)},
+                               {uniform(-2, 2), uniform(-1.2, 1.5), uniform(-2, 2)},
+                               uniform(0.1, 0.5),
+                               chance(0.4) ? glossy : whole(2),
+                               static_cast<float>(uniform(0.2, 1.0))};
+            if (i % 4 != 0)
+                std::ranges::copy(given.capsules.back().end, rod.center);
+            given.capsules.push_back(rod);
         }
     }
 
@@ -147,6 +164,7 @@ private:
             camera.vertical_extent = decades(-1, 0.8);
         } else {
             camera.vertical_fov = chance(0.3) ? decades(-5, -1) : 0.8;
+            camera.aperture = kind == veiled ? uniform(0, 0.5) : 0.0;
         }
         if (kind == hidden && chance(0.4)) {
             pt_sphere about{{0, 0, 0}, uniform(0.5, 5), {0, 0, 0}, material_count + (chance(0.5) ? lamp : 0), 0};
@@ -226,7 +244,7 @@ TEST_F(RandomLight, IsThatOfAPathTracerInDouble) {
         if (std::getenv("PT_TEST_SCENES"))
             std::printf("%u %s e%u L%u %.2f %.2f\n", seed, picture.name().c_str(), picture.render.estimator,
                         picture.render.max_path_length, found.of_image, found.largest);
-        if (seed >= first + kind_count)
+        if (seed >= kind_count)
             continue;
         glossier.push_back(deviation_of(picture, with_more(picture, &pt_material::specular), exact).of_image);
         if (!picture.has_tree)
@@ -239,6 +257,8 @@ TEST_F(RandomLight, IsThatOfAPathTracerInDouble) {
                 std::sqrt(squares / scene_count()), pooled(deviations), bound, pooled(brighter), pooled(glossier),
                 of_turned);
     EXPECT_LT(std::abs(pooled(deviations)), bound_of_all);
+    if (first > 0)
+        return; // the controls are among the first scenes
     EXPECT_GT(pooled(brighter), bound_of_all);
     EXPECT_GT(pooled(glossier), bound_of_all);
     EXPECT_GT(of_turned, 20.0);
