@@ -78,9 +78,9 @@ bool sphere_blocks(vec3 to_centre, float radius, vec3 direction, bool at_end, fl
 //
 // The axis has the unit vector u and the length L. Let c = u . direction. Let p and l be the parts of u and to_first
 // across the ray. The ray enters the ball at s of the axis at the distance b + s c - sqrt(r^2 - |l + s p|^2). This is
-// least at s = (n - c h) / |p|, with n = -l . p / |p| and h^2 = r^2 - |l + n p / |p||^2. For the last ball, h has the
-// other sign. The first distance is convex in s and the last one concave, so s is clamped to [0, L]. If |p| = 0, the
-// sign of c h chooses an end.
+// least at s = (n - c h) / |p|, with n = -l . p / |p| and h^2 = r^2 - |l + n p / |p||^2. The last ball is at s = (n + c
+// h) / |p|. The first distance is convex in s and the last one concave, so s is clamped to [0, L]. If |p| = 0, the sign
+// of c h chooses an end.
 //
 // Rounding shifts the ends across the ray by d <= 2^-22 (|to_first| + L). This shifts s by e = d / |p| and the hit
 // distance by e^2 / (2 h |p|). If |p|^2 < 2 d / h, the ray might miss the ball, so h - d replaces h. The hit distance

@@ -1,6 +1,6 @@
-// First hits of camera rays. Depth and object are those of the ray through the pixel's center at half the shutter's
-// time, because their means are meaningless. Normal and albedo are means over pixel and shutter, because denoisers need
-// the edges of the image.
+// First hits of camera rays. Depth and object belong to the ray through the pixel's center at half the shutter's time,
+// because their means are meaningless. Normal and albedo are means over pixel and shutter, because denoisers need the
+// edges of the image.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 

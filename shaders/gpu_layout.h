@@ -75,8 +75,8 @@ PT_FUNCTION uint path_blocks(uint max_path_length, uint camera_blocks, uint lamp
     return max_path_length < 2 ? of_sample : first + (max_path_length - 2) * vertex_blocks(2, lamp_count);
 }
 
-// Blocks of a sample in the point table: the shared ones, then those of each branch. In sample i, branch b of B has the
-// points with index B i + b.
+// Blocks of a sample in the point table: first the shared ones, then the blocks of each branch. In sample i, branch b
+// of B has the points with index B i + b.
 PT_FUNCTION uint row_blocks(uint table_blocks, uint shared_count, uint branches)
 {
     return table_blocks == 0 ? 0 : shared_count + branches * (table_blocks - shared_count);

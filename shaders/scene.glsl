@@ -152,7 +152,7 @@ vec4 specular_of(uint surface)
     return HAS_TABLE ? scene_word(material_words(surface) + 1u) : scene_word_among(SPECULAR, SURFACE_COUNT, surface);
 }
 
-// The sphere at a time in [0, 1]. The index is that of a loop.
+// The sphere at a time in [0, 1]. `sphere` is the index of a loop.
 Ball ball_at(uint sphere, float time)
 {
     return ball_from(scene_word(sphere), HAS_WAYS ? scene_word(MOTIONS + sphere) : vec4(0.0), time, KINDS);

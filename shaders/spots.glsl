@@ -165,8 +165,8 @@ uint choose_spot(Spots spots, float number)
     return chosen;
 }
 
-// A direction to an image follows a lobe about it. For a glow, a ray of cosine density leads from the lamp's center to
-// a point of the plane, and the direction leads to that point.
+// A direction to an image follows a lobe about it. A ray of cosine density leads from a glow's lamp to a point of the
+// plane, and the direction to the glow leads to that point.
 vec3 direction_to_spot(Spots spots, uint spot, vec3 position, float time, vec2 place)
 {
     SpotWord word = spot_word(spot);

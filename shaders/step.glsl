@@ -51,7 +51,7 @@ struct LampLight {
 
 const LampLight NO_LAMP_LIGHT = LampLight(NO_SHADOW_RAY, vec3(0.0), 0.0);
 
-// samples is the number of this lamp's samples, directions that of the vertex's directions.
+// samples is the number of this lamp's samples, directions the number of directions from the vertex.
 LampLight light_of_lamp(vec3 throughput, Vertex vertex, Material material, LampChoice choice, vec2 place,
                         float samples, float directions)
 {

@@ -1,6 +1,6 @@
 // Paths among tree spheres, by short steps. Invocations that run in step wait for the longest walk. So all walks take
 // some trips, then finished ones go on with their path, branch or sample (Aila and Laine, "Understanding the Efficiency
-// of Ray Traversal on GPUs", HPG 2009, section 3.3). Results are those of path.glsl.
+// of Ray Traversal on GPUs", HPG 2009, section 3.3). Results equal path.glsl's.
 #ifndef TREE_PATH_GLSL
 #define TREE_PATH_GLSL
 

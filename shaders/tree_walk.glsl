@@ -112,7 +112,7 @@ const int ENDED = -1;
 
 const uint ROOT = 0u;
 
-// hit and blocked are those of surfaces outside the tree.
+// hit and blocked are results for surfaces outside the tree.
 Walk walk_from(Start start, vec3 direction, bool is_followed, ShadowRay shadow, float time, uint opacity_number,
                Hit hit, bool blocked)
 {
